@@ -1,0 +1,37 @@
+// Triangle meshes with labels: the only geometry that the rest of the code knows.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "base/types.h"
+
+namespace mortier {
+
+/// A conforming mesh of triangles of one body.
+struct TriangleMesh {
+  std::string name;                               ///< where it came from, for messages
+  std::vector<Point> vertices;                    ///< [m]
+  std::vector<std::array<int, 3>> triangles;      ///< vertex numbers, counterclockwise
+  std::vector<int> regions;                       ///< label of each triangle
+  std::vector<std::array<int, 2>> boundaryEdges;  ///< vertex numbers, the body to the left
+  std::vector<int> boundaryLabels;                ///< label of each boundary edge
+};
+
+/// Twice the signed area of triangle `t` [m^2]; positive when counterclockwise.
+double doubleArea(const TriangleMesh& mesh, int t);
+
+/// Largest extent of the bounding box [m].
+double extent(const TriangleMesh& mesh);
+
+/// Ratio of longest edge to the height on it, over that of the equilateral triangle: 1 is best.
+double aspectRatio(const TriangleMesh& mesh, int t);
+
+/// Checks everything the solver relies on and orients boundary edges with the body to their left: finite coordinates,
+/// triangles counterclockwise and not degenerate, none repeated, no vertex out of range or unused, every edge shared by
+/// two triangles at most, labelled edges on the boundary, each labelled once.
+/// \throws InputError with `mesh.name` and the first fault.
+void validate(TriangleMesh& mesh);
+
+}  // namespace mortier
