@@ -1,4 +1,5 @@
-// A labelled part of a mesh's boundary as one oriented polygonal line: the trace on which contact is discretised.
+// A labelled part of a mesh's boundary as one oriented polygonal line: the trace on which contact is
+// discretised.
 #pragma once
 
 #include <vector>
@@ -9,7 +10,7 @@ namespace mortier {
 
 /// Nodes along a labelled boundary, in the order in which the boundary edges run (the body to the left).
 struct BoundaryLine {
-  std::vector<int> nodes;   ///< vertex numbers; the first and last agree on a closed line
+  std::vector<int> nodes;     ///< vertex numbers; the first and last agree on a closed line
   std::vector<Point> points;  ///< their coordinates [m]
   bool closed = false;
 };

@@ -16,7 +16,8 @@ struct Rectangle {
 /// Labels: 1 bottom, 2 right, 3 top, 4 left. \throws InputError on empty rectangles and cell counts below 1.
 TriangleMesh rectangleMesh(const Rectangle& rectangle);
 
-/// Each cell cut by both diagonals: 4 cellsX cellsY triangles. Same labels. The note's meshes are 6x6 and 16x16.
+/// Each cell cut by both diagonals: 4 cellsX cellsY triangles. Same labels. The note's meshes are 6x6 and
+/// 16x16.
 TriangleMesh crissCrossMesh(const Rectangle& rectangle);
 
 }  // namespace mortier

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,10 +29,18 @@ double extent(const TriangleMesh& mesh);
 /// Ratio of longest edge to the height on it, over that of the equilateral triangle: 1 is best.
 double aspectRatio(const TriangleMesh& mesh, int t);
 
-/// Checks everything the solver relies on and orients boundary edges with the body to their left: finite coordinates,
-/// triangles counterclockwise and not degenerate, none repeated, no vertex out of range or unused, every edge shared by
-/// two triangles at most, labelled edges on the boundary, each labelled once.
-/// \throws InputError with `mesh.name` and the first fault.
-void validate(TriangleMesh& mesh);
+/// What a fault of a mesh is about; `index` counts from 0, the message from 1 as Medit files do.
+enum class MeshPart { whole, vertex, triangle, edge };
+
+/// The head of a message about one item of a mesh, e.g. `upper.mesh:14`.
+using FaultPlace = std::function<std::string(MeshPart part, int index)>;
+
+/// Checks everything the solver relies on and orients boundary edges with the body to their left: finite
+/// coordinates, triangles counterclockwise and not degenerate, none repeated, no vertex out of range or
+/// unused, every edge shared by two triangles at most, labelled edges on the boundary, each labelled once.
+/// Boundary edges without a label are free. A triangle is degenerate when its height is 1e-12 of its longest
+/// edge or less: no absolute length enters. \throws InputError with the first fault, headed by `place` or,
+/// without one, by `mesh.name`.
+void validate(TriangleMesh& mesh, const FaultPlace& place = {});
 
 }  // namespace mortier

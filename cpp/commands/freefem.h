@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace mortier {
+
+/// `mortier freefem`: the scene as data for the FreeFEM method in freefem/.
+struct FreefemCommand {
+  std::string scene;
+  std::string file;                   ///< empty: standard output
+  std::vector<std::string> settings;  ///< key=value
+};
+
+/// \throws InputError also when the scene holds what the FreeFEM method does not know, OutputError
+int writeFreefem(const FreefemCommand& command);
+
+}  // namespace mortier

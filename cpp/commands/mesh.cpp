@@ -1,0 +1,102 @@
+#include "commands/mesh.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <map>
+
+#include "base/error.h"
+#include "commands/exit_code.h"
+#include "mesh/boundary_line.h"
+#include "mesh/generate.h"
+#include "mesh/medit.h"
+
+namespace mortier {
+
+namespace {
+
+/// "6,4" as two numbers; "6" as 6 and 6 where `single` is allowed.
+template <class Number>
+std::pair<Number, Number> parsePair(const std::string& option, const std::string& text, bool single) {
+  const auto one = [&](size_t begin, size_t end) {
+    Number value{};
+    const char* last = text.data() + end;
+    const auto [stop, status] = std::from_chars(text.data() + begin, last, value);
+    if (status != std::errc() || stop != last) {
+      throw InputError(option + " " + text + ": expected " + (single ? "N or NX,NY" : "X,Y") + ", e.g. " +
+                       (single ? "6 or 6,4" : "0,-1"));
+    }
+    return value;
+  };
+  const size_t comma = text.find(',');
+  if (comma == std::string::npos && single) {
+    const Number value = one(0, text.size());
+    return {value, value};
+  }
+  const size_t end = std::min(comma, text.size());
+  return {one(0, end), one(std::min(end + 1, text.size()), text.size())};
+}
+
+}  // namespace
+
+int makeMesh(const MeshCommand& command) {
+  const auto [cellsX, cellsY] = parsePair<int>("--cells", command.cells, true);
+  const auto [lowerX, lowerY] = parsePair<double>("--lower", command.lower, false);
+  const auto [upperX, upperY] = parsePair<double>("--upper", command.upper, false);
+  const Rectangle rectangle{{lowerX, lowerY}, {upperX, upperY}, cellsX, cellsY};
+  const TriangleMesh mesh = command.crissCross ? crissCrossMesh(rectangle) : rectangleMesh(rectangle);
+  writeMedit(mesh, command.file);
+  std::printf("%s: %zu vertices, %zu triangles; labels 1 bottom, 2 right, 3 top, 4 left\n", command.file.c_str(),
+              mesh.vertices.size(), mesh.triangles.size());
+  return exitDone;
+}
+
+int meshInfo(const std::string& file) {
+  // 1. Read; the reader validates.
+  const TriangleMesh mesh = readMedit(file);
+
+  // 2. Extents and area.
+  Point lower = mesh.vertices.front();
+  Point upper = lower;
+  for (const Point& p : mesh.vertices) {
+    lower = lower.cwiseMin(p);
+    upper = upper.cwiseMax(p);
+  }
+  double area = 0;
+  double worst = 0;
+  int worstTriangle = 0;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    area += doubleArea(mesh, t) / 2;
+    if (const double ratio = aspectRatio(mesh, t); ratio > worst) {
+      worst = ratio;
+      worstTriangle = t;
+    }
+  }
+
+  // 3. Labels.
+  std::map<int, std::pair<int, double>> boundary;
+  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
+    const auto [a, b] = mesh.boundaryEdges[e];
+    auto& [edges, length] = boundary[mesh.boundaryLabels[e]];
+    ++edges;
+    length += (mesh.vertices[b] - mesh.vertices[a]).norm();
+  }
+  std::map<int, int> regions;
+  for (const int region : mesh.regions) {
+    ++regions[region];
+  }
+
+  // 4. Tell.
+  std::printf("%s\nvertices   %zu\ntriangles  %zu\narea       %.9g m^2\nextents    x %.9g .. %.9g, y %.9g .. %.9g m\n",
+              file.c_str(), mesh.vertices.size(), mesh.triangles.size(), area, lower[0], upper[0], lower[1], upper[1]);
+  std::printf("worst aspect ratio %.3g (triangle %d; 1 is equilateral)\n", worst, worstTriangle + 1);
+  for (const auto& [label, what] : boundary) {
+    std::printf("label %-5d %d edges, length %.9g m\n", label, what.first, what.second);
+  }
+  for (const auto& [region, count] : regions) {
+    std::printf("region %-4d %d triangles\n", region, count);
+  }
+  return exitDone;
+}
+
+}  // namespace mortier

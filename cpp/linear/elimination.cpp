@@ -1,0 +1,175 @@
+#include "linear/elimination.h"
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <stdexcept>
+
+#include "linear/cholmod_common.h"
+
+namespace mortier {
+namespace {
+
+/// A sparse pattern on its way into CHOLMOD.
+struct Columns {
+  std::vector<int> start{0};
+  std::vector<int> rows;
+
+  cholmod_sparse view(int stype) {
+    cholmod_sparse A{};
+    A.nrow = A.ncol = start.size() - 1;
+    A.nzmax = rows.size();
+    A.p = start.data();
+    A.i = rows.data();
+    A.stype = stype;
+    A.itype = CHOLMOD_INT;
+    A.xtype = CHOLMOD_PATTERN;
+    A.dtype = CHOLMOD_DOUBLE;
+    A.sorted = 1;
+    A.packed = 1;
+    return A;
+  }
+};
+
+/// The pattern in new positions, lower triangle; `size` positions from 0, entries outside dropped. `clique` makes the
+/// positions from there on couple with each other.
+Columns permuted(const SparsePattern& pattern, const std::vector<int>& position, int size, int clique) {
+  Columns result;
+  std::vector<int> count(size + 1, 0);
+  const auto forEach = [&](auto visit) {
+    for (int j = 0; j < pattern.size; ++j)
+      for (int k = pattern.columnStart[j]; k < pattern.columnStart[j + 1]; ++k) {
+        const int row = std::max(position[j], position[pattern.rows[k]]);
+        const int column = std::min(position[j], position[pattern.rows[k]]);
+        if (row < size && column < clique && (pattern.symmetric || pattern.rows[k] >= j)) visit(row, column);
+      }
+    for (int column = clique; column < size; ++column)
+      for (int row = column; row < size; ++row) visit(row, column);
+  };
+  forEach([&](int, int column) { ++count[column + 1]; });
+  std::partial_sum(count.begin(), count.end(), count.begin());
+  result.start = count;
+  result.rows.resize(count[size]);
+  forEach([&](int row, int column) { result.rows[count[column]++] = row; });
+  for (int j = 0; j < size; ++j)
+    std::sort(result.rows.begin() + result.start[j], result.rows.begin() + result.start[j + 1]);
+  return result;
+}
+
+/// Fill-reducing order of the interior alone, the kept equations appended.
+std::vector<int> fillReducingOrder(const SparsePattern& pattern, const std::vector<int>& kept, CholmodCommon& common) {
+  std::vector<int> position(pattern.size, 0);
+  const int interior = pattern.size - static_cast<int>(kept.size());
+  for (size_t k = 0; k < kept.size(); ++k) position[kept[k]] = interior + static_cast<int>(k);
+  std::vector<int> equation;
+  for (int i = 0; i < pattern.size; ++i)
+    if (position[i] < interior) {
+      position[i] = static_cast<int>(equation.size());
+      equation.push_back(i);
+    }
+  std::vector<int> permutation(interior);
+  if (interior > 0) {
+    Columns columns = permuted(pattern, position, interior, interior);
+    cholmod_sparse A = columns.view(-1);
+    if (cholmod_metis(&A, nullptr, 0, 1, permutation.data(), &common) == 0)
+      throw std::runtime_error("ordering of the tangent failed in METIS");
+  }
+  std::vector<int> order(pattern.size);
+  for (int i = 0; i < interior; ++i) order[i] = equation[permutation[i]];
+  std::copy(kept.begin(), kept.end(), order.begin() + interior);
+  return order;
+}
+
+}  // namespace
+
+Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept) {
+  Elimination result;
+  result.size = pattern.size;
+  result.kept = static_cast<int>(kept.size());
+  if (pattern.size == 0) return result;
+  const int interior = result.size - result.kept;
+
+  CholmodCommon common;
+  const std::vector<int> order = fillReducingOrder(pattern, kept, common);
+  std::vector<int> position(result.size);
+  for (int i = 0; i < result.size; ++i) position[order[i]] = i;
+
+  // Supernodes. The kept equations couple as a clique, so they end up together in the last one.
+  common->supernodal = CHOLMOD_SUPERNODAL;
+  common->nmethods = 1;
+  common->method[0].ordering = CHOLMOD_GIVEN;
+  common->nrelax[0] = 2;
+  common->nrelax[1] = 8;
+  common->nrelax[2] = 24;
+  Columns columns = permuted(pattern, position, result.size, interior);
+  cholmod_sparse A = columns.view(-1);
+  std::vector<int> identity(result.size);
+  std::iota(identity.begin(), identity.end(), 0);
+  const auto release = [&](cholmod_factor* L) { cholmod_free_factor(&L, &common); };
+  const std::unique_ptr<cholmod_factor, decltype(release)> L(
+      cholmod_analyze_p(&A, identity.data(), nullptr, 0, &common), release);
+  if (!L || L->is_super == 0) throw std::runtime_error("symbolic analysis of the tangent failed in CHOLMOD");
+  const auto* permutation = static_cast<const int*>(L->Perm);
+  const auto* super = static_cast<const int*>(L->super);
+  const auto* rowStart = static_cast<const int*>(L->pi);
+  const auto* rows = static_cast<const int*>(L->s);
+  result.order.resize(result.size);
+  for (int i = 0; i < result.size; ++i) {
+    result.order[i] = order[permutation[i]];
+    position[result.order[i]] = i;
+  }
+  for (int k = 0; k < result.kept; ++k)
+    if (position[kept[k]] != interior + k) throw std::runtime_error("kept equations were moved by the analysis");
+
+  const int fronts = static_cast<int>(L->nsuper);
+  std::vector<int> frontOf(result.size);
+  result.fronts.resize(fronts);
+  for (int s = 0; s < fronts; ++s) {
+    Front& front = result.fronts[s];
+    front.rows.assign(rows + rowStart[s], rows + rowStart[s + 1]);
+    front.pivots = std::min(super[s + 1], interior) - super[s];
+    std::fill(frontOf.begin() + super[s], frontOf.begin() + super[s + 1], s);
+  }
+  if (super[fronts - 1] > interior) throw std::runtime_error("kept equations were not gathered in one front");
+
+  std::vector<int> index(result.size);
+  for (int s = 0; s < fronts; ++s) {
+    Front& front = result.fronts[s];
+    if (s == fronts - 1 || front.pivots == static_cast<int>(front.rows.size())) continue;
+    front.parent = frontOf[front.rows[front.pivots]];
+    const Front& parent = result.fronts[front.parent];
+    for (size_t i = 0; i < parent.rows.size(); ++i) index[parent.rows[i]] = static_cast<int>(i);
+    for (size_t i = front.pivots; i < front.rows.size(); ++i) front.inParent.push_back(index[front.rows[i]]);
+  }
+
+  // Every entry of the pattern is assembled where the first of its two positions is eliminated.
+  std::vector<size_t> count(fronts + 1, 0);
+  const auto forEachEntry = [&](auto visit) {
+    for (int j = 0; j < pattern.size; ++j)
+      for (int k = pattern.columnStart[j]; k < pattern.columnStart[j + 1]; ++k)
+        visit(k, position[pattern.rows[k]], position[j], frontOf[std::min(position[pattern.rows[k]], position[j])]);
+  };
+  forEachEntry([&](int, int, int, int front) { ++count[front + 1]; });
+  std::partial_sum(count.begin(), count.end(), count.begin());
+  for (int s = 0; s < fronts; ++s) result.fronts[s].firstEntry = count[s];
+  result.entries.resize(pattern.rows.size());
+  result.positions.resize(pattern.rows.size());
+  std::vector<size_t> next(count.begin(), count.end() - 1);
+  std::vector<int> rowOf(pattern.rows.size());
+  std::vector<int> columnOf(pattern.rows.size());
+  forEachEntry([&](int entry, int row, int column, int front) {
+    const size_t at = next[front]++;
+    result.entries[at] = entry;
+    rowOf[at] = pattern.symmetric ? std::max(row, column) : row;
+    columnOf[at] = pattern.symmetric ? std::min(row, column) : column;
+  });
+  for (int s = 0; s < fronts; ++s) {
+    const Front& front = result.fronts[s];
+    for (size_t i = 0; i < front.rows.size(); ++i) index[front.rows[i]] = static_cast<int>(i);
+    for (size_t at = count[s]; at < count[s + 1]; ++at)
+      result.positions[at] = static_cast<size_t>(index[columnOf[at]]) * front.rows.size() + index[rowOf[at]];
+  }
+  return result;
+}
+
+}  // namespace mortier

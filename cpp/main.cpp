@@ -1,0 +1,105 @@
+// mortier: contact of elastic and viscoplastic bodies with incompatible meshes.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+
+#include "base/error.h"
+#include "commands/exit_code.h"
+#include "commands/freefem.h"
+#include "commands/mesh.h"
+#include "commands/run.h"
+#include "commands/version.h"
+
+using namespace mortier;
+
+namespace {
+
+constexpr const char* settingsHelp =
+    "change a key of the scene, e.g. time.steps=20, contact.variant=interpolation, body.upper.mesh=FILE";
+
+/// --set takes any number of values and so takes the scene, too, where that follows it.
+void giveBackScene(std::vector<std::string>& settings, std::string& scene) {
+  const auto found = std::find_if(settings.begin(), settings.end(),
+                                  [](const std::string& each) { return each.find('=') == std::string::npos; });
+  if (scene.empty() && found != settings.end()) {
+    scene = *found;
+    settings.erase(found);
+  }
+  if (scene.empty()) {
+    throw InputError("no scene given, expected SCENE.toml (see --help)");
+  }
+}
+
+int dispatch(int argc, char** argv) {
+  CLI::App app("Contact of elastic and viscoplastic bodies with incompatible meshes.\n"
+               "Exit codes: 0 done, 1 a step cannot be solved or output cannot be written, 2 wrong input, "
+               "3 nothing holds a body.", "mortier");
+  app.set_version_flag("--version", std::string("mortier ") + version);
+  app.require_subcommand(1);
+
+  RunCommand runCommand;
+  CLI::App* runApp = app.add_subcommand("run", "solve a scene (docs/scene.md) and write its result");
+  runApp->add_option("SCENE", runCommand.scene, "scene, a TOML file");
+  runApp->add_option("--out", runCommand.out, "folder of the result (default: out/ and the scene's name)");
+  runApp->add_option("--set", runCommand.settings, settingsHelp)->type_name("KEY=VALUE ...");
+  runApp->add_option("--threads", runCommand.threads, "threads (default 1)")->check(CLI::Range(1, 1024));
+  runApp->add_flag("--quiet", runCommand.quiet, "no log and no progress bar");
+
+  CLI::App* meshApp = app.add_subcommand("mesh", "make a mesh, or describe one");
+  meshApp->require_subcommand(1);
+  MeshCommand meshCommand;
+  CLI::App* rectangle = meshApp->add_subcommand("rectangle", "rectangle, each cell cut by one diagonal");
+  CLI::App* crissCross = meshApp->add_subcommand("crisscross", "rectangle, each cell cut by both diagonals");
+  for (CLI::App* each : {rectangle, crissCross}) {
+    each->add_option("--cells", meshCommand.cells, "cells along x and y")->required()->type_name("N[,NY]");
+    each->add_option("--lower", meshCommand.lower, "lower left corner [m] (default 0,0)")->type_name("X,Y");
+    each->add_option("--upper", meshCommand.upper, "upper right corner [m] (default 1,1)")->type_name("X,Y");
+    each->add_option("FILE", meshCommand.file, "Medit .mesh file to write")->required();
+    each->footer("Boundary labels: 1 bottom, 2 right, 3 top, 4 left.");
+  }
+  std::string infoFile;
+  CLI::App* info = meshApp->add_subcommand("info", "counts, labels, extents, worst triangle");
+  info->add_option("FILE", infoFile, "Medit .mesh file")->required();
+
+  FreefemCommand freefemCommand;
+  CLI::App* freefemApp = app.add_subcommand("freefem", "write a scene as a FreeFEM script");
+  freefemApp->add_option("SCENE", freefemCommand.scene, "scene, a TOML file");
+  freefemApp->add_option("FILE", freefemCommand.file, ".edp file to write (default: standard output)");
+  freefemApp->add_option("--set", freefemCommand.settings, settingsHelp)->type_name("KEY=VALUE ...");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exitDone : exitWrongInput;
+  }
+  if (*runApp) {
+    giveBackScene(runCommand.settings, runCommand.scene);
+    return run(runCommand);
+  }
+  if (*freefemApp) {
+    giveBackScene(freefemCommand.settings, freefemCommand.scene);
+    return writeFreefem(freefemCommand);
+  }
+  meshCommand.crissCross = crissCross->parsed();
+  return info->parsed() ? meshInfo(infoFile) : makeMesh(meshCommand);
+}
+
+int complain(const std::exception& error, int code) {
+  std::fflush(stdout);
+  std::fprintf(stderr, "mortier: %s\n", error.what());
+  return code;
+}
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return dispatch(argc, argv);
+  } catch (const InputError& error) {
+    return complain(error, exitWrongInput);
+  } catch (const UnheldBodyError& error) {
+    return complain(error, exitUnheld);
+  } catch (const std::exception& error) {
+    return complain(error, exitFailed);
+  }
+}

@@ -1,0 +1,47 @@
+// What a body asks of a material: the stress law of one time step, linearised. A material knows no mesh.
+#pragma once
+
+#include <memory>
+
+#include "base/types.h"
+
+namespace mortier {
+
+/// The step that the law is asked for. Columns are points.
+struct MaterialStep {
+  double weight = 0;       ///< time step times the scheme's diagonal coefficient [s]
+  const Matrix& stress0;   ///< components x points, at the start of the step [Pa]
+  const Matrix& strain;    ///< 3 x points, total strain increment minus the scheme's shift [-]
+};
+
+/// The law linearised at an iterate s of the stress: the next iterate is predictor + H^-1 B d.
+struct Linearisation {
+  Matrix predictor;  ///< components x points: s + H^-1 r [Pa]
+  Matrix moduli;     ///< 9 x points: the block of H^-1 that acts on the strains of the plane, column major [Pa]
+};
+
+class Material {
+ public:
+  virtual ~Material() = default;
+  /// Number of stress components.
+  [[nodiscard]] virtual int components() const = 0;
+  /// Whether the moduli are symmetric whatever the stress.
+  [[nodiscard]] virtual bool symmetricTangent() const = 0;
+  /// Whether the law is linear: its moduli depend on nothing.
+  [[nodiscard]] virtual bool linear() const = 0;
+  /// The stress that residuals are measured against [Pa]; 0 where the law has none.
+  [[nodiscard]] virtual double stressScale() const = 0;
+  /// Viscous over elastic compliance, theta e, for a step of `weight` [-].
+  [[nodiscard]] virtual double stiffness(double weight) const = 0;
+
+  /// With r = strain - [E^-1 (s - s0) + weight G(s)] and H = E^-1 + weight G'(s), fills the columns [begin, end).
+  /// \returns the largest |H^-1 r| over them [Pa].
+  virtual double linearise(const MaterialStep& step, const Matrix& stress, Linearisation& result, int begin,
+                           int end) const = 0;
+  /// Viscoplastic strain rate G(s) [1/s], components x points.
+  virtual void viscoplasticRate(const Matrix& stress, Matrix& rate) const = 0;
+  /// E^-1 s [-], components x points.
+  virtual void elasticStrain(const Matrix& stress, Matrix& strain) const = 0;
+};
+
+}  // namespace mortier

@@ -1,0 +1,165 @@
+#include "material/perzyna.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "base/error.h"
+#include "material/stress.h"
+#include "material/yield_domain.h"
+
+namespace mortier {
+namespace {
+
+using Eigen::Array3d;
+
+void require(bool holds, const char* name, double value, const char* expected) {
+  if (holds && std::isfinite(value)) return;
+  std::ostringstream message;
+  message << name << " = " << value << ", expected " << expected;
+  throw InputError(message.str());
+}
+
+/// Writes diag(d) - c x y' as a 3 x 3 matrix, column major.
+void storeModuli(const Array3d& d, double c, const Array3d& x, const Array3d& y, double* moduli) {
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 3; ++i) moduli[3 * j + i] = -(c * x[i]) * y[j];
+    moduli[3 * j + j] += d[j];
+  }
+}
+
+class Elastic final : public Material {
+ public:
+  explicit Elastic(const Elasticity& elasticity) : e_(elasticity.moduli()) {}
+
+  [[nodiscard]] int components() const override { return 3; }
+  [[nodiscard]] bool symmetricTangent() const override { return true; }
+  [[nodiscard]] bool linear() const override { return true; }
+  [[nodiscard]] double stressScale() const override { return 0; }
+  [[nodiscard]] double stiffness(double /*weight*/) const override { return 0; }
+
+  double linearise(const MaterialStep& step, const Matrix& stress, Linearisation& result, int begin,
+                   int end) const override {
+    double residual = 0;
+    for (int i = begin; i < end; ++i) {
+      const Array3d s1 = step.stress0.col(i).array() + e_ * step.strain.col(i).array();
+      residual = std::max(residual, (s1 - stress.col(i).array()).abs().maxCoeff());
+      result.predictor.col(i) = s1;
+      storeModuli(e_, 0, e_, e_, &result.moduli(0, i));
+    }
+    return residual;
+  }
+
+  void viscoplasticRate(const Matrix& stress, Matrix& rate) const override {
+    rate.setZero(stress.rows(), stress.cols());
+  }
+
+  void elasticStrain(const Matrix& stress, Matrix& strain) const override {
+    strain = e_.inverse().matrix().asDiagonal() * stress;
+  }
+
+ private:
+  Array3d e_;
+};
+
+class Perzyna final : public Material {
+ public:
+  Perzyna(const Elasticity& elasticity, const Viscoplasticity& law)
+      : e_(elasticity.moduli()), law_(law), domain_(yieldDomain(law.yieldStress, projectionNorm(law.projection))) {}
+
+  [[nodiscard]] int components() const override { return 3; }
+  [[nodiscard]] bool symmetricTangent() const override { return law_.projection == Projection::frobenius; }
+  [[nodiscard]] bool linear() const override { return false; }
+  [[nodiscard]] double stressScale() const override { return law_.yieldStress; }
+  [[nodiscard]] double stiffness(double weight) const override {
+    return weight / (2 * law_.viscosity) * e_.maxCoeff();
+  }
+
+  // With sigma - P_B sigma = m b/(1 + m b) sigma and 1 - P_B' = diag(m b/(1 + m b)) + x y'/z (yield_domain.h),
+  //   H = E^-1 + theta (1 - P_B') = diag(h) + (theta/z) x y',   theta = weight/(2 lambda),
+  // is inverted as a rank-one change of a diagonal matrix.
+  double linearise(const MaterialStep& step, const Matrix& stress, Linearisation& result, int begin,
+                   int end) const override {
+    const double theta = step.weight / (2 * law_.viscosity);
+    double residual = 0;
+    for (int i = begin; i < end; ++i) {
+      const Array3d s = stress.col(i).array();
+      Array3d r = step.strain.col(i).array() - (s - step.stress0.col(i).array()) / e_;
+      Array3d increment;
+      if (!domain_.yields(s)) {
+        increment = e_ * r;
+        storeModuli(e_, 0, e_, e_, &result.moduli(0, i));
+      } else {
+        const ProjectionOnYield P = domain_.project(s);
+        r -= theta * P.overstress;
+        const Array3d h = (1 / e_ + theta * P.softening).inverse();
+        const Array3d hx = h * P.x;
+        const Array3d hy = h * P.y;
+        const double c = theta / (P.z + theta * (P.y * hx).sum());
+        increment = h * r - c * (hy * r).sum() * hx;
+        storeModuli(h, c, hx, hy, &result.moduli(0, i));
+      }
+      residual = std::max(residual, increment.abs().maxCoeff());
+      result.predictor.col(i) = s + increment;
+    }
+    return residual;
+  }
+
+  void viscoplasticRate(const Matrix& stress, Matrix& rate) const override {
+    rate.resize(stress.rows(), stress.cols());
+    for (Eigen::Index i = 0; i < stress.cols(); ++i) {
+      const Array3d s = stress.col(i).array();
+      if (domain_.yields(s))
+        rate.col(i) = domain_.project(s).overstress / (2 * law_.viscosity);
+      else
+        rate.col(i).setZero();
+    }
+  }
+
+  void elasticStrain(const Matrix& stress, Matrix& strain) const override {
+    strain = e_.inverse().matrix().asDiagonal() * stress;
+  }
+
+ private:
+  /// Weights of the norm on p, q, r; only their ratios matter.
+  [[nodiscard]] Array3d projectionNorm(Projection projection) const {
+    switch (projection) {
+      case Projection::elasticity:
+        return e_ / e_[1];
+      case Projection::compliance:
+        return e_[1] / e_;
+      case Projection::frobenius:
+        break;
+    }
+    return Array3d::Ones();
+  }
+
+  Array3d e_;
+  Viscoplasticity law_;
+  YieldDomain domain_;
+};
+
+void check(const Elasticity& elasticity) {
+  require(elasticity.young > 0, "young", elasticity.young, "young > 0 [Pa]");
+  require(elasticity.poisson > -1 && elasticity.poisson < 0.5, "poisson", elasticity.poisson,
+          "-1 < poisson < 0.5");
+}
+
+}  // namespace
+
+Eigen::Array3d Elasticity::moduli() const {
+  return {young / (1 - poisson), young / (1 + poisson), young / (1 + poisson)};
+}
+
+std::shared_ptr<const Material> elasticMaterial(const Elasticity& elasticity) {
+  check(elasticity);
+  return std::make_shared<Elastic>(elasticity);
+}
+
+std::shared_ptr<const Material> perzynaMaterial(const Elasticity& elasticity, const Viscoplasticity& viscoplasticity) {
+  check(elasticity);
+  require(viscoplasticity.viscosity > 0, "viscosity", viscoplasticity.viscosity, "viscosity > 0 [Pa s]");
+  require(viscoplasticity.yieldStress > 0, "yield_stress", viscoplasticity.yieldStress, "yield_stress > 0 [Pa]");
+  return std::make_shared<Perzyna>(elasticity, viscoplasticity);
+}
+
+}  // namespace mortier

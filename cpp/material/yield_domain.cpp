@@ -1,0 +1,41 @@
+#include "material/yield_domain.h"
+
+#include <cmath>
+#include <limits>
+
+namespace mortier {
+
+YieldDomain yieldDomain(double yieldStress, const Eigen::Array3d& norm) {
+  return {yieldStress, Eigen::Array3d(0.5, 1.5, 1.5), norm};
+}
+
+// psi(m) = (sum a s^2/(sigma_Y^2 (1 + m b)^2))^(-1/2) is concave and rises to 1 at the root: Newton from the left climbs
+// monotonically and ends when it no longer climbs.
+double YieldDomain::multiplier(const Eigen::Array3d& s) const {
+  const Eigen::Array3d square = a_ * (s / yieldStress_).square();
+  double m = 0;
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    const Eigen::Array3d c = 1 / (1 + m * b_);
+    const Eigen::Array3d phi = square * c * c;
+    const double value = phi.sum();
+    const double step = value * (std::sqrt(value) - 1) / (phi * c * b_).sum();
+    if (!(step > 4 * std::numeric_limits<double>::epsilon() * m)) break;
+    m += step;
+  }
+  return m;
+}
+
+// From a . P^2 = sigma_Y^2:  dP = ds/(1 + m b) - x dm,  dm = y . ds / z.
+ProjectionOnYield YieldDomain::project(const Eigen::Array3d& s) const {
+  const double m = multiplier(s);
+  const Eigen::Array3d c = 1 / (1 + m * b_);
+  ProjectionOnYield result;
+  result.softening = m * b_ * c;
+  result.overstress = result.softening * s;
+  result.x = s * b_ * c * c;
+  result.y = a_ * s * c * c;
+  result.z = (a_ * s * c * result.x).sum();
+  return result;
+}
+
+}  // namespace mortier

@@ -1,0 +1,78 @@
+#include "mesh/boundary_line.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "base/error.h"
+
+namespace mortier {
+namespace {
+
+[[noreturn]] void fail(const TriangleMesh& mesh, int label, const std::string& what) {
+  throw InputError(mesh.name + ": boundary label " + std::to_string(label) + " " + what);
+}
+
+std::string describeVertex(const TriangleMesh& mesh, int v) {
+  std::ostringstream out;
+  out << "vertex " << v + 1 << " at (" << mesh.vertices[v].x() << ", " << mesh.vertices[v].y() << ')';
+  return out.str();
+}
+
+[[noreturn]] void failMissing(const TriangleMesh& mesh, int label) {
+  std::string present;
+  for (int l : boundaryLabels(mesh)) present += " " + std::to_string(l);
+  fail(mesh, label,
+       "is missing, expected one of" + (present.empty() ? " none: no edge is labelled" : present));
+}
+
+}  // namespace
+
+std::vector<int> boundaryLabels(const TriangleMesh& mesh) {
+  std::vector<int> labels = mesh.boundaryLabels;
+  std::sort(labels.begin(), labels.end());
+  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  return labels;
+}
+
+BoundaryLine boundaryLine(const TriangleMesh& mesh, int label) {
+  constexpr int none = -1;
+  std::vector<int> next(mesh.vertices.size(), none), previous(mesh.vertices.size(), none);
+  std::vector<int> starts;  // of the edges that carry the label
+  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
+    if (mesh.boundaryLabels[e] != label) continue;
+    const auto [a, b] = mesh.boundaryEdges[e];
+    if (next[a] != none || previous[b] != none) {
+      fail(mesh, label,
+           "branches in " + describeVertex(mesh, next[a] != none ? a : b) + ", expected one line");
+    }
+    next[a] = b;
+    previous[b] = a;
+    starts.push_back(a);
+  }
+  if (starts.empty()) failMissing(mesh, label);
+
+  // A line that is not closed has one vertex that no edge leads to; a closed one may start anywhere.
+  const auto isHead = [&](int v) { return previous[v] == none; };
+  const auto head = std::find_if(starts.begin(), starts.end(), isHead);
+  BoundaryLine line;
+  line.closed = head == starts.end();
+  const int first = line.closed ? starts.front() : *head;
+  line.nodes.push_back(first);
+  for (int v = next[first]; v != none; v = next[v]) {
+    line.nodes.push_back(v);
+    if (v == first) break;
+  }
+
+  if (line.nodes.size() != starts.size() + 1) {
+    std::vector<char> reached(mesh.vertices.size(), 0);
+    for (int v : line.nodes) reached[v] = 1;
+    const auto other = std::find_if(starts.begin(), starts.end(), [&](int v) { return !reached[v]; });
+    fail(mesh, label,
+         "is not connected: " + describeVertex(mesh, first) + " and " + describeVertex(mesh, *other) +
+             " are in separate pieces, expected one line");
+  }
+  for (int v : line.nodes) line.points.push_back(mesh.vertices[v]);
+  return line;
+}
+
+}  // namespace mortier

@@ -1,0 +1,21 @@
+// contact.csv: per kept step and nonmortar node its place as meshed, gap g [m] (negative: open), nodal force p [N/m],
+// pressure M^-1 p [Pa], and whether it is active (p > 0). Vertices and interfaces count from 0.
+#pragma once
+
+#include "report/output_file.h"
+#include "time/march.h"
+
+namespace mortier {
+
+class ContactTable {
+ public:
+  ContactTable(const std::string& folder, const Model& model);
+  void add(const State& state, int step);
+  void close() { file_.close(); }
+
+ private:
+  const Model& model_;
+  OutputFile file_;
+};
+
+}  // namespace mortier

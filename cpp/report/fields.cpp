@@ -1,0 +1,165 @@
+#include "report/fields.h"
+
+#include <bit>
+#include <cstdint>
+
+#include "base/error.h"
+#include "material/stress.h"
+#include "report/output_file.h"
+
+namespace mortier {
+
+namespace {
+
+/// A .vtu file: the arrays are described first, their bytes follow in one appended block.
+class VtuFile {
+ public:
+  explicit VtuFile(std::string path) : path_(std::move(path)), file_(path_) {
+    static_assert(std::endian::native == std::endian::little);
+    file_ << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+             "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n";
+  }
+
+  void open(const std::string& tag, const std::string& attributes = "") {
+    file_ << '<' << tag << (attributes.empty() ? "" : " ") << attributes << ">\n";
+  }
+  void shut(const std::string& tag) { file_ << "</" << tag << ">\n"; }
+
+  void array(const std::string& name, std::vector<double> values, int components,
+             const std::vector<std::string>& componentNames = {}) {
+    if (!Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size())).allFinite()) {
+      throw OutputError(path_ + ": " + name + " is not finite everywhere; the run is not valid");
+    }
+    describe("Float64", name, components, componentNames);
+    append(values.data(), values.size() * sizeof(double));
+  }
+  template <class Integer>
+  void integers(const std::string& type, const std::string& name, const std::vector<Integer>& values) {
+    describe(type, name, 1, {});
+    append(values.data(), values.size() * sizeof(Integer));
+  }
+
+  void close() {
+    file_ << "</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" << bytes_ << "\n</AppendedData>\n</VTKFile>\n";
+    file_.close();
+  }
+
+ private:
+  void describe(const std::string& type, const std::string& name, int components,
+                const std::vector<std::string>& componentNames) {
+    file_ << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\"" << components << '"';
+    for (size_t c = 0; c < componentNames.size(); ++c) {
+      file_ << " ComponentName" << c << "=\"" << componentNames[c] << '"';
+    }
+    file_ << " format=\"appended\" offset=\"" << bytes_.size() << "\"/>\n";
+  }
+  void append(const void* data, uint64_t size) {
+    bytes_.append(reinterpret_cast<const char*>(&size), sizeof size);
+    bytes_.append(static_cast<const char*>(data), size);
+  }
+
+  std::string path_;
+  OutputFile file_;
+  std::string bytes_;
+};
+
+std::vector<double> flat(const Matrix& m) { return {m.data(), m.data() + m.size()}; }
+
+void writePoints(VtuFile& file, const TriangleMesh& mesh, const Vector& displacement) {
+  std::vector<double> points;
+  std::vector<double> u;
+  points.reserve(3 * mesh.vertices.size());
+  u.reserve(3 * mesh.vertices.size());
+  for (size_t v = 0; v < mesh.vertices.size(); ++v) {
+    points.insert(points.end(), {mesh.vertices[v][0], mesh.vertices[v][1], 0.0});
+    u.insert(u.end(), {displacement[2 * v], displacement[2 * v + 1], 0.0});
+  }
+  file.open("Points");
+  file.array("Points", std::move(points), 3);
+  file.shut("Points");
+  file.open("PointData", "Vectors=\"displacement\"");
+  file.array("displacement", std::move(u), 3);
+  file.shut("PointData");
+}
+
+void writeCells(VtuFile& file, const TriangleMesh& mesh) {
+  constexpr uint8_t vtkTriangle = 5;
+  std::vector<int64_t> connectivity;
+  std::vector<int64_t> offsets;
+  connectivity.reserve(3 * mesh.triangles.size());
+  offsets.reserve(mesh.triangles.size());
+  for (const auto& triangle : mesh.triangles) {
+    connectivity.insert(connectivity.end(), triangle.begin(), triangle.end());
+    offsets.push_back(static_cast<int64_t>(connectivity.size()));
+  }
+  file.open("Cells");
+  file.integers("Int64", "connectivity", connectivity);
+  file.integers("Int64", "offsets", offsets);
+  file.integers("UInt8", "types", std::vector<uint8_t>(mesh.triangles.size(), vtkTriangle));
+  file.shut("Cells");
+}
+
+void writeCellData(VtuFile& file, const Body& body, const BodyState& state) {
+  const CellFields fields = cellFields(body, state);
+  file.open("CellData", "Scalars=\"von_mises\"");
+  file.array("stress", flat(fields.stress), 3, {"s11", "s22", "s12"});
+  file.array("von_mises", flat(fields.vonMises), 1);
+  file.array("viscoplastic_strain", flat(fields.viscoplasticStrain), 3, {"e11", "e22", "e12"});
+  file.integers("Int32", "viscoplastic", fields.viscoplastic);
+  file.integers("Int32", "region", body.mesh().regions);
+  file.shut("CellData");
+}
+
+}  // namespace
+
+CellFields cellFields(const Body& body, const BodyState& state) {
+  const auto cells = static_cast<Eigen::Index>(body.mesh().triangles.size());
+  const Eigen::Index pointsPerCell = state.stress.cols() / cells;
+  Matrix rate(state.stress.rows(), state.stress.cols());
+  body.material().viscoplasticRate(state.stress, rate);
+  CellFields fields{Matrix::Zero(3, cells), Vector::Zero(cells), Matrix::Zero(3, cells), std::vector<int>(cells, 0)};
+  const double weight = 1.0 / static_cast<double>(pointsPerCell);
+  for (Eigen::Index point = 0; point < state.stress.cols(); ++point) {
+    const Eigen::Index cell = point / pointsPerCell;
+    const Eigen::Vector3d pqr = state.stress.col(point).head<3>();
+    fields.stress.col(cell) += weight * toCartesian(pqr);
+    fields.vonMises[cell] += weight * vonMises(pqr);
+    fields.viscoplasticStrain.col(cell) += weight * toCartesian(state.viscoplasticStrain.col(point).head<3>());
+    if (!rate.col(point).isZero(0)) {
+      fields.viscoplastic[cell] = 1;
+    }
+  }
+  return fields;
+}
+
+void Fields::add(const State& state, int step) {
+  for (size_t b = 0; b < model_.bodies.size(); ++b) {
+    const Body& body = model_.bodies[b];
+    const TriangleMesh& mesh = body.mesh();
+    std::string number = std::to_string(step);
+    number.insert(0, number.size() < 6 ? 6 - number.size() : 0, '0');
+    const std::string name = body.name() + "_" + number + ".vtu";
+    VtuFile file(folder_ + "/" + name);
+    file.open("Piece", "NumberOfPoints=\"" + std::to_string(mesh.vertices.size()) + "\" NumberOfCells=\"" +
+                           std::to_string(mesh.triangles.size()) + "\"");
+    writePoints(file, mesh, state.bodies[b].displacement);
+    writeCells(file, mesh);
+    writeCellData(file, body, state.bodies[b]);
+    file.shut("Piece");
+    file.close();
+    char time[32];
+    std::snprintf(time, sizeof time, "%.17g", state.time);
+    entries_ += "<DataSet timestep=\"" + std::string(time) + "\" group=\"\" part=\"" + std::to_string(b) +
+                "\" name=\"" + body.name() + "\" file=\"" + name + "\"/>\n";
+  }
+}
+
+void Fields::close() {
+  OutputFile file(folder_ + "/fields.pvd");
+  file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+          "<Collection>\n"
+       << entries_ << "</Collection>\n</VTKFile>\n";
+  file.close();
+}
+
+}  // namespace mortier

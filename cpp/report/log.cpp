@@ -1,0 +1,95 @@
+#include "report/log.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+
+#include "report/clock.h"
+#include "report/summary.h"
+
+namespace mortier {
+
+namespace {
+
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+  std::va_list arguments;
+  va_start(arguments, pattern);
+  char text[512];
+  const int size = std::vsnprintf(text, sizeof text, pattern, arguments);
+  va_end(arguments);
+  return {text, static_cast<size_t>(std::clamp<int>(size, 0, sizeof text - 1))};
+}
+
+}  // namespace
+
+std::string logHeader(const RunFacts& facts, const Model& model) {
+  std::string text;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    text += (b == 0 ? "bodies     " : ", ") + body.name() + " " + std::to_string(body.dofs()) + " dofs, " +
+            facts.materials[b];
+  }
+  text += "; plane stress\n";
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    const ContactInterface& interface = model.interfaces[k];
+    text += format("interface  %s, %zu nonmortar (%s) x %zu mortar (%s) nodes, overlap %.3f\n", facts.variants[k].c_str(),
+                   interface.nonmortarNodes().size(), model.bodies[interface.pair().nonmortar.body].name().c_str(),
+                   interface.mortarNodes().size(), model.bodies[interface.pair().mortar.body].name().c_str(),
+                   interface.overlap());
+  }
+  return text + "  step     time[s]  iter    active(+/-)  |residual|  penetration[m^2]   max p[Pa]  viscoplastic"
+                "  force[N/m]\n";
+}
+
+std::string logRow(const StepReport& r) {
+  const std::string change = format("%d (+%d/-%d)", r.active, r.joined, r.left);
+  return format("%6d  %10.5g  %4d  %13s  %10.1e  %16.1e  %10.5g  %11.0f%%  %10.5g%s%s\n", r.step, r.time, r.iterations,
+                change.c_str(), std::max(r.certificate.forceBalance, r.certificate.materialResidual), r.penetration,
+                r.maxPressure, 100 * r.viscoplasticFraction, r.contactForce, r.rung == "newton" ? "" : "  ",
+                r.rung == "newton" ? "" : r.rung.c_str());
+}
+
+std::string logStatus(const RunReport& report, const std::string& folder) {
+  const double wall = processSeconds();
+  const double share = wall > 0 ? std::min(1.0, report.solveSeconds / wall) : 0;
+  std::string text = "status " + word(report.status);
+  if (report.status != Status::converged) {
+    text += " after " + std::to_string(report.steps) + " steps";
+  }
+  return text + format("   newton %d   factorisations %d   %.3g s (solve %.0f%%)   %.0f MiB   ", report.iterations,
+                       report.factorisations, wall, 100 * share, peakMemory()) +
+         folder + "\n";
+}
+
+std::string logVerification(const Certificate& w) {
+  return format(
+      "verification (worst step)  |force balance| %.1e   material residual %.1e   |gap| on active %.1e   "
+      "complementarity %.1e   sign %.1e\n",
+      w.forceBalance, w.materialResidual, w.gapOnActive, w.complementarity, w.sign);
+}
+
+Log::Log(bool quiet, double endTime)
+    : quiet_(quiet), sharesTerminal_(isatty(STDOUT_FILENO) == 1), progress_(!quiet, endTime) {}
+
+void Log::print(const std::string& text) {
+  if (!quiet_) {
+    if (sharesTerminal_) {
+      progress_.clear();
+    }
+    std::fwrite(text.data(), 1, text.size(), stdout);
+  }
+}
+
+void Log::step(const StepReport& report) {
+  constexpr double patience = 0.2;  // [s]: a fast run is not slowed by its log, a slow one is seen as it goes
+  print(logRow(report));
+  if (const double now = processSeconds(); !quiet_ && now > flushed_ + patience) {
+    std::fflush(stdout);
+    flushed_ = now;
+  }
+  progress_.show(report.time);
+}
+
+}  // namespace mortier

@@ -1,0 +1,34 @@
+// The log on standard output: what is solved, a row per step, how it ended and how well the equations hold.
+#pragma once
+
+#include <string>
+
+#include "report/progress.h"
+#include "report/run_facts.h"
+#include "time/march.h"
+
+namespace mortier {
+
+std::string logHeader(const RunFacts& facts, const Model& model);
+std::string logRow(const StepReport& report);
+std::string logStatus(const RunReport& report, const std::string& folder);
+std::string logVerification(const Certificate& worst);
+
+/// Prints the above, and a progress bar where the run is long. A quiet log prints nothing.
+class Log {
+ public:
+  Log(bool quiet, double endTime);
+  void print(const std::string& text);
+  /// Prints the row of a step.
+  void step(const StepReport& report);
+  /// Takes the progress bar away.
+  void finish() { progress_.clear(); }
+
+ private:
+  bool quiet_;
+  bool sharesTerminal_;  ///< rows and bar are drawn on the same screen
+  Progress progress_;
+  double flushed_ = 0;
+};
+
+}  // namespace mortier

@@ -1,0 +1,68 @@
+#include "report/output_file.h"
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+#include "base/error.h"
+
+namespace mortier {
+
+namespace {
+constexpr size_t bufferSize = size_t{1} << 16;
+
+[[noreturn]] void fail(const std::string& path) {
+  throw OutputError(path + ": cannot be written: " + std::strerror(errno));
+}
+}  // namespace
+
+OutputFile::OutputFile(std::string path) : path_(std::move(path)), file_(std::fopen(path_.c_str(), "wb")) {
+  if (!file_) {
+    fail(path_);
+  }
+  std::setvbuf(file_.get(), nullptr, _IONBF, 0);
+  buffer_.reserve(bufferSize);
+}
+
+OutputFile& OutputFile::operator<<(std::string_view text) {
+  write(text.data(), text.size());
+  return *this;
+}
+
+OutputFile& OutputFile::operator<<(double value) {
+  if (!std::isfinite(value)) {
+    throw OutputError(path_ + ": a number that is not finite was to be written; the run is not valid");
+  }
+  char text[32];
+  return *this << std::string_view(text, std::to_chars(text, text + sizeof text, value).ptr - text);
+}
+
+void OutputFile::write(const void* data, size_t size) {
+  if (buffer_.size() + size > bufferSize) {
+    flush();
+  }
+  if (size > bufferSize) {
+    if (std::fwrite(data, 1, size, file_.get()) != size) {
+      fail(path_);
+    }
+  } else {
+    buffer_.append(static_cast<const char*>(data), size);
+  }
+}
+
+void OutputFile::flush() {
+  if (!buffer_.empty() && std::fwrite(buffer_.data(), 1, buffer_.size(), file_.get()) != buffer_.size()) {
+    fail(path_);
+  }
+  buffer_.clear();
+}
+
+void OutputFile::close() {
+  flush();
+  if (std::fclose(file_.release()) != 0) {
+    fail(path_);
+  }
+}
+
+}  // namespace mortier

@@ -1,0 +1,39 @@
+// A text or binary file that is either complete or an error: buffered, every write checked, no number that is not finite.
+#pragma once
+
+#include <concepts>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace mortier {
+
+class OutputFile {
+ public:
+  /// \throws OutputError when the file cannot be created.
+  explicit OutputFile(std::string path);
+
+  OutputFile& operator<<(std::string_view text);
+  OutputFile& operator<<(char c) { return *this << std::string_view(&c, 1); }
+  /// The shortest decimal that reads back the same. \throws OutputError when it is not finite.
+  OutputFile& operator<<(double value);
+  OutputFile& operator<<(std::integral auto value) { return *this << std::string_view(std::to_string(value)); }
+
+  /// Raw bytes.
+  void write(const void* data, size_t size);
+  /// \throws OutputError when anything could not be written (a full disk shows here).
+  void close();
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  void flush();
+
+  std::string path_;
+  std::string buffer_;
+  std::unique_ptr<std::FILE, Close> file_;
+};
+
+}  // namespace mortier

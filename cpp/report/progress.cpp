@@ -1,0 +1,46 @@
+#include "report/progress.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "report/clock.h"
+
+namespace mortier {
+
+Progress::Progress(bool wanted, double endTime)
+    : enabled_(wanted && isatty(STDERR_FILENO) == 1), endTime_(endTime), start_(processSeconds()) {}
+
+void Progress::show(double time) {
+  constexpr double longRun = 2;    // [s]
+  constexpr double interval = 0.1;  // [s]
+  const double now = processSeconds();
+  const double done = std::clamp(time / endTime_, 0.0, 1.0);
+  if (!enabled_ || done <= 0 || (now - start_) / done < longRun) {
+    return;
+  }
+  // On the same terminal the log's row has just taken the bar away; elsewhere ten times a second are enough.
+  if (drawn_ && now < lastDrawn_ + interval) {
+    return;
+  }
+  constexpr int width = 40;
+  const int filled = static_cast<int>(done * width);
+  const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
+  std::fflush(stdout);
+  std::fprintf(stderr, "\r[%s] %3.0f %%, %.0f s left", bar.c_str(), 100 * done, (now - start_) * (1 - done) / done);
+  std::fflush(stderr);
+  drawn_ = true;
+  lastDrawn_ = now;
+}
+
+void Progress::clear() {
+  if (drawn_) {
+    std::fputs("\r\x1b[K", stderr);
+    std::fflush(stderr);
+    drawn_ = false;
+  }
+}
+
+}  // namespace mortier

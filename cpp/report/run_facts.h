@@ -1,0 +1,23 @@
+// What the reports say of a run that its model does not know: words of the scene. Reports know no scenes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace mortier {
+
+struct RunFacts {
+  std::string scene;  ///< path of the scene
+  std::string title;
+  std::vector<std::string> settings;   ///< --set, as given
+  std::vector<std::string> materials;  ///< per body: "elastic" or "Perzyna (frobenius)"
+  std::vector<std::string> variants;   ///< per interface: "mortar" or "interpolation"
+  std::string contact;                 ///< all variants, each once; "none" without an interface
+  std::string nonmortar;               ///< names of the nonmortar bodies; "none" without an interface
+  std::string projection;              ///< all projections, each once; "none" where every body is elastic
+  std::string scheme;
+  int plannedSteps = 0;
+  int threads = 1;
+};
+
+}  // namespace mortier

@@ -1,0 +1,147 @@
+#include "report/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "report/clock.h"
+#include "report/fields.h"
+#include "report/output_file.h"
+
+namespace mortier {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no word for NaN; nlohmann would write null.
+void requireFiniteNumbers(const Json& json, const std::string& path) {
+  if (json.is_number_float() && !std::isfinite(json.get<double>())) {
+    throw OutputError(path + " is not finite; the run is not valid");
+  }
+  if (json.is_structured()) {
+    for (const auto& [key, value] : json.items()) {
+      requireFiniteNumbers(value, path + ": " + key);
+    }
+  }
+}
+
+Json bodies(const RunFacts& facts, const Model& model) {
+  Json list = Json::array();
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    list.push_back({{"name", body.name()},
+                    {"material", facts.materials[b]},
+                    {"triangles", body.mesh().triangles.size()},
+                    {"nodes", body.nodes()},
+                    {"dofs", body.freeDofs()}});
+  }
+  return list;
+}
+
+Json interfaces(const RunFacts& facts, const Model& model) {
+  Json list = Json::array();
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    const ContactInterface& interface = model.interfaces[k];
+    list.push_back({{"variant", facts.variants[k]},
+                    {"nonmortar", model.bodies[interface.pair().nonmortar.body].name()},
+                    {"mortar", model.bodies[interface.pair().mortar.body].name()},
+                    {"nonmortar_nodes", interface.nonmortarNodes().size()},
+                    {"mortar_nodes", interface.mortarNodes().size()},
+                    {"overlap", interface.overlap()}});
+  }
+  return list;
+}
+
+Json finalState(const Model& model, const State& state, const StepReport& last) {
+  const Extremes e = extremes(model, state);
+  return {{"time", state.time},
+          {"von_mises_min", e.vonMisesMin},
+          {"von_mises_max", e.vonMisesMax},
+          {"interpenetration", last.penetration},
+          {"displacement_min", {e.displacementMin[0], e.displacementMin[1]}},
+          {"displacement_max", {e.displacementMax[0], e.displacementMax[1]}},
+          {"contact_force", last.contactForce},
+          {"max_pressure", last.maxPressure},
+          {"viscoplastic_fraction", last.viscoplasticFraction},
+          {"active_nodes", last.active}};
+}
+
+}  // namespace
+
+Extremes extremes(const Model& model, const State& state) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Extremes e{infinity, -infinity, Point::Constant(infinity), Point::Constant(-infinity)};
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Vector vonMises = cellFields(model.bodies[b], state.bodies[b]).vonMises;
+    const Eigen::Map<const Matrix> u(state.bodies[b].displacement.data(), 2, model.bodies[b].nodes());
+    e.vonMisesMin = std::min(e.vonMisesMin, vonMises.minCoeff());
+    e.vonMisesMax = std::max(e.vonMisesMax, vonMises.maxCoeff());
+    e.displacementMin = e.displacementMin.cwiseMin(u.rowwise().minCoeff());
+    e.displacementMax = e.displacementMax.cwiseMax(u.rowwise().maxCoeff());
+  }
+  return e;
+}
+
+void writeSummary(const std::string& folder, const RunFacts& facts, const Model& model, const State& state,
+                  const StepReport& last, const RunReport& report) {
+  size_t triangles = 0;
+  int nodes = 0;
+  int dofs = 0;
+  for (const Body& body : model.bodies) {
+    triangles += body.mesh().triangles.size();
+    nodes += body.nodes();
+    dofs += body.freeDofs();
+  }
+  Json json;
+  json["scene"] = facts.scene;
+  json["title"] = facts.title;
+  json["settings"] = facts.settings;
+  json["status"] = word(report.status);
+  if (report.status != Status::converged) {
+    json["reason"] = report.reason;
+  }
+  json["contact"] = facts.contact;
+  json["nonmortar"] = facts.nonmortar;
+  json["projection"] = facts.projection;
+  json["scheme"] = facts.scheme;
+  json["triangles"] = triangles;
+  json["nodes"] = nodes;
+  json["dofs"] = dofs;
+  json["bodies"] = bodies(facts, model);
+  json["interfaces"] = interfaces(facts, model);
+  json["steps"] = report.steps;
+  json["planned_steps"] = facts.plannedSteps;
+  json["newton_iterations"] = report.iterations;
+  json["max_iterations_in_a_step"] = report.maxIterationsInAStep;
+  json["factorisations"] = report.factorisations;
+  json["threads"] = facts.threads;
+  json["solve_time_s"] = report.solveSeconds;
+  json["final"] = finalState(model, state, last);
+  json["verification"] = {{"force_balance", report.worst.forceBalance},
+                          {"material_residual", report.worst.materialResidual},
+                          {"gap_on_active", report.worst.gapOnActive},
+                          {"sign", report.worst.sign},
+                          {"complementarity", report.worst.complementarity}};
+  json["peak_memory_mib"] = peakMemory();
+  json["wall_time_s"] = processSeconds();
+  requireFiniteNumbers(json, folder + "/summary.json");
+  OutputFile file(folder + "/summary.json");
+  file << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  file.close();
+}
+
+std::string word(Status status) {
+  switch (status) {
+    case Status::converged:
+      return "converged";
+    case Status::failed:
+      return "failed";
+    default:
+      return "unheld";
+  }
+}
+
+}  // namespace mortier

@@ -1,0 +1,28 @@
+// summary.json: the result of a run in a few numbers.
+#pragma once
+
+#include <string>
+
+#include "report/run_facts.h"
+#include "time/march.h"
+
+namespace mortier {
+
+/// Extremes of the fields of one state, over all bodies.
+struct Extremes {
+  double vonMisesMin = 0;  ///< [Pa]
+  double vonMisesMax = 0;
+  Point displacementMin{0, 0};  ///< component by component [m]
+  Point displacementMax{0, 0};
+};
+Extremes extremes(const Model& model, const State& state);
+
+/// Writes `folder`/summary.json; `last` is the report of the step that led to `state`.
+/// \throws OutputError when it cannot be written or a number is not finite.
+void writeSummary(const std::string& folder, const RunFacts& facts, const Model& model, const State& state,
+                  const StepReport& last, const RunReport& report);
+
+/// "converged", "failed", "unheld".
+std::string word(Status status);
+
+}  // namespace mortier

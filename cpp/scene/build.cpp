@@ -1,0 +1,180 @@
+#include "scene/build.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/error.h"
+#include "mesh/medit.h"
+#include "scene/document.h"
+#include "scene/schema.h"
+
+namespace mortier {
+
+namespace {
+
+using Kind = ConditionDescription::Kind;
+
+/// Where data are tried before the run: the ends of the first and last step, and between.
+std::vector<double> sampleTimes(const TimePlan& plan) {
+  const double step = plan.end / plan.steps;
+  return {0, step, 0.5 * plan.end, plan.end - step, plan.end};
+}
+
+void requireLabel(const TriangleMesh& mesh, int label, const std::string& where, const std::string& body) {
+  const std::vector<int> labels = boundaryLabels(mesh);
+  if (std::binary_search(labels.begin(), labels.end(), label)) {
+    return;
+  }
+  Keys words;
+  for (const int known : labels) {
+    words.push_back(std::to_string(known));
+  }
+  throw InputError(where + ": body " + body + ": label = " + std::to_string(label) +
+                   (words.empty() ? ", the mesh " + mesh.name + " has no labelled boundary"
+                                  : ", expected one of " + joined(words) + " (boundary labels of " + mesh.name + ")"));
+}
+
+/// The vertices of a labelled boundary, or the middles of its edges.
+std::vector<int> verticesOn(const TriangleMesh& mesh, int label) {
+  std::vector<int> vertices;
+  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
+    if (mesh.boundaryLabels[e] == label) {
+      vertices.insert(vertices.end(), mesh.boundaryEdges[e].begin(), mesh.boundaryEdges[e].end());
+    }
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+std::vector<Point> middlesOn(const TriangleMesh& mesh, int label) {
+  std::vector<Point> points;
+  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
+    if (mesh.boundaryLabels[e] == label) {
+      const auto [a, b] = mesh.boundaryEdges[e];
+      points.emplace_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]));
+    }
+  }
+  return points;
+}
+
+/// A few hundred centres of triangles are enough to find an expression that has no value.
+std::vector<Point> centres(const TriangleMesh& mesh) {
+  std::vector<Point> points;
+  const size_t stride = 1 + mesh.triangles.size() / 500;
+  for (size_t t = 0; t < mesh.triangles.size(); t += stride) {
+    const auto [a, b, c] = mesh.triangles[t];
+    points.emplace_back((mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3);
+  }
+  return points;
+}
+
+void requireFiniteData(const BodyDescription& body, const TriangleMesh& mesh, const std::vector<double>& times) {
+  for (const ConditionDescription& condition : body.conditions) {
+    if (condition.value.constant) {
+      continue;
+    }
+    std::vector<Point> points;
+    if (condition.kind == Kind::displacement) {
+      for (const int v : verticesOn(mesh, condition.label)) {
+        points.push_back(mesh.vertices[v]);
+      }
+    } else {
+      points = middlesOn(mesh, condition.label);
+    }
+    requireFinite(condition.value, points, times);
+  }
+  for (const std::optional<Expression>& force : body.force) {
+    if (force && !force->constant) {
+      requireFinite(*force, centres(mesh), times);
+    }
+  }
+}
+
+/// Where two labels meet, both may prescribe a component, but not differently.
+void requireOneDisplacement(const BodyDescription& body, const TriangleMesh& mesh, const std::vector<double>& times) {
+  std::map<std::pair<int, int>, const ConditionDescription*> seen;
+  for (const ConditionDescription& condition : body.conditions) {
+    if (condition.kind != Kind::displacement) {
+      continue;
+    }
+    for (const int v : verticesOn(mesh, condition.label)) {
+      const auto [other, isNew] = seen.try_emplace({v, condition.component}, &condition);
+      for (size_t i = 0; i < times.size() && !isNew; ++i) {
+        const Point& p = mesh.vertices[v];
+        const double here = condition.value.value(p[0], p[1], times[i]);
+        const double there = other->second->value.value(p[0], p[1], times[i]);
+        if (std::abs(here - there) > 1e-12 * std::max(std::abs(here), std::abs(there))) {
+          throw InputError(condition.value.where + " at (" + shortest(p[0]) + ", " + shortest(p[1]) + "), t = " +
+                           shortest(times[i]) + ": expected the " + shortest(there) + " that label " +
+                           std::to_string(other->second->label) + " prescribes there");
+        }
+      }
+    }
+  }
+}
+
+Body buildBody(const BodyDescription& body, const std::vector<double>& times) {
+  TriangleMesh mesh = readMedit(body.mesh);
+  Conditions conditions;
+  for (const ConditionDescription& c : body.conditions) {
+    requireLabel(mesh, c.label, c.where, body.name);
+    if (c.kind == Kind::displacement) {
+      conditions.displacements.push_back({c.label, c.component, c.value.value});
+    } else {
+      conditions.tractions.push_back({c.label, c.component, c.value.value});
+    }
+  }
+  requireFiniteData(body, mesh, times);
+  requireOneDisplacement(body, mesh, times);
+  for (const int c : {0, 1}) {
+    if (body.force[c]) {
+      conditions.forces.push_back({c, body.force[c]->value});
+    }
+  }
+  const auto& [elasticity, viscoplasticity] = body.material;
+  return {body.name, std::move(mesh),
+          viscoplasticity ? perzynaMaterial(elasticity, *viscoplasticity) : elasticMaterial(elasticity),
+          std::move(conditions)};
+}
+
+/// Contact takes over the normal direction of its labels: further conditions there are rarely meant.
+void warnOfConditionsOn(const SideDescription& side, bool nonmortar, const SceneDescription& scene,
+                        std::vector<std::string>& warnings) {
+  for (const ConditionDescription& c : scene.bodies[bodyIndex(scene, side.body)].conditions) {
+    if (c.label == side.label && (c.kind == Kind::traction || nonmortar)) {
+      warnings.push_back(c.value.where + ": label " + std::to_string(c.label) + " of body " + side.body +
+                         " is in contact too; the condition is kept");
+    }
+  }
+}
+
+}  // namespace
+
+Model buildModel(const SceneDescription& scene, std::vector<std::string>& warnings) {
+  Model model;
+  const std::vector<double> times = sampleTimes(scene.time);
+  model.bodies.reserve(scene.bodies.size());
+  for (const BodyDescription& body : scene.bodies) {
+    model.bodies.push_back(buildBody(body, times));
+  }
+  for (const ContactDescription& contact : scene.contacts) {
+    ContactPair pair;
+    pair.coupling = contact.variant;
+    for (const auto& [side, target, nonmortar] :
+         {std::tuple(&contact.nonmortar, &pair.nonmortar, true), std::tuple(&contact.mortar, &pair.mortar, false)}) {
+      *target = {bodyIndex(scene, side->body), side->label};
+      requireLabel(model.bodies[target->body].mesh(), side->label, side->where, side->body);
+      warnOfConditionsOn(*side, nonmortar, scene, warnings);
+    }
+    try {
+      model.interfaces.emplace_back(pair, model.bodies[pair.nonmortar.body].mesh(), model.bodies[pair.mortar.body].mesh());
+    } catch (const InputError& error) {
+      throw InputError(contact.where + ": contact: " + error.what());
+    }
+  }
+  return model;
+}
+
+}  // namespace mortier

@@ -1,0 +1,140 @@
+#include "scene/document.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "base/error.h"
+
+#define TOML_ENABLE_FORMATTERS 0
+#include <toml++/toml.h>
+
+namespace mortier {
+
+namespace {
+
+/// Names the line of a value; values from the command line all share one place.
+struct Places {
+  std::string place;
+  bool fromCommandLine = false;
+
+  [[nodiscard]] std::string at(const toml::source_region& source) const {
+    return fromCommandLine ? place : place + ":" + std::to_string(source.begin.line);
+  }
+};
+
+Node convert(const toml::node& source, const Places& places) {
+  Node node;
+  node.where = places.at(source.source());
+  node.fromCommandLine = places.fromCommandLine;
+  switch (source.type()) {
+    case toml::node_type::table:
+      for (const auto& [key, value] : *source.as_table()) {
+        node.members.emplace_back(std::string(key.str()), convert(value, places));
+      }
+      break;
+    case toml::node_type::array:
+      node.kind = Node::Kind::array;
+      for (const toml::node& value : *source.as_array()) {
+        node.elements.push_back(convert(value, places));
+      }
+      break;
+    case toml::node_type::string:
+      node.kind = Node::Kind::string;
+      node.text = source.as_string()->get();
+      break;
+    case toml::node_type::integer:
+      node.kind = Node::Kind::integer;
+      node.value = static_cast<double>(source.as_integer()->get());
+      break;
+    case toml::node_type::floating_point:
+      node.kind = Node::Kind::number;
+      node.value = source.as_floating_point()->get();
+      break;
+    case toml::node_type::boolean:
+      node.kind = Node::Kind::boolean;
+      node.truth = source.as_boolean()->get();
+      break;
+    default:
+      node.kind = Node::Kind::other;
+  }
+  return node;
+}
+
+std::string readText(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file || file.bad()) {
+    throw InputError(path + ": cannot be read, expected a scene (TOML file)");
+  }
+  return text;
+}
+
+/// toml++ quotes its input; a message stays on one line.
+std::string oneLine(std::string_view text) {
+  std::string line(text);
+  std::replace_if(line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return line;
+}
+
+}  // namespace
+
+Node* Node::find(const std::string& key) {
+  const auto found = std::find_if(members.begin(), members.end(), [&](const auto& m) { return m.first == key; });
+  return found == members.end() ? nullptr : &found->second;
+}
+
+const Node* Node::find(const std::string& key) const { return const_cast<Node*>(this)->find(key); }
+
+std::string Node::quoted() const {
+  switch (kind) {
+    case Kind::boolean:
+      return truth ? "true" : "false";
+    case Kind::integer:
+    case Kind::number:
+      return shortest(value);
+    case Kind::string:
+      return "\"" + oneLine(text) + "\"";
+    case Kind::array:
+      return "an array";
+    case Kind::table:
+      return "a table";
+    default:
+      return "a date";
+  }
+}
+
+Node readDocument(const std::string& path) {
+  try {
+    const toml::table table = toml::parse(readText(path), path);
+    return convert(table, {path, false});
+  } catch (const toml::parse_error& error) {
+    throw InputError(path + ":" + std::to_string(error.source().begin.line) +
+                     ": not TOML: " + oneLine(error.description()));
+  }
+}
+
+Node parseSetting(const std::string& text, const std::string& where) {
+  try {
+    const toml::table table = toml::parse("value = " + text);
+    if (table.size() == 1) {
+      return convert(*table.get("value"), {where, true});
+    }
+  } catch (const toml::parse_error&) {  // a path or an expression: a plain string
+  }
+  Node node;
+  node.kind = Node::Kind::string;
+  node.where = where;
+  node.fromCommandLine = true;
+  node.text = text;
+  return node;
+}
+
+std::string shortest(double value) {
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+}
+
+}  // namespace mortier

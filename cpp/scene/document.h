@@ -1,0 +1,44 @@
+// A TOML document as plain values, each with the place it came from, so that every message can name file and line.
+// toml++ itself is visible in document.cpp only.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mortier {
+
+struct Node {
+  enum class Kind { boolean, integer, number, string, array, table, other };
+
+  Kind kind = Kind::table;
+  std::string where;  ///< "scenes/compression.toml:14", or "--set time.steps=20"
+  bool fromCommandLine = false;
+  bool truth = false;      ///< of a boolean
+  double value = 0;        ///< of an integer or a number
+  std::string text;        ///< of a string
+  std::vector<Node> elements;                         ///< of an array
+  std::vector<std::pair<std::string, Node>> members;  ///< of a table
+
+  [[nodiscard]] bool isTable() const { return kind == Kind::table; }
+  [[nodiscard]] bool isArray() const { return kind == Kind::array; }
+  [[nodiscard]] bool isString() const { return kind == Kind::string; }
+  [[nodiscard]] bool isNumeric() const { return kind == Kind::integer || kind == Kind::number; }
+
+  /// The member `key` of a table; nullptr where it is missing.
+  [[nodiscard]] Node* find(const std::string& key);
+  [[nodiscard]] const Node* find(const std::string& key) const;
+  /// The value as a message quotes it: 0.6, "text", true, a table, an array.
+  [[nodiscard]] std::string quoted() const;
+};
+
+/// Reads a TOML file. \throws InputError `file:line: ...` when it cannot be read or is not TOML.
+Node readDocument(const std::string& path);
+
+/// A value as given to --set: TOML where it is TOML (6, true, "a", { x = 0 }), otherwise the text as a string.
+Node parseSetting(const std::string& text, const std::string& where);
+
+/// A number as a message shows it: the shortest decimal that reads back the same.
+std::string shortest(double value);
+
+}  // namespace mortier

@@ -1,0 +1,126 @@
+#include "scene/expression.h"
+
+#include <muParser.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "base/error.h"
+#include "scene/document.h"
+
+namespace mortier {
+
+namespace {
+
+/// A compiled expression with variables of its own: muParser keeps their addresses, so that a copy compiles anew.
+class Compiled {
+ public:
+  explicit Compiled(std::string text) : text_(std::move(text)) { compile(); }
+  Compiled(const Compiled& other) : text_(other.text_) { compile(); }
+  Compiled(Compiled&& other) noexcept = default;
+  Compiled& operator=(const Compiled&) = delete;
+  Compiled& operator=(Compiled&&) = delete;
+  ~Compiled() = default;
+
+  double operator()(double x, double y, double t) const {
+    work_->x = x;
+    work_->y = y;
+    work_->t = t;
+    return work_->parser.Eval();
+  }
+
+  [[nodiscard]] bool constant() const { return work_->parser.GetUsedVar().empty(); }
+  /// Evaluates once; how many values the text holds ("1, 2" are two).
+  [[nodiscard]] int values() const {
+    work_->parser.Eval();
+    return work_->parser.GetNumResults();
+  }
+
+ private:
+  struct Work {
+    mu::Parser parser;
+    double x = 0;
+    double y = 0;
+    double t = 0;
+  };
+
+  void compile() {
+    work_ = std::make_unique<Work>();
+    work_->parser.ResetLocale();
+    work_->parser.DefineVar("x", &work_->x);
+    work_->parser.DefineVar("y", &work_->y);
+    work_->parser.DefineVar("t", &work_->t);
+    work_->parser.DefineConst("pi", std::numbers::pi);
+    work_->parser.SetExpr(text_);
+  }
+
+  std::string text_;
+  std::unique_ptr<Work> work_;
+};
+
+/// muParser lets an expression assign to its variables; a datum must not.
+bool assigns(const std::string& text) {
+  for (size_t i = 0; i < text.size(); ++i) {
+    const bool comparison = (i > 0 && std::string("=!<>").find(text[i - 1]) != std::string::npos) ||
+                            (i + 1 < text.size() && text[i + 1] == '=');
+    if (text[i] == '=' && !comparison) {
+      return true;
+    }
+  }
+  return false;
+}
+
+[[noreturn]] void reject(const std::string& where, const std::string& reason) {
+  throw InputError(where + ", expected an expression in x, y, t (" + reason + ")");
+}
+
+}  // namespace
+
+Expression constantExpression(double value, std::string where) {
+  return {shortest(value), std::move(where), true, [value](double, double, double) { return value; }};
+}
+
+Expression parseExpression(const std::string& text, std::string where) {
+  if (text.find_first_not_of(" \t\n\r") == std::string::npos) {
+    reject(where, "it is empty");
+  }
+  if (assigns(text)) {
+    reject(where, "assignment is not allowed");
+  }
+  try {
+    Compiled compiled(text);
+    if (compiled.values() != 1) {
+      reject(where, "it has several values");
+    }
+    if (compiled.constant()) {
+      const double value = compiled(0, 0, 0);
+      Expression result = constantExpression(value, std::move(where));
+      result.text = text;
+      requireFinite(result, {Point::Zero()}, {0.0});
+      return result;
+    }
+    return {text, std::move(where), false, Function(std::move(compiled))};
+  } catch (const mu::Parser::exception_type& error) {
+    std::string reason = error.GetMsg();
+    reason = reason.substr(0, reason.find_first_of("\r\n"));
+    if (!reason.empty() && reason.back() == '.') {
+      reason.pop_back();
+    }
+    reject(where, reason);
+  }
+}
+
+void requireFinite(const Expression& expression, const std::vector<Point>& points, const std::vector<double>& times) {
+  for (const double t : times) {
+    for (const Point& p : points) {
+      const double value = expression.value(p[0], p[1], t);
+      if (!std::isfinite(value)) {
+        throw InputError(expression.where + ", expected a finite number, is " + shortest(value) + " at x = " +
+                         shortest(p[0]) + ", y = " + shortest(p[1]) + ", t = " + shortest(t));
+      }
+    }
+  }
+}
+
+}  // namespace mortier

@@ -1,0 +1,27 @@
+// Data that vary in space and time: numbers, or expressions in x [m], y [m] and t [s] such as "-10*t" or "sin(pi*x)".
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/types.h"
+
+namespace mortier {
+
+struct Expression {
+  std::string text;       ///< as written, for messages and for FreeFEM
+  std::string where;      ///< what a message about it begins with: `scenes/a.toml:14: body upper: ty = "1/t"`
+  bool constant = false;  ///< depends on none of x, y, t
+  Function value;         ///< copies are independent: a thread takes its own
+};
+
+Expression constantExpression(double value, std::string where);
+
+/// Operators + - * / ^, comparisons, && ||, a ? b : c, the constant pi, and the usual functions (docs/scene.md).
+/// \throws InputError `where, expected an expression in x, y, t (what is wrong and at which character)`.
+Expression parseExpression(const std::string& text, std::string where);
+
+/// Evaluates at every point and time. \throws InputError naming the first point and time where it is not finite.
+void requireFinite(const Expression& expression, const std::vector<Point>& points, const std::vector<double>& times);
+
+}  // namespace mortier

@@ -1,0 +1,212 @@
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/error.h"
+#include "scene/document.h"
+#include "scene/overrides.h"
+#include "scene/table_reader.h"
+
+namespace mortier {
+
+namespace {
+
+const Keys couplingWords{"interpolation", "mortar"};                  // in the order of CouplingKind
+const Keys projectionWords{"elasticity", "frobenius", "compliance"};  // in the order of Projection
+const Keys schemeWords{"backward-euler"};                             // in the order of Scheme
+const Keys linearWords{"multifrontal", "suitesparse"};                // in the order of LinearEngine
+
+MaterialDescription readMaterial(const Node& node, const std::string& subject) {
+  const TableReader table(node, "body.material", subject);
+  MaterialDescription material;
+  material.elasticity = {table.number("young", above(0)), table.number("poisson", between(-1, 0.5))};
+  const auto projection = static_cast<Projection>(table.oneOf("projection", projectionWords, 1));
+  if (table.find("viscosity") != nullptr || table.find("yield_stress") != nullptr) {
+    material.viscoplasticity =
+        Viscoplasticity{table.number("viscosity", above(0)), table.number("yield_stress", above(0)), projection};
+  }
+  return material;
+}
+
+/// Two data for one component of one label would have to be ordered by a rule that nobody remembers.
+void addCondition(BodyDescription& body, const ConditionDescription& added) {
+  for (const ConditionDescription& other : body.conditions) {
+    if (other.label == added.label && other.component == added.component) {
+      throw InputError(added.value.where + ", expected one condition for component " +
+                       (added.component == 0 ? "x" : "y") + " of label " + std::to_string(added.label) +
+                       ", there is one at " + other.where);
+    }
+  }
+  body.conditions.push_back(added);
+}
+
+void readBoundary(const Node& node, BodyDescription& body) {
+  const TableReader table(node, "body.boundary", "body " + body.name);
+  using Kind = ConditionDescription::Kind;
+  const int label = table.integer("label", 0);
+  const size_t before = body.conditions.size();
+  const struct {
+    const char* key;
+    Kind kind;
+    int component;
+  } data[] = {{"ux", Kind::displacement, 0}, {"uy", Kind::displacement, 1}, {"tx", Kind::traction, 0}, {"ty", Kind::traction, 1}};
+  for (const auto& [key, kind, component] : data) {
+    if (const Node* value = table.find(key)) {
+      addCondition(body, {kind, label, component, table.expression(key), value->where});
+    }
+  }
+  if (body.conditions.size() == before) {
+    throw InputError(table.message(node.where, "boundary label " + std::to_string(label) +
+                                                   " has no condition, expected one of ux, uy, tx, ty"));
+  }
+}
+
+/// Mesh paths are relative to the scene that names them, those of the command line to the current folder.
+std::string meshPath(const Node& node, const std::string& scenePath) {
+  const std::filesystem::path path(node.text);
+  if (path.is_absolute() || node.fromCommandLine) {
+    return path.string();
+  }
+  return (std::filesystem::path(scenePath).parent_path() / path).lexically_normal().string();
+}
+
+/// Names become file names.
+bool isName(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-';
+  });
+}
+
+BodyDescription readBody(const Node& node, const std::string& scenePath, size_t index) {
+  const Node* name = node.find("name");
+  const bool named = name != nullptr && name->isString();
+  const TableReader table(node, "body", "body " + (named ? name->text : std::to_string(index)));
+  BodyDescription body;
+  body.where = node.where;
+  body.name = table.string("name");
+  if (!isName(body.name)) {
+    table.reject("name", "letters, digits, _ and -");
+  }
+  const std::string subject = "body " + body.name;
+  static_cast<void>(table.string("mesh"));
+  const Node& mesh = *table.find("mesh");
+  body.mesh = meshPath(mesh, scenePath);
+  body.meshWhere = mesh.where;
+  if (std::error_code ignored; !std::filesystem::is_regular_file(body.mesh, ignored)) {
+    table.reject("mesh", "a Medit .mesh file (there is none at " + body.mesh + ")");
+  }
+  body.material = readMaterial(table.require("material", "{ young = ..., poisson = ... }"), subject);
+  if (const Node* force = table.find("force")) {
+    const TableReader components(*force, "body.force", subject);
+    for (const int c : {0, 1}) {
+      const std::string key = c == 0 ? "x" : "y";
+      if (components.find(key) != nullptr) {
+        body.force[c] = components.expression(key);
+      }
+    }
+  }
+  for (const Node* boundary : table.tables("boundary")) {
+    readBoundary(*boundary, body);
+  }
+  return body;
+}
+
+SideDescription readSide(const TableReader& contact, const std::string& key, const SceneDescription& scene) {
+  const Node& node = contact.require(key, "{ body = \"...\", label = ... }");
+  const TableReader table(node, "contact." + key, key + " side of contact");
+  SideDescription side{table.string("body"), table.integer("label", 0), node.where};
+  if (bodyIndex(scene, side.body) < 0) {
+    Keys names;
+    for (const BodyDescription& body : scene.bodies) {
+      names.push_back(body.name);
+    }
+    table.reject("body", "one of " + joined(names));
+  }
+  return side;
+}
+
+void readContact(const Node& node, SceneDescription& scene) {
+  const TableReader table(node, "contact", "contact");
+  ContactDescription contact;
+  contact.where = node.where;
+  contact.nonmortar = readSide(table, "nonmortar", scene);
+  contact.mortar = readSide(table, "mortar", scene);
+  contact.variant = static_cast<CouplingKind>(table.oneOf("variant", couplingWords, 1));
+  if (table.boolean("swap", false)) {
+    std::swap(contact.nonmortar, contact.mortar);
+  }
+  if (contact.nonmortar.body == contact.mortar.body) {
+    throw InputError(table.message(contact.mortar.where, "both sides are body " + contact.mortar.body +
+                                                             ", expected two bodies"));
+  }
+  for (const ContactDescription& other : scene.contacts) {
+    if (other.nonmortar.body == contact.nonmortar.body && other.nonmortar.label == contact.nonmortar.label) {
+      throw InputError(table.message(contact.nonmortar.where, "label " + std::to_string(contact.nonmortar.label) +
+                                                                  " of body " + contact.nonmortar.body +
+                                                                  " is nonmortar twice, expected once"));
+    }
+  }
+  scene.contacts.push_back(contact);
+}
+
+void readOptions(const TableReader& root, SceneDescription& scene) {
+  const TableReader time(root.require("time", "a table [time] with end, steps"), "time", "time");
+  scene.time.end = time.number("end", above(0));
+  scene.time.steps = time.integer("steps", 1);
+  scene.time.scheme = static_cast<Scheme>(time.oneOf("scheme", schemeWords, 0));
+  if (const Node* node = root.find("solver")) {
+    const TableReader solver(*node, "solver", "solver");
+    scene.solver.tolerance = solver.number("tolerance", between(0, 1), scene.solver.tolerance);
+    scene.solver.maxIterations = solver.integer("max_iterations", 1, scene.solver.maxIterations);
+    scene.solver.linear = static_cast<LinearEngine>(solver.oneOf("linear", linearWords, 0));
+  }
+  if (const Node* node = root.find("output")) {
+    scene.every = TableReader(*node, "output", "output").integer("every", 0, 0);
+  }
+}
+
+}  // namespace
+
+SceneDescription readScene(const std::string& path, const std::vector<std::string>& settings) {
+  Node document = readDocument(path);
+  for (const std::string& setting : settings) {
+    applyOverride(document, setting);
+  }
+  const TableReader root(document, "", "");
+  SceneDescription scene;
+  scene.path = path;
+  scene.title = root.string("title", "");
+  readOptions(root, scene);
+  const std::vector<const Node*> bodies = root.tables("body");
+  if (bodies.empty()) {
+    root.reject("body", "at least one table [[body]]");
+  }
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    BodyDescription body = readBody(*bodies[i], path, i);
+    if (const int other = bodyIndex(scene, body.name); other >= 0) {
+      throw InputError(body.where + ": body " + body.name + ": name = \"" + body.name +
+                       "\", expected a name of its own, there is one at " + scene.bodies[other].where);
+    }
+    scene.bodies.push_back(std::move(body));
+  }
+  for (const Node* contact : root.tables("contact")) {
+    readContact(*contact, scene);
+  }
+  return scene;
+}
+
+std::string word(CouplingKind kind) { return couplingWords[static_cast<size_t>(kind)]; }
+std::string word(Projection projection) { return projectionWords[static_cast<size_t>(projection)]; }
+std::string word(Scheme scheme) { return schemeWords[static_cast<size_t>(scheme)]; }
+
+int bodyIndex(const SceneDescription& scene, const std::string& name) {
+  for (size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].name == name) {
+      return static_cast<int>(i);
+    }
+  }
+  return -1;
+}
+
+}  // namespace mortier

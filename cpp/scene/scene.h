@@ -1,0 +1,75 @@
+// A scene as written: what docs/scene.md documents, validated key by key. build.h turns it into a Model.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact/coupling.h"
+#include "material/perzyna.h"
+#include "scene/expression.h"
+#include "time/march.h"
+
+namespace mortier {
+
+struct MaterialDescription {
+  Elasticity elasticity;
+  std::optional<Viscoplasticity> viscoplasticity;  ///< none: elastic
+};
+
+/// One component of a displacement [m] or a traction [Pa] on a labelled part of the boundary.
+struct ConditionDescription {
+  enum class Kind { displacement, traction };
+  Kind kind = Kind::displacement;
+  int label = 0;
+  int component = 0;  ///< 0: x, 1: y
+  Expression value;
+  std::string where;  ///< file and line of the label, or the --set that gave it
+};
+
+struct BodyDescription {
+  std::string name;
+  std::string mesh;  ///< path, as the program opens it
+  std::string meshWhere;
+  MaterialDescription material;
+  std::optional<Expression> force[2];  ///< x and y [N/m^3]
+  std::vector<ConditionDescription> conditions;
+  std::string where;
+};
+
+struct SideDescription {
+  std::string body;
+  int label = 0;
+  std::string where;
+};
+
+struct ContactDescription {
+  SideDescription nonmortar;
+  SideDescription mortar;
+  CouplingKind variant = CouplingKind::mortar;
+  std::string where;
+};
+
+struct SceneDescription {
+  std::string path;   ///< the file
+  std::string title;  ///< may be empty
+  std::vector<BodyDescription> bodies;
+  std::vector<ContactDescription> contacts;
+  TimePlan time;
+  SolverOptions solver;
+  int every = 0;  ///< keep each so many steps (and the initial state) beside the last one; 0: the last one only
+};
+
+/// Reads a scene, applies the settings (`key=value`) in their order, and validates.
+/// \throws InputError with one line `file:line: subject: key = value, expected ...`.
+SceneDescription readScene(const std::string& path, const std::vector<std::string>& settings = {});
+
+/// Words of the scene for what a scene can choose.
+std::string word(CouplingKind kind);
+std::string word(Projection projection);
+std::string word(Scheme scheme);
+
+/// The index of the body called `name`; -1 where there is none.
+int bodyIndex(const SceneDescription& scene, const std::string& name);
+
+}  // namespace mortier

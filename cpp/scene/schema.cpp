@@ -1,0 +1,69 @@
+#include "scene/schema.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace mortier {
+
+const Keys& keysOf(const std::string& path) {
+  static const std::map<std::string, Keys> tables = {
+      {"", {"title", "body", "contact", "time", "solver", "output"}},
+      {"body", {"name", "mesh", "material", "force", "boundary"}},
+      {"body.material", {"young", "poisson", "viscosity", "yield_stress", "projection"}},
+      {"body.force", {"x", "y"}},
+      {"body.boundary", {"label", "ux", "uy", "tx", "ty"}},
+      {"contact", {"nonmortar", "mortar", "variant", "swap"}},
+      {"contact.nonmortar", {"body", "label"}},
+      {"contact.mortar", {"body", "label"}},
+      {"time", {"end", "steps", "scheme"}},
+      {"solver", {"tolerance", "max_iterations", "linear"}},
+      {"output", {"every"}},
+  };
+  static const Keys none;
+  const auto found = tables.find(path);
+  return found == tables.end() ? none : found->second;
+}
+
+std::string joined(const Keys& keys) {
+  std::string text;
+  for (const std::string& key : keys) {
+    text += (text.empty() ? "" : ", ") + key;
+  }
+  return text;
+}
+
+namespace {
+
+/// Levenshtein distance.
+size_t distance(const std::string& a, const std::string& b) {
+  std::vector<size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), size_t{0});
+  for (size_t i = 1; i <= a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const size_t substituted = diagonal + (a[i - 1] != b[j - 1] ? 1 : 0);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::string nearest(const std::string& word, const Keys& keys) {
+  std::string best;
+  size_t least = 3 + word.size() / 5;  // beyond that a suggestion misleads
+  for (const std::string& key : keys) {
+    const size_t d = distance(word, key);
+    if (d < least && d < std::max(word.size(), key.size())) {
+      least = d;
+      best = key;
+    }
+  }
+  return best;
+}
+
+}  // namespace mortier

@@ -1,0 +1,140 @@
+#include "scene/table_reader.h"
+
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+
+namespace mortier {
+
+Range anyNumber() {
+  return {[](double) { return true; }, [](const std::string&) { return std::string("a finite number"); }};
+}
+
+Range above(double lower) {
+  return {[=](double v) { return v > lower; }, [=](const std::string& key) { return key + " > " + shortest(lower); }};
+}
+
+Range between(double lower, double upper) {
+  return {[=](double v) { return v > lower && v < upper; },
+          [=](const std::string& key) { return shortest(lower) + " < " + key + " < " + shortest(upper); }};
+}
+
+TableReader::TableReader(const Node& table, std::string path, std::string subject)
+    : table_(table), path_(std::move(path)), subject_(std::move(subject)) {
+  const Keys& keys = keysOf(path_);
+  if (!table.isTable()) {
+    throw InputError(message(table.where, table.quoted() + ", expected a table with " + joined(keys)));
+  }
+  for (const auto& [key, value] : table.members) {
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+      const std::string guess = nearest(key, keys);
+      throw InputError(message(value.where, "unknown key " + key + (guess.empty() ? "" : ", did you mean " + guess + "?") +
+                                                (guess.empty() ? ", expected " : " Expected ") + "one of " + joined(keys)));
+    }
+  }
+}
+
+std::string TableReader::message(const std::string& where, const std::string& text) const {
+  return where + ": " + (subject_.empty() ? "" : subject_ + ": ") + text;
+}
+
+void TableReader::reject(const std::string& key, const std::string& expected) const {
+  const Node* node = find(key);
+  if (node == nullptr) {
+    throw InputError(message(table_.where, key + " is missing, expected " + expected));
+  }
+  throw InputError(message(node->where, key + " = " + node->quoted() + ", expected " + expected));
+}
+
+const Node& TableReader::require(const std::string& key, const std::string& expected) const {
+  const Node* node = find(key);
+  if (node == nullptr) {
+    reject(key, expected);
+  }
+  return *node;
+}
+
+double TableReader::number(const std::string& key, const Range& range, std::optional<double> fallback) const {
+  const Node* node = find(key);
+  if (node == nullptr && fallback) {
+    return *fallback;
+  }
+  if (node == nullptr || !node->isNumeric() || !std::isfinite(node->value) || !range.holds(node->value)) {
+    reject(key, range.text(key));
+  }
+  return node->value;
+}
+
+int TableReader::integer(const std::string& key, int least, std::optional<int> fallback) const {
+  const Node* node = find(key);
+  if (node == nullptr && fallback) {
+    return *fallback;
+  }
+  const double most = std::numeric_limits<int>::max();
+  if (node == nullptr || !node->isNumeric() || !(node->value >= least && node->value <= most) ||
+      node->value != std::floor(node->value)) {
+    reject(key, "an integer >= " + std::to_string(least));
+  }
+  return static_cast<int>(node->value);
+}
+
+bool TableReader::boolean(const std::string& key, bool fallback) const {
+  const Node* node = find(key);
+  if (node == nullptr) {
+    return fallback;
+  }
+  if (node->kind != Node::Kind::boolean) {
+    reject(key, "true or false");
+  }
+  return node->truth;
+}
+
+std::string TableReader::string(const std::string& key, std::optional<std::string> fallback) const {
+  const Node* node = find(key);
+  if (node == nullptr && fallback) {
+    return *fallback;
+  }
+  if (node == nullptr || !node->isString()) {
+    reject(key, "a string");
+  }
+  return node->text;
+}
+
+int TableReader::oneOf(const std::string& key, const Keys& words, std::optional<int> fallback) const {
+  const Node* node = find(key);
+  if (node == nullptr && fallback) {
+    return *fallback;
+  }
+  const auto found = node == nullptr || !node->isString() ? words.end() : std::find(words.begin(), words.end(), node->text);
+  if (found == words.end()) {
+    reject(key, "one of " + joined(words));
+  }
+  return static_cast<int>(found - words.begin());
+}
+
+Expression TableReader::expression(const std::string& key) const {
+  const Node& node = require(key, "a number or an expression in x, y, t");
+  if (node.isNumeric() && std::isfinite(node.value)) {
+    return constantExpression(node.value, message(node.where, key + " = " + node.quoted()));
+  }
+  if (!node.isString()) {
+    reject(key, "a finite number or an expression in x, y, t");
+  }
+  return parseExpression(node.text, message(node.where, key + " = " + node.quoted()));
+}
+
+std::vector<const Node*> TableReader::tables(const std::string& key) const {
+  std::vector<const Node*> result;
+  const Node* node = find(key);
+  if (node != nullptr && node->isArray()) {
+    for (const Node& element : node->elements) {
+      result.push_back(&element);
+    }
+  } else if (node != nullptr) {
+    result.push_back(node);
+  }
+  return result;
+}
+
+}  // namespace mortier

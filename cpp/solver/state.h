@@ -1,0 +1,53 @@
+// The state of a run at one time, and what is reported of the step that led to it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/types.h"
+
+namespace mortier {
+
+struct BodyState {
+  Vector displacement;        ///< 2 node + component [m]
+  Matrix stress;              ///< components x points, basis of material/stress.h [Pa]
+  Matrix viscoplasticStrain;  ///< components x points [-]
+};
+
+struct State {
+  double time = 0;                   ///< [s]
+  std::vector<BodyState> bodies;
+  std::vector<Vector> contactForce;  ///< per interface and nonmortar node, p >= 0 [N/m]
+};
+
+/// Residuals of a converged step, all free of units.
+struct Certificate {
+  double forceBalance = 0;      ///< |F - sum |T| B' s - C' p|_inf over the largest nodal force
+  double materialResidual = 0;  ///< |H^-1 r| over the yield stress (largest stress in an elastic body)
+  double gapOnActive = 0;       ///< |g| on active nodes over the extent of the bodies
+  double sign = 0;              ///< largest negative contact force over the largest
+  double complementarity = 0;   ///< max |p g| over (largest force times extent)
+};
+
+enum class Status { converged, failed, unheld };
+
+struct StepReport {
+  int step = 0;
+  double time = 0;      ///< at the end of the step [s]
+  double timeStep = 0;  ///< [s]
+  Status status = Status::converged;
+  std::string reason;           ///< one line when the status is not converged
+  std::string rung = "newton";  ///< what it took: newton, continuation, cut
+  int iterations = 0;           ///< linear solves with a new tangent
+  int factorisations = 0;       ///< matrices factorised, all bodies
+  int active = 0;               ///< active contact nodes, and how many joined and left in this step
+  int joined = 0;
+  int left = 0;
+  double penetration = 0;           ///< integral of the positive part of the jump, all interfaces [m^2]
+  double maxPressure = 0;           ///< largest contact pressure M^-1 p [Pa]
+  double contactForce = 0;          ///< sum of nodal contact forces, all interfaces [N/m]
+  double viscoplasticFraction = 0;  ///< share of the area beyond yield
+  Certificate certificate;
+};
+
+}  // namespace mortier

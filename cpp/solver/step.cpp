@@ -1,0 +1,340 @@
+#include "solver/step.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "base/double_double.h"
+#include "base/error.h"
+
+namespace mortier {
+
+/// A body's side of the linear system, and its rows of C over the contact dofs that are kept.
+struct StepSolver::BodySystem {
+  std::vector<int> kept;  ///< equations of the contact dofs
+  Matrix C;               ///< all contact rows x kept
+  std::unique_ptr<CondensingSolver> solver;
+  std::unique_ptr<CondensingSolver> fallback;
+  std::vector<double> values;
+  bool factorised = false;
+
+  Matrix strain;
+  Linearisation law;
+
+  Eigen::LLT<Matrix> cholesky;  ///< of S where the tangent is symmetric
+  Eigen::PartialPivLU<Matrix> lu;
+  Matrix compliance;  ///< S^-1 C'
+  Vector residual;    ///< right-hand side over equations, condensed in place
+
+  [[nodiscard]] Matrix solveSchur(const Matrix& f, bool symmetric) const {
+    return symmetric ? Matrix(cholesky.solve(f)) : Matrix(lu.solve(f));
+  }
+};
+
+namespace {
+
+/// Force balance asked of a converged step; far above rounding, far below what any result shows.
+constexpr double balanceTolerance = 1e-11;
+
+/// Rows of C of one interface side as (row, dof, value).
+template <class Visit>
+void forEachEntryOfC(const ContactInterface& interface, int body, Visit visit) {
+  if (interface.pair().nonmortar.body == body)
+    for (int i = 0; i < interface.rows(); ++i)
+      for (int c = 0; c < 2; ++c) visit(i, 2 * interface.nonmortarNodes()[i] + c, interface.normal()[c]);
+  if (interface.pair().mortar.body == body)
+    for (size_t j = 0; j < interface.mortarNodes().size(); ++j)
+      for (int i = 0; i < interface.rows(); ++i)
+        for (int c = 0; c < 2; ++c)
+          visit(i, 2 * interface.mortarNodes()[j] + c, -interface.coupling().A(i, j) * interface.normal()[c]);
+}
+
+}  // namespace
+
+StepSolver::StepSolver(const Model& model, const SolverOptions& options) : model_(model), options_(options) {
+  for (const ContactInterface& interface : model.interfaces) {
+    firstRow_.push_back(rows_);
+    rows_ += interface.rows();
+  }
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    auto system = std::make_unique<BodySystem>();
+    std::vector<int> column(body.freeDofs(), -1);
+    for (const ContactInterface& interface : model.interfaces)
+      forEachEntryOfC(interface, static_cast<int>(b), [&](int, int dof, double value) {
+        const int equation = body.equations()[dof];
+        if (equation < 0 || value == 0 || column[equation] >= 0) return;
+        column[equation] = static_cast<int>(system->kept.size());
+        system->kept.push_back(equation);
+      });
+    system->C = Matrix::Zero(rows_, static_cast<Eigen::Index>(system->kept.size()));
+    for (size_t k = 0; k < model.interfaces.size(); ++k)
+      forEachEntryOfC(model.interfaces[k], static_cast<int>(b), [&](int row, int dof, double value) {
+        const int equation = body.equations()[dof];
+        if (equation >= 0 && value != 0) system->C(firstRow_[k] + row, column[equation]) += value;
+      });
+    system->solver = options.linear == LinearEngine::multifrontal ? multifrontalSolver(body.pattern(), system->kept)
+                                                                  : suiteSparseSolver(body.pattern(), system->kept);
+    system->law.predictor.resize(body.material().components(), body.points());
+    system->law.moduli.resize(9, body.points());
+    systems_.push_back(std::move(system));
+  }
+}
+
+StepSolver::~StepSolver() = default;
+
+Iterate StepSolver::start(const State& state0) const {
+  Iterate iterate;
+  for (const BodyState& body : state0.bodies)
+    iterate.bodies.push_back(
+        {Vector::Zero(body.displacement.size()), Vector::Zero(body.displacement.size()), body.stress});
+  iterate.contactForce = state0.contactForce;
+  for (const Vector& p : state0.contactForce) {
+    const bool none = p.size() == 0 || p.maxCoeff() <= 0;
+    std::vector<char> active(p.size());
+    for (Eigen::Index i = 0; i < p.size(); ++i) active[i] = none || p[i] > 0 ? 1 : 0;
+    iterate.active.push_back(std::move(active));
+  }
+  return iterate;
+}
+
+void StepSolver::prescribe(const State& state0, double time, Iterate& iterate) const {
+  for (size_t b = 0; b < model_.bodies.size(); ++b) {
+    Vector u1 = state0.bodies[b].displacement;
+    model_.bodies[b].prescribe(time, u1);
+    const auto& equations = model_.bodies[b].equations();
+    for (size_t dof = 0; dof < equations.size(); ++dof)
+      if (equations[dof] < 0) {
+        iterate.bodies[b].increment[dof] = u1[dof] - state0.bodies[b].displacement[dof];
+        iterate.bodies[b].small[dof] = 0;
+      }
+  }
+}
+
+/// \returns the material residual, scaled.
+double StepSolver::linearise(const State& state0, const StepData& step, const Iterate& iterate) {
+  double worst = 0;
+  for (size_t b = 0; b < model_.bodies.size(); ++b) {
+    const Body& body = model_.bodies[b];
+    BodySystem& system = *systems_[b];
+    body.strain(iterate.bodies[b].increment, iterate.bodies[b].small, system.strain);
+    if (!step.shift.empty()) system.strain -= step.shift[b];
+    const double residual = body.material().linearise({step.weight, state0.bodies[b].stress, system.strain},
+                                                      iterate.bodies[b].stress, system.law, 0, body.points());
+    double scale = body.material().stressScale();
+    if (scale == 0) scale = system.law.predictor.cwiseAbs().maxCoeff();
+    if (residual != 0) worst = std::max(worst, residual / scale);
+    if (!std::isfinite(residual)) return residual;
+  }
+  return worst;
+}
+
+bool StepSolver::factorise(StepOutcome& outcome) {
+  bool changed = compliance_.rows() != rows_;
+  for (size_t b = 0; b < model_.bodies.size(); ++b) {
+    const Body& body = model_.bodies[b];
+    BodySystem& system = *systems_[b];
+    if (system.factorised && body.material().linear()) continue;
+    changed = true;
+    body.tangent(system.law.moduli, system.values);
+    ++outcome.factorisations;
+    system.factorised = system.solver->factorise(system.values);
+    if (!system.factorised) {
+      outcome.reason = "body " + body.name() + ": its tangent is singular with its contact nodes held";
+      return false;
+    }
+    const Matrix& S = system.solver->schurComplement();
+    if (S.rows() == 0) continue;
+    if (body.pattern().symmetric) {
+      system.cholesky.compute(S);
+      if (system.cholesky.info() != Eigen::Success) {
+        system.factorised = false;
+        outcome.reason = "body " + body.name() + ": its tangent is not positive definite";
+        return false;
+      }
+    } else {
+      system.lu.compute(S);
+    }
+    system.compliance = system.solveSchur(system.C.transpose(), body.pattern().symmetric);
+  }
+  if (changed) {
+    compliance_ = Matrix::Zero(rows_, rows_);
+    for (const auto& system : systems_)
+      if (!system->kept.empty()) compliance_ += system->C * system->compliance;
+  }
+  return true;
+}
+
+bool StepSolver::solveLinearised(const State& state0, const std::vector<Vector>& loads, Iterate& iterate) {
+  std::vector<Vector> residual;
+  for (size_t b = 0; b < model_.bodies.size(); ++b)
+    residual.push_back(loads[b] - model_.bodies[b].internalForce(systems_[b]->law.predictor));
+  Vector slack(rows_);
+  Vector p(rows_);
+  std::vector<char> active;
+  for (size_t k = 0; k < model_.interfaces.size(); ++k) {
+    const ContactInterface& interface = model_.interfaces[k];
+    const int b1 = interface.pair().nonmortar.body;
+    const int b2 = interface.pair().mortar.body;
+    interface.subtractForces(iterate.contactForce[k], residual[b1], residual[b2]);
+    const auto displacement = [&](int b) {
+      return Vector(state0.bodies[b].displacement + (iterate.bodies[b].increment + iterate.bodies[b].small));
+    };
+    slack.segment(firstRow_[k], interface.rows()) = -interface.gap(displacement(b1), displacement(b2));
+    p.segment(firstRow_[k], interface.rows()) = iterate.contactForce[k];
+    active.insert(active.end(), iterate.active[k].begin(), iterate.active[k].end());
+  }
+
+  // Condense, and find the contact forces on the interface.
+  for (size_t b = 0; b < model_.bodies.size(); ++b) {
+    const Body& body = model_.bodies[b];
+    BodySystem& system = *systems_[b];
+    system.residual.resize(body.freeDofs());
+    for (int dof = 0; dof < body.dofs(); ++dof)
+      if (body.equations()[dof] >= 0) system.residual[body.equations()[dof]] = residual[b][dof];
+    system.solver->condense(system.residual);
+    if (!system.kept.empty())
+      slack -= system.C * system.solveSchur(system.residual(system.kept), body.pattern().symmetric);
+  }
+  bool symmetric = true;
+  for (const Body& body : model_.bodies) symmetric = symmetric && body.pattern().symmetric;
+  Complementarity contact = solveComplementarity(compliance_, symmetric, slack, p, active);
+  if (!contact.solved) return false;
+  const Vector dp = contact.p - p;
+
+  // Expand: displacement and stress.
+  for (size_t b = 0; b < model_.bodies.size(); ++b) {
+    const Body& body = model_.bodies[b];
+    BodySystem& system = *systems_[b];
+    if (!system.kept.empty()) {
+      const Vector f = Vector(system.residual(system.kept)) - system.C.transpose() * dp;
+      system.residual(system.kept) = system.solveSchur(f, body.pattern().symmetric);
+    }
+    system.solver->expand(system.residual);
+    Vector d = Vector::Zero(body.dofs());
+    BodyIterate& unknowns = iterate.bodies[b];
+    for (int dof = 0; dof < body.dofs(); ++dof) {
+      if (body.equations()[dof] < 0) continue;
+      d[dof] = system.residual[body.equations()[dof]];
+      const DoubleDouble u = DoubleDouble::sum(unknowns.increment[dof], d[dof]);
+      unknowns.increment[dof] = u.high;
+      unknowns.small[dof] += u.low;
+    }
+    unknowns.stress = system.law.predictor;
+    body.addStressOf(d, system.law.moduli, unknowns.stress);
+  }
+  for (size_t k = 0; k < model_.interfaces.size(); ++k) {
+    const int rows = model_.interfaces[k].rows();
+    iterate.contactForce[k] = contact.p.segment(firstRow_[k], rows);
+    iterate.active[k].assign(contact.active.begin() + firstRow_[k], contact.active.begin() + firstRow_[k] + rows);
+  }
+  return true;
+}
+
+Certificate StepSolver::certify(const State& state0, const std::vector<Vector>& loads, const Iterate& iterate,
+                                double materialResidual) const {
+  Certificate result;
+  result.materialResidual = materialResidual;
+  double force = 0;
+  double extentOfAll = 0;
+  std::vector<Vector> residual;
+  for (size_t b = 0; b < model_.bodies.size(); ++b) {
+    const Vector internal = model_.bodies[b].internalForce(iterate.bodies[b].stress);
+    force = std::max({force, internal.cwiseAbs().maxCoeff(), loads[b].cwiseAbs().maxCoeff()});
+    residual.push_back(loads[b] - internal);
+    extentOfAll = std::max(extentOfAll, extent(model_.bodies[b].mesh()));
+  }
+  double largestContact = 0;
+  for (const Vector& p : iterate.contactForce)
+    if (p.size() > 0) largestContact = std::max(largestContact, p.cwiseAbs().maxCoeff());
+  for (size_t k = 0; k < model_.interfaces.size(); ++k) {
+    const ContactInterface& interface = model_.interfaces[k];
+    const int b1 = interface.pair().nonmortar.body;
+    const int b2 = interface.pair().mortar.body;
+    const Vector& p = iterate.contactForce[k];
+    interface.subtractForces(p, residual[b1], residual[b2]);
+    const auto displacement = [&](int b) {
+      return Vector(state0.bodies[b].displacement + (iterate.bodies[b].increment + iterate.bodies[b].small));
+    };
+    const Vector g = interface.gap(displacement(b1), displacement(b2)) / extentOfAll;
+    for (Eigen::Index i = 0; i < g.size(); ++i) {
+      if (iterate.active[k][i] != 0) result.gapOnActive = std::max(result.gapOnActive, std::abs(g[i]));
+      if (largestContact == 0) continue;
+      result.sign = std::max({result.sign, -p[i] / largestContact, 0.0});
+      result.complementarity = std::max(result.complementarity, std::abs(p[i] / largestContact * g[i]));
+    }
+  }
+  if (force > 0)
+    for (size_t b = 0; b < model_.bodies.size(); ++b)
+      for (int dof = 0; dof < model_.bodies[b].dofs(); ++dof)
+        if (model_.bodies[b].equations()[dof] >= 0)
+          result.forceBalance = std::max(result.forceBalance, std::abs(residual[b][dof]) / force);
+  return result;
+}
+
+StepOutcome StepSolver::newton(const State& state0, const StepData& step, Iterate& iterate, int maxIterations,
+                               double tolerance) {
+  StepOutcome outcome;
+  prescribe(state0, step.time, iterate);
+  std::vector<Vector> loads;
+  for (const Body& body : model_.bodies) loads.push_back(body.load(step.time));
+  for (int iteration = 0;; ++iteration) {
+    const double residual = linearise(state0, step, iterate);
+    if (getenv("MORTIER_TRACE") != nullptr) fprintf(stderr, "   t %.4f weight %.3e it %d residual %.3e\n", step.time, step.weight, iteration, residual);
+    if (!std::isfinite(residual)) {
+      outcome.reason = "stresses are no longer finite";
+      return outcome;
+    }
+    if (iteration > 0 && residual <= tolerance) {
+      outcome.certificate = certify(state0, loads, iterate, residual);
+      if (outcome.certificate.forceBalance <= std::max(balanceTolerance, tolerance * 1e-2)) {
+        outcome.converged = true;
+        return outcome;
+      }
+    }
+    if (iteration == maxIterations) {
+      outcome.reason = "Newton's method did not converge in " + std::to_string(iteration) + " iterations";
+      return outcome;
+    }
+    ++outcome.iterations;
+    if (!factorise(outcome)) return outcome;
+    if (!solveLinearised(state0, loads, iterate)) {
+      outcome.reason = "the contact problem of the linearised step has no solution";
+      return outcome;
+    }
+  }
+}
+
+// Where plain Newton fails, the step is solved with the viscosity raised so far that the bodies are almost elastic, then
+// lowered by half decades, each stage begun from the last and solved roughly.
+StepOutcome StepSolver::solve(const State& state0, const StepData& step, Iterate& guess) {
+  constexpr int plainIterations = 7;
+  constexpr int stageIterations = 8;
+  constexpr double stageTolerance = 0.3;
+  const double factor = std::sqrt(10.0);
+
+  StepOutcome total = newton(state0, step, guess, plainIterations, options_.tolerance);
+  if (total.converged) return total;
+  const auto add = [&](StepOutcome part) {
+    part.iterations += total.iterations;
+    part.factorisations += total.factorisations;
+    part.rung = "continuation";
+    total = std::move(part);
+  };
+  double stiffness = 0;
+  for (const Body& body : model_.bodies) stiffness = std::max(stiffness, body.material().stiffness(step.weight));
+  const int stages = std::max(0, static_cast<int>(std::ceil(std::log(stiffness) / std::log(factor))));
+  guess = start(state0);
+  for (int stage = stages; stage >= 0 && total.iterations < options_.maxIterations; --stage) {
+    StepData eased = step;
+    eased.weight = step.weight * std::pow(factor, -stage);
+    if (stage > 0)
+      add(newton(state0, eased, guess, stageIterations, stageTolerance));
+    else
+      add(newton(state0, step, guess, options_.maxIterations - total.iterations, options_.tolerance));
+  }
+  return total;
+}
+
+}  // namespace mortier

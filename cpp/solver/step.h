@@ -1,0 +1,81 @@
+// One time step: mixed Newton. Displacement increment and stress are both unknowns, so a triangle needs no local solve:
+//
+//   E^-1 (s - s0) + weight G(s) = B du - shift        in every triangle                                    (material)
+//   sum |T| B' s + C' p = F(t1)                       at every free dof                                    (equilibrium)
+//   g = C (u0 + du) - g0 <= 0, p >= 0, p g = 0        at every nonmortar node                              (contact)
+//
+// Linearised at s (material/material.h), (material) gives s = predictor + H^-1 B d; what is left is
+//   K d + C' p = F - sum |T| B' predictor,  K = sum |T| B' H^-1 B,
+// with (contact) kept as it is: each body is condensed to its contact dofs, and the complementarity problem is solved there.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "linear/condensing_solver.h"
+#include "solver/complementarity.h"
+#include "solver/model.h"
+#include "solver/state.h"
+
+namespace mortier {
+
+/// The unknowns of a step.
+struct BodyIterate {
+  Vector increment;  ///< du (dofs) [m], carried as increment + small
+  Vector small;
+  Matrix stress;  ///< s
+};
+
+struct Iterate {
+  std::vector<BodyIterate> bodies;
+  std::vector<Vector> contactForce;       ///< p per interface
+  std::vector<std::vector<char>> active;  ///< per interface
+};
+
+/// What is asked of a step.
+struct StepData {
+  double time = 0;                      ///< t1: loads and prescribed displacements are taken here [s]
+  double weight = 0;                    ///< time step times the scheme's diagonal coefficient [s]
+  std::vector<Matrix> shift;            ///< per body, 3 x points; empty for none
+};
+
+struct StepOutcome {
+  bool converged = false;
+  std::string reason;
+  std::string rung = "newton";
+  int iterations = 0;
+  int factorisations = 0;
+  Certificate certificate;
+};
+
+class StepSolver {
+ public:
+  StepSolver(const Model& model, const SolverOptions& options);
+  ~StepSolver();
+
+  /// Nothing moved yet, contact forces and active set as in `state0`.
+  [[nodiscard]] Iterate start(const State& state0) const;
+
+  /// Solves from `guess`, falling back to a start from `state0`; the solution is left in `guess`.
+  StepOutcome solve(const State& state0, const StepData& step, Iterate& guess);
+
+ private:
+  struct BodySystem;
+
+  double linearise(const State& state0, const StepData& step, const Iterate& iterate);
+  bool factorise(StepOutcome& outcome);
+  bool solveLinearised(const State& state0, const std::vector<Vector>& loads, Iterate& iterate);
+  StepOutcome newton(const State& state0, const StepData& step, Iterate& iterate, int maxIterations, double tolerance);
+  [[nodiscard]] Certificate certify(const State& state0, const std::vector<Vector>& loads, const Iterate& iterate,
+                                    double materialResidual) const;
+  void prescribe(const State& state0, double time, Iterate& iterate) const;
+
+  const Model& model_;
+  SolverOptions options_;
+  std::vector<std::unique_ptr<BodySystem>> systems_;
+  std::vector<int> firstRow_;  ///< of each interface among all contact conditions
+  int rows_ = 0;
+  Matrix compliance_;  ///< W
+};
+
+}  // namespace mortier
