@@ -1,6 +1,5 @@
 // mortier: contact of elastic and viscoplastic bodies with incompatible meshes.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 
@@ -9,6 +8,7 @@
 #include "commands/freefem.h"
 #include "commands/mesh.h"
 #include "commands/run.h"
+#include "commands/scene_argument.h"
 #include "commands/version.h"
 
 using namespace mortier;
@@ -18,25 +18,13 @@ namespace {
 constexpr const char* settingsHelp =
     "change a key of the scene, e.g. time.steps=20, contact.variant=interpolation, body.upper.mesh=FILE";
 
-/// --set takes any number of values and so takes the scene, too, where that follows it.
-void giveBackScene(std::vector<std::string>& settings, std::string& scene) {
-  const auto found = std::find_if(settings.begin(), settings.end(),
-                                  [](const std::string& each) { return each.find('=') == std::string::npos; });
-  if (scene.empty() && found != settings.end()) {
-    scene = *found;
-    settings.erase(found);
-  }
-  if (scene.empty()) {
-    throw InputError("no scene given, expected SCENE.toml (see --help)");
-  }
-}
-
 int dispatch(int argc, char** argv) {
-  CLI::App app("Contact of elastic and viscoplastic bodies with incompatible meshes.\n"
-               "Exit codes: 0 done, 1 a step cannot be solved or output cannot be written, 2 wrong input, "
-               "3 nothing holds a body.", "mortier");
+  CLI::App app(
+      "Contact of elastic and viscoplastic bodies with incompatible meshes.\n"
+      "Exit codes: 0 done, 1 a step cannot be solved or output cannot be written, 2 wrong input, "
+      "3 nothing holds a body.",
+      "mortier");
   app.set_version_flag("--version", std::string("mortier ") + version);
-  app.require_subcommand(1);
 
   RunCommand runCommand;
   CLI::App* runApp = app.add_subcommand("run", "solve a scene (docs/scene.md) and write its result");
@@ -80,6 +68,10 @@ int dispatch(int argc, char** argv) {
   if (*freefemApp) {
     giveBackScene(freefemCommand.settings, freefemCommand.scene);
     return writeFreefem(freefemCommand);
+  }
+  if (!*meshApp) {
+    std::fputs(app.help().c_str(), stderr);
+    return exitWrongInput;
   }
   meshCommand.crissCross = crissCross->parsed();
   return info->parsed() ? meshInfo(infoFile) : makeMesh(meshCommand);

@@ -23,9 +23,9 @@ namespace fs = std::filesystem;
 const std::map<std::string, std::string>& freefemWords() {
   static const std::map<std::string, std::string> words = [] {
     std::map<std::string, std::string> same;
-    for (const char* word : {"x", "y", "t", "pi", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh",
-                             "tanh", "asinh", "acosh", "atanh", "exp", "log", "log10", "sqrt", "abs", "min", "max",
-                             "sign", "rint"}) {
+    for (const char* word : {"x",    "y",     "t",    "pi",   "sin",  "cos",   "tan",   "asin",  "acos",
+                             "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "exp",
+                             "log",  "log10", "sqrt", "abs",  "min",  "max",   "sign",  "rint"}) {
       same[word] = word;
     }
     same["ln"] = "log";
@@ -41,19 +41,23 @@ std::string translated(const Expression& expression) {
   const std::string& text = expression.text;
   std::string result;
   for (size_t i = 0; i < text.size();) {
-    const auto is = [&](size_t k, auto test) { return k < text.size() && test(static_cast<unsigned char>(text[k])) != 0; };
+    const auto is = [&](size_t k, auto test) {
+      return k < text.size() && test(static_cast<unsigned char>(text[k])) != 0;
+    };
     const size_t begin = i;
     if (is(i, [](int c) { return std::isalpha(c) != 0 || c == '_' ? 1 : 0; })) {
       while (is(i, [](int c) { return std::isalnum(c) != 0 || c == '_' ? 1 : 0; })) ++i;
       const auto word = freefemWords().find(text.substr(begin, i - begin));
       if (word == freefemWords().end()) {
-        throw InputError(expression.where + ": " + text.substr(begin, i - begin) + " is not known to FreeFEM");
+        throw InputError(expression.where + ": " + text.substr(begin, i - begin) +
+                         " is not known to FreeFEM");
       }
       result += word->second;
     } else if (is(i, [](int c) { return std::isdigit(c) != 0 || c == '.' ? 1 : 0; })) {
       bool real = false;
       for (; is(i, [](int c) { return std::isalnum(c) != 0 || c == '.' ? 1 : 0; }) ||
-             ((text[i] == '-' || text[i] == '+') && i < text.size() && i > begin && std::tolower(text[i - 1]) == 'e');
+             ((text[i] == '-' || text[i] == '+') && i < text.size() && i > begin &&
+              std::tolower(text[i - 1]) == 'e');
            ++i) {
         real = real || text[i] == '.' || std::tolower(text[i]) == 'e';
       }
@@ -68,7 +72,8 @@ std::string translated(const Expression& expression) {
 /// The folder that holds the method: beside the current folder, the scene or the program, or above them.
 std::string methodFolder(const std::string& scene) {
   std::error_code ignored;
-  for (const fs::path& start : {fs::current_path(), fs::absolute(scene), fs::read_symlink("/proc/self/exe", ignored)}) {
+  for (const fs::path& start :
+       {fs::current_path(), fs::absolute(scene), fs::read_symlink("/proc/self/exe", ignored)}) {
     for (fs::path folder = start;; folder = folder.parent_path()) {
       if (fs::exists(folder / "freefem" / "bodies.idp", ignored)) {
         return fs::proximate(folder / "freefem").generic_string();
@@ -78,19 +83,22 @@ std::string methodFolder(const std::string& scene) {
       }
     }
   }
-  throw InputError(scene + ": the FreeFEM method (freefem/bodies.idp) is found neither above the current folder nor "
-                           "above the scene or the program");
+  throw InputError(scene +
+                   ": the FreeFEM method (freefem/bodies.idp) is found neither above the current folder nor "
+                   "above the scene or the program");
 }
 
 void writeBody(std::ostream& out, const BodyDescription& body, int number) {
   const auto& [elasticity, flow] = body.material;
   out << "string name" << number << " = \"" << body.name << "\";\n"
       << "string mesh" << number << " = \"" << body.mesh << "\";\n"
-      << "string projection" << number << " = \"" << word(flow ? flow->projection : Projection::frobenius) << "\";\n"
+      << "string projection" << number << " = \"" << word(flow ? flow->projection : Projection::frobenius)
+      << "\";\n"
       << "real E" << number << " = " << shortest(elasticity.young) << ", nu" << number << " = "
       << shortest(elasticity.poisson) << ";  // [Pa], [-]\n"
-      << "real lambda" << number << " = " << shortest(flow ? flow->viscosity : 0) << ", sigmaY" << number << " = "
-      << shortest(flow ? flow->yieldStress : 1) << ";  // viscosity [Pa s] (0: elastic body), yield stress [Pa]\n";
+      << "real lambda" << number << " = " << shortest(flow ? flow->viscosity : 0) << ", sigmaY" << number
+      << " = " << shortest(flow ? flow->yieldStress : 1)
+      << ";  // viscosity [Pa s] (0: elastic body), yield stress [Pa]\n";
 }
 
 void writeConditions(std::ostream& out, const BodyDescription& body, int number) {
@@ -103,7 +111,8 @@ void writeConditions(std::ostream& out, const BodyDescription& body, int number)
   out << "//\nmacro loads" << number << " + int2d(Body" << number << ")(0.*v2) ";
   for (const ConditionDescription& c : body.conditions) {
     if (c.kind == ConditionDescription::Kind::traction) {
-      out << "+ int1d(Body" << number << ", " << c.label << ")((" << translated(c.value) << ")*v" << c.component + 1 << ") ";
+      out << "+ int1d(Body" << number << ", " << c.label << ")((" << translated(c.value) << ")*v"
+          << c.component + 1 << ") ";
     }
   }
   for (const int c : {0, 1}) {
@@ -119,8 +128,8 @@ std::string script(const SceneDescription& scene) {
   const bool first = contact.nonmortar.body == scene.bodies[0].name;
   const std::string method = methodFolder(scene.path);
   std::ostringstream out;
-  out << "// " << (scene.title.empty() ? scene.path : scene.title) << "\n// Written by mortier freefem " << scene.path
-      << "; run from the folder in which that was called.\n\n// Bodies (plane stress)\n";
+  out << "// " << (scene.title.empty() ? scene.path : scene.title) << "\n// Written by mortier freefem "
+      << scene.path << "; run from the folder in which that was called.\n\n// Bodies (plane stress)\n";
   for (const int b : {0, 1}) {
     writeBody(out, scene.bodies[b], b + 1);
   }
@@ -128,8 +137,9 @@ std::string script(const SceneDescription& scene) {
   for (const int b : {0, 1}) {
     writeConditions(out, scene.bodies[b], b + 1);
   }
-  out << "\n// Contact and time\nstring nonmortar = \"" << contact.nonmortar.body << "\";\nstring variant = \""
-      << word(contact.variant) << "\";\nint contactLabel1 = " << (first ? contact.nonmortar : contact.mortar).label
+  out << "\n// Contact and time\nstring nonmortar = \"" << contact.nonmortar.body
+      << "\";\nstring variant = \"" << word(contact.variant)
+      << "\";\nint contactLabel1 = " << (first ? contact.nonmortar : contact.mortar).label
       << ", contactLabel2 = " << (first ? contact.mortar : contact.nonmortar).label
       << ";\nreal endTime = " << shortest(scene.time.end) << ";  // [s]\nint steps = " << scene.time.steps
       << ";  // backward Euler, equal steps\n\n";
@@ -147,9 +157,10 @@ int writeFreefem(const FreefemCommand& command) {
   std::vector<std::string> warnings;
   static_cast<void>(buildModel(scene, warnings));
   if (scene.bodies.size() != 2 || scene.contacts.size() != 1) {
-    throw InputError(scene.path + ": " + std::to_string(scene.bodies.size()) + " bodies and " +
-                     std::to_string(scene.contacts.size()) +
-                     " contact interfaces, expected two bodies and one interface (all that the FreeFEM method knows)");
+    throw InputError(
+        scene.path + ": " + std::to_string(scene.bodies.size()) + " bodies and " +
+        std::to_string(scene.contacts.size()) +
+        " contact interfaces, expected two bodies and one interface (all that the FreeFEM method knows)");
   }
 
   // 2. The script.

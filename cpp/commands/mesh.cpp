@@ -46,8 +46,8 @@ int makeMesh(const MeshCommand& command) {
   const Rectangle rectangle{{lowerX, lowerY}, {upperX, upperY}, cellsX, cellsY};
   const TriangleMesh mesh = command.crissCross ? crissCrossMesh(rectangle) : rectangleMesh(rectangle);
   writeMedit(mesh, command.file);
-  std::printf("%s: %zu vertices, %zu triangles; labels 1 bottom, 2 right, 3 top, 4 left\n", command.file.c_str(),
-              mesh.vertices.size(), mesh.triangles.size());
+  std::printf("%s: %zu vertices, %zu triangles; labels 1 bottom, 2 right, 3 top, 4 left\n",
+              command.file.c_str(), mesh.vertices.size(), mesh.triangles.size());
   return exitDone;
 }
 
@@ -87,8 +87,11 @@ int meshInfo(const std::string& file) {
   }
 
   // 4. Tell.
-  std::printf("%s\nvertices   %zu\ntriangles  %zu\narea       %.9g m^2\nextents    x %.9g .. %.9g, y %.9g .. %.9g m\n",
-              file.c_str(), mesh.vertices.size(), mesh.triangles.size(), area, lower[0], upper[0], lower[1], upper[1]);
+  std::printf(
+      "%s\nvertices   %zu\ntriangles  %zu\narea       %.9g m^2\nextents    x %.9g .. %.9g, y %.9g .. %.9g "
+      "m\n",
+      file.c_str(), mesh.vertices.size(), mesh.triangles.size(), area, lower[0], upper[0], lower[1],
+      upper[1]);
   std::printf("worst aspect ratio %.3g (triangle %d; 1 is equilateral)\n", worst, worstTriangle + 1);
   for (const auto& [label, what] : boundary) {
     std::printf("label %-5d %d edges, length %.9g m\n", label, what.first, what.second);

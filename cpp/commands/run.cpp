@@ -69,7 +69,9 @@ std::string defaultFolder(const std::string& scene) {
 }
 
 /// Whether a step is kept while the run goes on; the last one is kept in any case.
-bool keeps(const SceneDescription& scene, int step) { return scene.every > 0 && step % scene.every == 0; }
+bool keeps(const SceneDescription& scene, int step) {
+  return scene.every > 0 && step % scene.every == 0;
+}
 
 }  // namespace
 

@@ -19,8 +19,8 @@ void ContactTable::add(const State& state, int step) {
     const std::vector<int>& nodes = interface.nonmortarNodes();
     for (size_t i = 0; i < nodes.size(); ++i) {
       const Point& p = mesh.vertices[nodes[i]];
-      file_ << step << ',' << state.time << ',' << k << ',' << nodes[i] << ',' << p[0] << ',' << p[1] << ',' << gap[i]
-            << ',' << force[i] << ',' << pressure[i] << ',' << (force[i] > 0 ? 1 : 0) << '\n';
+      file_ << step << ',' << state.time << ',' << k << ',' << nodes[i] << ',' << p[0] << ',' << p[1] << ','
+            << gap[i] << ',' << force[i] << ',' << pressure[i] << ',' << (force[i] > 0 ? 1 : 0) << '\n';
     }
   }
 }

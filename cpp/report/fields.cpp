@@ -28,7 +28,8 @@ class VtuFile {
   void array(const std::string& name, std::vector<double> values, int components,
              const std::vector<std::string>& componentNames = {}) {
     if (!Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size())).allFinite()) {
-      throw OutputError(path_ + ": " + name + " is not finite everywhere; the run is not valid");
+      throw OutputError(path_.substr(path_.rfind('/') + 1) + ": " + name +
+                        " is not finite everywhere; the run is not valid");
     }
     describe("Float64", name, components, componentNames);
     append(values.data(), values.size() * sizeof(double));
@@ -40,14 +41,18 @@ class VtuFile {
   }
 
   void close() {
-    file_ << "</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" << bytes_ << "\n</AppendedData>\n</VTKFile>\n";
+    file_ << "</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" << bytes_
+          << "\n</AppendedData>\n</VTKFile>\n";
     file_.close();
   }
 
  private:
   void describe(const std::string& type, const std::string& name, int components,
                 const std::vector<std::string>& componentNames) {
-    file_ << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\"" << components << '"';
+    file_ << "<DataArray type=\"" << type << "\" Name=\"" << name << '"';
+    if (components > 1) {  // a scalar says nothing, so that readers give it back without a second dimension
+      file_ << " NumberOfComponents=\"" << components << '"';
+    }
     for (size_t c = 0; c < componentNames.size(); ++c) {
       file_ << " ComponentName" << c << "=\"" << componentNames[c] << '"';
     }
@@ -63,7 +68,9 @@ class VtuFile {
   std::string bytes_;
 };
 
-std::vector<double> flat(const Matrix& m) { return {m.data(), m.data() + m.size()}; }
+std::vector<double> flat(const Matrix& m) {
+  return {m.data(), m.data() + m.size()};
+}
 
 void writePoints(VtuFile& file, const TriangleMesh& mesh, const Vector& displacement) {
   std::vector<double> points;
@@ -117,14 +124,16 @@ CellFields cellFields(const Body& body, const BodyState& state) {
   const Eigen::Index pointsPerCell = state.stress.cols() / cells;
   Matrix rate(state.stress.rows(), state.stress.cols());
   body.material().viscoplasticRate(state.stress, rate);
-  CellFields fields{Matrix::Zero(3, cells), Vector::Zero(cells), Matrix::Zero(3, cells), std::vector<int>(cells, 0)};
+  CellFields fields{Matrix::Zero(3, cells), Vector::Zero(cells), Matrix::Zero(3, cells),
+                    std::vector<int>(cells, 0)};
   const double weight = 1.0 / static_cast<double>(pointsPerCell);
   for (Eigen::Index point = 0; point < state.stress.cols(); ++point) {
     const Eigen::Index cell = point / pointsPerCell;
     const Eigen::Vector3d pqr = state.stress.col(point).head<3>();
     fields.stress.col(cell) += weight * toCartesian(pqr);
     fields.vonMises[cell] += weight * vonMises(pqr);
-    fields.viscoplasticStrain.col(cell) += weight * toCartesian(state.viscoplasticStrain.col(point).head<3>());
+    fields.viscoplasticStrain.col(cell) +=
+        weight * toCartesian(state.viscoplasticStrain.col(point).head<3>());
     if (!rate.col(point).isZero(0)) {
       fields.viscoplastic[cell] = 1;
     }
@@ -156,7 +165,8 @@ void Fields::add(const State& state, int step) {
 
 void Fields::close() {
   OutputFile file(folder_ + "/fields.pvd");
-  file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+  file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
+          "byte_order=\"LittleEndian\">\n"
           "<Collection>\n"
        << entries_ << "</Collection>\n</VTKFile>\n";
   file.close();

@@ -34,19 +34,22 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
   text += "; plane stress\n";
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
-    text += format("interface  %s, %zu nonmortar (%s) x %zu mortar (%s) nodes, overlap %.3f\n", facts.variants[k].c_str(),
-                   interface.nonmortarNodes().size(), model.bodies[interface.pair().nonmortar.body].name().c_str(),
-                   interface.mortarNodes().size(), model.bodies[interface.pair().mortar.body].name().c_str(),
-                   interface.overlap());
+    text +=
+        format("interface  %s, %zu nonmortar (%s) x %zu mortar (%s) nodes, overlap %.3f\n",
+               facts.variants[k].c_str(), interface.nonmortarNodes().size(),
+               model.bodies[interface.pair().nonmortar.body].name().c_str(), interface.mortarNodes().size(),
+               model.bodies[interface.pair().mortar.body].name().c_str(), interface.overlap());
   }
-  return text + "  step     time[s]  iter    active(+/-)  |residual|  penetration[m^2]   max p[Pa]  viscoplastic"
-                "  force[N/m]\n";
+  return text +
+         "  step     time[s]  iter    active(+/-)  |residual|  penetration[m^2]   max p[Pa]  viscoplastic"
+         "  force[N/m]\n";
 }
 
 std::string logRow(const StepReport& r) {
   const std::string change = format("%d (+%d/-%d)", r.active, r.joined, r.left);
-  return format("%6d  %10.5g  %4d  %13s  %10.1e  %16.1e  %10.5g  %11.0f%%  %10.5g%s%s\n", r.step, r.time, r.iterations,
-                change.c_str(), std::max(r.certificate.forceBalance, r.certificate.materialResidual), r.penetration,
+  return format("%6d  %10.5g  %4d  %13s  %10.1e  %16.1e  %10.5g  %11.0f%%  %10.5g%s%s\n", r.step, r.time,
+                r.iterations, change.c_str(),
+                std::max(r.certificate.forceBalance, r.certificate.materialResidual), r.penetration,
                 r.maxPressure, 100 * r.viscoplasticFraction, r.contactForce, r.rung == "newton" ? "" : "  ",
                 r.rung == "newton" ? "" : r.rung.c_str());
 }
@@ -58,8 +61,9 @@ std::string logStatus(const RunReport& report, const std::string& folder) {
   if (report.status != Status::converged) {
     text += " after " + std::to_string(report.steps) + " steps";
   }
-  return text + format("   newton %d   factorisations %d   %.3g s (solve %.0f%%)   %.0f MiB   ", report.iterations,
-                       report.factorisations, wall, 100 * share, peakMemory()) +
+  return text +
+         format("   newton %d   factorisations %d   %.3g s (solve %.0f%%)   %.0f MiB   ", report.iterations,
+                report.factorisations, wall, 100 * share, peakMemory()) +
          folder + "\n";
 }
 

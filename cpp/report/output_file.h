@@ -1,4 +1,5 @@
-// A text or binary file that is either complete or an error: buffered, every write checked, no number that is not finite.
+// A text or binary file that is either complete or an error: buffered, every write checked, no number that is
+// not finite.
 #pragma once
 
 #include <concepts>
@@ -18,7 +19,9 @@ class OutputFile {
   OutputFile& operator<<(char c) { return *this << std::string_view(&c, 1); }
   /// The shortest decimal that reads back the same. \throws OutputError when it is not finite.
   OutputFile& operator<<(double value);
-  OutputFile& operator<<(std::integral auto value) { return *this << std::string_view(std::to_string(value)); }
+  OutputFile& operator<<(std::integral auto value) {
+    return *this << std::string_view(std::to_string(value));
+  }
 
   /// Raw bytes.
   void write(const void* data, size_t size);

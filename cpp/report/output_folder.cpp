@@ -15,13 +15,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool isResult(const fs::path& folder) { return fs::exists(folder / "summary.json"); }
+bool isResult(const fs::path& folder) {
+  return fs::exists(folder / "summary.json");
+}
 
 /// Anything but an old result could be something that the user wants to keep.
 void requireReplaceable(const fs::path& folder) {
   if (fs::exists(folder) && (!fs::is_directory(folder) || (!fs::is_empty(folder) && !isResult(folder)))) {
-    throw InputError(folder.string() + ": exists and is no result of mortier (no summary.json in it), "
-                                       "expected a new or empty folder, or a result to replace");
+    throw InputError(folder.string() +
+                     ": exists and is no result of mortier (no summary.json in it), "
+                     "expected a new or empty folder, or a result to replace");
   }
 }
 

@@ -1,5 +1,6 @@
-// Where a run writes: a temporary folder beside the result, renamed when it is complete, so that a run that is killed or
-// fails leaves what stood there. Files of others in the old result (pictures, ParaView states) move into the new one.
+// Where a run writes: a temporary folder beside the result, renamed when it is complete, so that a run that
+// is killed or fails leaves what stood there. Files of others in the old result (pictures, ParaView states)
+// move into the new one.
 #pragma once
 
 #include <string>
@@ -8,7 +9,8 @@ namespace mortier {
 
 class OutputFolder {
  public:
-  /// \throws OutputError when it cannot be made, InputError when `path` holds something that is no result of mortier.
+  /// \throws OutputError when it cannot be made, InputError when `path` holds something that is no result of
+  /// mortier.
   explicit OutputFolder(std::string path);
   /// Removes the temporary folder unless it was committed.
   ~OutputFolder();

@@ -14,7 +14,7 @@ Progress::Progress(bool wanted, double endTime)
     : enabled_(wanted && isatty(STDERR_FILENO) == 1), endTime_(endTime), start_(processSeconds()) {}
 
 void Progress::show(double time) {
-  constexpr double longRun = 2;    // [s]
+  constexpr double longRun = 2;     // [s]
   constexpr double interval = 0.1;  // [s]
   const double now = processSeconds();
   const double done = std::clamp(time / endTime_, 0.0, 1.0);
@@ -29,7 +29,8 @@ void Progress::show(double time) {
   const int filled = static_cast<int>(done * width);
   const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
   std::fflush(stdout);
-  std::fprintf(stderr, "\r[%s] %3.0f %%, %.0f s left", bar.c_str(), 100 * done, (now - start_) * (1 - done) / done);
+  std::fprintf(stderr, "\r[%s] %3.0f %%, %.0f s left", bar.c_str(), 100 * done,
+               (now - start_) * (1 - done) / done);
   std::fflush(stderr);
   drawn_ = true;
   lastDrawn_ = now;

@@ -36,7 +36,8 @@ Json bodies(const RunFacts& facts, const Model& model) {
                     {"material", facts.materials[b]},
                     {"triangles", body.mesh().triangles.size()},
                     {"nodes", body.nodes()},
-                    {"dofs", body.freeDofs()}});
+                    {"dofs", body.dofs()},
+                    {"free_dofs", body.freeDofs()}});
   }
   return list;
 }
@@ -90,10 +91,12 @@ void writeSummary(const std::string& folder, const RunFacts& facts, const Model&
   size_t triangles = 0;
   int nodes = 0;
   int dofs = 0;
+  int freeDofs = 0;
   for (const Body& body : model.bodies) {
     triangles += body.mesh().triangles.size();
     nodes += body.nodes();
-    dofs += body.freeDofs();
+    dofs += body.dofs();
+    freeDofs += body.freeDofs();
   }
   Json json;
   json["scene"] = facts.scene;
@@ -110,6 +113,7 @@ void writeSummary(const std::string& folder, const RunFacts& facts, const Model&
   json["triangles"] = triangles;
   json["nodes"] = nodes;
   json["dofs"] = dofs;
+  json["free_dofs"] = freeDofs;
   json["bodies"] = bodies(facts, model);
   json["interfaces"] = interfaces(facts, model);
   json["steps"] = report.steps;

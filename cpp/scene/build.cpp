@@ -31,8 +31,9 @@ void requireLabel(const TriangleMesh& mesh, int label, const std::string& where,
     words.push_back(std::to_string(known));
   }
   throw InputError(where + ": body " + body + ": label = " + std::to_string(label) +
-                   (words.empty() ? ", the mesh " + mesh.name + " has no labelled boundary"
-                                  : ", expected one of " + joined(words) + " (boundary labels of " + mesh.name + ")"));
+                   (words.empty()
+                        ? ", the mesh " + mesh.name + " has no labelled boundary"
+                        : ", expected one of " + joined(words) + " (boundary labels of " + mesh.name + ")"));
 }
 
 /// The vertices of a labelled boundary, or the middles of its edges.
@@ -70,7 +71,8 @@ std::vector<Point> centres(const TriangleMesh& mesh) {
   return points;
 }
 
-void requireFiniteData(const BodyDescription& body, const TriangleMesh& mesh, const std::vector<double>& times) {
+void requireFiniteData(const BodyDescription& body, const TriangleMesh& mesh,
+                       const std::vector<double>& times) {
   for (const ConditionDescription& condition : body.conditions) {
     if (condition.value.constant) {
       continue;
@@ -93,7 +95,8 @@ void requireFiniteData(const BodyDescription& body, const TriangleMesh& mesh, co
 }
 
 /// Where two labels meet, both may prescribe a component, but not differently.
-void requireOneDisplacement(const BodyDescription& body, const TriangleMesh& mesh, const std::vector<double>& times) {
+void requireOneDisplacement(const BodyDescription& body, const TriangleMesh& mesh,
+                            const std::vector<double>& times) {
   std::map<std::pair<int, int>, const ConditionDescription*> seen;
   for (const ConditionDescription& condition : body.conditions) {
     if (condition.kind != Kind::displacement) {
@@ -106,9 +109,9 @@ void requireOneDisplacement(const BodyDescription& body, const TriangleMesh& mes
         const double here = condition.value.value(p[0], p[1], times[i]);
         const double there = other->second->value.value(p[0], p[1], times[i]);
         if (std::abs(here - there) > 1e-12 * std::max(std::abs(here), std::abs(there))) {
-          throw InputError(condition.value.where + " at (" + shortest(p[0]) + ", " + shortest(p[1]) + "), t = " +
-                           shortest(times[i]) + ": expected the " + shortest(there) + " that label " +
-                           std::to_string(other->second->label) + " prescribes there");
+          throw InputError(condition.value.where + " at (" + shortest(p[0]) + ", " + shortest(p[1]) +
+                           "), t = " + shortest(times[i]) + ": expected the " + shortest(there) +
+                           " that label " + std::to_string(other->second->label) + " prescribes there");
         }
       }
     }
@@ -162,14 +165,15 @@ Model buildModel(const SceneDescription& scene, std::vector<std::string>& warnin
   for (const ContactDescription& contact : scene.contacts) {
     ContactPair pair;
     pair.coupling = contact.variant;
-    for (const auto& [side, target, nonmortar] :
-         {std::tuple(&contact.nonmortar, &pair.nonmortar, true), std::tuple(&contact.mortar, &pair.mortar, false)}) {
+    for (const auto& [side, target, nonmortar] : {std::tuple(&contact.nonmortar, &pair.nonmortar, true),
+                                                  std::tuple(&contact.mortar, &pair.mortar, false)}) {
       *target = {bodyIndex(scene, side->body), side->label};
       requireLabel(model.bodies[target->body].mesh(), side->label, side->where, side->body);
       warnOfConditionsOn(*side, nonmortar, scene, warnings);
     }
     try {
-      model.interfaces.emplace_back(pair, model.bodies[pair.nonmortar.body].mesh(), model.bodies[pair.mortar.body].mesh());
+      model.interfaces.emplace_back(pair, model.bodies[pair.nonmortar.body].mesh(),
+                                    model.bodies[pair.mortar.body].mesh());
     } catch (const InputError& error) {
       throw InputError(contact.where + ": contact: " + error.what());
     }

@@ -75,18 +75,22 @@ std::string readText(const std::string& path) {
 /// toml++ quotes its input; a message stays on one line.
 std::string oneLine(std::string_view text) {
   std::string line(text);
-  std::replace_if(line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
   return line;
 }
 
 }  // namespace
 
 Node* Node::find(const std::string& key) {
-  const auto found = std::find_if(members.begin(), members.end(), [&](const auto& m) { return m.first == key; });
+  const auto found =
+      std::find_if(members.begin(), members.end(), [&](const auto& m) { return m.first == key; });
   return found == members.end() ? nullptr : &found->second;
 }
 
-const Node* Node::find(const std::string& key) const { return const_cast<Node*>(this)->find(key); }
+const Node* Node::find(const std::string& key) const {
+  return const_cast<Node*>(this)->find(key);
+}
 
 std::string Node::quoted() const {
   switch (kind) {

@@ -1,5 +1,5 @@
-// A TOML document as plain values, each with the place it came from, so that every message can name file and line.
-// toml++ itself is visible in document.cpp only.
+// A TOML document as plain values, each with the place it came from, so that every message can name file and
+// line. toml++ itself is visible in document.cpp only.
 #pragma once
 
 #include <string>
@@ -14,9 +14,9 @@ struct Node {
   Kind kind = Kind::table;
   std::string where;  ///< "scenes/compression.toml:14", or "--set time.steps=20"
   bool fromCommandLine = false;
-  bool truth = false;      ///< of a boolean
-  double value = 0;        ///< of an integer or a number
-  std::string text;        ///< of a string
+  bool truth = false;                                 ///< of a boolean
+  double value = 0;                                   ///< of an integer or a number
+  std::string text;                                   ///< of a string
   std::vector<Node> elements;                         ///< of an array
   std::vector<std::pair<std::string, Node>> members;  ///< of a table
 
@@ -35,7 +35,8 @@ struct Node {
 /// Reads a TOML file. \throws InputError `file:line: ...` when it cannot be read or is not TOML.
 Node readDocument(const std::string& path);
 
-/// A value as given to --set: TOML where it is TOML (6, true, "a", { x = 0 }), otherwise the text as a string.
+/// A value as given to --set: TOML where it is TOML (6, true, "a", { x = 0 }), otherwise the text as a
+/// string.
 Node parseSetting(const std::string& text, const std::string& where);
 
 /// A number as a message shows it: the shortest decimal that reads back the same.

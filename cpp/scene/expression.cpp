@@ -2,6 +2,7 @@
 
 #include <muParser.h>
 
+#include <cctype>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -13,7 +14,8 @@ namespace mortier {
 
 namespace {
 
-/// A compiled expression with variables of its own: muParser keeps their addresses, so that a copy compiles anew.
+/// A compiled expression with variables of its own: muParser keeps their addresses, so that a copy compiles
+/// anew.
 class Compiled {
  public:
   explicit Compiled(std::string text) : text_(std::move(text)) { compile(); }
@@ -107,17 +109,21 @@ Expression parseExpression(const std::string& text, std::string where) {
     if (!reason.empty() && reason.back() == '.') {
       reason.pop_back();
     }
+    if (!reason.empty()) {
+      reason.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(reason.front())));
+    }
     reject(where, reason);
   }
 }
 
-void requireFinite(const Expression& expression, const std::vector<Point>& points, const std::vector<double>& times) {
+void requireFinite(const Expression& expression, const std::vector<Point>& points,
+                   const std::vector<double>& times) {
   for (const double t : times) {
     for (const Point& p : points) {
       const double value = expression.value(p[0], p[1], t);
       if (!std::isfinite(value)) {
-        throw InputError(expression.where + ", expected a finite number, is " + shortest(value) + " at x = " +
-                         shortest(p[0]) + ", y = " + shortest(p[1]) + ", t = " + shortest(t));
+        throw InputError(expression.where + ", expected a finite number, is " + shortest(value) +
+                         " at x = " + shortest(p[0]) + ", y = " + shortest(p[1]) + ", t = " + shortest(t));
       }
     }
   }

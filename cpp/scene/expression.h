@@ -1,4 +1,5 @@
-// Data that vary in space and time: numbers, or expressions in x [m], y [m] and t [s] such as "-10*t" or "sin(pi*x)".
+// Data that vary in space and time: numbers, or expressions in x [m], y [m] and t [s] such as "-10*t" or
+// "sin(pi*x)".
 #pragma once
 
 #include <string>
@@ -17,11 +18,14 @@ struct Expression {
 
 Expression constantExpression(double value, std::string where);
 
-/// Operators + - * / ^, comparisons, && ||, a ? b : c, the constant pi, and the usual functions (docs/scene.md).
-/// \throws InputError `where, expected an expression in x, y, t (what is wrong and at which character)`.
+/// Operators + - * / ^, comparisons, && ||, a ? b : c, the constant pi, and the usual functions
+/// (docs/scene.md). \throws InputError `where, expected an expression in x, y, t (what is wrong and at which
+/// character)`.
 Expression parseExpression(const std::string& text, std::string where);
 
-/// Evaluates at every point and time. \throws InputError naming the first point and time where it is not finite.
-void requireFinite(const Expression& expression, const std::vector<Point>& points, const std::vector<double>& times);
+/// Evaluates at every point and time. \throws InputError naming the first point and time where it is not
+/// finite.
+void requireFinite(const Expression& expression, const std::vector<Point>& points,
+                   const std::vector<double>& times);
 
 }  // namespace mortier

@@ -46,7 +46,8 @@ std::string handle(const Node& element) {
 
 void set(Node& table, const Setting& setting, size_t depth, const std::string& schemaPath);
 
-/// The elements of an array of tables that the component names; all of them when it names none and is a key of theirs.
+/// The elements of an array of tables that the component names; all of them when it names none and is a key
+/// of theirs.
 void setInArray(Node& array, const Setting& setting, size_t depth, const std::string& schemaPath) {
   const std::string& word = setting.path[depth];
   Keys handles;
@@ -63,7 +64,8 @@ void setInArray(Node& array, const Setting& setting, size_t depth, const std::st
   }
   size_t index = 0;
   const auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), index);
-  const bool isIndex = status == std::errc() && end == word.data() + word.size() && schemaPath != "body.boundary";
+  const bool isIndex =
+      status == std::errc() && end == word.data() + word.size() && schemaPath != "body.boundary";
   if (isIndex && index < array.elements.size() && depth + 1 < setting.path.size()) {
     return set(array.elements[index], setting, depth + 1, schemaPath);
   }
@@ -71,7 +73,8 @@ void setInArray(Node& array, const Setting& setting, size_t depth, const std::st
   if (std::find(keys.begin(), keys.end(), word) == keys.end()) {
     handles.erase(std::remove(handles.begin(), handles.end(), ""), handles.end());
     throw InputError(setting.where + ": no " + word + " in " + schemaPath + ", expected " +
-                     (handles.empty() ? "" : "one of " + joined(handles) + ", or ") + "a key: " + joined(keys));
+                     (handles.empty() ? "" : "one of " + joined(handles) + ", or ") +
+                     "a key: " + joined(keys));
   }
   for (Node& element : array.elements) {
     set(element, setting, depth, schemaPath);
@@ -83,10 +86,12 @@ void set(Node& table, const Setting& setting, size_t depth, const std::string& s
   const Keys& keys = keysOf(schemaPath);
   if (!table.isTable() || std::find(keys.begin(), keys.end(), word) == keys.end()) {
     const std::string guess = nearest(word, keys);
-    throw InputError(setting.where + ": no " + word + " in " + (schemaPath.empty() ? "the scene" : schemaPath) +
-                     (guess.empty() ? "" : ", did you mean " + guess + "?") +
-                     (keys.empty() ? ", which has no keys" : (guess.empty() ? ", expected" : " Expected") +
-                                                                 std::string(" one of ") + joined(keys)));
+    throw InputError(
+        setting.where + ": no " + word + " in " + (schemaPath.empty() ? "the scene" : schemaPath) +
+        (guess.empty() ? "" : ", did you mean " + guess + "?") +
+        (keys.empty()
+             ? ", which has no keys"
+             : (guess.empty() ? ", expected" : " Expected") + std::string(" one of ") + joined(keys)));
   }
   Node* member = table.find(word);
   if (member == nullptr) {
@@ -109,6 +114,8 @@ void set(Node& table, const Setting& setting, size_t depth, const std::string& s
 
 }  // namespace
 
-void applyOverride(Node& document, const std::string& setting) { set(document, parse(setting), 0, ""); }
+void applyOverride(Node& document, const std::string& setting) {
+  set(document, parse(setting), 0, "");
+}
 
 }  // namespace mortier

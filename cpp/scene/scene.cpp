@@ -23,8 +23,8 @@ MaterialDescription readMaterial(const Node& node, const std::string& subject) {
   material.elasticity = {table.number("young", above(0)), table.number("poisson", between(-1, 0.5))};
   const auto projection = static_cast<Projection>(table.oneOf("projection", projectionWords, 1));
   if (table.find("viscosity") != nullptr || table.find("yield_stress") != nullptr) {
-    material.viscoplasticity =
-        Viscoplasticity{table.number("viscosity", above(0)), table.number("yield_stress", above(0)), projection};
+    material.viscoplasticity = Viscoplasticity{table.number("viscosity", above(0)),
+                                               table.number("yield_stress", above(0)), projection};
   }
   return material;
 }
@@ -50,7 +50,10 @@ void readBoundary(const Node& node, BodyDescription& body) {
     const char* key;
     Kind kind;
     int component;
-  } data[] = {{"ux", Kind::displacement, 0}, {"uy", Kind::displacement, 1}, {"tx", Kind::traction, 0}, {"ty", Kind::traction, 1}};
+  } data[] = {{"ux", Kind::displacement, 0},
+              {"uy", Kind::displacement, 1},
+              {"tx", Kind::traction, 0},
+              {"ty", Kind::traction, 1}};
   for (const auto& [key, kind, component] : data) {
     if (const Node* value = table.find(key)) {
       addCondition(body, {kind, label, component, table.expression(key), value->where});
@@ -115,7 +118,7 @@ BodyDescription readBody(const Node& node, const std::string& scenePath, size_t 
 SideDescription readSide(const TableReader& contact, const std::string& key, const SceneDescription& scene) {
   const Node& node = contact.require(key, "{ body = \"...\", label = ... }");
   const TableReader table(node, "contact." + key, key + " side of contact");
-  SideDescription side{table.string("body"), table.integer("label", 0), node.where};
+  SideDescription side{table.string("body"), table.integer("label", 0), table.find("label")->where};
   if (bodyIndex(scene, side.body) < 0) {
     Keys names;
     for (const BodyDescription& body : scene.bodies) {
@@ -137,14 +140,14 @@ void readContact(const Node& node, SceneDescription& scene) {
     std::swap(contact.nonmortar, contact.mortar);
   }
   if (contact.nonmortar.body == contact.mortar.body) {
-    throw InputError(table.message(contact.mortar.where, "both sides are body " + contact.mortar.body +
-                                                             ", expected two bodies"));
+    throw InputError(table.message(contact.mortar.where,
+                                   "both sides are body " + contact.mortar.body + ", expected two bodies"));
   }
   for (const ContactDescription& other : scene.contacts) {
     if (other.nonmortar.body == contact.nonmortar.body && other.nonmortar.label == contact.nonmortar.label) {
-      throw InputError(table.message(contact.nonmortar.where, "label " + std::to_string(contact.nonmortar.label) +
-                                                                  " of body " + contact.nonmortar.body +
-                                                                  " is nonmortar twice, expected once"));
+      throw InputError(table.message(contact.nonmortar.where,
+                                     "label " + std::to_string(contact.nonmortar.label) + " of body " +
+                                         contact.nonmortar.body + " is nonmortar twice, expected once"));
     }
   }
   scene.contacts.push_back(contact);
@@ -196,9 +199,15 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   return scene;
 }
 
-std::string word(CouplingKind kind) { return couplingWords[static_cast<size_t>(kind)]; }
-std::string word(Projection projection) { return projectionWords[static_cast<size_t>(projection)]; }
-std::string word(Scheme scheme) { return schemeWords[static_cast<size_t>(scheme)]; }
+std::string word(CouplingKind kind) {
+  return couplingWords[static_cast<size_t>(kind)];
+}
+std::string word(Projection projection) {
+  return projectionWords[static_cast<size_t>(projection)];
+}
+std::string word(Scheme scheme) {
+  return schemeWords[static_cast<size_t>(scheme)];
+}
 
 int bodyIndex(const SceneDescription& scene, const std::string& name) {
   for (size_t i = 0; i < scene.bodies.size(); ++i) {

@@ -57,7 +57,8 @@ struct SceneDescription {
   std::vector<ContactDescription> contacts;
   TimePlan time;
   SolverOptions solver;
-  int every = 0;  ///< keep each so many steps (and the initial state) beside the last one; 0: the last one only
+  int every =
+      0;  ///< keep each so many steps (and the initial state) beside the last one; 0: the last one only
 };
 
 /// Reads a scene, applies the settings (`key=value`) in their order, and validates.

@@ -8,8 +8,8 @@ namespace mortier {
 
 using Keys = std::vector<std::string>;
 
-/// The keys of the table at a dotted path without indices ("" is the scene itself, "body.boundary" one condition);
-/// empty where there is no such table.
+/// The keys of the table at a dotted path without indices ("" is the scene itself, "body.boundary" one
+/// condition); empty where there is no such table.
 const Keys& keysOf(const std::string& path);
 
 /// "a, b, c".

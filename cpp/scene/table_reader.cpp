@@ -12,7 +12,8 @@ Range anyNumber() {
 }
 
 Range above(double lower) {
-  return {[=](double v) { return v > lower; }, [=](const std::string& key) { return key + " > " + shortest(lower); }};
+  return {[=](double v) { return v > lower; },
+          [=](const std::string& key) { return key + " > " + shortest(lower); }};
 }
 
 Range between(double lower, double upper) {
@@ -29,8 +30,9 @@ TableReader::TableReader(const Node& table, std::string path, std::string subjec
   for (const auto& [key, value] : table.members) {
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
       const std::string guess = nearest(key, keys);
-      throw InputError(message(value.where, "unknown key " + key + (guess.empty() ? "" : ", did you mean " + guess + "?") +
-                                                (guess.empty() ? ", expected " : " Expected ") + "one of " + joined(keys)));
+      throw InputError(message(
+          value.where, "unknown key " + key + (guess.empty() ? "" : ", did you mean " + guess + "?") +
+                           (guess.empty() ? ", expected " : " Expected ") + "one of " + joined(keys)));
     }
   }
 }
@@ -106,7 +108,8 @@ int TableReader::oneOf(const std::string& key, const Keys& words, std::optional<
   if (node == nullptr && fallback) {
     return *fallback;
   }
-  const auto found = node == nullptr || !node->isString() ? words.end() : std::find(words.begin(), words.end(), node->text);
+  const auto found =
+      node == nullptr || !node->isString() ? words.end() : std::find(words.begin(), words.end(), node->text);
   if (found == words.end()) {
     reject(key, "one of " + joined(words));
   }

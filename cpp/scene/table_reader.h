@@ -36,11 +36,14 @@ class TableReader {
   /// Finite numbers in range; a missing key gives the fallback, or is an error where there is none.
   [[nodiscard]] double number(const std::string& key, const Range& range,
                               std::optional<double> fallback = std::nullopt) const;
-  [[nodiscard]] int integer(const std::string& key, int least, std::optional<int> fallback = std::nullopt) const;
+  [[nodiscard]] int integer(const std::string& key, int least,
+                            std::optional<int> fallback = std::nullopt) const;
   [[nodiscard]] bool boolean(const std::string& key, bool fallback) const;
-  [[nodiscard]] std::string string(const std::string& key, std::optional<std::string> fallback = std::nullopt) const;
+  [[nodiscard]] std::string string(const std::string& key,
+                                   std::optional<std::string> fallback = std::nullopt) const;
   /// The index of the value among `words`.
-  [[nodiscard]] int oneOf(const std::string& key, const Keys& words, std::optional<int> fallback = std::nullopt) const;
+  [[nodiscard]] int oneOf(const std::string& key, const Keys& words,
+                          std::optional<int> fallback = std::nullopt) const;
   /// A number or an expression in x, y, t.
   [[nodiscard]] Expression expression(const std::string& key) const;
   /// The table or tables under `key` (an array of tables or a single one), none where it is missing.

@@ -8,6 +8,8 @@
 namespace mortier {
 namespace {
 
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
 std::vector<int> indices(const std::vector<char>& set) {
   std::vector<int> result;
   for (size_t i = 0; i < set.size(); ++i)
@@ -15,60 +17,126 @@ std::vector<int> indices(const std::vector<char>& set) {
   return result;
 }
 
-/// dp with p0 + dp = 0 off the active set and zero slack on it.
-Vector changeOn(const std::vector<int>& active, const Matrix& W, bool symmetric, const Vector& slack,
-                const Vector& p0) {
-  Vector dp = -p0;
-  if (active.empty()) return dp;
-  for (const int i : active) dp[i] = 0;
-  const Vector right = -(slack + W * dp)(active);
-  const Matrix block = W(active, active);
-  dp(active) = symmetric ? Vector(block.llt().solve(right)) : Vector(block.partialPivLu().solve(right));
-  return dp;
-}
+class Pivoting {
+ public:
+  Pivoting(const ContactProblem& problem, const Vector& slack, const Vector& p0, const Vector& balance)
+      : problem_(problem), slack_(slack), p0_(p0), balance_(balance) {
+    // The proximal weight against the stiffness that all nodes together give to rigid motions.
+    constexpr double proximal = 1e-9;
+    if (problem.G.cols() > 0) {
+      const Matrix stiffness = problem.G.transpose() * solve(problem.W, problem.G);
+      proximal_ = proximal * stiffness.diagonal().maxCoeff();
+    }
+  }
+
+  /// Ends at the active set of the proximal problem around z0. \returns false after too many pivots.
+  bool run(const Vector& z0, ContactSolution& solution) const {
+    constexpr int patience = 8;
+    const auto n = static_cast<int>(slack_.size());
+    const int limit = solution.pivots + 20 * n + 100;
+    int fewestWrong = n + 1;
+    int tries = 0;
+    while (solution.pivots < limit) {
+      ++solution.pivots;
+      solveOn(indices(solution.active), z0, solution);
+      std::vector<int> wrong = wrongSigns(solution);
+      if (wrong.empty()) return true;
+      const auto count = static_cast<int>(wrong.size());
+      tries = count < fewestWrong ? 0 : tries + 1;
+      fewestWrong = std::min(fewestWrong, count);
+      if (tries > patience) wrong.resize(1);
+      for (const int i : wrong) solution.active[i] = solution.active[i] != 0 ? 0 : 1;
+    }
+    return false;
+  }
+
+  /// What the proximal term still carries of the balance, against all forces in it.
+  [[nodiscard]] double imbalance(const ContactSolution& solution) const {
+    const Vector rest = balance_ - problem_.G.transpose() * solution.change;
+    const double scale =
+        balance_.cwiseAbs().maxCoeff() + (problem_.G.cwiseAbs().transpose() * (p0_ + solution.change).cwiseAbs()).maxCoeff();
+    return scale > 0 ? rest.cwiseAbs().maxCoeff() / scale : 0;
+  }
+
+ private:
+  [[nodiscard]] Matrix solve(const Matrix& block, const Matrix& right) const {
+    if (problem_.symmetric) return block.llt().solve(right);
+    return block.partialPivLu().solve(right);
+  }
+
+  /// p = 0 off the active set, s = 0 on it.
+  void solveOn(const std::vector<int>& active, const Vector& z0, ContactSolution& solution) const {
+    const Matrix& G = problem_.G;
+    Vector& dp = solution.change;
+    dp = -p0_;
+    for (const int i : active) dp[i] = 0;
+    Matrix right(active.size(), 1 + G.cols());
+    right.col(0) = -(slack_ + problem_.W * dp)(active);
+    right.rightCols(G.cols()) = G(active, Eigen::all);
+    const Matrix solved = active.empty() ? right : solve(problem_.W(active, active), right);
+    if (G.cols() > 0) {
+      const Matrix Ga = G(active, Eigen::all);
+      Matrix stiffness = Ga.transpose() * solved.rightCols(G.cols());
+      stiffness.diagonal().array() += proximal_;
+      const Vector force = balance_ - G.transpose() * dp - Ga.transpose() * solved.col(0) + proximal_ * z0;
+      solution.rigid = stiffness.partialPivLu().solve(force);
+    }
+    if (active.empty()) return;
+    dp(active) = solved.col(0);
+    if (G.cols() > 0) dp(active) += solved.rightCols(G.cols()) * solution.rigid;
+  }
+
+  /// Signs are judged against rounding, slacks as the forces that would close them.
+  [[nodiscard]] std::vector<int> wrongSigns(const ContactSolution& solution) const {
+    constexpr double rounding = 64 * epsilon;
+    Vector s = slack_ + problem_.W * solution.change;
+    if (problem_.G.cols() > 0) s -= problem_.G * solution.rigid;
+    const Vector p = p0_ + solution.change;
+    double largest = 0;
+    for (Eigen::Index i = 0; i < s.size(); ++i)
+      largest = std::max({largest, std::abs(p[i]), std::abs(p0_[i]), std::abs(slack_[i]) / problem_.W(i, i)});
+    std::vector<int> wrong;
+    for (Eigen::Index i = 0; i < s.size(); ++i) {
+      const double value = solution.active[i] != 0 ? p[i] : s[i] / problem_.W(i, i);
+      if (!(value >= -rounding * largest)) wrong.push_back(static_cast<int>(i));
+    }
+    return wrong;
+  }
+
+  const ContactProblem& problem_;
+  const Vector& slack_;
+  const Vector& p0_;
+  const Vector& balance_;
+  double proximal_ = 0;
+};
 
 }  // namespace
 
-Complementarity solveComplementarity(const Matrix& W, bool symmetric, const Vector& slack, const Vector& p0,
-                                     std::vector<char> active) {
-  // Signs are judged against rounding, slacks as the forces that would close them.
-  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-  constexpr int patience = 8;
+ContactSolution solveContact(const ContactProblem& problem, const Vector& slack, const Vector& p0, const Vector& balance,
+                             std::vector<char> active) {
+  constexpr int repetitions = 6;
+  constexpr double balanced = 1e-14;
 
-  Complementarity result;
-  const auto n = static_cast<int>(slack.size());
-  const int limit = 20 * n + 100;
-  int fewestWrong = n + 1;
-  int tries = 0;
-  for (result.pivots = 1; result.pivots <= limit; ++result.pivots) {
-    const Vector dp = changeOn(indices(active), W, symmetric, slack, p0);
-    const Vector s = slack + W * dp;
-    result.p = p0 + dp;
-    double largest = 0;
-    for (int i = 0; i < n; ++i)
-      largest = std::max({largest, std::abs(result.p[i]), std::abs(p0[i]), std::abs(slack[i]) / W(i, i)});
-    std::vector<int> wrong;
-    for (int i = 0; i < n; ++i) {
-      const double value = active[i] != 0 ? result.p[i] : s[i] / W(i, i);
-      if (!(value >= -rounding * largest)) wrong.push_back(i);
-    }
-    if (wrong.empty()) {
-      result.p = result.p.cwiseMax(0);
-      result.active = std::move(active);
-      result.solved = true;
-      return result;
-    }
-    if (static_cast<int>(wrong.size()) < fewestWrong) {
-      fewestWrong = static_cast<int>(wrong.size());
-      tries = 0;
-    } else {
-      ++tries;
-    }
-    if (tries > patience) wrong.resize(1);
-    for (const int i : wrong) active[i] = active[i] != 0 ? 0 : 1;
+  ContactSolution solution;
+  solution.active = std::move(active);
+  solution.rigid = Vector::Zero(problem.G.cols());
+  if (slack.size() == 0) {
+    solution.change = p0;
+    solution.outcome = ContactSolution::Outcome::solved;
+    return solution;
   }
-  result.active = std::move(active);
-  return result;
+  const Pivoting pivoting(problem, slack, p0, balance);
+  Vector z0 = solution.rigid;
+  for (int repetition = 0; repetition < repetitions; ++repetition) {
+    if (!pivoting.run(z0, solution)) return solution;
+    if (problem.G.cols() == 0 || pivoting.imbalance(solution) <= balanced) break;
+    z0 = solution.rigid;
+  }
+  constexpr double hopeless = 1e-6;
+  solution.outcome = problem.G.cols() > 0 && pivoting.imbalance(solution) > hopeless
+                         ? ContactSolution::Outcome::unbalanced
+                         : ContactSolution::Outcome::solved;
+  return solution;
 }
 
 }  // namespace mortier

@@ -1,6 +1,9 @@
-// The contact problem once everything else is condensed away: the linear complementarity problem
-//   p >= 0,   s = q + W p >= 0,   p s = 0                                                                    (contact)
-// with the contact compliance W = C S^-1 C' (nonmortar nodes squared, W_ii > 0) and the slack s = g0 - C u.
+// The contact problem once everything else is condensed away: the mixed linear complementarity problem
+//   s = s0 + W dp - G z >= 0,   p = p0 + dp >= 0,   p s = 0,                                               (contact)
+//   G' dp = r                                                                           (balance of rigid motions)
+// for the change dp of the contact forces and the rigid motions z of bodies that contact alone holds.
+// W = C S^-1 C' is the contact compliance, G = C R the normal motion of the nonmortar nodes under rigid motions, s the
+// slack g0 - C u, r the part of the load that only contact can balance.
 #pragma once
 
 #include <vector>
@@ -9,18 +12,30 @@
 
 namespace mortier {
 
-struct Complementarity {
-  Vector p;                  ///< contact forces
-  std::vector<char> active;  ///< p > 0 or on the edge of it
-  int pivots = 0;            ///< dense solves
-  bool solved = false;       ///< false only where W is not a P-matrix (an indefinite tangent)
+struct ContactProblem {
+  Matrix W;               ///< rows x rows, W_ii > 0
+  bool symmetric = true;  ///< whether W is
+  Matrix G;               ///< rows x rigid motions, none where all bodies are supported
 };
 
-/// Principal pivoting. All wrong signs change sides at once; when that stops helping, one at a time by the least index,
-/// which ends after finitely many steps for every P-matrix, symmetric or not (Murty 1974; Judice and Pires 1994).
-/// \param slack  s at p0; the solution is sought as a change of p0, so that a good p0 costs no accuracy.
+struct ContactSolution {
+  enum class Outcome {
+    solved,
+    unbalanced,  ///< contact cannot balance r: `rigid` is the motion along which the bodies leave
+    cycled       ///< only where W is not a P-matrix (an indefinite tangent)
+  };
+  Outcome outcome = Outcome::cycled;
+  Vector change;             ///< dp
+  Vector rigid;              ///< z
+  std::vector<char> active;  ///< the set on which s = 0 was asked
+  int pivots = 0;            ///< dense solves
+};
+
+/// Principal pivoting: all wrong signs change sides at once; when that stops helping, one at a time by the least index,
+/// which ends after finitely many steps for every P-matrix, symmetric or not (Murty 1974; Judice and Pires 1994). The
+/// balance is held by a proximal term on z, small enough that one or two repetitions make it exact (Rockafellar 1976).
 /// \param active  the set to begin with.
-Complementarity solveComplementarity(const Matrix& W, bool symmetric, const Vector& slack, const Vector& p0,
-                                     std::vector<char> active);
+ContactSolution solveContact(const ContactProblem& problem, const Vector& slack, const Vector& p0, const Vector& balance,
+                             std::vector<char> active);
 
 }  // namespace mortier

@@ -1,12 +1,14 @@
 #include "solver/step.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "base/double_double.h"
 #include "base/error.h"
+#include "fem/rigid_modes.h"
 
 namespace mortier {
 
@@ -14,6 +16,9 @@ namespace mortier {
 struct StepSolver::BodySystem {
   std::vector<int> kept;  ///< equations of the contact dofs
   Matrix C;               ///< all contact rows x kept
+  Matrix motions;         ///< rigid motions that the supports leave free, dofs x motions
+  Matrix R;               ///< the same on the kept equations, orthonormal
+  int firstMotion = 0;    ///< among the motions of all bodies
   std::unique_ptr<CondensingSolver> solver;
   std::unique_ptr<CondensingSolver> fallback;
   std::vector<double> values;
@@ -36,6 +41,8 @@ namespace {
 
 /// Force balance asked of a converged step; far above rounding, far below what any result shows.
 constexpr double balanceTolerance = 1e-11;
+/// A motion that moves the contact nodes by less than this part of the others is not held by contact.
+constexpr double motionTolerance = 1e-14;
 
 /// Rows of C of one interface side as (row, dof, value).
 template <class Visit>
@@ -76,10 +83,60 @@ StepSolver::StepSolver(const Model& model, const SolverOptions& options) : model
       });
     system->solver = options.linear == LinearEngine::multifrontal ? multifrontalSolver(body.pattern(), system->kept)
                                                                   : suiteSparseSolver(body.pattern(), system->kept);
+    system->motions = rigidModes(body);
     system->law.predictor.resize(body.material().components(), body.points());
     system->law.moduli.resize(9, body.points());
     systems_.push_back(std::move(system));
   }
+  findRigidMotions();
+}
+
+void StepSolver::findRigidMotions() {
+  int motions = 0;
+  for (auto& system : systems_) {
+    system->firstMotion = motions;
+    motions += static_cast<int>(system->motions.cols());
+  }
+  contact_.G = Matrix::Zero(rows_, motions);
+  for (size_t b = 0; b < systems_.size(); ++b) {
+    BodySystem& system = *systems_[b];
+    if (system.motions.cols() == 0) continue;
+    const Body& body = model_.bodies[b];
+    // On the contact dofs, then orthonormal there: motions = (motions on contact dofs) T^-1.
+    Matrix onKept(system.kept.size(), system.motions.cols());
+    for (int dof = 0; dof < body.dofs(); ++dof)
+      for (size_t i = 0; i < system.kept.size(); ++i)
+        if (body.equations()[dof] == system.kept[i]) onKept.row(i) = system.motions.row(dof);
+    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(onKept.transpose() * onKept);
+    const double largest = std::max(1.0, eigen.eigenvalues().maxCoeff());
+    for (Eigen::Index i = 0; i < eigen.eigenvalues().size(); ++i)
+      if (eigen.eigenvalues()[i] <= motionTolerance * largest)
+        throw UnheldBodyError("body " + body.name() + ": nothing holds its " +
+                              describeRigidMotion(body, system.motions * eigen.eigenvectors().col(i)) +
+                              "; a support (ux, uy) or a contact would");
+    const Matrix T = eigen.eigenvectors() * eigen.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
+    system.motions *= T;
+    system.R = onKept * T;
+    contact_.G.middleCols(system.firstMotion, system.R.cols()) = system.C * system.R;
+  }
+  if (motions == 0) return;
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(contact_.G.transpose() * contact_.G);
+  if (eigen.eigenvalues()[0] <= motionTolerance * eigen.eigenvalues().maxCoeff())
+    throw UnheldBodyError("nothing holds " + describeRigid(eigen.eigenvectors().col(0)) +
+                          "; a support (ux, uy) or a contact would");
+}
+
+std::string StepSolver::describeRigid(const Vector& z) const {
+  std::string text;
+  for (size_t b = 0; b < systems_.size(); ++b) {
+    const Matrix& motions = systems_[b]->motions;
+    if (motions.cols() == 0) continue;
+    const Vector part = z.segment(systems_[b]->firstMotion, motions.cols());
+    if (part.norm() < 1e-6 * z.norm()) continue;
+    if (!text.empty()) text += ", ";
+    text += "body " + model_.bodies[b].name() + ": " + describeRigidMotion(model_.bodies[b], motions * part);
+  }
+  return text;
 }
 
 StepSolver::~StepSolver() = default;
@@ -131,7 +188,7 @@ double StepSolver::linearise(const State& state0, const StepData& step, const It
 }
 
 bool StepSolver::factorise(StepOutcome& outcome) {
-  bool changed = compliance_.rows() != rows_;
+  bool changed = contact_.W.rows() != rows_;
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
     BodySystem& system = *systems_[b];
@@ -144,8 +201,10 @@ bool StepSolver::factorise(StepOutcome& outcome) {
       outcome.reason = "body " + body.name() + ": its tangent is singular with its contact nodes held";
       return false;
     }
-    const Matrix& S = system.solver->schurComplement();
-    if (S.rows() == 0) continue;
+    if (system.kept.empty()) continue;
+    // Rigid motions get a stiffness of their own; as z carries them it never acts.
+    Matrix S = system.solver->schurComplement();
+    if (system.R.cols() > 0) S += S.diagonal().maxCoeff() * system.R * system.R.transpose();
     if (body.pattern().symmetric) {
       system.cholesky.compute(S);
       if (system.cholesky.info() != Eigen::Success) {
@@ -159,18 +218,23 @@ bool StepSolver::factorise(StepOutcome& outcome) {
     system.compliance = system.solveSchur(system.C.transpose(), body.pattern().symmetric);
   }
   if (changed) {
-    compliance_ = Matrix::Zero(rows_, rows_);
-    for (const auto& system : systems_)
-      if (!system->kept.empty()) compliance_ += system->C * system->compliance;
+    contact_.W = Matrix::Zero(rows_, rows_);
+    contact_.symmetric = true;
+    for (size_t b = 0; b < systems_.size(); ++b) {
+      contact_.symmetric = contact_.symmetric && model_.bodies[b].pattern().symmetric;
+      if (!systems_[b]->kept.empty()) contact_.W += systems_[b]->C * systems_[b]->compliance;
+    }
   }
   return true;
 }
 
-bool StepSolver::solveLinearised(const State& state0, const std::vector<Vector>& loads, Iterate& iterate) {
+void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>& loads, Iterate& iterate,
+                                 StepOutcome& outcome) {
   std::vector<Vector> residual;
   for (size_t b = 0; b < model_.bodies.size(); ++b)
     residual.push_back(loads[b] - model_.bodies[b].internalForce(systems_[b]->law.predictor));
   Vector slack(rows_);
+  Vector balance(contact_.G.cols());
   Vector p(rows_);
   std::vector<char> active;
   for (size_t k = 0; k < model_.interfaces.size(); ++k) {
@@ -194,22 +258,34 @@ bool StepSolver::solveLinearised(const State& state0, const std::vector<Vector>&
     for (int dof = 0; dof < body.dofs(); ++dof)
       if (body.equations()[dof] >= 0) system.residual[body.equations()[dof]] = residual[b][dof];
     system.solver->condense(system.residual);
-    if (!system.kept.empty())
-      slack -= system.C * system.solveSchur(system.residual(system.kept), body.pattern().symmetric);
+    if (system.kept.empty()) continue;
+    const Vector f = system.residual(system.kept);
+    slack -= system.C * system.solveSchur(f, body.pattern().symmetric);
+    if (system.R.cols() > 0) balance.segment(system.firstMotion, system.R.cols()) = system.R.transpose() * f;
   }
-  bool symmetric = true;
-  for (const Body& body : model_.bodies) symmetric = symmetric && body.pattern().symmetric;
-  Complementarity contact = solveComplementarity(compliance_, symmetric, slack, p, active);
-  if (!contact.solved) return false;
-  const Vector dp = contact.p - p;
+  const ContactSolution contact = solveContact(contact_, slack, p, balance, active);
+  if (contact.outcome == ContactSolution::Outcome::cycled) {
+    outcome.reason = "the contact problem of the linearised step has no solution";
+    return;
+  }
+  if (contact.outcome == ContactSolution::Outcome::unbalanced) {
+    outcome.unheld = true;
+    outcome.reason = "contact cannot hold " + describeRigid(contact.rigid);
+    return;
+  }
 
   // Expand: displacement and stress.
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
     BodySystem& system = *systems_[b];
     if (!system.kept.empty()) {
-      const Vector f = Vector(system.residual(system.kept)) - system.C.transpose() * dp;
-      system.residual(system.kept) = system.solveSchur(f, body.pattern().symmetric);
+      const Vector f = Vector(system.residual(system.kept)) - system.C.transpose() * contact.change;
+      Vector x = system.solveSchur(f, body.pattern().symmetric);
+      if (system.R.cols() > 0) {
+        x -= system.R * (system.R.transpose() * x);
+        x += system.R * contact.rigid.segment(system.firstMotion, system.R.cols());
+      }
+      system.residual(system.kept) = x;
     }
     system.solver->expand(system.residual);
     Vector d = Vector::Zero(body.dofs());
@@ -226,10 +302,9 @@ bool StepSolver::solveLinearised(const State& state0, const std::vector<Vector>&
   }
   for (size_t k = 0; k < model_.interfaces.size(); ++k) {
     const int rows = model_.interfaces[k].rows();
-    iterate.contactForce[k] = contact.p.segment(firstRow_[k], rows);
+    iterate.contactForce[k] = (p + contact.change).segment(firstRow_[k], rows).cwiseMax(0);
     iterate.active[k].assign(contact.active.begin() + firstRow_[k], contact.active.begin() + firstRow_[k] + rows);
   }
-  return true;
 }
 
 Certificate StepSolver::certify(const State& state0, const std::vector<Vector>& loads, const Iterate& iterate,
@@ -299,10 +374,8 @@ StepOutcome StepSolver::newton(const State& state0, const StepData& step, Iterat
     }
     ++outcome.iterations;
     if (!factorise(outcome)) return outcome;
-    if (!solveLinearised(state0, loads, iterate)) {
-      outcome.reason = "the contact problem of the linearised step has no solution";
-      return outcome;
-    }
+    solveLinearised(state0, loads, iterate, outcome);
+    if (!outcome.reason.empty()) return outcome;
   }
 }
 

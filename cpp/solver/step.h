@@ -41,6 +41,7 @@ struct StepData {
 
 struct StepOutcome {
   bool converged = false;
+  bool unheld = false;  ///< contact cannot balance the load: `reason` names the motion
   std::string reason;
   std::string rung = "newton";
   int iterations = 0;
@@ -50,6 +51,7 @@ struct StepOutcome {
 
 class StepSolver {
  public:
+  /// \throws UnheldBodyError when neither supports nor contact hold a body.
   StepSolver(const Model& model, const SolverOptions& options);
   ~StepSolver();
 
@@ -62,9 +64,11 @@ class StepSolver {
  private:
   struct BodySystem;
 
+  void findRigidMotions();
+  [[nodiscard]] std::string describeRigid(const Vector& z) const;
   double linearise(const State& state0, const StepData& step, const Iterate& iterate);
   bool factorise(StepOutcome& outcome);
-  bool solveLinearised(const State& state0, const std::vector<Vector>& loads, Iterate& iterate);
+  void solveLinearised(const State& state0, const std::vector<Vector>& loads, Iterate& iterate, StepOutcome& outcome);
   StepOutcome newton(const State& state0, const StepData& step, Iterate& iterate, int maxIterations, double tolerance);
   [[nodiscard]] Certificate certify(const State& state0, const std::vector<Vector>& loads, const Iterate& iterate,
                                     double materialResidual) const;
@@ -75,7 +79,7 @@ class StepSolver {
   std::vector<std::unique_ptr<BodySystem>> systems_;
   std::vector<int> firstRow_;  ///< of each interface among all contact conditions
   int rows_ = 0;
-  Matrix compliance_;  ///< W
+  ContactProblem contact_;
 };
 
 }  // namespace mortier
