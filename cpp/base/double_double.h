@@ -1,4 +1,5 @@
-// Sums and products in twice the working precision (Dekker 1971, Knuth 1969). Needs IEEE arithmetic: no -ffast-math.
+// Sums and products in twice the working precision (Dekker 1971, Knuth 1969). Needs IEEE arithmetic: no
+// -ffast-math.
 #pragma once
 
 #include <cmath>

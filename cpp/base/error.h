@@ -5,14 +5,16 @@
 
 namespace mortier {
 
-/// A wrong input: scene, mesh, number or file. The message is one line that names the place, the value and what was
-/// expected, e.g. `compression.toml:14: body upper: poisson = 0.6, expected -1 < poisson < 0.5`. Exit code 2.
+/// A wrong input: scene, mesh, number or file. The message is one line that names the place, the value and
+/// what was expected, e.g. `compression.toml:14: body upper: poisson = 0.6, expected -1 < poisson < 0.5`.
+/// Exit code 2.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A scene that has no (unique) solution: a body that nothing holds. The message names the free motion. Exit code 3.
+/// A scene that has no (unique) solution: a body that nothing holds. The message names the free motion. Exit
+/// code 3.
 class UnheldBodyError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -102,13 +102,16 @@ void writeBody(std::ostream& out, const BodyDescription& body, int number) {
 }
 
 void writeConditions(std::ostream& out, const BodyDescription& body, int number) {
+  bool held = false;  // a macro must not be empty
   out << "macro supports" << number << ' ';
   for (const ConditionDescription& c : body.conditions) {
     if (c.kind == ConditionDescription::Kind::displacement) {
       out << "+ on(" << c.label << ", u" << c.component + 1 << " = " << translated(c.value) << ") ";
+      held = true;
     }
   }
-  out << "//\nmacro loads" << number << " + int2d(Body" << number << ")(0.*v2) ";
+  out << (held ? "" : "+ int1d(Body" + std::to_string(number) + ")(0.*u1*v1) ") << "//\nmacro loads" << number
+      << " + int2d(Body" << number << ")(0.*v2) ";
   for (const ConditionDescription& c : body.conditions) {
     if (c.kind == ConditionDescription::Kind::traction) {
       out << "+ int1d(Body" << number << ", " << c.label << ")((" << translated(c.value) << ")*v"

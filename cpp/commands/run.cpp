@@ -142,8 +142,8 @@ int run(const RunCommand& command) {
   log.print(logStatus(report, where));
   log.print(logVerification(report.worst));
   if (!complete) {
-    std::fprintf(stderr, "mortier: %s: step %d: %s; the state after step %d is in %s\n", scene.path.c_str(),
-                 last.step + 1, report.reason.c_str(), last.step, where.c_str());
+    std::fprintf(stderr, "mortier: %s: %s; the state after step %d is in %s\n", scene.path.c_str(),
+                 report.reason.c_str(), last.step, where.c_str());
   }
   return complete ? exitDone : report.status == Status::unheld ? exitUnheld : exitFailed;
 }

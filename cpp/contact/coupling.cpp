@@ -6,8 +6,8 @@
 namespace mortier {
 namespace {
 
-/// Values at s of the functions of the rows that belong to an element's two nodes (row -1: that node has none, and the
-/// other one's function is 1).
+/// Values at s of the functions of the rows that belong to an element's two nodes (row -1: that node has
+/// none, and the other one's function is 1).
 Eigen::Vector2d rowFunctions(const Trace& trace, int element, const Eigen::Vector2i& row, double s) {
   if (row[0] < 0) return {0, 1};
   if (row[1] < 0) return {1, 0};

@@ -15,9 +15,13 @@ constexpr double straightness = 1e-9;
 /// Distances as meshed below this part of the length are rounding.
 constexpr double touching = 1e-12;
 
-Point direction(const BoundaryLine& line) { return (line.points.back() - line.points.front()).normalized(); }
+Point direction(const BoundaryLine& line) {
+  return (line.points.back() - line.points.front()).normalized();
+}
 
-double length(const BoundaryLine& line) { return (line.points.back() - line.points.front()).norm(); }
+double length(const BoundaryLine& line) {
+  return (line.points.back() - line.points.front()).norm();
+}
 
 void requireStraight(const BoundaryLine& line, const TriangleMesh& mesh, int label) {
   const Point t = direction(line);
@@ -25,7 +29,8 @@ void requireStraight(const BoundaryLine& line, const TriangleMesh& mesh, int lab
   for (const Point& point : line.points) {
     const Point x = point - line.points.front();
     const double s = x.dot(t);
-    if (line.closed || std::abs(x.x() * t.y() - x.y() * t.x()) > straightness * length(line) || !(s > previous)) {
+    if (line.closed || std::abs(x.x() * t.y() - x.y() * t.x()) > straightness * length(line) ||
+        !(s > previous)) {
       std::ostringstream message;
       message << mesh.name << ": label " << label << " is bent at (" << point.x() << ", " << point.y()
               << "), expected a straight contact line";
@@ -41,7 +46,9 @@ Trace abscissae(const BoundaryLine& line, const Point& origin, const Point& tang
   return trace;
 }
 
-double normalComponent(const Vector& u, int node, const Point& n) { return u[2 * node] * n.x() + u[2 * node + 1] * n.y(); }
+double normalComponent(const Vector& u, int node, const Point& n) {
+  return u[2 * node] * n.x() + u[2 * node + 1] * n.y();
+}
 
 }  // namespace
 
@@ -87,7 +94,8 @@ ContactInterface::ContactInterface(const ContactPair& pair, const TriangleMesh& 
     if (std::abs(distance) < touching * shorter) distance = 0;
   if (distance_.minCoeff() < -straightness * shorter) {
     std::ostringstream message;
-    message << names << " penetrate each other by " << -distance_.minCoeff() << " m as meshed, expected a distance >= 0";
+    message << names << " penetrate each other by " << -distance_.minCoeff()
+            << " m as meshed, expected a distance >= 0";
     throw InputError(message.str());
   }
 }
@@ -96,7 +104,8 @@ Vector ContactInterface::gap(const Vector& uNonmortar, const Vector& uMortar) co
   Vector u2(mortarNodes_.size());
   for (size_t j = 0; j < mortarNodes_.size(); ++j) u2[j] = normalComponent(uMortar, mortarNodes_[j], normal_);
   Vector g = -(coupling_.A * u2) - distance_;
-  for (size_t i = 0; i < nonmortarNodes_.size(); ++i) g[i] += normalComponent(uNonmortar, nonmortarNodes_[i], normal_);
+  for (size_t i = 0; i < nonmortarNodes_.size(); ++i)
+    g[i] += normalComponent(uNonmortar, nonmortarNodes_[i], normal_);
   return g;
 }
 
@@ -114,7 +123,8 @@ Vector ContactInterface::contactPressure(const Vector& p) const {
 
 double ContactInterface::interpenetration(const Vector& uNonmortar, const Vector& uMortar) const {
   const auto position = [&](const BoundaryLine& line, int i, const Vector& u) {
-    return (line.points[i] - nonmortarLine_.points.front()).dot(normal_) + normalComponent(u, line.nodes[i], normal_);
+    return (line.points[i] - nonmortarLine_.points.front()).dot(normal_) +
+           normalComponent(u, line.nodes[i], normal_);
   };
   double integral = 0;
   for (const Segment& segment : commonRefinement(nonmortarTrace_, mortarTrace_)) {

@@ -1,9 +1,10 @@
-// A contact interface between two meshes, discretised: the rows of C, the gap, and what is measured on Gamma_C.
+// A contact interface between two meshes, discretised: the rows of C, the gap, and what is measured on
+// Gamma_C.
 //
-//   [C u]_i = (u1_i - sum_j A_ij u2_j) . n,      g = C u - g0 <= 0,   p >= 0,   p g = 0                       (contact)
+//   [C u]_i = (u1_i - sum_j A_ij u2_j) . n,      g = C u - g0 <= 0,   p >= 0,   p g = 0 (contact)
 //
-// i runs over the nonmortar contact nodes, j over the mortar nodes, n is the outward normal of the nonmortar body, A comes
-// from the coupling (interpolation or projection), g0 is the distance of the bodies as meshed.
+// i runs over the nonmortar contact nodes, j over the mortar nodes, n is the outward normal of the nonmortar
+// body, A comes from the coupling (interpolation or projection), g0 is the distance of the bodies as meshed.
 #pragma once
 
 #include "base/types.h"
@@ -26,8 +27,10 @@ struct ContactPair {
 
 class ContactInterface {
  public:
-  /// \throws InputError when a line is not straight, or the lines do not face each other, overlap nowhere or penetrate.
-  ContactInterface(const ContactPair& pair, const TriangleMesh& nonmortarMesh, const TriangleMesh& mortarMesh);
+  /// \throws InputError when a line is not straight, or the lines do not face each other, overlap nowhere or
+  /// penetrate.
+  ContactInterface(const ContactPair& pair, const TriangleMesh& nonmortarMesh,
+                   const TriangleMesh& mortarMesh);
 
   [[nodiscard]] const ContactPair& pair() const { return pair_; }
   /// Vertex numbers of the nonmortar nodes that carry a condition, along the line; one row of C each.

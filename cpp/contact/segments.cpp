@@ -19,8 +19,10 @@ Overlap overlapOf(const Trace& nonmortar, const Trace& mortar) {
   const size_t m = mortar.size();
   Overlap overlap{std::max(nonmortar[0], mortar[0]), std::min(nonmortar[n - 1], mortar[m - 1])};
   // The merged end is the nonmortar one: its node must not be lost by rounding.
-  if (same(nonmortar[0], mortar[0], nonmortar[1] - nonmortar[0], mortar[1] - mortar[0])) overlap.begin = nonmortar[0];
-  if (same(nonmortar[n - 1], mortar[m - 1], nonmortar[n - 1] - nonmortar[n - 2], mortar[m - 1] - mortar[m - 2]))
+  if (same(nonmortar[0], mortar[0], nonmortar[1] - nonmortar[0], mortar[1] - mortar[0]))
+    overlap.begin = nonmortar[0];
+  if (same(nonmortar[n - 1], mortar[m - 1], nonmortar[n - 1] - nonmortar[n - 2],
+           mortar[m - 1] - mortar[m - 2]))
     overlap.end = nonmortar[n - 1];
   return overlap;
 }

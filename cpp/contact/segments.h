@@ -14,8 +14,8 @@ using Trace = std::vector<double>;
 struct Segment {
   int nonmortar = 0;  ///< element: between trace nodes `nonmortar` and `nonmortar + 1`
   int mortar = 0;
-  double begin = 0;   ///< [m]
-  double end = 0;     ///< [m]
+  double begin = 0;  ///< [m]
+  double end = 0;    ///< [m]
 };
 
 /// Ends of the part where both traces lie; begin >= end when they do not overlap.

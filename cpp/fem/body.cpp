@@ -35,13 +35,14 @@ void forEachEdge(const TriangleMesh& mesh, int label, Visit visit) {
 
 void requireLabel(const TriangleMesh& mesh, const std::string& body, int label) {
   if (std::find(mesh.boundaryLabels.begin(), mesh.boundaryLabels.end(), label) == mesh.boundaryLabels.end())
-    throw InputError("body " + body + ": label = " + std::to_string(label) + ", expected a boundary label of " +
-                     mesh.name);
+    throw InputError("body " + body + ": label = " + std::to_string(label) +
+                     ", expected a boundary label of " + mesh.name);
 }
 
 }  // namespace
 
-Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> material, Conditions conditions)
+Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> material,
+           Conditions conditions)
     : name_(std::move(name)),
       mesh_(std::move(mesh)),
       material_(std::move(material)),
@@ -129,8 +130,8 @@ void Body::prescribe(double t, Vector& u) const {
 
 Vector Body::load(double t) const {
   Vector f = Vector::Zero(dofs());
-  // Simpson on each edge, and the midpoints of the edges of each triangle: exact for data up to degree 2 against the
-  // shape functions (edges), degree 1 (triangles).
+  // Simpson on each edge, and the midpoints of the edges of each triangle: exact for data up to degree 2
+  // against the shape functions (edges), degree 1 (triangles).
   for (const auto& traction : conditions_.tractions)
     forEachEdge(mesh_, traction.label, [&](const std::array<int, 2>& edge) {
       const Point& a = mesh_.vertices[edge[0]];
@@ -236,7 +237,8 @@ void Body::tangent(const Matrix& moduli, std::vector<double>& values) const {
     const double* G = &gradients_[elementDofs * i];
     const int* scatter = &scatter_[static_cast<size_t>(t) * elementDofs * elementDofs];
     for (int b = 0; b < Element::nodes; ++b) {
-      const Eigen::Matrix<double, 3, 2> DB = weights_[i] * moduliTimesB(&moduli(0, i), G[2 * b], G[2 * b + 1]);
+      const Eigen::Matrix<double, 3, 2> DB =
+          weights_[i] * moduliTimesB(&moduli(0, i), G[2 * b], G[2 * b + 1]);
       for (int c = 0; c < 2; ++c) {
         const double sum = DB(0, c) + DB(1, c);
         const double difference = DB(0, c) - DB(1, c);

@@ -63,8 +63,8 @@ class Body {
 
   /// sum |T| B' s: nodal forces (dofs) of a stress field (components x points) [N/m].
   [[nodiscard]] Vector internalForce(const Matrix& stress) const;
-  /// B u (3 x points) of a displacement (dofs) carried as u + small, in twice the working precision: a triangle that is
-  /// still elastic next to one that flows sees tiny differences of large displacements.
+  /// B u (3 x points) of a displacement (dofs) carried as u + small, in twice the working precision: a
+  /// triangle that is still elastic next to one that flows sees tiny differences of large displacements.
   void strain(const Vector& u, const Vector& small, Matrix& strain) const;
   /// stress += moduli B d, d by dofs.
   void addStressOf(const Vector& d, const Matrix& moduli, Matrix& stress) const;
@@ -86,7 +86,7 @@ class Body {
   SparsePattern pattern_;
   std::vector<double> weights_;
   std::vector<double> gradients_;  ///< 6 per point: gradient of each node's shape function over sqrt2
-  std::vector<int> scatter_;       ///< per triangle: entry of pattern_ for each entry of its matrix, -1 for none
+  std::vector<int> scatter_;  ///< per triangle: entry of pattern_ for each entry of its matrix, -1 for none
 };
 
 }  // namespace mortier

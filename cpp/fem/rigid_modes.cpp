@@ -66,8 +66,8 @@ std::string describeRigidMotion(const Body& body, const Vector& motion) {
   } else {
     const double radius = extent(body.mesh()) / 2;
     const Point c = centre(body.mesh());
-    text << "rotation about (" << c.x() - shown(a[1]) / a[2] * radius << ", " << c.y() + shown(a[0]) / a[2] * radius
-         << ")";
+    text << "rotation about (" << c.x() - shown(a[1]) / a[2] * radius << ", "
+         << c.y() + shown(a[0]) / a[2] * radius << ")";
   }
   return text.str();
 }

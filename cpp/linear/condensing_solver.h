@@ -1,6 +1,7 @@
 // The one interface behind which linear algebra stands. A sparse system with some equations kept,
 //   K = [K_bb K_bk; K_kb K_kk],
-// is factorised in its interior b only; what contact needs of it is the Schur complement on the kept equations,
+// is factorised in its interior b only; what contact needs of it is the Schur complement on the kept
+// equations,
 //   S = K_kk - K_kb K_bb^-1 K_bk,
 // a right-hand side condensed to them, and the solution spread from them.
 #pragma once
@@ -17,12 +18,13 @@ class CondensingSolver {
  public:
   virtual ~CondensingSolver() = default;
 
-  /// Numeric factorisation of the interior. \returns false when it is singular (or, where the pattern is symmetric, not
-  /// positive definite); the solver is then unusable until the next factorise().
+  /// Numeric factorisation of the interior. \returns false when it is singular (or, where the pattern is
+  /// symmetric, not positive definite); the solver is then unusable until the next factorise().
   virtual bool factorise(const std::vector<double>& values) = 0;
   /// S (kept x kept, in the order in which the kept equations were given), all of it also where symmetric.
   [[nodiscard]] virtual const Matrix& schurComplement() const = 0;
-  /// f (equations) in place: its kept part becomes f_k - K_kb K_bb^-1 f_b, its interior whatever expand() needs.
+  /// f (equations) in place: its kept part becomes f_k - K_kb K_bb^-1 f_b, its interior whatever expand()
+  /// needs.
   virtual void condense(Vector& f) const = 0;
   /// f from condense() with the solution x_k in its kept part: becomes the solution x.
   virtual void expand(Vector& f) const = 0;
@@ -32,10 +34,13 @@ class CondensingSolver {
 using CondensingSolverFactory =
     std::function<std::unique_ptr<CondensingSolver>(const SparsePattern&, const std::vector<int>& kept)>;
 
-/// Multifrontal Cholesky (symmetric patterns) or LU, the kept equations a last front that is never factorised.
-std::unique_ptr<CondensingSolver> multifrontalSolver(const SparsePattern& pattern, const std::vector<int>& kept);
+/// Multifrontal Cholesky (symmetric patterns) or LU, the kept equations a last front that is never
+/// factorised.
+std::unique_ptr<CondensingSolver> multifrontalSolver(const SparsePattern& pattern,
+                                                     const std::vector<int>& kept);
 
 /// CHOLMOD (symmetric patterns) or UMFPACK on the interior, one right-hand side per kept equation.
-std::unique_ptr<CondensingSolver> suiteSparseSolver(const SparsePattern& pattern, const std::vector<int>& kept);
+std::unique_ptr<CondensingSolver> suiteSparseSolver(const SparsePattern& pattern,
+                                                    const std::vector<int>& kept);
 
 }  // namespace mortier

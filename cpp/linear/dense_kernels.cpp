@@ -18,9 +18,13 @@ namespace {
 constexpr int smallPivots = 12;
 constexpr int smallRows = 96;
 
-bool isSmall(int n, int pivots) { return pivots <= smallPivots && n <= smallRows; }
+bool isSmall(int n, int pivots) {
+  return pivots <= smallPivots && n <= smallRows;
+}
 
-double* column(double* F, int n, int j) { return F + static_cast<size_t>(n) * j; }
+double* column(double* F, int n, int j) {
+  return F + static_cast<size_t>(n) * j;
+}
 
 }  // namespace
 
@@ -29,11 +33,13 @@ bool partialCholesky(double* F, int n, int pivots) {
   if (!isSmall(n, pivots)) {
     int info = 0;
     dpotrf_("L", &pivots, F, &n, &info);
-    if (info != 0 || !std::isfinite(F[0])) return false;
+    if (info != 0 || !std::isfinite(column(F, n, pivots - 1)[pivots - 1])) return false;
     if (rest == 0) return true;
     double* L21 = F + pivots;
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, rest, pivots, 1, F, n, L21, n);
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, rest, pivots, -1, L21, n, 1, column(F, n, pivots) + pivots, n);
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, rest, pivots, 1, F, n, L21,
+                n);
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, rest, pivots, -1, L21, n, 1,
+                column(F, n, pivots) + pivots, n);
     return true;
   }
   for (int k = 0; k < pivots; ++k) {
@@ -57,14 +63,16 @@ bool partialLU(double* F, int n, int pivots, int* interchange) {
     int info = 0;
     dgetrf_(&pivots, &pivots, F, &n, interchange, &info);
     for (int k = 0; k < pivots; ++k) --interchange[k];
-    if (info != 0 || !std::isfinite(F[0])) return false;
+    if (info != 0 || !std::isfinite(column(F, n, pivots - 1)[pivots - 1])) return false;
     if (rest == 0) return true;
     double* L21 = F + pivots;
     double* U12 = column(F, n, pivots);
     for (int j = 0; j < rest; ++j) swapRows(U12 + static_cast<size_t>(n) * j, interchange, pivots);
     cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasUnit, pivots, rest, 1, F, n, U12, n);
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, rest, pivots, 1, F, n, L21, n);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rest, rest, pivots, -1, L21, n, U12, n, 1, U12 + pivots, n);
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, rest, pivots, 1, F, n, L21,
+                n);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rest, rest, pivots, -1, L21, n, U12, n, 1,
+                U12 + pivots, n);
     return true;
   }
   for (int k = 0; k < pivots; ++k) {

@@ -1,5 +1,5 @@
-// Dense kernels of the multifrontal factorisation: loops for the many small fronts, BLAS for the few large ones.
-// Matrices are column major with leading dimension `ld`.
+// Dense kernels of the multifrontal factorisation: loops for the many small fronts, BLAS for the few large
+// ones. Matrices are column major with leading dimension `ld`.
 #pragma once
 
 namespace mortier::dense {
@@ -7,8 +7,8 @@ namespace mortier::dense {
 /// F (n x n, lower triangle) = [L11 .; L21 F22 - L21 L21']. \returns false unless F11 is positive definite.
 bool partialCholesky(double* F, int n, int pivots);
 
-/// F (n x n) = [L11\U11 U12; L21 F22 - L21 U12], rows of the pivot block interchanged as `interchange` (from 0) tells.
-/// \returns false when F11 is singular.
+/// F (n x n) = [L11\U11 U12; L21 F22 - L21 U12], rows of the pivot block interchanged as `interchange` (from
+/// 0) tells. \returns false when F11 is singular.
 bool partialLU(double* F, int n, int pivots, int* interchange);
 
 void swapRows(double* x, const int* interchange, int n);

@@ -31,8 +31,8 @@ struct Columns {
   }
 };
 
-/// The pattern in new positions, lower triangle; `size` positions from 0, entries outside dropped. `clique` makes the
-/// positions from there on couple with each other.
+/// The pattern in new positions, lower triangle; `size` positions from 0, entries outside dropped. `clique`
+/// makes the positions from there on couple with each other.
 Columns permuted(const SparsePattern& pattern, const std::vector<int>& position, int size, int clique) {
   Columns result;
   std::vector<int> count(size + 1, 0);
@@ -57,7 +57,8 @@ Columns permuted(const SparsePattern& pattern, const std::vector<int>& position,
 }
 
 /// Fill-reducing order of the interior alone, the kept equations appended.
-std::vector<int> fillReducingOrder(const SparsePattern& pattern, const std::vector<int>& kept, CholmodCommon& common) {
+std::vector<int> fillReducingOrder(const SparsePattern& pattern, const std::vector<int>& kept,
+                                   CholmodCommon& common) {
   std::vector<int> position(pattern.size, 0);
   const int interior = pattern.size - static_cast<int>(kept.size());
   for (size_t k = 0; k < kept.size(); ++k) position[kept[k]] = interior + static_cast<int>(k);
@@ -119,7 +120,8 @@ Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept) 
     position[result.order[i]] = i;
   }
   for (int k = 0; k < result.kept; ++k)
-    if (position[kept[k]] != interior + k) throw std::runtime_error("kept equations were moved by the analysis");
+    if (position[kept[k]] != interior + k)
+      throw std::runtime_error("kept equations were moved by the analysis");
 
   const int fronts = static_cast<int>(L->nsuper);
   std::vector<int> frontOf(result.size);
@@ -147,7 +149,8 @@ Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept) 
   const auto forEachEntry = [&](auto visit) {
     for (int j = 0; j < pattern.size; ++j)
       for (int k = pattern.columnStart[j]; k < pattern.columnStart[j + 1]; ++k)
-        visit(k, position[pattern.rows[k]], position[j], frontOf[std::min(position[pattern.rows[k]], position[j])]);
+        visit(k, position[pattern.rows[k]], position[j],
+              frontOf[std::min(position[pattern.rows[k]], position[j])]);
   };
   forEachEntry([&](int, int, int, int front) { ++count[front + 1]; });
   std::partial_sum(count.begin(), count.end(), count.begin());

@@ -1,5 +1,6 @@
-// The symbolic side of a multifrontal factorisation: in which order a symmetric pattern is eliminated, in which fronts,
-// and where every entry goes. Done once for a body (Duff and Reid 1983; ordering and supernodes by METIS and CHOLMOD).
+// The symbolic side of a multifrontal factorisation: in which order a symmetric pattern is eliminated, in
+// which fronts, and where every entry goes. Done once for a body (Duff and Reid 1983; ordering and supernodes
+// by METIS and CHOLMOD).
 #pragma once
 
 #include <cstddef>
@@ -9,21 +10,22 @@
 
 namespace mortier {
 
-/// A dense matrix over `rows`; the first `pivots` of them are eliminated in it, the others are updated and passed on.
+/// A dense matrix over `rows`; the first `pivots` of them are eliminated in it, the others are updated and
+/// passed on.
 struct Front {
-  int parent = -1;           ///< the front that takes the update, -1 for none
+  int parent = -1;  ///< the front that takes the update, -1 for none
   int pivots = 0;
-  std::vector<int> rows;     ///< positions in the elimination order, ascending
+  std::vector<int> rows;      ///< positions in the elimination order, ascending
   std::vector<int> inParent;  ///< for each updated row, its index among the parent's rows
-  size_t firstEntry = 0;     ///< entries [firstEntry, next front's firstEntry) are assembled here
+  size_t firstEntry = 0;      ///< entries [firstEntry, next front's firstEntry) are assembled here
 };
 
 struct Elimination {
   int size = 0;
-  int kept = 0;                   ///< the last `kept` positions are never eliminated; the last front holds them
-  std::vector<int> order;         ///< position -> equation
-  std::vector<Front> fronts;      ///< children before parents
-  std::vector<int> entries;       ///< entry of the pattern, grouped by front
+  int kept = 0;               ///< the last `kept` positions are never eliminated; the last front holds them
+  std::vector<int> order;     ///< position -> equation
+  std::vector<Front> fronts;  ///< children before parents
+  std::vector<int> entries;   ///< entry of the pattern, grouped by front
   std::vector<size_t> positions;  ///< and its place in the front's matrix, column major
 };
 

@@ -1,8 +1,8 @@
 // Multifrontal Cholesky and LU over one symbolic analysis. In the front of a supernode
 //   F = [F11 F12; F21 F22]  (pivots first),   F11 = L11 U11,   L21 = F21 U11^-1,   U12 = L11^-1 F12,
-// and F22 - L21 U12 is passed to the parent. Where K is symmetric U = L' and only the lower triangle is held. The last
-// front stops at the kept equations: what is left of it is the Schur complement.
-// LU pivots inside the pivot block only; the caller checks residuals.
+// and F22 - L21 U12 is passed to the parent. Where K is symmetric U = L' and only the lower triangle is held.
+// The last front stops at the kept equations: what is left of it is the Schur complement. LU pivots inside
+// the pivot block only; the caller checks residuals.
 #include <cmath>
 #include <limits>
 
@@ -167,7 +167,8 @@ class Multifrontal final : public CondensingSolver {
 
 }  // namespace
 
-std::unique_ptr<CondensingSolver> multifrontalSolver(const SparsePattern& pattern, const std::vector<int>& kept) {
+std::unique_ptr<CondensingSolver> multifrontalSolver(const SparsePattern& pattern,
+                                                     const std::vector<int>& kept) {
   return std::make_unique<Multifrontal>(pattern, kept);
 }
 

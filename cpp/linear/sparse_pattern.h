@@ -7,8 +7,8 @@ namespace mortier {
 
 struct SparsePattern {
   int size = 0;
-  bool symmetric = true;       ///< only the lower triangle (row >= column) is held; otherwise all of a pattern
-                               ///< that is structurally symmetric
+  bool symmetric = true;  ///< only the lower triangle (row >= column) is held; otherwise all of a pattern
+                          ///< that is structurally symmetric
   std::vector<int> columnStart;  ///< size + 1
   std::vector<int> rows;         ///< ascending in each column
 

@@ -1,5 +1,5 @@
-// The libraries as engine: K_bb factorised by CHOLMOD or UMFPACK, S column by column. Check and fallback of the
-// multifrontal engine, and the reference that its speed is measured against.
+// The libraries as engine: K_bb factorised by CHOLMOD or UMFPACK, S column by column. Check and fallback of
+// the multifrontal engine, and the reference that its speed is measured against.
 #include <umfpack.h>
 
 #include <algorithm>
@@ -30,8 +30,8 @@ struct Block {
 };
 
 /// All of K (also where the pattern holds its lower triangle), rows and columns renumbered in parts.
-Block cut(const SparsePattern& pattern, const std::vector<int>& rowNumber, const std::vector<int>& columnNumber,
-          int columns, bool lowerOnly) {
+Block cut(const SparsePattern& pattern, const std::vector<int>& rowNumber,
+          const std::vector<int>& columnNumber, int columns, bool lowerOnly) {
   std::vector<std::vector<std::pair<int, int>>> lists(columns);
   const auto add = [&](int row, int column, int entry) {
     if (rowNumber[row] < 0 || columnNumber[column] < 0) return;
@@ -123,8 +123,8 @@ class Umfpack final : public Factorisation {
   explicit Umfpack(const Block& pattern) : size_(static_cast<int>(pattern.start.size()) - 1) {
     umfpack_di_defaults(control_);
     control_[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
-    if (umfpack_di_symbolic(size_, size_, pattern.start.data(), pattern.rows.data(), nullptr, &symbolic_, control_,
-                            nullptr) != UMFPACK_OK)
+    if (umfpack_di_symbolic(size_, size_, pattern.start.data(), pattern.rows.data(), nullptr, &symbolic_,
+                            control_, nullptr) != UMFPACK_OK)
       throw std::runtime_error("symbolic analysis failed in UMFPACK");
   }
   Umfpack(const Umfpack&) = delete;
@@ -142,8 +142,8 @@ class Umfpack final : public Factorisation {
 
   void solve(const Block& K, Vector& x) const override {
     const Vector b = x;
-    umfpack_di_solve(UMFPACK_A, K.start.data(), K.rows.data(), K.values.data(), x.data(), b.data(), numeric_, control_,
-                     nullptr);
+    umfpack_di_solve(UMFPACK_A, K.start.data(), K.rows.data(), K.values.data(), x.data(), b.data(), numeric_,
+                     control_, nullptr);
   }
 
  private:
@@ -237,7 +237,8 @@ class SuiteSparse final : public CondensingSolver {
 
 }  // namespace
 
-std::unique_ptr<CondensingSolver> suiteSparseSolver(const SparsePattern& pattern, const std::vector<int>& kept) {
+std::unique_ptr<CondensingSolver> suiteSparseSolver(const SparsePattern& pattern,
+                                                    const std::vector<int>& kept) {
   return std::make_unique<SuiteSparse>(pattern, kept);
 }
 

@@ -9,15 +9,18 @@ namespace mortier {
 
 /// The step that the law is asked for. Columns are points.
 struct MaterialStep {
-  double weight = 0;       ///< time step times the scheme's diagonal coefficient [s]
-  const Matrix& stress0;   ///< components x points, at the start of the step [Pa]
-  const Matrix& strain;    ///< 3 x points, total strain increment minus the scheme's shift [-]
+  double weight = 0;      ///< time step times the scheme's diagonal coefficient [s]
+  const Matrix& stress0;  ///< components x points, at the start of the step [Pa]
+  const Matrix& strain;   ///< 3 x points, total strain increment minus the scheme's shift [-]
+  bool anticipate =
+      false;  ///< judge yielding by the stress plus a part of what the strain still asks for: slower where
+              ///< bodies flow, but it holds where triangles sit on the yield surface
 };
 
 /// The law linearised at an iterate s of the stress: the next iterate is predictor + H^-1 B d.
 struct Linearisation {
   Matrix predictor;  ///< components x points: s + H^-1 r [Pa]
-  Matrix moduli;     ///< 9 x points: the block of H^-1 that acts on the strains of the plane, column major [Pa]
+  Matrix moduli;  ///< 9 x points: the block of H^-1 that acts on the strains of the plane, column major [Pa]
 };
 
 class Material {
@@ -34,8 +37,8 @@ class Material {
   /// Viscous over elastic compliance, theta e, for a step of `weight` [-].
   [[nodiscard]] virtual double stiffness(double weight) const = 0;
 
-  /// With r = strain - [E^-1 (s - s0) + weight G(s)] and H = E^-1 + weight G'(s), fills the columns [begin, end).
-  /// \returns the largest |H^-1 r| over them [Pa].
+  /// With r = strain - [E^-1 (s - s0) + weight G(s)] and H = E^-1 + weight G'(s), fills the columns [begin,
+  /// end). \returns the largest |H^-1 r| over them [Pa].
   virtual double linearise(const MaterialStep& step, const Matrix& stress, Linearisation& result, int begin,
                            int end) const = 0;
   /// Viscoplastic strain rate G(s) [1/s], components x points.

@@ -64,7 +64,9 @@ class Elastic final : public Material {
 class Perzyna final : public Material {
  public:
   Perzyna(const Elasticity& elasticity, const Viscoplasticity& law)
-      : e_(elasticity.moduli()), law_(law), domain_(yieldDomain(law.yieldStress, projectionNorm(law.projection))) {}
+      : e_(elasticity.moduli()),
+        law_(law),
+        domain_(yieldDomain(law.yieldStress, projectionNorm(law.projection))) {}
 
   [[nodiscard]] int components() const override { return 3; }
   [[nodiscard]] bool symmetricTangent() const override { return law_.projection == Projection::frobenius; }
@@ -74,29 +76,39 @@ class Perzyna final : public Material {
     return weight / (2 * law_.viscosity) * e_.maxCoeff();
   }
 
-  // With sigma - P_B sigma = m b/(1 + m b) sigma and 1 - P_B' = diag(m b/(1 + m b)) + x y'/z (yield_domain.h),
-  //   H = E^-1 + theta (1 - P_B') = diag(h) + (theta/z) x y',   theta = weight/(2 lambda),
-  // is inverted as a rank-one change of a diagonal matrix.
+  // With v = strain - E^-1 (s - s0), theta = weight/(2 lambda) and t = s + c v, the law v = theta (s - P_B s)
+  // reads
+  //   v = theta kappa (t - P_B t),  kappa = 1/(1 + c theta),
+  // and its linearisation in s and strain is (yield_domain.h)
+  //   H ds = B d + r,  H = E^-1 + theta kappa diag(softening) + (theta/z) x y',
+  // a rank-one change of a diagonal matrix. c = 0 judges yielding by s alone; `anticipate` by a stress that v
+  // moves by up to E v while v is small, never far beyond the yield surface when it is large.
   double linearise(const MaterialStep& step, const Matrix& stress, Linearisation& result, int begin,
                    int end) const override {
+    constexpr double reach = 100;  // in yield stresses, for v >> sigma_Y/E
     const double theta = step.weight / (2 * law_.viscosity);
     double residual = 0;
     for (int i = begin; i < end; ++i) {
       const Array3d s = stress.col(i).array();
-      Array3d r = step.strain.col(i).array() - (s - step.stress0.col(i).array()) / e_;
+      const Array3d v = step.strain.col(i).array() - (s - step.stress0.col(i).array()) / e_;
+      const double c =
+          step.anticipate ? 1 / (1 / e_[1] + v.matrix().norm() / (reach * law_.yieldStress)) : 0.0;
+      const Array3d t = s + c * v;
       Array3d increment;
-      if (!domain_.yields(s)) {
-        increment = e_ * r;
+      if (!domain_.yields(t)) {
+        increment = e_ * v;
         storeModuli(e_, 0, e_, e_, &result.moduli(0, i));
       } else {
-        const ProjectionOnYield P = domain_.project(s);
-        r -= theta * P.overstress;
-        const Array3d h = (1 / e_ + theta * P.softening).inverse();
+        const double kappa = 1 / (1 + c * theta);
+        const ProjectionOnYield P = domain_.project(t, kappa);
+        Array3d r = v - theta * kappa * P.overstress;
+        if (c > 0) r = r / (1 - (1 - kappa) * P.overstress / t) + c * theta * (P.y * r).sum() / P.z * P.x;
+        const Array3d h = (1 / e_ + theta * kappa * P.softening).inverse();
         const Array3d hx = h * P.x;
         const Array3d hy = h * P.y;
-        const double c = theta / (P.z + theta * (P.y * hx).sum());
-        increment = h * r - c * (hy * r).sum() * hx;
-        storeModuli(h, c, hx, hy, &result.moduli(0, i));
+        const double rankOne = theta / (P.z + theta * (P.y * hx).sum());
+        increment = h * r - rankOne * (hy * r).sum() * hx;
+        storeModuli(h, rankOne, hx, hy, &result.moduli(0, i));
       }
       residual = std::max(residual, increment.abs().maxCoeff());
       result.predictor.col(i) = s + increment;
@@ -155,10 +167,12 @@ std::shared_ptr<const Material> elasticMaterial(const Elasticity& elasticity) {
   return std::make_shared<Elastic>(elasticity);
 }
 
-std::shared_ptr<const Material> perzynaMaterial(const Elasticity& elasticity, const Viscoplasticity& viscoplasticity) {
+std::shared_ptr<const Material> perzynaMaterial(const Elasticity& elasticity,
+                                                const Viscoplasticity& viscoplasticity) {
   check(elasticity);
   require(viscoplasticity.viscosity > 0, "viscosity", viscoplasticity.viscosity, "viscosity > 0 [Pa s]");
-  require(viscoplasticity.yieldStress > 0, "yield_stress", viscoplasticity.yieldStress, "yield_stress > 0 [Pa]");
+  require(viscoplasticity.yieldStress > 0, "yield_stress", viscoplasticity.yieldStress,
+          "yield_stress > 0 [Pa]");
   return std::make_shared<Perzyna>(elasticity, viscoplasticity);
 }
 

@@ -1,6 +1,7 @@
 // Isotropic elasticity in plane stress, and Perzyna viscoplasticity on it:
 //   eps' = E^-1 sigma' + (sigma - P_B sigma) / (2 lambda)
-// (Fernandez, Hild, Viano 2000, section 3). P_B projects on B = { von Mises <= yieldStress } in a chosen norm.
+// (Fernandez, Hild, Viano 2000, section 3). P_B projects on B = { von Mises <= yieldStress } in a chosen
+// norm.
 #pragma once
 
 #include <memory>
@@ -32,6 +33,7 @@ struct Viscoplasticity {
 
 /// \throws InputError unless young > 0 and -1 < poisson < 0.5 (and viscosity > 0, yieldStress > 0).
 std::shared_ptr<const Material> elasticMaterial(const Elasticity& elasticity);
-std::shared_ptr<const Material> perzynaMaterial(const Elasticity& elasticity, const Viscoplasticity& viscoplasticity);
+std::shared_ptr<const Material> perzynaMaterial(const Elasticity& elasticity,
+                                                const Viscoplasticity& viscoplasticity);
 
 }  // namespace mortier

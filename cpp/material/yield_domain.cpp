@@ -9,8 +9,8 @@ YieldDomain yieldDomain(double yieldStress, const Eigen::Array3d& norm) {
   return {yieldStress, Eigen::Array3d(0.5, 1.5, 1.5), norm};
 }
 
-// psi(m) = (sum a s^2/(sigma_Y^2 (1 + m b)^2))^(-1/2) is concave and rises to 1 at the root: Newton from the left climbs
-// monotonically and ends when it no longer climbs.
+// psi(m) = (sum a s^2/(sigma_Y^2 (1 + m b)^2))^(-1/2) is concave and rises to 1 at the root: Newton from the
+// left climbs monotonically and ends when it no longer climbs.
 double YieldDomain::multiplier(const Eigen::Array3d& s) const {
   const Eigen::Array3d square = a_ * (s / yieldStress_).square();
   double m = 0;
@@ -25,16 +25,18 @@ double YieldDomain::multiplier(const Eigen::Array3d& s) const {
   return m;
 }
 
-// From a . P^2 = sigma_Y^2:  dP = ds/(1 + m b) - x dm,  dm = y . ds / z.
-ProjectionOnYield YieldDomain::project(const Eigen::Array3d& s) const {
-  const double m = multiplier(s);
+// From a . P^2 = sigma_Y^2:  dP = c dt - t b c^2 dm,  c = 1/(1 + m b),  dm = (a t c^2 . dt)/(a b t^2 c^3 .
+// 1), so 1 - P_B' = diag(m b c) + x y'/z; kappa < 1 then divides each by (1 + kappa m b)/(1 + m b).
+ProjectionOnYield YieldDomain::project(const Eigen::Array3d& t, double kappa) const {
+  const double m = multiplier(t);
   const Eigen::Array3d c = 1 / (1 + m * b_);
+  const Eigen::Array3d k = 1 / (1 + kappa * m * b_);
   ProjectionOnYield result;
-  result.softening = m * b_ * c;
-  result.overstress = result.softening * s;
-  result.x = s * b_ * c * c;
-  result.y = a_ * s * c * c;
-  result.z = (a_ * s * c * result.x).sum();
+  result.overstress = m * b_ * c * t;
+  result.softening = m * b_ * k;
+  result.x = t * b_ * c * k;
+  result.y = a_ * t * c * k;
+  result.z = (a_ * b_ * (t * c).square() * k).sum();
   return result;
 }
 

@@ -1,5 +1,5 @@
-// The elastic domain B = { a . s^2 <= sigma_Y^2 }, a = (1/2, 3/2, 3/2) on p, q, r (von Mises, plane stress), and the
-// projection on it in a norm with weights w:
+// The elastic domain B = { a . s^2 <= sigma_Y^2 }, a = (1/2, 3/2, 3/2) on p, q, r (von Mises, plane stress),
+// and the projection on it in a norm with weights w:
 //   (P_B s)_i = s_i / (1 + m b_i),  b_i = a_i / w_i,  m >= 0 the root of  a . (P_B s)^2 = sigma_Y^2.
 #pragma once
 
@@ -7,11 +7,15 @@
 
 namespace mortier {
 
-/// P_B at a stress on or beyond yield, without cancellation.
+/// The flow theta (t - P_B t) at a stress t on or beyond yield, and how it changes, free of cancellation. The
+/// same flow is theta kappa (t - P_B t) at t = s + c theta (s - P_B s), kappa = 1/(1 + c theta), for any c >=
+/// 0: that moves t along the normal only. Eliminating it again leaves the tangent of the flow with respect to
+/// s:
+///   theta (kappa diag(softening) + x y'/z).
 struct ProjectionOnYield {
-  Eigen::Array3d overstress;  ///< s - P_B s = m b/(1 + m b) s [Pa]
-  Eigen::Array3d softening;   ///< m b/(1 + m b) [-]
-  Eigen::Array3d x;           ///< 1 - P_B' = diag(softening) + x y'/z
+  Eigen::Array3d overstress;  ///< t - P_B t = m b/(1 + m b) t [Pa]
+  Eigen::Array3d softening;   ///< m b/(1 + kappa m b) [-]
+  Eigen::Array3d x;
   Eigen::Array3d y;
   double z = 0;
 };
@@ -21,13 +25,14 @@ class YieldDomain {
   YieldDomain(double yieldStress, const Eigen::Array3d& a, const Eigen::Array3d& w)
       : yieldStress_(yieldStress), a_(a), b_(a / w) {}
 
-  /// A stress exactly on the yield surface counts as beyond it: with the elastic tangent there Newton cycles.
+  /// A stress on the yield surface, up to rounding, counts as beyond it: with the elastic tangent there Newton cycles.
   [[nodiscard]] bool yields(const Eigen::Array3d& s) const {
-    return (a_ * (s / yieldStress_).square()).sum() >= 1;
+    constexpr double onSurface = 1 - 1e-10;
+    return (a_ * (s / yieldStress_).square()).sum() >= onSurface;
   }
 
-  /// \pre yields(s)
-  [[nodiscard]] ProjectionOnYield project(const Eigen::Array3d& s) const;
+  /// \pre yields(t)
+  [[nodiscard]] ProjectionOnYield project(const Eigen::Array3d& t, double kappa = 1) const;
 
  private:
   /// The root m >= 0.

@@ -89,7 +89,7 @@ void OutputFolder::commit() {
 }
 
 std::string OutputFolder::commitAsFailed() {
-  const std::string failed = path_ + ".failed";
+  std::string failed = path_ + ".failed";
   replace(temporary_, failed);
   return failed;
 }

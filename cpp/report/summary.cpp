@@ -23,7 +23,7 @@ void requireFiniteNumbers(const Json& json, const std::string& path) {
   }
   if (json.is_structured()) {
     for (const auto& [key, value] : json.items()) {
-      requireFiniteNumbers(value, path + ": " + key);
+      requireFiniteNumbers(value, std::string(path).append(": ").append(key));
     }
   }
 }

@@ -32,7 +32,8 @@ Node convert(const toml::node& source, const Places& places) {
   switch (source.type()) {
     case toml::node_type::table:
       for (const auto& [key, value] : *source.as_table()) {
-        node.members.emplace_back(std::string(key.str()), convert(value, places));
+        node.members.push_back(convert(value, places));
+        node.members.back().key = key.str();
       }
       break;
     case toml::node_type::array:
@@ -82,14 +83,14 @@ std::string oneLine(std::string_view text) {
 
 }  // namespace
 
-Node* Node::find(const std::string& key) {
+Node* Node::find(const std::string& name) {
   const auto found =
-      std::find_if(members.begin(), members.end(), [&](const auto& m) { return m.first == key; });
-  return found == members.end() ? nullptr : &found->second;
+      std::find_if(members.begin(), members.end(), [&](const Node& m) { return m.key == name; });
+  return found == members.end() ? nullptr : &*found;
 }
 
-const Node* Node::find(const std::string& key) const {
-  return const_cast<Node*>(this)->find(key);
+const Node* Node::find(const std::string& name) const {
+  return const_cast<Node*>(this)->find(name);
 }
 
 std::string Node::quoted() const {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace mortier {
@@ -12,22 +11,23 @@ struct Node {
   enum class Kind { boolean, integer, number, string, array, table, other };
 
   Kind kind = Kind::table;
+  std::string key;    ///< its name in the table that holds it
   std::string where;  ///< "scenes/compression.toml:14", or "--set time.steps=20"
   bool fromCommandLine = false;
-  bool truth = false;                                 ///< of a boolean
-  double value = 0;                                   ///< of an integer or a number
-  std::string text;                                   ///< of a string
-  std::vector<Node> elements;                         ///< of an array
-  std::vector<std::pair<std::string, Node>> members;  ///< of a table
+  bool truth = false;          ///< of a boolean
+  double value = 0;            ///< of an integer or a number
+  std::string text;            ///< of a string
+  std::vector<Node> elements;  ///< of an array
+  std::vector<Node> members;   ///< of a table
 
   [[nodiscard]] bool isTable() const { return kind == Kind::table; }
   [[nodiscard]] bool isArray() const { return kind == Kind::array; }
   [[nodiscard]] bool isString() const { return kind == Kind::string; }
   [[nodiscard]] bool isNumeric() const { return kind == Kind::integer || kind == Kind::number; }
 
-  /// The member `key` of a table; nullptr where it is missing.
-  [[nodiscard]] Node* find(const std::string& key);
-  [[nodiscard]] const Node* find(const std::string& key) const;
+  /// The member `name` of a table; nullptr where it is missing.
+  [[nodiscard]] Node* find(const std::string& name);
+  [[nodiscard]] const Node* find(const std::string& name) const;
   /// The value as a message quotes it: 0.6, "text", true, a table, an array.
   [[nodiscard]] std::string quoted() const;
 };

@@ -95,13 +95,14 @@ void set(Node& table, const Setting& setting, size_t depth, const std::string& s
   }
   Node* member = table.find(word);
   if (member == nullptr) {
-    table.members.emplace_back(word, Node{});
-    member = &table.members.back().second;
+    member = &table.members.emplace_back();
+    member->key = word;
     member->where = setting.where;
     member->fromCommandLine = true;
   }
   if (depth + 1 == setting.path.size()) {
     *member = setting.value;
+    member->key = word;
     return;
   }
   const std::string path = schemaPath.empty() ? word : schemaPath + "." + word;

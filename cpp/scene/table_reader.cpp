@@ -27,7 +27,8 @@ TableReader::TableReader(const Node& table, std::string path, std::string subjec
   if (!table.isTable()) {
     throw InputError(message(table.where, table.quoted() + ", expected a table with " + joined(keys)));
   }
-  for (const auto& [key, value] : table.members) {
+  for (const Node& value : table.members) {
+    const std::string& key = value.key;
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
       const std::string guess = nearest(key, keys);
       throw InputError(message(

@@ -53,8 +53,8 @@ class Pivoting {
   /// What the proximal term still carries of the balance, against all forces in it.
   [[nodiscard]] double imbalance(const ContactSolution& solution) const {
     const Vector rest = balance_ - problem_.G.transpose() * solution.change;
-    const double scale =
-        balance_.cwiseAbs().maxCoeff() + (problem_.G.cwiseAbs().transpose() * (p0_ + solution.change).cwiseAbs()).maxCoeff();
+    const double scale = balance_.cwiseAbs().maxCoeff() +
+                         (problem_.G.cwiseAbs().transpose() * (p0_ + solution.change).cwiseAbs()).maxCoeff();
     return scale > 0 ? rest.cwiseAbs().maxCoeff() / scale : 0;
   }
 
@@ -112,8 +112,8 @@ class Pivoting {
 
 }  // namespace
 
-ContactSolution solveContact(const ContactProblem& problem, const Vector& slack, const Vector& p0, const Vector& balance,
-                             std::vector<char> active) {
+ContactSolution solveContact(const ContactProblem& problem, const Vector& slack, const Vector& p0,
+                             const Vector& balance, std::vector<char> active) {
   constexpr int repetitions = 6;
   constexpr double balanced = 1e-14;
 

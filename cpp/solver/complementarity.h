@@ -1,9 +1,8 @@
 // The contact problem once everything else is condensed away: the mixed linear complementarity problem
-//   s = s0 + W dp - G z >= 0,   p = p0 + dp >= 0,   p s = 0,                                               (contact)
-//   G' dp = r                                                                           (balance of rigid motions)
+//   s = s0 + W dp - G z >= 0,   p = p0 + dp >= 0,   p s = 0, (contact) G' dp = r (balance of rigid motions)
 // for the change dp of the contact forces and the rigid motions z of bodies that contact alone holds.
-// W = C S^-1 C' is the contact compliance, G = C R the normal motion of the nonmortar nodes under rigid motions, s the
-// slack g0 - C u, r the part of the load that only contact can balance.
+// W = C S^-1 C' is the contact compliance, G = C R the normal motion of the nonmortar nodes under rigid
+// motions, s the slack g0 - C u, r the part of the load that only contact can balance.
 #pragma once
 
 #include <vector>
@@ -31,11 +30,11 @@ struct ContactSolution {
   int pivots = 0;            ///< dense solves
 };
 
-/// Principal pivoting: all wrong signs change sides at once; when that stops helping, one at a time by the least index,
-/// which ends after finitely many steps for every P-matrix, symmetric or not (Murty 1974; Judice and Pires 1994). The
-/// balance is held by a proximal term on z, small enough that one or two repetitions make it exact (Rockafellar 1976).
-/// \param active  the set to begin with.
-ContactSolution solveContact(const ContactProblem& problem, const Vector& slack, const Vector& p0, const Vector& balance,
-                             std::vector<char> active);
+/// Principal pivoting: all wrong signs change sides at once; when that stops helping, one at a time by the
+/// least index, which ends after finitely many steps for every P-matrix, symmetric or not (Murty 1974; Judice
+/// and Pires 1994). The balance is held by a proximal term on z, small enough that one or two repetitions
+/// make it exact (Rockafellar 1976). \param active  the set to begin with.
+ContactSolution solveContact(const ContactProblem& problem, const Vector& slack, const Vector& p0,
+                             const Vector& balance, std::vector<char> active);
 
 }  // namespace mortier

@@ -15,7 +15,7 @@ struct BodyState {
 };
 
 struct State {
-  double time = 0;                   ///< [s]
+  double time = 0;  ///< [s]
   std::vector<BodyState> bodies;
   std::vector<Vector> contactForce;  ///< per interface and nonmortar node, p >= 0 [N/m]
 };

@@ -5,6 +5,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <sstream>
 
 #include "base/double_double.h"
 #include "base/error.h"
@@ -81,8 +83,9 @@ StepSolver::StepSolver(const Model& model, const SolverOptions& options) : model
         const int equation = body.equations()[dof];
         if (equation >= 0 && value != 0) system->C(firstRow_[k] + row, column[equation]) += value;
       });
-    system->solver = options.linear == LinearEngine::multifrontal ? multifrontalSolver(body.pattern(), system->kept)
-                                                                  : suiteSparseSolver(body.pattern(), system->kept);
+    system->solver = options.linear == LinearEngine::multifrontal
+                         ? multifrontalSolver(body.pattern(), system->kept)
+                         : suiteSparseSolver(body.pattern(), system->kept);
     system->motions = rigidModes(body);
     system->law.predictor.resize(body.material().components(), body.points());
     system->law.moduli.resize(9, body.points());
@@ -170,15 +173,17 @@ void StepSolver::prescribe(const State& state0, double time, Iterate& iterate) c
 }
 
 /// \returns the material residual, scaled.
-double StepSolver::linearise(const State& state0, const StepData& step, const Iterate& iterate) {
+double StepSolver::linearise(const State& state0, const StepData& step, const Iterate& iterate,
+                             bool anticipate) {
   double worst = 0;
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
     BodySystem& system = *systems_[b];
     body.strain(iterate.bodies[b].increment, iterate.bodies[b].small, system.strain);
     if (!step.shift.empty()) system.strain -= step.shift[b];
-    const double residual = body.material().linearise({step.weight, state0.bodies[b].stress, system.strain},
-                                                      iterate.bodies[b].stress, system.law, 0, body.points());
+    const double residual =
+        body.material().linearise({step.weight, state0.bodies[b].stress, system.strain, anticipate},
+                                  iterate.bodies[b].stress, system.law, 0, body.points());
     double scale = body.material().stressScale();
     if (scale == 0) scale = system.law.predictor.cwiseAbs().maxCoeff();
     if (residual != 0) worst = std::max(worst, residual / scale);
@@ -303,7 +308,8 @@ void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>&
   for (size_t k = 0; k < model_.interfaces.size(); ++k) {
     const int rows = model_.interfaces[k].rows();
     iterate.contactForce[k] = (p + contact.change).segment(firstRow_[k], rows).cwiseMax(0);
-    iterate.active[k].assign(contact.active.begin() + firstRow_[k], contact.active.begin() + firstRow_[k] + rows);
+    iterate.active[k].assign(contact.active.begin() + firstRow_[k],
+                             contact.active.begin() + firstRow_[k] + rows);
   }
 }
 
@@ -348,28 +354,29 @@ Certificate StepSolver::certify(const State& state0, const std::vector<Vector>& 
   return result;
 }
 
-StepOutcome StepSolver::newton(const State& state0, const StepData& step, Iterate& iterate, int maxIterations,
-                               double tolerance) {
+StepOutcome StepSolver::newton(const State& state0, const StepData& step, const NewtonLimits& limits,
+                               Iterate& iterate) {
+  // Beyond this many yield stresses an iterate does not come back.
+  constexpr double hopeless = 1e3;
   StepOutcome outcome;
   prescribe(state0, step.time, iterate);
   std::vector<Vector> loads;
   for (const Body& body : model_.bodies) loads.push_back(body.load(step.time));
   for (int iteration = 0;; ++iteration) {
-    const double residual = linearise(state0, step, iterate);
-    if (getenv("MORTIER_TRACE") != nullptr) fprintf(stderr, "   t %.4f weight %.3e it %d residual %.3e\n", step.time, step.weight, iteration, residual);
-    if (!std::isfinite(residual)) {
-      outcome.reason = "stresses are no longer finite";
-      return outcome;
-    }
-    if (iteration > 0 && residual <= tolerance) {
+    const double residual = linearise(state0, step, iterate, limits.anticipate);
+    if (iteration > 0 && residual <= limits.tolerance) {
       outcome.certificate = certify(state0, loads, iterate, residual);
-      if (outcome.certificate.forceBalance <= std::max(balanceTolerance, tolerance * 1e-2)) {
+      if (outcome.certificate.forceBalance <= std::max(balanceTolerance, limits.tolerance * 1e-2)) {
         outcome.converged = true;
         return outcome;
       }
     }
-    if (iteration == maxIterations) {
-      outcome.reason = "Newton's method did not converge in " + std::to_string(iteration) + " iterations";
+    if (iteration == limits.iterations || !std::isfinite(residual) ||
+        (iteration >= 2 && residual > hopeless)) {
+      std::ostringstream reason;
+      reason << "Newton's method did not converge in " << iteration << " iterations, material residual "
+             << residual;
+      outcome.reason = reason.str();
       return outcome;
     }
     ++outcome.iterations;
@@ -379,34 +386,64 @@ StepOutcome StepSolver::newton(const State& state0, const StepData& step, Iterat
   }
 }
 
-// Where plain Newton fails, the step is solved with the viscosity raised so far that the bodies are almost elastic, then
-// lowered by half decades, each stage begun from the last and solved roughly.
-StepOutcome StepSolver::solve(const State& state0, const StepData& step, Iterate& guess) {
-  constexpr int plainIterations = 7;
-  constexpr int stageIterations = 8;
-  constexpr double stageTolerance = 0.3;
-  const double factor = std::sqrt(10.0);
+// The step is solved with the viscosity raised so far that the bodies are almost elastic, then lowered by
+// half decades, each stage begun from the last and solved roughly. Where a stage fails, the path goes back by
+// two and is followed more closely.
+StepOutcome StepSolver::continuation(const State& state0, const StepData& step, int maxIterations,
+                                     Iterate& solution) {
+  constexpr double firstStiffness = 0.3;
+  constexpr double decades = 0.5;
+  constexpr double closerDecades = 1.5;
+  constexpr int stageIterations = 4;
+  constexpr int lastIterations = 20;
+  constexpr int stagesBack = 2;
 
-  StepOutcome total = newton(state0, step, guess, plainIterations, options_.tolerance);
-  if (total.converged) return total;
-  const auto add = [&](StepOutcome part) {
-    part.iterations += total.iterations;
-    part.factorisations += total.factorisations;
-    part.rung = "continuation";
-    total = std::move(part);
+  struct Stage {
+    double decadesLeft = 0;
+    Iterate iterate;
   };
   double stiffness = 0;
-  for (const Body& body : model_.bodies) stiffness = std::max(stiffness, body.material().stiffness(step.weight));
-  const int stages = std::max(0, static_cast<int>(std::ceil(std::log(stiffness) / std::log(factor))));
-  guess = start(state0);
-  for (int stage = stages; stage >= 0 && total.iterations < options_.maxIterations; --stage) {
+  for (const Body& body : model_.bodies)
+    stiffness = std::max(stiffness, body.material().stiffness(step.weight));
+  double pace = decades;
+  double tolerance = 0.3;
+  std::deque<Stage> path{{std::log10(stiffness / firstStiffness) + pace, start(state0)}};
+  StepOutcome total;
+  while (total.iterations < maxIterations) {
+    Stage stage = path.back();
+    stage.decadesLeft = std::max(0.0, stage.decadesLeft - pace);
+    const bool last = stage.decadesLeft == 0;
     StepData eased = step;
-    eased.weight = step.weight * std::pow(factor, -stage);
-    if (stage > 0)
-      add(newton(state0, eased, guess, stageIterations, stageTolerance));
-    else
-      add(newton(state0, step, guess, options_.maxIterations - total.iterations, options_.tolerance));
+    eased.weight = step.weight * std::pow(10, -stage.decadesLeft);
+    const int iterations =
+        std::min(last ? lastIterations : stageIterations, maxIterations - total.iterations);
+    StepOutcome outcome =
+        newton(state0, eased, {iterations, last ? options_.tolerance : tolerance, true}, stage.iterate);
+    outcome.iterations += total.iterations;
+    outcome.factorisations += total.factorisations;
+    total = std::move(outcome);
+    if (total.converged) {
+      path.push_back(std::move(stage));
+      if (last) break;
+      if (path.size() > 2 * stagesBack + 1) path.erase(path.begin() + 1);
+      continue;
+    }
+    tolerance /= 10;
+    pace /= closerDecades;
+    for (int i = 0; i < stagesBack && path.size() > 1; ++i) path.pop_back();
   }
+  solution = std::move(path.back().iterate);
+  return total;
+}
+
+StepOutcome StepSolver::solve(const State& state0, const StepData& step, Iterate& guess) {
+  constexpr int plainIterations = 7;
+  StepOutcome plain = newton(state0, step, {plainIterations, options_.tolerance, false}, guess);
+  if (plain.converged || plain.unheld) return plain;
+  StepOutcome total = continuation(state0, step, options_.maxIterations - plain.iterations, guess);
+  total.rung = "continuation";
+  total.iterations += plain.iterations;
+  total.factorisations += plain.factorisations;
   return total;
 }
 

@@ -1,12 +1,14 @@
-// One time step: mixed Newton. Displacement increment and stress are both unknowns, so a triangle needs no local solve:
+// One time step: mixed Newton. Displacement increment and stress are both unknowns, so a triangle needs no
+// local solve:
 //
-//   E^-1 (s - s0) + weight G(s) = B du - shift        in every triangle                                    (material)
-//   sum |T| B' s + C' p = F(t1)                       at every free dof                                    (equilibrium)
-//   g = C (u0 + du) - g0 <= 0, p >= 0, p g = 0        at every nonmortar node                              (contact)
+//   E^-1 (s - s0) + weight G(s) = B du - shift        in every triangle (material) sum |T| B' s + C' p =
+//   F(t1)                       at every free dof                                    (equilibrium) g = C (u0
+//   + du) - g0 <= 0, p >= 0, p g = 0        at every nonmortar node                              (contact)
 //
 // Linearised at s (material/material.h), (material) gives s = predictor + H^-1 B d; what is left is
 //   K d + C' p = F - sum |T| B' predictor,  K = sum |T| B' H^-1 B,
-// with (contact) kept as it is: each body is condensed to its contact dofs, and the complementarity problem is solved there.
+// with (contact) kept as it is: each body is condensed to its contact dofs, and the complementarity problem
+// is solved there.
 #pragma once
 
 #include <memory>
@@ -34,9 +36,9 @@ struct Iterate {
 
 /// What is asked of a step.
 struct StepData {
-  double time = 0;                      ///< t1: loads and prescribed displacements are taken here [s]
-  double weight = 0;                    ///< time step times the scheme's diagonal coefficient [s]
-  std::vector<Matrix> shift;            ///< per body, 3 x points; empty for none
+  double time = 0;            ///< t1: loads and prescribed displacements are taken here [s]
+  double weight = 0;          ///< time step times the scheme's diagonal coefficient [s]
+  std::vector<Matrix> shift;  ///< per body, 3 x points; empty for none
 };
 
 struct StepOutcome {
@@ -66,12 +68,19 @@ class StepSolver {
 
   void findRigidMotions();
   [[nodiscard]] std::string describeRigid(const Vector& z) const;
-  double linearise(const State& state0, const StepData& step, const Iterate& iterate);
+  double linearise(const State& state0, const StepData& step, const Iterate& iterate, bool anticipate);
   bool factorise(StepOutcome& outcome);
-  void solveLinearised(const State& state0, const std::vector<Vector>& loads, Iterate& iterate, StepOutcome& outcome);
-  StepOutcome newton(const State& state0, const StepData& step, Iterate& iterate, int maxIterations, double tolerance);
-  [[nodiscard]] Certificate certify(const State& state0, const std::vector<Vector>& loads, const Iterate& iterate,
-                                    double materialResidual) const;
+  void solveLinearised(const State& state0, const std::vector<Vector>& loads, Iterate& iterate,
+                       StepOutcome& outcome);
+  struct NewtonLimits {
+    int iterations = 0;
+    double tolerance = 0;
+    bool anticipate = false;  ///< material/material.h
+  };
+  StepOutcome newton(const State& state0, const StepData& step, const NewtonLimits& limits, Iterate& iterate);
+  StepOutcome continuation(const State& state0, const StepData& step, int maxIterations, Iterate& solution);
+  [[nodiscard]] Certificate certify(const State& state0, const std::vector<Vector>& loads,
+                                    const Iterate& iterate, double materialResidual) const;
   void prescribe(const State& state0, double time, Iterate& iterate) const;
 
   const Model& model_;

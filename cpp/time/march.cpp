@@ -20,8 +20,8 @@ void addIncrement(const Iterate& iterate, const Model& model, double weight, Sta
   state.contactForce = iterate.contactForce;
 }
 
-void measure(const Model& model, const State& state, const Iterate& iterate, const std::vector<std::vector<char>>& before,
-             StepReport& report) {
+void measure(const Model& model, const State& state, const Iterate& iterate,
+             const std::vector<std::vector<char>>& before, StepReport& report) {
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
     const Vector& p = state.contactForce[k];
@@ -30,8 +30,9 @@ void measure(const Model& model, const State& state, const Iterate& iterate, con
       report.joined += iterate.active[k][i] > before[k][i] ? 1 : 0;
       report.left += iterate.active[k][i] < before[k][i] ? 1 : 0;
     }
-    report.penetration += interface.interpenetration(state.bodies[interface.pair().nonmortar.body].displacement,
-                                                     state.bodies[interface.pair().mortar.body].displacement);
+    report.penetration +=
+        interface.interpenetration(state.bodies[interface.pair().nonmortar.body].displacement,
+                                   state.bodies[interface.pair().mortar.body].displacement);
     report.maxPressure = std::max(report.maxPressure, interface.contactPressure(p).maxCoeff());
     report.contactForce += p.sum();
   }
@@ -67,7 +68,8 @@ State initialState(const Model& model) {
     body.prescribe(0, initial.displacement);
     state.bodies.push_back(std::move(initial));
   }
-  for (const ContactInterface& interface : model.interfaces) state.contactForce.push_back(Vector::Zero(interface.rows()));
+  for (const ContactInterface& interface : model.interfaces)
+    state.contactForce.push_back(Vector::Zero(interface.rows()));
   return state;
 }
 
@@ -117,7 +119,8 @@ RunReport march(const Model& model, State& state, const TimePlan& plan, const So
       report.certificate = outcome.certificate;
       if (!outcome.converged) {
         report.status = run.status = Status::failed;
-        run.reason = "step " + std::to_string(n) + " at t = " + std::to_string(report.time) + " s: " + outcome.reason;
+        run.reason =
+            "step " + std::to_string(n) + " at t = " + std::to_string(report.time) + " s: " + outcome.reason;
         return;
       }
       easy = outcome.iterations <= easyIterations ? easy + 1 : 0;

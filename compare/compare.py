@@ -1,0 +1,146 @@
+#!/usr/bin/python3
+"""Compares a run of mortier with a run of FreeFEM on the same meshes, or any two runs.
+
+    compare/compare.py OUT_MORTIER OUT_FREEFEM [--json FILE] [--quiet]
+
+Displacement by vertex, stress by triangle, contact forces and gaps by node, scalars: largest difference over the
+largest value. Exit code 1 when one is beyond its tolerance, 2 when a run cannot be read.
+"""
+import json
+import sys
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+import results
+
+# Relative, in the maximum norm. Both codes stop at |H^-1 r| = 1e-10 sigma_Y or at their rounding floor.
+DISPLACEMENT = 1e-9
+STRESS = 1e-8
+FORCE = 1e-8
+# Meshes are the same files, so positions differ by nothing but the last digit printed.
+POSITION = 1e-15
+
+
+@dataclass
+class Difference:
+    quantity: str
+    difference: float  # relative
+    tolerance: float
+    first: float = None  # of scalars
+    second: float = None
+
+    @property
+    def within(self):
+        return self.difference <= self.tolerance  # false for NaN
+
+
+class Verdict:
+    """Everything that was compared."""
+
+    def __init__(self, differences, faults):
+        self.differences = differences
+        self.faults = faults  # what cannot be compared, in words
+
+    @property
+    def agrees(self):
+        return not self.faults and all(d.within for d in self.differences)
+
+    def norm(self, quantity):
+        """Largest relative difference of what begins with this word."""
+        return max((d.difference for d in self.differences if d.quantity.startswith(quantity)), default=np.nan)
+
+    def __str__(self):
+        if self.agrees:
+            return "agree"
+        beyond = [d for d in self.differences if not d.within]
+        return "DIFFER: " + "; ".join(self.faults + [f"{d.quantity} {d.difference:.1e}" for d in beyond[:3]])
+
+    def table(self):
+        lines = [f"{'quantity':<20} {'first':>19} {'second':>19} {'difference':>10} {'tolerance':>9}"]
+        for d in self.differences:
+            numbers = [f"{x:.12g}" if x is not None else "" for x in (d.first, d.second)]
+            lines.append(f"{d.quantity:<20} {numbers[0]:>19} {numbers[1]:>19} {d.difference:>10.1e} "
+                         f"{d.tolerance:>9.0e}" + ("" if d.within else "  <-- beyond"))
+        return "\n".join(lines + self.faults)
+
+    def json(self):
+        return {"agree": self.agrees, "faults": self.faults,
+                "differences": [asdict(d) | {"within": d.within} for d in self.differences]}
+
+
+def compare(first, second):
+    """The verdict on two runs."""
+    faults = []
+    for key in ("contact", "nonmortar", "projection"):
+        a, b = first.summary.get(key), second.summary.get(key)
+        if a != b:
+            faults.append(f"{key}: {a} and {b}")
+    if set(first.bodies) != set(second.bodies):
+        return Verdict([], faults + [f"bodies: {sorted(first.bodies)} and {sorted(second.bodies)}"])
+    for name in first.bodies:
+        a, b = first.bodies[name], second.bodies[name]
+        if a.displacement.shape != b.displacement.shape or a.stress.shape != b.stress.shape:
+            faults.append(f"body {name}: {len(a.displacement)} and {len(b.displacement)} vertices, "
+                          f"{len(a.stress)} and {len(b.stress)} triangles")
+    if not np.array_equal(first.contact.vertex, second.contact.vertex):
+        faults.append("contact nodes: other vertices")
+    if faults:
+        return Verdict([], faults)
+
+    names = sorted(first.bodies)
+    length = max(np.abs(second.bodies[name].displacement).max() for name in names)
+    stress = max(np.abs(second.bodies[name].stress).max() for name in names)
+    force = np.abs(second.contact.force).max()
+    differences = []
+    for what, scale, tolerance in (("displacement", length, DISPLACEMENT), ("stress", stress, STRESS)):
+        for name in names:
+            a, b = getattr(first.bodies[name], what), getattr(second.bodies[name], what)
+            differences.append(Difference(f"{what} {name}", relative(a, b, scale), tolerance))
+    differences += [
+        Difference("contact force", relative(first.contact.force, second.contact.force, force), FORCE),
+        Difference("contact gap", relative(first.contact.gap, second.contact.gap, length), DISPLACEMENT),
+        Difference("contact position", relative(first.contact.position, second.contact.position,
+                                                np.ptp(second.contact.position)), POSITION),
+    ]
+    # Scalars, against the size of their kind: a penetration of 1e-18 m^2 has no digits of its own.
+    scales = {"von_mises_min": (stress, STRESS), "von_mises_max": (stress, STRESS),
+              "contact_force": (force, FORCE),
+              "interpenetration": (length * np.ptp(second.contact.position), DISPLACEMENT),
+              "steps": (1, 0), "active_nodes": (1, 0), "time": (1, 1e-14)}
+    for key, a in first.scalars.items():
+        scale, tolerance = scales.get(key, (length, DISPLACEMENT))
+        b = second.scalars[key]
+        differences.append(Difference(key, relative(a, b, scale), tolerance, a, b))
+    return Verdict(differences, [])
+
+
+def relative(a, b, scale):
+    difference = float(np.abs(np.asarray(a) - np.asarray(b)).max())
+    return difference / float(scale) if difference > 0 else difference
+
+
+def main():
+    parser = results.argument_parser(__doc__)
+    parser.add_argument("first", help="run folder of mortier")
+    parser.add_argument("second", help="run folder of FreeFEM (or of mortier)")
+    parser.add_argument("--json", metavar="FILE", help="writes the differences as JSON")
+    parser.add_argument("--quiet", action="store_true", help="the verdict only")
+    arguments = parser.parse_args()
+    try:
+        verdict = compare(results.read(arguments.first), results.read(arguments.second))
+    except results.ResultError as error:
+        print(f"compare: {error}", file=sys.stderr)
+        return 2
+    if not arguments.quiet:
+        print(verdict.table())
+    print(f"verdict: the runs {verdict}")
+    if arguments.json:
+        with open(arguments.json, "w") as file:
+            json.dump(verdict.json(), file, indent=2)
+            file.write("\n")
+    return 0 if verdict.agrees else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

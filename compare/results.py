@@ -1,0 +1,205 @@
+"""Results of both codes, read into the same form: fields by vertex and triangle, contact by node, scalars.
+
+A run folder of mortier is described in docs/scene.md, one of FreeFEM in freefem/README.md. Whatever is
+missing, cut short or not finite is a ResultError with the file's name.
+"""
+import argparse
+import csv
+import json
+import math
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+
+def argument_parser(text):
+    """Options of a script whose help is its docstring."""
+    return argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
+
+
+class ResultError(Exception):
+    """A run folder that cannot be read, or that holds no finished run."""
+
+
+FINAL = ("time", "von_mises_min", "von_mises_max", "interpenetration", "contact_force", "active_nodes")
+
+
+@dataclass
+class Body:
+    displacement: np.ndarray  # vertices x 2 [m]
+    stress: np.ndarray  # triangles x 3: s11, s22, s12 [Pa]
+    points: np.ndarray = None  # vertices x 2, as meshed [m]; None where the code does not write it
+    triangles: np.ndarray = None  # triangles x 3, vertex numbers
+
+    @property
+    def von_mises(self):
+        s11, s22, s12 = self.stress.T
+        return np.sqrt(s11**2 + s22**2 - s11 * s22 + 3 * s12**2)
+
+
+@dataclass
+class Contact:
+    vertex: np.ndarray  # of the nonmortar mesh, from 0
+    position: np.ndarray  # nodes x 2, as meshed [m]
+    gap: np.ndarray  # negative: open [m]
+    force: np.ndarray  # nodal [N/m]
+    pressure: np.ndarray = None  # [Pa]; None where the code does not write it
+
+
+@dataclass
+class Run:
+    code: str  # mortier, FreeFEM
+    folder: Path
+    bodies: dict  # name -> Body
+    contact: Contact
+    summary: dict
+    wall_time: float = math.nan  # of the whole process, where it was measured [s]
+    scalars: dict = field(default_factory=dict)  # name -> number, all of one step
+
+
+def read(folder):
+    """A run of either code."""
+    folder = Path(folder)
+    if not folder.is_dir():
+        raise ResultError(f"{folder}: no such folder")
+    return read_freefem(folder) if (folder / "contact.txt").exists() else read_mortier(folder)
+
+
+def read_mortier(folder):
+    """The last kept step of a run of mortier."""
+    folder = Path(folder)
+    summary = read_summary(folder)
+    step = summary["steps"]
+    bodies = {b["name"]: read_vtu(folder / f"{b['name']}_{step:06d}.vtu") for b in summary.get("bodies", [])}
+    if not bodies:
+        raise ResultError(f"{folder / 'summary.json'}: no bodies")
+    for description in summary["bodies"]:
+        require_shape(folder, description["name"], bodies[description["name"]], description["nodes"],
+                      description["triangles"])
+    rows = [row for row in read_csv(folder / "contact.csv") if int(row["step"]) == step]
+    column = lambda name: np.array([float(row[name]) for row in rows])
+    position = np.column_stack([column("x"), column("y")])
+    contact = Contact(column("vertex").astype(int), position, column("gap"), column("force"), column("pressure"))
+    return finished(Run("mortier", folder, bodies, contact, summary))
+
+
+def read_freefem(folder):
+    """A run of the FreeFEM method."""
+    folder = Path(folder)
+    summary = read_summary(folder)
+    bodies = {}
+    for path in sorted(folder.glob("*.displacement.txt")):
+        name = path.name[: -len(".displacement.txt")]
+        bodies[name] = Body(read_table(path, 2), read_table(folder / f"{name}.stress.txt", 3))
+    if len(bodies) != 2:
+        raise ResultError(f"{folder}: fields of {len(bodies)} bodies, expected two")
+    table = read_table(folder / "contact.txt", 5)
+    contact = Contact(table[:, 0].astype(int), table[:, 1:3], table[:, 3], table[:, 4])
+    return finished(Run("FreeFEM", folder, bodies, contact, summary))
+
+
+def finished(run):
+    if len(run.contact.vertex) == 0:
+        raise ResultError(f"{run.folder}: no contact nodes of the last step")
+    for name, body in run.bodies.items():
+        require_finite(run.folder, f"displacement of {name}", body.displacement)
+        require_finite(run.folder, f"stress of {name}", body.stress)
+    require_finite(run.folder, "contact forces", run.contact.force)
+    require_finite(run.folder, "contact gaps", run.contact.gap)
+    final = run.summary["final"]
+    try:
+        for key in FINAL:
+            run.scalars[key] = float(final[key])
+        for key in ("displacement_min", "displacement_max"):
+            run.scalars[f"{key}_x"], run.scalars[f"{key}_y"] = map(float, final[key])
+        run.scalars["steps"] = float(run.summary["steps"])
+    except (KeyError, TypeError, ValueError) as error:
+        raise ResultError(f"{run.folder / 'summary.json'}: {error!r}") from error
+    require_finite(run.folder, "scalars of summary.json", np.array(list(run.scalars.values())))
+    return run
+
+
+def top_displacement(run, mesh_of):
+    """Mean u2 of the nodes on top [m]; `mesh_of` is a run of the same meshes that knows their points."""
+    top = max(body.points[:, 1].max() for body in mesh_of.bodies.values())
+    values = [run.bodies[name].displacement[body.points[:, 1] == top, 1] for name, body in mesh_of.bodies.items()]
+    return float(np.mean(np.concatenate(values)))
+
+
+def trace(body, height=0.0):
+    """Vertices of a body on the contact line y = height, from left to right."""
+    on_line = np.flatnonzero(body.points[:, 1] == height)
+    return on_line[np.argsort(body.points[on_line, 0])]
+
+
+def jump(run, upper="upper", lower="lower"):
+    """Abscissae of the common refinement, and there u1.n1 + u2.n2: positive where the bodies penetrate [m].
+
+    Exact: both traces are linear between the abscissae.
+    """
+    sides = []
+    for name in (upper, lower):
+        body = run.bodies[name]
+        nodes = trace(body)
+        sides.append((body.points[nodes, 0], body.displacement[nodes, 1]))
+    x = np.union1d(sides[0][0], sides[1][0])
+    return x, np.interp(x, *sides[1]) - np.interp(x, *sides[0])
+
+
+def read_summary(folder):
+    path = Path(folder) / "summary.json"
+    try:
+        summary = json.loads(path.read_text(), parse_constant=lambda word: not_finite(path, word))
+    except (OSError, ValueError) as error:
+        raise ResultError(f"{path}: {error}") from error
+    if summary.get("status") != "converged":
+        raise ResultError(f"{path}: status {summary.get('status')}, expected converged")
+    return summary
+
+
+def not_finite(path, word):
+    raise ResultError(f"{path}: {word}, expected a number")
+
+
+def read_csv(path):
+    try:
+        with open(path, newline="") as file:
+            return list(csv.DictReader(file))
+    except OSError as error:
+        raise ResultError(f"{path}: {error.strerror}") from error
+
+
+def read_table(path, columns):
+    """Numbers, one line an item."""
+    try:
+        table = np.loadtxt(path, ndmin=2)
+    except (OSError, ValueError) as error:
+        raise ResultError(f"{path}: {error}") from error
+    if table.shape[1] != columns:
+        raise ResultError(f"{path}: {table.shape[1]} columns, expected {columns}")
+    return table
+
+
+def read_vtu(path):
+    import meshio  # slow to load, and FreeFEM's results do without
+
+    if not Path(path).exists():
+        raise ResultError(f"{path}: no such file")
+    try:
+        mesh = meshio.read(path)
+        return Body(mesh.point_data["displacement"][:, :2], mesh.cell_data["stress"][0], mesh.points[:, :2],
+                    mesh.cells_dict["triangle"])
+    except (Exception, SystemExit) as error:  # meshio ends the process on some faults
+        raise ResultError(f"{path}: cannot be read: {error!r}") from error
+
+
+def require_shape(folder, name, body, nodes, triangles):
+    if body.displacement.shape != (nodes, 2) or body.stress.shape != (triangles, 3):
+        raise ResultError(f"{folder}: body {name}: {len(body.displacement)} vertices and {len(body.stress)} "
+                          f"triangles, expected {nodes} and {triangles}")
+
+
+def require_finite(folder, what, values):
+    if not np.isfinite(values).all():
+        raise ResultError(f"{folder}: {what}: not finite")

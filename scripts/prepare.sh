@@ -1,0 +1,74 @@
+# shellcheck shell=bash
+# Sourced by ./demo and ./check: what both need before they start.
+#   install_missing   installs the Debian packages that are not there; nothing is asked of the network when all are
+#   build [TARGET]    builds in build/ (Release), everything or one target
+# The caller sets $root, the repository. MORTIER_JOBS sets the number of compilers that run at once.
+: "${root:?}"
+
+packages=(
+  g++ cmake ninja-build
+  libeigen3-dev libsuitesparse-dev libopenblas-dev         # linear algebra
+  libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libmuparser-dev  # scenes, options, summaries, expressions
+  libgtest-dev libbenchmark-dev                            # tests, benchmarks
+  freefem++                                                # the other code
+  python3 python3-numpy python3-matplotlib python3-meshio  # comparison and pictures
+)
+
+say() { printf '\n== %s\n' "$*"; }
+die() { printf 'error: %s\n' "$*" >&2; exit 1; }
+
+missing_packages() {
+  local package
+  for package in "${packages[@]}"; do
+    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || echo "$package"
+  done
+}
+
+install_missing() {
+  if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+    say "This is no Debian: the packages below, or their likes, must be there already"
+    echo "${packages[*]}"
+    return
+  fi
+  local missing as_root=()
+  mapfile -t missing < <(missing_packages)
+  [ "${#missing[@]}" -eq 0 ] && return
+  say "Installing ${#missing[@]} Debian packages: ${missing[*]}"
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || die "these packages are missing, and only root can install them (there is no sudo):
+  apt-get install --no-install-recommends ${missing[*]}"
+    as_root=(sudo)
+  fi
+  "${as_root[@]}" apt-get update -q || die "apt-get update failed; is there a network?"
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}" ||
+    die "apt-get could not install: ${missing[*]}"
+  mapfile -t missing < <(missing_packages)
+  [ "${#missing[@]}" -eq 0 ] || die "still missing: ${missing[*]}"
+}
+
+# As many compilers as processors, but each with 1 GiB.
+jobs_at_once() {
+  local processors memory
+  processors=$(nproc)
+  memory=$(awk '/^MemAvailable/ { print int($2 / 1048576) }' /proc/meminfo 2>/dev/null)
+  [ "${memory:-$processors}" -lt "$processors" ] && processors=$memory
+  [ "$processors" -ge 1 ] || processors=1
+  echo "${MORTIER_JOBS:-$processors}"
+}
+
+build() {
+  local options=(-DCMAKE_BUILD_TYPE=Release) folder="$root/build"
+  # A build folder that came from elsewhere knows the wrong paths.
+  if [ -f "$folder/CMakeCache.txt" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$folder/CMakeCache.txt"; then
+    rm -rf "$folder"
+  fi
+  [ -f "$folder/CMakeCache.txt" ] || options+=(-G Ninja)
+  if [ "$(uname -m)" = x86_64 ] && ! { grep -qw avx2 /proc/cpuinfo && grep -qw fma /proc/cpuinfo; }; then
+    options+=(-DMORTIER_ARCH=x86-64)
+  fi
+  say "Building in build/ ($(jobs_at_once) at once)"
+  mkdir -p "$folder"
+  cmake -S "$root" -B "$folder" "${options[@]}" >"$folder/configure.log" 2>&1 ||
+    { cat "$folder/configure.log" >&2; die "cmake could not configure the build"; }
+  cmake --build "$folder" --parallel "$(jobs_at_once)" ${1:+--target "$1"} || die "the build failed"
+}

@@ -1,0 +1,290 @@
+#include "fem/body.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "base/error.h"
+#include "fem/element.h"
+#include "fem/rigid_modes.h"
+#include "material/perzyna.h"
+#include "material/stress.h"
+#include "mesh/generate.h"
+
+namespace mortier {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr int bottom = 1;
+constexpr int right = 2;
+constexpr int top = 3;
+constexpr int left = 4;
+
+Function constant(double value) {
+  return [value](double, double, double) { return value; };
+}
+
+/// A 2 x 1 rectangle whose inner and boundary nodes are moved a little, boundary nodes along their side.
+TriangleMesh mesh() {
+  TriangleMesh result = crissCrossMesh({.lower = {0, 0}, .upper = {2, 1}, .cellsX = 5, .cellsY = 3});
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> shift(-0.05, 0.05);
+  for (Point& x : result.vertices) {
+    if (x.x() != 0 && x.x() != 2) x.x() += shift(random);
+    if (x.y() != 0 && x.y() != 1) x.y() += shift(random);
+  }
+  return result;
+}
+
+Body body(Conditions conditions = {}, Projection projection = Projection::frobenius) {
+  return {"plate", mesh(), perzynaMaterial({100, 0.3}, {10, 1, projection}), std::move(conditions)};
+}
+
+template <class F>
+Vector field(const TriangleMesh& mesh, F u) {
+  Vector result(2 * mesh.vertices.size());
+  for (size_t v = 0; v < mesh.vertices.size(); ++v) result.segment<2>(2 * v) = u(mesh.vertices[v]);
+  return result;
+}
+
+Vector randomVector(Eigen::Index n, std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  return Vector::NullaryExpr(n, [&](Eigen::Index) { return normal(random); });
+}
+
+Matrix strainOf(const Body& plate, const Vector& u) {
+  Matrix strain;
+  plate.strain(u, Vector::Zero(u.size()), strain);
+  return strain;
+}
+
+TEST(Body, strainOfLinearDisplacementIsExact) {
+  const Body plate = body();
+  const Eigen::Matrix2d F{{0.3, -0.7}, {0.2, 0.9}};
+  const Matrix strain =
+      strainOf(plate, field(plate.mesh(), [&](const Point& x) { return Point(F * x + Point(3, -2)); }));
+  const Eigen::Vector3d expected = fromCartesian({F(0, 0), F(1, 1), (F(0, 1) + F(1, 0)) / 2});
+  constexpr double rounding = 64 * epsilon;  // of nodal values of order 4 over triangles of size 0.1
+  EXPECT_LE((strain.colwise() - expected).cwiseAbs().maxCoeff(), rounding);
+}
+
+TEST(Body, translationIsStrainedByNothing) {
+  const Body plate = body();
+  const Vector u = field(plate.mesh(), [](const Point&) { return Point(1e6 / 3, -0.1); });
+  EXPECT_EQ(strainOf(plate, u).cwiseAbs().maxCoeff(), 0);
+}
+
+TEST(Body, internalForceIsTheTransposeOfStrain) {
+  const Body plate = body();
+  std::mt19937 random(2);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Vector u = randomVector(plate.dofs(), random);
+    const Matrix stress = randomVector(3 * plate.points(), random).reshaped(3, plate.points());
+    const Matrix strain = strainOf(plate, u);
+    double work = 0;
+    for (int i = 0; i < plate.points(); ++i) work += plate.weights()[i] * stress.col(i).dot(strain.col(i));
+    EXPECT_NEAR(plate.internalForce(stress).dot(u), work, 1e-12);
+  }
+}
+
+TEST(Body, weightsSumToTheArea) {
+  const Body plate = body();
+  double area = 0;
+  for (const double weight : plate.weights()) area += weight;
+  EXPECT_NEAR(area, 2, 1e-14);
+}
+
+/// K of a body over equations, all of it.
+Matrix dense(const Body& plate, const Matrix& moduli) {
+  std::vector<double> values;
+  plate.tangent(moduli, values);
+  const SparsePattern& pattern = plate.pattern();
+  Matrix K = Matrix::Zero(pattern.size, pattern.size);
+  for (int j = 0; j < pattern.size; ++j)
+    for (int k = pattern.columnStart[j]; k < pattern.columnStart[j + 1]; ++k) {
+      K(pattern.rows[k], j) = values[k];
+      if (pattern.symmetric) K(j, pattern.rows[k]) = values[k];
+    }
+  return K;
+}
+
+// The internal force of the stresses that a step from zero ends at, as a function of the displacement.
+TEST(Body, tangentMatchesFiniteDifferenceOfInternalForce) {
+  constexpr double h = 1e-6;
+  constexpr double tolerance =
+      1e-7;  // central differences: epsilon/h = 2e-10 times the stiffness; near yield a kink
+  std::mt19937 random(3);
+  for (const Projection projection :
+       {Projection::frobenius, Projection::elasticity, Projection::compliance}) {
+    const Body plate = body({{{bottom, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}}, projection);
+    EXPECT_EQ(plate.pattern().symmetric, projection == Projection::frobenius);
+    const Matrix stress0 = Matrix::Zero(3, plate.points());
+    Linearisation law{Matrix(3, plate.points()), Matrix(9, plate.points())};
+    const auto solve = [&](const Vector& u) {
+      const Matrix strain = strainOf(plate, u);
+      Matrix stress = stress0;
+      for (int iteration = 0; iteration < 30; ++iteration) {
+        plate.material().linearise({0.1, stress0, strain}, stress, law, 0, plate.points());
+        stress = law.predictor;
+      }
+      return plate.internalForce(stress);
+    };
+    const Vector u = 0.05 * randomVector(plate.dofs(), random);
+    for (int trial = 0; trial < 5; ++trial) {
+      Vector d = randomVector(plate.dofs(), random);
+      for (int dof = 0; dof < plate.dofs(); ++dof)
+        if (plate.equations()[dof] < 0) d[dof] = 0;
+      const Vector difference = (solve(u + h * d) - solve(u - h * d)) / (2 * h);
+      solve(u);
+      Vector free(plate.freeDofs());
+      Vector expected(plate.freeDofs());
+      for (int dof = 0; dof < plate.dofs(); ++dof)
+        if (plate.equations()[dof] >= 0) {
+          free[plate.equations()[dof]] = d[dof];
+          expected[plate.equations()[dof]] = difference[dof];
+        }
+      const Matrix K = dense(plate, law.moduli);
+      EXPECT_LE((K * free - expected).cwiseAbs().maxCoeff(), tolerance * expected.cwiseAbs().maxCoeff());
+      // And the stress that Newton's method adds for d.
+      Matrix added = stress0;
+      plate.addStressOf(d, law.moduli, added);
+      const Vector f = plate.internalForce(added);
+      for (int dof = 0; dof < plate.dofs(); ++dof) {
+        if (plate.equations()[dof] < 0) continue;
+        EXPECT_NEAR(f[dof], (K * free)[plate.equations()[dof]], 1e-11);
+      }
+    }
+  }
+}
+
+TEST(Body, loadsSumToTheirResultants) {
+  constexpr double rounding = 1e-14;
+  const auto sumOf = [](const Conditions& conditions, int component, double t) {
+    const Body plate = body(conditions);
+    const Vector f = plate.load(t);
+    double sum = 0;
+    double moment = 0;
+    for (int v = 0; v < plate.nodes(); ++v) {
+      sum += f[2 * v + component];
+      moment += f[2 * v + component] *
+                (component == 0 ? -plate.mesh().vertices[v].y() : plate.mesh().vertices[v].x());
+      EXPECT_EQ(f[2 * v + 1 - component], 0);
+    }
+    return Point(sum, moment);
+  };
+  const Function ramp = [](double, double, double t) { return -10 * t; };
+  EXPECT_NEAR((sumOf({{}, {{top, 1, ramp}}, {}}, 1, 0.5) - Point(-10, -10)).norm(), 0, rounding);
+  // x^2 on the top: 8/3, moment 4; cubics are not integrated exactly.
+  const Function square = [](double x, double, double) { return x * x; };
+  EXPECT_NEAR((sumOf({{}, {{top, 1, square}}, {}}, 1, 0) - Point(8.0 / 3, 4)).norm(), 0, rounding);
+  // y on the right, along x: 1/2, moment -1/3.
+  const Function height = [](double, double y, double) { return y; };
+  EXPECT_NEAR((sumOf({{}, {{right, 0, height}}, {}}, 0, 0) - Point(0.5, -1.0 / 3)).norm(), 0, rounding);
+  // A body force: 3 + x on an area of 2: 8, moment 6 + 8/3.
+  const Function weight = [](double x, double, double) { return 3 + x; };
+  EXPECT_NEAR((sumOf({{}, {}, {{1, weight}}}, 1, 0) - Point(8, 6 + 8.0 / 3)).norm(), 0, rounding);
+}
+
+TEST(Body, prescribedDisplacementsAreTakenInPlaceAndTime) {
+  const Function value = [](double x, double, double t) { return 10 * t + x; };
+  const Body plate = body({{{bottom, 1, value}}, {}, {}});
+  Vector u = Vector::Constant(plate.dofs(), 99);
+  plate.prescribe(2, u);
+  for (int v = 0; v < plate.nodes(); ++v) {
+    const Point& x = plate.mesh().vertices[v];
+    EXPECT_EQ(u[2 * v], 99);
+    EXPECT_EQ(u[2 * v + 1], x.y() == 0 ? 20 + x.x() : 99);
+    EXPECT_EQ(plate.equations()[2 * v + 1] < 0, x.y() == 0);
+  }
+  EXPECT_THROW(body({{{7, 1, value}}, {}, {}}), InputError);
+  EXPECT_THROW(body({{}, {{7, 1, value}}, {}}), InputError);
+}
+
+TEST(RigidModes, supportsLeaveTheRestFree) {
+  struct Case {
+    std::vector<PrescribedDisplacement> supports;
+    int motions;
+    std::string words;  ///< of the only motion, either way
+  };
+  const Case cases[] = {
+      {{}, 3, ""},
+      {{{bottom, 1, constant(0)}}, 1, "translation along (1, 0)translation along (-1, 0)"},
+      {{{left, 0, constant(0)}}, 1, "translation along (0, 1)translation along (0, -1)"},
+      {{{left, 0, constant(0)}, {right, 0, constant(0)}},
+       1,
+       "translation along (0, 1)translation along (0, -1)"},
+      {{{left, 1, constant(0)}}, 2, ""},  // along x, and about any point of x = 0
+      {{{left, 0, constant(0)}, {bottom, 1, constant(0)}}, 0, ""},
+      {{{left, 0, constant(0)}, {left, 1, constant(0)}}, 0, ""},
+  };
+  for (const auto& [supports, motions, words] : cases) {
+    const Body plate = body({supports, {}, {}});
+    const Matrix modes = rigidModes(plate);
+    ASSERT_EQ(modes.cols(), motions);
+    if (motions == 0) continue;
+    EXPECT_EQ(Eigen::FullPivLU<Matrix>(modes).rank(), motions);
+    for (Eigen::Index i = 0; i < modes.cols(); ++i) {
+      EXPECT_LE(strainOf(plate, modes.col(i)).cwiseAbs().maxCoeff(), 1e-13);
+      EXPECT_NEAR(modes.col(i).cwiseAbs().maxCoeff(), 1, 0.5);
+      for (int dof = 0; dof < plate.dofs(); ++dof) {
+        if (plate.equations()[dof] >= 0) continue;
+        EXPECT_EQ(modes(dof, i), 0);
+      }
+    }
+    if (motions == 1) {
+      EXPECT_NE(words.find(describeRigidMotion(plate, modes.col(0))), std::string::npos);
+    }
+  }
+  const Body plate = body();
+  const Vector turn = field(plate.mesh(), [](const Point& x) { return Point(-(x.y() - 3), x.x() + 0.5); });
+  EXPECT_EQ(describeRigidMotion(plate, turn), "rotation about (-0.5, 3)");
+}
+
+// Strains of order 1e-9 in displacements of order one, carried as a large and a small part.
+TEST(Body, strainResolvesSmallDifferencesOfLargeDisplacements) {
+  using Long = long double;
+  const Body plate = body();
+  std::mt19937 random(4);
+  const Vector u = field(plate.mesh(), [&](const Point& x) {
+    const Point noise = 1e-9 * randomVector(2, random);
+    return Point(Point(-x.y(), x.x()) / 3 + Point(0.7, 0.1) + noise);
+  });
+  const Vector small = 1e-17 * randomVector(plate.dofs(), random);
+  Matrix strain;
+  plate.strain(u, small, strain);
+  double worst = 0;
+  double effect = 0;
+  const Matrix plain = strainOf(plate, u);
+  for (int i = 0; i < plate.points(); ++i) {
+    const auto& triangle = plate.mesh().triangles[i];
+    const auto& x = plate.mesh().vertices;
+    const auto table = LinearTriangle::tabulate({x[triangle[0]], x[triangle[1]], x[triangle[2]]});
+    Long gradient[2][2] = {{0, 0}, {0, 0}};
+    for (int a = 1; a < 3; ++a)
+      for (int c = 0; c < 2; ++c) {
+        const Long du = (Long(u[2 * triangle[a] + c]) - u[2 * triangle[0] + c]) +
+                        (Long(small[2 * triangle[a] + c]) - small[2 * triangle[0] + c]);
+        for (int k = 0; k < 2; ++k) gradient[c][k] += table.gradients(k, a) * (std::numbers::sqrt2 / 2) * du;
+      }
+    const Long exact[] = {gradient[0][0] + gradient[1][1], gradient[0][0] - gradient[1][1],
+                          gradient[0][1] + gradient[1][0]};
+    for (int c = 0; c < 3; ++c) {
+      worst = std::max(worst, static_cast<double>(std::abs(strain(c, i) - exact[c])));
+      effect = std::max(effect, std::abs(strain(c, i) - plain(c, i)));
+    }
+  }
+  // Long double's own rounding: 5e-20 of gradients of order 10 times differences of order 0.1, several of
+  // them.
+  constexpr double tolerance = 1e-18;
+  EXPECT_LE(worst, tolerance);
+  EXPECT_GE(effect, 1e-17);
+  std::cout << "strain against long double: " << worst << ", plain double rounds at " << epsilon << "\n";
+}
+
+}  // namespace
+}  // namespace mortier

@@ -1,0 +1,287 @@
+#include "solver/complementarity.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <random>
+
+namespace mortier {
+namespace {
+
+using Outcome = ContactSolution::Outcome;
+
+struct Case {
+  ContactProblem problem;
+  Vector slack;
+  Vector p0;
+  Vector balance;
+};
+
+struct Enumerated {
+  Vector p;
+  Vector z;
+};
+
+class Randoms {
+ public:
+  explicit Randoms(unsigned seed) : random_(seed) {}
+  double normal() { return normal_(random_); }
+  int below(int n) { return std::uniform_int_distribution<int>(0, n - 1)(random_); }
+  Vector vector(Eigen::Index n) {
+    return Vector::NullaryExpr(n, [&](Eigen::Index) { return normal(); });
+  }
+  Matrix matrix(Eigen::Index rows, Eigen::Index columns) {
+    return Matrix::NullaryExpr(rows, columns, [&](Eigen::Index, Eigen::Index) { return normal(); });
+  }
+  std::vector<char> set(Eigen::Index n) {
+    std::vector<char> result(n);
+    for (char& member : result) member = static_cast<char>(below(2));
+    return result;
+  }
+
+ private:
+  std::mt19937 random_;
+  std::normal_distribution<double> normal_;
+};
+
+Matrix symmetricPositive(Randoms& random, int n) {
+  const Matrix B = random.matrix(n, n);
+  return B * B.transpose() + 0.1 * Matrix::Identity(n, n);
+}
+
+/// Unsymmetric: positive definite, or a triangular matrix with large entries, a P-matrix that is far from
+/// definite.
+Matrix unsymmetricP(Randoms& random, int n, bool triangular) {
+  if (!triangular) {
+    const Matrix B = random.matrix(n, n);
+    return symmetricPositive(random, n) + 2 * (B - B.transpose());
+  }
+  Matrix W = random.matrix(n, n).triangularView<Eigen::StrictlyUpper>();
+  W *= 2;
+  W.diagonal() = random.vector(n).cwiseAbs().array() + 0.2;
+  return W;
+}
+
+/// The solution by trial of all active sets; none where no set has the right signs.
+std::optional<Enumerated> enumerate(const Case& c) {
+  const auto n = static_cast<int>(c.slack.size());
+  const Eigen::Index motions = c.problem.G.cols();
+  const double scale = c.slack.cwiseAbs().maxCoeff() + c.problem.W.cwiseAbs().maxCoeff();
+  for (int bits = 0; bits < 1 << n; ++bits) {
+    std::vector<int> active;
+    for (int i = 0; i < n; ++i)
+      if ((bits >> i & 1) != 0) active.push_back(i);
+    const auto size = static_cast<Eigen::Index>(active.size());
+    Vector dp = -c.p0;
+    for (const int i : active) dp[i] = 0;
+    Matrix K = Matrix::Zero(size + motions, size + motions);
+    Vector f(size + motions);
+    K.topLeftCorner(size, size) = c.problem.W(active, active);
+    f.head(size) = -(c.slack + c.problem.W * dp)(active);
+    if (motions > 0) {
+      K.topRightCorner(size, motions) = -c.problem.G(active, Eigen::all);
+      K.bottomLeftCorner(motions, size) = c.problem.G(active, Eigen::all).transpose();
+      f.tail(motions) = c.balance - c.problem.G.transpose() * dp;
+    }
+    Vector z = Vector::Zero(motions);
+    if (K.size() > 0) {
+      const Eigen::FullPivLU<Matrix> lu(K);
+      if (!lu.isInvertible()) continue;
+      const Vector x = lu.solve(f);
+      for (Eigen::Index i = 0; i < size; ++i) dp[active[i]] = x[i];
+      z = x.tail(motions);
+    }
+    Vector s = c.slack + c.problem.W * dp;
+    if (motions > 0) s -= c.problem.G * z;
+    const Vector p = c.p0 + dp;
+    if (s.minCoeff() >= -1e-11 * scale && p.minCoeff() >= -1e-11 * scale) return Enumerated{p, z};
+  }
+  return std::nullopt;
+}
+
+ContactSolution solve(const Case& c, std::vector<char> active) {
+  return solveContact(c.problem, c.slack, c.p0, c.balance, std::move(active));
+}
+
+void expectEnumerated(const Case& c, Randoms& random) {
+  constexpr double tolerance = 1e-9;  // the matrices have condition numbers up to about 1e4
+  const Eigen::Index n = c.slack.size();
+  const auto exact = enumerate(c);
+  ASSERT_TRUE(exact.has_value());
+  for (const std::vector<char>& start : {std::vector<char>(n, 0), std::vector<char>(n, 1), random.set(n)}) {
+    const ContactSolution solution = solve(c, start);
+    ASSERT_EQ(solution.outcome, Outcome::solved);
+    const double scale = 1 + exact->p.cwiseAbs().maxCoeff();
+    ASSERT_LE((c.p0 + solution.change - exact->p).cwiseAbs().maxCoeff(), tolerance * scale);
+    ASSERT_LE((solution.rigid - exact->z).lpNorm<Eigen::Infinity>(),
+              tolerance * (1 + exact->z.lpNorm<Eigen::Infinity>()));
+  }
+}
+
+TEST(Complementarity, agreesWithEnumerationOfAllActiveSets) {
+  Randoms random(1);
+  for (int n = 1; n <= 10; ++n)
+    for (int trial = 0; trial < 12; ++trial) {
+      Case c;
+      c.problem.symmetric = trial % 3 == 0;
+      c.problem.W =
+          c.problem.symmetric ? symmetricPositive(random, n) : unsymmetricP(random, n, trial % 3 == 1);
+      c.problem.G = Matrix(n, 0);
+      c.slack = 2 * random.vector(n);
+      c.p0 = random.vector(n).cwiseMax(0);
+      expectEnumerated(c, random);
+    }
+}
+
+// Nodes that touch without force: p and s both vanish.
+TEST(Complementarity, zeroSlackWithoutForceIsNoTrouble) {
+  constexpr double tolerance = 1e-11;
+  Randoms random(2);
+  for (int trial = 0; trial < 300; ++trial) {
+    const int n = 2 + random.below(9);
+    Case c;
+    c.problem.symmetric = trial % 2 == 0;
+    c.problem.W =
+        c.problem.symmetric ? symmetricPositive(random, n) : unsymmetricP(random, n, trial % 4 == 1);
+    c.problem.G = Matrix(n, 0);
+    c.p0 = random.vector(n).cwiseMax(0);
+    Vector p = Vector::Zero(n);
+    Vector s = Vector::Zero(n);
+    for (int i = 0; i < n; ++i) {
+      const int kind = random.below(3);
+      if (kind == 1) p[i] = 1;
+      if (kind == 2) s[i] = 1;
+    }
+    c.slack = s - c.problem.W * (p - c.p0);
+    const ContactSolution solution = solve(c, random.set(n));
+    ASSERT_EQ(solution.outcome, Outcome::solved);
+    ASSERT_LE((c.p0 + solution.change - p).cwiseAbs().maxCoeff(),
+              tolerance * c.problem.W.inverse().cwiseAbs().sum());
+  }
+}
+
+// Two conditions that almost say the same: their forces share at will, but signs, gaps and the motion are
+// right.
+TEST(Complementarity, nearlyRepeatedConditionsAreHeldTogether) {
+  constexpr double tolerance = 1e-9;
+  Randoms random(3);
+  for (const double difference : {1e-3, 1e-5, 1e-7})
+    for (int trial = 0; trial < 50; ++trial) {
+      const int n = 3 + random.below(7);
+      const int dofs = n + 3;
+      Matrix C = random.matrix(n, dofs);
+      C.row(1) = C.row(0) + difference * C.row(1);
+      const Vector g0 = random.vector(n);
+      Case c;
+      c.problem.W = C * C.transpose();
+      c.problem.G = Matrix(n, 0);
+      c.slack = g0;
+      c.slack[1] = c.slack[0];
+      c.p0 = Vector::Zero(n);
+      const ContactSolution solution = solve(c, std::vector<char>(n, 1));
+      ASSERT_EQ(solution.outcome, Outcome::solved);
+      const Vector s = c.slack + c.problem.W * solution.change;
+      const double force = 1 + solution.change.cwiseAbs().maxCoeff();
+      EXPECT_GE(s.minCoeff(), -tolerance * force);
+      EXPECT_GE(solution.change.minCoeff(), -tolerance * force);
+      EXPECT_LE(std::abs(solution.change.dot(s)), tolerance * force * force);
+    }
+}
+
+/// A problem whose bodies contact alone holds, with a solution p, s, z given beforehand.
+Case balancedCase(Randoms& random, int n, int motions, bool symmetric) {
+  Case c;
+  c.problem.symmetric = symmetric;
+  c.problem.W = symmetric ? symmetricPositive(random, n) : unsymmetricP(random, n, false);
+  c.problem.G = random.matrix(n, motions);
+  if (motions > 0) c.problem.G.col(0) = c.problem.G.col(0).cwiseAbs();
+  c.p0 = random.vector(n).cwiseMax(0);
+  Vector p = Vector::Zero(n);
+  Vector s = Vector::Zero(n);
+  for (int i = 0; i < n; ++i)
+    (i <= motions || random.below(2) == 0 ? p : s)[i] = 0.1 + std::abs(random.normal());
+  const Vector z = random.vector(motions);
+  c.slack = s - c.problem.W * (p - c.p0) + c.problem.G * z;
+  c.balance = c.problem.G.transpose() * (p - c.p0);
+  return c;
+}
+
+TEST(Complementarity, rigidMotionsAgreeWithEnumeration) {
+  Randoms random(4);
+  for (int n = 4; n <= 10; n += 2)
+    for (int motions = 1; motions <= 3; ++motions)
+      for (int trial = 0; trial < 8; ++trial)
+        expectEnumerated(balancedCase(random, n, motions, trial % 2 == 0), random);
+}
+
+TEST(Complementarity, rigidMotionsAreBalancedToRounding) {
+  constexpr double rounding = 1e-13;
+  Randoms random(5);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Case c = balancedCase(random, 12, 1 + trial % 3, true);
+    const ContactSolution solution = solve(c, std::vector<char>(12, 1));
+    ASSERT_EQ(solution.outcome, Outcome::solved);
+    const Vector rest = c.problem.G.transpose() * solution.change - c.balance;
+    EXPECT_LE(
+        rest.cwiseAbs().maxCoeff(),
+        rounding * (c.problem.G.cwiseAbs().transpose() * (c.p0 + c.p0 + solution.change).cwiseAbs()).sum());
+  }
+}
+
+// Contact pushes, it does not pull.
+TEST(Complementarity, loadThatContactCannotBalanceIsReported) {
+  Randoms random(6);
+  for (int trial = 0; trial < 50; ++trial) {
+    const int n = 2 + random.below(8);
+    Case c;
+    c.problem.W = symmetricPositive(random, n);
+    c.problem.G = random.matrix(n, 1).cwiseAbs();
+    c.slack = random.vector(n);
+    c.p0 = Vector::Zero(n);
+    c.balance = Vector::Constant(1, -1);
+    const ContactSolution away = solve(c, random.set(n));
+    EXPECT_EQ(away.outcome, Outcome::unbalanced);
+    EXPECT_LT(away.rigid[0], 0);  // s = s0 + W dp - G z grows without end
+    c.balance[0] = 1;
+    EXPECT_EQ(solve(c, random.set(n)).outcome, Outcome::solved);
+    // A couple of forces with a moment that no push on these nodes has.
+    c.problem.G = Matrix::Ones(n, 2);
+    for (int i = 0; i < n; ++i) c.problem.G(i, 1) = static_cast<double>(i) / n;
+    c.balance = Eigen::Vector2d(1, 1.5);
+    EXPECT_EQ(solve(c, std::vector<char>(n, 1)).outcome, Outcome::unbalanced);
+  }
+}
+
+// Powers of four: square roots of the scaled matrix are scaled exactly as well.
+TEST(Complementarity, unitsOfPowersOfFourChangeNoBit) {
+  Randoms random(7);
+  for (int trial = 0; trial < 60; ++trial) {
+    const Case c = balancedCase(random, 8, trial % 3, trial % 2 == 0);
+    const std::vector<char> start = random.set(8);
+    const ContactSolution solution = solve(c, start);
+    for (const double force : {0x1p-30, 0x1p+16})
+      for (const double length : {0x1p-10, 0x1p+40}) {
+        Case scaled = c;
+        scaled.problem.W *= length / force;
+        scaled.slack *= length;
+        scaled.p0 *= force;
+        scaled.balance *= force;
+        const ContactSolution other = solve(scaled, start);
+        EXPECT_EQ(other.pivots, solution.pivots);
+        EXPECT_EQ(other.active, solution.active);
+        EXPECT_EQ(other.change, force * solution.change);
+        EXPECT_EQ(other.rigid, length * solution.rigid);
+      }
+  }
+}
+
+TEST(Complementarity, nothingToSolveIsSolved) {
+  EXPECT_EQ(solveContact({Matrix(0, 0), true, Matrix(0, 0)}, Vector(0), Vector(0), Vector(0), {}).outcome,
+            Outcome::solved);
+}
+
+}  // namespace
+}  // namespace mortier

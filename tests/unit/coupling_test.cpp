@@ -1,0 +1,213 @@
+#include "contact/coupling.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+#include <random>
+
+#include "contact/segments.h"
+
+namespace mortier {
+namespace {
+
+constexpr CouplingKind kinds[] = {CouplingKind::interpolation, CouplingKind::mortar};
+
+/// The accuracy asked of what the couplings reproduce, for values of order one.
+constexpr double reproduced = 1e-14;
+
+Vector asVector(const Trace& trace) {
+  return Eigen::Map<const Vector>(trace.data(), static_cast<Eigen::Index>(trace.size()));
+}
+
+/// A trace from `begin` to `end` whose neighbouring elements differ in length by up to `grading`.
+Trace randomTrace(std::mt19937& random, int elements, double begin, double end, double grading) {
+  std::uniform_real_distribution<double> exponent(0, std::log(grading));
+  Trace trace{0};
+  for (int i = 0; i < elements; ++i) trace.push_back(trace.back() + std::exp(exponent(random)));
+  const double length = trace.back();
+  for (double& s : trace) s = begin + (end - begin) * (s / length);
+  trace.back() = end;
+  return trace;
+}
+
+/// The piecewise linear function through (trace, values) at s.
+double evaluate(const Trace& trace, const Vector& values, double s) {
+  size_t i = 1;
+  while (i + 1 < trace.size() && trace[i] < s) ++i;
+  const double x = (s - trace[i - 1]) / (trace[i] - trace[i - 1]);
+  return (1 - x) * values[i - 1] + x * values[i];
+}
+
+double rowSumError(const Matrix& A) {
+  return (A.rowwise().sum().array() - 1).abs().maxCoeff();
+}
+
+// Worked out with fractions; it also stands in the header.
+TEST(Coupling, threeAndThreeNodesGiveExactFractions) {
+  const Trace nonmortar{0, 1.0 / 2, 1};
+  const Trace mortar{0, 1.0 / 3, 1};
+  const Coupling coupling = couple(CouplingKind::mortar, nonmortar, mortar);
+  const Matrix M{{2, 1, 0}, {1, 4, 1}, {0, 1, 2}};
+  const Matrix D{{56, 51, 1}, {16, 138, 62}, {0, 27, 81}};
+  const Matrix A{{30, 9, -3}, {-4, 33, 7}, {2, -3, 37}};
+  constexpr double rounding = 1e-15;
+  EXPECT_EQ(coupling.nodes, (std::vector<int>{0, 1, 2}));
+  EXPECT_LE((Matrix(coupling.M) - M / 12).cwiseAbs().maxCoeff(), rounding);
+  EXPECT_LE((Matrix(coupling.D) - D / 432).cwiseAbs().maxCoeff(), rounding);
+  EXPECT_LE((coupling.A - A / 36).cwiseAbs().maxCoeff(), rounding);
+
+  const Matrix interpolated{{1, 0, 0}, {0, 0.75, 0.25}, {0, 0, 1}};
+  EXPECT_LE((couple(CouplingKind::interpolation, nonmortar, mortar).A - interpolated).cwiseAbs().maxCoeff(),
+            rounding);
+}
+
+TEST(Coupling, reproducesConstantsAndLinearFunctions) {
+  std::mt19937 random(1);
+  std::uniform_int_distribution<int> elements(1, 60);
+  double worst = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    const double grading = trial % 2 == 0 ? 3 : 1000;
+    const Trace nonmortar = randomTrace(random, elements(random), 0, 1, grading);
+    const Trace mortar = randomTrace(random, elements(random), 0, 1, grading);
+    for (const CouplingKind kind : kinds) {
+      const Coupling coupling = couple(kind, nonmortar, mortar);
+      ASSERT_EQ(coupling.A.rows(), static_cast<Eigen::Index>(nonmortar.size()));
+      const double linear = (coupling.A * asVector(mortar) - asVector(nonmortar)).cwiseAbs().maxCoeff();
+      worst = std::max({worst, linear, rowSumError(coupling.A)});
+      ASSERT_LE(rowSumError(coupling.A), reproduced);
+      ASSERT_LE(linear, reproduced);
+    }
+  }
+  std::cout << "constants and linear functions on 1000 random pairs: error at most " << worst << "\n";
+}
+
+// M A = D: the projection of a mortar function differs from it by something orthogonal to the nonmortar
+// functions.
+TEST(Coupling, mortarIsTheProjection) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> value(-1, 1);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Trace nonmortar = randomTrace(random, 7, 0, 1, 5);
+    const Trace mortar = randomTrace(random, 10, 0, 1, 5);
+    const Coupling coupling = couple(CouplingKind::mortar, nonmortar, mortar);
+    Vector v(mortar.size());
+    for (double& x : v) x = value(random);
+    const Vector projection = coupling.A * v;
+    // Gauss's rule of two points on a refinement of its own.
+    Trace ends = nonmortar;
+    ends.insert(ends.end(), mortar.begin(), mortar.end());
+    std::sort(ends.begin(), ends.end());
+    Vector moments = Vector::Zero(projection.size());
+    for (size_t k = 1; k < ends.size(); ++k)
+      for (const double side : {-1.0, 1.0}) {
+        const double length = ends[k] - ends[k - 1];
+        const double s = (ends[k] + ends[k - 1] + side * length / std::sqrt(3.0)) / 2;
+        const double error = evaluate(nonmortar, projection, s) - evaluate(mortar, v, s);
+        for (Eigen::Index i = 0; i < moments.size(); ++i)
+          moments[i] += length / 2 * error * evaluate(nonmortar, Vector::Unit(moments.size(), i), s);
+      }
+    ASSERT_LE(moments.cwiseAbs().maxCoeff(), reproduced);
+  }
+}
+
+TEST(Coupling, interpolationTakesTheValuesAtTheNodes) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> value(-1, 1);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Trace nonmortar = randomTrace(random, 17, 0, 1, 10);
+    const Trace mortar = randomTrace(random, 11, -0.1, 0.8, 10);
+    const Coupling coupling = couple(CouplingKind::interpolation, nonmortar, mortar);
+    Vector v(mortar.size());
+    for (double& x : v) x = value(random);
+    const Vector values = coupling.A * v;
+    for (size_t i = 0; i < coupling.nodes.size(); ++i) {
+      ASSERT_LE(nonmortar[coupling.nodes[i]], 0.8);
+      ASSERT_NEAR(values[i], evaluate(mortar, v, nonmortar[coupling.nodes[i]]), reproduced);
+    }
+  }
+}
+
+TEST(Coupling, matchingTracesGiveTheIdentity) {
+  std::mt19937 random(4);
+  for (const int elements : {1, 2, 9, 50}) {
+    const Trace trace = randomTrace(random, elements, -2, 3, 20);
+    for (const CouplingKind kind : kinds) {
+      const Matrix A = couple(kind, trace, trace).A;
+      EXPECT_LE((A - Matrix::Identity(A.rows(), A.cols())).cwiseAbs().maxCoeff(), reproduced);
+    }
+  }
+}
+
+// Only the nodes that face the mortar side have a row, and constants survive at its end, however small the
+// piece.
+TEST(Coupling, partialOverlapReproducesConstants) {
+  const Trace nonmortar{0, 0.25, 0.5, 0.75, 1};
+  struct Case {
+    Trace mortar;
+    std::vector<int> nodes;
+  };
+  std::vector<Case> cases{{{0.3, 0.6, 1.5}, {2, 3, 4}},
+                          {{-1, 0.1, 0.6}, {0, 1, 2}},
+                          {{0.2, 0.3}, {1}},
+                          {{-1, 2}, {0, 1, 2, 3, 4}}};
+  for (double piece = 1e-1; piece > 0.5e-9; piece /= 10) {
+    cases.push_back({{1 - piece, 1.3, 2}, {4}});  // faces the end only
+    cases.push_back({{-1, -0.3, piece}, {0}});
+    cases.push_back({{-1, 0.1, 0.4, 0.5 + piece}, {0, 1, 2}});  // ends just behind a node
+    cases.push_back({{0.5 - piece, 0.6, 1}, {2, 3, 4}});
+    cases.push_back({{0.5 - piece / 2, 0.5 + piece / 2}, {2}});
+  }
+  for (const auto& [mortar, nodes] : cases)
+    for (const CouplingKind kind : kinds) {
+      const Coupling coupling = couple(kind, nonmortar, mortar);
+      ASSERT_EQ(coupling.nodes, nodes);
+      EXPECT_LE(rowSumError(coupling.A), reproduced) << mortar.front() << " to " << mortar.back();
+      EXPECT_LE(coupling.A.cwiseAbs().maxCoeff(), 2) << mortar.front() << " to " << mortar.back();
+    }
+  EXPECT_TRUE(couple(CouplingKind::mortar, nonmortar, {0.3, 0.4}).nodes.empty());
+  EXPECT_TRUE(couple(CouplingKind::mortar, nonmortar, {1.1, 2}).nodes.empty());
+}
+
+TEST(Coupling, nodesCloserThanRoundingDoNoHarm) {
+  constexpr double close = 1e-13;
+  const Trace nonmortar{0, 0.25, 0.5, 0.75, 1};
+  for (const double shift : {-close, close}) {
+    const Trace inside{0, 0.25 + shift, 0.5 - shift, 0.75 + shift, 1};
+    const Trace ends{shift, 0.25, 0.5 + shift, 0.75, 1 - shift};
+    for (const CouplingKind kind : kinds)
+      for (const Trace& mortar : {inside, ends}) {
+        const Coupling coupling = couple(kind, nonmortar, mortar);
+        ASSERT_EQ(coupling.A.rows(), 5);
+        EXPECT_LE(rowSumError(coupling.A), reproduced);
+        EXPECT_LE((coupling.A - Matrix::Identity(5, 5)).cwiseAbs().maxCoeff(), 20 * close);
+      }
+  }
+}
+
+TEST(Segments, coverTheOverlapOnce) {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> elements(1, 40);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Trace nonmortar = randomTrace(random, elements(random), 0, 1, 50);
+    const bool same = trial % 2 == 0;
+    const Trace mortar = randomTrace(random, elements(random), same ? 0 : 0.21, same ? 1 : 1.4, 50);
+    const std::vector<Segment> segments = commonRefinement(nonmortar, mortar);
+    ASSERT_FALSE(segments.empty());
+    double end = same ? 0 : 0.21;
+    for (const Segment& segment : segments) {
+      ASSERT_EQ(segment.begin, end);
+      ASSERT_LT(segment.begin, segment.end);
+      ASSERT_TRUE(nonmortar[segment.nonmortar] <= segment.begin &&
+                  segment.end <= nonmortar[segment.nonmortar + 1]);
+      ASSERT_TRUE(mortar[segment.mortar] <= segment.begin && segment.end <= mortar[segment.mortar + 1]);
+      end = segment.end;
+    }
+    ASSERT_EQ(end, 1);
+  }
+  EXPECT_TRUE(commonRefinement({0, 1}, {1, 2}).empty());
+  EXPECT_TRUE(commonRefinement({0, 1}, {5, 6}).empty());
+}
+
+}  // namespace
+}  // namespace mortier

@@ -1,0 +1,266 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "base/error.h"
+#include "material/perzyna.h"
+#include "material/stress.h"
+#include "mesh/generate.h"
+#include "report/contact_table.h"
+#include "report/fields.h"
+#include "report/history.h"
+#include "report/log.h"
+#include "report/output_folder.h"
+#include "report/summary.h"
+
+namespace mortier {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contentOf(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+class Folder : public testing::Test {
+ protected:
+  Folder() : path(testing::TempDir() + "report_test_" + std::to_string(getpid())) {
+    fs::create_directories(path);
+  }
+  ~Folder() override { fs::remove_all(path); }
+
+  void put(const std::string& name, const std::string& text) const {
+    fs::create_directories(fs::path(path + "/" + name).parent_path());
+    std::ofstream(path + "/" + name) << text;
+  }
+  /// Names in the folder, so that nothing temporary is left behind.
+  [[nodiscard]] std::set<std::string> names() const {
+    std::set<std::string> found;
+    for (const auto& entry : fs::directory_iterator(path)) {
+      found.insert(entry.path().filename().string());
+    }
+    return found;
+  }
+
+  std::string path;
+};
+
+using Output = Folder;
+
+TEST_F(Output, numbersReadBackBitByBit) {
+  const std::vector<double> values{0.1, -1.0 / 3, 1e-300, 5e-324, 3e11, 0};
+  OutputFile file(path + "/a");
+  for (const double value : values) {
+    file << value << '\n';
+  }
+  file.close();
+  std::ifstream in(path + "/a");
+  for (const double value : values) {
+    std::string text;
+    in >> text;
+    EXPECT_EQ(std::strtod(text.c_str(), nullptr), value);
+  }
+}
+
+TEST_F(Output, refusesNumbersThatAreNotFinite) {
+  OutputFile file(path + "/a");
+  EXPECT_THROW(file << std::numeric_limits<double>::quiet_NaN(), OutputError);
+  EXPECT_THROW(file << std::numeric_limits<double>::infinity(), OutputError);
+}
+
+TEST_F(Output, fullDiskIsAnError) {
+  const auto fill = [](size_t bytes) {
+    OutputFile file("/dev/full");
+    file << std::string(bytes, 'x');
+    file.close();
+  };
+  EXPECT_THROW(fill(10), OutputError);
+  EXPECT_THROW(fill(1000000), OutputError);
+}
+
+TEST_F(Output, commitReplacesTheOldResultAndKeepsOtherFiles) {
+  put("out/summary.json", "old");
+  put("out/upper_000007.vtu", "old");
+  put("out/picture.png", "mine");
+  put("out.failed/summary.json", "older");
+  {
+    OutputFolder folder(path + "/out/");
+    std::ofstream(folder.temporary() + "/summary.json") << "new";
+    EXPECT_EQ(contentOf(path + "/out/summary.json"), "old");
+    folder.commit();
+  }
+  EXPECT_EQ(contentOf(path + "/out/summary.json"), "new");
+  EXPECT_EQ(contentOf(path + "/out/picture.png"), "mine");
+  EXPECT_FALSE(fs::exists(path + "/out/upper_000007.vtu"));
+  EXPECT_EQ(names(), std::set<std::string>{"out"});
+}
+
+TEST_F(Output, failedRunLeavesTheOldResult) {
+  put("out/summary.json", "old");
+  {
+    OutputFolder folder(path + "/out");
+    std::ofstream(folder.temporary() + "/summary.json") << "new";
+    EXPECT_EQ(folder.commitAsFailed(), path + "/out.failed");
+  }
+  EXPECT_EQ(contentOf(path + "/out/summary.json"), "old");
+  EXPECT_EQ(contentOf(path + "/out.failed/summary.json"), "new");
+  EXPECT_EQ(names(), (std::set<std::string>{"out", "out.failed"}));
+}
+
+TEST_F(Output, exceptionLeavesNothing) {
+  put("out/summary.json", "old");
+  { const OutputFolder folder(path + "/out"); }
+  EXPECT_EQ(names(), std::set<std::string>{"out"});
+}
+
+TEST_F(Output, foldersOfOthersAreNotReplaced) {
+  put("thesis/chapter.tex", "years of work");
+  put("file", "");
+  EXPECT_THROW(OutputFolder(path + "/thesis"), InputError);
+  EXPECT_THROW(OutputFolder(path + "/file"), InputError);
+  EXPECT_EQ(names(), (std::set<std::string>{"file", "thesis"}));
+}
+
+/// Two unit squares of one cell each, stressed by (0, -2, 0), the lower one elastic.
+struct Blocks {
+  Model model;
+  State state;
+  RunFacts facts;
+
+  Blocks() {
+    const Elasticity elasticity{100, 0.3};
+    model.bodies.emplace_back("upper", crissCrossMesh({{0, 0}, {1, 1}, 1, 1}),
+                              perzynaMaterial(elasticity, {1, 1}), Conditions{});
+    model.bodies.emplace_back("lower", crissCrossMesh({{0, -1}, {1, 0}, 1, 1}), elasticMaterial(elasticity),
+                              Conditions{});
+    model.interfaces.emplace_back(ContactPair{{0, 1}, {1, 3}, CouplingKind::mortar}, model.bodies[0].mesh(),
+                                  model.bodies[1].mesh());
+    for (const Body& body : model.bodies) {
+      const Eigen::Vector3d stress = fromCartesian({0, -2, 0});
+      state.bodies.push_back({Vector::LinSpaced(body.dofs(), 0, 1), stress.replicate(1, body.points()),
+                              Matrix::Zero(3, body.points())});
+    }
+    state.time = 0.25;
+    state.contactForce.push_back(Vector::Constant(2, 1.0));
+    facts.materials = {"Perzyna (frobenius)", "elastic"};
+    facts.variants = {"mortar"};
+    facts.contact = "mortar";
+    facts.nonmortar = "upper";
+    facts.projection = "frobenius";
+  }
+};
+
+TEST(Fields, cellsShowCartesianComponentsAndFlow) {
+  const Blocks blocks;
+  const CellFields upper = cellFields(blocks.model.bodies[0], blocks.state.bodies[0]);
+  EXPECT_EQ(upper.stress.cols(), 4);
+  EXPECT_NEAR(upper.stress(0, 2), 0, 1e-15);
+  EXPECT_NEAR(upper.stress(1, 2), -2, 1e-15);
+  EXPECT_NEAR(upper.vonMises[3], 2, 1e-15);
+  EXPECT_EQ(upper.viscoplastic, std::vector<int>(4, 1));
+  EXPECT_EQ(cellFields(blocks.model.bodies[1], blocks.state.bodies[1]).viscoplastic, std::vector<int>(4, 0));
+}
+
+TEST_F(Output, fieldsNameEveryBodyAndStep) {
+  const Blocks blocks;
+  Fields fields(path, blocks.model);
+  fields.add(blocks.state, 0);
+  fields.add(blocks.state, 1234567);
+  fields.close();
+  EXPECT_EQ(names(), (std::set<std::string>{"fields.pvd", "lower_000000.vtu", "lower_1234567.vtu",
+                                            "upper_000000.vtu", "upper_1234567.vtu"}));
+  EXPECT_NE(contentOf(path + "/fields.pvd").find("timestep=\"0.25\""), std::string::npos);
+}
+
+TEST_F(Output, fieldsThatAreNotFiniteAreNotWritten) {
+  Blocks blocks;
+  blocks.state.bodies[1].stress(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  Fields fields(path, blocks.model);
+  EXPECT_THROW(fields.add(blocks.state, 0), OutputError);
+}
+
+TEST_F(Output, contactTableHasARowPerNonmortarNode) {
+  const Blocks blocks;
+  ContactTable table(path, blocks.model);
+  table.add(blocks.state, 3);
+  table.close();
+  std::istringstream text(contentOf(path + "/contact.csv"));
+  std::string line;
+  std::getline(text, line);
+  EXPECT_EQ(line, "step,time,interface,vertex,x,y,gap,force,pressure,active");
+  std::getline(text, line);
+  EXPECT_EQ(line.rfind("3,0.25,0,", 0), 0u) << line;
+  std::getline(text, line);
+  EXPECT_FALSE(std::getline(text, line));
+}
+
+TEST_F(Output, historyHasAsManyColumnsAsItsHeader) {
+  History history(path);
+  StepReport report;
+  report.penetration = 1.25e-18;
+  history.add(report);
+  history.close();
+  std::istringstream text(contentOf(path + "/history.csv"));
+  std::string header;
+  std::string row;
+  std::getline(text, header);
+  std::getline(text, row);
+  EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(row.begin(), row.end(), ','));
+  EXPECT_NE(row.find(",1.25e-18,"), std::string::npos);
+}
+
+TEST_F(Output, summaryHasItsKeys) {
+  const Blocks blocks;
+  StepReport last;
+  last.penetration = 1e-18;
+  writeSummary(path, blocks.facts, blocks.model, blocks.state, last, {});
+  const auto json = nlohmann::json::parse(contentOf(path + "/summary.json"));
+  for (const char* key : {"scene", "status", "contact", "nonmortar", "projection", "triangles", "nodes",
+                          "dofs", "steps", "newton_iterations", "max_iterations_in_a_step", "factorisations",
+                          "wall_time_s", "solve_time_s", "peak_memory_mib", "final", "verification"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+  for (const char* key : {"time", "von_mises_min", "von_mises_max", "interpenetration", "displacement_min",
+                          "displacement_max", "contact_force", "active_nodes"}) {
+    EXPECT_TRUE(json["final"].contains(key)) << key;
+  }
+  for (const char* key : {"force_balance", "material_residual", "gap_on_active", "complementarity"}) {
+    EXPECT_TRUE(json["verification"].contains(key)) << key;
+  }
+  EXPECT_EQ(json["final"]["displacement_max"][1], 1.0);
+  EXPECT_EQ(json["status"], "converged");
+  EXPECT_EQ(json["triangles"], 8);
+}
+
+TEST_F(Output, summaryThatIsNotFiniteIsNotWritten) {
+  const Blocks blocks;
+  RunReport report;
+  report.worst.forceBalance = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(writeSummary(path, blocks.facts, blocks.model, blocks.state, {}, report), OutputError);
+  EXPECT_TRUE(names().empty());
+}
+
+TEST(Log, rowsStandUnderTheirHeader) {
+  const Blocks blocks;
+  const std::string header = logHeader(blocks.facts, blocks.model);
+  const std::string titles = header.substr(header.find("  step"));
+  StepReport report;
+  report.step = 11;
+  report.active = 18;
+  const std::string row = logRow(report);
+  EXPECT_EQ(row.size(), titles.size());
+  EXPECT_NE(row.find("18 (+0/-0)"), std::string::npos);
+  EXPECT_NE(header.find("mortar, 2 nonmortar (upper) x 2 mortar (lower) nodes, overlap 1.000"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace mortier

@@ -1,0 +1,210 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "base/error.h"
+#include "mesh/generate.h"
+#include "mesh/medit.h"
+#include "scene/build.h"
+#include "scene/document.h"
+#include "scene/overrides.h"
+#include "scene/schema.h"
+
+namespace mortier {
+namespace {
+
+const char* const twoBlocks = R"toml(title = "two blocks"
+[[body]]
+name = "upper"
+mesh = "upper.mesh"
+material = { young = 3e11, poisson = 0.3, viscosity = 10, yield_stress = 1, projection = "elasticity" }
+force = { y = "-9.81*t" }
+[[body.boundary]]
+label = 4
+ux = 0
+[[body.boundary]]
+label = 3
+ty = "-10*t"
+[[body]]
+name = "lower"
+mesh = "lower.mesh"
+material = { young = 2e11, poisson = 0.25 }
+boundary = [ { label = 4, ux = 0 }, { label = 1, uy = "0.5*x*(t > 1)" } ]
+[contact]
+nonmortar = { body = "upper", label = 1 }
+mortar = { body = "lower", label = 3 }
+[time]
+end = 2
+steps = 20
+)toml";
+
+/// A folder with two meshes and a scene.
+class SceneFiles : public testing::Test {
+ protected:
+  SceneFiles() : folder(testing::TempDir() + "scene_test_" + std::to_string(getpid())) {
+    std::filesystem::create_directories(folder);
+    writeMedit(crissCrossMesh({{0, 0}, {1, 1}, 2, 2}), folder + "/upper.mesh");
+    writeMedit(crissCrossMesh({{0, -1}, {1, 0}, 3, 3}), folder + "/lower.mesh");
+    write(twoBlocks);
+  }
+  ~SceneFiles() override { std::filesystem::remove_all(folder); }
+
+  void write(const std::string& text) const { std::ofstream(path(), std::ios::binary) << text; }
+  [[nodiscard]] std::string path() const { return folder + "/scene.toml"; }
+
+  /// The message of a scene that is wrong, without the folder.
+  [[nodiscard]] std::string fault(const std::vector<std::string>& settings) const {
+    try {
+      std::vector<std::string> warnings;
+      buildModel(readScene(path(), settings), warnings);
+    } catch (const InputError& error) {
+      std::string text = error.what();
+      for (size_t at = text.find(folder + "/"); at != std::string::npos; at = text.find(folder + "/")) {
+        text.erase(at, folder.size() + 1);
+      }
+      return text;
+    }
+    return "accepted";
+  }
+
+  std::string folder;
+};
+
+TEST_F(SceneFiles, readsEveryKey) {
+  const SceneDescription scene = readScene(path());
+  EXPECT_EQ(scene.title, "two blocks");
+  ASSERT_EQ(scene.bodies.size(), 2u);
+  const BodyDescription& upper = scene.bodies[0];
+  EXPECT_EQ(upper.name, "upper");
+  EXPECT_EQ(upper.mesh, folder + "/upper.mesh");
+  EXPECT_EQ(upper.material.elasticity.young, 3e11);
+  ASSERT_TRUE(upper.material.viscoplasticity);
+  EXPECT_EQ(upper.material.viscoplasticity->viscosity, 10);
+  EXPECT_EQ(upper.material.viscoplasticity->projection, Projection::elasticity);
+  EXPECT_FALSE(upper.force[0]);
+  EXPECT_DOUBLE_EQ(upper.force[1]->value(0, 0, 2), -19.62);
+  ASSERT_EQ(upper.conditions.size(), 2u);
+  EXPECT_EQ(upper.conditions[1].kind, ConditionDescription::Kind::traction);
+  EXPECT_EQ(upper.conditions[1].component, 1);
+  EXPECT_DOUBLE_EQ(upper.conditions[1].value.value(0, 1, 0.5), -5);
+  EXPECT_FALSE(scene.bodies[1].material.viscoplasticity);
+  EXPECT_EQ(scene.bodies[1].conditions[1].component, 1);
+  ASSERT_EQ(scene.contacts.size(), 1u);
+  EXPECT_EQ(scene.contacts[0].variant, CouplingKind::mortar);
+  EXPECT_EQ(scene.contacts[0].mortar.label, 3);
+  EXPECT_EQ(scene.time.steps, 20);
+  EXPECT_EQ(scene.every, 0);
+}
+
+TEST_F(SceneFiles, buildsTheModel) {
+  std::vector<std::string> warnings;
+  const Model model = buildModel(readScene(path(), {"contact.swap=true"}), warnings);
+  ASSERT_EQ(model.bodies.size(), 2u);
+  ASSERT_EQ(model.interfaces.size(), 1u);
+  EXPECT_EQ(model.interfaces[0].pair().nonmortar.body, 1);
+  EXPECT_EQ(model.interfaces[0].pair().mortar.label, 1);
+  EXPECT_EQ(model.bodies[0].mesh().triangles.size(), 16u);
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST_F(SceneFiles, overridesByNameByLabelByIndexAndForAll) {
+  const SceneDescription scene =
+      readScene(path(), {"time.steps=5", "contact.variant=interpolation", "body.upper.boundary.3.ty=-7",
+                         "body.1.material.poisson=0.1", "body.material.young=5", "output.every=2",
+                         "solver.linear=suitesparse", "body.lower.force.x=2*y"});
+  EXPECT_EQ(scene.time.steps, 5);
+  EXPECT_EQ(scene.contacts[0].variant, CouplingKind::interpolation);
+  EXPECT_EQ(scene.bodies[0].conditions[1].value.value(0, 0, 1), -7);
+  EXPECT_EQ(scene.bodies[1].material.elasticity.poisson, 0.1);
+  EXPECT_EQ(scene.bodies[0].material.elasticity.young, 5);
+  EXPECT_EQ(scene.bodies[1].material.elasticity.young, 5);
+  EXPECT_EQ(scene.every, 2);
+  EXPECT_EQ(scene.solver.linear, LinearEngine::suitesparse);
+  EXPECT_EQ(scene.bodies[1].force[0]->value(0, 3, 0), 6);
+}
+
+TEST_F(SceneFiles, overriddenMeshIsRelativeToTheCurrentFolder) {
+  const SceneDescription scene = readScene(path(), {"body.upper.mesh=" + folder + "/lower.mesh"});
+  EXPECT_EQ(scene.bodies[0].mesh, folder + "/lower.mesh");
+  EXPECT_NE(fault({"body.upper.mesh=upper.mesh"}).find("there is none at upper.mesh"), std::string::npos);
+}
+
+TEST_F(SceneFiles, messagesNameFileLineKeyValueAndExpectation) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> faults{
+      {{"body.upper.material.poisson=0.6"},
+       "--set body.upper.material.poisson=0.6: body upper: poisson = 0.6, expected -1 < poisson < 0.5"},
+      {{"time.steps=0"}, "--set time.steps=0: time: steps = 0, expected an integer >= 1"},
+      {{"body.upper.name=lower"},
+       "scene.toml:13: body lower: name = \"lower\", expected a name of its own, there is "
+       "one at scene.toml:2"},
+      {{"body.lower.boundary.1.uy=0", "body.lower.boundary.4.uy=1"},
+       "--set body.lower.boundary.1.uy=0: body lower: uy = 0 at (0, -1), t = 0: expected the 1 that label 4 "
+       "prescribes there"},
+      {{"contact.mortar.label=7"},
+       "--set contact.mortar.label=7: body lower: label = 7, expected one of 1, 2, 3, 4 "
+       "(boundary labels of lower.mesh)"},
+      {{"contact.mortar.body=upper"},
+       "scene.toml:20: contact: both sides are body upper, expected two bodies"},
+      {{"time.step=3"},
+       "--set time.step=3: no step in time, did you mean steps? Expected one of end, steps, scheme"},
+  };
+  for (const auto& [settings, message] : faults) {
+    EXPECT_EQ(fault(settings), message);
+  }
+}
+
+TEST_F(SceneFiles, warnsOfTractionOnAContactLabel) {
+  std::vector<std::string> warnings;
+  buildModel(readScene(path(), {"body.upper.boundary={label=1, tx=3}"}), warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("label 1 of body upper is in contact too"), std::string::npos);
+}
+
+TEST(Expression, evaluatesAndKnowsConstants) {
+  EXPECT_DOUBLE_EQ(parseExpression("2*x + y^2 - t", "").value(1, 3, 4), 7);
+  EXPECT_DOUBLE_EQ(parseExpression("x > 0.5 ? sin(pi*t/2) : 1", "").value(1, 0, 1), 1);
+  EXPECT_TRUE(parseExpression("3*pi", "").constant);
+  EXPECT_FALSE(parseExpression("0*t", "").constant);
+}
+
+TEST(Expression, copiesAreIndependent) {
+  const Function original = parseExpression("x + 10*y + 100*t", "").value;
+  const auto work = [original](double shift) mutable {
+    for (int i = 0; i < 20000; ++i) {
+      ASSERT_EQ(original(i, shift, 1), i + 10 * shift + 100);
+    }
+  };
+  std::thread one(work, 1);
+  std::thread two(work, 2);
+  one.join();
+  two.join();
+}
+
+TEST(Expression, rejectsWhatIsNone) {
+  for (const char* text :
+       {"", "  ", "2*", "z", "1, 2", "x = 3", "sin(", "1/0", "sqrt(-1)", "1e400", "foo(x)", "\"a\""}) {
+    EXPECT_THROW(parseExpression(text, "here"), InputError) << text;
+  }
+}
+
+TEST(Schema, suggestsTheNearestKey) {
+  EXPECT_EQ(nearest("projektion", keysOf("body.material")), "projection");
+  EXPECT_EQ(nearest("yieldstress", keysOf("body.material")), "yield_stress");
+  EXPECT_EQ(nearest("temperature", keysOf("time")), "");
+}
+
+TEST(Settings, areTomlWhereTheyAreToml) {
+  EXPECT_EQ(parseSetting("6", "").kind, Node::Kind::integer);
+  EXPECT_EQ(parseSetting("true", "").kind, Node::Kind::boolean);
+  EXPECT_EQ(parseSetting("{ x = 1 }", "").kind, Node::Kind::table);
+  EXPECT_EQ(parseSetting("-10*t", "").text, "-10*t");
+  EXPECT_EQ(parseSetting("\"6\"", "").text, "6");
+  EXPECT_EQ(parseSetting("1\nother = 2", "").kind, Node::Kind::string);
+}
+
+}  // namespace
+}  // namespace mortier
