@@ -19,6 +19,7 @@ TABLE = ROOT / "compare" / "accepted.json"
 DIGITS = 12
 # Steps end at a material residual of 1e-10; what an unlike processor or BLAS leaves below that is no drift.
 DRIFT = 1e-9
+NOISE = 1e-12  # of the displacement: below, a value is rounding and is kept as 0
 STRESSES = ("von_mises_min", "von_mises_max")
 COUNTS = ("steps", "active_nodes")
 
@@ -38,7 +39,8 @@ def measure():
     with tempfile.TemporaryDirectory(prefix="mortier-accept-") as folder:
         for name, settings, scene in runs():
             scalars = run_mortier(Path(folder) / "run", settings, scene).scalars
-            table[name] = {key: rounded(value) for key, value in scalars.items()}
+            noise = NOISE * displacement_scale(scalars)
+            table[name] = {key: rounded(value) if abs(value) > noise else 0.0 for key, value in scalars.items()}
     return table
 
 
@@ -47,7 +49,7 @@ def rounded(value):
 
 
 def drift(accepted, measured):
-    """What drifted, a line each; differences count against the size of their kind: lengths, stresses, forces."""
+    """What drifted, a line each. Differences count against the size of their kind."""
     lines = [f"{name}: not measured any more" for name in accepted if name not in measured]
     lines += [f"{name}: not in the table" for name in measured if name not in accepted]
     for name in accepted.keys() & measured.keys():
@@ -67,7 +69,11 @@ def allowed(key, scalars):
         return DRIFT * scalars["von_mises_max"]
     if key in ("contact_force", "time"):
         return DRIFT * abs(scalars[key])
-    return DRIFT * max(abs(value) for name, value in scalars.items() if name.startswith("displacement"))
+    return DRIFT * displacement_scale(scalars)
+
+
+def displacement_scale(scalars):
+    return max(abs(value) for name, value in scalars.items() if name.startswith("displacement"))
 
 
 def main():

@@ -3,8 +3,8 @@
 
     compare/compare.py OUT_MORTIER OUT_FREEFEM [--json FILE] [--quiet]
 
-Displacement by vertex, stress by triangle, contact forces and gaps by node, scalars: largest difference over the
-largest value. Exit code 1 when one is beyond its tolerance, 2 when a run cannot be read.
+Displacement by vertex, stress by triangle, contact forces and gaps by node, scalars: largest difference over
+the largest value. Exit code 1 when one is beyond its tolerance, 2 when a run cannot be read.
 """
 import json
 import sys
@@ -48,7 +48,8 @@ class Verdict:
 
     def norm(self, quantity):
         """Largest relative difference of what begins with this word."""
-        return max((d.difference for d in self.differences if d.quantity.startswith(quantity)), default=np.nan)
+        values = [d.difference for d in self.differences if d.quantity.startswith(quantity)]
+        return max(values, default=np.nan)
 
     def __str__(self):
         if self.agrees:

@@ -3,8 +3,9 @@
 
     compare/figures.py MORTAR INTERPOLATION --out DIR [--overview FILE.png]
 
-figure-1-mortar, figure-2-interpolation: deformed meshes with von Mises stress, both on one scale; under them the
-contact line magnified. figure-3-contact-line: contact pressure and penetration along Gamma_C, and the exact values.
+figure-1-mortar, figure-2-interpolation: deformed meshes with von Mises stress, both on one scale; under them
+the contact line magnified. figure-3-contact-line: contact pressure and penetration along Gamma_C, and the exact
+values.
 --overview writes one small picture with both variants side by side.
 """
 import sys
@@ -109,7 +110,8 @@ def window(runs):
 def stress_words(run):
     low, high = run.scalars["von_mises_min"], run.scalars["von_mises_max"]
     values = f"{low:.4g} to {high:.4g} Pa" if high - low > 1e-6 else f"{EXACT:.4g} Pa everywhere"
-    return f"von Mises {values} (exact 10)\ninterpenetration {scientific(run.scalars['interpenetration'])} m$^2$"
+    penetration = scientific(run.scalars["interpenetration"])
+    return f"von Mises {values} (exact 10)\ninterpenetration {penetration} m$^2$"
 
 
 def scientific(x):

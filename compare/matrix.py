@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Runs both codes on the compression test over all shared meshes, projections, variants and sides; compares them.
+"""Compares both codes on the compression test, over all shared meshes, projections, variants and sides.
 
     compare/matrix.py [--quick] [--only WORD ...] [--keep DIR] [--json FILE]
 
@@ -18,8 +18,8 @@ from compare import compare
 import results
 
 CASE = ("pair", "projection", "variant", "nonmortar", "steps")
-HEADER = (f"{'pair':<5} {'projection':<11} {'variant':<13} {'nonmortar':<9} {'steps':>5}  {'displacement':>12} "
-          f"{'stress':>8} {'force':>8}  {'mortier[s]':>10} {'FreeFEM[s]':>10} {'ratio':>6}  verdict")
+HEADER = (f"{'pair':<5} {'projection':<11} {'variant':<13} {'nonmortar':<9} {'steps':>5}  "
+          f"{'displacement':>12} {'stress':>8} {'force':>8}  {'mortier[s]':>10} {'FreeFEM[s]':>10} {'ratio':>6}  verdict")
 
 
 def compare_case(case, folder):

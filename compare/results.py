@@ -80,7 +80,8 @@ def read_mortier(folder):
     rows = [row for row in read_csv(folder / "contact.csv") if int(row["step"]) == step]
     column = lambda name: np.array([float(row[name]) for row in rows])
     position = np.column_stack([column("x"), column("y")])
-    contact = Contact(column("vertex").astype(int), position, column("gap"), column("force"), column("pressure"))
+    contact = Contact(column("vertex").astype(int), position, column("gap"), column("force"),
+                      column("pressure"))
     return finished(Run("mortier", folder, bodies, contact, summary))
 
 
@@ -123,7 +124,8 @@ def finished(run):
 def top_displacement(run, mesh_of):
     """Mean u2 of the nodes on top [m]; `mesh_of` is a run of the same meshes that knows their points."""
     top = max(body.points[:, 1].max() for body in mesh_of.bodies.values())
-    values = [run.bodies[name].displacement[body.points[:, 1] == top, 1] for name, body in mesh_of.bodies.items()]
+    values = [run.bodies[name].displacement[body.points[:, 1] == top, 1]
+              for name, body in mesh_of.bodies.items()]
     return float(np.mean(np.concatenate(values)))
 
 

@@ -3,8 +3,8 @@
 
     compare/table.py DIR [--json FILE]
 
-DIR holds mortier-VARIANT and freefem-VARIANT of the compression test, with a file wall_time in each (seconds).
-Exit code 1 when the codes differ.
+DIR holds mortier-VARIANT and freefem-VARIANT of the compression test, with a file wall_time in each [s]. Exit
+code 1 when the codes differ.
 """
 import json
 import sys
@@ -14,8 +14,8 @@ import results
 from compare import compare
 from exact import top_backward_euler, top_exact
 
-COLUMNS = ("variant", "code", "von Mises min", "von Mises max", "interpenetr.", "u2 on top", "to exact", "to Euler",
-           "Newton", "wall[s]", "verdict")
+COLUMNS = ("variant", "code", "von Mises min", "von Mises max", "interpenetr.", "u2 on top", "to exact",
+           "to Euler", "Newton", "wall[s]", "verdict")
 WIDTHS = (13, 7, 13, 13, 12, 15, 8, 8, 6, 7, 0)
 
 
@@ -52,22 +52,20 @@ def text(rows):
     for row in rows:
         cells = (row["variant"], row["code"], f"{row['von_mises_min']:.9f}", f"{row['von_mises_max']:.9f}",
                  f"{row['interpenetration']:.5e}", f"{row['top']:.12f}", f"{abs(row['error_exact']):.1e}",
-                 f"{abs(row['error_backward_euler']):.1e}", str(row["newton_iterations"]), f"{row['wall_time_s']:.2f}",
-                 row["verdict"])
+                 f"{abs(row['error_backward_euler']):.1e}", str(row["newton_iterations"]),
+                 f"{row['wall_time_s']:.2f}", row["verdict"])
         lines.append("  ".join(cell.rjust(width) if i > 1 else cell.ljust(width)
                                for i, (cell, width) in enumerate(zip(cells, WIDTHS))))
     return "\n".join(lines)
 
 
 def notes(rows):
-    first = rows[0]
-    projection, steps = first["projection"], first["steps"]
-    return "\n".join((
-        f"exact       von Mises 10 Pa, no interpenetration, u2 on top {top_exact(projection):.12f} m "
-        f"({top_backward_euler(projection, steps):.12f} m with {steps} backward Euler steps)",
-        "to exact    relative error of u2 on top against the exact solution (time and space)",
-        "to Euler    and against the exact sum of backward Euler's steps (space and solver only)",
-        "verdict     mortier against FreeFEM: displacement within 1e-9, stress and contact forces within 1e-8"))
+    projection, steps = rows[0]["projection"], rows[0]["steps"]
+    return f"""exact     von Mises 10 Pa, no interpenetration, u2 on top {top_exact(projection):.12f} m;
+          with {steps} backward Euler steps {top_backward_euler(projection, steps):.12f} m
+to exact  relative error of u2 on top against the exact solution (time and space)
+to Euler  and against the exact sum of backward Euler's steps (space and solver only)
+verdict   mortier against FreeFEM: displacement within 1e-9, stress and contact forces within 1e-8"""
 
 
 def main():

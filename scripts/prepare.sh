@@ -1,6 +1,6 @@
 # shellcheck shell=bash
 # Sourced by ./demo and ./check: what both need before they start.
-#   install_missing   installs the Debian packages that are not there; nothing is asked of the network when all are
+#   install_missing   installs the Debian packages that are not there; without network when all are
 #   build [TARGET]    builds in build/ (Release), everything or one target
 # The caller sets $root, the repository. MORTIER_JOBS sets the number of compilers that run at once.
 : "${root:?}"
@@ -8,7 +8,8 @@
 packages=(
   g++ cmake ninja-build
   libeigen3-dev libsuitesparse-dev libopenblas-dev         # linear algebra
-  libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libmuparser-dev  # scenes, options, summaries, expressions
+  libtomlplusplus-dev libmuparser-dev                      # scenes
+  libcli11-dev nlohmann-json3-dev                          # command line, summaries
   libgtest-dev libbenchmark-dev                            # tests, benchmarks
   freefem++                                                # the other code
   python3 python3-numpy python3-matplotlib python3-meshio  # comparison and pictures
@@ -35,12 +36,13 @@ install_missing() {
   [ "${#missing[@]}" -eq 0 ] && return
   say "Installing ${#missing[@]} Debian packages: ${missing[*]}"
   if [ "$(id -u)" -ne 0 ]; then
-    command -v sudo >/dev/null || die "these packages are missing, and only root can install them (there is no sudo):
+    command -v sudo >/dev/null || die "these packages are missing and only root can install them (no sudo here):
   apt-get install --no-install-recommends ${missing[*]}"
     as_root=(sudo)
   fi
   "${as_root[@]}" apt-get update -q || die "apt-get update failed; is there a network?"
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}" ||
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -q --no-install-recommends "${missing[@]}" ||
     die "apt-get could not install: ${missing[*]}"
   mapfile -t missing < <(missing_packages)
   [ "${#missing[@]}" -eq 0 ] || die "still missing: ${missing[*]}"
@@ -59,10 +61,11 @@ jobs_at_once() {
 build() {
   local options=(-DCMAKE_BUILD_TYPE=Release) folder="$root/build"
   # A build folder that came from elsewhere knows the wrong paths.
-  if [ -f "$folder/CMakeCache.txt" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$folder/CMakeCache.txt"; then
+  local cache=$folder/CMakeCache.txt
+  if [ -f "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then
     rm -rf "$folder"
   fi
-  [ -f "$folder/CMakeCache.txt" ] || options+=(-G Ninja)
+  [ -f "$cache" ] || options+=(-G Ninja)
   if [ "$(uname -m)" = x86_64 ] && ! { grep -qw avx2 /proc/cpuinfo && grep -qw fma /proc/cpuinfo; }; then
     options+=(-DMORTIER_ARCH=x86-64)
   fi

@@ -27,6 +27,13 @@ void storeModuli(const Array3d& d, double c, const Array3d& x, const Array3d& y,
   }
 }
 
+/// The largest entry so far; NaN stays.
+double largest(double soFar, const Array3d& x) {
+  for (int i = 0; i < 3; ++i)
+    if (!(std::abs(x[i]) <= soFar)) soFar = std::abs(x[i]);
+  return soFar;
+}
+
 class Elastic final : public Material {
  public:
   explicit Elastic(const Elasticity& elasticity) : e_(elasticity.moduli()) {}
@@ -42,7 +49,7 @@ class Elastic final : public Material {
     double residual = 0;
     for (int i = begin; i < end; ++i) {
       const Array3d s1 = step.stress0.col(i).array() + e_ * step.strain.col(i).array();
-      residual = std::max(residual, (s1 - stress.col(i).array()).abs().maxCoeff());
+      residual = largest(residual, s1 - stress.col(i).array());
       result.predictor.col(i) = s1;
       storeModuli(e_, 0, e_, e_, &result.moduli(0, i));
     }
@@ -102,7 +109,7 @@ class Perzyna final : public Material {
         const double kappa = 1 / (1 + c * theta);
         const ProjectionOnYield P = domain_.project(t, kappa);
         Array3d r = v - theta * kappa * P.overstress;
-        if (c > 0) r = r / (1 - (1 - kappa) * P.overstress / t) + c * theta * (P.y * r).sum() / P.z * P.x;
+        if (c > 0) r = P.stretch * r + c * theta * (P.y * r).sum() / P.z * P.x;
         const Array3d h = (1 / e_ + theta * kappa * P.softening).inverse();
         const Array3d hx = h * P.x;
         const Array3d hy = h * P.y;
@@ -110,7 +117,7 @@ class Perzyna final : public Material {
         increment = h * r - rankOne * (hy * r).sum() * hx;
         storeModuli(h, rankOne, hx, hy, &result.moduli(0, i));
       }
-      residual = std::max(residual, increment.abs().maxCoeff());
+      residual = largest(residual, increment);
       result.predictor.col(i) = s + increment;
     }
     return residual;

@@ -34,6 +34,7 @@ ProjectionOnYield YieldDomain::project(const Eigen::Array3d& t, double kappa) co
   ProjectionOnYield result;
   result.overstress = m * b_ * c * t;
   result.softening = m * b_ * k;
+  result.stretch = (1 + m * b_) * k;
   result.x = t * b_ * c * k;
   result.y = a_ * t * c * k;
   result.z = (a_ * b_ * (t * c).square() * k).sum();

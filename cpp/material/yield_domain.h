@@ -15,6 +15,7 @@ namespace mortier {
 struct ProjectionOnYield {
   Eigen::Array3d overstress;  ///< t - P_B t = m b/(1 + m b) t [Pa]
   Eigen::Array3d softening;   ///< m b/(1 + kappa m b) [-]
+  Eigen::Array3d stretch;     ///< (1 + m b)/(1 + kappa m b) [-]
   Eigen::Array3d x;
   Eigen::Array3d y;
   double z = 0;
@@ -25,7 +26,8 @@ class YieldDomain {
   YieldDomain(double yieldStress, const Eigen::Array3d& a, const Eigen::Array3d& w)
       : yieldStress_(yieldStress), a_(a), b_(a / w) {}
 
-  /// A stress on the yield surface, up to rounding, counts as beyond it: with the elastic tangent there Newton cycles.
+  /// A stress on the yield surface, up to rounding, counts as beyond it: with the elastic tangent there
+  /// Newton cycles.
   [[nodiscard]] bool yields(const Eigen::Array3d& s) const {
     constexpr double onSurface = 1 - 1e-10;
     return (a_ * (s / yieldStress_).square()).sum() >= onSurface;

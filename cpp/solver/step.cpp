@@ -393,8 +393,10 @@ StepOutcome StepSolver::continuation(const State& state0, const StepData& step, 
                                      Iterate& solution) {
   constexpr double firstStiffness = 0.3;
   constexpr double decades = 0.5;
-  constexpr double closerDecades = 1.5;
+  constexpr double closer = 1.5;
+  constexpr double finestPace = 0.02;
   constexpr int stageIterations = 4;
+  constexpr double finestTolerance = 1e-8;
   constexpr int lastIterations = 20;
   constexpr int stagesBack = 2;
 
@@ -428,8 +430,8 @@ StepOutcome StepSolver::continuation(const State& state0, const StepData& step, 
       if (path.size() > 2 * stagesBack + 1) path.erase(path.begin() + 1);
       continue;
     }
-    tolerance /= 10;
-    pace /= closerDecades;
+    tolerance = std::max(finestTolerance, tolerance / 10);
+    pace = std::max(finestPace, pace / closer);
     for (int i = 0; i < stagesBack && path.size() > 1; ++i) path.pop_back();
   }
   solution = std::move(path.back().iterate);

@@ -39,12 +39,12 @@ class Faults(unittest.TestCase):
         self.assertEqual(status, code, output)
         self.assertIn(word, output.splitlines()[-1])
 
-    # ---- no fault --------------------------------------------------------------------------------------------------
+    # ---- no fault ----
     def test_without_a_fault_the_codes_agree(self):
         status, output = support.script("compare.py", self.ours, self.theirs)
         self.assertEqual(status, 0, output)
 
-    # ---- numbers ---------------------------------------------------------------------------------------------------
+    # ---- numbers ----
     def edit(self, name, change):
         path = self.theirs / name
         table = np.loadtxt(path, ndmin=2)
@@ -118,7 +118,10 @@ class Faults(unittest.TestCase):
         for key in ("von_mises_max", "von_mises_min", "interpenetration", "contact_force"):
             with self.subTest(key):
                 self.setUp()
-                self.edit_summary(lambda summary, key=key: summary["final"].update({key: summary["final"][key] * (1 + 1e-6)}))
+
+                def change(summary, key=key):
+                    summary["final"][key] *= 1 + 1e-6
+                self.edit_summary(change)
                 self.caught(1, key)
 
     def edit_summary(self, change):
@@ -127,7 +130,7 @@ class Faults(unittest.TestCase):
         change(summary)
         path.write_text(json.dumps(summary))
 
-    # ---- another problem -------------------------------------------------------------------------------------------
+    # ---- another problem ----
     def solve(self, *settings):
         """Our run of other data, in place of the right one."""
         shutil.rmtree(self.ours)
@@ -192,14 +195,18 @@ class Faults(unittest.TestCase):
                    "body.lower.mesh=shared-meshes/lower-crisscross-6.mesh")
         self.caught(1, "vertices")
 
-    # ---- no result -------------------------------------------------------------------------------------------------
+    # ---- no result ----
     def test_missing_files(self):
-        for folder, name in (("theirs", "upper.stress.txt"), ("theirs", "lower.displacement.txt"),
-                             ("theirs", "summary.json"), ("ours", "contact.csv"), ("ours", "upper_000020.vtu")):
+        for run, name, named in (("theirs", "upper.stress.txt", "upper.stress.txt"),
+                                 ("theirs", "lower.displacement.txt", "expected two"),
+                                 ("theirs", "summary.json", "summary.json"),
+                                 ("theirs", "contact.txt", "no bodies"),
+                                 ("ours", "contact.csv", "contact.csv"),
+                                 ("ours", "upper_000020.vtu", "upper_000020.vtu")):
             with self.subTest(name):
                 self.setUp()
-                (getattr(self, folder) / name).unlink()
-                self.caught(2, name.split(".")[0] if folder == "ours" else "")
+                (getattr(self, run) / name).unlink()
+                self.caught(2, named)
 
     def test_missing_folder(self):
         shutil.rmtree(self.ours)

@@ -133,6 +133,27 @@ TEST(YieldDomain, derivativeMatchesFiniteDifference) {
   }
 }
 
+// t = s + c theta (s - P_B s) lies on the normal through s: the same projection, the same flow, the same tangent.
+TEST(YieldDomain, flowIsTheSameFromFurtherOut) {
+  constexpr double tolerance = 64 * epsilon;
+  for (const Norm& norm : norms()) {
+    const YieldDomain B = yieldDomain(1, norm.w);
+    Stresses stresses;
+    for (const double beyond : {1.0, 1e3})
+      for (const double kappa : {1.0, 0.5, 1e-3}) {
+        const Array3d s = stresses.ofSize(1 + beyond);
+        const ProjectionOnYield P = B.project(s);
+        const ProjectionOnYield Q = B.project(s + (1 / kappa - 1) * P.overstress, kappa);
+        const double size = P.overstress.abs().maxCoeff();
+        EXPECT_LE((kappa * Q.overstress - P.overstress).abs().maxCoeff(), tolerance * size) << norm.name;
+        EXPECT_LE((kappa * Q.softening - P.softening).abs().maxCoeff(), tolerance) << norm.name;
+        const Eigen::Matrix3d p = P.x.matrix() * P.y.matrix().transpose() / P.z;
+        const Eigen::Matrix3d q = Q.x.matrix() * Q.y.matrix().transpose() / Q.z;
+        EXPECT_LE((q - p).cwiseAbs().maxCoeff(), tolerance) << norm.name;
+      }
+  }
+}
+
 TEST(YieldDomain, stressOnTheSurfaceCountsAsBeyondIt) {
   Stresses stresses;
   int exact = 0;
