@@ -18,6 +18,17 @@ packages=(
 say() { printf '\n== %s\n' "$*"; }
 die() { printf 'error: %s\n' "$*" >&2; exit 1; }
 
+# The output of a command is shown only when it fails.
+quietly() {
+  local log status
+  log=$(mktemp) || die "no temporary file"
+  "$@" >"$log" 2>&1
+  status=$?
+  [ $status -eq 0 ] || tail -n 30 "$log" >&2
+  rm -f "$log"
+  return $status
+}
+
 missing_packages() {
   local package
   for package in "${packages[@]}"; do
@@ -34,16 +45,16 @@ install_missing() {
   local missing as_root=()
   mapfile -t missing < <(missing_packages)
   [ "${#missing[@]}" -eq 0 ] && return
-  say "Installing ${#missing[@]} Debian packages: ${missing[*]}"
   if [ "$(id -u)" -ne 0 ]; then
-    command -v sudo >/dev/null || die "these packages are missing and only root can install them (no sudo here):
+    command -v sudo >/dev/null || die "only root can install these packages, and there is no sudo here:
   apt-get install --no-install-recommends ${missing[*]}"
     as_root=(sudo)
   fi
-  "${as_root[@]}" apt-get update -q || die "apt-get update failed; is there a network?"
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-    apt-get install -y -q --no-install-recommends "${missing[@]}" ||
-    die "apt-get could not install: ${missing[*]}"
+  say "Installing ${#missing[@]} Debian packages and what they need; this takes a minute or two"
+  echo "${missing[*]}"
+  quietly "${as_root[@]}" apt-get update -q || die "apt-get update failed; is there a network?"
+  quietly "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -q --no-install-recommends "${missing[@]}" || die "apt-get could not install: ${missing[*]}"
   mapfile -t missing < <(missing_packages)
   [ "${#missing[@]}" -eq 0 ] || die "still missing: ${missing[*]}"
 }
@@ -70,8 +81,6 @@ build() {
     options+=(-DMORTIER_ARCH=x86-64)
   fi
   say "Building in build/ ($(jobs_at_once) at once)"
-  mkdir -p "$folder"
-  cmake -S "$root" -B "$folder" "${options[@]}" >"$folder/configure.log" 2>&1 ||
-    { cat "$folder/configure.log" >&2; die "cmake could not configure the build"; }
+  quietly cmake -S "$root" -B "$folder" "${options[@]}" || die "cmake could not configure the build"
   cmake --build "$folder" --parallel "$(jobs_at_once)" ${1:+--target "$1"} || die "the build failed"
 }

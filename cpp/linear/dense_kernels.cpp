@@ -22,76 +22,109 @@ bool isSmall(int n, int pivots) {
   return pivots <= smallPivots && n <= smallRows;
 }
 
-double* column(double* F, int n, int j) {
-  return F + static_cast<size_t>(n) * j;
+/// update -= L21 U12 by columns of U12, entry (k, j) at upper[stepK k + stepJ j]; below the diagonal only if
+/// `lower`.
+void smallUpdate(const double* L21, int n, int pivots, const double* upper, int stepK, int stepJ,
+                 double* update, bool lower) {
+  const int rest = n - pivots;
+  for (int j = 0; j < rest; ++j) {
+    double* target = update + static_cast<size_t>(rest) * j;
+    const double* u = upper + static_cast<size_t>(stepJ) * j;
+    const int begin = lower ? j : 0;
+    int k = 0;
+    for (; k + 1 < pivots; k += 2) {
+      const double u0 = u[static_cast<size_t>(stepK) * k];
+      const double u1 = u[static_cast<size_t>(stepK) * (k + 1)];
+      const double* L0 = L21 + static_cast<size_t>(n) * k;
+      const double* L1 = L0 + n;
+      for (int i = begin; i < rest; ++i) target[i] -= L0[i] * u0 + L1[i] * u1;
+    }
+    if (k < pivots) {
+      const double u0 = u[static_cast<size_t>(stepK) * k];
+      const double* L0 = L21 + static_cast<size_t>(n) * k;
+      for (int i = begin; i < rest; ++i) target[i] -= L0[i] * u0;
+    }
+  }
 }
 
 }  // namespace
 
-bool partialCholesky(double* F, int n, int pivots) {
+void useOneThread() {
+  openblas_set_num_threads(1);
+}
+
+bool partialCholesky(double* panel, int n, int pivots, double* update) {
   const int rest = n - pivots;
+  double* L21 = panel + pivots;
   if (!isSmall(n, pivots)) {
     int info = 0;
-    dpotrf_("L", &pivots, F, &n, &info);
-    if (info != 0 || !std::isfinite(column(F, n, pivots - 1)[pivots - 1])) return false;
+    dpotrf_("L", &pivots, panel, &n, &info);
+    if (info != 0 || !std::isfinite(panel[0])) return false;
     if (rest == 0) return true;
-    double* L21 = F + pivots;
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, rest, pivots, 1, F, n, L21,
-                n);
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, rest, pivots, -1, L21, n, 1,
-                column(F, n, pivots) + pivots, n);
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, rest, pivots, 1, panel, n,
+                L21, n);
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, rest, pivots, -1, L21, n, 1, update, rest);
     return true;
   }
   for (int k = 0; k < pivots; ++k) {
-    double* pivot = column(F, n, k);
+    double* pivot = panel + static_cast<size_t>(n) * k;
     if (!(pivot[k] > 0) || !std::isfinite(pivot[k])) return false;
     pivot[k] = std::sqrt(pivot[k]);
     const double inverse = 1 / pivot[k];
     for (int i = k + 1; i < n; ++i) pivot[i] *= inverse;
-    for (int j = k + 1; j < n; ++j) {
-      double* target = column(F, n, j);
+    for (int j = k + 1; j < pivots; ++j) {
+      double* target = panel + static_cast<size_t>(n) * j;
       const double factor = pivot[j];
       for (int i = j; i < n; ++i) target[i] -= factor * pivot[i];
     }
   }
+  smallUpdate(L21, n, pivots, L21, n, 1, update, true);
   return true;
 }
 
-bool partialLU(double* F, int n, int pivots, int* interchange) {
+bool partialLU(double* panel, int n, int pivots, double* upper, double* update, int* interchange) {
   const int rest = n - pivots;
+  double* L21 = panel + pivots;
   if (!isSmall(n, pivots)) {
     int info = 0;
-    dgetrf_(&pivots, &pivots, F, &n, interchange, &info);
+    dgetrf_(&pivots, &pivots, panel, &n, interchange, &info);
     for (int k = 0; k < pivots; ++k) --interchange[k];
-    if (info != 0 || !std::isfinite(column(F, n, pivots - 1)[pivots - 1])) return false;
+    if (info != 0 || !std::isfinite(panel[0])) return false;
     if (rest == 0) return true;
-    double* L21 = F + pivots;
-    double* U12 = column(F, n, pivots);
-    for (int j = 0; j < rest; ++j) swapRows(U12 + static_cast<size_t>(n) * j, interchange, pivots);
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasUnit, pivots, rest, 1, F, n, U12, n);
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, rest, pivots, 1, F, n, L21,
-                n);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rest, rest, pivots, -1, L21, n, U12, n, 1,
-                U12 + pivots, n);
+    for (int j = 0; j < rest; ++j) swapRows(upper + static_cast<size_t>(pivots) * j, interchange, pivots);
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasUnit, pivots, rest, 1, panel, n,
+                upper, pivots);
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, rest, pivots, 1, panel, n,
+                L21, n);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rest, rest, pivots, -1, L21, n, upper, pivots, 1,
+                update, rest);
     return true;
   }
   for (int k = 0; k < pivots; ++k) {
-    double* pivot = column(F, n, k);
+    double* pivot = panel + static_cast<size_t>(n) * k;
     int best = k;
     for (int i = k + 1; i < pivots; ++i)
       if (std::abs(pivot[i]) > std::abs(pivot[best])) best = i;
     interchange[k] = best;
     if (best != k)
-      for (int j = 0; j < n; ++j) std::swap(column(F, n, j)[k], column(F, n, j)[best]);
+      for (int j = 0; j < pivots; ++j)
+        std::swap(panel[static_cast<size_t>(n) * j + k], panel[static_cast<size_t>(n) * j + best]);
     if (pivot[k] == 0 || !std::isfinite(pivot[k])) return false;
     const double inverse = 1 / pivot[k];
     for (int i = k + 1; i < n; ++i) pivot[i] *= inverse;
-    for (int j = k + 1; j < n; ++j) {
-      double* target = column(F, n, j);
+    for (int j = k + 1; j < pivots; ++j) {
+      double* target = panel + static_cast<size_t>(n) * j;
       const double factor = target[k];
       for (int i = k + 1; i < n; ++i) target[i] -= factor * pivot[i];
     }
   }
+  for (int j = 0; j < rest; ++j) {
+    double* u = upper + static_cast<size_t>(pivots) * j;
+    swapRows(u, interchange, pivots);
+    for (int k = 0; k < pivots; ++k)
+      for (int i = k + 1; i < pivots; ++i) u[i] -= panel[static_cast<size_t>(n) * k + i] * u[k];
+  }
+  smallUpdate(L21, n, pivots, upper, 1, pivots, update, false);
   return true;
 }
 

@@ -4,12 +4,17 @@
 
 namespace mortier::dense {
 
-/// F (n x n, lower triangle) = [L11 .; L21 F22 - L21 L21']. \returns false unless F11 is positive definite.
-bool partialCholesky(double* F, int n, int pivots);
+/// Panel (n x pivots, lower triangle) becomes [L11; L21], update (lower triangle) loses L21 L21'.
+/// \returns false unless the pivot block is positive definite.
+bool partialCholesky(double* panel, int n, int pivots, double* update);
 
-/// F (n x n) = [L11\U11 U12; L21 F22 - L21 U12], rows of the pivot block interchanged as `interchange` (from
-/// 0) tells. \returns false when F11 is singular.
-bool partialLU(double* F, int n, int pivots, int* interchange);
+/// Panel (n x pivots) becomes [L11\U11; L21], upper (pivots x updates) U12, update loses L21 U12; the rows of
+/// the pivot block are interchanged as `interchange` (from 0) tells. \returns false when the pivot block is
+/// singular.
+bool partialLU(double* panel, int n, int pivots, double* upper, double* update, int* interchange);
+
+/// One thread in BLAS: bodies and runs are what is done side by side.
+void useOneThread();
 
 void swapRows(double* x, const int* interchange, int n);
 /// x = L^-1 x; `unit`: ones on the diagonal.

@@ -139,6 +139,7 @@ Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept) 
     Front& front = result.fronts[s];
     if (s == fronts - 1 || front.pivots == static_cast<int>(front.rows.size())) continue;
     front.parent = frontOf[front.rows[front.pivots]];
+    result.fronts[front.parent].children.push_back(s);
     const Front& parent = result.fronts[front.parent];
     for (size_t i = 0; i < parent.rows.size(); ++i) index[parent.rows[i]] = static_cast<int>(i);
     for (size_t i = front.pivots; i < front.rows.size(); ++i) front.inParent.push_back(index[front.rows[i]]);
@@ -169,8 +170,19 @@ Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept) 
   for (int s = 0; s < fronts; ++s) {
     const Front& front = result.fronts[s];
     for (size_t i = 0; i < front.rows.size(); ++i) index[front.rows[i]] = static_cast<int>(i);
-    for (size_t at = count[s]; at < count[s + 1]; ++at)
-      result.positions[at] = static_cast<size_t>(index[columnOf[at]]) * front.rows.size() + index[rowOf[at]];
+    const size_t n = front.rows.size();
+    const size_t pivots = front.pivots;
+    const size_t upper = pattern.symmetric ? 0 : pivots * front.updates();
+    for (size_t at = count[s]; at < count[s + 1]; ++at) {
+      const size_t i = index[rowOf[at]];
+      const size_t j = index[columnOf[at]];
+      if (j < pivots)
+        result.positions[at] = n * j + i;
+      else if (i < pivots)
+        result.positions[at] = front.panelSize() + pivots * (j - pivots) + i;
+      else
+        result.positions[at] = front.panelSize() + upper + front.updates() * (j - pivots) + (i - pivots);
+    }
   }
   return result;
 }

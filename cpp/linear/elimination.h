@@ -11,13 +11,18 @@
 namespace mortier {
 
 /// A dense matrix over `rows`; the first `pivots` of them are eliminated in it, the others are updated and
-/// passed on.
+/// passed on. It is held in three parts, column major: the panel (rows x pivots), the upper part (pivots x
+/// updates; none where symmetric) and the update (updates x updates).
 struct Front {
   int parent = -1;  ///< the front that takes the update, -1 for none
   int pivots = 0;
   std::vector<int> rows;      ///< positions in the elimination order, ascending
   std::vector<int> inParent;  ///< for each updated row, its index among the parent's rows
+  std::vector<int> children;  ///< fronts whose update is assembled here, in the order in which they come
   size_t firstEntry = 0;      ///< entries [firstEntry, next front's firstEntry) are assembled here
+
+  [[nodiscard]] size_t updates() const { return rows.size() - pivots; }
+  [[nodiscard]] size_t panelSize() const { return rows.size() * pivots; }
 };
 
 struct Elimination {
@@ -26,7 +31,7 @@ struct Elimination {
   std::vector<int> order;     ///< position -> equation
   std::vector<Front> fronts;  ///< children before parents
   std::vector<int> entries;   ///< entry of the pattern, grouped by front
-  std::vector<size_t> positions;  ///< and its place in the front's matrix, column major
+  std::vector<size_t> positions;  ///< and its place in panel, upper part and update, one after the other
 };
 
 /// \param kept  equations to be left, in this order, at the end.

@@ -45,6 +45,8 @@ class Material {
   virtual void viscoplasticRate(const Matrix& stress, Matrix& rate) const = 0;
   /// E^-1 s [-], components x points.
   virtual void elasticStrain(const Matrix& stress, Matrix& strain) const = 0;
+  /// Whether the stress of a point is on or beyond yield.
+  [[nodiscard]] virtual bool flows(const Matrix& stress, int point) const = 0;
 };
 
 }  // namespace mortier

@@ -64,6 +64,8 @@ class Elastic final : public Material {
     strain = e_.inverse().matrix().asDiagonal() * stress;
   }
 
+  [[nodiscard]] bool flows(const Matrix& /*stress*/, int /*point*/) const override { return false; }
+
  private:
   Array3d e_;
 };
@@ -136,6 +138,10 @@ class Perzyna final : public Material {
 
   void elasticStrain(const Matrix& stress, Matrix& strain) const override {
     strain = e_.inverse().matrix().asDiagonal() * stress;
+  }
+
+  [[nodiscard]] bool flows(const Matrix& stress, int point) const override {
+    return domain_.yields(stress.col(point).array());
   }
 
  private:

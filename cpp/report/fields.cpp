@@ -122,8 +122,6 @@ void writeCellData(VtuFile& file, const Body& body, const BodyState& state) {
 CellFields cellFields(const Body& body, const BodyState& state) {
   const auto cells = static_cast<Eigen::Index>(body.mesh().triangles.size());
   const Eigen::Index pointsPerCell = state.stress.cols() / cells;
-  Matrix rate(state.stress.rows(), state.stress.cols());
-  body.material().viscoplasticRate(state.stress, rate);
   CellFields fields{Matrix::Zero(3, cells), Vector::Zero(cells), Matrix::Zero(3, cells),
                     std::vector<int>(cells, 0)};
   const double weight = 1.0 / static_cast<double>(pointsPerCell);
@@ -134,9 +132,7 @@ CellFields cellFields(const Body& body, const BodyState& state) {
     fields.vonMises[cell] += weight * vonMises(pqr);
     fields.viscoplasticStrain.col(cell) +=
         weight * toCartesian(state.viscoplasticStrain.col(point).head<3>());
-    if (!rate.col(point).isZero(0)) {
-      fields.viscoplastic[cell] = 1;
-    }
+    if (body.material().flows(state.stress, static_cast<int>(point))) fields.viscoplastic[cell] = 1;
   }
   return fields;
 }

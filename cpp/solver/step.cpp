@@ -26,7 +26,6 @@ struct StepSolver::BodySystem {
   std::vector<double> values;
   bool factorised = false;
 
-  Matrix strain;
   Linearisation law;
 
   Eigen::LLT<Matrix> cholesky;  ///< of S where the tangent is symmetric
@@ -148,7 +147,7 @@ Iterate StepSolver::start(const State& state0) const {
   Iterate iterate;
   for (const BodyState& body : state0.bodies)
     iterate.bodies.push_back(
-        {Vector::Zero(body.displacement.size()), Vector::Zero(body.displacement.size()), body.stress});
+        {Vector::Zero(body.displacement.size()), Vector::Zero(body.displacement.size()), body.stress, {}});
   iterate.contactForce = state0.contactForce;
   for (const Vector& p : state0.contactForce) {
     const bool none = p.size() == 0 || p.maxCoeff() <= 0;
@@ -173,17 +172,16 @@ void StepSolver::prescribe(const State& state0, double time, Iterate& iterate) c
 }
 
 /// \returns the material residual, scaled.
-double StepSolver::linearise(const State& state0, const StepData& step, const Iterate& iterate,
-                             bool anticipate) {
+double StepSolver::linearise(const State& state0, const StepData& step, Iterate& iterate, bool anticipate) {
   double worst = 0;
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
     BodySystem& system = *systems_[b];
-    body.strain(iterate.bodies[b].increment, iterate.bodies[b].small, system.strain);
-    if (!step.shift.empty()) system.strain -= step.shift[b];
-    const double residual =
-        body.material().linearise({step.weight, state0.bodies[b].stress, system.strain, anticipate},
-                                  iterate.bodies[b].stress, system.law, 0, body.points());
+    body.strain(iterate.bodies[b].increment, iterate.bodies[b].small, iterate.bodies[b].strain);
+    if (!step.shift.empty()) iterate.bodies[b].strain -= step.shift[b];
+    const double residual = body.material().linearise(
+        {step.weight, state0.bodies[b].stress, iterate.bodies[b].strain, anticipate},
+        iterate.bodies[b].stress, system.law, 0, body.points());
     double scale = body.material().stressScale();
     if (scale == 0) scale = system.law.predictor.cwiseAbs().maxCoeff();
     if (residual != 0) worst = std::max(worst, residual / scale);

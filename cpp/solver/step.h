@@ -26,6 +26,7 @@ struct BodyIterate {
   Vector increment;  ///< du (dofs) [m], carried as increment + small
   Vector small;
   Matrix stress;  ///< s
+  Matrix strain;  ///< B du - shift, 3 x points, as of the last linearisation
 };
 
 struct Iterate {
@@ -68,7 +69,7 @@ class StepSolver {
 
   void findRigidMotions();
   [[nodiscard]] std::string describeRigid(const Vector& z) const;
-  double linearise(const State& state0, const StepData& step, const Iterate& iterate, bool anticipate);
+  double linearise(const State& state0, const StepData& step, Iterate& iterate, bool anticipate);
   bool factorise(StepOutcome& outcome);
   void solveLinearised(const State& state0, const std::vector<Vector>& loads, Iterate& iterate,
                        StepOutcome& outcome);

@@ -8,14 +8,19 @@
 namespace mortier {
 namespace {
 
-void addIncrement(const Iterate& iterate, const Model& model, double weight, State& state) {
+void addIncrement(const Iterate& iterate, const Model& model, State& state) {
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     BodyState& body = state.bodies[b];
-    body.displacement += iterate.bodies[b].increment + iterate.bodies[b].small;
-    body.stress = iterate.bodies[b].stress;
-    Matrix rate;
-    model.bodies[b].material().viscoplasticRate(body.stress, rate);
-    body.viscoplasticStrain += weight * rate;
+    const BodyIterate& step = iterate.bodies[b];
+    if (!model.bodies[b].material().linear()) {
+      // What the elastic part leaves of the strain of the step.
+      Matrix elastic;
+      model.bodies[b].material().elasticStrain(step.stress - body.stress, elastic);
+      body.viscoplasticStrain -= elastic;
+      body.viscoplasticStrain.topRows<3>() += step.strain;
+    }
+    body.displacement += step.increment + step.small;
+    body.stress = step.stress;
   }
   state.contactForce = iterate.contactForce;
 }
@@ -39,11 +44,10 @@ void measure(const Model& model, const State& state, const Iterate& iterate,
   double area = 0;
   double flowing = 0;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
-    Matrix rate;
-    model.bodies[b].material().viscoplasticRate(state.bodies[b].stress, rate);
-    for (int i = 0; i < model.bodies[b].points(); ++i) {
-      area += model.bodies[b].weights()[i];
-      if (!rate.col(i).isZero(0)) flowing += model.bodies[b].weights()[i];
+    const Body& body = model.bodies[b];
+    for (int i = 0; i < body.points(); ++i) {
+      area += body.weights()[i];
+      if (body.material().flows(state.bodies[b].stress, i)) flowing += body.weights()[i];
     }
   }
   report.viscoplasticFraction = flowing / area;
@@ -126,7 +130,7 @@ RunReport march(const Model& model, State& state, const TimePlan& plan, const So
       easy = outcome.iterations <= easyIterations ? easy + 1 : 0;
       last = iterate;
       for (size_t b = 0; b < model.bodies.size(); ++b) last.bodies[b].stress -= state.bodies[b].stress;
-      addIncrement(iterate, model, report.timeStep, state);
+      addIncrement(iterate, model, state);
       state.time = report.time;
       measure(model, state, iterate, before, report);
       keepWorst(report.certificate, run.worst);

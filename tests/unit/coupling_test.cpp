@@ -6,7 +6,7 @@
 #include <iostream>
 #include <random>
 
-#include "contact/segments.h"
+#include "unit/random_trace.h"
 
 namespace mortier {
 namespace {
@@ -18,17 +18,6 @@ constexpr double reproduced = 1e-14;
 
 Vector asVector(const Trace& trace) {
   return Eigen::Map<const Vector>(trace.data(), static_cast<Eigen::Index>(trace.size()));
-}
-
-/// A trace from `begin` to `end` whose neighbouring elements differ in length by up to `grading`.
-Trace randomTrace(std::mt19937& random, int elements, double begin, double end, double grading) {
-  std::uniform_real_distribution<double> exponent(0, std::log(grading));
-  Trace trace{0};
-  for (int i = 0; i < elements; ++i) trace.push_back(trace.back() + std::exp(exponent(random)));
-  const double length = trace.back();
-  for (double& s : trace) s = begin + (end - begin) * (s / length);
-  trace.back() = end;
-  return trace;
 }
 
 /// The piecewise linear function through (trace, values) at s.
@@ -183,30 +172,6 @@ TEST(Coupling, nodesCloserThanRoundingDoNoHarm) {
         EXPECT_LE((coupling.A - Matrix::Identity(5, 5)).cwiseAbs().maxCoeff(), 20 * close);
       }
   }
-}
-
-TEST(Segments, coverTheOverlapOnce) {
-  std::mt19937 random(5);
-  std::uniform_int_distribution<int> elements(1, 40);
-  for (int trial = 0; trial < 200; ++trial) {
-    const Trace nonmortar = randomTrace(random, elements(random), 0, 1, 50);
-    const bool same = trial % 2 == 0;
-    const Trace mortar = randomTrace(random, elements(random), same ? 0 : 0.21, same ? 1 : 1.4, 50);
-    const std::vector<Segment> segments = commonRefinement(nonmortar, mortar);
-    ASSERT_FALSE(segments.empty());
-    double end = same ? 0 : 0.21;
-    for (const Segment& segment : segments) {
-      ASSERT_EQ(segment.begin, end);
-      ASSERT_LT(segment.begin, segment.end);
-      ASSERT_TRUE(nonmortar[segment.nonmortar] <= segment.begin &&
-                  segment.end <= nonmortar[segment.nonmortar + 1]);
-      ASSERT_TRUE(mortar[segment.mortar] <= segment.begin && segment.end <= mortar[segment.mortar + 1]);
-      end = segment.end;
-    }
-    ASSERT_EQ(end, 1);
-  }
-  EXPECT_TRUE(commonRefinement({0, 1}, {1, 2}).empty());
-  EXPECT_TRUE(commonRefinement({0, 1}, {5, 6}).empty());
 }
 
 }  // namespace

@@ -133,7 +133,8 @@ TEST(YieldDomain, derivativeMatchesFiniteDifference) {
   }
 }
 
-// t = s + c theta (s - P_B s) lies on the normal through s: the same projection, the same flow, the same tangent.
+// t = s + c theta (s - P_B s) lies on the normal through s: the same projection, the same flow, the same
+// tangent.
 TEST(YieldDomain, flowIsTheSameFromFurtherOut) {
   constexpr double tolerance = 64 * epsilon;
   for (const Norm& norm : norms()) {
