@@ -22,6 +22,13 @@ bool isSmall(int n, int pivots) {
   return pivots <= smallPivots && n <= smallRows;
 }
 
+/// NaN anywhere in a factorised block has reached its diagonal.
+bool finiteDiagonal(const double* panel, int n, int pivots) {
+  for (int k = 0; k < pivots; ++k)
+    if (!std::isfinite(panel[static_cast<size_t>(n) * k + k])) return false;
+  return true;
+}
+
 /// update -= L21 U12 by columns of U12, entry (k, j) at upper[stepK k + stepJ j]; below the diagonal only if
 /// `lower`.
 void smallUpdate(const double* L21, int n, int pivots, const double* upper, int stepK, int stepJ,
@@ -59,7 +66,7 @@ bool partialCholesky(double* panel, int n, int pivots, double* update) {
   if (!isSmall(n, pivots)) {
     int info = 0;
     dpotrf_("L", &pivots, panel, &n, &info);
-    if (info != 0 || !std::isfinite(panel[0])) return false;
+    if (info != 0 || !finiteDiagonal(panel, n, pivots)) return false;
     if (rest == 0) return true;
     cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, rest, pivots, 1, panel, n,
                 L21, n);
@@ -89,7 +96,7 @@ bool partialLU(double* panel, int n, int pivots, double* upper, double* update, 
     int info = 0;
     dgetrf_(&pivots, &pivots, panel, &n, interchange, &info);
     for (int k = 0; k < pivots; ++k) --interchange[k];
-    if (info != 0 || !std::isfinite(panel[0])) return false;
+    if (info != 0 || !finiteDiagonal(panel, n, pivots)) return false;
     if (rest == 0) return true;
     for (int j = 0; j < rest; ++j) swapRows(upper + static_cast<size_t>(pivots) * j, interchange, pivots);
     cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasUnit, pivots, rest, 1, panel, n,
