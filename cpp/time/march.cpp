@@ -1,65 +1,199 @@
 #include "time/march.h"
 
 #include <algorithm>
+#include <cmath>
 #include <chrono>
+#include <optional>
+#include <sstream>
 
 #include "solver/step.h"
+#include "time/measure.h"
 
 namespace mortier {
 namespace {
 
-void addIncrement(const Iterate& iterate, const Model& model, State& state) {
-  for (size_t b = 0; b < model.bodies.size(); ++b) {
-    BodyState& body = state.bodies[b];
-    const BodyIterate& step = iterate.bodies[b];
-    if (!model.bodies[b].material().linear()) {
-      // What the elastic part leaves of the strain of the step.
-      Matrix elastic;
-      model.bodies[b].material().elasticStrain(step.stress - body.stress, elastic);
-      body.viscoplasticStrain -= elastic;
-      body.viscoplasticStrain.topRows<3>() += step.strain;
-    }
-    body.displacement += step.increment + step.small;
-    body.stress = step.stress;
-  }
-  state.contactForce = iterate.contactForce;
-}
+/// State at the start of a step in, state at its end out.
+class March {
+ public:
+  March(const Model& model, State& state, Scheme scheme, const SolverOptions& options)
+      : model_(model), state_(state), scheme_(scheme), solver_(model, options) {}
 
-void measure(const Model& model, const State& state, const Iterate& iterate,
-             const std::vector<std::vector<char>>& before, StepReport& report) {
-  for (size_t k = 0; k < model.interfaces.size(); ++k) {
-    const ContactInterface& interface = model.interfaces[k];
-    const Vector& p = state.contactForce[k];
-    for (Eigen::Index i = 0; i < p.size(); ++i) {
-      report.active += iterate.active[k][i];
-      report.joined += iterate.active[k][i] > before[k][i] ? 1 : 0;
-      report.left += iterate.active[k][i] < before[k][i] ? 1 : 0;
+  /// Goes to time t1 in one step, or in as many smaller ones as it takes; the state is left at the last that
+  /// converged.
+  void advance(double t1, StepReport& report) {
+    constexpr int smallest = 256;  // smallest part of a step that is tried
+    const double begin = state_.time;
+    const std::vector<std::vector<char>> before = solver_.start(state_).active;
+    int parts = 1;
+    int done = 0;
+    while (done < parts) {
+      const double time = done + 1 == parts ? t1 : begin + (t1 - begin) * (done + 1) / parts;
+      const StepOutcome outcome = step(time);
+      report.iterations += outcome.iterations;
+      report.factorisations += outcome.factorisations;
+      report.certificate = worse(report.certificate, outcome.certificate);
+      if (outcome.rung != "newton" && report.rung == "newton") report.rung = outcome.rung;
+      if (outcome.converged) {
+        ++done;
+        continue;
+      }
+      if (outcome.unheld || parts == smallest) {
+        report.status = outcome.unheld ? Status::unheld : Status::failed;
+        std::ostringstream reason;
+        reason << "step " << report.step << " at t = " << time << " s: " << outcome.reason;
+        report.reason = reason.str();
+        return;
+      }
+      parts *= 2;
+      done *= 2;
+      report.rung = "cut";
     }
-    report.penetration +=
-        interface.interpenetration(state.bodies[interface.pair().nonmortar.body].displacement,
-                                   state.bodies[interface.pair().mortar.body].displacement);
-    report.maxPressure = std::max(report.maxPressure, interface.contactPressure(p).maxCoeff());
-    report.contactForce += p.sum();
+    for (size_t k = 0; k < before.size(); ++k)
+      for (size_t i = 0; i < before[k].size(); ++i) {
+        report.active += active_[k][i];
+        report.joined += active_[k][i] > before[k][i] ? 1 : 0;
+        report.left += active_[k][i] < before[k][i] ? 1 : 0;
+      }
+    measure(model_, state_, report);
   }
-  double area = 0;
-  double flowing = 0;
-  for (size_t b = 0; b < model.bodies.size(); ++b) {
-    const Body& body = model.bodies[b];
-    for (int i = 0; i < body.points(); ++i) {
-      area += body.weights()[i];
-      if (body.material().flows(state.bodies[b].stress, i)) flowing += body.weights()[i];
-    }
-  }
-  report.viscoplasticFraction = flowing / area;
-}
 
-void keepWorst(const Certificate& step, Certificate& worst) {
-  worst.forceBalance = std::max(worst.forceBalance, step.forceBalance);
-  worst.materialResidual = std::max(worst.materialResidual, step.materialResidual);
-  worst.gapOnActive = std::max(worst.gapOnActive, step.gapOnActive);
-  worst.sign = std::max(worst.sign, step.sign);
-  worst.complementarity = std::max(worst.complementarity, step.complementarity);
-}
+ private:
+  // An explicit or second-order scheme may overshoot into the elastic domain, where nothing brings the stress
+  // back. When the flow turns round between the stages in more than a small share of the bodies, the step is
+  // redone with backward Euler, which cannot.
+  StepOutcome step(double t1) {
+    constexpr double turned = 0.05;
+    Iterate iterate;
+    StepOutcome outcome = stages(tableau(scheme_), t1, iterate);
+    if (scheme_ == Scheme::sdirk2 && outcome.converged && turnedShare() > turned) {
+      steady_.reset();
+      StepOutcome again = stages(tableau(Scheme::backwardEuler), t1, iterate);
+      again.iterations += outcome.iterations;
+      again.factorisations += outcome.factorisations;
+      outcome = std::move(again);
+      steady_.reset();
+    }
+    if (outcome.converged) commit(iterate, t1);
+    return outcome;
+  }
+
+  /// Solves all stages; `iterate` is left at the last one.
+  StepOutcome stages(const Tableau& scheme, double t1, Iterate& iterate) {
+    const double k = t1 - state_.time;
+    rates_.clear();
+    if (scheme.explicitFirst) rates_.push_back(ratesOf(solver_.start(state_)));
+    StepOutcome total;
+    std::vector<Iterate> solutions;
+    for (size_t i = 0; i < scheme.stages.size(); ++i) {
+      const Stage& stage = scheme.stages[i];
+      StepData data{state_.time + stage.time * k, stage.diagonal * k, {}};
+      if (stage.time == 1) data.time = t1;
+      shift_.clear();
+      for (size_t b = 0; b < model_.bodies.size() && !stage.before.empty(); ++b) {
+        shift_.push_back(Matrix::Zero(3, model_.bodies[b].points()));
+        for (size_t j = 0; j < stage.before.size(); ++j)
+          shift_[b] += stage.before[j] * k * rates_[j][b].topRows<3>();
+      }
+      data.shift = shift_;
+      iterate = guess(i, k, scheme.stages.size());
+      StepOutcome outcome = solver_.solve(state_, data, iterate);
+      outcome.iterations += total.iterations;
+      outcome.factorisations += total.factorisations;
+      outcome.certificate = worse(outcome.certificate, total.certificate);
+      if (total.rung != "newton") outcome.rung = total.rung;
+      total = std::move(outcome);
+      if (!total.converged) {
+        steady_.reset();
+        return total;
+      }
+      if (scheme.stages.size() > 1) rates_.push_back(ratesOf(iterate));
+      solutions.push_back(iterate);
+    }
+    remember(std::move(solutions), k, total.iterations);
+    return total;
+  }
+
+  /// In steady flow the last increments are a good guess; a hard step before, or another step size, makes
+  /// them a bad one.
+  [[nodiscard]] Iterate guess(size_t stage, double k, size_t stageCount) const {
+    constexpr double sameStep = 1e-9;
+    Iterate iterate = solver_.start(state_);
+    if (!steady_ || steady_->easy < 2 || steady_->increments.size() != stageCount ||
+        std::abs(steady_->timeStep - k) > sameStep * k)
+      return iterate;
+    for (size_t b = 0; b < model_.bodies.size(); ++b) {
+      const BodyIterate& last = steady_->increments[stage].bodies[b];
+      iterate.bodies[b].increment = last.increment;
+      iterate.bodies[b].small = last.small;
+      iterate.bodies[b].stress += last.stress;
+    }
+    return iterate;
+  }
+
+  void remember(std::vector<Iterate> solutions, double k, int iterations) {
+    const auto easyIterations = static_cast<int>(2 * solutions.size());
+    const int easy = iterations <= easyIterations ? (steady_ ? steady_->easy : 0) + 1 : 0;
+    for (Iterate& solution : solutions)
+      for (size_t b = 0; b < model_.bodies.size(); ++b) solution.bodies[b].stress -= state_.bodies[b].stress;
+    steady_ = Steady{std::move(solutions), k, easy};
+  }
+
+  [[nodiscard]] std::vector<Matrix> ratesOf(const Iterate& iterate) const {
+    std::vector<Matrix> rates(model_.bodies.size());
+    for (size_t b = 0; b < model_.bodies.size(); ++b)
+      model_.bodies[b].material().viscoplasticRate(iterate.bodies[b].stress, rates[b]);
+    return rates;
+  }
+
+  /// Share of |G_1| in triangles where G_1 : G_2 <= 0.
+  [[nodiscard]] double turnedShare() const {
+    double all = 0;
+    double against = 0;
+    for (size_t b = 0; b < model_.bodies.size(); ++b)
+      for (int i = 0; i < model_.bodies[b].points(); ++i) {
+        const double flow = model_.bodies[b].weights()[i] * rates_[0][b].col(i).norm();
+        all += flow;
+        if (rates_[0][b].col(i).dot(rates_[1][b].col(i)) <= 0) against += flow;
+      }
+    return all > 0 ? against / all : 0;
+  }
+
+  void commit(const Iterate& iterate, double t1) {
+    for (size_t b = 0; b < model_.bodies.size(); ++b) {
+      BodyState& body = state_.bodies[b];
+      const BodyIterate& step = iterate.bodies[b];
+      if (!model_.bodies[b].material().linear()) {
+        // What the elastic part leaves of the strain of the step.
+        Matrix elastic;
+        model_.bodies[b].material().elasticStrain(step.stress - body.stress, elastic);
+        body.viscoplasticStrain -= elastic;
+        body.viscoplasticStrain.topRows<3>() += step.strain;
+        if (!shift_.empty()) body.viscoplasticStrain.topRows<3>() += shift_[b];
+      }
+      body.displacement += step.increment + step.small;
+      body.stress = step.stress;
+    }
+    state_.contactForce = iterate.contactForce;
+    state_.time = t1;
+    active_ = iterate.active;
+  }
+
+  /// The last step, as increments per stage.
+  struct Steady {
+    std::vector<Iterate> increments;
+    double timeStep = 0;
+    int easy = 0;  ///< easy steps in a row
+  };
+
+  const Model& model_;
+  State& state_;
+  Scheme scheme_;
+  StepSolver solver_;
+  std::vector<std::vector<Matrix>> rates_;  ///< G of the stages of this step, per body
+  std::vector<Matrix> shift_;               ///< of the last stage
+  std::vector<std::vector<char>> active_;
+  std::optional<Steady> steady_;
+};
 
 }  // namespace
 
@@ -87,56 +221,26 @@ RunReport march(const Model& model, State& state, const TimePlan& plan, const So
     run.solveSeconds += std::chrono::duration<double>(Clock::now() - begin).count();
   };
 
-  std::unique_ptr<StepSolver> solver;
-  timed([&] { solver = std::make_unique<StepSolver>(model, options); });
+  std::optional<March> bodies;
+  timed([&] { bodies.emplace(model, state, plan.scheme, options); });
   observer(state, StepReport{});
-
-  // In steady flow the last increments are a good guess; a hard step before makes them a bad one.
-  constexpr int easyIterations = 2;
-  constexpr int easySteps = 2;
-  int easy = 0;
-  Iterate last = solver->start(state);
   const double begin = state.time;
   for (int n = 1; n <= plan.steps; ++n) {
     StepReport report;
-    Iterate iterate;
-    std::vector<std::vector<char>> before;
-    timed([&] {
-      report.step = n;
-      report.time = begin + (plan.end - begin) * n / plan.steps;
-      report.timeStep = report.time - state.time;
-      iterate = solver->start(state);
-      before = iterate.active;
-      if (easy >= easySteps)
-        for (size_t b = 0; b < model.bodies.size(); ++b) {
-          iterate.bodies[b].increment = last.bodies[b].increment;
-          iterate.bodies[b].small = last.bodies[b].small;
-          iterate.bodies[b].stress += last.bodies[b].stress;
-        }
-      const StepOutcome outcome = solver->solve(state, {report.time, report.timeStep, {}}, iterate);
-      run.iterations += outcome.iterations;
-      run.factorisations += outcome.factorisations;
-      run.maxIterationsInAStep = std::max(run.maxIterationsInAStep, outcome.iterations);
-      report.iterations = outcome.iterations;
-      report.factorisations = outcome.factorisations;
-      report.rung = outcome.rung;
-      report.certificate = outcome.certificate;
-      if (!outcome.converged) {
-        report.status = run.status = Status::failed;
-        run.reason =
-            "step " + std::to_string(n) + " at t = " + std::to_string(report.time) + " s: " + outcome.reason;
-        return;
-      }
-      easy = outcome.iterations <= easyIterations ? easy + 1 : 0;
-      last = iterate;
-      for (size_t b = 0; b < model.bodies.size(); ++b) last.bodies[b].stress -= state.bodies[b].stress;
-      addIncrement(iterate, model, state);
-      state.time = report.time;
-      measure(model, state, iterate, before, report);
-      keepWorst(report.certificate, run.worst);
-      run.steps = n;
-    });
-    if (run.status != Status::converged) break;
+    report.step = n;
+    report.time = begin + (plan.end - begin) * n / plan.steps;
+    report.timeStep = report.time - state.time;
+    timed([&] { bodies->advance(report.time, report); });
+    run.iterations += report.iterations;
+    run.factorisations += report.factorisations;
+    run.maxIterationsInAStep = std::max(run.maxIterationsInAStep, report.iterations);
+    if (report.status != Status::converged) {
+      run.status = report.status;
+      run.reason = report.reason;
+      break;
+    }
+    run.steps = n;
+    run.worst = worse(run.worst, report.certificate);
     observer(state, report);
   }
   return run;

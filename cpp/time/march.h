@@ -6,10 +6,9 @@
 
 #include "solver/model.h"
 #include "solver/state.h"
+#include "time/scheme.h"
 
 namespace mortier {
-
-enum class Scheme { backwardEuler };
 
 struct TimePlan {
   double end = 1;  ///< T [s]

@@ -1,0 +1,35 @@
+#include "time/measure.h"
+
+#include <algorithm>
+
+namespace mortier {
+
+void measure(const Model& model, const State& state, StepReport& report) {
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    const ContactInterface& interface = model.interfaces[k];
+    const Vector& p = state.contactForce[k];
+    report.penetration +=
+        interface.interpenetration(state.bodies[interface.pair().nonmortar.body].displacement,
+                                   state.bodies[interface.pair().mortar.body].displacement);
+    report.maxPressure = std::max(report.maxPressure, interface.contactPressure(p).maxCoeff());
+    report.contactForce += p.sum();
+  }
+  double area = 0;
+  double flowing = 0;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    for (int i = 0; i < body.points(); ++i) {
+      area += body.weights()[i];
+      if (body.material().flows(state.bodies[b].stress, i)) flowing += body.weights()[i];
+    }
+  }
+  report.viscoplasticFraction = flowing / area;
+}
+
+Certificate worse(const Certificate& a, const Certificate& b) {
+  return {std::max(a.forceBalance, b.forceBalance), std::max(a.materialResidual, b.materialResidual),
+          std::max(a.gapOnActive, b.gapOnActive), std::max(a.sign, b.sign),
+          std::max(a.complementarity, b.complementarity)};
+}
+
+}  // namespace mortier
