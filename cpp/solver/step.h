@@ -14,7 +14,7 @@
 #include <memory>
 #include <vector>
 
-#include "linear/condensing_solver.h"
+#include "solver/body_system.h"
 #include "solver/complementarity.h"
 #include "solver/model.h"
 #include "solver/state.h"
@@ -22,13 +22,6 @@
 namespace mortier {
 
 /// The unknowns of a step.
-struct BodyIterate {
-  Vector increment;  ///< du (dofs) [m], carried as increment + small
-  Vector small;
-  Matrix stress;  ///< s
-  Matrix strain;  ///< B du - shift, 3 x points, as of the last linearisation
-};
-
 struct Iterate {
   std::vector<BodyIterate> bodies;
   std::vector<Vector> contactForce;       ///< p per interface
@@ -56,7 +49,6 @@ class StepSolver {
  public:
   /// \throws UnheldBodyError when neither supports nor contact hold a body.
   StepSolver(const Model& model, const SolverOptions& options);
-  ~StepSolver();
 
   /// Nothing moved yet, contact forces and active set as in `state0`.
   [[nodiscard]] Iterate start(const State& state0) const;
@@ -65,9 +57,9 @@ class StepSolver {
   StepOutcome solve(const State& state0, const StepData& step, Iterate& guess);
 
  private:
-  struct BodySystem;
-
-  void findRigidMotions();
+  void requireHeld();
+  [[nodiscard]] int rows() const { return firstRow_.back(); }
+  [[nodiscard]] std::vector<Vector> displacements(const State& state0, const Iterate& iterate) const;
   [[nodiscard]] std::string describeRigid(const Vector& z) const;
   double linearise(const State& state0, const StepData& step, Iterate& iterate, bool anticipate);
   bool factorise(StepOutcome& outcome);
@@ -86,9 +78,11 @@ class StepSolver {
 
   const Model& model_;
   SolverOptions options_;
-  std::vector<std::unique_ptr<BodySystem>> systems_;
-  std::vector<int> firstRow_;  ///< of each interface among all contact conditions
-  int rows_ = 0;
+  int threads_ = 1;
+  std::vector<int>
+      firstRow_;  ///< of each interface among all contact conditions, and their number at the end
+  std::vector<BodySystem> systems_;
+  std::vector<int> firstMotion_;  ///< of each body among all rigid motions, and their number at the end
   ContactProblem contact_;
 };
 

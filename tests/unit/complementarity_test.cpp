@@ -45,6 +45,16 @@ TEST(Complementarity, agreesWithEnumerationOfAllActiveSets) {
     }
 }
 
+// A P-matrix on which changing all wrong signs at once goes round for ever: {0, 1}, {1, 2}, {2, 0}, ...
+TEST(Complementarity, cyclesAreBroken) {
+  const Matrix W{{1, 2, 0}, {0, 1, 2}, {2, 0, 1}};
+  const Case c{{W, false, Matrix(3, 0)}, Vector::Constant(3, -1), Vector::Zero(3), Vector(0)};
+  const ContactSolution solution = solve(c, {1, 0, 0});
+  ASSERT_EQ(solution.outcome, Outcome::solved);
+  EXPECT_LE((solution.change.array() - 1.0 / 3).abs().maxCoeff(), 1e-15);
+  EXPECT_LE(solution.pivots, 30);
+}
+
 // Nodes that touch without force: p and s both vanish.
 TEST(Complementarity, zeroSlackWithoutForceIsNoTrouble) {
   constexpr double tolerance = 1e-11;

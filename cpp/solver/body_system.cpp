@@ -1,0 +1,152 @@
+#include "solver/body_system.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "base/double_double.h"
+#include "base/error.h"
+#include "fem/rigid_modes.h"
+
+namespace mortier {
+namespace {
+
+/// A motion that moves the contact nodes by less than this part of the others is not held by contact.
+constexpr double motionTolerance = 1e-14;
+
+/// Entries of C of one body as (row, dof, value).
+template <class Visit>
+void forEachEntryOfC(const ContactInterface& interface, int body, Visit visit) {
+  if (interface.pair().nonmortar.body == body)
+    for (int i = 0; i < interface.rows(); ++i)
+      for (int c = 0; c < 2; ++c) visit(i, 2 * interface.nonmortarNodes()[i] + c, interface.normal()[c]);
+  if (interface.pair().mortar.body == body)
+    for (size_t j = 0; j < interface.mortarNodes().size(); ++j)
+      for (int i = 0; i < interface.rows(); ++i)
+        for (int c = 0; c < 2; ++c)
+          visit(i, 2 * interface.mortarNodes()[j] + c, -interface.coupling().A(i, j) * interface.normal()[c]);
+}
+
+}  // namespace
+
+BodySystem::BodySystem(const Model& model, int body, const std::vector<int>& firstRow, LinearEngine engine)
+    : body_(model.bodies[body]), engine_(engine) {
+  findContactDofs(model, body, firstRow);
+  findRigidMotions();
+  solver_ = engine == LinearEngine::multifrontal ? multifrontalSolver(body_.pattern(), kept_)
+                                                 : suiteSparseSolver(body_.pattern(), kept_);
+  law_.predictor.resize(body_.material().components(), body_.points());
+  law_.moduli.resize(9, body_.points());
+}
+
+void BodySystem::findContactDofs(const Model& model, int body, const std::vector<int>& firstRow) {
+  std::vector<int> column(body_.freeDofs(), -1);
+  const auto forEachEntry = [&](auto visit) {
+    for (size_t k = 0; k < model.interfaces.size(); ++k)
+      forEachEntryOfC(model.interfaces[k], body, [&](int row, int dof, double value) {
+        const int equation = body_.equations()[dof];
+        if (equation >= 0 && value != 0) visit(firstRow[k] + row, equation, value);
+      });
+  };
+  forEachEntry([&](int, int equation, double) {
+    if (column[equation] >= 0) return;
+    column[equation] = static_cast<int>(kept_.size());
+    kept_.push_back(equation);
+  });
+  C_ = Matrix::Zero(firstRow.back(), static_cast<Eigen::Index>(kept_.size()));
+  forEachEntry([&](int row, int equation, double value) { C_(row, column[equation]) += value; });
+}
+
+void BodySystem::findRigidMotions() {
+  motions_ = rigidModes(body_);
+  std::vector<int> dofOf(body_.freeDofs());
+  for (int dof = 0; dof < body_.dofs(); ++dof)
+    if (body_.equations()[dof] >= 0) dofOf[body_.equations()[dof]] = dof;
+  R_.resize(static_cast<Eigen::Index>(kept_.size()), motions_.cols());
+  for (size_t i = 0; i < kept_.size(); ++i) R_.row(i) = motions_.row(dofOf[kept_[i]]);
+  if (motions_.cols() == 0) return;
+  // Orthonormal on the contact dofs.
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(R_.transpose() * R_);
+  const double largest = std::max(1.0, eigen.eigenvalues().maxCoeff());
+  if (eigen.eigenvalues()[0] <= motionTolerance * largest)
+    throw UnheldBodyError("body " + body_.name() + ": nothing holds its " +
+                          describeRigidMotion(body_, motions_ * eigen.eigenvectors().col(0)) +
+                          "; a support (ux, uy) or a contact would");
+  const Matrix T = eigen.eigenvectors() * eigen.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
+  motions_ *= T;
+  R_ *= T;
+}
+
+double BodySystem::linearise(const MaterialStep& step, BodyIterate& iterate) {
+  const double residual = body_.material().linearise(step, iterate.stress, law_, 0, body_.points());
+  if (residual == 0) return 0;
+  const double scale = body_.material().stressScale();
+  return residual / (scale > 0 ? scale : law_.predictor.cwiseAbs().maxCoeff());
+}
+
+std::string BodySystem::factorise() {
+  refactorised_ = false;
+  if (factorised_ && body_.material().linear()) return {};
+  refactorised_ = true;
+  body_.tangent(law_.moduli, values_);
+  factorised_ = solver_->factorise(values_);
+  if (!factorised_ && engine_ == LinearEngine::multifrontal && !body_.pattern().symmetric) {
+    // UMFPACK pivots in the whole matrix.
+    useLibraries();
+    factorised_ = solver_->factorise(values_);
+  }
+  if (!factorised_) return "body " + body_.name() + ": its tangent is singular with its contact nodes held";
+  if (!inContact()) return {};
+  // Rigid motions get a stiffness of their own; as z carries them it never acts.
+  Matrix S = solver_->schurComplement();
+  if (R_.cols() > 0) S += S.diagonal().maxCoeff() * R_ * R_.transpose();
+  if (body_.pattern().symmetric) {
+    cholesky_.compute(S);
+    factorised_ = cholesky_.info() == Eigen::Success;
+    if (!factorised_) return "body " + body_.name() + ": its tangent is not positive definite";
+  } else {
+    lu_.compute(S);
+  }
+  compliance_ = solveSchur(C_.transpose());
+  return {};
+}
+
+void BodySystem::useLibraries() {
+  if (engine_ == LinearEngine::suitesparse) return;
+  engine_ = LinearEngine::suitesparse;
+  solver_ = suiteSparseSolver(body_.pattern(), kept_);
+  factorised_ = false;
+}
+
+Matrix BodySystem::solveSchur(const Matrix& f) const {
+  return body_.pattern().symmetric ? Matrix(cholesky_.solve(f)) : Matrix(lu_.solve(f));
+}
+
+Vector BodySystem::condense(const Vector& force) {
+  residual_.resize(body_.freeDofs());
+  for (int dof = 0; dof < body_.dofs(); ++dof)
+    if (body_.equations()[dof] >= 0) residual_[body_.equations()[dof]] = force[dof];
+  solver_->condense(residual_);
+  contactForce_ = residual_(kept_);
+  return inContact() ? Vector(solveSchur(contactForce_)) : contactForce_;
+}
+
+void BodySystem::expand(const Vector& forceChange, const Vector& z, BodyIterate& iterate) {
+  if (inContact()) {
+    Vector x = solveSchur(contactForce_ - C_.transpose() * forceChange);
+    if (R_.cols() > 0) x += R_ * (z - R_.transpose() * x);
+    residual_(kept_) = x;
+  }
+  solver_->expand(residual_);
+  Vector d = Vector::Zero(body_.dofs());
+  for (int dof = 0; dof < body_.dofs(); ++dof) {
+    if (body_.equations()[dof] < 0) continue;
+    d[dof] = residual_[body_.equations()[dof]];
+    const DoubleDouble u = DoubleDouble::sum(iterate.increment[dof], d[dof]);
+    iterate.increment[dof] = u.high;
+    iterate.small[dof] += u.low;
+  }
+  iterate.stress = law_.predictor;
+  body_.addStressOf(d, law_.moduli, iterate.stress);
+}
+
+}  // namespace mortier

@@ -1,0 +1,77 @@
+// One body's side of a linearised step: its tangent condensed to the contact dofs, its rows of C there, and
+// the rigid motions that only contact holds.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "linear/condensing_solver.h"
+#include "solver/model.h"
+
+namespace mortier {
+
+/// The unknowns of a body in a step.
+struct BodyIterate {
+  Vector increment;  ///< du (dofs) [m], carried as increment + small
+  Vector small;
+  Matrix stress;  ///< s
+  Matrix strain;  ///< B du - shift, 3 x points, as of the last linearisation
+};
+
+class BodySystem {
+ public:
+  /// \param firstRow  of each interface among all contact conditions, and their number at the end.
+  BodySystem(const Model& model, int body, const std::vector<int>& firstRow, LinearEngine engine);
+
+  /// Linearises the law at the iterate. \returns the material residual, scaled [-].
+  double linearise(const MaterialStep& step, BodyIterate& iterate);
+  /// Factorises the tangent of the last linearisation, unless it is still that of a linear material.
+  /// \returns why that is impossible, or nothing.
+  std::string factorise();
+  /// Whether the last factorise() did any work.
+  [[nodiscard]] bool refactorised() const { return refactorised_; }
+  /// From now on CHOLMOD or UMFPACK.
+  void useLibraries();
+
+  /// Condenses nodal forces (dofs) left over; \returns S^-1 f on the contact dofs.
+  Vector condense(const Vector& force);
+  /// Completes the linear solve for a change of the contact forces and rigid motions `z` of this body, and
+  /// takes it over.
+  void expand(const Vector& forceChange, const Vector& z, BodyIterate& iterate);
+
+  [[nodiscard]] const Matrix& predictor() const { return law_.predictor; }
+  [[nodiscard]] bool inContact() const { return !kept_.empty(); }
+  [[nodiscard]] const Matrix& C() const { return C_; }                    ///< contact rows x contact dofs
+  [[nodiscard]] const Matrix& compliance() const { return compliance_; }  ///< S^-1 C'
+  [[nodiscard]] const Matrix& R() const { return R_; }  ///< rigid motions on the contact dofs, orthonormal
+  [[nodiscard]] const Matrix& motions() const { return motions_; }  ///< and by dofs
+  /// R' f of what condense() left on the contact dofs: the force that only contact can balance.
+  [[nodiscard]] Vector rigidForce() const { return R_.transpose() * contactForce_; }
+
+ private:
+  void findContactDofs(const Model& model, int body, const std::vector<int>& firstRow);
+  void findRigidMotions();
+  [[nodiscard]] Matrix solveSchur(const Matrix& f) const;
+
+  const Body& body_;
+  std::vector<int> kept_;  ///< equations of the contact dofs
+  Matrix C_;
+  Matrix motions_;
+  Matrix R_;
+  LinearEngine engine_;
+  std::unique_ptr<CondensingSolver> solver_;
+  std::vector<double> values_;
+  bool factorised_ = false;
+  bool refactorised_ = false;
+  Linearisation law_;
+  Eigen::LLT<Matrix> cholesky_;  ///< of S where the tangent is symmetric
+  Eigen::PartialPivLU<Matrix> lu_;
+  Matrix compliance_;
+  Vector residual_;      ///< right-hand side over equations, condensed in place
+  Vector contactForce_;  ///< its part on the contact dofs
+};
+
+}  // namespace mortier
