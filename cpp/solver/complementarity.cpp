@@ -58,6 +58,14 @@ class Pivoting {
     return scale > 0 ? rest.cwiseAbs().maxCoeff() / scale : 0;
   }
 
+  /// Whether the load drives the bodies along a motion that opens contact or slides along it.
+  [[nodiscard]] bool leaves(const ContactSolution& solution) const {
+    constexpr double negligible = 1e-6;
+    const Vector closing = problem_.G * solution.rigid;
+    const double work = (balance_ + problem_.G.transpose() * p0_).dot(solution.rigid);
+    return closing.maxCoeff() <= negligible * closing.cwiseAbs().maxCoeff() && work > 0;
+  }
+
  private:
   [[nodiscard]] Matrix solve(const Matrix& block, const Matrix& right) const {
     if (problem_.symmetric) return block.llt().solve(right);
@@ -114,7 +122,7 @@ class Pivoting {
 
 ContactSolution solveContact(const ContactProblem& problem, const Vector& slack, const Vector& p0,
                              const Vector& balance, std::vector<char> active) {
-  constexpr int repetitions = 6;
+  constexpr int repetitions = 12;
   constexpr double balanced = 1e-14;
 
   ContactSolution solution;
@@ -133,9 +141,11 @@ ContactSolution solveContact(const ContactProblem& problem, const Vector& slack,
     z0 = solution.rigid;
   }
   constexpr double hopeless = 1e-6;
-  solution.outcome = problem.G.cols() > 0 && pivoting.imbalance(solution) > hopeless
-                         ? ContactSolution::Outcome::unbalanced
-                         : ContactSolution::Outcome::solved;
+  if (problem.G.cols() > 0 && pivoting.imbalance(solution) > hopeless)
+    solution.outcome =
+        pivoting.leaves(solution) ? ContactSolution::Outcome::unbalanced : ContactSolution::Outcome::cycled;
+  else
+    solution.outcome = ContactSolution::Outcome::solved;
   return solution;
 }
 

@@ -21,7 +21,7 @@ struct ContactSolution {
   enum class Outcome {
     solved,
     unbalanced,  ///< contact cannot balance r: `rigid` is the motion along which the bodies leave
-    cycled       ///< only where W is not a P-matrix (an indefinite tangent)
+    cycled       ///< only where W is not a P-matrix (an indefinite tangent), or nearly so
   };
   Outcome outcome = Outcome::cycled;
   Vector change;             ///< dp
