@@ -1,8 +1,8 @@
 #include "time/march.h"
 
 #include <algorithm>
-#include <cmath>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <sstream>
 
@@ -66,12 +66,12 @@ class March {
     Iterate iterate;
     StepOutcome outcome = stages(tableau(scheme_), t1, iterate);
     if (scheme_ == Scheme::sdirk2 && outcome.converged && turnedShare() > turned) {
-      steady_.reset();
+      last_.reset();
       StepOutcome again = stages(tableau(Scheme::backwardEuler), t1, iterate);
       again.iterations += outcome.iterations;
       again.factorisations += outcome.factorisations;
       outcome = std::move(again);
-      steady_.reset();
+      last_.reset();
     }
     if (outcome.converged) commit(iterate, t1);
     return outcome;
@@ -103,13 +103,13 @@ class March {
       if (total.rung != "newton") outcome.rung = total.rung;
       total = std::move(outcome);
       if (!total.converged) {
-        steady_.reset();
+        last_.reset();
         return total;
       }
       if (scheme.stages.size() > 1) rates_.push_back(ratesOf(iterate));
       solutions.push_back(iterate);
     }
-    remember(std::move(solutions), k, total.iterations);
+    remember(std::move(solutions), k);
     return total;
   }
 
@@ -118,11 +118,10 @@ class March {
   [[nodiscard]] Iterate guess(size_t stage, double k, size_t stageCount) const {
     constexpr double sameStep = 1e-9;
     Iterate iterate = solver_.start(state_);
-    if (!steady_ || steady_->easy < 2 || steady_->increments.size() != stageCount ||
-        std::abs(steady_->timeStep - k) > sameStep * k)
+    if (!last_ || last_->increments.size() != stageCount || std::abs(last_->timeStep - k) > sameStep * k)
       return iterate;
     for (size_t b = 0; b < model_.bodies.size(); ++b) {
-      const BodyIterate& last = steady_->increments[stage].bodies[b];
+      const BodyIterate& last = last_->increments[stage].bodies[b];
       iterate.bodies[b].increment = last.increment;
       iterate.bodies[b].small = last.small;
       iterate.bodies[b].stress += last.stress;
@@ -130,12 +129,10 @@ class March {
     return iterate;
   }
 
-  void remember(std::vector<Iterate> solutions, double k, int iterations) {
-    const auto easyIterations = static_cast<int>(2 * solutions.size());
-    const int easy = iterations <= easyIterations ? (steady_ ? steady_->easy : 0) + 1 : 0;
+  void remember(std::vector<Iterate> solutions, double k) {
     for (Iterate& solution : solutions)
       for (size_t b = 0; b < model_.bodies.size(); ++b) solution.bodies[b].stress -= state_.bodies[b].stress;
-    steady_ = Steady{std::move(solutions), k, easy};
+    last_ = LastStep{std::move(solutions), k};
   }
 
   [[nodiscard]] std::vector<Matrix> ratesOf(const Iterate& iterate) const {
@@ -179,10 +176,9 @@ class March {
   }
 
   /// The last step, as increments per stage.
-  struct Steady {
+  struct LastStep {
     std::vector<Iterate> increments;
     double timeStep = 0;
-    int easy = 0;  ///< easy steps in a row
   };
 
   const Model& model_;
@@ -192,7 +188,7 @@ class March {
   std::vector<std::vector<Matrix>> rates_;  ///< G of the stages of this step, per body
   std::vector<Matrix> shift_;               ///< of the last stage
   std::vector<std::vector<char>> active_;
-  std::optional<Steady> steady_;
+  std::optional<LastStep> last_;
 };
 
 }  // namespace
