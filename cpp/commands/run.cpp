@@ -68,6 +68,19 @@ std::string defaultFolder(const std::string& scene) {
   return (std::filesystem::path("out") / std::filesystem::path(scene).stem()).string();
 }
 
+/// Crank-Nicolson multiplies an overstress by almost -1 in every step of a stiff scene.
+void warnOfRinging(const SceneDescription& scene, const Model& model) {
+  constexpr double ringing = 10;
+  const double weight = scene.time.end / scene.time.steps / 2;
+  double stiffness = 0;
+  for (const Body& body : model.bodies) stiffness = std::max(stiffness, body.material().stiffness(weight));
+  if (scene.time.scheme != Scheme::crankNicolson || stiffness <= ringing) return;
+  std::fprintf(stderr,
+               "mortier: warning: %s: scheme = crank-nicolson rings here (step over relaxation time %.1e); "
+               "sdirk2 is of second order too and does not\n",
+               scene.path.c_str(), 2 * stiffness);
+}
+
 /// Whether a step is kept while the run goes on; the last one is kept in any case.
 bool keeps(const SceneDescription& scene, int step) {
   return scene.every > 0 && step % scene.every == 0;
@@ -84,6 +97,8 @@ int run(const RunCommand& command) {
   for (const std::string& warning : warnings) {
     std::fprintf(stderr, "mortier: warning: %s\n", warning.c_str());
   }
+
+  warnOfRinging(scene, model);
 
   // 2. Where the result goes, and what is reported.
   const std::string path = command.out.empty() ? defaultFolder(command.scene) : command.out;

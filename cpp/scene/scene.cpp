@@ -12,10 +12,10 @@ namespace mortier {
 
 namespace {
 
-const Keys couplingWords{"interpolation", "mortar"};                  // in the order of CouplingKind
-const Keys projectionWords{"elasticity", "frobenius", "compliance"};  // in the order of Projection
-const Keys schemeWords{"backward-euler", "crank-nicolson", "sdirk2"};    // in the order of Scheme
-const Keys linearWords{"multifrontal", "suitesparse"};                // in the order of LinearEngine
+const Keys couplingWords{"interpolation", "mortar"};                   // in the order of CouplingKind
+const Keys projectionWords{"elasticity", "frobenius", "compliance"};   // in the order of Projection
+const Keys schemeWords{"backward-euler", "crank-nicolson", "sdirk2"};  // in the order of Scheme
+const Keys linearWords{"multifrontal", "suitesparse"};                 // in the order of LinearEngine
 
 MaterialDescription readMaterial(const Node& node, const std::string& subject) {
   const TableReader table(node, "body.material", subject);
