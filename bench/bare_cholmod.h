@@ -1,5 +1,5 @@
-// What no code can avoid, done as well as it can be: CHOLMOD (supernodal, METIS, OpenBLAS) analyses the elastic
-// stiffness of some bodies once, then factorises it and solves with one right-hand side.
+// What no code can avoid, done as well as it can be: CHOLMOD (supernodal, METIS, OpenBLAS) analyses the
+// elastic stiffness of some bodies once, then factorises it and solves with one right-hand side.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,8 @@ class BareCholmod {
   void add(const Body& body);
   /// Symbolic analysis of all bodies.
   void analyse();
-  /// \param blasThreads  of OpenBLAS. OpenMP has one thread: Debian's CHOLMOD starts a team in every supernode.
+  /// \param blasThreads  of OpenBLAS. OpenMP has one thread: Debian's CHOLMOD starts a team in every
+  /// supernode.
   void factoriseAndSolve(int blasThreads);
 
  private:

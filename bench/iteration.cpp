@@ -1,13 +1,12 @@
-// One viscoplastic Newton iteration, everything included, against bare CHOLMOD on the elastic stiffness of the
-// same meshes: time, threads, coupling, memory and growth, each beside its target (docs/benchmarks.md).
-//   bench_iteration [--million] [--rounds N]
+// One viscoplastic Newton iteration, everything included, against bare CHOLMOD on the elastic stiffness of
+// the same meshes: time, threads, coupling, memory and growth, each beside its target (docs/benchmarks.md).
+//   bench_iteration [--million] [--cpu] [--rounds N]
 #include <malloc.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -19,22 +18,12 @@
 #include <vector>
 
 #include "bare_cholmod.h"
+#include "clock.h"
 #include "squares.h"
 #include "time/march.h"
 
 namespace mortier::bench {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0 : values[values.size() / 2];
-}
 
 /// Slope of log y over log x by least squares.
 double exponent(const std::vector<double>& x, const std::vector<double>& y) {
@@ -89,12 +78,12 @@ class SteppedMarch {
       options.threads = threads;
       const TimePlan plan{flowingTime + timeStep * plannedSteps, plannedSteps, Scheme::backwardEuler};
       const Observer pause = [this](const State&, const StepReport& step) {
-        seconds_ = seconds(begin_);
+        seconds_ = now() - begin_;
         iterations_ = step.iterations;
         done_.release();
         go_.acquire();
         if (stop_) throw Stopped{};
-        begin_ = Clock::now();
+        begin_ = now();
       };
       try {
         const RunReport report = march(model_, state, plan, options, pause);
@@ -129,7 +118,7 @@ class SteppedMarch {
   std::binary_semaphore go_{0};
   std::binary_semaphore done_{0};
   bool stop_ = false;
-  Clock::time_point begin_ = Clock::now();
+  double begin_ = 0;
   double seconds_ = 0;
   int iterations_ = 0;
   std::thread thread_;
@@ -168,10 +157,10 @@ struct Sample {
 
 struct Figures {
   double triangles = 0;
-  double unit = 0;          ///< [s]
-  int unitThreads = 1;      ///< of BLAS, the faster setting
+  double unit = 0;      ///< [s]
+  int unitThreads = 1;  ///< of BLAS, the faster setting
   std::vector<Sample> variants;
-  double memoryUnit = 0;    ///< above an empty process [MiB]
+  double memoryUnit = 0;      ///< above an empty process [MiB]
   double memory[2] = {0, 0};  ///< frobenius, elasticity
   [[nodiscard]] double time(size_t variant) const { return median(variants[variant].seconds); }
 };
@@ -191,7 +180,7 @@ void measureMemory(const Cells& cells, Figures& figures) {
 }
 
 void measureTime(const Cells& cells, int rounds, Figures& figures) {
-  constexpr int warmUp = 6;  // the predictor needs some easy steps
+  constexpr int warmUp = 4;  // the first step has no increments to begin with
   constexpr double secondsPerSample = 0.05;
   BareCholmod bare = bareCholmod(cells);
   std::vector<std::unique_ptr<SteppedMarch>> runs;
@@ -200,20 +189,18 @@ void measureTime(const Cells& cells, int rounds, Figures& figures) {
     for (int n = 0; n < warmUp; ++n) run->step();
 
   figures.variants.resize(std::size(variants));
-  const auto timeOf = [&](int blasThreads) {
-    const Clock::time_point begin = Clock::now();
-    bare.factoriseAndSolve(blasThreads);
-    return seconds(begin);
+  const auto unitSeconds = [&](int blasThreads) {
+    return secondsOf([&] { bare.factoriseAndSolve(blasThreads); });
   };
-  timeOf(2);
-  const int repetitions = std::max(1, static_cast<int>(secondsPerSample / timeOf(1)));
+  unitSeconds(2);
+  const int repetitions = std::max(1, static_cast<int>(secondsPerSample / unitSeconds(1)));
   std::vector<double> unit[2];
   for (int round = 0; round < rounds; ++round) {
     double total[2] = {0, 0};
     std::vector<double> totals(runs.size(), 0.0);
     std::vector<int> iterations(runs.size(), 0);
     for (int n = 0; n < repetitions; ++n) {
-      for (const int threads : {1, 2}) total[threads - 1] += timeOf(threads);
+      for (const int threads : {1, 2}) total[threads - 1] += unitSeconds(threads);
       for (size_t v = 0; v < runs.size(); ++v) {
         runs[v]->step();
         totals[v] += runs[v]->stepSeconds();
@@ -260,9 +247,10 @@ void printTable(const std::vector<Figures>& all) {
     }
   }
   for (const Figures& f : all) {
+    if (timeOf == TimeOf::processor) break;
     const double target = f.triangles > 5e4 ? 1.4 : 1.0;
-    print("3  one thread over two, frobenius", f.triangles, f.time(frobenius) / f.time(frobeniusThreads), target,
-          false);
+    print("3  one thread over two, frobenius", f.triangles, f.time(frobenius) / f.time(frobeniusThreads),
+          target, false);
     print("3  one thread over two, elasticity", f.triangles, f.time(elastic) / f.time(elasticThreads), target,
           false);
   }
@@ -299,13 +287,17 @@ int run(bool million, int rounds) {
   if (million) sizes.push_back(1e6);
   std::vector<Figures> all(sizes.size());
   // Memory first: a child begins with the peak of its parent.
-  for (size_t i = 0; i < sizes.size(); ++i) measureMemory(cellsFor(sizes[i]), all[i]);
+  for (size_t i = 0; i < sizes.size(); ++i) {
+    measureMemory(cellsFor(sizes[i]), all[i]);
+    std::printf("%g triangles: MiB above an empty process: unit %.4g, frobenius %.4g, elasticity %.4g\n",
+                sizes[i], all[i].memoryUnit, all[i].memory[0], all[i].memory[1]);
+  }
   for (size_t i = 0; i < sizes.size(); ++i) {
     const Cells cells = cellsFor(sizes[i]);
     all[i].triangles = cells.triangles();
     measureTime(cells, rounds, all[i]);
-    std::printf("%d triangles: unit %.4g ms (%d BLAS threads), %.4g MiB above an empty process\n",
-                cells.triangles(), 1e3 * all[i].unit, all[i].unitThreads, all[i].memoryUnit);
+    std::printf("%d triangles: unit %.4g ms (%d BLAS threads)\n", cells.triangles(), 1e3 * all[i].unit,
+                all[i].unitThreads);
     for (size_t v = 0; v < std::size(variants); ++v)
       std::printf("  %-28s %.4g ms an iteration\n", variants[v].name, 1e3 * all[i].time(v));
     std::fflush(stdout);
@@ -323,10 +315,12 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--million") == 0) {
       million = true;
+    } else if (std::strcmp(argv[i], "--cpu") == 0) {
+      mortier::bench::timeOf = mortier::bench::TimeOf::processor;
     } else if (std::strcmp(argv[i], "--rounds") == 0 && i + 1 < argc && std::atoi(argv[i + 1]) > 0) {
       rounds = std::atoi(argv[++i]);
     } else {
-      std::fprintf(stderr, "usage: bench_iteration [--million] [--rounds N]\n");
+      std::fprintf(stderr, "usage: bench_iteration [--million] [--cpu] [--rounds N]\n");
       return EXIT_FAILURE;
     }
   }

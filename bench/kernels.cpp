@@ -16,7 +16,9 @@ Projection projectionOf(const benchmark::State& run) {
   return run.range(1) == 0 ? Projection::frobenius : Projection::elasticity;
 }
 
-Cells cellsOf(const benchmark::State& run) { return cellsFor(static_cast<double>(run.range(0))); }
+Cells cellsOf(const benchmark::State& run) {
+  return cellsFor(static_cast<double>(run.range(0)));
+}
 
 /// The lower body in flow, its law linearised, its tangent assembled, the contact dofs kept.
 struct Fixture {

@@ -1,5 +1,5 @@
-// The bodies of the benchmarks: two unit squares, one on the other, on criss-cross meshes whose cell counts are
-// about 1 to sqrt2 and not nested, in the note's state of uniform compression well beyond yield.
+// The bodies of the benchmarks: two unit squares, one on the other, on criss-cross meshes whose cell counts
+// are about 1 to sqrt2 and not nested, in the note's state of uniform compression well beyond yield.
 #pragma once
 
 #include <cmath>
@@ -15,11 +15,11 @@
 namespace mortier::bench {
 
 constexpr Elasticity elasticity{3e11, 0.3};
-constexpr double viscosity = 10;      // [Pa s]
-constexpr double yieldStress = 1;     // [Pa]
-constexpr double loadRate = 10;       // pressure on top [Pa/s]
-constexpr double flowingTime = 0.5;   // the bodies yield at 0.1 [s]
-constexpr double timeStep = 0.01;     // [s]
+constexpr double viscosity = 10;     // [Pa s]
+constexpr double yieldStress = 1;    // [Pa]
+constexpr double loadRate = 10;      // pressure on top [Pa/s]
+constexpr double flowingTime = 0.5;  // the bodies yield at 0.1 [s]
+constexpr double timeStep = 0.01;    // [s]
 
 struct Cells {
   int upper = 0;

@@ -165,6 +165,10 @@ int writeFreefem(const FreefemCommand& command) {
         std::to_string(scene.contacts.size()) +
         " contact interfaces, expected two bodies and one interface (all that the FreeFEM method knows)");
   }
+  if (scene.time.scheme != Scheme::backwardEuler) {
+    throw InputError(scene.path + ": scheme = " + word(scene.time.scheme) +
+                     ", expected backward-euler (all that the FreeFEM method knows)");
+  }
 
   // 2. The script.
   const std::string text = script(scene);

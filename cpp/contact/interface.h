@@ -1,7 +1,7 @@
 // A contact interface between two meshes, discretised: the rows of C, the gap, and what is measured on
 // Gamma_C.
 //
-//   [C u]_i = (u1_i - sum_j A_ij u2_j) . n,      g = C u - g0 <= 0,   p >= 0,   p g = 0 (contact)
+//   [C u]_i = (u1_i - sum_j A_ij u2_j) . n,      g = C u - g0 <= 0,   p >= 0,   p g = 0
 //
 // i runs over the nonmortar contact nodes, j over the mortar nodes, n is the outward normal of the nonmortar
 // body, A comes from the coupling (interpolation or projection), g0 is the distance of the bodies as meshed.

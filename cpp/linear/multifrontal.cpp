@@ -75,8 +75,8 @@ class Multifrontal final : public CondensingSolver {
       const int pivots = front.pivots;
       if (pivots == 0) continue;
       double* x1 = &x[front.rows[0]];
-      const double* L = &panels_[factors_[s].panel];
-      if (!symmetric_) dense::swapRows(x1, &pivots_[factors_[s].pivot], pivots);
+      const double* L = panels_.data() + factors_[s].panel;
+      if (!symmetric_) dense::swapRows(x1, pivots_.data() + factors_[s].pivot, pivots);
       dense::solveLower(L, n, pivots, !symmetric_, x1);
       dense::multiply(L + pivots, n, n - pivots, pivots, x1, y.data());
       for (int i = pivots; i < n; ++i) x[front.rows[i]] -= y[i - pivots];
@@ -95,12 +95,12 @@ class Multifrontal final : public CondensingSolver {
       if (pivots == 0) continue;
       double* x1 = &x[front.rows[0]];
       for (int i = pivots; i < n; ++i) y[i - pivots] = x[front.rows[i]];
-      const double* L = &panels_[factors_[s].panel];
+      const double* L = panels_.data() + factors_[s].panel;
       if (symmetric_) {
         dense::subtractTransposed(L + pivots, n, n - pivots, pivots, y.data(), x1);
         dense::solveLowerTransposed(L, n, pivots, x1);
       } else {
-        dense::subtract(&panels_[factors_[s].upper], pivots, pivots, n - pivots, y.data(), x1);
+        dense::subtract(panels_.data() + factors_[s].upper, pivots, pivots, n - pivots, y.data(), x1);
         dense::solveUpper(L, n, pivots, x1);
       }
     }
@@ -117,7 +117,7 @@ class Multifrontal final : public CondensingSolver {
 
   void assemble(size_t s, const std::vector<double>& values, double* update) {
     const size_t last = s + 1 < plan_.fronts.size() ? plan_.fronts[s + 1].firstEntry : plan_.entries.size();
-    double* factor = &panels_[factors_[s].panel];
+    double* factor = panels_.data() + factors_[s].panel;
     const size_t held =
         (s + 1 < plan_.fronts.size() ? factors_[s + 1].panel : panelSize_) - factors_[s].panel;
     for (size_t k = plan_.fronts[s].firstEntry; k < last; ++k) {
@@ -136,12 +136,13 @@ class Multifrontal final : public CondensingSolver {
     const size_t split = std::lower_bound(rows.begin(), rows.end(), pivots) - rows.begin();
     for (size_t j = 0; j < m; ++j, child += m) {
       if (j < split) {
-        double* column = &panels_[factors_[s].panel] + n * rows[j];
+        double* column = panels_.data() + factors_[s].panel + n * rows[j];
         for (size_t i = symmetric_ ? j : 0; i < m; ++i) column[rows[i]] += child[i];
         continue;
       }
       if (!symmetric_) {
-        double* column = &panels_[factors_[s].upper] + static_cast<size_t>(pivots) * (rows[j] - pivots);
+        double* column =
+            panels_.data() + factors_[s].upper + static_cast<size_t>(pivots) * (rows[j] - pivots);
         for (size_t i = 0; i < split; ++i) column[rows[i]] += child[i];
       }
       double* column = update + updates * (rows[j] - pivots) - pivots;
@@ -153,10 +154,10 @@ class Multifrontal final : public CondensingSolver {
     const Front& front = plan_.fronts[s];
     if (front.pivots == 0) return true;
     const auto n = static_cast<int>(front.rows.size());
-    double* panel = &panels_[factors_[s].panel];
+    double* panel = panels_.data() + factors_[s].panel;
     if (symmetric_) return dense::partialCholesky(panel, n, front.pivots, update);
     return dense::partialLU(panel, n, front.pivots, panels_.data() + factors_[s].upper, update,
-                            &pivots_[factors_[s].pivot]);
+                            pivots_.data() + factors_[s].pivot);
   }
 
   void keepSchurComplement(const double* update) {

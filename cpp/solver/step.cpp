@@ -30,6 +30,7 @@ std::vector<int> numberRows(const Model& model) {
 StepSolver::StepSolver(const Model& model, const SolverOptions& options)
     : model_(model), options_(options), firstRow_(numberRows(model)), firstMotion_{0} {
   int triangles = 0;
+  systems_.reserve(model.bodies.size());
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     systems_.emplace_back(model, static_cast<int>(b), firstRow_, options.linear);
     firstMotion_.push_back(firstMotion_.back() + static_cast<int>(systems_[b].R().cols()));

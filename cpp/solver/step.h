@@ -1,9 +1,9 @@
 // One time step: mixed Newton. Displacement increment and stress are both unknowns, so a triangle needs no
 // local solve:
 //
-//   E^-1 (s - s0) + weight G(s) = B du - shift        in every triangle (material) sum |T| B' s + C' p =
-//   F(t1)                       at every free dof                                    (equilibrium) g = C (u0
-//   + du) - g0 <= 0, p >= 0, p g = 0        at every nonmortar node                              (contact)
+//   E^-1 (s - s0) + weight G(s) = B du - shift    in every triangle          (material)
+//   sum |T| B' s + C' p = F(t1)                   at every free dof          (equilibrium)
+//   g = C (u0 + du) - g0 <= 0, p >= 0, p g = 0    at every nonmortar node    (contact)
 //
 // Linearised at s (material/material.h), (material) gives s = predictor + H^-1 B d; what is left is
 //   K d + C' p = F - sum |T| B' predictor,  K = sum |T| B' H^-1 B,

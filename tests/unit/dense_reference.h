@@ -99,7 +99,7 @@ inline void compare(const Engine& engine, const System& system, const std::vecto
   const Matrix Kbb = K(interior, interior);
   const Eigen::PartialPivLU<Matrix> lu(Kbb.size() > 0 ? Kbb : Matrix::Identity(1, 1));
   const auto solveInterior = [&](const Matrix& right) {
-    return interior.empty() ? right : Matrix(lu.solve(right));
+    return right.size() == 0 ? right : Matrix(lu.solve(right));
   };
   const Matrix S = K(kept, kept) - K(kept, interior) * solveInterior(Matrix(K(interior, kept)));
   ASSERT_EQ(solver->schurComplement().rows(), S.rows());
