@@ -1,7 +1,6 @@
 #include "material/yield_domain.h"
 
 #include <cmath>
-#include <limits>
 
 namespace mortier {
 
@@ -13,20 +12,23 @@ YieldDomain yieldDomain(double yieldStress, const Eigen::Array3d& norm) {
 // left climbs monotonically and ends when it no longer climbs.
 double YieldDomain::multiplier(const Eigen::Array3d& s) const {
   const Eigen::Array3d square = a_ * (s / yieldStress_).square();
+  constexpr double last = 1e-9;
   double m = 0;
   for (int iteration = 0; iteration < 60; ++iteration) {
     const Eigen::Array3d c = 1 / (1 + m * b_);
     const Eigen::Array3d phi = square * c * c;
     const double value = phi.sum();
     const double step = value * (std::sqrt(value) - 1) / (phi * c * b_).sum();
-    if (!(step > 4 * std::numeric_limits<double>::epsilon() * m)) break;
+    if (!(step > 0)) break;
     m += step;
+    if (step <= last * m) break;
   }
   return m;
 }
 
-// From a . P^2 = sigma_Y^2:  dP = c dt - t b c^2 dm,  c = 1/(1 + m b),  dm = (a t c^2 . dt)/(a b t^2 c^3 .
-// 1), so 1 - P_B' = diag(m b c) + x y'/z; kappa < 1 then divides each by (1 + kappa m b)/(1 + m b).
+// From a . P^2 = sigma_Y^2, with c = 1/(1 + m b):
+//   dP = c dt - t b c^2 dm,  dm = (a t c^2 . dt)/(sum of a b t^2 c^3),
+// so 1 - P_B' = diag(m b c) + x y'/z; kappa < 1 then divides each by (1 + kappa m b)/(1 + m b).
 ProjectionOnYield YieldDomain::project(const Eigen::Array3d& t, double kappa) const {
   const double m = multiplier(t);
   const Eigen::Array3d c = 1 / (1 + m * b_);

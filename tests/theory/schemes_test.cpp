@@ -35,8 +35,9 @@ void print(Scheme scheme, const char* what, double order, const std::vector<doub
   std::cout << "\n";
 }
 
-RunReport runWith(const Model& model, State& state, Scheme scheme, double end, int steps,
-                  const Observer& observer = [](const State&, const StepReport&) {}) {
+RunReport runWith(
+    const Model& model, State& state, Scheme scheme, double end, int steps,
+    const Observer& observer = [](const State&, const StepReport&) {}) {
   return march(model, state, {.end = end, .steps = steps, .scheme = scheme}, {}, observer);
 }
 
@@ -59,8 +60,7 @@ double compressionError(Scheme scheme, int steps) {
 // is so good at first that its order shows late.
 TEST(Schemes, ordersOnTheNotesTest) {
   const std::pair<const char*, std::vector<int>> sequences[] = {
-      {"steps that land on first yield", {80, 160, 320, 640}},
-      {"steps that miss it", {13, 23, 43, 83, 163}}};
+      {"steps that land on first yield", {80, 160, 320, 640}}, {"steps that miss it", {13, 23, 43, 83, 163}}};
   for (const auto& [what, counts] : sequences)
     for (const Scheme scheme : schemes) {
       SCOPED_TRACE(std::string(nameOf(scheme)) + ", " + what);
@@ -108,9 +108,7 @@ struct Relaxation {
   double rate = 2;       ///< [1/s]
   double overshoot = 1;  ///< s0/yield - 1
 
-  [[nodiscard]] double yield() const {
-    return loading == Loading::equibiaxial ? 1 : 1 / std::numbers::sqrt3;
-  }
+  [[nodiscard]] double yield() const { return loading == Loading::equibiaxial ? 1 : 1 / std::numbers::sqrt3; }
   [[nodiscard]] double start() const { return yield() * (1 + overshoot); }
 
   /// Stress after `steps` steps to time `end`; NaN where it is not the same in all triangles.

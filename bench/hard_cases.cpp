@@ -1,0 +1,38 @@
+// One row for each hard case: hard_cases [part of a name] [--fast]
+#include <cstdio>
+#include <cstring>
+#include <string>
+
+#include "theory/hard_cases.h"
+
+int main(int argc, char** argv) {
+  using namespace mortier;
+  std::string part;
+  bool fast = false;
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--fast") == 0)
+      fast = true;
+    else
+      part = argv[i];
+  }
+  std::printf("%-78s %-9s %-12s %5s %5s %8s %8s %8s %8s %8s\n", "case", "status", "rung", "iter", "worst",
+              "balance", "material", "gap", "compl", "s");
+  int missed = 0;
+  for (const hardcases::HardCase& hard : hardcases::hardCases()) {
+    if (hard.name.find(part) == std::string::npos || (fast && hard.slow)) continue;
+    const hardcases::HardResult result = hardcases::solve(hard.model(), hard.plan);
+    const RunReport& report = result.report;
+    const char* status = report.status == Status::converged ? "converged"
+                         : report.status == Status::unheld  ? "unheld"
+                                                            : "failed";
+    std::printf("%-78s %-9s %-12s %5d %5d %8.1e %8.1e %8.1e %8.1e %8.3f%s\n", hard.name.c_str(), status,
+                result.rung.c_str(), report.iterations, report.maxIterationsInAStep,
+                report.worst.forceBalance, report.worst.materialResidual, report.worst.gapOnActive,
+                report.worst.complementarity, result.seconds,
+                result.meetsLimits() ? "" : "  <-- limits not met");
+    if (!report.reason.empty()) std::printf("    %s\n", report.reason.c_str());
+    std::fflush(stdout);
+    missed += result.meetsLimits() ? 0 : 1;
+  }
+  std::printf("%d cases beyond the limits\n", missed);
+}
