@@ -1,6 +1,7 @@
 #include "solver/body_system.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "base/double_double.h"
@@ -79,8 +80,13 @@ void BodySystem::findRigidMotions() {
 double BodySystem::linearise(const MaterialStep& step, BodyIterate& iterate) {
   const double residual = body_.material().linearise(step, iterate.stress, law_, 0, body_.points());
   if (residual == 0) return 0;
-  const double scale = body_.material().stressScale();
-  return residual / (scale > 0 ? scale : law_.predictor.cwiseAbs().maxCoeff());
+  if (body_.material().stressScale() > 0) return residual / body_.material().stressScale();
+  // An elastic body has no stress of its own to measure with. The largest in it serves, but not below what the rounding
+  // of its displacement makes of a rigid motion: tolerances of 1e-10 times this part are 1e-14 of E |du|/L.
+  constexpr double rigidPart = 1e-4;
+  const double rigid =
+      law_.moduli.cwiseAbs().maxCoeff() * iterate.increment.cwiseAbs().maxCoeff() / extent(body_.mesh());
+  return residual / std::max(law_.predictor.cwiseAbs().maxCoeff(), rigidPart * rigid);
 }
 
 std::string BodySystem::factorise() {
@@ -96,9 +102,14 @@ std::string BodySystem::factorise() {
   }
   if (!factorised_) return "body " + body_.name() + ": its tangent is singular with its contact nodes held";
   if (!inContact()) return {};
-  // Rigid motions get a stiffness of their own; as z carries them it never acts.
+  // Rigid motions get a stiffness of their own; as z carries them it never acts. It is taken from the tangent: where few
+  // nodes are in contact the Schur complement itself may be nothing but rounding.
   Matrix S = solver_->schurComplement();
-  if (R_.cols() > 0) S += S.diagonal().maxCoeff() * R_ * R_.transpose();
+  if (R_.cols() > 0) {
+    double stiffness = 0;
+    for (const double value : values_) stiffness = std::max(stiffness, std::abs(value));
+    S += stiffness * R_ * R_.transpose();
+  }
   if (body_.pattern().symmetric) {
     cholesky_.compute(S);
     factorised_ = cholesky_.info() == Eigen::Success;

@@ -53,8 +53,9 @@ class Pivoting {
   /// What the proximal term still carries of the balance, against all forces in it.
   [[nodiscard]] double imbalance(const ContactSolution& solution) const {
     const Vector rest = balance_ - problem_.G.transpose() * solution.change;
-    const double scale = balance_.cwiseAbs().maxCoeff() +
-                         (problem_.G.cwiseAbs().transpose() * (p0_ + solution.change).cwiseAbs()).maxCoeff();
+    const Vector forces = p0_.cwiseAbs() + (p0_ + solution.change).cwiseAbs();
+    const double scale =
+        balance_.cwiseAbs().maxCoeff() + (problem_.G.cwiseAbs().transpose() * forces).maxCoeff();
     return scale > 0 ? rest.cwiseAbs().maxCoeff() / scale : 0;
   }
 

@@ -31,7 +31,7 @@ class March {
       const StepOutcome outcome = step(time);
       report.iterations += outcome.iterations;
       report.factorisations += outcome.factorisations;
-      report.certificate = worse(report.certificate, outcome.certificate);
+      if (outcome.converged) report.certificate = worse(report.certificate, outcome.certificate);
       if (outcome.rung != "newton" && report.rung == "newton") report.rung = outcome.rung;
       if (outcome.converged) {
         ++done;
