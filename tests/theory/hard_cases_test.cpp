@@ -156,13 +156,13 @@ TEST(Unheld, bodyWithoutContactIsNamed) {
   expectNames(unheldMessage(model), "loose", "translation along (0, 1)");
 }
 
-// The load turns round at t = 0.3, within a step, and pulls a block off that only contact holds.
+// The load turns round at t = 0.3, within a step or at its end, and pulls a block off that only contact holds.
 TEST(Unheld, pullOffEndsAtTheLastEquilibrium) {
   constexpr double balance = 1e-10;
   const Function load = [](double, double, double t) { return -10 * (1 - t / 0.3); };
   for (const bool elastic : {true, false})
     for (const CouplingKind coupling : couplings)
-      for (const int steps : {7, 13, 23}) {
+      for (const int steps : {7, 13, 20, 23}) {
         const auto material = elastic ? elasticMaterial(noteElasticity)
                                       : perzynaMaterial(noteElasticity, noteLaw(Projection::frobenius));
         Body upper("upper", square(0, 4), material, {{{left, 0, constant(0)}}, {{top, 1, load}}, {}});
@@ -367,14 +367,10 @@ class RandomScene {
 
 TEST(RandomScenes, agreeWithTrialOfAllActiveSets) {
   constexpr int count = 1000;
-  // Scenes that miss it: a body that moves rigidly without stress, whose residual has nothing to be measured
-  // against; a block that one nonmortar node alone holds up (637, 749, 937).
-  const std::vector<unsigned> open{21, 57, 324, 343, 391, 470, 637, 670, 729, 749, 785, 810, 937, 992};
   constexpr double tolerance = 1e-9;
   double worstForce = 0;
   double worstDisplacement = 0;
   for (unsigned seed = 0; seed < count; ++seed) {
-    if (std::find(open.begin(), open.end(), seed) != open.end()) continue;
     SCOPED_TRACE("seed " + std::to_string(seed));
     const RandomScene scene(seed);
     const Model model = scene.model();
@@ -393,7 +389,7 @@ TEST(RandomScenes, agreeWithTrialOfAllActiveSets) {
     worstForce = std::max(worstForce, force);
     worstDisplacement = std::max(worstDisplacement, displacement);
   }
-  std::cout << count - open.size() << " random scenes: forces agree to " << worstForce
+  std::cout << count << " random scenes: forces agree to " << worstForce
             << ", displacements to " << worstDisplacement << "\n";
 }
 
