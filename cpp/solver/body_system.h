@@ -35,6 +35,7 @@ class BodySystem {
   [[nodiscard]] bool refactorised() const { return refactorised_; }
   /// From now on CHOLMOD or UMFPACK.
   void useLibraries();
+  [[nodiscard]] bool usesLibraries() const { return engine_ == LinearEngine::suitesparse; }
 
   /// Condenses nodal forces (dofs) left over; \returns S^-1 f on the contact dofs.
   Vector condense(const Vector& force);

@@ -27,6 +27,17 @@ std::vector<int> numberRows(const Model& model) {
 
 }  // namespace
 
+ActiveSets startingSets(const State& state0) {
+  ActiveSets sets;
+  for (const Vector& p : state0.contactForce) {
+    const bool none = p.size() == 0 || p.maxCoeff() <= 0;
+    std::vector<char> active(p.size());
+    for (Eigen::Index i = 0; i < p.size(); ++i) active[i] = none || p[i] > 0 ? 1 : 0;
+    sets.push_back(std::move(active));
+  }
+  return sets;
+}
+
 StepSolver::StepSolver(const Model& model, const SolverOptions& options)
     : model_(model), options_(options), firstRow_(numberRows(model)), firstMotion_{0} {
   int triangles = 0;
@@ -71,13 +82,19 @@ Iterate StepSolver::start(const State& state0) const {
     iterate.bodies.push_back(
         {Vector::Zero(body.displacement.size()), Vector::Zero(body.displacement.size()), body.stress, {}});
   iterate.contactForce = state0.contactForce;
-  for (const Vector& p : state0.contactForce) {
-    const bool none = p.size() == 0 || p.maxCoeff() <= 0;
-    std::vector<char> active(p.size());
-    for (Eigen::Index i = 0; i < p.size(); ++i) active[i] = none || p[i] > 0 ? 1 : 0;
-    iterate.active.push_back(std::move(active));
-  }
+  iterate.active = startingSets(state0);
   return iterate;
+}
+
+std::vector<char> StepSolver::libraries() const {
+  std::vector<char> bodies;
+  for (const BodySystem& system : systems_) bodies.push_back(system.usesLibraries() ? 1 : 0);
+  return bodies;
+}
+
+void StepSolver::useLibraries(const std::vector<char>& bodies) {
+  for (size_t b = 0; b < bodies.size(); ++b)
+    if (bodies[b] != 0) systems_[b].useLibraries();
 }
 
 void StepSolver::prescribe(const State& state0, double time, Iterate& iterate) const {

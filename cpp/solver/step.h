@@ -21,11 +21,17 @@
 
 namespace mortier {
 
+/// Per interface and nonmortar node, whether it is held closed.
+using ActiveSets = std::vector<std::vector<char>>;
+
+/// The sets with which a step from `state0` begins: where there was a force, or everywhere if there was none.
+ActiveSets startingSets(const State& state0);
+
 /// The unknowns of a step.
 struct Iterate {
   std::vector<BodyIterate> bodies;
-  std::vector<Vector> contactForce;       ///< p per interface
-  std::vector<std::vector<char>> active;  ///< per interface
+  std::vector<Vector> contactForce;  ///< p per interface
+  ActiveSets active;
 };
 
 /// What is asked of a step.
@@ -55,6 +61,10 @@ class StepSolver {
 
   /// Solves from `guess`, falling back to a start from `state0`; the solution is left in `guess`.
   StepOutcome solve(const State& state0, const StepData& step, Iterate& guess);
+
+  /// Per body, whether SuiteSparse has taken over; empty: nowhere.
+  [[nodiscard]] std::vector<char> libraries() const;
+  void useLibraries(const std::vector<char>& bodies);
 
  private:
   void requireHeld();

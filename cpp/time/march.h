@@ -2,10 +2,11 @@
 #pragma once
 
 #include <functional>
-#include <string>
 
 #include "solver/model.h"
 #include "solver/state.h"
+#include "time/memory.h"
+#include "time/report.h"
 #include "time/scheme.h"
 
 namespace mortier {
@@ -14,17 +15,6 @@ struct TimePlan {
   double end = 1;  ///< T [s]
   int steps = 1;   ///< N equal steps
   Scheme scheme = Scheme::backwardEuler;
-};
-
-struct RunReport {
-  Status status = Status::converged;
-  std::string reason;  ///< one line when the status is not converged
-  int steps = 0;       ///< completed
-  int iterations = 0;
-  int maxIterationsInAStep = 0;
-  int factorisations = 0;
-  double solveSeconds = 0;  ///< wall time of the march without its observer
-  Certificate worst;        ///< the largest residuals of any step
 };
 
 /// Called for the initial state (report.step == 0) and after every converged step.
@@ -37,5 +27,10 @@ State initialState(const Model& model);
 /// \throws UnheldBodyError when nothing holds a body.
 RunReport march(const Model& model, State& state, const TimePlan& plan, const SolverOptions& options,
                 const Observer& observer);
+
+/// The same from a `memory` that the caller keeps. Whenever the observer is called, `state` and `memory` are
+/// what a later call needs to go on from there (the plan unchanged): it does not repeat the initial state.
+RunReport march(const Model& model, State& state, MarchMemory& memory, const TimePlan& plan,
+                const SolverOptions& options, const Observer& observer);
 
 }  // namespace mortier

@@ -4,6 +4,15 @@
 
 namespace mortier {
 
+void compareActive(const ActiveSets& before, const ActiveSets& after, StepReport& report) {
+  for (size_t k = 0; k < before.size(); ++k)
+    for (size_t i = 0; i < before[k].size(); ++i) {
+      report.active += after[k][i];
+      report.joined += after[k][i] > before[k][i] ? 1 : 0;
+      report.left += after[k][i] < before[k][i] ? 1 : 0;
+    }
+}
+
 void measure(const Model& model, const State& state, StepReport& report) {
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];

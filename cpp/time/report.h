@@ -1,0 +1,21 @@
+// What is reported of a whole run.
+#pragma once
+
+#include <string>
+
+#include "solver/state.h"
+
+namespace mortier {
+
+struct RunReport {
+  Status status = Status::converged;
+  std::string reason;  ///< one line when the status is not converged
+  int steps = 0;       ///< completed
+  int iterations = 0;
+  int maxIterationsInAStep = 0;
+  int factorisations = 0;
+  double solveSeconds = 0;  ///< wall time of the march without its observer
+  Certificate worst;        ///< the largest residuals of any step
+};
+
+}  // namespace mortier
