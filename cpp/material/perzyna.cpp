@@ -4,8 +4,10 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/lanes.h"
 #include "material/stress.h"
 #include "material/yield_domain.h"
+#include "material/yield_lanes.h"
 
 namespace mortier {
 namespace {
@@ -19,20 +21,32 @@ void require(bool holds, const char* name, double value, const char* expected) {
   throw InputError(message.str());
 }
 
-/// Writes diag(d) - c x y' as a 3 x 3 matrix, column major.
-void storeModuli(const Array3d& d, double c, const Array3d& x, const Array3d& y, double* moduli) {
+/// diag(d) - c x y' as a 3 x 3 matrix, column major.
+std::array<Lanes, 9> diagonalMinusRankOne(const LaneVector& d, const Lanes& c, const LaneVector& x,
+                                          const LaneVector& y) {
+  std::array<Lanes, 9> result;
   for (int j = 0; j < 3; ++j) {
-    for (int i = 0; i < 3; ++i) moduli[3 * j + i] = -(c * x[i]) * y[j];
-    moduli[3 * j + j] += d[j];
+    for (int i = 0; i < 3; ++i) result[3 * j + i] = -(c * x[i]) * y[j];
+    result[3 * j + j] += d[j];
   }
+  return result;
 }
 
-/// The largest entry so far; NaN stays.
-double largest(double soFar, const Array3d& x) {
-  for (int i = 0; i < 3; ++i)
-    if (!(std::abs(x[i]) <= soFar)) soFar = std::abs(x[i]);
-  return soFar;
-}
+/// The largest |x| so far; NaN and infinity stay, as NaN.
+class Largest {
+ public:
+  void add(const LaneVector& x) {
+    for (const Lanes& entry : x) {
+      soFar_ = max(soFar_, abs(entry));
+      poison_ += entry * 0;
+    }
+  }
+  [[nodiscard]] double value() const { return hmax(soFar_) + std::experimental::reduce(poison_); }
+
+ private:
+  Lanes soFar_ = 0;
+  Lanes poison_ = 0;
+};
 
 class Elastic final : public Material {
  public:
@@ -46,14 +60,24 @@ class Elastic final : public Material {
 
   double linearise(const MaterialStep& step, const Matrix& stress, Linearisation& result, int begin,
                    int end) const override {
-    double residual = 0;
-    for (int i = begin; i < end; ++i) {
-      const Array3d s1 = step.stress0.col(i).array() + e_ * step.strain.col(i).array();
-      residual = largest(residual, s1 - stress.col(i).array());
-      result.predictor.col(i) = s1;
-      storeModuli(e_, 0, e_, e_, &result.moduli(0, i));
+    Largest residual;
+    const LaneVector zero{};
+    const std::array<Lanes, 9> moduli = diagonalMinusRankOne({e_[0], e_[1], e_[2]}, 0, zero, zero);
+    for (int i = begin; i < end; i += laneCount) {
+      const Batch batch(i, end);
+      const LaneVector strain = batch.load<3>(step.strain.data());
+      const LaneVector s = batch.load<3>(stress.data());
+      LaneVector s1 = batch.load<3>(step.stress0.data());
+      LaneVector change;
+      for (int c = 0; c < 3; ++c) {
+        s1[c] += e_[c] * strain[c];
+        change[c] = s1[c] - s[c];
+      }
+      residual.add(change);
+      batch.store(s1, result.predictor.data());
+      batch.store(moduli, result.moduli.data());
     }
-    return residual;
+    return residual.value();
   }
 
   void viscoplasticRate(const Matrix& stress, Matrix& rate) const override {
@@ -75,7 +99,8 @@ class Perzyna final : public Material {
   Perzyna(const Elasticity& elasticity, const Viscoplasticity& law)
       : e_(elasticity.moduli()),
         law_(law),
-        domain_(yieldDomain(law.yieldStress, projectionNorm(law.projection))) {}
+        domain_(yieldDomain(law.yieldStress, projectionNorm(law.projection))),
+        lanes_(law.yieldStress, projectionNorm(law.projection)[0] / projectionNorm(law.projection)[1]) {}
 
   [[nodiscard]] int components() const override { return 3; }
   [[nodiscard]] bool symmetricTangent() const override { return law_.projection == Projection::frobenius; }
@@ -94,35 +119,21 @@ class Perzyna final : public Material {
   // moves by up to E v while v is small, never far beyond the yield surface when it is large.
   double linearise(const MaterialStep& step, const Matrix& stress, Linearisation& result, int begin,
                    int end) const override {
-    constexpr double reach = 100;  // in yield stresses, for v >> sigma_Y/E
-    const double theta = step.weight / (2 * law_.viscosity);
-    double residual = 0;
-    for (int i = begin; i < end; ++i) {
-      const Array3d s = stress.col(i).array();
-      const Array3d v = step.strain.col(i).array() - (s - step.stress0.col(i).array()) / e_;
-      const double c =
-          step.anticipate ? 1 / (1 / e_[1] + v.matrix().norm() / (reach * law_.yieldStress)) : 0.0;
-      const Array3d t = s + c * v;
-      Array3d increment;
-      if (!domain_.yields(t)) {
-        increment = e_ * v;
-        storeModuli(e_, 0, e_, e_, &result.moduli(0, i));
-      } else {
-        const double kappa = 1 / (1 + c * theta);
-        const ProjectionOnYield P = domain_.project(t, kappa);
-        Array3d r = v - theta * kappa * P.overstress;
-        if (c > 0) r = P.stretch * r + c * theta * (P.y * r).sum() / P.z * P.x;
-        const Array3d h = (1 / e_ + theta * kappa * P.softening).inverse();
-        const Array3d hx = h * P.x;
-        const Array3d hy = h * P.y;
-        const double rankOne = theta / (P.z + theta * (P.y * hx).sum());
-        increment = h * r - rankOne * (hy * r).sum() * hx;
-        storeModuli(h, rankOne, hx, hy, &result.moduli(0, i));
-      }
-      residual = largest(residual, increment);
-      result.predictor.col(i) = s + increment;
+    Largest residual;
+    for (int i = begin; i < end; i += laneCount) {
+      const Batch batch(i, end);
+      const LaneVector s = batch.load<3>(stress.data());
+      const LaneVector s0 = batch.load<3>(step.stress0.data());
+      LaneVector v = batch.load<3>(step.strain.data());
+      for (int k = 0; k < 3; ++k) v[k] -= (s[k] - s0[k]) / e_[k];
+      const LinearisedLanes law = lineariseLanes(step, s, v);
+      residual.add(law.increment);
+      LaneVector predictor = s;
+      for (int k = 0; k < 3; ++k) predictor[k] += law.increment[k];
+      batch.store(predictor, result.predictor.data());
+      batch.store(law.moduli, result.moduli.data());
     }
-    return residual;
+    return residual.value();
   }
 
   void viscoplasticRate(const Matrix& stress, Matrix& rate) const override {
@@ -145,6 +156,52 @@ class Perzyna final : public Material {
   }
 
  private:
+  struct LinearisedLanes {
+    LaneVector increment;  ///< H^-1 r
+    std::array<Lanes, 9> moduli;
+  };
+
+  [[nodiscard]] LinearisedLanes lineariseLanes(const MaterialStep& step, const LaneVector& s,
+                                               const LaneVector& v) const {
+    constexpr double reach = 100;  // in yield stresses, for v >> sigma_Y/E
+    const double theta = step.weight / (2 * law_.viscosity);
+    Lanes c = 0;
+    LaneVector t = s;
+    if (step.anticipate) {
+      c = 1 / (1 / e_[1] + sqrt(dot(v, v)) / (reach * law_.yieldStress));
+      for (int k = 0; k < 3; ++k) t[k] += c * v[k];
+    }
+    LaneVector h{e_[0], e_[1], e_[2]};
+    LaneVector r = v;
+    LaneVector hx{};
+    LaneVector hy{};
+    Lanes rankOne = 0;
+    const LaneMask flowing = lanes_.yields(t);
+    if (any_of(flowing)) {
+      const Lanes kappa = step.anticipate ? 1 / (1 + c * theta) : Lanes(1);
+      const LaneProjection P = lanes_.project(t, kappa, flowing);
+      for (int k = 0; k < 3; ++k) r[k] = select(flowing, v[k] - theta * kappa * P.overstress[k], v[k]);
+      if (step.anticipate) {
+        const Lanes along = c * theta * dot(P.y, r) / P.z;
+        for (int k = 0; k < 3; ++k)
+          r[k] = select(flowing, P.stretch[k == 0 ? 0 : 1] * r[k] + along * P.x[k], v[k]);
+      }
+      const Lanes hp = 1 / (1 / e_[0] + theta * kappa * P.softening[0]);
+      const Lanes hq = 1 / (1 / e_[1] + theta * kappa * P.softening[1]);
+      for (int k = 0; k < 3; ++k) {
+        h[k] = select(flowing, k == 0 ? hp : hq, h[k]);
+        hx[k] = h[k] * P.x[k];
+        hy[k] = h[k] * P.y[k];
+      }
+      rankOne = select(flowing, theta / (P.z + theta * dot(P.y, hx)), 0);
+    }
+    LinearisedLanes result;
+    const Lanes along = rankOne * dot(hy, r);
+    for (int k = 0; k < 3; ++k) result.increment[k] = h[k] * r[k] - along * hx[k];
+    result.moduli = diagonalMinusRankOne(h, rankOne, hx, hy);
+    return result;
+  }
+
   /// Weights of the norm on p, q, r; only their ratios matter.
   [[nodiscard]] Array3d projectionNorm(Projection projection) const {
     switch (projection) {
@@ -161,6 +218,7 @@ class Perzyna final : public Material {
   Array3d e_;
   Viscoplasticity law_;
   YieldDomain domain_;
+  YieldLanes lanes_;
 };
 
 void check(const Elasticity& elasticity) {

@@ -123,6 +123,56 @@ TEST(Perzyna, newtonEndsAtTheSolvedStress) {
   }
 }
 
+// Points are computed in batches; none may see its neighbours, and the last batch is not full.
+TEST(Perzyna, pointsOfABatchAreIndependent) {
+  constexpr int points = 43;
+  constexpr double weight = 1e-3;
+  std::mt19937 random(3);
+  for (const Projection projection : projections) {
+    const Elasticity elasticity{3e11, 0.3};
+    const auto material = perzynaMaterial(elasticity, {10, 1, projection});
+    Matrix stress0(3, points);
+    Matrix stress(3, points);
+    Matrix strain(3, points);
+    for (int i = 0; i < points; ++i) {
+      const double size = i % 3 == 0 ? 0.4 : std::pow(10, i % 7);  // elastic ones between flowing ones
+      stress0.col(i) = randomStress(random, 0.3);
+      stress.col(i) = randomStress(random, size);
+      strain.col(i) = randomStress(random, size).array() / elasticity.moduli();
+    }
+    for (const bool anticipate : {false, true}) {
+      Linearisation all{Matrix(3, points), Matrix(9, points)};
+      Linearisation parts{Matrix(3, points), Matrix(9, points)};
+      const MaterialStep step{weight, stress0, strain, anticipate};
+      const double residual = material->linearise(step, stress, all, 0, points);
+      double largest = 0;
+      for (const auto& [begin, end] : {std::pair{0, 5}, std::pair{5, 21}, std::pair{21, points}})
+        largest = std::max(largest, material->linearise(step, stress, parts, begin, end));
+      EXPECT_TRUE(all.predictor == parts.predictor && all.moduli == parts.moduli);
+      EXPECT_EQ(residual, largest);
+      EXPECT_EQ(residual, (all.predictor - stress).cwiseAbs().maxCoeff());
+      for (const int i : {0, 1, 13, points - 1}) {
+        const Answer alone =
+            linearise(*material, weight, stress0.col(i), strain.col(i), stress.col(i), anticipate);
+        EXPECT_TRUE(alone.predictor == all.predictor.col(i));
+      }
+    }
+  }
+}
+
+TEST(Perzyna, residualOfAnUndefinedStressIsNotANumber) {
+  constexpr int points = 11;
+  for (const auto& material : {elasticMaterial({3e11, 0.3}), perzynaMaterial({3e11, 0.3}, {10, 1})})
+    for (const double undefined : {std::nan(""), std::numeric_limits<double>::infinity()})
+      for (const int where : {0, 4, points - 1}) {
+        const Matrix zero = Matrix::Zero(3, points);
+        Matrix stress = zero;
+        stress(1, where) = undefined;
+        Linearisation result{Matrix(3, points), Matrix(9, points)};
+        EXPECT_FALSE(std::isfinite(material->linearise({0.1, zero, zero}, stress, result, 0, points)));
+      }
+}
+
 TEST(Perzyna, tangentIsSymmetricExactlyWhenItSaysSo) {
   constexpr double rounding = 4 * epsilon;
   constexpr double clearly = 1e-2;
