@@ -46,7 +46,8 @@ Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> 
     : name_(std::move(name)),
       mesh_(std::move(mesh)),
       material_(std::move(material)),
-      conditions_(std::move(conditions)) {
+      conditions_(std::move(conditions)),
+      supports_(mesh_, conditions_.displacements) {
   for (const auto& condition : conditions_.displacements) requireLabel(mesh_, name_, condition.label);
   for (const auto& condition : conditions_.tractions) requireLabel(mesh_, name_, condition.label);
   for (const auto& triangle : mesh_.triangles) {
@@ -62,10 +63,16 @@ Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> 
 
 void Body::numberEquations() {
   equations_.assign(dofs(), 0);
-  for (const auto& condition : conditions_.displacements)
-    forEachEdge(mesh_, condition.label, [&](const std::array<int, 2>& edge) {
-      for (const int vertex : edge) equations_[2 * vertex + condition.component] = -1;
-    });
+  for (const NodeSupport& support : supports_.nodes()) {
+    const Point& d = support.directions[0];
+    if (support.count == 2) equations_[2 * support.node] = equations_[2 * support.node + 1] = -1;
+    // A turned node has its normal first.
+    if (support.count == 1) equations_[2 * support.node + (d.x() == 0 ? 1 : 0)] = -1;
+    if (!support.turned()) continue;
+    if (frameOf_.empty()) frameOf_.assign(nodes(), -1);
+    frameOf_[support.node] = static_cast<int>(frames_.size());
+    frames_.push_back(Eigen::Matrix2d{{d.x(), d.y()}, {-d.y(), d.x()}});
+  }
   pattern_.size = 0;
   for (int& equation : equations_)
     if (equation == 0) equation = pattern_.size++;
@@ -104,28 +111,94 @@ void Body::buildPattern() {
   }
 
   scatter_.assign(mesh_.triangles.size() * elementDofs * elementDofs, -1);
-  for (size_t t = 0; t < mesh_.triangles.size(); ++t)
-    for (int j = 0; j < elementDofs; ++j)
-      for (int i = 0; i < elementDofs; ++i) {
-        const auto& triangle = mesh_.triangles[t];
-        const int column = equations_[2 * triangle[j / 2] + j % 2];
-        const int row = equations_[2 * triangle[i / 2] + i % 2];
-        if (column < 0 || row < 0 || (row < column && pattern_.symmetric)) continue;
-        const auto begin = pattern_.rows.begin() + pattern_.columnStart[column];
-        const auto end = pattern_.rows.begin() + pattern_.columnStart[column + 1];
-        scatter_[(t * elementDofs + j) * elementDofs + i] =
-            static_cast<int>(std::lower_bound(begin, end, row) - pattern_.rows.begin());
-      }
+  for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    const auto& triangle = mesh_.triangles[t];
+    const Entries entries = entriesOf(triangle);
+    const auto isTurned = [&](int v) { return !frameOf_.empty() && frameOf_[v] >= 0; };
+    if (std::any_of(triangle.begin(), triangle.end(), isTurned))
+      turned_.push_back({static_cast<int>(t), entries});
+    else
+      std::copy(entries.begin(), entries.end(), scatter_.begin() + t * elementDofs * elementDofs);
+  }
+}
+
+Body::Entries Body::entriesOf(const std::array<int, 3>& triangle) const {
+  Entries entries;
+  entries.fill(-1);
+  for (int j = 0; j < elementDofs; ++j)
+    for (int i = 0; i < elementDofs; ++i) {
+      const int column = equations_[2 * triangle[j / 2] + j % 2];
+      const int row = equations_[2 * triangle[i / 2] + i % 2];
+      if (column < 0 || row < 0 || (row < column && pattern_.symmetric)) continue;
+      const auto begin = pattern_.rows.begin() + pattern_.columnStart[column];
+      const auto end = pattern_.rows.begin() + pattern_.columnStart[column + 1];
+      entries[elementDofs * j + i] =
+          static_cast<int>(std::lower_bound(begin, end, row) - pattern_.rows.begin());
+    }
+  return entries;
+}
+
+std::array<Body::Part, 2> Body::parts(int node, const Point& vector) const {
+  const int frame = frameOf_.empty() ? -1 : frameOf_[node];
+  const Point turned = frame < 0 ? vector : Point(frames_[frame] * vector);
+  return {Part{equations_[2 * node], turned.x()}, Part{equations_[2 * node + 1], turned.y()}};
+}
+
+Vector Body::gather(const Vector& nodal) const {
+  Vector x(freeDofs());
+  for (int dof = 0; dof < dofs(); ++dof)
+    if (equations_[dof] >= 0) x[equations_[dof]] = nodal[dof];
+  for (const NodeSupport& support : supports_.nodes()) {
+    if (!support.turned()) continue;
+    const Point vector = nodal.segment<2>(2 * support.node);
+    for (const auto& [equation, value] : parts(support.node, vector))
+      if (equation >= 0) x[equation] = value;
+  }
+  return x;
+}
+
+Vector Body::spread(const Vector& x) const {
+  Vector nodal = Vector::Zero(dofs());
+  for (int dof = 0; dof < dofs(); ++dof)
+    if (equations_[dof] >= 0) nodal[dof] = x[equations_[dof]];
+  for (const NodeSupport& support : supports_.nodes())
+    if (support.turned())
+      nodal.segment<2>(2 * support.node) =
+          frames_[frameOf_[support.node]].row(1).transpose() * x[equations_[2 * support.node + 1]];
+  return nodal;
+}
+
+Point Body::prescribedAt(const NodeSupport& support, double t, const Point& u) const {
+  const Point& x = mesh_.vertices[support.node];
+  std::array<double, 2> values{0, 0};
+  for (int i = 0; i < support.count; ++i)
+    values[i] = conditions_.displacements[support.conditions[i]].value(x.x(), x.y(), t);
+  return prescribed(support, values, u);
 }
 
 void Body::prescribe(double t, Vector& u) const {
-  for (const auto& condition : conditions_.displacements)
-    forEachEdge(mesh_, condition.label, [&](const std::array<int, 2>& edge) {
-      for (const int vertex : edge) {
-        const Point& x = mesh_.vertices[vertex];
-        u[2 * vertex + condition.component] = condition.value(x.x(), x.y(), t);
-      }
-    });
+  for (const NodeSupport& support : supports_.nodes())
+    u.segment<2>(2 * support.node) = prescribedAt(support, t, u.segment<2>(2 * support.node));
+}
+
+void Body::prescribeIncrement(double t, const Vector& u0, Vector& increment, Vector& small) const {
+  for (const NodeSupport& support : supports_.nodes()) {
+    const int dof = 2 * support.node;
+    const Point before = u0.segment<2>(dof);
+    const Point change = prescribedAt(support, t, before) - before;
+    if (support.count == 2) {
+      increment.segment<2>(dof) = change;
+      small.segment<2>(dof).setZero();
+    } else if (!support.turned()) {
+      const int c = support.directions[0].x() == 0 ? 1 : 0;
+      increment[dof + c] = change[c];
+      small[dof + c] = 0;
+    } else {
+      const Point& n = support.directions[0];
+      increment.segment<2>(dof) += n.dot(change - increment.segment<2>(dof)) * n;
+      small.segment<2>(dof) -= n.dot(small.segment<2>(dof)) * n;
+    }
+  }
 }
 
 Vector Body::load(double t) const {
@@ -137,10 +210,16 @@ Vector Body::load(double t) const {
       const Point& a = mesh_.vertices[edge[0]];
       const Point& b = mesh_.vertices[edge[1]];
       const Point m = (a + b) / 2;
-      const double length = (b - a).norm();
+      // Its direction times the length of the edge.
+      const Point along = b - a;
+      const double length = along.norm();
+      const Point direction = traction.component == alongX        ? Point(length, 0)
+                              : traction.component == alongY      ? Point(0, length)
+                              : traction.component == alongNormal ? Point(along.y(), -along.x())
+                                                                  : along;
       const double middle = 2 * traction.value(m.x(), m.y(), t);
-      f[2 * edge[0] + traction.component] += length / 6 * (traction.value(a.x(), a.y(), t) + middle);
-      f[2 * edge[1] + traction.component] += length / 6 * (traction.value(b.x(), b.y(), t) + middle);
+      f.segment<2>(2 * edge[0]) += (traction.value(a.x(), a.y(), t) + middle) / 6 * direction;
+      f.segment<2>(2 * edge[1]) += (traction.value(b.x(), b.y(), t) + middle) / 6 * direction;
     });
   for (const auto& force : conditions_.forces)
     for (const auto& triangle : mesh_.triangles) {
@@ -251,6 +330,28 @@ void Body::tangent(const Matrix& moduli, std::vector<double>& values) const {
         }
       }
     }
+  }
+  addTurned(moduli, values);
+}
+
+void Body::addTurned(const Matrix& moduli, std::vector<double>& values) const {
+  for (const auto& [t, entries] : turned_) {
+    // B T: strains of the motions along the frames of the nodes.
+    Eigen::Matrix<double, 3, elementDofs> B;
+    const double* G = &gradients_[static_cast<size_t>(elementDofs) * t];
+    for (int a = 0; a < Element::nodes; ++a) {
+      const double gx = G[2 * a];
+      const double gy = G[2 * a + 1];
+      Eigen::Matrix<double, 3, 2> Ba{{gx, gy}, {gx, -gy}, {gy, gx}};
+      const int frame = frameOf_[mesh_.triangles[t][a]];
+      if (frame >= 0) Ba = Ba * frames_[frame].transpose();
+      B.middleCols<2>(2 * a) = Ba;
+    }
+    const Eigen::Map<const Eigen::Matrix3d> D(&moduli(0, t));
+    const Eigen::Matrix<double, elementDofs, elementDofs> K = weights_[t] * (B.transpose() * D * B);
+    for (int j = 0; j < elementDofs; ++j)
+      for (int i = 0; i < elementDofs; ++i)
+        if (const int entry = entries[elementDofs * j + i]; entry >= 0) values[entry] += K(i, j);
   }
 }
 

@@ -1,25 +1,21 @@
 // One deformable body: a mesh, a material, what holds it and what loads it. It knows nothing of contact.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "base/types.h"
+#include "fem/supports.h"
 #include "linear/sparse_pattern.h"
 #include "material/material.h"
 #include "mesh/triangle_mesh.h"
 
 namespace mortier {
 
-/// Displacement `component` (0: x, 1: y) prescribed on a labelled boundary [m].
-struct PrescribedDisplacement {
-  int label = 0;
-  int component = 0;
-  Function value;
-};
-
-/// Surface force per length on a labelled boundary, one component [N/m per metre of depth, Pa].
+/// Surface force per length on a labelled boundary along a direction (Component) [N/m per metre of depth, Pa];
+/// a pressure p is the normal traction -p.
 struct Traction {
   int label = 0;
   int component = 0;
@@ -52,12 +48,29 @@ class Body {
   [[nodiscard]] int points() const { return static_cast<int>(weights_.size()); }
   /// Quadrature weights, the area in all [m^2].
   [[nodiscard]] const std::vector<double>& weights() const { return weights_; }
-  /// Equation of dof 2 node + component; -1 where the displacement is prescribed.
-  [[nodiscard]] const std::vector<int>& equations() const { return equations_; }
-  [[nodiscard]] int freeDofs() const { return pattern_.size; }
 
+  // Equations. A node has two, less those of its prescribed motions: along the axes, or along the normal and
+  // the tangent of a turned support.
+
+  [[nodiscard]] int freeDofs() const { return pattern_.size; }
+  /// Equation 2 node + 0 or 1; -1 where that motion is prescribed.
+  [[nodiscard]] const std::vector<int>& equations() const { return equations_; }
+  /// A vector at a node by the equations of the node (-1 where prescribed).
+  struct Part {
+    int equation = -1;
+    double value = 0;
+  };
+  [[nodiscard]] std::array<Part, 2> parts(int node, const Point& vector) const;
+  /// Nodal vectors (dofs) to equations; what acts along prescribed motions is left out.
+  [[nodiscard]] Vector gather(const Vector& nodal) const;
+  /// The reverse: dofs, nothing along prescribed motions.
+  [[nodiscard]] Vector spread(const Vector& x) const;
+
+  [[nodiscard]] const Supports& supports() const { return supports_; }
   /// Writes the prescribed displacements at time t into `u` (dofs).
   void prescribe(double t, Vector& u) const;
+  /// Changes an increment (dofs, increment + small) so that u0 + increment has what is prescribed at time t.
+  void prescribeIncrement(double t, const Vector& u0, Vector& increment, Vector& small) const;
   /// Nodal forces (dofs) of tractions and body forces at time t [N/m].
   [[nodiscard]] Vector load(double t) const;
 
@@ -75,18 +88,33 @@ class Body {
   void tangent(const Matrix& moduli, std::vector<double>& values) const;
 
  private:
+  /// Entries of the pattern for the 6 x 6 matrix of one triangle.
+  using Entries = std::array<int, 36>;
+
   void numberEquations();
   void buildPattern();
+  [[nodiscard]] Entries entriesOf(const std::array<int, 3>& triangle) const;
+  [[nodiscard]] Point prescribedAt(const NodeSupport& support, double t, const Point& u) const;
+  void addTurned(const Matrix& moduli, std::vector<double>& values) const;
 
   std::string name_;
   TriangleMesh mesh_;
   std::shared_ptr<const Material> material_;
   Conditions conditions_;
+  Supports supports_;
   std::vector<int> equations_;
+  std::vector<Eigen::Matrix2d> frames_;  ///< rows normal and tangent, of the turned supports
+  std::vector<int> frameOf_;             ///< per node; -1 for the axes. Empty when all are
   SparsePattern pattern_;
   std::vector<double> weights_;
   std::vector<double> gradients_;  ///< 6 per point: gradient of each node's shape function over sqrt2
   std::vector<int> scatter_;  ///< per triangle: entry of pattern_ for each entry of its matrix, -1 for none
+  struct TurnedTriangle {
+    int triangle = 0;
+    Entries entries;
+  };
+  std::vector<TurnedTriangle>
+      turned_;  ///< with turned nodes: their matrices are turned before they are added
 };
 
 }  // namespace mortier

@@ -35,10 +35,11 @@ Matrix rigidModes(const Body& body) {
   const Matrix modes = allModes(body);
   Eigen::Matrix3d held = Eigen::Matrix3d::Zero();
   int prescribed = 0;
-  for (int dof = 0; dof < body.dofs(); ++dof)
-    if (body.equations()[dof] < 0) {
-      held += modes.row(dof).transpose() * modes.row(dof);
-      ++prescribed;
+  for (const NodeSupport& support : body.supports().nodes())
+    for (int i = 0; i < support.count; ++i, ++prescribed) {
+      const Eigen::RowVector3d along =
+          support.directions[i].transpose() * modes.middleRows<2>(2 * support.node);
+      held += along.transpose() * along;
     }
   if (prescribed > 0) held /= prescribed;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(held);
@@ -48,8 +49,8 @@ Matrix rigidModes(const Body& body) {
       free.conservativeResize(Eigen::NoChange, free.cols() + 1);
       free.rightCols(1) = modes * eigen.eigenvectors().col(i);
     }
-  for (int dof = 0; dof < body.dofs(); ++dof)
-    if (body.equations()[dof] < 0) free.row(dof).setZero();
+  // What is left along prescribed motions is rounding.
+  for (Eigen::Index i = 0; i < free.cols(); ++i) free.col(i) = body.spread(body.gather(free.col(i)));
   return free;
 }
 

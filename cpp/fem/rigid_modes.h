@@ -8,7 +8,7 @@
 namespace mortier {
 
 /// Columns are motions by dofs, independent, of unit size over the body: translations and the rotation about
-/// its centre, combined so that every prescribed dof stays put. None for a body that is held.
+/// its centre, combined so that nothing moves along a prescribed motion. None for a body that is held.
 Matrix rigidModes(const Body& body);
 
 /// A motion in words: "translation along (0, 1)", "rotation about (0.5, 2)".

@@ -14,17 +14,15 @@ namespace {
 /// A motion that moves the contact nodes by less than this part of the others is not held by contact.
 constexpr double motionTolerance = 1e-14;
 
-/// Entries of C of one body as (row, dof, value).
+/// Rows of C of one body as (row, node, vector).
 template <class Visit>
 void forEachEntryOfC(const ContactInterface& interface, int body, Visit visit) {
   if (interface.pair().nonmortar.body == body)
-    for (int i = 0; i < interface.rows(); ++i)
-      for (int c = 0; c < 2; ++c) visit(i, 2 * interface.nonmortarNodes()[i] + c, interface.normal()[c]);
+    for (int i = 0; i < interface.rows(); ++i) visit(i, interface.nonmortarNodes()[i], interface.normal());
   if (interface.pair().mortar.body == body)
     for (size_t j = 0; j < interface.mortarNodes().size(); ++j)
       for (int i = 0; i < interface.rows(); ++i)
-        for (int c = 0; c < 2; ++c)
-          visit(i, 2 * interface.mortarNodes()[j] + c, -interface.coupling().A(i, j) * interface.normal()[c]);
+        visit(i, interface.mortarNodes()[j], Point(-interface.coupling().A(i, j) * interface.normal()));
 }
 
 }  // namespace
@@ -43,9 +41,9 @@ void BodySystem::findContactDofs(const Model& model, int body, const std::vector
   std::vector<int> column(body_.freeDofs(), -1);
   const auto forEachEntry = [&](auto visit) {
     for (size_t k = 0; k < model.interfaces.size(); ++k)
-      forEachEntryOfC(model.interfaces[k], body, [&](int row, int dof, double value) {
-        const int equation = body_.equations()[dof];
-        if (equation >= 0 && value != 0) visit(firstRow[k] + row, equation, value);
+      forEachEntryOfC(model.interfaces[k], body, [&](int row, int node, const Point& vector) {
+        for (const auto& [equation, value] : body_.parts(node, vector))
+          if (equation >= 0 && value != 0) visit(firstRow[k] + row, equation, value);
       });
   };
   forEachEntry([&](int, int equation, double) {
@@ -59,11 +57,8 @@ void BodySystem::findContactDofs(const Model& model, int body, const std::vector
 
 void BodySystem::findRigidMotions() {
   motions_ = rigidModes(body_);
-  std::vector<int> dofOf(body_.freeDofs());
-  for (int dof = 0; dof < body_.dofs(); ++dof)
-    if (body_.equations()[dof] >= 0) dofOf[body_.equations()[dof]] = dof;
   R_.resize(static_cast<Eigen::Index>(kept_.size()), motions_.cols());
-  for (size_t i = 0; i < kept_.size(); ++i) R_.row(i) = motions_.row(dofOf[kept_[i]]);
+  for (Eigen::Index i = 0; i < motions_.cols(); ++i) R_.col(i) = body_.gather(motions_.col(i))(kept_);
   if (motions_.cols() == 0) return;
   // Orthonormal on the contact dofs.
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(R_.transpose() * R_);
@@ -133,9 +128,7 @@ Matrix BodySystem::solveSchur(const Matrix& f) const {
 }
 
 Vector BodySystem::condense(const Vector& force) {
-  residual_.resize(body_.freeDofs());
-  for (int dof = 0; dof < body_.dofs(); ++dof)
-    if (body_.equations()[dof] >= 0) residual_[body_.equations()[dof]] = force[dof];
+  residual_ = body_.gather(force);
   solver_->condense(residual_);
   contactForce_ = residual_(kept_);
   return inContact() ? Vector(solveSchur(contactForce_)) : contactForce_;
@@ -148,10 +141,8 @@ void BodySystem::expand(const Vector& forceChange, const Vector& z, BodyIterate&
     residual_(kept_) = x;
   }
   solver_->expand(residual_);
-  Vector d = Vector::Zero(body_.dofs());
+  const Vector d = body_.spread(residual_);
   for (int dof = 0; dof < body_.dofs(); ++dof) {
-    if (body_.equations()[dof] < 0) continue;
-    d[dof] = residual_[body_.equations()[dof]];
     const DoubleDouble u = DoubleDouble::sum(iterate.increment[dof], d[dof]);
     iterate.increment[dof] = u.high;
     iterate.small[dof] += u.low;

@@ -98,16 +98,9 @@ void StepSolver::useLibraries(const std::vector<char>& bodies) {
 }
 
 void StepSolver::prescribe(const State& state0, double time, Iterate& iterate) const {
-  for (size_t b = 0; b < model_.bodies.size(); ++b) {
-    Vector u1 = state0.bodies[b].displacement;
-    model_.bodies[b].prescribe(time, u1);
-    const auto& equations = model_.bodies[b].equations();
-    for (size_t dof = 0; dof < equations.size(); ++dof)
-      if (equations[dof] < 0) {
-        iterate.bodies[b].increment[dof] = u1[dof] - state0.bodies[b].displacement[dof];
-        iterate.bodies[b].small[dof] = 0;
-      }
-  }
+  for (size_t b = 0; b < model_.bodies.size(); ++b)
+    model_.bodies[b].prescribeIncrement(time, state0.bodies[b].displacement, iterate.bodies[b].increment,
+                                        iterate.bodies[b].small);
 }
 
 std::vector<Vector> StepSolver::displacements(const State& state0, const Iterate& iterate) const {
@@ -241,9 +234,8 @@ Certificate StepSolver::certify(const State& state0, const std::vector<Vector>& 
   }
   if (force > 0)
     for (size_t b = 0; b < model_.bodies.size(); ++b)
-      for (int dof = 0; dof < model_.bodies[b].dofs(); ++dof)
-        if (model_.bodies[b].equations()[dof] >= 0)
-          result.forceBalance = std::max(result.forceBalance, std::abs(residual[b][dof]) / force);
+      result.forceBalance = std::max(result.forceBalance,
+                                     model_.bodies[b].gather(residual[b]).lpNorm<Eigen::Infinity>() / force);
   return result;
 }
 

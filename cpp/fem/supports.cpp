@@ -1,0 +1,147 @@
+#include "fem/supports.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace mortier {
+namespace {
+
+/// Sides that turn by less are smooth.
+const double cornerCosine = std::cos(40 * std::numbers::pi / 180);
+
+/// Directions whose sine is below this are the same.
+constexpr double sameDirection = 1e-6;
+
+/// A boundary edge seen from one of its nodes.
+struct Side {
+  int edge = 0;
+  int other = 0;   ///< the node at its other end
+  Point weighted;  ///< outward normal over the squared length of the edge: over the length, a unit vector
+  Point normal;    ///< unit
+};
+
+using SidesOfNodes = std::map<int, std::vector<Side>>;
+
+double cross(const Point& a, const Point& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+bool parallel(const Point& a, const Point& b) {
+  return std::abs(cross(a, b)) < sameDirection;
+}
+
+bool isTurned(int component) {
+  return component == alongNormal || component == alongTangent;
+}
+
+/// The edges with a normal or tangential condition, by their nodes.
+SidesOfNodes sidesOf(const TriangleMesh& mesh, const std::vector<PrescribedDisplacement>& conditions) {
+  SidesOfNodes result;
+  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
+    const auto here = [&](const PrescribedDisplacement& c) {
+      return c.label == mesh.boundaryLabels[e] && isTurned(c.component);
+    };
+    if (std::none_of(conditions.begin(), conditions.end(), here)) continue;
+    const auto& edge = mesh.boundaryEdges[e];
+    const Point along = mesh.vertices[edge[1]] - mesh.vertices[edge[0]];
+    const double length = along.norm();
+    const Point normal(along.y() / length, -along.x() / length);
+    for (const int end : {0, 1})
+      result[edge[end]].push_back({static_cast<int>(e), edge[1 - end], normal / length, normal});
+  }
+  return result;
+}
+
+/// The other side at the node that goes on smoothly from this one; nullptr where there is none.
+const Side* smoothNeighbour(const std::vector<Side>& sides, const Side& side) {
+  for (const Side& each : sides)
+    if (each.edge != side.edge && each.normal.dot(side.normal) > cornerCosine) return &each;
+  return nullptr;
+}
+
+/// The normal at a node as its side sees it.
+Point normalAt(const SidesOfNodes& sides, int node, const Side& side) {
+  // Of the circle through three nodes: edge normals weighted by the inverse lengths.
+  if (const Side* next = smoothNeighbour(sides.at(node), side))
+    return (side.weighted + next->weighted).normalized();
+  // At an end of the line: the neighbour's normal, mirrored at that of the edge between.
+  const std::vector<Side>& there = sides.at(side.other);
+  if (const Side* next = smoothNeighbour(there, side)) {
+    const Point m = (side.weighted + next->weighted).normalized();
+    return (2 * m.dot(side.normal) * side.normal - m).normalized();
+  }
+  return side.normal;
+}
+
+}  // namespace
+
+void Supports::hold(NodeSupport& support, const Point& direction, int condition) {
+  for (int i = 0; i < support.count; ++i)
+    if (parallel(support.directions[i], direction)) {
+      if (support.conditions[i] != condition) further_.push_back({support.node, condition, direction});
+      return;
+    }
+  if (support.count == 2) {
+    further_.push_back({support.node, condition, direction});
+    return;
+  }
+  support.directions[support.count] = direction;
+  support.conditions[support.count] = condition;
+  ++support.count;
+}
+
+Supports::Supports(const TriangleMesh& mesh, const std::vector<PrescribedDisplacement>& conditions) {
+  const SidesOfNodes sides = sidesOf(mesh, conditions);
+  std::map<int, NodeSupport> held;
+  // Axes first: a normal that is one of them up to rounding gives way.
+  for (const bool turned : {false, true})
+    for (size_t c = 0; c < conditions.size(); ++c) {
+      const int component = conditions[c].component;
+      if (isTurned(component) != turned) continue;
+      for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
+        if (mesh.boundaryLabels[e] != conditions[c].label) continue;
+        for (const int node : mesh.boundaryEdges[e]) {
+          NodeSupport& support = held[node];
+          support.node = node;
+          if (!turned) {
+            hold(support, component == alongX ? Point(1, 0) : Point(0, 1), static_cast<int>(c));
+            continue;
+          }
+          const std::vector<Side>& here = sides.at(node);
+          const auto side = std::find_if(here.begin(), here.end(),
+                                         [&](const Side& s) { return s.edge == static_cast<int>(e); });
+          const Point n = normalAt(sides, node, *side);
+          hold(support, component == alongNormal ? n : Point(-n.y(), n.x()), static_cast<int>(c));
+        }
+      }
+    }
+  std::map<int, int> numbers;
+  for (const auto& [node, support] : held) {
+    numbers[node] = static_cast<int>(nodes_.size());
+    nodes_.push_back(support);
+  }
+  for (FurtherMotion& motion : further_) motion.support = numbers.at(motion.support);
+}
+
+Point prescribed(const NodeSupport& support, const std::array<double, 2>& values, const Point& u) {
+  const Point& d = support.directions[0];
+  if (support.count == 1) {
+    if (d.y() == 0) return {values[0] / d.x(), u.y()};
+    if (d.x() == 0) return {u.x(), values[0] / d.y()};
+    return u + (values[0] - d.dot(u)) * d;
+  }
+  const Point& e = support.directions[1];
+  return Point(values[0] * e.y() - values[1] * d.y(), values[1] * d.x() - values[0] * e.x()) / cross(d, e);
+}
+
+double impliedMotion(const NodeSupport& support, const std::array<double, 2>& values,
+                     const Point& direction) {
+  for (int i = 0; i < support.count; ++i)
+    if (parallel(support.directions[i], direction))
+      return support.directions[i].dot(direction) > 0 ? values[i] : -values[i];
+  return direction.dot(prescribed(support, values, Point::Zero()));
+}
+
+}  // namespace mortier

@@ -1,0 +1,67 @@
+// What holds a body: the motions of single nodes that conditions on labelled sides prescribe,
+//   d . u = value,   d a coordinate axis, the outward normal of the side or its tangent.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/types.h"
+#include "mesh/triangle_mesh.h"
+
+namespace mortier {
+
+/// Directions of displacements and tractions: axes, outward normal, tangent (the body to its left).
+enum Component : int { alongX, alongY, alongNormal, alongTangent };
+
+/// Displacement along a direction (Component), prescribed on a labelled boundary [m].
+struct PrescribedDisplacement {
+  int label = 0;
+  int component = 0;
+  Function value;
+};
+
+/// A node that may move along one direction only, or not at all.
+struct NodeSupport {
+  int node = 0;
+  int count = 0;                          ///< prescribed motions: 1 or 2
+  std::array<Point, 2> directions;        ///< d, unit vectors, independent
+  std::array<int, 2> conditions{-1, -1};  ///< that prescribe them
+
+  /// Whether one motion is prescribed along neither axis: the equations of the node are then those of the
+  /// normal d and the tangent (-d.y, d.x).
+  [[nodiscard]] bool turned() const { return count == 1 && directions[0].x() != 0 && directions[0].y() != 0; }
+};
+
+/// A further condition at a node that the others hold already in its direction; data that agree obey it.
+struct FurtherMotion {
+  int support = 0;  ///< number of the NodeSupport
+  int condition = 0;
+  Point direction{0, 0};
+};
+
+/// The normal of a node is that of the circle through it and its neighbours on the sides with a normal or
+/// tangential condition, so it is exact on straight sides and on circles whatever the spacing. Where such
+/// sides meet in a corner (they turn by 40 degrees or more) each has its own normal, and the node is held.
+class Supports {
+ public:
+  Supports() = default;
+  /// Labels that the mesh does not have hold nothing.
+  Supports(const TriangleMesh& mesh, const std::vector<PrescribedDisplacement>& conditions);
+
+  [[nodiscard]] const std::vector<NodeSupport>& nodes() const { return nodes_; }  ///< ascending
+  [[nodiscard]] const std::vector<FurtherMotion>& further() const { return further_; }
+
+ private:
+  void hold(NodeSupport& support, const Point& direction, int condition);
+
+  std::vector<NodeSupport> nodes_;
+  std::vector<FurtherMotion> further_;
+};
+
+/// The displacement nearest to `u` that has the prescribed `values` (support.count) along the directions.
+Point prescribed(const NodeSupport& support, const std::array<double, 2>& values, const Point& u);
+
+/// The motion along a further direction that the prescribed values imply.
+double impliedMotion(const NodeSupport& support, const std::array<double, 2>& values, const Point& direction);
+
+}  // namespace mortier
