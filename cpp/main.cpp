@@ -1,9 +1,12 @@
 // mortier: contact of elastic and viscoplastic bodies with incompatible meshes.
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
+#include <new>
 
 #include "base/error.h"
+#include "commands/complain.h"
 #include "commands/exit_code.h"
 #include "commands/freefem.h"
 #include "commands/mesh.h"
@@ -77,21 +80,28 @@ int dispatch(int argc, char** argv) {
   return info->parsed() ? meshInfo(infoFile) : makeMesh(meshCommand);
 }
 
-int complain(const std::exception& error, int code) {
-  std::fflush(stdout);
-  std::fprintf(stderr, "mortier: %s\n", error.what());
+int complainOf(const std::exception& error, int code) {
+  complain(error.what());
   return code;
 }
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A reader that goes away and a file that may not grow are errors of a write, not the end of the program.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
-    return dispatch(argc, argv);
+    const int code = dispatch(argc, argv);
+    finishStandardOutput();
+    return code;
   } catch (const InputError& error) {
-    return complain(error, exitWrongInput);
+    return complainOf(error, exitWrongInput);
   } catch (const UnheldBodyError& error) {
-    return complain(error, exitUnheld);
+    return complainOf(error, exitUnheld);
+  } catch (const std::bad_alloc&) {
+    complain("out of memory");
+    return exitFailed;
   } catch (const std::exception& error) {
-    return complain(error, exitFailed);
+    return complainOf(error, exitFailed);
   }
 }

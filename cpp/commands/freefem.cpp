@@ -3,12 +3,12 @@
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <sstream>
 
 #include "base/error.h"
+#include "base/whole_file.h"
 #include "commands/exit_code.h"
 #include "scene/build.h"
 #include "scene/document.h"
@@ -176,12 +176,7 @@ int writeFreefem(const FreefemCommand& command) {
     std::cout << text;
     return exitDone;
   }
-  std::ofstream file(command.file, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) {
-    throw OutputError(command.file + ": cannot be written");
-  }
+  writeWhole(command.file, text);
   return exitDone;
 }
 

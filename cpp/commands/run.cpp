@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "commands/complain.h"
 #include "commands/exit_code.h"
 #include "report/contact_table.h"
 #include "report/fields.h"
@@ -75,10 +76,10 @@ void warnOfRinging(const SceneDescription& scene, const Model& model) {
   double stiffness = 0;
   for (const Body& body : model.bodies) stiffness = std::max(stiffness, body.material().stiffness(weight));
   if (scene.time.scheme != Scheme::crankNicolson || stiffness <= ringing) return;
-  std::fprintf(stderr,
-               "mortier: warning: %s: scheme = crank-nicolson rings here (step over relaxation time %.1e); "
-               "sdirk2 is of second order too and does not\n",
-               scene.path.c_str(), 2 * stiffness);
+  char ratio[32];
+  std::snprintf(ratio, sizeof ratio, "%.1e", 2 * stiffness);
+  warn(scene.path + ": scheme = crank-nicolson rings here (step over relaxation time " + ratio +
+       "); sdirk2 is of second order too and does not");
 }
 
 /// Whether a step is kept while the run goes on; the last one is kept in any case.
@@ -95,7 +96,7 @@ int run(const RunCommand& command) {
   std::vector<std::string> warnings;
   const Model model = buildModel(scene, warnings);
   for (const std::string& warning : warnings) {
-    std::fprintf(stderr, "mortier: warning: %s\n", warning.c_str());
+    warn(warning);
   }
 
   warnOfRinging(scene, model);
@@ -157,8 +158,8 @@ int run(const RunCommand& command) {
   log.print(logStatus(report, where));
   log.print(logVerification(report.worst));
   if (!complete) {
-    std::fprintf(stderr, "mortier: %s: %s; the state after step %d is in %s\n", scene.path.c_str(),
-                 report.reason.c_str(), last.step, where.c_str());
+    complain(scene.path + ": " + report.reason + "; the state after step " + std::to_string(last.step) +
+             " is in " + where);
   }
   return complete ? exitDone : report.status == Status::unheld ? exitUnheld : exitFailed;
 }

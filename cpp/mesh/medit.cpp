@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/whole_file.h"
 
 namespace mortier {
 namespace {
@@ -309,10 +310,7 @@ void writeMedit(const TriangleMesh& mesh, const std::string& path) {
   }
   out += "\nEnd\n";
 
-  std::ofstream file(path, std::ios::binary);
-  file.write(out.data(), std::streamsize(out.size()));
-  file.close();
-  if (!file) throw OutputError(path + ": cannot be written");
+  writeWhole(path, out);
 }
 
 }  // namespace mortier

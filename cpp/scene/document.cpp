@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -81,6 +82,37 @@ std::string oneLine(std::string_view text) {
   return line;
 }
 
+/// Names of a key may be joined by dots without end, and every table of them stands on the stack when it is taken away.
+/// \throws InputError for more names than a scene could need.
+void requireShortKeys(const std::string& text, const std::string& place) {
+  constexpr int longest = 32;
+  int names = 1;
+  int line = 1;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '#') {
+      i = std::min(text.find('\n', i), text.size()) - 1;
+    } else if (c == '"' || c == '\'') {
+      const bool several =
+          text.compare(i, 3, std::string(3, c)) == 0;  // three quotes: a string of several lines
+      const std::string quotes(several ? 3 : 1, c);
+      for (i += quotes.size(); i < text.size() && text.compare(i, quotes.size(), quotes) != 0; ++i) {
+        line += text[i] == '\n' ? 1 : 0;
+        if (c == '"' && text[i] == '\\') ++i;
+      }
+      i += quotes.size() - 1;
+    } else if (c == '.') {
+      if (++names > longest) {
+        throw InputError(place + ":" + std::to_string(line) + ": a key of more than " +
+                         std::to_string(longest) + " names, expected a key of a scene");
+      }
+    } else if (c == '\n' || std::strchr("=,[]{}", c) != nullptr) {
+      names = 1;
+      line += c == '\n' ? 1 : 0;
+    }
+  }
+}
+
 }  // namespace
 
 Node* Node::find(const std::string& name) {
@@ -113,7 +145,9 @@ std::string Node::quoted() const {
 
 Node readDocument(const std::string& path) {
   try {
-    const toml::table table = toml::parse(readText(path), path);
+    const std::string text = readText(path);
+    requireShortKeys(text, path);
+    const toml::table table = toml::parse(text, path);
     return convert(table, {path, false});
   } catch (const toml::parse_error& error) {
     throw InputError(path + ":" + std::to_string(error.source().begin.line) +
@@ -123,6 +157,7 @@ Node readDocument(const std::string& path) {
 
 Node parseSetting(const std::string& text, const std::string& where) {
   try {
+    requireShortKeys(text, where);
     const toml::table table = toml::parse("value = " + text);
     if (table.size() == 1) {
       return convert(*table.get("value"), {where, true});

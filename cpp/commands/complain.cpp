@@ -1,0 +1,44 @@
+#include "commands/complain.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <iostream>
+
+#include "base/error.h"
+
+namespace mortier {
+
+namespace {
+
+std::string printable(std::string text) {
+  constexpr char escape = 127;
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) < ' ') || c == escape; },
+      '?');
+  return text;
+}
+
+}  // namespace
+
+void complain(const std::string& text) {
+  std::fflush(stdout);
+  std::fprintf(stderr, "mortier: %s\n", printable(text).c_str());
+}
+
+void warn(const std::string& text) {
+  complain("warning: " + text);
+}
+
+void finishStandardOutput() {
+  errno = 0;
+  std::cout.flush();
+  const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout;
+  if (failed && errno != EPIPE) {
+    throw OutputError(std::string("standard output: cannot be written") +
+                      (errno == 0 ? "" : std::string(": ") + std::strerror(errno)));
+  }
+}
+
+}  // namespace mortier

@@ -1,0 +1,17 @@
+// What goes to standard error: one printable line each, whatever a scene or a file name holds.
+#pragma once
+
+#include <string>
+
+namespace mortier {
+
+/// `mortier: text`
+void complain(const std::string& text);
+/// `mortier: warning: text`
+void warn(const std::string& text);
+
+/// Writes out what standard output still holds. A reader that has gone away (`mortier run ... | head`) is no error.
+/// \throws OutputError when it cannot be written.
+void finishStandardOutput();
+
+}  // namespace mortier
