@@ -207,8 +207,8 @@ class Fault(Exception):
 class Cases:
     """Makes the cases, and tries them with a program."""
 
-    def __init__(self, program, seconds):
-        self.program, self.seconds = str(Path(program).resolve()), seconds
+    def __init__(self, program, seconds, patience):
+        self.program, self.seconds, self.patience = str(Path(program).resolve()), seconds, patience
         # A sanitizer's report gets an exit code of its own; its address space cannot be limited.
         self.environment = dict(os.environ, ASAN_OPTIONS="exitcode=99:detect_leaks=1",
                                 UBSAN_OPTIONS="exitcode=99:print_stacktrace=1")
@@ -254,13 +254,13 @@ class Cases:
                                    stderr=subprocess.PIPE)
         command, long = " ".join(arguments), False
         try:
-            out, err = process.communicate(timeout=self.seconds)
+            err = process.communicate(timeout=self.patience)[1]
         except subprocess.TimeoutExpired:
             # A scene may ask for 2^31 steps. It is no hang where each step ends: the first one after Ctrl-C is the last.
             long = True
             process.send_signal(signal.SIGINT)
             try:
-                out, err = process.communicate(timeout=self.seconds)
+                err = process.communicate(timeout=self.seconds)[1]
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.communicate()
@@ -306,9 +306,9 @@ def require_whole(folder):
         raise Fault("time is not finite")
 
 
-def explore(program, first, count, seconds, keep=None):
+def explore(program, first, count, seconds=60, patience=2, keep=None):
     """Tries cases; returns the faults as (number, text) and how often each exit code came."""
-    cases, faults = Cases(program, seconds), []
+    cases, faults = Cases(program, seconds, patience), []
     for number in range(first, first + count):
         folder = Path(tempfile.mkdtemp(prefix=f"mutation-{number}-"))
         try:
@@ -328,10 +328,12 @@ def main():
     parser.add_argument("--mortier", default=os.environ.get("MORTIER", "build/mortier"))
     parser.add_argument("--count", type=int, default=1000)
     parser.add_argument("--first", type=int, default=0)
-    parser.add_argument("--seconds", type=float, default=60, help="time limit of one command")
+    parser.add_argument("--seconds", type=float, default=60, help="time limit of one step")
+    parser.add_argument("--patience", type=float, default=2, help="seconds after which a run is interrupted")
     parser.add_argument("--keep", help="folder to copy the cases to")
     options = parser.parse_args()
-    faults, codes = explore(options.mortier, options.first, options.count, options.seconds, options.keep)
+    faults, codes = explore(options.mortier, options.first, options.count, options.seconds,
+                            options.patience, options.keep)
     for number, text in faults:
         print(f"case {number}: {text}")
     print(f"{options.count} cases, {len(faults)} faults; exit codes " +

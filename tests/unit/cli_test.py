@@ -55,7 +55,10 @@ FAULTS = [
     ("end = 1", "end = ", "scene.toml:25: not TOML: "),
     ("[time]", "[time", "scene.toml:24: not TOML: "),
     ("steps = 4", "steps = 4\nsteps = 5", "scene.toml:27: not TOML: "),
+    ("title", "a." * 100000 + "title", "scene.toml:1: a key of more than 32 names, expected a key of a scene"),
+    ("[time]", "[time.'a.b'." + "a." * 100000 + "a]", "scene.toml:24: a key of more than 32 names, expected a key of a scene"),
     # keys
+    ("title", "\"\\u001b[31m\"", "scene.toml:1: unknown key ?[31m, expected one of title, body"),
     ("title", "titel", "scene.toml:1: unknown key titel, did you mean title? Expected one of title, body, contact"),
     ("mesh = \"upper", "msh = \"upper", "scene.toml:5: body upper: unknown key msh, did you mean mesh? Expected"),
     ("poisson = 0.3, v", "nu = 0.3, v", "scene.toml:6: body upper: unknown key nu, expected one of young, poisson"),

@@ -1,0 +1,166 @@
+"""Faults of the environment and of the input: no room, no reader, folders that vanish, kill -9, a thousand broken scenes."""
+import json
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+from mutations import ONE_BODY, TWO_BLOCKS, explore, require_whole
+
+PROGRAM = str(Path(os.environ.get("MORTIER", "build/mortier")).resolve())
+LONG = ("--set", "time.steps=1000000")
+
+
+def limit_files(size):
+    def apply():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+    return apply
+
+
+def told(done):
+    return [line for line in done.stderr.splitlines() if not line.startswith("mortier: warning: ")]
+
+
+class Environment(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        for name, lower, upper in (("upper.mesh", "0,0", "1,1"), ("lower.mesh", "0,-1", "1,0")):
+            self.mortier("mesh", "crisscross", "--cells", "4" if name == "upper.mesh" else "3", "--lower", lower, "--upper",
+                         upper, name)
+        (self.folder / "scene.toml").write_text(TWO_BLOCKS)
+
+    def mortier(self, *arguments, code=0, **options):
+        options.setdefault("stdout", subprocess.PIPE)
+        done = subprocess.run([PROGRAM, *arguments], cwd=self.folder, stderr=subprocess.PIPE, text=True, timeout=120,
+                              **options)
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertEqual(len(told(done)), 0 if code == 0 else 1, done.stderr)
+        return done
+
+    def begin(self, *arguments):
+        """A long run, once it has made its folder and some steps."""
+        process = subprocess.Popen([PROGRAM, "run", "scene.toml", *LONG, *arguments], cwd=self.folder, text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.addCleanup(process.kill)
+        for line in process.stdout:
+            if line.split()[0] == "3":
+                break
+        process.stdout.close()
+        return process
+
+    def names(self, folder="."):
+        return sorted(path.name for path in (self.folder / folder).iterdir())
+
+    def temporaries(self):
+        return [name for name in self.names("out") if ".tmp-" in name or ".new-" in name]
+
+    def test_mutated_scenes_and_meshes(self):
+        faults, codes = explore(PROGRAM, 0, 250, patience=1)
+        self.assertEqual(faults, [])
+        self.assertGreater(codes[0], 20)
+        self.assertGreater(codes[2], 100)
+
+    def test_no_room_for_the_result(self):
+        self.mortier("run", "scene.toml", "--quiet", "--set", "output.every=1")
+        before = (self.folder / "out/scene/summary.json").read_text()
+        largest = max(path.stat().st_size for path in (self.folder / "out/scene").iterdir())
+        for size in [0, 1, 100, 500, 1500, 3000, largest - 1]:
+            with self.subTest(size=size):
+                done = self.mortier("run", "scene.toml", "--quiet", "--set", "output.every=1", code=1,
+                                    preexec_fn=limit_files(size))
+                self.assertIn("cannot be written: File too large", done.stderr)
+                self.assertEqual((self.folder / "out/scene/summary.json").read_text(), before)
+                self.assertEqual(self.names("out"), ["scene"])
+        self.mortier("run", "scene.toml", "--quiet", "--set", "output.every=1", preexec_fn=limit_files(largest))
+
+    def test_no_room_for_a_mesh_or_a_script(self):
+        before = (self.folder / "upper.mesh").read_bytes()
+        for size in [0, 1, 100, 1000]:
+            self.mortier("mesh", "crisscross", "--cells", "9", "upper.mesh", code=1, preexec_fn=limit_files(size))
+            self.mortier("freefem", "scene.toml", "new.edp", code=1, preexec_fn=limit_files(size))
+        self.assertEqual((self.folder / "upper.mesh").read_bytes(), before)
+        self.assertEqual(self.names(), ["lower.mesh", "scene.toml", "upper.mesh"])
+
+    def test_full_devices(self):
+        self.mortier("mesh", "crisscross", "--cells", "2", "/dev/full", code=1)
+        self.mortier("freefem", "scene.toml", "/dev/full", code=1)
+        with open("/dev/full", "w") as full:
+            for arguments in (["mesh", "info", "upper.mesh"], ["freefem", "scene.toml"], ["run", "scene.toml"]):
+                done = self.mortier(*arguments, code=1, stdout=full)
+                self.assertIn("standard output: cannot be written: No space left on device", done.stderr)
+        require_whole(self.folder / "out/scene")
+
+    def test_reader_that_goes_away(self):
+        process = subprocess.Popen([PROGRAM, "run", "scene.toml", "--set", "time.steps=200"], cwd=self.folder,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        process.stdout.close()
+        self.assertEqual((process.stderr.read(), process.wait(timeout=120)), (b"", 0))
+        process.stderr.close()
+        require_whole(self.folder / "out/scene")
+
+    def test_places_where_nothing_can_be_made(self):
+        (self.folder / "file").write_text("mine")
+        for out in ("file", "file/out", "/proc/self/out", "/dev/null/out", "x" * 300):
+            with self.subTest(out=out):
+                self.mortier("run", "scene.toml", "--quiet", "--out", out, code=2 if out == "file" else 1)
+        self.mortier("mesh", "crisscross", "--cells", "2", "file/new.mesh", code=1)
+        self.mortier("mesh", "crisscross", "--cells", "2", "none/new.mesh", code=1)
+        self.assertEqual(self.names(), ["file", "lower.mesh", "scene.toml", "upper.mesh"])
+
+    def test_folder_that_vanishes(self):
+        for what in ("out", "out/scene.tmp-*"):
+            with self.subTest(what=what):
+                process = self.begin("--set", "output.every=1")
+                for path in self.folder.glob(what):
+                    shutil.rmtree(path)
+                err = process.stderr.read()
+                self.assertEqual(process.wait(timeout=60), 1, err)
+                process.stderr.close()
+                self.assertEqual(err.count("\n"), 1, err)
+                self.assertFalse((self.folder / "out/scene").exists())
+
+    def test_what_a_killed_run_left_goes_with_the_next(self):
+        process = self.begin()
+        process.kill()
+        process.wait()
+        process.stderr.close()
+        left, = self.temporaries()
+        (self.folder / "out" / left / "picture.png").write_text("mine")
+        self.mortier("run", "scene.toml", "--quiet")
+        self.assertEqual(self.names("out"), ["scene", left])
+        self.assertEqual(self.names("out/" + left), ["picture.png"])
+        self.mortier("run", "scene.toml", "--quiet")
+        self.assertEqual(self.names("out"), ["scene"])
+        self.assertEqual((self.folder / "out/scene/picture.png").read_text(), "mine")
+        require_whole(self.folder / "out/scene")
+
+    def test_the_folder_of_a_living_run_is_left_alone(self):
+        living = self.begin()
+        left, = self.temporaries()
+        self.mortier("run", "scene.toml", "--quiet")
+        self.assertEqual(self.temporaries(), [left])
+        self.assertIn("history.csv", self.names("out/" + left))
+        living.send_signal(signal.SIGINT)
+        living.wait(timeout=60)
+        living.stderr.close()
+        require_whole(self.folder / "out/scene")
+
+    def test_no_memory(self):
+        self.mortier("mesh", "crisscross", "--cells", "300", "upper.mesh")
+        (self.folder / "scene.toml").write_text(ONE_BODY)
+        size = 250 << 20
+        done = self.mortier("run", "scene.toml", "--quiet", code=1,
+                            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (size, size)))
+        self.assertEqual(done.stderr, "mortier: out of memory\n")
+        self.assertEqual([path for path in self.folder.glob("out/*")], [])
+
+
+if __name__ == "__main__":
+    unittest.main()
