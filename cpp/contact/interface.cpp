@@ -46,6 +46,20 @@ Trace abscissae(const BoundaryLine& line, const Point& origin, const Point& tang
   return trace;
 }
 
+/// weights (rows x nodes) times the normal, as rows over the dofs of a mesh.
+ConstraintRows rowsAlong(const Point& normal, const Matrix& weights, const std::vector<int>& nodes,
+                         const TriangleMesh& mesh) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (size_t j = 0; j < nodes.size(); ++j)
+    for (Eigen::Index i = 0; i < weights.rows(); ++i)
+      for (int c = 0; c < 2; ++c)
+        if (const double value = weights(i, static_cast<Eigen::Index>(j)) * normal[c]; value != 0)
+          entries.emplace_back(static_cast<int>(i), 2 * nodes[j] + c, value);
+  ConstraintRows C(weights.rows(), 2 * static_cast<Eigen::Index>(mesh.vertices.size()));
+  C.setFromTriplets(entries.begin(), entries.end());
+  return C;
+}
+
 double normalComponent(const Vector& u, int node, const Point& n) {
   return u[2 * node] * n.x() + u[2 * node + 1] * n.y();
 }
@@ -82,6 +96,9 @@ ContactInterface::ContactInterface(const ContactPair& pair, const TriangleMesh& 
     throw InputError(names + " overlap at no nonmortar node, expected bodies that face each other");
   for (const int node : coupling_.nodes) nonmortarNodes_.push_back(nonmortarLine_.nodes[node]);
   mortarNodes_ = mortarLine_.nodes;
+  const auto rows = static_cast<Eigen::Index>(nonmortarNodes_.size());
+  C1_ = rowsAlong(normal_, Matrix::Identity(rows, rows), nonmortarNodes_, nonmortarMesh);
+  C2_ = rowsAlong(normal_, -coupling_.A, mortarNodes_, mortarMesh);
 
   Vector x1(coupling_.nodes.size());
   for (size_t i = 0; i < coupling_.nodes.size(); ++i)
@@ -101,20 +118,12 @@ ContactInterface::ContactInterface(const ContactPair& pair, const TriangleMesh& 
 }
 
 Vector ContactInterface::gap(const Vector& uNonmortar, const Vector& uMortar) const {
-  Vector u2(mortarNodes_.size());
-  for (size_t j = 0; j < mortarNodes_.size(); ++j) u2[j] = normalComponent(uMortar, mortarNodes_[j], normal_);
-  Vector g = -(coupling_.A * u2) - distance_;
-  for (size_t i = 0; i < nonmortarNodes_.size(); ++i)
-    g[i] += normalComponent(uNonmortar, nonmortarNodes_[i], normal_);
-  return g;
+  return C1_ * uNonmortar + C2_ * uMortar - distance_;
 }
 
 void ContactInterface::subtractForces(const Vector& p, Vector& fNonmortar, Vector& fMortar) const {
-  for (size_t i = 0; i < nonmortarNodes_.size(); ++i)
-    for (int c = 0; c < 2; ++c) fNonmortar[2 * nonmortarNodes_[i] + c] -= p[i] * normal_[c];
-  const Vector p2 = coupling_.A.transpose() * p;
-  for (size_t j = 0; j < mortarNodes_.size(); ++j)
-    for (int c = 0; c < 2; ++c) fMortar[2 * mortarNodes_[j] + c] += p2[j] * normal_[c];
+  fNonmortar -= C1_.transpose() * p;
+  fMortar -= C2_.transpose() * p;
 }
 
 Vector ContactInterface::contactPressure(const Vector& p) const {

@@ -5,7 +5,10 @@
 //
 // i runs over the nonmortar contact nodes, j over the mortar nodes, n is the outward normal of the nonmortar
 // body, A comes from the coupling (interpolation or projection), g0 is the distance of the bodies as meshed.
+// The solver sees two sparse matrices and a vector only: C u = C1 u1 + C2 u2, and g0.
 #pragma once
+
+#include <Eigen/SparseCore>
 
 #include "base/types.h"
 #include "contact/coupling.h"
@@ -25,6 +28,9 @@ struct ContactPair {
   CouplingKind coupling = CouplingKind::mortar;
 };
 
+/// Rows of C on one body: conditions x dofs (2 vertex + component), without entries that are zero.
+using ConstraintRows = Eigen::SparseMatrix<double>;
+
 class ContactInterface {
  public:
   /// \throws InputError when a line is not straight, or the lines do not face each other, overlap nowhere or
@@ -40,10 +46,12 @@ class ContactInterface {
   [[nodiscard]] const Coupling& coupling() const { return coupling_; }
   /// Outward normal of the nonmortar body.
   [[nodiscard]] const Point& normal() const { return normal_; }
+  [[nodiscard]] const ConstraintRows& C1() const { return C1_; }             ///< on the nonmortar body
+  [[nodiscard]] const ConstraintRows& C2() const { return C2_; }             ///< on the mortar body
   [[nodiscard]] const Vector& initialDistance() const { return distance_; }  ///< g0 [m]
   /// Share of the shorter line that faces the other.
   [[nodiscard]] double overlap() const { return overlap_; }
-  [[nodiscard]] int rows() const { return static_cast<int>(nonmortarNodes_.size()); }
+  [[nodiscard]] int rows() const { return static_cast<int>(distance_.size()); }
 
   /// g = C u - g0; displacements by dofs of the two bodies [m].
   [[nodiscard]] Vector gap(const Vector& uNonmortar, const Vector& uMortar) const;
@@ -60,6 +68,8 @@ class ContactInterface {
   Coupling coupling_;
   std::vector<int> nonmortarNodes_;
   std::vector<int> mortarNodes_;
+  ConstraintRows C1_;
+  ConstraintRows C2_;
   Vector distance_;
   double overlap_ = 0;
   // The whole traces, for integrals over Gamma_C.

@@ -14,15 +14,27 @@ namespace {
 /// A motion that moves the contact nodes by less than this part of the others is not held by contact.
 constexpr double motionTolerance = 1e-14;
 
-/// Rows of C of one body as (row, node, vector).
+/// A support along the contact normal leaves no more than this part of a row.
+constexpr double rounding = 1e-14;
+
+/// Entries of C of one body as (row, node, vector).
 template <class Visit>
 void forEachEntryOfC(const ContactInterface& interface, int body, Visit visit) {
-  if (interface.pair().nonmortar.body == body)
-    for (int i = 0; i < interface.rows(); ++i) visit(i, interface.nonmortarNodes()[i], interface.normal());
-  if (interface.pair().mortar.body == body)
-    for (size_t j = 0; j < interface.mortarNodes().size(); ++j)
-      for (int i = 0; i < interface.rows(); ++i)
-        visit(i, interface.mortarNodes()[j], Point(-interface.coupling().A(i, j) * interface.normal()));
+  const auto visitAll = [&](const ConstraintRows& C) {
+    for (int node = 0; 2 * node < C.outerSize(); ++node) {
+      ConstraintRows::InnerIterator x(C, 2 * node);
+      ConstraintRows::InnerIterator y(C, 2 * node + 1);
+      while (x || y) {
+        const auto row = static_cast<int>(!y || (x && x.row() < y.row()) ? x.row() : y.row());
+        Point vector = Point::Zero();
+        if (x && x.row() == row) vector.x() = x.value(), ++x;
+        if (y && y.row() == row) vector.y() = y.value(), ++y;
+        visit(row, node, vector);
+      }
+    }
+  };
+  if (interface.pair().nonmortar.body == body) visitAll(interface.C1());
+  if (interface.pair().mortar.body == body) visitAll(interface.C2());
 }
 
 }  // namespace
@@ -43,7 +55,8 @@ void BodySystem::findContactDofs(const Model& model, int body, const std::vector
     for (size_t k = 0; k < model.interfaces.size(); ++k)
       forEachEntryOfC(model.interfaces[k], body, [&](int row, int node, const Point& vector) {
         for (const auto& [equation, value] : body_.parts(node, vector))
-          if (equation >= 0 && value != 0) visit(firstRow[k] + row, equation, value);
+          if (equation >= 0 && std::abs(value) > rounding * vector.norm())
+            visit(firstRow[k] + row, equation, value);
       });
   };
   forEachEntry([&](int, int equation, double) {
