@@ -1,25 +1,40 @@
-// Independent pieces of work side by side. Results do not depend on how many threads there are.
+// Work on threads that are kept. What a piece of work computes must not depend on which thread does it, nor on the order
+// of pieces that do not wait for each other: then results are the same, bit for bit, for any number of threads.
 #pragma once
 
-#include <atomic>
-#include <cstddef>
-#include <future>
+#include <functional>
+#include <memory>
 #include <vector>
 
 namespace mortier {
 
-/// Calls work(i) for i in [0, n), on at most `threads` threads. An exception of any of them is thrown on.
-template <class Work>
-void inParallel(int threads, size_t n, const Work& work) {
-  std::atomic<size_t> next = 0;
-  const auto takeTurns = [&] {
-    for (size_t i = next++; i < n; i = next++) work(i);
-  };
-  std::vector<std::future<void>> others;
-  for (size_t thread = 1; thread < n && thread < static_cast<size_t>(threads); ++thread)
-    others.push_back(std::async(std::launch::async, takeTurns));
-  takeTurns();
-  for (auto& other : others) other.get();
-}
+class Threads {
+ public:
+  using Work = std::function<void(int item)>;
+
+  /// \param count  of threads that work, the caller's included.
+  explicit Threads(int count);
+  Threads(const Threads&) = delete;
+  Threads& operator=(const Threads&) = delete;
+  ~Threads();
+
+  /// The caller's thread alone.
+  static Threads& none();
+
+  [[nodiscard]] int count() const;
+
+  // An item may itself call these; threads that are idle then join in. An exception of any item is thrown on.
+
+  /// Calls work(i) for i in [0, n), in any order.
+  void forEach(int n, const Work& work);
+  /// Calls work(i) for the nodes of a forest, children before parents. parent[i] > i, or -1.
+  void upward(const std::vector<int>& parent, const Work& work);
+  /// The same, parents before children.
+  void downward(const std::vector<int>& parent, const Work& work);
+
+ private:
+  class Pool;
+  std::unique_ptr<Pool> pool_;  ///< none for one thread
+};
 
 }  // namespace mortier

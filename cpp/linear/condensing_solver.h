@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/parallel.h"
 #include "base/types.h"
 #include "linear/sparse_pattern.h"
 
@@ -28,6 +29,15 @@ class CondensingSolver {
   virtual void condense(Vector& f) const = 0;
   /// f from condense() with the solution x_k in its kept part: becomes the solution x.
   virtual void expand(Vector& f) const = 0;
+
+  /// Works on these threads from now on; they must outlive the solver.
+  void use(Threads& threads) { threads_ = &threads; }
+
+ protected:
+  [[nodiscard]] Threads& threads() const { return *threads_; }
+
+ private:
+  Threads* threads_ = &Threads::none();
 };
 
 /// Analyses the pattern once. `kept` are equations, each once.

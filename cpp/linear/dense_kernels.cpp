@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <experimental/simd>
 
 extern "C" {
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
@@ -22,6 +23,26 @@ bool isSmall(int n, int pivots) {
   return pivots <= smallPivots && n <= smallRows;
 }
 
+/// In two running sums of four: without leave to reorder, the compiler keeps one.
+double dot(const double* x, const double* y, int n) {
+  using Eight = std::experimental::fixed_size_simd<double, 8>;
+  namespace stdx = std::experimental;
+  Eight sum = 0;
+  int i = 0;
+  for (; i + 8 <= n; i += 8) sum += Eight(x + i, stdx::element_aligned) * Eight(y + i, stdx::element_aligned);
+  double result = stdx::reduce(sum);
+  for (; i < n; ++i) result += x[i] * y[i];
+  return result;
+}
+
+/// Of a matrix of `rows` rows, as swapRows does with rows.
+void swapColumns(double* A, int rows, const int* interchange, int n) {
+  for (int k = 0; k < n; ++k)
+    if (interchange[k] != k)
+      std::swap_ranges(A + static_cast<size_t>(rows) * k, A + static_cast<size_t>(rows) * (k + 1),
+                       A + static_cast<size_t>(rows) * interchange[k]);
+}
+
 /// NaN anywhere in a factorised block has reached its diagonal.
 bool finiteDiagonal(const double* panel, int n, int pivots) {
   for (int k = 0; k < pivots; ++k)
@@ -29,29 +50,41 @@ bool finiteDiagonal(const double* panel, int n, int pivots) {
   return true;
 }
 
-/// update -= L21 U12 by columns of U12, entry (k, j) at upper[stepK k + stepJ j]; below the diagonal only if
-/// `lower`.
-void smallUpdate(const double* L21, int n, int pivots, const double* upper, int stepK, int stepJ,
-                 double* update, bool lower) {
-  const int rest = n - pivots;
-  for (int j = 0; j < rest; ++j) {
-    double* target = update + static_cast<size_t>(rest) * j;
-    const double* u = upper + static_cast<size_t>(stepJ) * j;
-    const int begin = lower ? j : 0;
-    int k = 0;
-    for (; k + 1 < pivots; k += 2) {
-      const double u0 = u[static_cast<size_t>(stepK) * k];
-      const double u1 = u[static_cast<size_t>(stepK) * (k + 1)];
-      const double* L0 = L21 + static_cast<size_t>(n) * k;
-      const double* L1 = L0 + n;
-      for (int i = begin; i < rest; ++i) target[i] -= L0[i] * u0 + L1[i] * u1;
-    }
-    if (k < pivots) {
-      const double u0 = u[static_cast<size_t>(stepK) * k];
-      const double* L0 = L21 + static_cast<size_t>(n) * k;
-      for (int i = begin; i < rest; ++i) target[i] -= L0[i] * u0;
-    }
+namespace stdx = std::experimental;
+
+/// Rows [i, i + size of Rows) and `columns` columns from j of update = -L21 U12; U12' and L21 by columns.
+template <class Rows, int columns>
+void updateBlock(const double* L21, int ldL, int pivots, const double* upper, int ldU, int i, int j, double* update,
+                 int ld) {
+  Rows sum[columns];
+  for (Rows& each : sum) each = 0;
+  for (int k = 0; k < pivots; ++k) {
+    const Rows L(L21 + static_cast<size_t>(ldL) * k + i, stdx::element_aligned);
+    const double* u = upper + static_cast<size_t>(ldU) * k + j;
+    for (int c = 0; c < columns; ++c) sum[c] -= L * u[c];
   }
+  for (int c = 0; c < columns; ++c)
+    sum[c].copy_to(update + static_cast<size_t>(ld) * (j + c) + i, stdx::element_aligned);
+}
+
+template <int columns>
+void updateColumns(const double* L21, int ldL, int pivots, const double* upper, int ldU, int rest, int i, int j,
+                   double* update) {
+  using Eight = stdx::fixed_size_simd<double, 8>;
+  using Four = stdx::fixed_size_simd<double, 4>;
+  using One = stdx::fixed_size_simd<double, 1>;
+  for (; i + 8 <= rest; i += 8) updateBlock<Eight, columns>(L21, ldL, pivots, upper, ldU, i, j, update, rest);
+  for (; i + 4 <= rest; i += 4) updateBlock<Four, columns>(L21, ldL, pivots, upper, ldU, i, j, update, rest);
+  for (; i < rest; ++i) updateBlock<One, columns>(L21, ldL, pivots, upper, ldU, i, j, update, rest);
+}
+
+/// update = -L21 U12; with `lower`, what is above the diagonal is left undefined.
+void smallUpdate(const double* L21, int ldL, int pivots, const double* upper, int ldU, int rest, double* update,
+                 bool lower) {
+  int j = 0;
+  for (; j + 4 <= rest; j += 4)
+    updateColumns<4>(L21, ldL, pivots, upper, ldU, rest, lower ? j : 0, j, update);
+  for (; j < rest; ++j) updateColumns<1>(L21, ldL, pivots, upper, ldU, rest, lower ? j : 0, j, update);
 }
 
 }  // namespace
@@ -70,7 +103,7 @@ bool partialCholesky(double* panel, int n, int pivots, double* update) {
     if (rest == 0) return true;
     cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, rest, pivots, 1, panel, n,
                 L21, n);
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, rest, pivots, -1, L21, n, 1, update, rest);
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, rest, pivots, -1, L21, n, 0, update, rest);
     return true;
   }
   for (int k = 0; k < pivots; ++k) {
@@ -85,7 +118,7 @@ bool partialCholesky(double* panel, int n, int pivots, double* update) {
       for (int i = j; i < n; ++i) target[i] -= factor * pivot[i];
     }
   }
-  smallUpdate(L21, n, pivots, L21, n, 1, update, true);
+  smallUpdate(L21, n, pivots, L21, n, rest, update, true);
   return true;
 }
 
@@ -98,13 +131,13 @@ bool partialLU(double* panel, int n, int pivots, double* upper, double* update, 
     for (int k = 0; k < pivots; ++k) --interchange[k];
     if (info != 0 || !finiteDiagonal(panel, n, pivots)) return false;
     if (rest == 0) return true;
-    for (int j = 0; j < rest; ++j) swapRows(upper + static_cast<size_t>(pivots) * j, interchange, pivots);
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasUnit, pivots, rest, 1, panel, n,
-                upper, pivots);
+    swapColumns(upper, rest, interchange, pivots);
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasUnit, rest, pivots, 1, panel, n, upper,
+                rest);
     cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, rest, pivots, 1, panel, n,
                 L21, n);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rest, rest, pivots, -1, L21, n, upper, pivots, 1,
-                update, rest);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, rest, rest, pivots, -1, L21, n, upper, rest, 0, update,
+                rest);
     return true;
   }
   for (int k = 0; k < pivots; ++k) {
@@ -125,13 +158,15 @@ bool partialLU(double* panel, int n, int pivots, double* upper, double* update, 
       for (int i = k + 1; i < n; ++i) target[i] -= factor * pivot[i];
     }
   }
-  for (int j = 0; j < rest; ++j) {
-    double* u = upper + static_cast<size_t>(pivots) * j;
-    swapRows(u, interchange, pivots);
-    for (int k = 0; k < pivots; ++k)
-      for (int i = k + 1; i < pivots; ++i) u[i] -= panel[static_cast<size_t>(n) * k + i] * u[k];
-  }
-  smallUpdate(L21, n, pivots, upper, 1, pivots, update, false);
+  swapColumns(upper, rest, interchange, pivots);
+  for (int k = 0; k < pivots; ++k)
+    for (int j = k + 1; j < pivots; ++j) {
+      const double factor = panel[static_cast<size_t>(n) * k + j];
+      const double* from = upper + static_cast<size_t>(rest) * k;
+      double* to = upper + static_cast<size_t>(rest) * j;
+      for (int i = 0; i < rest; ++i) to[i] -= factor * from[i];
+    }
+  smallUpdate(L21, n, pivots, upper, rest, rest, update, false);
   return true;
 }
 
@@ -140,27 +175,60 @@ void swapRows(double* x, const int* interchange, int n) {
 }
 
 void solveLower(const double* L, int ld, int n, bool unit, double* x) {
-  cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, unit ? CblasUnit : CblasNonUnit, n, L, ld, x, 1);
+  if (n > smallPivots) {
+    cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, unit ? CblasUnit : CblasNonUnit, n, L, ld, x, 1);
+    return;
+  }
+  for (int k = 0; k < n; ++k, L += ld) {
+    if (!unit) x[k] /= L[k];
+    for (int i = k + 1; i < n; ++i) x[i] -= L[i] * x[k];
+  }
 }
 
 void solveLowerTransposed(const double* L, int ld, int n, double* x) {
-  cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, L, ld, x, 1);
+  if (n > smallPivots) {
+    cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, L, ld, x, 1);
+    return;
+  }
+  for (int k = n; k-- > 0;) {
+    const double* column = L + static_cast<size_t>(ld) * k;
+    for (int i = k + 1; i < n; ++i) x[k] -= column[i] * x[i];
+    x[k] /= column[k];
+  }
 }
 
 void solveUpper(const double* U, int ld, int n, double* x) {
-  cblas_dtrsv(CblasColMajor, CblasUpper, CblasNoTrans, CblasNonUnit, n, U, ld, x, 1);
+  if (n > smallPivots) {
+    cblas_dtrsv(CblasColMajor, CblasUpper, CblasNoTrans, CblasNonUnit, n, U, ld, x, 1);
+    return;
+  }
+  for (int k = n; k-- > 0;) {
+    const double* column = U + static_cast<size_t>(ld) * k;
+    x[k] /= column[k];
+    for (int i = 0; i < k; ++i) x[i] -= column[i] * x[k];
+  }
 }
 
 void multiply(const double* A, int ld, int rows, int columns, const double* x, double* y) {
-  if (rows > 0) cblas_dgemv(CblasColMajor, CblasNoTrans, rows, columns, 1, A, ld, x, 1, 0, y, 1);
-}
-
-void subtract(const double* A, int ld, int rows, int columns, const double* x, double* y) {
-  if (columns > 0) cblas_dgemv(CblasColMajor, CblasNoTrans, rows, columns, -1, A, ld, x, 1, 1, y, 1);
+  if (rows == 0) return;
+  if (!isSmall(rows, columns)) {
+    cblas_dgemv(CblasColMajor, CblasNoTrans, rows, columns, 1, A, ld, x, 1, 0, y, 1);
+    return;
+  }
+  for (int i = 0; i < rows; ++i) y[i] = A[i] * x[0];
+  for (int k = 1; k < columns; ++k) {
+    const double* column = A + static_cast<size_t>(ld) * k;
+    for (int i = 0; i < rows; ++i) y[i] += column[i] * x[k];
+  }
 }
 
 void subtractTransposed(const double* A, int ld, int rows, int columns, const double* x, double* y) {
-  if (rows > 0) cblas_dgemv(CblasColMajor, CblasTrans, rows, columns, -1, A, ld, x, 1, 1, y, 1);
+  if (rows == 0) return;
+  if (!isSmall(rows, columns)) {
+    cblas_dgemv(CblasColMajor, CblasTrans, rows, columns, -1, A, ld, x, 1, 1, y, 1);
+    return;
+  }
+  for (int k = 0; k < columns; ++k) y[k] -= dot(A + static_cast<size_t>(ld) * k, x, rows);
 }
 
 }  // namespace mortier::dense

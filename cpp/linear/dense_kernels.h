@@ -4,12 +4,12 @@
 
 namespace mortier::dense {
 
-/// Panel (n x pivots, lower triangle) becomes [L11; L21], update (lower triangle) loses L21 L21'.
+/// Panel (n x pivots, lower triangle) becomes [L11; L21], update (updates x updates, lower triangle) -L21 L21'.
 /// \returns false unless the pivot block is positive definite.
 bool partialCholesky(double* panel, int n, int pivots, double* update);
 
-/// Panel (n x pivots) becomes [L11\U11; L21], upper (pivots x updates) U12, update loses L21 U12; the rows of
-/// the pivot block are interchanged as `interchange` (from 0) tells. \returns false when the pivot block is
+/// Panel (n x pivots) becomes [L11\U11; L21], upper (updates x pivots) from F12' to U12', update -L21 U12; the rows
+/// of the pivot block are interchanged as `interchange` (from 0) tells. \returns false when the pivot block is
 /// singular.
 bool partialLU(double* panel, int n, int pivots, double* upper, double* update, int* interchange);
 
@@ -25,8 +25,6 @@ void solveLowerTransposed(const double* L, int ld, int n, double* x);
 void solveUpper(const double* U, int ld, int n, double* x);
 /// y = A x, A rows x columns.
 void multiply(const double* A, int ld, int rows, int columns, const double* x, double* y);
-/// y -= A x.
-void subtract(const double* A, int ld, int rows, int columns, const double* x, double* y);
 /// y -= A' x, A rows x columns.
 void subtractTransposed(const double* A, int ld, int rows, int columns, const double* x, double* y);
 

@@ -1,6 +1,7 @@
 #include "linear/elimination.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <stdexcept>
@@ -176,12 +177,15 @@ Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept) 
     for (size_t at = count[s]; at < count[s + 1]; ++at) {
       const size_t i = index[rowOf[at]];
       const size_t j = index[columnOf[at]];
+      size_t place = 0;
       if (j < pivots)
-        result.positions[at] = n * j + i;
+        place = n * j + i;
       else if (i < pivots)
-        result.positions[at] = front.panelSize() + pivots * (j - pivots) + i;
+        place = front.panelSize() + front.updates() * i + (j - pivots);
       else
-        result.positions[at] = front.panelSize() + upper + front.updates() * (j - pivots) + (i - pivots);
+        place = front.panelSize() + upper + front.updates() * (j - pivots) + (i - pivots);
+      if (place > std::numeric_limits<uint32_t>::max()) throw std::runtime_error("a front of the tangent is too large");
+      result.positions[at] = static_cast<uint32_t>(place);
     }
   }
   return result;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "linear/sparse_pattern.h"
@@ -11,8 +12,8 @@
 namespace mortier {
 
 /// A dense matrix over `rows`; the first `pivots` of them are eliminated in it, the others are updated and
-/// passed on. It is held in three parts, column major: the panel (rows x pivots), the upper part (pivots x
-/// updates; none where symmetric) and the update (updates x updates).
+/// passed on. It is held in three parts, column major: the panel (rows x pivots), the upper part transposed (updates x
+/// pivots; none where symmetric) and the update (updates x updates).
 struct Front {
   int parent = -1;  ///< the front that takes the update, -1 for none
   int pivots = 0;
@@ -31,7 +32,7 @@ struct Elimination {
   std::vector<int> order;     ///< position -> equation
   std::vector<Front> fronts;  ///< children before parents
   std::vector<int> entries;   ///< entry of the pattern, grouped by front
-  std::vector<size_t> positions;  ///< and its place in panel, upper part and update, one after the other
+  std::vector<uint32_t> positions;  ///< and its place in panel, upper part and update, one after the other
 };
 
 /// \param kept  equations to be left, in this order, at the end.

@@ -2,12 +2,14 @@
 //   F = [F11 F12; F21 F22]  (pivots first),   F11 = L11 U11,   L21 = F21 U11^-1,   U12 = L11^-1 F12,
 // and F22 - L21 U12 is passed to the parent. Where K is symmetric U = L' and only the lower triangle is held.
 // The last front stops at the kept equations: what is left of it is the Schur complement. LU pivots inside
-// the pivot block only; the caller checks residuals.
+// the pivot block only; the caller checks residuals. Threads work on the pieces of the elimination tree.
 #include <algorithm>
+#include <atomic>
 
 #include "linear/condensing_solver.h"
 #include "linear/dense_kernels.h"
 #include "linear/elimination.h"
+#include "linear/pieces.h"
 
 namespace mortier {
 namespace {
@@ -15,149 +17,164 @@ namespace {
 class Multifrontal final : public CondensingSolver {
  public:
   Multifrontal(const SparsePattern& pattern, const std::vector<int>& kept)
-      : symmetric_(pattern.symmetric), plan_(analyse(pattern, kept)), factors_(plan_.fronts.size()) {
-    size_t stack = 0;
-    std::vector<size_t> waiting;
+      : symmetric_(pattern.symmetric),
+        plan_(analyse(pattern, kept)),
+        pieces_(cutIntoPieces(plan_.fronts)),
+        factors_(plan_.fronts.size()),
+        updates_(plan_.fronts.size()),
+        stacks_(pieces_.all.size()) {
     for (size_t s = 0; s < plan_.fronts.size(); ++s) {
       const Front& front = plan_.fronts[s];
-      factors_[s].panel = panelSize_;
-      factors_[s].upper = panelSize_ + front.panelSize();
+      factors_[s] = {panelSize_, panelSize_ + front.panelSize(), pivotSize_};
       panelSize_ = factors_[s].upper + (symmetric_ ? 0 : front.pivots * front.updates());
-      factors_[s].pivot = pivotSize_;
       if (!symmetric_) pivotSize_ += front.pivots;
       largest_ = std::max(largest_, front.rows.size());
-      // An update is made on top of those of the front's children, then moved down over them.
-      const size_t update = front.updates() * front.updates();
-      stackSize_ = std::max(stackSize_, stack + update);
-      for (size_t i = 0; i < front.children.size(); ++i) {
-        stack -= waiting.back();
-        waiting.pop_back();
-      }
-      waiting.push_back(update);
-      stack += update;
     }
     schur_.resize(plan_.kept, plan_.kept);
   }
 
   bool factorise(const std::vector<double>& values) override {
-    panels_.assign(panelSize_, 0.0);
+    if (!panels_) panels_ = std::make_unique_for_overwrite<double[]>(panelSize_);
     pivots_.resize(pivotSize_);
-    if (!stack_) stack_ = std::make_unique_for_overwrite<double[]>(stackSize_);
-    double* top = stack_.get();
-    for (size_t s = 0; s < plan_.fronts.size(); ++s) {
-      const Front& front = plan_.fronts[s];
-      const size_t m = front.updates();
-      double* update = top;
-      std::fill_n(update, m * m, 0.0);
-      assemble(s, values, update);
-      const double* child = top;
-      for (size_t i = front.children.size(); i-- > 0;) {
-        const Front& from = plan_.fronts[front.children[i]];
-        child -= from.updates() * from.updates();
-        extendAdd(s, from, child, update);
-      }
-      if (!eliminate(s, update)) return false;
-      top = std::copy_n(update, m * m, stack_.get() + (child - stack_.get()));
-    }
-    keepSchurComplement(top - schur_.size());
-    return true;
+    std::atomic<bool> regular = true;
+    threads().upward(pieces_.parent, [&](int p) {
+      if (regular && !factorisePiece(p, values)) regular = false;
+    });
+    if (regular && plan_.size > 0) keepSchurComplement(updates_.back());
+    for (auto& stack : stacks_) stack.reset();
+    return regular;
   }
 
   [[nodiscard]] const Matrix& schurComplement() const override { return schur_; }
 
   void condense(Vector& f) const override {
-    Vector x(plan_.size);
-    for (int i = 0; i < plan_.size; ++i) x[i] = f[plan_.order[i]];
-    Vector y(static_cast<Eigen::Index>(largest_));
-    for (size_t s = 0; s < plan_.fronts.size(); ++s) {
-      const Front& front = plan_.fronts[s];
-      const auto n = static_cast<int>(front.rows.size());
-      const int pivots = front.pivots;
-      if (pivots == 0) continue;
-      double* x1 = &x[front.rows[0]];
-      const double* L = panels_.data() + factors_[s].panel;
-      if (!symmetric_) dense::swapRows(x1, pivots_.data() + factors_[s].pivot, pivots);
-      dense::solveLower(L, n, pivots, !symmetric_, x1);
-      dense::multiply(L + pivots, n, n - pivots, pivots, x1, y.data());
-      for (int i = pivots; i < n; ++i) x[front.rows[i]] -= y[i - pivots];
-    }
-    for (int i = 0; i < plan_.size; ++i) f[plan_.order[i]] = x[i];
+    Vector x = f(plan_.order);
+    std::vector<double*> passed(plan_.fronts.size());
+    std::vector<std::unique_ptr<double[]>> stacks(pieces_.all.size());
+    threads().upward(pieces_.parent, [&](int p) {
+      stacks[p] = std::make_unique_for_overwrite<double[]>(pieces_.all[p].vectorStack);
+      condensePiece(pieces_.all[p], x, stacks[p].get(), passed);
+      for (const int child : pieces_.all[p].children) stacks[child].reset();
+    });
+    f(plan_.order) = x;
   }
 
   void expand(Vector& f) const override {
-    Vector x(plan_.size);
-    for (int i = 0; i < plan_.size; ++i) x[i] = f[plan_.order[i]];
-    Vector y(static_cast<Eigen::Index>(largest_));
-    for (size_t s = plan_.fronts.size(); s-- > 0;) {
-      const Front& front = plan_.fronts[s];
-      const auto n = static_cast<int>(front.rows.size());
-      const int pivots = front.pivots;
-      if (pivots == 0) continue;
-      double* x1 = &x[front.rows[0]];
-      for (int i = pivots; i < n; ++i) y[i - pivots] = x[front.rows[i]];
-      const double* L = panels_.data() + factors_[s].panel;
-      if (symmetric_) {
-        dense::subtractTransposed(L + pivots, n, n - pivots, pivots, y.data(), x1);
-        dense::solveLowerTransposed(L, n, pivots, x1);
-      } else {
-        dense::subtract(panels_.data() + factors_[s].upper, pivots, pivots, n - pivots, y.data(), x1);
-        dense::solveUpper(L, n, pivots, x1);
+    Vector x = f(plan_.order);
+    threads().downward(pieces_.parent, [&](int p) {
+      Vector y(static_cast<Eigen::Index>(largest_));
+      for (int s = pieces_.all[p].last; s >= pieces_.all[p].first; --s) {
+        const Front& front = plan_.fronts[s];
+        const auto n = static_cast<int>(front.rows.size());
+        const int pivots = front.pivots;
+        if (pivots == 0) continue;
+        double* x1 = &x[front.rows[0]];
+        for (int i = pivots; i < n; ++i) y[i - pivots] = x[front.rows[i]];
+        const double* L = panel(s);
+        if (symmetric_) {
+          dense::subtractTransposed(L + pivots, n, n - pivots, pivots, y.data(), x1);
+          dense::solveLowerTransposed(L, n, pivots, x1);
+        } else {
+          dense::subtractTransposed(upper(s), n - pivots, n - pivots, pivots, y.data(), x1);
+          dense::solveUpper(L, n, pivots, x1);
+        }
       }
-    }
-    for (int i = 0; i < plan_.size; ++i) f[plan_.order[i]] = x[i];
+    });
+    f(plan_.order) = x;
   }
 
  private:
   /// Where the factor of a front is held.
   struct Factor {
     size_t panel = 0;
-    size_t upper = 0;
+    size_t upper = 0;  ///< U12'
     size_t pivot = 0;
   };
 
-  void assemble(size_t s, const std::vector<double>& values, double* update) {
+  [[nodiscard]] double* panel(int s) const { return panels_.get() + factors_[s].panel; }
+  [[nodiscard]] double* upper(int s) const { return panels_.get() + factors_[s].upper; }
+
+  bool factorisePiece(int p, const std::vector<double>& values) {
+    const Piece& piece = pieces_.all[p];
+    stacks_[p] = std::make_unique_for_overwrite<double[]>(piece.stack);
+    double* top = stacks_[p].get();
+    for (int s = piece.first; s <= piece.last; ++s) {
+      const Front& front = plan_.fronts[s];
+      const size_t m = front.updates();
+      double* update = top;
+      const size_t held = front.panelSize() + (symmetric_ ? 0 : front.pivots * m);
+      std::fill_n(panel(s), held, 0.0);
+      assemble(s, values, 0, held, panel(s));
+      for (const int child : front.children) extendAddPanel(s, child);
+      if (!eliminate(s, update)) return false;
+      if (front.parent < 0) assemble(s, values, held, held + m * m, update);
+      for (const int child : front.children) extendAddUpdate(s, child, update);
+      updates_[s] = update;
+      if (piece.children.empty() && !front.children.empty()) {
+        updates_[s] = updates_[front.children.front()];
+        std::copy_n(update, m * m, updates_[s]);
+      }
+      top = updates_[s] + m * m;
+    }
+    for (const int child : piece.children) stacks_[child].reset();
+    return true;
+  }
+
+  /// Adds the front's entries placed in [begin, end), the first of them to target[0].
+  void assemble(size_t s, const std::vector<double>& values, size_t begin, size_t end, double* target) const {
     const size_t last = s + 1 < plan_.fronts.size() ? plan_.fronts[s + 1].firstEntry : plan_.entries.size();
-    double* factor = panels_.data() + factors_[s].panel;
-    const size_t held =
-        (s + 1 < plan_.fronts.size() ? factors_[s + 1].panel : panelSize_) - factors_[s].panel;
     for (size_t k = plan_.fronts[s].firstEntry; k < last; ++k) {
       const size_t at = plan_.positions[k];
-      (at < held ? factor[at] : update[at - held]) += values[plan_.entries[k]];
+      if (at >= begin && at < end) target[at - begin] += values[plan_.entries[k]];
     }
   }
 
-  void extendAdd(size_t s, const Front& from, const double* child, double* update) {
+  /// How many of the rows of a child's update are pivots of its parent: they come first.
+  [[nodiscard]] size_t pivotsAmong(const std::vector<int>& rows, int pivots) const {
+    return std::lower_bound(rows.begin(), rows.end(), pivots) - rows.begin();
+  }
+
+  void extendAddPanel(int s, int childIndex) {
     const Front& front = plan_.fronts[s];
+    const std::vector<int>& rows = plan_.fronts[childIndex].inParent;
     const size_t n = front.rows.size();
-    const int pivots = front.pivots;
-    const size_t updates = front.updates();
-    const std::vector<int>& rows = from.inParent;
     const size_t m = rows.size();
-    const size_t split = std::lower_bound(rows.begin(), rows.end(), pivots) - rows.begin();
-    for (size_t j = 0; j < m; ++j, child += m) {
-      if (j < split) {
-        double* column = panels_.data() + factors_[s].panel + n * rows[j];
-        for (size_t i = symmetric_ ? j : 0; i < m; ++i) column[rows[i]] += child[i];
-        continue;
-      }
-      if (!symmetric_) {
-        double* column =
-            panels_.data() + factors_[s].upper + static_cast<size_t>(pivots) * (rows[j] - pivots);
-        for (size_t i = 0; i < split; ++i) column[rows[i]] += child[i];
-      }
-      double* column = update + updates * (rows[j] - pivots) - pivots;
-      for (size_t i = symmetric_ ? j : split; i < m; ++i) column[rows[i]] += child[i];
+    const size_t split = pivotsAmong(rows, front.pivots);
+    const double* child = updates_[childIndex];
+    for (size_t j = 0; j < split; ++j) {
+      double* column = panel(s) + n * rows[j];
+      for (size_t i = symmetric_ ? j : 0; i < m; ++i) column[rows[i]] += child[m * j + i];
+    }
+    if (symmetric_) return;
+    const size_t updates = front.updates();
+    for (size_t j = split; j < m; ++j) {
+      double* row = upper(s) + (rows[j] - front.pivots);
+      for (size_t i = 0; i < split; ++i) row[updates * rows[i]] += child[m * j + i];
     }
   }
 
-  bool eliminate(size_t s, double* update) {
+  void extendAddUpdate(int s, int childIndex, double* update) {
     const Front& front = plan_.fronts[s];
-    if (front.pivots == 0) return true;
+    const std::vector<int>& rows = plan_.fronts[childIndex].inParent;
+    const size_t updates = front.updates();
+    const size_t m = rows.size();
+    const size_t split = pivotsAmong(rows, front.pivots);
+    const double* child = updates_[childIndex];
+    for (size_t j = split; j < m; ++j) {
+      double* column = update + updates * (rows[j] - front.pivots) - front.pivots;
+      for (size_t i = symmetric_ ? j : split; i < m; ++i) column[rows[i]] += child[m * j + i];
+    }
+  }
+
+  bool eliminate(int s, double* update) {
+    const Front& front = plan_.fronts[s];
     const auto n = static_cast<int>(front.rows.size());
-    double* panel = panels_.data() + factors_[s].panel;
-    if (symmetric_) return dense::partialCholesky(panel, n, front.pivots, update);
-    return dense::partialLU(panel, n, front.pivots, panels_.data() + factors_[s].upper, update,
-                            pivots_.data() + factors_[s].pivot);
+    if (front.pivots == 0) {
+      std::fill_n(update, front.updates() * front.updates(), 0.0);
+      return true;
+    }
+    if (symmetric_) return dense::partialCholesky(panel(s), n, front.pivots, update);
+    return dense::partialLU(panel(s), n, front.pivots, upper(s), update, pivots_.data() + factors_[s].pivot);
   }
 
   void keepSchurComplement(const double* update) {
@@ -169,16 +186,48 @@ class Multifrontal final : public CondensingSolver {
       }
   }
 
+  /// x1 becomes L11^-1 (x1 - sum of what children pass), and that sum plus L21 x1 is passed on.
+  void condensePiece(const Piece& piece, Vector& x, double* top, std::vector<double*>& passed) const {
+    for (int s = piece.first; s <= piece.last; ++s) {
+      const Front& front = plan_.fronts[s];
+      const auto n = static_cast<int>(front.rows.size());
+      const int pivots = front.pivots;
+      double* sum = top;
+      double* product = top + n;
+      std::fill_n(sum, n, 0.0);
+      for (const int child : front.children) {
+        const std::vector<int>& rows = plan_.fronts[child].inParent;
+        for (size_t i = 0; i < rows.size(); ++i) sum[rows[i]] += passed[child][i];
+      }
+      if (pivots > 0) {
+        double* x1 = &x[front.rows[0]];
+        for (int i = 0; i < pivots; ++i) x1[i] -= sum[i];
+        const double* L = panel(s);
+        if (!symmetric_) dense::swapRows(x1, pivots_.data() + factors_[s].pivot, pivots);
+        dense::solveLower(L, n, pivots, !symmetric_, x1);
+        dense::multiply(L + pivots, n, n - pivots, pivots, x1, product);
+        for (int i = pivots; i < n; ++i) sum[i] += product[i - pivots];
+      }
+      if (front.parent < 0)  // the last front keeps its other rows
+        for (int i = pivots; i < n; ++i) x[front.rows[i]] -= sum[i];
+      passed[s] = top;
+      if (piece.children.empty() && !front.children.empty()) passed[s] = passed[front.children.front()];
+      std::copy_n(sum + pivots, n - pivots, passed[s]);
+      top = passed[s] + (n - pivots);
+    }
+  }
+
   bool symmetric_;
   Elimination plan_;
+  Pieces pieces_;
   std::vector<Factor> factors_;
   size_t panelSize_ = 0;
   size_t pivotSize_ = 0;
-  size_t stackSize_ = 0;
   size_t largest_ = 0;
-  std::vector<double> panels_;
+  std::unique_ptr<double[]> panels_;
   std::vector<int> pivots_;
-  std::unique_ptr<double[]> stack_;
+  std::vector<double*> updates_;                   ///< of each front, while its parent waits for it
+  std::vector<std::unique_ptr<double[]>> stacks_;  ///< of each piece: its updates
   Matrix schur_;
 };
 
