@@ -56,7 +56,8 @@ class Threads::Pool {
     std::unique_lock lock(mutex_);
     while (!stopped_) {
       // The innermost job first: others wait for it.
-      const auto job = std::find_if(jobs_.rbegin(), jobs_.rend(), [](const Job* each) { return !each->ready.empty(); });
+      const auto job =
+          std::find_if(jobs_.rbegin(), jobs_.rend(), [](const Job* each) { return !each->ready.empty(); });
       if (job == jobs_.rend())
         changed_.wait(lock);
       else

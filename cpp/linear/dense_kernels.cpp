@@ -54,8 +54,8 @@ namespace stdx = std::experimental;
 
 /// Rows [i, i + size of Rows) and `columns` columns from j of update = -L21 U12; U12' and L21 by columns.
 template <class Rows, int columns>
-void updateBlock(const double* L21, int ldL, int pivots, const double* upper, int ldU, int i, int j, double* update,
-                 int ld) {
+void updateBlock(const double* L21, int ldL, int pivots, const double* upper, int ldU, int i, int j,
+                 double* update, int ld) {
   Rows sum[columns];
   for (Rows& each : sum) each = 0;
   for (int k = 0; k < pivots; ++k) {
@@ -68,8 +68,8 @@ void updateBlock(const double* L21, int ldL, int pivots, const double* upper, in
 }
 
 template <int columns>
-void updateColumns(const double* L21, int ldL, int pivots, const double* upper, int ldU, int rest, int i, int j,
-                   double* update) {
+void updateColumns(const double* L21, int ldL, int pivots, const double* upper, int ldU, int rest, int i,
+                   int j, double* update) {
   using Eight = stdx::fixed_size_simd<double, 8>;
   using Four = stdx::fixed_size_simd<double, 4>;
   using One = stdx::fixed_size_simd<double, 1>;
@@ -79,8 +79,8 @@ void updateColumns(const double* L21, int ldL, int pivots, const double* upper, 
 }
 
 /// update = -L21 U12; with `lower`, what is above the diagonal is left undefined.
-void smallUpdate(const double* L21, int ldL, int pivots, const double* upper, int ldU, int rest, double* update,
-                 bool lower) {
+void smallUpdate(const double* L21, int ldL, int pivots, const double* upper, int ldU, int rest,
+                 double* update, bool lower) {
   int j = 0;
   for (; j + 4 <= rest; j += 4)
     updateColumns<4>(L21, ldL, pivots, upper, ldU, rest, lower ? j : 0, j, update);
@@ -132,12 +132,12 @@ bool partialLU(double* panel, int n, int pivots, double* upper, double* update, 
     if (info != 0 || !finiteDiagonal(panel, n, pivots)) return false;
     if (rest == 0) return true;
     swapColumns(upper, rest, interchange, pivots);
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasUnit, rest, pivots, 1, panel, n, upper,
-                rest);
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasUnit, rest, pivots, 1, panel, n,
+                upper, rest);
     cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, rest, pivots, 1, panel, n,
                 L21, n);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, rest, rest, pivots, -1, L21, n, upper, rest, 0, update,
-                rest);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, rest, rest, pivots, -1, L21, n, upper, rest, 0,
+                update, rest);
     return true;
   }
   for (int k = 0; k < pivots; ++k) {

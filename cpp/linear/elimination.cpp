@@ -184,7 +184,8 @@ Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept) 
         place = front.panelSize() + front.updates() * i + (j - pivots);
       else
         place = front.panelSize() + upper + front.updates() * (j - pivots) + (i - pivots);
-      if (place > std::numeric_limits<uint32_t>::max()) throw std::runtime_error("a front of the tangent is too large");
+      if (place > std::numeric_limits<uint32_t>::max())
+        throw std::runtime_error("a front of the tangent is too large");
       result.positions[at] = static_cast<uint32_t>(place);
     }
   }

@@ -129,6 +129,11 @@ std::string BodySystem::factorise() {
   return {};
 }
 
+void BodySystem::use(Threads& threads) {
+  threads_ = &threads;
+  solver_->use(threads);
+}
+
 void BodySystem::useLibraries() {
   if (engine_ == LinearEngine::suitesparse) return;
   engine_ = LinearEngine::suitesparse;

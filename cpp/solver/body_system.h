@@ -33,6 +33,8 @@ class BodySystem {
   std::string factorise();
   /// Whether the last factorise() did any work.
   [[nodiscard]] bool refactorised() const { return refactorised_; }
+  /// Works on these threads from now on; they must outlive the system.
+  void use(Threads& threads);
   /// From now on CHOLMOD or UMFPACK.
   void useLibraries();
   [[nodiscard]] bool usesLibraries() const { return engine_ == LinearEngine::suitesparse; }
@@ -63,6 +65,7 @@ class BodySystem {
   Matrix motions_;
   Matrix R_;
   LinearEngine engine_;
+  Threads* threads_ = &Threads::none();
   std::unique_ptr<CondensingSolver> solver_;
   std::vector<double> values_;
   bool factorised_ = false;

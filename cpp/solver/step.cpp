@@ -47,7 +47,8 @@ StepSolver::StepSolver(const Model& model, const SolverOptions& options)
     firstMotion_.push_back(firstMotion_.back() + static_cast<int>(systems_[b].R().cols()));
     triangles += static_cast<int>(model.bodies[b].mesh().triangles.size());
   }
-  if (triangles >= trianglesWorthThreads) threads_ = options.threads;
+  threads_ = std::make_unique<Threads>(triangles >= trianglesWorthThreads ? options.threads : 1);
+  for (BodySystem& system : systems_) system.use(*threads_);
   requireHeld();
 }
 
@@ -113,7 +114,7 @@ std::vector<Vector> StepSolver::displacements(const State& state0, const Iterate
 /// \returns the material residual, scaled; NaN when any stress is.
 double StepSolver::linearise(const State& state0, const StepData& step, Iterate& iterate, bool anticipate) {
   std::vector<double> residual(model_.bodies.size());
-  inParallel(threads_, model_.bodies.size(), [&](size_t b) {
+  forEachBody([&](int b) {
     BodyIterate& body = iterate.bodies[b];
     model_.bodies[b].strain(body.increment, body.small, body.strain);
     if (!step.shift.empty()) body.strain -= step.shift[b];
@@ -128,7 +129,7 @@ double StepSolver::linearise(const State& state0, const StepData& step, Iterate&
 
 bool StepSolver::factorise(StepOutcome& outcome) {
   std::vector<std::string> failures(systems_.size());
-  inParallel(threads_, systems_.size(), [&](size_t b) { failures[b] = systems_[b].factorise(); });
+  forEachBody([&](int b) { failures[b] = systems_[b].factorise(); });
   bool changed = contact_.W.rows() != rows();
   for (size_t b = 0; b < systems_.size(); ++b) {
     if (!failures[b].empty()) outcome.reason = failures[b];
@@ -151,9 +152,7 @@ void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>&
                                  StepOutcome& outcome) {
   // What is out of balance, and the slack as it is.
   std::vector<Vector> force(systems_.size());
-  inParallel(threads_, systems_.size(), [&](size_t b) {
-    force[b] = loads[b] - model_.bodies[b].internalForce(systems_[b].predictor());
-  });
+  forEachBody([&](int b) { force[b] = loads[b] - model_.bodies[b].internalForce(systems_[b].predictor()); });
   const std::vector<Vector> u = displacements(state0, iterate);
   Vector slack(rows());
   Vector p(rows());
@@ -170,7 +169,7 @@ void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>&
 
   // Condense, and find the contact forces on the interface.
   std::vector<Vector> motion(systems_.size());
-  inParallel(threads_, systems_.size(), [&](size_t b) { motion[b] = systems_[b].condense(force[b]); });
+  forEachBody([&](int b) { motion[b] = systems_[b].condense(force[b]); });
   Vector balance(contact_.G.cols());
   for (size_t b = 0; b < systems_.size(); ++b) {
     if (!systems_[b].inContact()) continue;
@@ -189,7 +188,7 @@ void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>&
   }
 
   // Expand: displacement and stress.
-  inParallel(threads_, systems_.size(), [&](size_t b) {
+  forEachBody([&](int b) {
     systems_[b].expand(contact.change, contact.rigid.segment(firstMotion_[b], systems_[b].R().cols()),
                        iterate.bodies[b]);
   });

@@ -68,6 +68,7 @@ class StepSolver {
 
  private:
   void requireHeld();
+  void forEachBody(const Threads::Work& work) { threads_->forEach(static_cast<int>(systems_.size()), work); }
   [[nodiscard]] int rows() const { return firstRow_.back(); }
   [[nodiscard]] std::vector<Vector> displacements(const State& state0, const Iterate& iterate) const;
   [[nodiscard]] std::string describeRigid(const Vector& z) const;
@@ -88,7 +89,7 @@ class StepSolver {
 
   const Model& model_;
   SolverOptions options_;
-  int threads_ = 1;
+  std::unique_ptr<Threads> threads_;
   std::vector<int>
       firstRow_;  ///< of each interface among all contact conditions, and their number at the end
   std::vector<BodySystem> systems_;

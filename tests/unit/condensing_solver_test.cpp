@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <limits>
+#include <numeric>
 #include <random>
 
 #include "unit/dense_reference.h"
@@ -44,6 +46,70 @@ TEST(CondensingSolver, unsymmetricFrontsPivot) {
     for (const int count : {0, n / 4})
       for (const Engine& engine : engines)
         compare(engine, System(K, false), randomSubset(random, n, count), random);
+  }
+}
+
+/// A grid whose elimination tree is cut into many pieces; each node couples with its eight neighbours.
+struct Grid {
+  SparsePattern pattern;
+  std::vector<double> values;
+
+  Grid(std::mt19937& random, int side, bool symmetric) {
+    std::uniform_real_distribution<double> value(-1, 1);
+    pattern.size = side * side;
+    pattern.symmetric = symmetric;
+    pattern.columnStart = {0};
+    for (int j = 0; j < pattern.size; ++j) {
+      for (int i = symmetric ? j : 0; i < pattern.size; ++i)
+        if (std::abs(i / side - j / side) <= 1 && std::abs(i % side - j % side) <= 1) {
+          pattern.rows.push_back(i);
+          values.push_back(i == j ? 9 : value(random));
+        }
+      pattern.columnStart.push_back(static_cast<int>(pattern.rows.size()));
+    }
+  }
+
+  [[nodiscard]] Vector times(const Vector& x) const {
+    Vector y = Vector::Zero(pattern.size);
+    for (int j = 0; j < pattern.size; ++j)
+      for (int k = pattern.columnStart[j]; k < pattern.columnStart[j + 1]; ++k) {
+        y[pattern.rows[k]] += values[k] * x[j];
+        if (pattern.symmetric && pattern.rows[k] != j) y[j] += values[k] * x[pattern.rows[k]];
+      }
+    return y;
+  }
+};
+
+// The tree is the same, so is the order of every sum: no bit depends on the number of threads.
+TEST(CondensingSolver, threadsChangeNothing) {
+  constexpr int side = 90;
+  std::mt19937 random(4);
+  for (const bool symmetric : {true, false}) {
+    const Grid system(random, side, symmetric);
+    std::vector<int> kept(side);
+    std::iota(kept.begin(), kept.end(), 0);
+    const Vector solution = Vector::LinSpaced(side * side, -1, 2);
+    const Vector force = system.times(solution);
+    Matrix S;
+    Vector x;
+    for (const int count : {1, 2, 5}) {
+      Threads threads(count);
+      const auto solver = multifrontalSolver(system.pattern, kept);
+      solver->use(threads);
+      for (int repetition = 0; repetition < 3; ++repetition) {
+        ASSERT_TRUE(solver->factorise(system.values));
+        Vector y = force;
+        solver->condense(y);
+        y(kept) = solver->schurComplement().partialPivLu().solve(y(kept)).eval();
+        solver->expand(y);
+        if (S.size() == 0) {
+          S = solver->schurComplement();
+          x = y;
+          EXPECT_LE((x - solution).cwiseAbs().maxCoeff(), tolerance);
+        }
+        EXPECT_TRUE(S == solver->schurComplement() && x == y) << count << " threads, symmetric " << symmetric;
+      }
+    }
   }
 }
 

@@ -1,0 +1,82 @@
+#include "base/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <random>
+#include <stdexcept>
+
+namespace mortier {
+namespace {
+
+std::vector<int> randomForest(std::mt19937& random, int n) {
+  std::vector<int> parent(n, -1);
+  for (int i = 0; i + 1 < n; ++i)
+    if (random() % 8 != 0)
+      parent[i] = std::uniform_int_distribution<int>(i + 1, std::min(n - 1, i + 6))(random);
+  return parent;
+}
+
+TEST(Threads, everyItemIsDoneOnce) {
+  for (const int count : {1, 2, 5}) {
+    Threads threads(count);
+    for (const int n : {0, 1, 2, 100}) {
+      std::vector<std::atomic<int>> done(n);
+      threads.forEach(n, [&](int i) { ++done[i]; });
+      for (const auto& each : done) EXPECT_EQ(each, 1);
+    }
+  }
+}
+
+TEST(Threads, itemsWaitForTheirChildrenOrParents) {
+  std::mt19937 random(1);
+  for (const int count : {1, 2, 5}) {
+    Threads threads(count);
+    for (int repetition = 0; repetition < 50; ++repetition) {
+      const std::vector<int> parent = randomForest(random, 60);
+      std::vector<std::atomic<int>> childrenDone(60);
+      std::vector<int> children(60, 0);
+      for (const int p : parent)
+        if (p >= 0) ++children[p];
+      std::atomic<int> early = 0;
+      threads.upward(parent, [&](int i) {
+        if (childrenDone[i] != children[i]) ++early;
+        if (parent[i] >= 0) ++childrenDone[parent[i]];
+      });
+      std::vector<std::atomic<bool>> done(60);
+      threads.downward(parent, [&](int i) {
+        if (parent[i] >= 0 && !done[parent[i]]) ++early;
+        done[i] = true;
+      });
+      EXPECT_EQ(early, 0);
+      for (const auto& each : done) EXPECT_TRUE(each);
+    }
+  }
+}
+
+TEST(Threads, itemsMayHaveItemsOfTheirOwn) {
+  for (const int count : {1, 2, 3}) {
+    Threads threads(count);
+    std::atomic<int> done = 0;
+    threads.forEach(5,
+                    [&](int) { threads.forEach(7, [&](int) { threads.forEach(3, [&](int) { ++done; }); }); });
+    EXPECT_EQ(done, 5 * 7 * 3);
+  }
+}
+
+TEST(Threads, exceptionsComeOutAndTheThreadsStay) {
+  for (const int count : {1, 3}) {
+    Threads threads(count);
+    const auto fail = [](int i) {
+      if (i == 11) throw std::runtime_error("eleven");
+    };
+    EXPECT_THROW(threads.forEach(20, fail), std::runtime_error);
+    EXPECT_THROW(threads.upward(std::vector<int>(20, -1), fail), std::runtime_error);
+    std::atomic<int> done = 0;
+    threads.forEach(20, [&](int) { ++done; });
+    EXPECT_EQ(done, 20);
+  }
+}
+
+}  // namespace
+}  // namespace mortier
