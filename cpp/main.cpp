@@ -3,13 +3,14 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <functional>
 #include <new>
 
 #include "base/error.h"
 #include "commands/complain.h"
 #include "commands/exit_code.h"
 #include "commands/freefem.h"
-#include "commands/mesh.h"
+#include "commands/mesh_options.h"
 #include "commands/run.h"
 #include "commands/scene_argument.h"
 #include "commands/version.h"
@@ -37,21 +38,7 @@ int dispatch(int argc, char** argv) {
   runApp->add_option("--threads", runCommand.threads, "threads (default 1)")->check(CLI::Range(1, 1024));
   runApp->add_flag("--quiet", runCommand.quiet, "no log and no progress bar");
 
-  CLI::App* meshApp = app.add_subcommand("mesh", "make a mesh, or describe one");
-  meshApp->require_subcommand(1);
-  MeshCommand meshCommand;
-  CLI::App* rectangle = meshApp->add_subcommand("rectangle", "rectangle, each cell cut by one diagonal");
-  CLI::App* crissCross = meshApp->add_subcommand("crisscross", "rectangle, each cell cut by both diagonals");
-  for (CLI::App* each : {rectangle, crissCross}) {
-    each->add_option("--cells", meshCommand.cells, "cells along x and y")->required()->type_name("N[,NY]");
-    each->add_option("--lower", meshCommand.lower, "lower left corner [m] (default 0,0)")->type_name("X,Y");
-    each->add_option("--upper", meshCommand.upper, "upper right corner [m] (default 1,1)")->type_name("X,Y");
-    each->add_option("FILE", meshCommand.file, "Medit .mesh file to write")->required();
-    each->footer("Boundary labels: 1 bottom, 2 right, 3 top, 4 left.");
-  }
-  std::string infoFile;
-  CLI::App* info = meshApp->add_subcommand("info", "counts, labels, extents, worst triangle");
-  info->add_option("FILE", infoFile, "Medit .mesh file")->required();
+  const std::function<int()> meshCommand = addMeshCommand(app);
 
   FreefemCommand freefemCommand;
   CLI::App* freefemApp = app.add_subcommand("freefem", "write a scene as a FreeFEM script");
@@ -72,12 +59,11 @@ int dispatch(int argc, char** argv) {
     giveBackScene(freefemCommand.settings, freefemCommand.scene);
     return writeFreefem(freefemCommand);
   }
-  if (!*meshApp) {
-    std::fputs(app.help().c_str(), stderr);
-    return exitWrongInput;
+  if (app.got_subcommand("mesh")) {
+    return meshCommand();
   }
-  meshCommand.crissCross = crissCross->parsed();
-  return info->parsed() ? meshInfo(infoFile) : makeMesh(meshCommand);
+  std::fputs(app.help().c_str(), stderr);
+  return exitWrongInput;
 }
 
 int complainOf(const std::exception& error, int code) {

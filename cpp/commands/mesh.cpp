@@ -37,17 +37,73 @@ std::pair<Number, Number> parsePair(const std::string& option, const std::string
   return {one(0, end), one(std::min(end + 1, text.size()), text.size())};
 }
 
+Point parsePoint(const std::string& option, const std::string& text) {
+  const auto [x, y] = parsePair<double>(option, text, false);
+  return {x, y};
+}
+
+/// One of a few words.
+template <class Value>
+Value parseWord(const std::string& option, const std::string& text,
+                const std::vector<std::pair<std::string, Value>>& words) {
+  std::string known;
+  for (const auto& [word, value] : words) {
+    if (word == text) {
+      return value;
+    }
+    known += (known.empty() ? "" : ", ") + word;
+  }
+  throw InputError(option + " " + text + ": expected one of " + known);
+}
+
+struct Made {
+  TriangleMesh mesh;
+  std::string labels;
+};
+
+Made make(const MeshCommand& command) {
+  const auto [cells1, cells2] = parsePair<int>("--cells", command.cells, true);
+  const Cut cut = parseWord<Cut>("--cut", command.cut,
+                                 {{"rising", Cut::rising}, {"falling", Cut::falling}, {"both", Cut::both}});
+  if (command.family == "quadrilateral") {
+    Quadrilateral shape{{}, cells1, cells2};
+    for (size_t k = 0; k < 4; ++k) {
+      shape.corners[k] = parsePoint("--corners", command.corners.at(k));
+    }
+    return {quadrilateralMesh(shape, cut), "1, 2, 3, 4: side k from corner k to the next"};
+  }
+  if (command.family == "annulus") {
+    const int quarters = parseWord<int>("--span", command.span, {{"quarter", 1}, {"half", 2}, {"full", 4}});
+    return {annulusMesh({parsePoint("--centre", command.centre), command.inner, command.outer, quarters,
+                         cells1, cells2},
+                        cut),
+            quarters == 4 ? "1 inner circle, 2 outer circle"
+                          : "1 inner circle, 2 outer circle, 3 first side, 4 last side"};
+  }
+  if (command.family == "halfdisc") {
+    return {halfDiscMesh({parsePoint("--lowest", command.lowest), command.radius, command.core, cells1}, cut),
+            "1 arc near the lowest point, 2 flat side, 3 rest of the arc"};
+  }
+  Rectangle shape{parsePoint("--lower", command.lower), parsePoint("--upper", command.upper), cells1, cells2};
+  if (!command.focus.empty()) {
+    shape.focus = parsePoint("--focus", command.focus);
+  }
+  const auto [x, y] = parsePair<double>("--grading", command.grading, true);
+  shape.grading = {x, y};
+  if (command.focus.empty() && shape.grading != Point(1, 1)) {
+    throw InputError("--grading " + command.grading + ": expected with --focus X,Y");
+  }
+  return {command.family == "crisscross" ? crissCrossMesh(shape) : rectangleMesh(shape, cut),
+          "1 bottom, 2 right, 3 top, 4 left"};
+}
+
 }  // namespace
 
 int makeMesh(const MeshCommand& command) {
-  const auto [cellsX, cellsY] = parsePair<int>("--cells", command.cells, true);
-  const auto [lowerX, lowerY] = parsePair<double>("--lower", command.lower, false);
-  const auto [upperX, upperY] = parsePair<double>("--upper", command.upper, false);
-  const Rectangle rectangle{{lowerX, lowerY}, {upperX, upperY}, cellsX, cellsY};
-  const TriangleMesh mesh = command.crissCross ? crissCrossMesh(rectangle) : rectangleMesh(rectangle);
+  const auto [mesh, labels] = make(command);
   writeMedit(mesh, command.file);
-  std::printf("%s: %zu vertices, %zu triangles; labels 1 bottom, 2 right, 3 top, 4 left\n",
-              command.file.c_str(), mesh.vertices.size(), mesh.triangles.size());
+  std::printf("%s: %zu vertices, %zu triangles; labels %s\n", command.file.c_str(), mesh.vertices.size(),
+              mesh.triangles.size(), labels.c_str());
   return exitDone;
 }
 

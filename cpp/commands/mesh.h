@@ -1,16 +1,28 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace mortier {
 
-/// `mortier mesh rectangle|crisscross`: a labelled mesh of a rectangle.
+/// `mortier mesh FAMILY`: a labelled mesh of a simple shape (mesh/generate.h), options as given.
 struct MeshCommand {
-  std::string cells = "1";    ///< N or NX,NY
-  std::string lower = "0,0";  ///< lower left corner [m]
-  std::string upper = "1,1";  ///< upper right corner [m]
+  std::string family;  ///< rectangle, crisscross, quadrilateral, annulus, halfdisc
   std::string file;
-  bool crissCross = false;
+  std::string cells = "1";     ///< N or N1,N2
+  std::string cut = "rising";  ///< rising, falling, both
+  std::string lower = "0,0";   ///< corners of a rectangle [m]
+  std::string upper = "1,1";
+  std::string focus;  ///< X,Y; none: equal cells
+  std::string grading = "1";
+  std::vector<std::string> corners;  ///< of a quadrilateral
+  std::string centre = "0,0";        ///< of an annulus
+  double inner = 1;
+  double outer = 2;
+  std::string span = "full";   ///< quarter, half, full
+  std::string lowest = "0,0";  ///< of a half disc
+  double radius = 1;
+  double core = 0.1;
 };
 
 /// \throws InputError, OutputError

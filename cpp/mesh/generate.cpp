@@ -1,106 +1,96 @@
 #include "mesh/generate.h"
 
+#include <cmath>
+#include <numbers>
 #include <sstream>
-#include <utility>
 
 #include "base/error.h"
 
 namespace mortier {
 namespace {
 
-constexpr double maxTriangles = 1e8;  // beyond what a desktop solves; keeps numbers within int
-
-std::string describe(const std::string& kind, const Rectangle& r) {
+std::string text(const Point& p) {
   std::ostringstream out;
-  out << kind << ' ' << r.cellsX << 'x' << r.cellsY << " of (" << r.lower.x() << ", " << r.lower.y()
-      << ") to (" << r.upper.x() << ", " << r.upper.y() << ')';
+  out << '(' << p.x() << ", " << p.y() << ')';
   return out.str();
 }
 
-void check(const Rectangle& r, const std::string& name, int trianglesPerCell) {
-  if (r.cellsX < 1 || r.cellsY < 1) throw InputError(name + ": cell counts, expected 1 or more each way");
-  if (double(r.cellsX) * r.cellsY * trianglesPerCell > maxTriangles) {
-    throw InputError(name + ": too many cells, expected 1e8 triangles at most");
-  }
+std::string describe(const std::string& kind, const Rectangle& r) {
+  std::ostringstream out;
+  out << kind << ' ' << r.cellsX << 'x' << r.cellsY << " of " << text(r.lower) << " to " << text(r.upper);
+  return out.str();
+}
+
+TriangleMesh rectangle(const Rectangle& r, Cut cut, const std::string& name) {
+  checkCells(name, r.cellsX, r.cellsY, cut);
   const bool finite = r.lower.allFinite() && r.upper.allFinite();
-  if (!finite || !(r.lower.x() < r.upper.x()) || !(r.lower.y() < r.upper.y())) {
+  if (!finite || !(r.lower.x() < r.upper.x()) || !(r.lower.y() < r.upper.y()))
     throw InputError(name + ": corners, expected finite numbers with lower < upper in x and y");
-  }
-}
-
-// Node i of n equal cells; both ends are met exactly.
-double gridCoordinate(double lower, double upper, int i, int n) {
-  return i == n ? upper : lower + (upper - lower) * i / n;
-}
-
-// Nodes row by row from the bottom, then the labelled edges, counterclockwise from the lower left corner.
-TriangleMesh gridWithoutTriangles(const Rectangle& r) {
-  TriangleMesh mesh;
-  const int nx = r.cellsX, ny = r.cellsY;
-  const auto node = [nx](int i, int j) { return j * (nx + 1) + i; };
-  for (int j = 0; j <= ny; ++j) {
-    for (int i = 0; i <= nx; ++i) {
-      mesh.vertices.emplace_back(gridCoordinate(r.lower.x(), r.upper.x(), i, nx),
-                                 gridCoordinate(r.lower.y(), r.upper.y(), j, ny));
-    }
-  }
-  const auto addEdge = [&mesh](int a, int b, int label) {
-    mesh.boundaryEdges.push_back({a, b});
-    mesh.boundaryLabels.push_back(label);
-  };
-  for (int i = 0; i < nx; ++i) addEdge(node(i, 0), node(i + 1, 0), 1);
-  for (int j = 0; j < ny; ++j) addEdge(node(nx, j), node(nx, j + 1), 2);
-  for (int i = nx; i > 0; --i) addEdge(node(i, ny), node(i - 1, ny), 3);
-  for (int j = ny; j > 0; --j) addEdge(node(0, j), node(0, j - 1), 4);
-  return mesh;
-}
-
-// Calls cut(a, b, c, d) for each cell, row by row; corners counterclockwise from the lower left.
-template <class Cut>
-void forEachCell(const Rectangle& r, const Cut& cut) {
-  const int row = r.cellsX + 1;
-  for (int j = 0; j < r.cellsY; ++j) {
-    for (int i = 0; i < r.cellsX; ++i) {
-      const int a = j * row + i;
-      cut(a, a + 1, a + 1 + row, a + row);
-    }
-  }
-}
-
-// Validation finds rectangles too thin for their distance from the origin.
-TriangleMesh finish(TriangleMesh mesh, const std::string& name) {
-  mesh.name = name;
-  mesh.regions.assign(mesh.triangles.size(), 1);
-  validate(mesh);
-  return mesh;
+  const Point focus = r.focus.value_or(r.lower);
+  if (!((focus - r.lower).minCoeff() >= 0 && (r.upper - focus).minCoeff() >= 0))
+    throw InputError(name + ": focus " + text(focus) + ", expected a point of the rectangle");
+  if (!(r.grading.minCoeff() >= 1 && r.grading.maxCoeff() <= 1e6))
+    throw InputError(name + ": grading " + text(r.grading) + ", expected 1 to 1e6 each way");
+  for (const int c : {0, 1})
+    if (r.grading[c] != 1 && focus[c] > r.lower[c] && focus[c] < r.upper[c] &&
+        (c == 0 ? r.cellsX : r.cellsY) < 2)
+      throw InputError(name + ": one cell with a focus inside, expected 2 or more");
+  const std::vector<double> x = gradedNodes(r.lower.x(), r.upper.x(), r.cellsX, focus.x(), r.grading.x());
+  const std::vector<double> y = gradedNodes(r.lower.y(), r.upper.y(), r.cellsY, focus.y(), r.grading.y());
+  return gridMesh({r.cellsX, r.cellsY, [&](int i, int j) { return Point(x[i], y[j]); }}, cut, name);
 }
 
 }  // namespace
 
-TriangleMesh rectangleMesh(const Rectangle& rectangle) {
-  const std::string name = describe("rectangle", rectangle);
-  check(rectangle, name, 2);
-  TriangleMesh mesh = gridWithoutTriangles(rectangle);
-  forEachCell(rectangle, [&mesh](int a, int b, int c, int d) {
-    mesh.triangles.push_back({a, b, c});
-    mesh.triangles.push_back({a, c, d});
-  });
-  return finish(std::move(mesh), name);
+TriangleMesh rectangleMesh(const Rectangle& r, Cut cut) {
+  return rectangle(r, cut, describe("rectangle", r));
 }
 
-TriangleMesh crissCrossMesh(const Rectangle& rectangle) {
-  const std::string name = describe("criss-cross", rectangle);
-  check(rectangle, name, 4);
-  TriangleMesh mesh = gridWithoutTriangles(rectangle);
-  forEachCell(rectangle, [&mesh](int a, int b, int c, int d) {
-    const int centre = int(mesh.vertices.size());
-    mesh.vertices.emplace_back(mesh.vertices[a] + (mesh.vertices[c] - mesh.vertices[a]) / 2);
-    mesh.triangles.push_back({a, b, centre});
-    mesh.triangles.push_back({b, c, centre});
-    mesh.triangles.push_back({c, d, centre});
-    mesh.triangles.push_back({d, a, centre});
-  });
-  return finish(std::move(mesh), name);
+TriangleMesh crissCrossMesh(const Rectangle& r) {
+  return rectangle(r, Cut::both, describe("criss-cross", r));
+}
+
+TriangleMesh quadrilateralMesh(const Quadrilateral& q, Cut cut) {
+  std::string name = "quadrilateral";
+  for (const Point& corner : q.corners) name += ' ' + text(corner);
+  for (int k = 0; k < 4; ++k) {
+    const Point along = q.corners[(k + 1) % 4] - q.corners[k];
+    const Point next = q.corners[(k + 2) % 4] - q.corners[(k + 1) % 4];
+    if (!(along.x() * next.y() - along.y() * next.x() > 0))
+      throw InputError(name + ": corner " + std::to_string((k + 1) % 4 + 1) +
+                       ", expected finite corners of a convex quadrilateral, counterclockwise");
+  }
+  const auto at = [&](int i, int j) -> Point {
+    const double s = static_cast<double>(i) / q.cells1;
+    const double t = static_cast<double>(j) / q.cells2;
+    const auto& [a, b, c, d] = q.corners;
+    return (1 - t) * ((1 - s) * a + s * b) + t * ((1 - s) * d + s * c);
+  };
+  return gridMesh({q.cells1, q.cells2, at}, cut, name);
+}
+
+TriangleMesh annulusMesh(const Annulus& a, Cut cut) {
+  std::ostringstream name;
+  name << "annulus of radii " << a.inner << " and " << a.outer << " about " << text(a.centre);
+  if (!(a.inner > 0 && a.outer > a.inner && std::isfinite(a.outer) && a.centre.allFinite()))
+    throw InputError(name.str() + ", expected finite numbers with 0 < inner < outer");
+  if (a.quarters != 1 && a.quarters != 2 && a.quarters != 4)
+    throw InputError(name.str() + ": " + std::to_string(a.quarters) + " quarters, expected 1, 2 or 4");
+  if (a.quarters == 4 && a.cellsAround < 3)
+    throw InputError(name.str() + ": cell counts, expected 3 or more around");
+  const bool closed = a.quarters == 4;
+  // From the end of the sector to its beginning and outwards, so that cells are counterclockwise.
+  const auto at = [&](int i, int j) -> Point {
+    const int k = closed ? (a.cellsAround - i) % a.cellsAround : a.cellsAround - i;
+    const double angle = std::numbers::pi / 2 * a.quarters * k / a.cellsAround;
+    const double r =
+        j == a.cellsAcross ? a.outer : a.inner * std::pow(a.outer / a.inner, double(j) / a.cellsAcross);
+    Point direction(std::cos(angle), std::sin(angle));
+    // On the axes to the last bit.
+    if (static_cast<long long>(k) * a.quarters % a.cellsAround == 0) direction = direction.array().round();
+    return a.centre + r * direction;
+  };
+  return gridMesh({a.cellsAround, a.cellsAcross, at, closed, {1, 3, 2, 4}}, cut, name.str());
 }
 
 }  // namespace mortier

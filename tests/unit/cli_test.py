@@ -179,7 +179,8 @@ class Cli(unittest.TestCase):
 
     def test_help_and_version(self):
         for arguments in [["--help"], ["run", "--help"], ["mesh", "--help"], ["mesh", "crisscross", "--help"],
-                          ["mesh", "rectangle", "--help"], ["mesh", "info", "--help"], ["freefem", "--help"], ["--version"]]:
+                          ["mesh", "rectangle", "--help"], ["mesh", "quadrilateral", "--help"], ["mesh", "annulus", "--help"],
+                          ["mesh", "halfdisc", "--help"], ["mesh", "info", "--help"], ["freefem", "--help"], ["--version"]]:
             result = mortier(*arguments)
             self.assertEqual((result.returncode, result.stderr), (0, ""))
             self.assertTrue(result.stdout)
@@ -277,6 +278,31 @@ class Cli(unittest.TestCase):
             self.assertIn(part, script)
         self.write(SCENE[:SCENE.index("[contact]")] + SCENE[SCENE.index("[time]"):])
         self.reject(mortier("freefem", "scene.toml"), "scene.toml: 2 bodies and 0 contact interfaces, expected two")
+
+    def test_mesh_families(self):
+        for arguments, triangles, labels in [
+                (["rectangle", "--cells", "4,3", "--cut", "both", "--focus", "0.5,1", "--grading", "3,2"], 48, [1, 2, 3, 4]),
+                (["quadrilateral", "--cells", "3,2", "--corners", "0,0", "48,44", "48,60", "0,44"], 12, [1, 2, 3, 4]),
+                (["annulus", "--cells", "8,2", "--span", "half", "--inner", "0.5", "--centre", "1,0"], 32, [1, 2, 3, 4]),
+                (["annulus", "--cells", "8,2"], 32, [1, 2]),
+                (["halfdisc", "--cells", "3", "--radius", "50", "--core", "10", "--lowest", "0,1"], 2 * (2 * 9 + 12 * 6), [1, 2, 3])]:
+            with self.subTest(arguments=arguments):
+                result = mortier("mesh", *arguments, "family.mesh")
+                self.assertEqual((result.returncode, result.stderr), (0, ""))
+                self.assertIn(f"{triangles} triangles; labels 1", result.stdout)
+                text = mortier("mesh", "info", "family.mesh").stdout
+                self.assertEqual([int(line.split()[1]) for line in text.splitlines() if line.startswith("label")], labels)
+        for arguments, message in [
+                (["rectangle", "--cells", "2", "--cut", "up"], "--cut up: expected one of rising, falling, both"),
+                (["rectangle", "--cells", "2", "--grading", "2"], "--grading 2: expected with --focus X,Y"),
+                (["rectangle", "--cells", "2", "--grading", "2", "--focus", "3,0"], "rectangle 2x2 of (0, 0) to (1, 1): focus (3, 0)"),
+                (["annulus", "--cells", "8,2", "--span", "third"], "--span third: expected one of quarter, half, full"),
+                (["annulus", "--cells", "8,2", "--inner", "3"], "annulus of radii 3 and 2 about (0, 0), expected"),
+                (["quadrilateral", "--cells", "2", "--corners", "0,0", "0,1", "1,1", "1,0"], "quadrilateral (0, 0)"),
+                (["halfdisc", "--cells", "2", "--core", "0.5"], "half disc of radius 1 on (0, 0): core 0.5, expected")]:
+            with self.subTest(arguments=arguments):
+                self.reject(mortier("mesh", *arguments, "x.mesh"), message)
+                self.assertFalse(os.path.exists("x.mesh"))
 
     def test_mesh_info(self):
         text = mortier("mesh", "info", "lower.mesh").stdout

@@ -1,0 +1,156 @@
+#include "mesh/generate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "base/error.h"
+#include "mesh/boundary_line.h"
+
+namespace mortier {
+namespace {
+
+constexpr Cut cuts[] = {Cut::rising, Cut::falling, Cut::both};
+
+double area(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) sum += doubleArea(mesh, t) / 2;
+  return sum;
+}
+
+double worstAspect(const TriangleMesh& mesh) {
+  double worst = 0;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
+    worst = std::max(worst, aspectRatio(mesh, t));
+  return worst;
+}
+
+/// Every edge of one triangle only is labelled: no hole where blocks meet.
+bool closedByLabels(const TriangleMesh& mesh) {
+  std::map<std::pair<int, int>, int> count;
+  for (const auto& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) ++count[std::minmax(t[k], t[(k + 1) % 3])];
+  size_t single = 0;
+  for (const auto& [edge, triangles] : count) single += triangles == 1 ? 1 : 0;
+  return single == mesh.boundaryEdges.size();
+}
+
+TEST(GradedRectangle, cellsGrowGeometricallyFromTheFocus) {
+  Rectangle r{{-3, -1}, {1, 0}, 24, 7, Point(0, 0), {20, 5}};
+  for (const Cut cut : cuts) {
+    const TriangleMesh mesh = rectangleMesh(r, cut);
+    EXPECT_NEAR(area(mesh), 4, 1e-14);
+    EXPECT_TRUE(closedByLabels(mesh));
+    const std::vector<Point> top = boundaryLine(mesh, 3).points;  // from right to left
+    ASSERT_EQ(top.size(), 25u);
+    EXPECT_EQ(top.front().x(), 1);
+    EXPECT_EQ(top.back().x(), -3);
+    const auto focus = std::find(top.begin(), top.end(), Point(0, 0));
+    ASSERT_NE(focus, top.end());
+    const auto size = [](auto p) { return p->x() - (p + 1)->x(); };
+    // One ratio on each side, sizes at the focus alike, the farthest cell 20 times the nearest up to one ratio.
+    const double left = size(focus + 1) / size(focus);
+    for (auto p = focus + 1; p + 2 < top.end(); ++p) EXPECT_NEAR(size(p + 1) / size(p), left, 1e-9);
+    const double right = size(focus - 2) / size(focus - 1);
+    for (auto p = top.begin(); p + 1 < focus; ++p) EXPECT_NEAR(size(p) / size(p + 1), right, 1e-9);
+    EXPECT_NEAR(size(focus - 1) / size(focus), 1, 0.1);
+    EXPECT_NEAR(std::log(size(top.end() - 2) / size(focus)), std::log(20), std::log(left));
+    const std::vector<Point> side = boundaryLine(mesh, 2).points;
+    EXPECT_NEAR(std::log((side[1].y() - side[0].y()) / (side[7].y() - side[6].y())), std::log(5),
+                std::log(5) / 6);
+  }
+}
+
+TEST(GradedRectangle, refusesAFocusOutsideAndAGradingBelowOne) {
+  const Rectangle wrong[] = {{{0, 0}, {1, 1}, 4, 4, Point(2, 0), {2, 2}},
+                             {{0, 0}, {1, 1}, 4, 4, Point(NAN, 0), {2, 2}},
+                             {{0, 0}, {1, 1}, 4, 4, Point(0, 0), {0.5, 1}},
+                             {{0, 0}, {1, 1}, 4, 4, Point(0, 0), {1, 1e9}},
+                             {{0, 0}, {1, 1}, 1, 4, Point(0.5, 0), {2, 2}}};
+  for (const Rectangle& r : wrong) EXPECT_THROW(rectangleMesh(r), InputError);
+}
+
+TEST(Quadrilateral, isCooksMembrane) {
+  for (const Cut cut : cuts) {
+    const TriangleMesh mesh = quadrilateralMesh({{Point(0, 0), {48, 44}, {48, 60}, {0, 44}}, 8, 4}, cut);
+    EXPECT_EQ(mesh.triangles.size(), cut == Cut::both ? 128u : 64u);
+    EXPECT_NEAR(area(mesh), 1440, 1e-11);
+    EXPECT_TRUE(closedByLabels(mesh));
+    for (const Point& p : boundaryLine(mesh, 2).points) EXPECT_EQ(p.x(), 48);
+    for (const Point& p : boundaryLine(mesh, 4).points) EXPECT_EQ(p.x(), 0);
+  }
+  EXPECT_THROW(quadrilateralMesh({{Point(0, 0), {0, 1}, {1, 1}, {1, 0}}}), InputError);
+  EXPECT_THROW(quadrilateralMesh({{Point(0, 0), {1, 0}, {0.1, 0.1}, {0, 1}}}), InputError);
+  EXPECT_THROW(quadrilateralMesh({{Point(0, 0), {1, NAN}, {1, 1}, {0, 1}}}), InputError);
+  EXPECT_THROW(quadrilateralMesh({{Point(0, 0), {1, 0}, {1, 1}, {0, 1}}, 0, 1}), InputError);
+}
+
+TEST(Annulus, hasItsCirclesAndSides) {
+  for (const Cut cut : cuts)
+    for (const int quarters : {1, 2, 4}) {
+      const int around = 12 * quarters;
+      const TriangleMesh mesh = annulusMesh({{1, -2}, 1, 2, quarters, around, 6}, cut);
+      EXPECT_TRUE(closedByLabels(mesh));
+      // Regular polygons of both radii.
+      EXPECT_NEAR(area(mesh), 0.5 * 3 * around * std::sin(M_PI / 2 * quarters / around), 1e-13);
+      for (const int label : {1, 2})
+        for (const Point& p : boundaryLine(mesh, label).points)
+          EXPECT_NEAR((p - Point(1, -2)).norm(), label, 1e-15);
+      EXPECT_EQ(boundaryLine(mesh, 1).closed, quarters == 4);
+      EXPECT_LE(worstAspect(mesh), 2.2);
+      if (quarters == 4) continue;
+      for (const Point& p : boundaryLine(mesh, 3).points) EXPECT_EQ(p.y(), -2);
+      for (const Point& p : boundaryLine(mesh, 4).points) EXPECT_EQ(quarters == 1 ? p.x() - 1 : p.y() + 2, 0);
+    }
+  for (const Annulus& wrong :
+       {Annulus{{0, 0}, 0, 1, 4, 8, 2}, Annulus{{0, 0}, 2, 1, 4, 8, 2}, Annulus{{0, 0}, 1, HUGE_VAL, 4, 8, 2},
+        Annulus{{0, 0}, 1, 2, 3, 8, 2}, Annulus{{0, 0}, 1, 2, 4, 2, 2}, Annulus{{NAN, 0}, 1, 2, 4, 8, 2}})
+    EXPECT_THROW(annulusMesh(wrong), InputError);
+}
+
+TEST(HalfDisc, isRoundSymmetricAndFineAtItsLowestPoint) {
+  const double R = 50;
+  const Point lowest(0, -1);
+  double before = 0;
+  for (const int cells : {2, 4, 8, 16})
+    for (const Cut cut : cuts) {
+      const TriangleMesh mesh = halfDiscMesh({lowest, R, 10, cells}, cut);
+      EXPECT_TRUE(closedByLabels(mesh));
+      EXPECT_LE(worstAspect(mesh), cut == Cut::both ? 4 : 7);
+      std::set<std::pair<double, double>> points;
+      for (const Point& p : mesh.vertices) points.insert({p.x(), p.y()});
+      for (const Point& p : mesh.vertices) EXPECT_TRUE(points.count({2 * lowest.x() - p.x(), p.y()})) << p;
+      for (const int label : {1, 3})
+        for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
+          for (const int v : mesh.boundaryEdges[e]) {
+            if (mesh.boundaryLabels[e] != label) continue;
+            EXPECT_NEAR((mesh.vertices[v] - lowest - Point(0, R)).norm(), R, 4e-14);
+          }
+      const std::vector<Point> contact = boundaryLine(mesh, 1).points;
+      EXPECT_NEAR(contact.front().x(), lowest.x() - R * std::sqrt(0.5), 0.5 * R / cells);
+      EXPECT_NE(std::find(contact.begin(), contact.end(), lowest), contact.end());
+      double smallest = INFINITY;
+      for (size_t i = 1; i < contact.size(); ++i)
+        smallest = std::min(smallest, (contact[i] - contact[i - 1]).norm());
+      EXPECT_LE(smallest, 10.1 / cells);
+      EXPECT_GE(smallest, 7.0 / cells);
+      for (const Point& p : boundaryLine(mesh, 2).points) EXPECT_EQ(p.y(), lowest.y() + R);
+      // The area lacks what polygons lack: second order.
+      const double lack = M_PI / 2 * R * R - area(mesh);
+      EXPECT_GT(lack, 0);
+      if (cut == Cut::both && cells > 4) {
+        EXPECT_NEAR(before / lack, 4, 0.6);  // the number of rings is rounded
+      }
+      if (cut == Cut::both) before = lack;
+    }
+  for (const HalfDisc& wrong :
+       {HalfDisc{{0, 0}, 0, 0.1, 2}, HalfDisc{{0, 0}, 1, 0.5, 2}, HalfDisc{{0, 0}, 1, 0, 2},
+        HalfDisc{{0, 0}, 1, 0.1, 0}, HalfDisc{{0, NAN}, 1, 0.1, 2}})
+    EXPECT_THROW(halfDiscMesh(wrong), InputError);
+}
+
+}  // namespace
+}  // namespace mortier
