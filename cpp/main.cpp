@@ -28,12 +28,23 @@ int dispatch(int argc, char** argv) {
       "Exit codes: 0 done, 1 a step cannot be solved or output cannot be written, 2 wrong input, "
       "3 nothing holds a body.",
       "mortier");
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return "mortier: " + std::string(error.what()) + " (see mortier --help)\n";
+  });
   app.set_version_flag("--version", std::string("mortier ") + version);
 
   RunCommand runCommand;
   CLI::App* runApp = app.add_subcommand("run", "solve a scene (docs/scene.md) and write its result");
   runApp->add_option("SCENE", runCommand.scene, "scene, a TOML file");
-  runApp->add_option("--out", runCommand.out, "folder of the result (default: out/ and the scene's name)");
+  CLI::Option* out = runApp->add_option("--out", runCommand.out,
+                                        "folder of the result (default: out/ and the scene's name)");
+  runApp->add_option("--restart", runCommand.restart, "go on with a stopped run whose result was to be DIR")
+      ->type_name("DIR")
+      ->excludes(out);
+  runApp
+      ->add_option("--checkpoint", runCommand.checkpoint,
+                   "wall time between checkpoints [s] (default 30; 0: after every step)")
+      ->check(CLI::NonNegativeNumber);
   runApp->add_option("--set", runCommand.settings, settingsHelp)->type_name("KEY=VALUE ...");
   runApp->add_option("--threads", runCommand.threads, "threads (default 1)")->check(CLI::Range(1, 1024));
   runApp->add_flag("--quiet", runCommand.quiet, "no log and no progress bar");
@@ -52,7 +63,9 @@ int dispatch(int argc, char** argv) {
     return app.exit(error) == 0 ? exitDone : exitWrongInput;
   }
   if (*runApp) {
-    giveBackScene(runCommand.settings, runCommand.scene);
+    if (runCommand.restart.empty() || !runCommand.settings.empty()) {
+      giveBackScene(runCommand.settings, runCommand.scene);
+    }
     return run(runCommand);
   }
   if (*freefemApp) {

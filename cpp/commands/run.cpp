@@ -4,15 +4,17 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include "base/error.h"
 #include "commands/complain.h"
 #include "commands/exit_code.h"
-#include "report/contact_table.h"
-#include "report/fields.h"
-#include "report/history.h"
+#include "commands/stopped_run.h"
+#include "report/checkpoint.h"
+#include "report/clock.h"
 #include "report/log.h"
 #include "report/output_folder.h"
+#include "report/result_files.h"
 #include "report/summary.h"
 #include "scene/build.h"
 
@@ -22,7 +24,7 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-/// The first Ctrl-C ends the run after its step and takes the unfinished result away; a second one kills.
+/// The first Ctrl-C ends the run after its step, with a checkpoint; a second one kills.
 void onInterrupt(int signal) {
   interrupted = 1;
   std::signal(signal, SIG_DFL);
@@ -82,15 +84,45 @@ void warnOfRinging(const SceneDescription& scene, const Model& model) {
        "); sdirk2 is of second order too and does not");
 }
 
-/// Whether a step is kept while the run goes on; the last one is kept in any case.
-bool keeps(const SceneDescription& scene, int step) {
-  return scene.every > 0 && step % scene.every == 0;
-}
+/// Writes checkpoints at intervals of wall time, and never so often that a tenth of the time goes into them.
+class Checkpoints {
+ public:
+  Checkpoints(std::string folder, double interval, RunIdentity identity)
+      : folder_(std::move(folder)),
+        interval_(interval),
+        last_(processSeconds()),
+        identity_(std::move(identity)) {}
+
+  [[nodiscard]] bool due() const {
+    constexpr double rarely = 10;
+    return processSeconds() - last_ >= (interval_ > 0 ? std::max(interval_, rarely * cost_) : 0);
+  }
+  void write(ResultFiles& files, const StepReport& last, const State& state, const MarchMemory& memory) {
+    const double begin = processSeconds();
+    writeCheckpoint(folder_, {identity_, files.sync(), last, state, memory});
+    last_ = processSeconds();
+    cost_ = last_ - begin;
+  }
+
+ private:
+  std::string folder_;
+  double interval_;
+  double last_;
+  double cost_ = 0;
+  RunIdentity identity_;
+};
 
 }  // namespace
 
-int run(const RunCommand& command) {
+int run(RunCommand command) {
   // 1. The scene, and the model it describes.
+  std::optional<StoppedRun> stopped;
+  if (!command.restart.empty()) {
+    stopped.emplace(findStoppedRun(command.restart));
+    if (command.scene.empty()) askAgain(stopped->checkpoint.identity, command);
+    command.out = command.restart;
+  }
+  RunIdentity identity = identityOf(command);
   SceneDescription scene = readScene(command.scene, command.settings);
   scene.solver.threads = command.threads;
   std::vector<std::string> warnings;
@@ -100,58 +132,59 @@ int run(const RunCommand& command) {
   }
 
   warnOfRinging(scene, model);
+  addMeshes(model, identity);
+  if (stopped) requireSame(stopped->checkpoint.identity, identity, stopped->folder);
 
   // 2. Where the result goes, and what is reported.
   const std::string path = command.out.empty() ? defaultFolder(command.scene) : command.out;
-  OutputFolder folder(path);
-  History history(folder.temporary());
-  ContactTable contact(folder.temporary(), model);
-  Fields fields(folder.temporary(), model);
+  std::optional<OutputFolder> folder;
+  std::optional<ResultFiles> files;
+  StepReport last;
+  State state = initialState(model);
+  MarchMemory memory;
+  if (stopped) {
+    folder.emplace(path, stopped->folder, std::move(stopped->lock));
+    files.emplace(folder->temporary(), model, scene.every, stopped->checkpoint.files);
+    last = stopped->checkpoint.last;
+    state = std::move(stopped->checkpoint.state);
+    memory = std::move(stopped->checkpoint.memory);
+  } else {
+    folder.emplace(path);
+    files.emplace(folder->temporary(), model, scene.every);
+  }
+  Checkpoints checkpoints(folder->temporary(), command.checkpoint, std::move(identity));
   const RunFacts facts = factsOf(command, scene);
   Log log(command.quiet, scene.time.end);
   log.print(logHeader(facts, model));
 
   // 3. The march in time. Whatever stops it leaves the last good step in `state`.
-  std::signal(SIGINT, onInterrupt);
-  std::signal(SIGTERM, onInterrupt);
-  StepReport last;
-  int lastKept = -1;
-  const auto keep = [&](const State& state, int step) {
-    fields.add(state, step);
-    contact.add(state, step);
-    lastKept = step;
-  };
-  const Observer observe = [&](const State& state, const StepReport& report) {
-    if (interrupted != 0) {
-      throw InterruptedError("interrupted at step " + std::to_string(report.step) + "; nothing was written");
-    }
-    if (report.step > 0) {
-      history.add(report);
-      log.step(report);
-    }
-    if (keeps(scene, report.step)) {
-      keep(state, report.step);
-    }
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, onInterrupt);
+  const Observer observe = [&](const State&, const StepReport& report) {
+    files->add(state, report);
+    if (report.step > 0) log.step(report);
     last = report;
+    const bool stops = interrupted != 0 && state.time < scene.time.end;
+    if (report.step > 0 && state.time < scene.time.end && (stops || checkpoints.due())) {
+      checkpoints.write(*files, last, state, memory);
+    }
+    if (!stops) return;
+    log.finish();
+    throw InterruptedError(
+        scene.path + ": interrupted after step " + std::to_string(report.step) +
+        (report.step == 0 ? "; nothing was written" : "; mortier run --restart " + path + " goes on"));
   };
-  State state = initialState(model);
-  const RunReport report = march(model, state, scene.time, scene.solver, observe);
+  const RunReport report = march(model, state, memory, scene.time, scene.solver, observe);
   log.finish();
 
   // 4. The result, in place of an older one only when the run is complete.
-  if (lastKept != last.step) {
-    keep(state, last.step);
-  }
-  history.close();
-  contact.close();
-  fields.close();
-  writeSummary(folder.temporary(), facts, model, state, last, report);
+  files->close(state, last.step);
+  writeSummary(folder->temporary(), facts, model, state, last, report);
   const bool complete = report.status == Status::converged;
   std::string where = path;
   if (complete) {
-    folder.commit();
+    folder->commit();
   } else {
-    where = folder.commitAsFailed();
+    where = folder->commitAsFailed();
   }
 
   // 5. How well it holds.

@@ -10,7 +10,12 @@ namespace mortier {
 class ContactTable {
  public:
   ContactTable(const std::string& folder, const Model& model);
+  /// Goes on after the first `keep` bytes.
+  ContactTable(const std::string& folder, const Model& model, uint64_t keep)
+      : model_(model), file_(folder + "/contact.csv", keep) {}
   void add(const State& state, int step);
+  /// Brings everything to the disk. \returns the bytes so far.
+  uint64_t sync() { return file_.sync(); }
   void close() { file_.close(); }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <filesystem>
 
 #include "base/error.h"
 #include "material/stress.h"
@@ -137,14 +138,17 @@ CellFields cellFields(const Body& body, const BodyState& state) {
   return fields;
 }
 
+std::string Fields::nameOf(size_t body, int step) const {
+  std::string number = std::to_string(step);
+  number.insert(0, number.size() < 6 ? 6 - number.size() : 0, '0');
+  return model_.bodies[body].name() + "_" + number + ".vtu";
+}
+
 void Fields::add(const State& state, int step) {
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
     const TriangleMesh& mesh = body.mesh();
-    std::string number = std::to_string(step);
-    number.insert(0, number.size() < 6 ? 6 - number.size() : 0, '0');
-    const std::string name = body.name() + "_" + number + ".vtu";
-    VtuFile file(folder_ + "/" + name);
+    VtuFile file(folder_ + "/" + nameOf(b, step));
     file.open("Piece", "NumberOfPoints=\"" + std::to_string(mesh.vertices.size()) + "\" NumberOfCells=\"" +
                            std::to_string(mesh.triangles.size()) + "\"");
     writePoints(file, mesh, state.bodies[b].displacement);
@@ -152,19 +156,32 @@ void Fields::add(const State& state, int step) {
     writeCellData(file, body, state.bodies[b]);
     file.shut("Piece");
     file.close();
-    char time[32];
-    std::snprintf(time, sizeof time, "%.17g", state.time);
-    entries_ += "<DataSet timestep=\"" + std::string(time) + "\" group=\"\" part=\"" + std::to_string(b) +
-                "\" name=\"" + body.name() + "\" file=\"" + name + "\"/>\n";
   }
+  kept_.push_back({step, state.time});
+}
+
+const std::vector<KeptFields>& Fields::sync() {
+  for (; synced_ < kept_.size(); ++synced_)
+    for (size_t b = 0; b < model_.bodies.size(); ++b) {
+      const std::string path = folder_ + "/" + nameOf(b, kept_[synced_].step);
+      OutputFile(path, std::filesystem::file_size(path)).sync();
+    }
+  return kept_;
 }
 
 void Fields::close() {
   OutputFile file(folder_ + "/fields.pvd");
   file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
           "byte_order=\"LittleEndian\">\n"
-          "<Collection>\n"
-       << entries_ << "</Collection>\n</VTKFile>\n";
+          "<Collection>\n";
+  for (const KeptFields& kept : kept_)
+    for (size_t b = 0; b < model_.bodies.size(); ++b) {
+      char time[32];
+      std::snprintf(time, sizeof time, "%.17g", kept.time);
+      file << "<DataSet timestep=\"" << std::string(time) << "\" group=\"\" part=\"" << b << "\" name=\""
+           << model_.bodies[b].name() << "\" file=\"" << nameOf(b, kept.step) << "\"/>\n";
+    }
+  file << "</Collection>\n</VTKFile>\n";
   file.close();
 }
 

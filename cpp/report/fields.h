@@ -6,23 +6,37 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "time/march.h"
 
 namespace mortier {
 
+/// A step whose fields are written.
+struct KeptFields {
+  int step = 0;
+  double time = 0;  ///< [s]
+};
+
 class Fields {
  public:
-  Fields(std::string folder, const Model& model) : folder_(std::move(folder)), model_(model) {}
+  /// \param kept  what an earlier part of the run has written.
+  Fields(std::string folder, const Model& model, std::vector<KeptFields> kept = {})
+      : folder_(std::move(folder)), model_(model), kept_(std::move(kept)), synced_(kept_.size()) {}
   /// Writes <body>_<step>.vtu for every body. \throws OutputError, also when a field is not finite.
   void add(const State& state, int step);
+  /// Brings everything to the disk. \returns what is written so far. \throws OutputError
+  const std::vector<KeptFields>& sync();
   /// Writes fields.pvd.
   void close();
 
  private:
+  [[nodiscard]] std::string nameOf(size_t body, int step) const;
+
   std::string folder_;
   const Model& model_;
-  std::string entries_;
+  std::vector<KeptFields> kept_;
+  size_t synced_;
 };
 
 /// What is shown of one body's cells; one column (or entry) a triangle.

@@ -1,5 +1,7 @@
 #include "report/output_file.h"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -25,6 +27,16 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)), file_(std::fo
   buffer_.reserve(bufferSize);
 }
 
+OutputFile::OutputFile(std::string path, uint64_t keep)
+    : path_(std::move(path)), written_(keep), file_(std::fopen(path_.c_str(), "r+b")) {
+  const auto size = static_cast<off_t>(keep);
+  if (!file_ || ftruncate(fileno(file_.get()), size) != 0 || fseeko(file_.get(), size, SEEK_SET) != 0) {
+    fail(path_);
+  }
+  std::setvbuf(file_.get(), nullptr, _IONBF, 0);
+  buffer_.reserve(bufferSize);
+}
+
 OutputFile& OutputFile::operator<<(std::string_view text) {
   write(text.data(), text.size());
   return *this;
@@ -39,6 +51,7 @@ OutputFile& OutputFile::operator<<(double value) {
 }
 
 void OutputFile::write(const void* data, size_t size) {
+  written_ += size;
   if (buffer_.size() + size > bufferSize) {
     flush();
   }
@@ -56,6 +69,14 @@ void OutputFile::flush() {
     fail(path_);
   }
   buffer_.clear();
+}
+
+uint64_t OutputFile::sync() {
+  flush();
+  if (fsync(fileno(file_.get())) != 0 && errno != EINVAL) {
+    fail(path_);
+  }
+  return written_;
 }
 
 void OutputFile::close() {

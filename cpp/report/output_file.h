@@ -3,6 +3,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -14,6 +15,8 @@ class OutputFile {
  public:
   /// \throws OutputError when the file cannot be created.
   explicit OutputFile(std::string path);
+  /// Goes on after the first `keep` bytes of a file that is there. \throws OutputError
+  OutputFile(std::string path, uint64_t keep);
 
   OutputFile& operator<<(std::string_view text);
   OutputFile& operator<<(char c) { return *this << std::string_view(&c, 1); }
@@ -25,6 +28,8 @@ class OutputFile {
 
   /// Raw bytes.
   void write(const void* data, size_t size);
+  /// Brings everything to the disk. \returns the bytes written so far. \throws OutputError
+  uint64_t sync();
   /// \throws OutputError when anything could not be written (a full disk shows here).
   void close();
 
@@ -36,6 +41,7 @@ class OutputFile {
 
   std::string path_;
   std::string buffer_;
+  uint64_t written_ = 0;
   std::unique_ptr<std::FILE, Close> file_;
 };
 

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/double_double.h"
 #include "base/error.h"
@@ -100,7 +101,7 @@ double BodySystem::linearise(const MaterialStep& step, BodyIterate& iterate) {
 std::string BodySystem::factorise() {
   refactorised_ = false;
   if (factorised_ && body_.material().linear()) return {};
-  refactorised_ = true;
+  refactorised_ = !std::exchange(counted_, false);
   body_.tangent(law_.moduli, values_);
   factorised_ = solver_->factorise(values_);
   if (!factorised_ && engine_ == LinearEngine::multifrontal && !body_.pattern().symmetric) {

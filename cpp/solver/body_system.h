@@ -31,7 +31,9 @@ class BodySystem {
   /// Factorises the tangent of the last linearisation, unless it is still that of a linear material.
   /// \returns why that is impossible, or nothing.
   std::string factorise();
-  /// Whether the last factorise() did any work.
+  /// Goes on with a run in which a linear material has been factorised and counted before.
+  void resume() { counted_ = body_.material().linear(); }
+  /// Whether the last factorise() did any work that counts.
   [[nodiscard]] bool refactorised() const { return refactorised_; }
   /// Works on these threads from now on; they must outlive the system.
   void use(Threads& threads);
@@ -70,6 +72,7 @@ class BodySystem {
   std::vector<double> values_;
   bool factorised_ = false;
   bool refactorised_ = false;
+  bool counted_ = false;
   Linearisation law_;
   Eigen::LLT<Matrix> cholesky_;  ///< of S where the tangent is symmetric
   Eigen::PartialPivLU<Matrix> lu_;

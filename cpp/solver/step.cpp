@@ -93,9 +93,10 @@ std::vector<char> StepSolver::libraries() const {
   return bodies;
 }
 
-void StepSolver::useLibraries(const std::vector<char>& bodies) {
-  for (size_t b = 0; b < bodies.size(); ++b)
-    if (bodies[b] != 0) systems_[b].useLibraries();
+void StepSolver::resume(const std::vector<char>& libraries) {
+  for (size_t b = 0; b < libraries.size(); ++b)
+    if (libraries[b] != 0) systems_[b].useLibraries();
+  for (BodySystem& system : systems_) system.resume();
 }
 
 void StepSolver::prescribe(const State& state0, double time, Iterate& iterate) const {

@@ -64,7 +64,8 @@ class StepSolver {
 
   /// Per body, whether SuiteSparse has taken over; empty: nowhere.
   [[nodiscard]] std::vector<char> libraries() const;
-  void useLibraries(const std::vector<char>& bodies);
+  /// Goes on with a run in which SuiteSparse had taken over for these bodies.
+  void resume(const std::vector<char>& libraries);
 
  private:
   void requireHeld();

@@ -10,7 +10,7 @@ namespace mortier {
 StepTaker::StepTaker(const Model& model, State& state, MarchMemory& memory, Scheme scheme,
                      const SolverOptions& options)
     : model_(model), state_(state), memory_(memory), scheme_(scheme), solver_(model, options) {
-  solver_.useLibraries(memory.libraries);
+  if (memory.run.steps > 0) solver_.resume(memory.libraries);
 }
 
 // An explicit or second-order scheme may overshoot into the elastic domain, where nothing brings the stress

@@ -1,0 +1,57 @@
+#include "commands/stopped_run.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "base/error.h"
+
+namespace mortier {
+
+namespace fs = std::filesystem;
+
+StoppedRun findStoppedRun(const std::string& path) {
+  std::string fault;
+  for (const std::string& folder : stoppedRuns(path)) {
+    FolderLock lock(folder);
+    if (!lock.held()) {
+      fault = path + ": the run in " + folder + " still goes on, expected one that was stopped";
+      continue;
+    }
+    return {folder, std::move(lock), readCheckpoint(folder)};
+  }
+  throw InputError(fault.empty() ? path + ": no stopped run, expected a folder " + path +
+                                       ".tmp-... with a checkpoint in it"
+                                 : fault);
+}
+
+void askAgain(const RunIdentity& stored, RunCommand& command) {
+  std::error_code error;
+  command.restart = fs::absolute(command.restart).string();
+  fs::current_path(stored.workingFolder, error);
+  if (error) {
+    throw InputError(command.restart + ": begun in " + stored.workingFolder +
+                     ", which is not there, expected SCENE.toml and its --set as well");
+  }
+  command.scene = stored.scene;
+  command.settings = stored.settings;
+}
+
+RunIdentity identityOf(const RunCommand& command) {
+  RunIdentity identity;
+  identity.workingFolder = fs::current_path().string();
+  identity.scene = command.scene;
+  identity.settings = command.settings;
+  std::ifstream file(command.scene, std::ios::binary);
+  identity.text.assign(std::istreambuf_iterator<char>(file), {});
+  return identity;
+}
+
+void addMeshes(const Model& model, RunIdentity& identity) {
+  for (const Body& body : model.bodies) {
+    identity.meshes.push_back(body.mesh().name);
+    identity.meshHashes.push_back(hashOf(body.mesh()));
+  }
+}
+
+}  // namespace mortier

@@ -1,0 +1,28 @@
+// `mortier run --restart DIR`: the stopped run that goes on.
+#pragma once
+
+#include <string>
+
+#include "commands/run.h"
+#include "report/checkpoint.h"
+#include "report/output_folder.h"
+
+namespace mortier {
+
+struct StoppedRun {
+  std::string folder;  ///< its temporary folder
+  FolderLock lock;
+  Checkpoint checkpoint;
+};
+
+/// The latest stopped run whose result was to be `path`. \throws InputError when there is none that can go on.
+StoppedRun findStoppedRun(const std::string& path);
+
+/// Goes to the folder in which the run was begun, and asks for what it was asked for.
+void askAgain(const RunIdentity& stored, RunCommand& command);
+
+/// \throws InputError
+RunIdentity identityOf(const RunCommand& command);
+void addMeshes(const Model& model, RunIdentity& identity);
+
+}  // namespace mortier

@@ -1,0 +1,45 @@
+// Checkpoints: all that it takes to go on with a run as if it had never stopped, in one binary file. A file is written
+// as a whole or not at all, the one before it is kept, and a checksum tells a damaged one.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mesh/triangle_mesh.h"
+#include "report/result_files.h"
+#include "time/march.h"
+
+namespace mortier {
+
+/// What was asked for. A run goes on only with the same scene, settings and meshes.
+struct RunIdentity {
+  std::string workingFolder;          ///< in which paths were meant
+  std::string scene;                  ///< path, as given
+  std::string text;                   ///< of the scene
+  std::vector<std::string> settings;  ///< --set, as given
+  std::vector<std::string> meshes;    ///< paths, one a body
+  std::vector<uint64_t> meshHashes;
+};
+
+struct Checkpoint {
+  RunIdentity identity;
+  FilesSoFar files;
+  StepReport last;
+  State state;
+  MarchMemory memory;
+};
+
+/// FNV-1a of all that a mesh holds.
+uint64_t hashOf(const TriangleMesh& mesh);
+
+/// Makes `checkpoint` the latest in `folder` and keeps the one before it. \throws OutputError
+void writeCheckpoint(const std::string& folder, const Checkpoint& checkpoint);
+
+/// The latest checkpoint in `folder` that is sound, and whose files are there. \throws InputError
+Checkpoint readCheckpoint(const std::string& folder);
+
+/// \throws InputError `folder` holds a checkpoint of another scene: what differs.
+void requireSame(const RunIdentity& stored, const RunIdentity& given, const std::string& folder);
+
+}  // namespace mortier

@@ -1,0 +1,37 @@
+#include "report/result_files.h"
+
+namespace mortier {
+
+ResultFiles::ResultFiles(const std::string& folder, const Model& model, int every)
+    : history_(folder), contact_(folder, model), fields_(folder, model), every_(every), lastKept_(-1) {}
+
+ResultFiles::ResultFiles(const std::string& folder, const Model& model, int every, const FilesSoFar& soFar)
+    : history_(folder, soFar.history),
+      contact_(folder, model, soFar.contact),
+      fields_(folder, model, soFar.fields),
+      every_(every),
+      lastKept_(soFar.fields.empty() ? -1 : soFar.fields.back().step) {}
+
+void ResultFiles::add(const State& state, const StepReport& report) {
+  if (report.step > 0) history_.add(report);
+  if (every_ > 0 && report.step % every_ == 0) keep(state, report.step);
+}
+
+void ResultFiles::keep(const State& state, int step) {
+  fields_.add(state, step);
+  contact_.add(state, step);
+  lastKept_ = step;
+}
+
+FilesSoFar ResultFiles::sync() {
+  return {history_.sync(), contact_.sync(), fields_.sync()};
+}
+
+void ResultFiles::close(const State& state, int lastStep) {
+  if (lastKept_ != lastStep) keep(state, lastStep);
+  history_.close();
+  contact_.close();
+  fields_.close();
+}
+
+}  // namespace mortier

@@ -1,0 +1,44 @@
+// The files of a result as a run goes on: history.csv, contact.csv, fields.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/contact_table.h"
+#include "report/fields.h"
+#include "report/history.h"
+
+namespace mortier {
+
+/// How far the files had come at a checkpoint.
+struct FilesSoFar {
+  uint64_t history = 0;  ///< bytes of history.csv
+  uint64_t contact = 0;  ///< bytes of contact.csv
+  std::vector<KeptFields> fields;
+};
+
+class ResultFiles {
+ public:
+  /// \param every  keep fields and contact of the steps 0, k, 2k, ... beside the last one; 0: the last one only.
+  ResultFiles(const std::string& folder, const Model& model, int every);
+  /// Goes on with files that are there; what they hold beyond `soFar` is cut off.
+  ResultFiles(const std::string& folder, const Model& model, int every, const FilesSoFar& soFar);
+
+  /// Adds a step (or the initial state, step 0).
+  void add(const State& state, const StepReport& report);
+  /// Brings everything to the disk.
+  FilesSoFar sync();
+  /// Keeps the last step and closes the files.
+  void close(const State& state, int lastStep);
+
+ private:
+  void keep(const State& state, int step);
+
+  History history_;
+  ContactTable contact_;
+  Fields fields_;
+  int every_;
+  int lastKept_;
+};
+
+}  // namespace mortier
