@@ -13,6 +13,7 @@
 #include "commands/mesh_options.h"
 #include "commands/run.h"
 #include "commands/scene_argument.h"
+#include "commands/study.h"
 #include "commands/version.h"
 
 using namespace mortier;
@@ -57,6 +58,15 @@ int dispatch(int argc, char** argv) {
   freefemApp->add_option("FILE", freefemCommand.file, ".edp file to write (default: standard output)");
   freefemApp->add_option("--set", freefemCommand.settings, settingsHelp)->type_name("KEY=VALUE ...");
 
+  StudyCommand studyCommand;
+  CLI::App* studyApp = app.add_subcommand("study", "error against cost over a sweep of runs (docs/study.md)");
+  studyApp->add_option("STUDY", studyCommand.study, "study, a TOML file")->required();
+  studyApp->add_option("--out", studyCommand.out,
+                       "folder of the result (default: out/ and the study's name)");
+  studyApp->add_option("--jobs", studyCommand.jobs, "runs at once (default: one a processor)")
+      ->check(CLI::Range(1, 1024));
+  studyApp->add_flag("--quiet", studyCommand.quiet, "print nothing but errors");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -71,6 +81,9 @@ int dispatch(int argc, char** argv) {
   if (*freefemApp) {
     giveBackScene(freefemCommand.settings, freefemCommand.scene);
     return writeFreefem(freefemCommand);
+  }
+  if (*studyApp) {
+    return study(studyCommand);
   }
   if (app.got_subcommand("mesh")) {
     return meshCommand();

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/whole_file.h"
 #include "commands/exit_code.h"
+#include "commands/shipped.h"
 #include "scene/build.h"
 #include "scene/document.h"
 
@@ -71,21 +72,13 @@ std::string translated(const Expression& expression) {
 
 /// The folder that holds the method: beside the current folder, the scene or the program, or above them.
 std::string methodFolder(const std::string& scene) {
-  std::error_code ignored;
-  for (const fs::path& start :
-       {fs::current_path(), fs::absolute(scene), fs::read_symlink("/proc/self/exe", ignored)}) {
-    for (fs::path folder = start;; folder = folder.parent_path()) {
-      if (fs::exists(folder / "freefem" / "bodies.idp", ignored)) {
-        return fs::proximate(folder / "freefem").generic_string();
-      }
-      if (folder == folder.parent_path() || folder.empty()) {
-        break;
-      }
-    }
-  }
-  throw InputError(scene +
-                   ": the FreeFEM method (freefem/bodies.idp) is found neither above the current folder nor "
-                   "above the scene or the program");
+  const auto folder = shippedFolder("freefem", "bodies.idp", {fs::current_path(), fs::absolute(scene)});
+  if (!folder)
+    throw InputError(
+        scene +
+        ": the FreeFEM method (freefem/bodies.idp) is found neither above the current folder nor "
+        "above the scene or the program");
+  return fs::proximate(*folder).generic_string();
 }
 
 void writeBody(std::ostream& out, const BodyDescription& body, int number) {

@@ -1,0 +1,178 @@
+"""Runs a case in one of the codes; whatever the code, the answer is a results.Run (compare/results.py) with points.
+
+Environment: MORTIER, the program; FREEFEM (FreeFem++-nw), CCX (ccx): the other codes' programs.
+"""
+import json
+import os
+import re
+import shutil
+import statistics
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "compare"))
+
+import results  # noqa: E402
+
+import scene as scenes  # noqa: E402
+from plan import AXES  # noqa: E402
+from problems import RunFailure  # noqa: E402
+from process import Cost, measured  # noqa: E402
+
+MORTIER = os.environ.get("MORTIER", str(HERE.parent / "build" / "mortier"))
+FREEFEM = os.environ.get("FREEFEM", "FreeFem++-nw")
+PYTHON = sys.executable
+ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+
+
+@dataclass
+class Outcome:
+    run: results.Run
+    cost: Cost
+    triangles: int
+    dofs: int
+    steps: int
+    iterations: int  # linear solves
+
+
+def settings_of(case, meshes):
+    """KEY=VALUE for the scene; meshes: body -> list of files by level."""
+    settings = []
+    for axis, value in case.values:
+        key = AXES.get(axis, (axis, None))[0]
+        if key is not None:
+            settings.append(f"{key}={str(value).lower() if isinstance(value, bool) else value}")
+    if meshes:
+        level = case["level"] or 0
+        settings += [f"body.{body}.mesh={files[level]}" for body, files in meshes.items()]
+    return settings
+
+
+def run(case, scene, meshes, folder, timeout=None, repeat=1):
+    """The outcome of a case; its cost is the median of the repeats. RunFailure with the reason otherwise."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    settings = settings_of(case, meshes)
+    solve = {"mortier": run_mortier, "freefem": run_freefem, "getfem": run_getfem, "calculix": run_calculix}[case.code]
+    costs = []
+    try:
+        for _ in range(repeat):
+            outcome = solve(case, scene, settings, folder, timeout)
+            costs.append(outcome.cost)
+    except results.ResultError as error:
+        raise RunFailure(str(error)) from error
+    median = statistics.median
+    outcome.cost = Cost(median(c.wall_time for c in costs), median(c.processor_time for c in costs),
+                        median(c.memory for c in costs))
+    return outcome
+
+
+def set_option(settings):
+    return ["--set", *settings] if settings else []
+
+
+def run_mortier(case, scene, settings, folder, timeout):
+    out = folder / "result"
+    threads = str(case["threads"] or 1)
+    cost, _ = measured([MORTIER, "run", scene, "--quiet", "--threads", threads, "--out", out, *set_option(settings)],
+                       timeout, environment={"OPENBLAS_NUM_THREADS": threads})
+    run_ = results.read_mortier(out)
+    summary = run_.summary
+    return Outcome(run_, cost, summary["triangles"], summary["dofs"], summary["steps"], summary["newton_iterations"])
+
+
+def run_freefem(case, scene, settings, folder, timeout):
+    if case["tolerance"]:
+        raise RunFailure("the FreeFEM script takes equal steps only")
+    script = folder / "scene.edp"
+    measured([MORTIER, "freefem", scene, script, *set_option(settings)], timeout)
+    if shutil.which(FREEFEM) is None:
+        raise RunFailure(f"{FREEFEM} is not installed (Debian package freefem++)")
+    out = folder / "result"
+    cost, _ = measured([FREEFEM, "-nw", "-nw", "-ne", "-v", "0", script, "-quiet", "-out", out], timeout,
+                       environment=ONE_THREAD)
+    run_ = results.read_freefem(out)
+    add_points(run_, scenes.load(scene, settings))
+    return outcome_of(run_, cost, run_.summary["steps"], run_.summary["newton_iterations"])
+
+
+def add_points(run_, document):
+    for body in document["body"]:
+        mesh = scenes.Mesh(body["mesh"])
+        run_.bodies[body["name"]].points, run_.bodies[body["name"]].triangles = mesh.points, mesh.triangles
+
+
+def outcome_of(run_, cost, steps, iterations):
+    triangles = sum(len(body.triangles) for body in run_.bodies.values())
+    dofs = sum(2 * len(body.points) for body in run_.bodies.values())
+    return Outcome(run_, cost, triangles, dofs, steps, iterations)
+
+
+def run_getfem(case, scene, settings, folder, timeout):
+    if not any((Path(path) / "getfem").is_dir() for path in (*sys.path, "/usr/lib/python3/dist-packages")):
+        raise RunFailure("GetFEM is not installed (Debian package python3-getfem)")
+    return run_peer("getfem_code.py", case, scene, settings, folder, timeout)
+
+
+def run_calculix(case, scene, settings, folder, timeout):
+    if shutil.which(os.environ.get("CCX", "ccx")) is None:
+        raise RunFailure("CalculiX is not installed (Debian package calculix-ccx)")
+    return run_peer("calculix_code.py", case, scene, settings, folder, timeout)
+
+
+def run_peer(program, case, scene, settings, folder, timeout):
+    """A code that reads the scene itself; it writes its fields into arrays and says what its solver alone cost."""
+    if case["tolerance"] or case["scheme"] not in (None, "backward-euler"):
+        raise RunFailure("takes equal steps of backward Euler only")
+    measured([MORTIER, "freefem", scene, folder / "checked.edp", *set_option(settings)], timeout)  # the scene is sound
+    problem = folder / "problem.json"
+    problem.write_text(json.dumps(scenes.load(scene, settings), default=str))
+    cost, _ = measured([PYTHON, HERE / program, problem, folder / "result.npz"], timeout, cwd=folder,
+                       environment=ONE_THREAD)
+    return read_peer(folder, cost)
+
+
+def read_peer(folder, cost):
+    import numpy as np
+
+    data = np.load(folder / "result.npz", allow_pickle=False)
+    facts = json.loads(str(data["facts"]))
+    bodies = {name: results.Body(data[f"{name}.displacement"], data[f"{name}.stress"], data[f"{name}.points"],
+                                 data[f"{name}.triangles"]) for name in facts["bodies"]}
+    contact = None
+    if "contact.position" in data:
+        contact = results.Contact(data["contact.vertex"], data["contact.position"], data["contact.gap"],
+                                  data["contact.force"])
+    run_ = results.Run(facts["code"], folder, bodies, contact, facts)
+    for name, body in bodies.items():
+        results.require_finite(folder, f"displacement of {name}", body.displacement)
+        results.require_finite(folder, f"stress of {name}", body.stress)
+    mises = np.concatenate([body.von_mises for body in bodies.values()])
+    u = np.concatenate([body.displacement for body in bodies.values()])
+    run_.scalars = {"von_mises_min": mises.min(), "von_mises_max": mises.max(),
+                    "displacement_min_x": u[:, 0].min(), "displacement_min_y": u[:, 1].min(),
+                    "displacement_max_x": u[:, 0].max(), "displacement_max_y": u[:, 1].max()}
+    if "wall_time" in facts:
+        cost = Cost(facts["wall_time"], facts["processor_time"], facts["memory"])
+    return outcome_of(run_, cost, facts["steps"], facts["iterations"])
+
+
+def make_meshes(plan, folder):
+    """Writes the generated meshes; body -> files by level. A generator that refuses is a RunFailure."""
+    files = {}
+    for body, levels in plan.meshes.items():
+        files[body] = []
+        for i, level in enumerate(levels):
+            if isinstance(level, Path):
+                files[body].append(level.resolve())
+                continue
+            path = (folder / f"{re.sub('[^A-Za-z0-9_-]', '_', body)}-{i}.mesh").resolve()
+            cells = level["cells"]
+            cells = f"{cells[0]},{cells[1]}" if isinstance(cells, list) else str(cells)
+            corners = [",".join(map(repr, level[corner])) for corner in ("lower", "upper")]
+            measured([MORTIER, "mesh", level["kind"], "--cells", cells, f"--lower={corners[0]}", f"--upper={corners[1]}",
+                      path])
+            files[body].append(path)
+    return files

@@ -1,0 +1,178 @@
+"""Errors of a run: norms of fields against an exact solution or a finer run, relative to the size of the latter."""
+import numpy as np
+from matplotlib.tri import Triangulation
+
+from problems import RunFailure
+
+# Dunavant's rule of degree 5: weights (sum 1) and barycentric points
+A, B = 0.059715871789770, 0.470142064105115
+C, D = 0.797426985353087, 0.101286507323456
+POINTS = np.array([[1 / 3] * 3, [A, B, B], [B, A, B], [B, B, A], [C, D, D], [D, C, D], [D, D, C]])
+WEIGHTS = np.array([0.225] + 3 * [0.132394152788506] + 3 * [0.125939180544827])
+GAUSS = np.polynomial.legendre.leggauss(4)
+SAME = 1e-12  # of the extent: positions of one mesh written by two codes
+
+
+class Exact:
+    """Components of an exact field at time t."""
+
+    def __init__(self, exact, let, time):
+        self.exact, self.let, self.time = exact, let, time
+
+    def __call__(self, body, points):
+        x, y = points[..., 0], points[..., 1]
+        names = {}
+        for name, expression in self.let:
+            names[name] = expression(x, y, self.time, **names)
+        components = self.exact.get(body, self.exact.get(""))
+        values = np.stack([each(x, y, self.time, **names) for each in components.values()], -1)
+        if not np.isfinite(values).all():
+            raise RunFailure(f"the exact solution is not finite in body {body or 'all'} at t = {self.time:g}")
+        return values
+
+
+class Sampled:
+    """Fields of a finer run at any points."""
+
+    def __init__(self, run):
+        self.bodies = run.bodies
+        self.finders = {}
+
+    def triangles(self, name, points):
+        body = self.bodies[name]
+        if name not in self.finders:
+            self.finders[name] = Triangulation(*body.points.T, body.triangles).get_trifinder()
+        flat = points.reshape(-1, 2)
+        found = self.finders[name](*flat.T)
+        if outside := np.flatnonzero(found < 0).tolist():  # on the boundary but for rounding
+            centres = body.points[body.triangles].mean(1)
+            for i in outside:
+                found[i] = np.argmin(((centres - flat[i])**2).sum(1))
+        return found.reshape(points.shape[:-1])
+
+    def stress(self, name, points):
+        return self.bodies[name].stress[self.triangles(name, points)]
+
+    def displacement(self, name, points):
+        body = self.bodies[name]
+        corners = body.triangles[self.triangles(name, points)]
+        a, b, c = (body.points[corners[..., i]] for i in range(3))
+        det = cross(b - a, c - a)
+        weights = np.stack([cross(b - points, c - points), cross(c - points, a - points), cross(a - points, b - points)], -1)
+        return np.einsum("...i,...ij->...j", weights / det[..., None], body.displacement[corners])
+
+
+def cross(a, b):
+    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+
+
+def areas(body):
+    a, b, c = (body.points[body.triangles[:, i]] for i in range(3))
+    return cross(b - a, c - a) / 2
+
+
+def quadrature(body):
+    """Points, triangles x 7 x 2, and weights, triangles x 7."""
+    points = np.einsum("qi,tij->tqj", POINTS, body.points[body.triangles])
+    return points, areas(body)[:, None] * WEIGHTS
+
+
+def energy_density(stress, young, poisson):
+    """s : E^-1 s in plane stress."""
+    s11, s22, s12 = np.moveaxis(stress, -1, 0)
+    return (s11**2 + s22**2 - 2 * poisson * s11 * s22 + 2 * (1 + poisson) * s12**2) / young
+
+
+def same_mesh(a, b):
+    return a.triangles.shape == b.triangles.shape and a.points.shape == b.points.shape and \
+        np.array_equal(a.triangles, b.triangles) and np.abs(a.points - b.points).max() <= SAME * np.ptp(b.points)
+
+
+def field_error(quantity, run, truth, materials):
+    """Energy norm of the stress error or L2 norm of the displacement error, relative.
+
+    truth: Exact, or a run; integrals are taken on the finer of both meshes.
+    """
+    difference = size = 0.0
+    for name, body in run.bodies.items():
+        norm = (lambda v, name=name: energy_density(v, *materials[name])) if quantity == "energy" \
+            else (lambda v: (v**2).sum(-1))
+        attribute = "stress" if quantity == "energy" else "displacement"
+        ours = Sampled(run)
+        if isinstance(truth, Exact):
+            points, weights = quadrature(body)
+            exact, value = truth(name, points), on_quadrature(body, attribute)
+        elif same_mesh(body, truth.bodies[name]):
+            points, weights = quadrature(body)
+            exact, value = on_quadrature(truth.bodies[name], attribute), on_quadrature(body, attribute)
+        else:
+            finer = max((body, truth.bodies[name]), key=lambda each: len(each.triangles))
+            points, weights = quadrature(finer)
+            exact = getattr(Sampled(truth), attribute)(name, points)
+            value = getattr(ours, attribute)(name, points)
+        difference += (weights * norm(value - exact)).sum()
+        size += (weights * norm(exact)).sum()
+    return relative(np.sqrt(difference), np.sqrt(size))
+
+
+def on_quadrature(body, attribute):
+    if attribute == "stress":
+        return np.repeat(body.stress[:, None], len(POINTS), 1)
+    return np.einsum("qi,tij->tqj", POINTS, body.displacement[body.triangles])
+
+
+def pressure_error(run, truth):
+    """L2 norm of the pressure error on the nonmortar line, relative."""
+    s, p, position = pressure_line(run)
+    nodes, weights = GAUSS
+    if not isinstance(truth, Exact):
+        other_s, other_p, _ = pressure_line(truth)
+        cuts = np.union1d(s, other_s[(other_s > s[0]) & (other_s < s[-1])])
+    else:
+        cuts = s
+    h = np.diff(cuts)
+    at = cuts[:-1, None] + h[:, None] * (nodes + 1) / 2
+    w = h[:, None] * weights / 2
+    if isinstance(truth, Exact):
+        points = np.stack([np.interp(at, s, position[:, 0]), np.interp(at, s, position[:, 1])], -1)
+        exact = truth("", points)[..., 0]
+    else:
+        exact = np.interp(at, other_s, other_p)
+    difference = (w * (np.interp(at, s, p) - exact)**2).sum()
+    return relative(np.sqrt(difference), np.sqrt((w * exact**2).sum()))
+
+
+def pressure_line(run):
+    """Arc length, pressure and position of the nonmortar nodes in order; M^-1 p where a code gives forces only."""
+    if run.contact is None:
+        raise RunFailure("no contact pressure in this result")
+    order = np.lexsort((run.contact.position[:, 1], run.contact.position[:, 0]))
+    position = run.contact.position[order]
+    s = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(position, axis=0).T))])
+    if run.contact.pressure is not None:
+        return s, run.contact.pressure[order], position
+    h = np.diff(s)
+    mass = np.zeros((len(s), len(s)))
+    i = np.arange(len(h))
+    mass[i, i] += h / 3
+    mass[i + 1, i + 1] += h / 3
+    mass[i, i + 1] = mass[i + 1, i] = h / 6
+    return s, np.linalg.solve(mass, run.contact.force[order]), position
+
+
+def relative(difference, size):
+    if not size > 0:
+        raise RunFailure("the exact solution is zero: no relative error")
+    return float(difference / size)
+
+
+def error_of(measure, run, truth, materials, let, time):
+    """One error of a run; truth is the reference run, or None where the measure has an exact value."""
+    if measure.quantity in ("energy", "displacement", "pressure"):
+        against = Exact(measure.exact, let, time) if measure.exact is not None else truth
+        return pressure_error(run, against) if measure.quantity == "pressure" \
+            else field_error(measure.quantity, run, against, materials)
+    exact = measure.exact if measure.exact is not None else truth.scalars[measure.quantity]
+    if measure.quantity not in run.scalars:
+        raise RunFailure(f"no {measure.quantity} in this result")
+    return relative(abs(run.scalars[measure.quantity] - exact), abs(exact))

@@ -1,0 +1,69 @@
+"""Work-precision plots: error against wall time, memory and degrees of freedom, the Pareto front marked."""
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+
+from analysis import distinguishing, front, order, slope  # noqa: E402
+from table import COSTS  # noqa: E402
+
+COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#555555", "#000000"]
+MARKERS = "osD^vP*X"
+AXES = {"wall_time": "wall time [s]", "memory": "peak memory [MiB]", "dofs": "degrees of freedom"}
+FLOOR = 1e-16  # errors that are exactly zero are drawn here
+STYLE = {"font.family": "DejaVu Sans", "font.size": 9, "axes.linewidth": 0.7, "legend.frameon": False,
+         "legend.fontsize": 8, "svg.hashsalt": "mortier", "svg.fonttype": "path", "savefig.dpi": 160}
+
+
+def name_of(error, cost):
+    safe = "".join(c if c.isalnum() else "-" for c in error)
+    return f"{safe}-{cost.replace('_', '-')}"
+
+
+def draw(plan, series, folder):
+    """Writes NAME.svg and NAME.png of every plot that shows something; (title, name) of each."""
+    made = []
+    with plt.rc_context(STYLE):
+        for error in plan.errors:
+            for cost in AXES:
+                if figure := work_precision(series, error.name, cost):
+                    name = name_of(error.name, cost)
+                    for kind in ("svg", "png"):
+                        figure.savefig(folder / f"{name}.{kind}", metadata={"Date": None} if kind == "svg" else None)
+                    plt.close(figure)
+                    made.append((f"{error.name} against {AXES[cost]}", name))
+    return made
+
+
+def work_precision(series, error, cost):
+    """None where the cost is the same everywhere."""
+    data = []
+    for each in series:
+        x, y = each.values(COSTS[cost]), each.values(f"error {error}")
+        use = np.isfinite(x) & np.isfinite(y) & (x > 0)
+        if use.any():
+            data.append((each, x[use], np.maximum(y[use], FLOOR)))
+    if not data or max(x.max() for _, x, _ in data) < 1.05 * min(x.min() for _, x, _ in data):
+        return None
+    shown = distinguishing([each for each, _, _ in data])
+    figure, axes = plt.subplots(figsize=(7.2, 4.8), layout="constrained")
+    for i, (each, x, y) in enumerate(data):
+        by_cost = np.argsort(x, kind="stable")
+        label = each.label(shown)
+        if found := order(each, error):
+            label += f": order {found[0]:.2f} in {found[2]}"
+        if found := slope(x, y):
+            label += f", slope {found[0]:.2f}"
+        axes.plot(x[by_cost], y[by_cost], color=COLOURS[i % len(COLOURS)], marker=MARKERS[(i // 2) % len(MARKERS)],
+                  ls="-" if i < len(COLOURS) else "--", lw=1.2, ms=5, mfc="white", label=label)
+    points = np.array([point for _, x, y in data for point in zip(x, y)])
+    best = points[front([tuple(point) for point in points])]
+    axes.plot(*best.T, color="#999999", lw=5, alpha=0.35, zorder=0, solid_capstyle="round")
+    axes.plot(*best.T, ls="", marker="o", ms=11, mfc="none", mec="#777777", label="Pareto front")
+    axes.set(xscale="log", yscale="log", xlabel=AXES[cost], ylabel=f"relative error: {error}")
+    axes.grid(color="#dddddd", lw=0.5, which="major")
+    axes.set_axisbelow(True)
+    axes.legend(loc="upper left", bbox_to_anchor=(0, -0.14), borderaxespad=0)
+    figure.set_size_inches(7.2, 4.6 + 0.17 * (len(data) + 1))
+    return figure

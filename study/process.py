@@ -1,0 +1,68 @@
+"""One process, measured: wall time, processor time and peak memory."""
+import os
+import signal
+import subprocess
+import sys
+import threading
+from dataclasses import dataclass
+from pathlib import Path
+
+from problems import RunFailure
+
+LAUNCH = [sys.executable, "-I", "-S", str(Path(__file__).resolve().parent / "launch.py")]
+WORDS = 400  # of a failed process that are kept as its reason
+running = set()  # process groups under way
+
+
+@dataclass
+class Cost:
+    wall_time: float  # [s]
+    processor_time: float  # [s]
+    memory: float  # peak resident [MiB]
+
+
+def measured(command, timeout=None, cwd=None, environment=None):
+    """Runs a command to its end: its cost and its output. RunFailure with its reason when it fails."""
+    command = [str(word) for word in command]
+    read_end, write_end = os.pipe()
+    try:
+        process = subprocess.Popen([*LAUNCH, str(write_end), *command], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                   stderr=subprocess.STDOUT, cwd=cwd, env={**os.environ, **(environment or {})},
+                                   pass_fds=[write_end], start_new_session=True, text=True, errors="replace")
+    finally:
+        os.close(write_end)
+    running.add(process.pid)
+    late = threading.Event()
+
+    def stop():
+        late.set()
+        os.killpg(process.pid, signal.SIGKILL)
+    timer = threading.Timer(timeout, stop) if timeout else None
+    if timer:
+        timer.start()
+    output, _ = process.communicate()
+    running.discard(process.pid)
+    if timer:
+        timer.cancel()
+    with os.fdopen(read_end) as pipe:
+        facts = pipe.read().split()
+    if late.is_set():
+        raise RunFailure(f"stopped after {timeout:g} s")
+    if len(facts) != 4 or facts[0] != "0":
+        raise RunFailure(last_words(output) or f"{command[0]} ended with code {facts[0] if facts else process.returncode}")
+    return Cost(*map(float, facts[1:])), output
+
+
+def stop_all():
+    for pid in list(running):
+        try:
+            os.killpg(pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+
+
+def last_words(output):
+    """The line that says what went wrong: the first error, otherwise the last line."""
+    lines = [line.strip() for line in output.splitlines() if line.strip()]
+    errors = [line for line in lines if "error" in line.lower()]
+    return (errors or lines[-1:] or [""])[0][:WORDS]
