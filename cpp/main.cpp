@@ -26,12 +26,15 @@ constexpr const char* settingsHelp =
 int dispatch(int argc, char** argv) {
   CLI::App app(
       "Contact of elastic and viscoplastic bodies with incompatible meshes.\n"
-      "Exit codes: 0 done, 1 a step cannot be solved or output cannot be written, 2 wrong input, "
+      "Exit codes: 0 done, 1 a step cannot be solved, output cannot be written or interrupted, 2 wrong "
+      "input, "
       "3 nothing holds a body.",
       "mortier");
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return "mortier: " + std::string(error.what()) + " (see mortier --help)\n";
   });
+  app.get_formatter()->label("TEXT", "");
+  app.get_formatter()->label("REQUIRED", "(required)");
   app.set_version_flag("--version", std::string("mortier ") + version);
 
   RunCommand runCommand;
@@ -39,15 +42,19 @@ int dispatch(int argc, char** argv) {
   runApp->add_option("SCENE", runCommand.scene, "scene, a TOML file");
   CLI::Option* out = runApp->add_option("--out", runCommand.out,
                                         "folder of the result (default: out/ and the scene's name)");
+  out->type_name("DIR");
   runApp->add_option("--restart", runCommand.restart, "go on with a stopped run whose result was to be DIR")
       ->type_name("DIR")
       ->excludes(out);
   runApp
       ->add_option("--checkpoint", runCommand.checkpoint,
                    "wall time between checkpoints [s] (default 30; 0: after every step)")
-      ->check(CLI::NonNegativeNumber);
-  runApp->add_option("--set", runCommand.settings, settingsHelp)->type_name("KEY=VALUE ...");
-  runApp->add_option("--threads", runCommand.threads, "threads (default 1)")->check(CLI::Range(1, 1024));
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("SECONDS");
+  runApp->add_option("--set", runCommand.settings, settingsHelp)->type_name("KEY=VALUE");
+  runApp->add_option("--threads", runCommand.threads, "threads (default 1)")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
   runApp->add_flag("--quiet", runCommand.quiet, "no log and no progress bar");
 
   const std::function<int()> meshCommand = addMeshCommand(app);
@@ -56,7 +63,7 @@ int dispatch(int argc, char** argv) {
   CLI::App* freefemApp = app.add_subcommand("freefem", "write a scene as a FreeFEM script");
   freefemApp->add_option("SCENE", freefemCommand.scene, "scene, a TOML file");
   freefemApp->add_option("FILE", freefemCommand.file, ".edp file to write (default: standard output)");
-  freefemApp->add_option("--set", freefemCommand.settings, settingsHelp)->type_name("KEY=VALUE ...");
+  freefemApp->add_option("--set", freefemCommand.settings, settingsHelp)->type_name("KEY=VALUE");
 
   StudyCommand studyCommand;
   CLI::App* studyApp = app.add_subcommand("study", "error against cost over a sweep of runs (docs/study.md)");

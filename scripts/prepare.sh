@@ -10,7 +10,7 @@ packages=(
   libeigen3-dev libsuitesparse-dev libopenblas-dev         # linear algebra
   libtomlplusplus-dev libmuparser-dev                      # scenes
   libcli11-dev nlohmann-json3-dev                          # command line, summaries
-  libgtest-dev libbenchmark-dev                            # tests, benchmarks
+  libgtest-dev libbenchmark-dev groff-base                 # tests, benchmarks
   freefem++                                                # the other code
   python3 python3-numpy python3-matplotlib python3-meshio  # comparison and pictures
 )

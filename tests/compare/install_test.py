@@ -1,0 +1,120 @@
+"""What `cmake --install` puts in place: a package that another project finds, the man page, completion."""
+import csv
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+from support import ROOT
+
+PROGRAM = Path(os.environ.get("MORTIER", "build/mortier")).resolve()
+BUILD = PROGRAM.parent
+
+
+def output(*command, **options):
+    done = subprocess.run([str(each) for each in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          timeout=600, **options)
+    if done.returncode != 0:
+        raise AssertionError(f"{command}: exit code {done.returncode}\n{done.stdout[-4000:]}")
+    return done.stdout
+
+
+def commands(program, *path):
+    """Every command, and the lines of its help."""
+    lines = output(program, *path, "--help").splitlines()
+    yield path, lines
+    begin = lines.index("Subcommands:") + 1 if "Subcommands:" in lines else len(lines)
+    for line in lines[begin:]:
+        if re.match(r"  \S", line):
+            yield from commands(program, *path, line.split()[0])
+
+
+class Install(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.holder = tempfile.TemporaryDirectory()
+        cls.folder = Path(cls.holder.name)
+        cls.prefix = cls.folder / "prefix"
+        output("cmake", "--install", BUILD, "--prefix", cls.prefix)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.holder.cleanup()
+
+    def test_another_project_finds_the_package(self):
+        # Elsewhere, so that nothing of the source tree is seen by accident.
+        package = self.folder / "moved"
+        self.prefix.rename(package)
+        self.addCleanup(package.rename, self.prefix)
+        build = self.folder / "examples"
+        output("cmake", "-S", ROOT / "examples", "-B", build, f"-DCMAKE_PREFIX_PATH={package}", "-DCMAKE_BUILD_TYPE=Release")
+        output("cmake", "--build", build)
+        commands = (build / "CMakeFiles/press.dir/flags.make", build / "build.ninja")
+        text = "".join(path.read_text() for path in commands if path.exists())
+        self.assertIn(str(package / "include/mortier"), text)
+        self.assertNotIn(str(ROOT / "cpp"), text)
+
+        scene, settings = ROOT / "scenes/compression.toml", ["time.steps=20", "contact.variant=interpolation"]
+        rows = [line.split() for line in output(build / "press", scene, *settings).splitlines()]
+        self.assertEqual(len(rows), 21)
+        for time, _, force in rows:
+            self.assertAlmostEqual(float(force), 10 * float(time), places=9)  # the traction is 10 t on a side of length 1
+        # The same as the installed program's.
+        output(package / "bin/mortier", "run", scene, "--quiet", "--out", self.folder / "result", "--set", *settings)
+        history = list(csv.DictReader((self.folder / "result/history.csv").read_text().splitlines()))
+        for row, (_, _, force) in zip(history, rows[1:]):
+            self.assertAlmostEqual(float(row["contact_force[N/m]"]), float(force), delta=1e-14 * float(force))
+
+    def test_every_layer_is_a_target_with_its_headers(self):
+        targets = (next(self.prefix.rglob("mortierTargets.cmake"))).read_text()
+        layers = [path.name for path in (ROOT / "cpp").iterdir() if path.is_dir() and path.name != "commands"]
+        self.assertGreaterEqual(len(layers), 10)
+        for layer in layers:
+            self.assertIn(f"add_library(mortier::{layer} ", targets)
+            for header in (ROOT / "cpp" / layer).glob("*.h"):
+                self.assertTrue((self.prefix / "include/mortier" / layer / header.name).exists(), header.name)
+
+    def test_man_page_says_what_help_says(self):
+        page = next(self.prefix.rglob("man1/mortier.1"))
+        shown = output("groff", "-man", "-ww", "-Tutf8", "-P-c", "-rLL=1000n", "-rHY=0", page)
+        self.assertNotIn("warning", shown)
+        # Tags and texts stand on lines of their own or side by side; words keep their order.
+        words = re.sub(r".\x08", "", shown).split()
+        known = list(commands(self.prefix / "bin/mortier"))
+        self.assertGreaterEqual(len(known), 6)
+        at = 0
+        for path, lines in known:
+            for word in " ".join(lines).replace("Usage: ", "").split():
+                self.assertIn(word, words[at:], f"{path}: {word} is missing in the man page")
+                at = words.index(word, at) + 1
+
+    def complete(self, *words):
+        """What bash offers after these words."""
+        script = self.prefix / "share/bash-completion/completions/mortier"
+        program = str(self.prefix / "bin/mortier")
+        text = (f'source "{script}"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _mortier; '
+                'printf "%s\\n" "${COMPREPLY[@]}"')
+        return sorted(output("bash", "-c", text, "bash", program, *words, cwd=self.folder).split())
+
+    def test_completion(self):
+        def stated(*path):
+            return sorted(re.findall(r"^  (?:-h,)?(--[a-z-]+)", output(PROGRAM, *path, "--help"), re.M))
+        known = [path for path, _ in commands(PROGRAM)]
+        for path in known:
+            self.assertEqual(self.complete(*path, "--"), stated(*path))
+            below = sorted(each[-1] for each in known if each[:-1] == path and len(each) == len(path) + 1)
+            if below:
+                self.assertEqual(self.complete(*path, ""), below)
+        self.assertEqual(self.complete("ru"), ["run"])
+        self.assertEqual(self.complete("mesh", "cr"), ["crisscross"])
+        self.assertEqual(self.complete("run", "scene.toml", "--che"), ["--checkpoint"])
+        for name in ("a.toml", "a.mesh", "a.txt"):
+            (self.folder / name).touch()
+        self.assertEqual(self.complete("run", "a"), ["a.mesh", "a.toml"])
+        self.assertEqual(self.complete("run", "--out", "pre"), ["prefix"])
+
+
+if __name__ == "__main__":
+    unittest.main()
