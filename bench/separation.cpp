@@ -111,7 +111,7 @@ Pivots contactPivots(const Model& model) {
     BodySystem system(model, b, firstRow, LinearEngine::multifrontal);
     BodyIterate iterate{Vector::Zero(body.dofs()), Vector::Zero(body.dofs()), state.bodies[b].stress,
                         Matrix::Zero(3, body.points())};
-    system.linearise({0, state.bodies[b].stress, iterate.strain}, iterate);
+    system.linearise({0, state.bodies[b].stress, iterate.strain}, nullptr, iterate);
     result.factorisation += secondsOf([&] { system.factorise(); });
     slack -= system.C() * system.condense(body.load(1));
     problem.W += system.C() * system.compliance();

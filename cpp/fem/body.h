@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "base/parallel.h"
 #include "base/types.h"
 #include "fem/supports.h"
-#include "linear/sparse_pattern.h"
+#include "fem/tangent_assembly.h"
 #include "material/material.h"
 #include "mesh/triangle_mesh.h"
 
@@ -52,7 +53,7 @@ class Body {
   // Equations. A node has two, less those of its prescribed motions: along the axes, or along the normal and
   // the tangent of a turned support.
 
-  [[nodiscard]] int freeDofs() const { return pattern_.size; }
+  [[nodiscard]] int freeDofs() const { return pattern().size; }
   /// Equation 2 node + 0 or 1; -1 where that motion is prescribed.
   [[nodiscard]] const std::vector<int>& equations() const { return equations_; }
   /// A vector at a node by the equations of the node (-1 where prescribed).
@@ -78,24 +79,23 @@ class Body {
   [[nodiscard]] Vector internalForce(const Matrix& stress) const;
   /// B u (3 x points) of a displacement (dofs) carried as u + small, in twice the working precision: a
   /// triangle that is still elastic next to one that flows sees tiny differences of large displacements.
-  void strain(const Vector& u, const Vector& small, Matrix& strain) const;
-  /// stress += moduli B d, d by dofs.
-  void addStressOf(const Vector& d, const Matrix& moduli, Matrix& stress) const;
+  /// Fills the columns [begin, end).
+  void strain(const Vector& u, const Vector& small, Matrix& strain, int begin, int end) const;
+  /// stress += moduli B d in the columns [begin, end), d by dofs.
+  void addStressOf(const Vector& d, const Matrix& moduli, Matrix& stress, int begin, int end) const;
 
   /// Pattern of the tangent over equations; symmetric where the material's tangent is.
-  [[nodiscard]] const SparsePattern& pattern() const { return pattern_; }
+  [[nodiscard]] const SparsePattern& pattern() const { return assembly_.pattern(); }
   /// K = sum |T| B' H^-1 B (moduli 9 x points) as values of pattern().
-  void tangent(const Matrix& moduli, std::vector<double>& values) const;
+  void tangent(const Matrix& moduli, std::vector<double>& values, Threads& threads = Threads::none()) const;
 
  private:
-  /// Entries of the pattern for the 6 x 6 matrix of one triangle.
-  using Entries = std::array<int, 36>;
-
   void numberEquations();
-  void buildPattern();
-  [[nodiscard]] Entries entriesOf(const std::array<int, 3>& triangle) const;
   [[nodiscard]] Point prescribedAt(const NodeSupport& support, double t, const Point& u) const;
-  void addTurned(const Matrix& moduli, std::vector<double>& values) const;
+  [[nodiscard]] TriangleData triangleData() const {
+    return {mesh_.triangles, equations_, weights_, gradients_};
+  }
+  void addSupported(const Matrix& moduli, std::vector<double>& values) const;
 
   std::string name_;
   TriangleMesh mesh_;
@@ -105,16 +105,9 @@ class Body {
   std::vector<int> equations_;
   std::vector<Eigen::Matrix2d> frames_;  ///< rows normal and tangent, of the turned supports
   std::vector<int> frameOf_;             ///< per node; -1 for the axes. Empty when all are
-  SparsePattern pattern_;
   std::vector<double> weights_;
   std::vector<double> gradients_;  ///< 6 per point: gradient of each node's shape function over sqrt2
-  std::vector<int> scatter_;  ///< per triangle: entry of pattern_ for each entry of its matrix, -1 for none
-  struct TurnedTriangle {
-    int triangle = 0;
-    Entries entries;
-  };
-  std::vector<TurnedTriangle>
-      turned_;  ///< with turned nodes: their matrices are turned before they are added
+  TangentAssembly assembly_;
 };
 
 }  // namespace mortier

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -86,8 +87,29 @@ void BodySystem::findRigidMotions() {
   R_ *= T;
 }
 
-double BodySystem::linearise(const MaterialStep& step, BodyIterate& iterate) {
-  const double residual = body_.material().linearise(step, iterate.stress, law_, 0, body_.points());
+template <class Work>
+void BodySystem::forEachBlock(const Work& work) {
+  constexpr int block =
+      2048;  // stays in the cache from one loop over it to the next; a multiple of the lanes
+  const int points = body_.points();
+  threads_->forEach((points + block - 1) / block,
+                    [&](int i) { work(block * i, std::min(block * (i + 1), points)); });
+}
+
+double BodySystem::linearise(const MaterialStep& step, const Matrix* shift, BodyIterate& iterate) {
+  iterate.strain.resize(3, body_.points());
+  std::atomic<bool> finite = true;
+  std::atomic<double> largest = 0;
+  forEachBlock([&](int begin, int end) {
+    body_.strain(iterate.increment, iterate.small, iterate.strain, begin, end);
+    if (shift != nullptr)
+      iterate.strain.middleCols(begin, end - begin) -= shift->middleCols(begin, end - begin);
+    const double value = body_.material().linearise(step, iterate.stress, law_, begin, end);
+    if (!std::isfinite(value)) finite = false;
+    for (double known = largest; known < value && !largest.compare_exchange_weak(known, value);) {
+    }
+  });
+  const double residual = finite ? largest.load() : std::nan("");
   if (residual == 0) return 0;
   if (body_.material().stressScale() > 0) return residual / body_.material().stressScale();
   // An elastic body has no stress of its own to measure with. The largest in it serves, but not below what the rounding
@@ -102,7 +124,7 @@ std::string BodySystem::factorise() {
   refactorised_ = false;
   if (factorised_ && body_.material().linear()) return {};
   refactorised_ = !std::exchange(counted_, false);
-  body_.tangent(law_.moduli, values_);
+  body_.tangent(law_.moduli, values_, *threads_);
   factorised_ = solver_->factorise(values_);
   if (!factorised_ && engine_ == LinearEngine::multifrontal && !body_.pattern().symmetric) {
     // UMFPACK pivots in the whole matrix.
@@ -166,8 +188,11 @@ void BodySystem::expand(const Vector& forceChange, const Vector& z, BodyIterate&
     iterate.increment[dof] = u.high;
     iterate.small[dof] += u.low;
   }
-  iterate.stress = law_.predictor;
-  body_.addStressOf(d, law_.moduli, iterate.stress);
+  iterate.stress.resizeLike(law_.predictor);
+  forEachBlock([&](int begin, int end) {
+    iterate.stress.middleCols(begin, end - begin) = law_.predictor.middleCols(begin, end - begin);
+    body_.addStressOf(d, law_.moduli, iterate.stress, begin, end);
+  });
 }
 
 }  // namespace mortier

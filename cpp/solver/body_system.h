@@ -26,8 +26,9 @@ class BodySystem {
   /// \param firstRow  of each interface among all contact conditions, and their number at the end.
   BodySystem(const Model& model, int body, const std::vector<int>& firstRow, LinearEngine engine);
 
-  /// Linearises the law at the iterate. \returns the material residual, scaled [-].
-  double linearise(const MaterialStep& step, BodyIterate& iterate);
+  /// Linearises the law at the iterate, whose strain (that of `step`) becomes B du - shift; no shift where null.
+  /// \returns the material residual, scaled [-].
+  double linearise(const MaterialStep& step, const Matrix* shift, BodyIterate& iterate);
   /// Factorises the tangent of the last linearisation, unless it is still that of a linear material.
   /// \returns why that is impossible, or nothing.
   std::string factorise();
@@ -57,6 +58,9 @@ class BodySystem {
   [[nodiscard]] Vector rigidForce() const { return R_.transpose() * contactForce_; }
 
  private:
+  /// Calls work(begin, end) for all points, some thousands at a time.
+  template <class Work>
+  void forEachBlock(const Work& work);
   void findContactDofs(const Model& model, int body, const std::vector<int>& firstRow);
   void findRigidMotions();
   [[nodiscard]] Matrix solveSchur(const Matrix& f) const;

@@ -117,10 +117,8 @@ double StepSolver::linearise(const State& state0, const StepData& step, Iterate&
   std::vector<double> residual(model_.bodies.size());
   forEachBody([&](int b) {
     BodyIterate& body = iterate.bodies[b];
-    model_.bodies[b].strain(body.increment, body.small, body.strain);
-    if (!step.shift.empty()) body.strain -= step.shift[b];
-    residual[b] =
-        systems_[b].linearise({step.weight, state0.bodies[b].stress, body.strain, anticipate}, body);
+    residual[b] = systems_[b].linearise({step.weight, state0.bodies[b].stress, body.strain, anticipate},
+                                        step.shift.empty() ? nullptr : &step.shift[b], body);
   });
   double worst = 0;
   for (const double value : residual)

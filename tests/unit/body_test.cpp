@@ -111,7 +111,7 @@ TEST(Body, tangentMatchesFiniteDifferenceOfInternalForce) {
       EXPECT_LE((K * free - expected).cwiseAbs().maxCoeff(), tolerance * expected.cwiseAbs().maxCoeff());
       // And the stress that Newton's method adds for d.
       Matrix added = stress0;
-      plate.addStressOf(d, law.moduli, added);
+      plate.addStressOf(d, law.moduli, added, 0, plate.points());
       const Vector f = plate.internalForce(added);
       for (int dof = 0; dof < plate.dofs(); ++dof) {
         if (plate.equations()[dof] < 0) continue;
@@ -176,7 +176,8 @@ TEST(Body, strainResolvesSmallDifferencesOfLargeDisplacements) {
   });
   const Vector small = 1e-17 * randomVector(plate.dofs(), random);
   Matrix strain;
-  plate.strain(u, small, strain);
+  strain.resize(3, plate.points());
+  plate.strain(u, small, strain, 0, plate.points());
   double worst = 0;
   double effect = 0;
   const Matrix plain = strainOf(plate, u);

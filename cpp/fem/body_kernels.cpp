@@ -1,0 +1,128 @@
+// What a body does in every iteration, triangle by triangle.
+#include "base/double_double.h"
+#include "base/lanes.h"
+#include "fem/body.h"
+
+namespace mortier {
+
+// With G = gradient / sqrt2, a nodal displacement (ux, uy) strains p, q, r by
+//   B = [Gx Gy; Gx -Gy; Gy Gx].
+// The gradients of one triangle sum to zero: differences to its first node keep rigid motions exact.
+
+Vector Body::internalForce(const Matrix& stress) const {
+  Vector f = Vector::Zero(dofs());
+  for (int i = 0; i < points(); ++i) {
+    const auto& triangle = mesh_.triangles[i];
+    const double p = weights_[i] * stress(0, i);
+    const double q = weights_[i] * stress(1, i);
+    const double r = weights_[i] * stress(2, i);
+    const double* G = &gradients_[static_cast<size_t>(triangleDofs) * i];
+    for (int a = 0; a < 3; ++a) {
+      f[2 * triangle[a]] += (p + q) * G[2 * a] + r * G[2 * a + 1];
+      f[2 * triangle[a] + 1] += (p - q) * G[2 * a + 1] + r * G[2 * a];
+    }
+  }
+  return f;
+}
+
+void Body::strain(const Vector& u, const Vector& small, Matrix& strain, int begin, int end) const {
+  for (int first = begin; first < end; first += laneCount) {
+    // The second and the third node, x and y, and the first, by lanes.
+    double u1[4][laneCount];
+    double u0[4][laneCount];
+    double smallChange[4][laneCount];
+    double G[4][laneCount];
+    const int count = std::min(laneCount, end - first);
+    for (int lane = 0; lane < laneCount; ++lane) {
+      const int i = first + std::min(lane, count - 1);
+      const auto& triangle = mesh_.triangles[i];
+      for (int k = 0; k < 4; ++k) {
+        const int dof = 2 * triangle[1 + k / 2] + k % 2;
+        const int dof0 = 2 * triangle[0] + k % 2;
+        u1[k][lane] = u[dof];
+        u0[k][lane] = u[dof0];
+        smallChange[k][lane] = small[dof] - small[dof0];
+        G[k][lane] = gradients_[static_cast<size_t>(triangleDofs) * i + 2 + k];
+      }
+    }
+    double result[3][laneCount];
+    for (int lane = 0; lane < laneCount; ++lane) {
+      DoubleDouble d[4];
+      for (int k = 0; k < 4; ++k) {
+        d[k] = DoubleDouble::sum(u1[k][lane], -u0[k][lane]);
+        d[k].low += smallChange[k][lane];
+      }
+      const auto times = [&](int g, int k) {
+        DoubleDouble product = DoubleDouble::product(G[g][lane], d[k].high);
+        product.low += G[g][lane] * d[k].low;
+        return product;
+      };
+      DoubleDouble xx = times(0, 0);
+      DoubleDouble yy = times(1, 1);
+      DoubleDouble xy = times(1, 0);
+      xx += times(2, 2);
+      yy += times(3, 3);
+      xy += times(0, 1);
+      xy += times(3, 2);
+      xy += times(2, 3);
+      DoubleDouble p = xx;
+      DoubleDouble q = xx;
+      p += yy;
+      q += DoubleDouble{-yy.high, -yy.low};
+      result[0][lane] = p.value();
+      result[1][lane] = q.value();
+      result[2][lane] = xy.value();
+    }
+    for (int lane = 0; lane < count; ++lane)
+      for (int c = 0; c < 3; ++c) strain(c, first + lane) = result[c][lane];
+  }
+}
+
+void Body::addStressOf(const Vector& d, const Matrix& moduli, Matrix& stress, int begin, int end) const {
+  for (int i = begin; i < end; ++i) {
+    const auto& triangle = mesh_.triangles[i];
+    const double* G = &gradients_[static_cast<size_t>(triangleDofs) * i];
+    double xx = 0;
+    double yy = 0;
+    double xy = 0;
+    const double x0 = d[2 * triangle[0]];
+    const double y0 = d[2 * triangle[0] + 1];
+    for (int a = 1; a < 3; ++a) {
+      const double dx = d[2 * triangle[a]] - x0;
+      const double dy = d[2 * triangle[a] + 1] - y0;
+      xx += G[2 * a] * dx;
+      yy += G[2 * a + 1] * dy;
+      xy += G[2 * a + 1] * dx + G[2 * a] * dy;
+    }
+    const double* D = &moduli(0, i);
+    for (int c = 0; c < 3; ++c) stress(c, i) += D[c] * (xx + yy) + D[3 + c] * (xx - yy) + D[6 + c] * xy;
+  }
+}
+
+void Body::tangent(const Matrix& moduli, std::vector<double>& values, Threads& threads) const {
+  assembly_.assemblePlain(triangleData(), moduli, values, threads);
+  addSupported(moduli, values);
+}
+
+void Body::addSupported(const Matrix& moduli, std::vector<double>& values) const {
+  for (const auto& [t, entries] : assembly_.supported()) {
+    // B T: strains of the motions along the frames of the nodes.
+    Eigen::Matrix<double, 3, triangleDofs> B;
+    const double* G = &gradients_[static_cast<size_t>(triangleDofs) * t];
+    for (int a = 0; a < 3; ++a) {
+      const double gx = G[2 * a];
+      const double gy = G[2 * a + 1];
+      Eigen::Matrix<double, 3, 2> Ba{{gx, gy}, {gx, -gy}, {gy, gx}};
+      const int frame = frameOf_.empty() ? -1 : frameOf_[mesh_.triangles[t][a]];
+      if (frame >= 0) Ba = Ba * frames_[frame].transpose();
+      B.middleCols<2>(2 * a) = Ba;
+    }
+    const Eigen::Map<const Eigen::Matrix3d> D(&moduli(0, t));
+    const Eigen::Matrix<double, triangleDofs, triangleDofs> K = weights_[t] * (B.transpose() * D * B);
+    for (int j = 0; j < triangleDofs; ++j)
+      for (int i = 0; i < triangleDofs; ++i)
+        if (const int entry = entries[triangleDofs * j + i]; entry >= 0) values[entry] += K(i, j);
+  }
+}
+
+}  // namespace mortier

@@ -1,0 +1,168 @@
+#include "fem/tangent_assembly.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace mortier {
+namespace {
+
+// With G = gradient / sqrt2, a nodal displacement (ux, uy) strains p, q, r by
+//   B = [Gx Gy; Gx -Gy; Gy Gx].
+
+/// D B for one node: 3 x 2, from 3 x 3 moduli in column-major order.
+Eigen::Matrix<double, 3, 2> moduliTimesB(const double* D, double gx, double gy) {
+  Eigen::Matrix<double, 3, 2> result;
+  for (int i = 0; i < 3; ++i) {
+    result(i, 0) = (D[i] + D[3 + i]) * gx + D[6 + i] * gy;
+    result(i, 1) = (D[i] - D[3 + i]) * gy + D[6 + i] * gx;
+  }
+  return result;
+}
+
+}  // namespace
+
+TangentAssembly::TangentAssembly(const TriangleData& triangles, const std::vector<int>& frameOf,
+                                 bool symmetric) {
+  pattern_.symmetric = symmetric;
+  pattern_.size = 1 + *std::max_element(triangles.equations.begin(), triangles.equations.end());
+  buildPattern(triangles);
+  cutIntoParts(triangles.equations);
+  placeBlocks(triangles, frameOf);
+}
+
+void TangentAssembly::buildPattern(const TriangleData& triangles) {
+  const int n = pattern_.size;
+  // Columns by counting sort of the triangles' couplings, then sorted and made unique one column at a time.
+  const auto forEachCoupling = [&](auto visit) {
+    for (const auto& triangle : triangles.nodes)
+      for (int j = 0; j < triangleDofs; ++j) {
+        const int column = triangles.equations[2 * triangle[j / 2] + j % 2];
+        if (column < 0) continue;
+        for (int i = 0; i < triangleDofs; ++i) {
+          const int row = triangles.equations[2 * triangle[i / 2] + i % 2];
+          if (row >= 0 && (row >= column || !pattern_.symmetric)) visit(row, column);
+        }
+      }
+  };
+  std::vector<int> start(n + 1, 0);
+  forEachCoupling([&](int, int column) { ++start[column + 1]; });
+  for (int j = 0; j < n; ++j) start[j + 1] += start[j];
+  std::vector<int> rows(start[n]);
+  std::vector<int> next(start.begin(), start.end() - 1);
+  forEachCoupling([&](int row, int column) { rows[next[column]++] = row; });
+
+  pattern_.columnStart.assign(n + 1, 0);
+  int last = 0;
+  for (int j = 0; j < n; ++j) {
+    std::sort(rows.begin() + start[j], rows.begin() + start[j + 1]);
+    const auto end = std::unique(rows.begin() + start[j], rows.begin() + start[j + 1]);
+    last = static_cast<int>(std::copy(rows.begin() + start[j], end, rows.begin() + last) - rows.begin());
+    pattern_.columnStart[j + 1] = last;
+  }
+  pattern_.rows.assign(rows.begin(), rows.begin() + last);
+}
+
+int TangentAssembly::entry(int row, int column) const {
+  const auto begin = pattern_.rows.begin() + pattern_.columnStart[column];
+  const auto end = pattern_.rows.begin() + pattern_.columnStart[column + 1];
+  return static_cast<int>(std::lower_bound(begin, end, row) - pattern_.rows.begin());
+}
+
+TangentAssembly::Entries TangentAssembly::entriesOf(const TriangleData& triangles, size_t t) const {
+  const auto& nodes = triangles.nodes[t];
+  Entries entries;
+  entries.fill(-1);
+  for (int j = 0; j < triangleDofs; ++j)
+    for (int i = 0; i < triangleDofs; ++i) {
+      const int column = triangles.equations[2 * nodes[j / 2] + j % 2];
+      const int row = triangles.equations[2 * nodes[i / 2] + i % 2];
+      if (column < 0 || row < 0 || (row < column && pattern_.symmetric)) continue;
+      entries[triangleDofs * j + i] = entry(row, column);
+    }
+  return entries;
+}
+
+void TangentAssembly::cutIntoParts(const std::vector<int>& equations) {
+  constexpr int columnsOfAPart = 8192;
+  // Between nodes.
+  for (size_t dof = 0; dof < equations.size(); dof += 2) {
+    const int first = equations[dof] >= 0 ? equations[dof] : equations[dof + 1];
+    if (first < static_cast<int>(parts_.size()) * columnsOfAPart) continue;
+    if (!parts_.empty()) parts_.back().endColumn = first;
+    parts_.push_back({first, pattern_.size, {}});
+  }
+}
+
+void TangentAssembly::placeBlocks(const TriangleData& triangles, const std::vector<int>& frameOf) {
+  const auto isPlain = [&](int node) {
+    return triangles.equations[2 * node] >= 0 && triangles.equations[2 * node + 1] >= 0 &&
+           (frameOf.empty() || frameOf[node] < 0);
+  };
+  const auto partOf = [&](int column) {
+    const auto after = std::upper_bound(parts_.begin(), parts_.end(), column,
+                                        [](int value, const Part& part) { return value < part.firstColumn; });
+    return static_cast<int>(after - parts_.begin()) - 1;
+  };
+  blocks_.resize(triangles.nodes.size());
+  for (size_t t = 0; t < triangles.nodes.size(); ++t) {
+    const auto& nodes = triangles.nodes[t];
+    bool plain = std::all_of(nodes.begin(), nodes.end(), isPlain);
+    std::array<int, 3> part{};
+    for (int b = 0; b < 3 && plain; ++b) {
+      const int column = triangles.equations[2 * nodes[b]];
+      part[b] = partOf(column);
+      for (int a = 0; a < 3; ++a) {
+        const int row = triangles.equations[2 * nodes[a]];
+        if (row < column && pattern_.symmetric) continue;
+        const int place = entry(row, column) - pattern_.columnStart[column];
+        plain = plain && place <= std::numeric_limits<uint16_t>::max();
+        blocks_[t][3 * b + a] = static_cast<uint16_t>(place);
+      }
+    }
+    if (!plain) {
+      supported_.push_back({static_cast<int>(t), entriesOf(triangles, t)});
+      continue;
+    }
+    std::sort(part.begin(), part.end());
+    for (int b = 0; b < 3; ++b)
+      if (b == 0 || part[b] != part[b - 1]) parts_[part[b]].triangles.push_back(static_cast<int>(t));
+  }
+}
+
+// Both rows of a node follow each other in every column, and its second column is its first one (where symmetric:
+// without its first row). Every entry is a sum over triangles in their order, whichever part it lies in.
+void TangentAssembly::assemblePlain(const TriangleData& triangles, const Matrix& moduli,
+                                    std::vector<double>& values, Threads& threads) const {
+  values.resize(pattern_.entries());
+  const bool symmetric = pattern_.symmetric;
+  const int* start = pattern_.columnStart.data();
+  const int* equations = triangles.equations.data();
+  threads.forEach(static_cast<int>(parts_.size()), [&](int p) {
+    const Part& part = parts_[p];
+    std::fill(values.begin() + start[part.firstColumn], values.begin() + start[part.endColumn], 0.0);
+    for (const int t : part.triangles) {
+      const double* G = &triangles.gradients[static_cast<size_t>(triangleDofs) * t];
+      const auto& nodes = triangles.nodes[t];
+      const int equation[3] = {equations[2 * nodes[0]], equations[2 * nodes[1]], equations[2 * nodes[2]]};
+      for (int b = 0; b < 3; ++b) {
+        if (equation[b] < part.firstColumn || equation[b] >= part.endColumn) continue;
+        const Eigen::Matrix<double, 3, 2> DB =
+            triangles.weights[t] * moduliTimesB(&moduli(0, t), G[2 * b], G[2 * b + 1]);
+        double* column[2] = {&values[start[equation[b]]],
+                             &values[start[equation[b] + 1]] - (symmetric ? 1 : 0)};
+        for (int a = 0; a < 3; ++a) {
+          if (symmetric && equation[a] < equation[b]) continue;
+          const int place = blocks_[t][3 * b + a];
+          for (int c = 0; c < 2; ++c) {
+            const double x = (DB(0, c) + DB(1, c)) * G[2 * a] + DB(2, c) * G[2 * a + 1];
+            const double y = (DB(0, c) - DB(1, c)) * G[2 * a + 1] + DB(2, c) * G[2 * a];
+            if (!symmetric || a != b || c == 0) column[c][place] += x;
+            column[c][place + 1] += y;
+          }
+        }
+      }
+    }
+  });
+}
+
+}  // namespace mortier
