@@ -10,6 +10,8 @@
 #include "commands/complain.h"
 #include "commands/exit_code.h"
 #include "commands/stopped_run.h"
+#include "commands/version.h"
+#include "linear/versions.h"
 #include "report/checkpoint.h"
 #include "report/clock.h"
 #include "report/log.h"
@@ -17,6 +19,7 @@
 #include "report/result_files.h"
 #include "report/summary.h"
 #include "scene/build.h"
+#include "scene/versions.h"
 
 namespace mortier {
 
@@ -48,6 +51,9 @@ RunFacts factsOf(const RunCommand& command, const SceneDescription& scene) {
   facts.scheme = word(scene.time.scheme);
   facts.plannedSteps = scene.time.steps;
   facts.threads = command.threads;
+  facts.versions = {{"mortier", version}, {"compiler", __VERSION__}};
+  for (const auto& libraries : {linearLibraries(), sceneLibraries()})
+    facts.versions.insert(facts.versions.end(), libraries.begin(), libraries.end());
   std::vector<std::string> projections;
   for (const BodyDescription& body : scene.bodies) {
     const auto& flow = body.material.viscoplasticity;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <string_view>
 
 #include "base/error.h"
@@ -61,6 +62,13 @@ class Writer {
     size(m.cols());
     raw(m.data(), m.size() * sizeof(double));
   }
+  void put(std::map<std::string, int>& counts) {
+    size(counts.size());
+    for (auto& [key, count] : counts) {
+      std::string name = key;
+      (*this)(name, count);
+    }
+  }
   template <class T>
   void put(std::vector<T>& values) {
     size(values.size());
@@ -111,6 +119,13 @@ class Reader {
     m.resize(static_cast<Eigen::Index>(shape[0]), static_cast<Eigen::Index>(shape[1]));
     raw(m.data(), m.size() * sizeof(double));
   }
+  void get(std::map<std::string, int>& counts) {
+    for (uint64_t n = size(); n > 0; --n) {
+      std::string key;
+      (*this)(key);
+      (*this)(counts[key]);
+    }
+  }
   template <class T>
   void get(std::vector<T>& values) {
     values.resize(size());
@@ -154,9 +169,10 @@ void visitMembers(Archive& archive, StepReport& report) {
 }
 template <class Archive>
 void visitMembers(Archive& archive, RunReport& report) {
-  auto& [status, reason, steps, iterations, maxIterationsInAStep, factorisations, solveSeconds, worst] =
-      report;
-  archive(status, reason, steps, iterations, maxIterationsInAStep, factorisations, solveSeconds, worst);
+  auto& [status, reason, steps, iterations, maxIterationsInAStep, factorisations, solveSeconds, worst,
+         rungs] = report;
+  archive(status, reason, steps, iterations, maxIterationsInAStep, factorisations, solveSeconds, worst,
+          rungs);
 }
 template <class Archive>
 void visitMembers(Archive& archive, BodyState& body) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mortier {
@@ -18,6 +19,7 @@ struct RunFacts {
   std::string scheme;
   int plannedSteps = 0;
   int threads = 1;
+  std::vector<std::pair<std::string, std::string>> versions;  ///< of mortier and its libraries
 };
 
 }  // namespace mortier

@@ -121,6 +121,7 @@ void writeSummary(const std::string& folder, const RunFacts& facts, const Model&
   json["newton_iterations"] = report.iterations;
   json["max_iterations_in_a_step"] = report.maxIterationsInAStep;
   json["factorisations"] = report.factorisations;
+  json["rungs"] = report.rungs;
   json["threads"] = facts.threads;
   json["solve_time_s"] = report.solveSeconds;
   json["final"] = finalState(model, state, last);
@@ -131,6 +132,8 @@ void writeSummary(const std::string& folder, const RunFacts& facts, const Model&
                           {"complementarity", report.worst.complementarity}};
   json["peak_memory_mib"] = peakMemory();
   json["wall_time_s"] = processSeconds();
+  json["versions"] = Json::object();
+  for (const auto& [name, version] : facts.versions) json["versions"][name] = version;
   requireFiniteNumbers(json, folder + "/summary.json");
   OutputFile file(folder + "/summary.json");
   file << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';

@@ -52,6 +52,7 @@ void add(const StepReport& report, RunReport& run) {
   run.reason = report.reason;
   if (report.status != Status::converged) return;
   run.steps = report.step;
+  ++run.rungs[report.rung];
   run.worst = worse(run.worst, report.certificate);
 }
 

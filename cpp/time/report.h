@@ -1,6 +1,7 @@
 // What is reported of a whole run.
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "solver/state.h"
@@ -14,8 +15,9 @@ struct RunReport {
   int iterations = 0;
   int maxIterationsInAStep = 0;
   int factorisations = 0;
-  double solveSeconds = 0;  ///< wall time of the march without its observer
-  Certificate worst;        ///< the largest residuals of any step
+  double solveSeconds = 0;           ///< wall time of the march without its observer
+  Certificate worst;                 ///< the largest residuals of any step
+  std::map<std::string, int> rungs;  ///< how many steps took which (StepReport::rung)
 };
 
 }  // namespace mortier

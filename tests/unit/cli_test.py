@@ -239,6 +239,9 @@ class Cli(unittest.TestCase):
         self.assertEqual(summary["projection"], "elasticity")
         self.assertLess(summary["verification"]["force_balance"], 1e-9)
         self.assertAlmostEqual(summary["final"]["contact_force"], 10, places=9)
+        self.assertGreater(summary["peak_memory_mib"], 1)
+        for name in ("mortier", "Eigen", "CHOLMOD", "UMFPACK", "BLAS", "toml++", "muParser"):
+            self.assertRegex(summary["versions"][name], r"\d+\.\d+")
 
         self.assertEqual(sorted(name for name in os.listdir("result") if name.endswith(".vtu")),
                          [f"{body}_{step:06}.vtu" for body in ("lower", "upper") for step in (0, 2, 4)])
@@ -259,6 +262,8 @@ class Cli(unittest.TestCase):
 
         history = list(csv.DictReader(read("result/history.csv").splitlines()))
         self.assertEqual([float(row["time[s]"]) for row in history], [0.25, 0.5, 0.75, 1])
+        rungs = [row["rung"] for row in history]
+        self.assertEqual(summary["rungs"], {rung: rungs.count(rung) for rung in rungs})
         contact = list(csv.DictReader(read("result/contact.csv").splitlines()))
         self.assertEqual([row["step"] for row in contact], ["0"] * 4 + ["2"] * 4 + ["4"] * 4)
         last = contact[-4:]

@@ -1,0 +1,13 @@
+// Which libraries of linear algebra the program runs with.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mortier {
+
+/// Name and version of each; of those linked at run time as they tell it themselves.
+std::vector<std::pair<std::string, std::string>> linearLibraries();
+
+}  // namespace mortier
