@@ -1,0 +1,115 @@
+"""bench/peers and the drivers of other codes: what is installed solves the small problems, what is not says so."""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import support
+
+sys.path.insert(0, str(support.ROOT / "study"))
+
+import calculix_code  # noqa: E402
+import peer  # noqa: E402
+import scene  # noqa: E402
+from perzyna import project  # noqa: E402
+
+MORTIER = os.environ.get("MORTIER", str(support.ROOT / "build" / "mortier"))
+STRESS_ERROR = {("mortier", "mortar"): 1e-12, ("FreeFEM", "mortar"): 1e-12, ("GetFEM", "mortar"): 1e-3,
+                ("CalculiX", "mortar"): 1e-4}
+
+
+class Peers(unittest.TestCase):
+    def test_small_problems(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "rows.json"
+            done = subprocess.run([sys.executable, str(support.ROOT / "bench" / "peers"), "--small", "--problems", "patch",
+                                   "separation", "--json", str(path)], capture_output=True, text=True,
+                                  env={**os.environ, "MORTIER": MORTIER})
+            self.assertEqual(done.returncode, 0, done.stderr)
+            rows = json.loads(path.read_text())
+        self.assertEqual(len(rows), 14)
+        errors = {(row["problem"], row["code"], row["coupling"]): row.get("error") for row in rows}
+        for row in rows:
+            with self.subTest(problem=row["problem"], code=row["code"], coupling=row["coupling"]):
+                if "error" not in row:
+                    self.assertIn(row["code"], ("GetFEM", "CalculiX"))
+                    self.assertIn("is not installed", row["reason"])
+                    continue
+                self.assertGreater(row["memory_MiB"], 5)
+                if row["problem"] == "patch" and row["coupling"] == "mortar":
+                    self.assertLess(row["error"], STRESS_ERROR[row["code"], "mortar"])
+                elif row["problem"] == "patch":  # every code finds the same wrong stress
+                    self.assertAlmostEqual(row["error"] / errors["patch", "mortier", "interpolation"], 1, places=6)
+                else:  # the opening at the far end; a penalty is not exact
+                    allowed = 1e-2 if row["code"] == "CalculiX" else 5e-3
+                    self.assertAlmostEqual(row["error"] / errors["separation", "mortier", "mortar"], 1, delta=5 * allowed)
+        self.assertLess(abs(errors["separation", "FreeFEM", "mortar"] / errors["separation", "mortier", "mortar"] - 1), 1e-9)
+
+
+class Drivers(unittest.TestCase):
+    def problem(self, *settings):
+        document = scene.load(support.ROOT / "scenes" / "compression.toml", settings)
+        with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
+            json.dump(document, file)
+            file.flush()
+            return peer.Problem(file.name)
+
+    def test_settings_reach_the_scene(self):
+        problem = self.problem("contact.swap=true", "time.steps=7", "body.upper.material.poisson=0.2",
+                               "body.upper.boundary.3.ty=-5", "body.lower.material={young=1, poisson=0.1}")
+        self.assertEqual((problem.nonmortar, problem.nonmortar_label, problem.steps), ("lower", 3, 7))
+        self.assertEqual((problem.bodies["upper"].poisson, problem.bodies["lower"].poisson), (0.2, 0.1))
+        self.assertEqual([value.text for _, _, value in problem.bodies["upper"].tractions], ["-5"])
+        self.assertIsNone(problem.bodies["lower"].viscosity)
+
+    def test_contact_forces_come_from_equilibrium(self):
+        problem = self.problem()
+        stresses = {name: np.tile([3.0, -10.0, 0.0], (len(body.mesh.triangles), 1)) for name, body in problem.bodies.items()}
+        lift = {"upper": 0.25, "lower": 0.0}
+        displacements = {name: body.mesh.points * 0 + [0, lift[name]] for name, body in problem.bodies.items()}
+        nodes, position, gap, force = problem.contact_of(displacements, stresses)
+        np.testing.assert_allclose(gap, -0.25, atol=1e-15)  # open
+        np.testing.assert_allclose(force, 10 / 6 * np.array([0.5, 1, 1, 1, 1, 1, 0.5]), rtol=1e-12)
+        np.testing.assert_array_equal(position[:, 1], 0)
+
+    def test_stress_of_a_linear_field(self):
+        body = self.problem().bodies["lower"]
+        x, y = body.mesh.points.T
+        strain = body.strain(np.column_stack([2 * x + 5 * y, 3 * x - 4 * y]))
+        np.testing.assert_allclose(strain, np.tile([2, -4, 8], (len(strain), 1)), atol=1e-11)
+        stress = body.elastic_stress(strain)
+        c = 3e11 / (1 - 0.09)
+        np.testing.assert_allclose(stress[0], [c * (2 - 1.2), c * (0.6 - 4), 3e11 / 2.6 * 8], rtol=1e-10)
+
+    def test_projection_and_its_derivative(self):
+        b = np.array([0.3, 1.5, 1.5])
+        s = np.random.default_rng(1).normal(size=(20, 3)) * 3
+        over, derivative = project(s, b, 1.0)
+        P = s - over
+        beyond = (np.array([0.5, 1.5, 1.5]) * s**2).sum(1) > 1
+        np.testing.assert_allclose((np.array([0.5, 1.5, 1.5]) * P**2).sum(1)[beyond], 1, rtol=1e-12)
+        np.testing.assert_array_equal(over[~beyond], 0)
+        h = 1e-6
+        for k in range(3):
+            step = h * np.eye(3)[k]
+            numeric = ((s + step - project(s + step, b, 1.0)[0]) - (s - step - project(s - step, b, 1.0)[0])) / (2 * h)
+            np.testing.assert_allclose(derivative[:, :, k], numeric, atol=1e-7)
+
+    def test_input_of_calculix(self):
+        mesh = self.problem().bodies["upper"].mesh
+        faces = calculix_code.faces(mesh, 1, 11)
+        self.assertEqual(len(faces), 6)
+        for line in faces:  # the face holds both ends of an edge on y = 0
+            element, face = line.split(", ")
+            corners = mesh.triangles[int(element) - 11]
+            ends = [corners[i] for i in next(key for key, value in calculix_code.FACE.items() if value == face)]
+            np.testing.assert_array_equal(mesh.points[ends, 1], 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
