@@ -99,6 +99,10 @@ void writeConditions(std::ostream& out, const BodyDescription& body, int number)
   out << "macro supports" << number << ' ';
   for (const ConditionDescription& c : body.conditions) {
     if (c.kind == ConditionDescription::Kind::displacement) {
+      if (c.component != alongX && c.component != alongY) {
+        throw InputError(c.value.where +
+                         ": the FreeFEM method knows no rollers on sloped sides, expected ux, uy");
+      }
       out << "+ on(" << c.label << ", u" << c.component + 1 << " = " << translated(c.value) << ") ";
       held = true;
     }
@@ -107,8 +111,12 @@ void writeConditions(std::ostream& out, const BodyDescription& body, int number)
       << " + int2d(Body" << number << ")(0.*v2) ";
   for (const ConditionDescription& c : body.conditions) {
     if (c.kind == ConditionDescription::Kind::traction) {
-      out << "+ int1d(Body" << number << ", " << c.label << ")((" << translated(c.value) << ")*v"
-          << c.component + 1 << ") ";
+      out << "+ int1d(Body" << number << ", " << c.label << ")((" << translated(c.value) << ")*";
+      if (c.component == alongNormal) {
+        out << "(N.x*v1 + N.y*v2)) ";
+      } else {
+        out << "v" << c.component + 1 << ") ";
+      }
     }
   }
   for (const int c : {0, 1}) {

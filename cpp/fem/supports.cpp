@@ -78,11 +78,10 @@ Point normalAt(const SidesOfNodes& sides, int node, const Side& side) {
 }  // namespace
 
 void Supports::hold(NodeSupport& support, const Point& direction, int condition) {
-  for (int i = 0; i < support.count; ++i)
-    if (parallel(support.directions[i], direction)) {
-      if (support.conditions[i] != condition) further_.push_back({support.node, condition, direction});
-      return;
-    }
+  if (const int same = sameMotion(support, direction); same >= 0) {
+    if (support.conditions[same] != condition) further_.push_back({support.node, condition, direction});
+    return;
+  }
   if (support.count == 2) {
     further_.push_back({support.node, condition, direction});
     return;
@@ -136,11 +135,16 @@ Point prescribed(const NodeSupport& support, const std::array<double, 2>& values
   return Point(values[0] * e.y() - values[1] * d.y(), values[1] * d.x() - values[0] * e.x()) / cross(d, e);
 }
 
+int sameMotion(const NodeSupport& support, const Point& direction) {
+  for (int i = 0; i < support.count; ++i)
+    if (parallel(support.directions[i], direction)) return i;
+  return -1;
+}
+
 double impliedMotion(const NodeSupport& support, const std::array<double, 2>& values,
                      const Point& direction) {
-  for (int i = 0; i < support.count; ++i)
-    if (parallel(support.directions[i], direction))
-      return support.directions[i].dot(direction) > 0 ? values[i] : -values[i];
+  const int same = sameMotion(support, direction);
+  if (same >= 0) return support.directions[same].dot(direction) > 0 ? values[same] : -values[same];
   return direction.dot(prescribed(support, values, Point::Zero()));
 }
 

@@ -61,6 +61,9 @@ class Supports {
 /// The displacement nearest to `u` that has the prescribed `values` (support.count) along the directions.
 Point prescribed(const NodeSupport& support, const std::array<double, 2>& values, const Point& u);
 
+/// The prescribed motion along a direction or against it; -1 for none.
+int sameMotion(const NodeSupport& support, const Point& direction);
+
 /// The motion along a further direction that the prescribed values imply.
 double impliedMotion(const NodeSupport& support, const std::array<double, 2>& values, const Point& direction);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "base/error.h"
 #include "mesh/medit.h"
@@ -94,26 +93,36 @@ void requireFiniteData(const BodyDescription& body, const TriangleMesh& mesh,
   }
 }
 
-/// Where two labels meet, both may prescribe a component, but not differently.
-void requireOneDisplacement(const BodyDescription& body, const TriangleMesh& mesh,
-                            const std::vector<double>& times) {
-  std::map<std::pair<int, int>, const ConditionDescription*> seen;
-  for (const ConditionDescription& condition : body.conditions) {
-    if (condition.kind != Kind::displacement) {
-      continue;
-    }
-    for (const int v : verticesOn(mesh, condition.label)) {
-      const auto [other, isNew] = seen.try_emplace({v, condition.component}, &condition);
-      for (size_t i = 0; i < times.size() && !isNew; ++i) {
-        const Point& p = mesh.vertices[v];
-        const double here = condition.value.value(p[0], p[1], times[i]);
-        const double there = other->second->value.value(p[0], p[1], times[i]);
-        if (std::abs(here - there) > 1e-12 * std::max(std::abs(here), std::abs(there))) {
-          throw InputError(condition.value.where + " at (" + shortest(p[0]) + ", " + shortest(p[1]) +
-                           "), t = " + shortest(times[i]) + ": expected the " + shortest(there) +
-                           " that label " + std::to_string(other->second->label) + " prescribes there");
-        }
+/// Where labels meet, all may prescribe a motion of a node, but not differently.
+void requireOneDisplacement(const Supports& supports,
+                            const std::vector<const ConditionDescription*>& displacements,
+                            const TriangleMesh& mesh, const std::vector<double>& times) {
+  constexpr double rounding = 1e-9;  // normals of meshed circles are rounded
+  for (const FurtherMotion& motion : supports.further()) {
+    const NodeSupport& support = supports.nodes()[motion.support];
+    const Point& p = mesh.vertices[support.node];
+    for (const double t : times) {
+      const auto valueOf = [&](int condition) {
+        return displacements[condition]->value.value(p[0], p[1], t);
+      };
+      std::array<double, 2> values{0, 0};
+      double scale = std::abs(valueOf(motion.condition));
+      for (int i = 0; i < support.count; ++i) {
+        values[i] = valueOf(support.conditions[i]);
+        scale = std::max(scale, std::abs(values[i]));
       }
+      const double implied = impliedMotion(support, values, motion.direction) + 0.0;  // no -0
+      if (std::abs(valueOf(motion.condition) - implied) <= rounding * scale) {
+        continue;
+      }
+      const auto labelOf = [&](int i) { return std::to_string(displacements[support.conditions[i]]->label); };
+      const int same = sameMotion(support, motion.direction);
+      throw InputError(displacements[motion.condition]->value.where + " at (" + shortest(p[0]) + ", " +
+                       shortest(p[1]) + "), t = " + shortest(t) + ": expected the " + shortest(implied) +
+                       " that " +
+                       (same >= 0 ? "label " + labelOf(same) + " prescribes"
+                                  : "labels " + labelOf(0) + " and " + labelOf(1) + " prescribe") +
+                       " there");
     }
   }
 }
@@ -121,16 +130,18 @@ void requireOneDisplacement(const BodyDescription& body, const TriangleMesh& mes
 Body buildBody(const BodyDescription& body, const std::vector<double>& times) {
   TriangleMesh mesh = readMedit(body.mesh);
   Conditions conditions;
+  std::vector<const ConditionDescription*> displacements;
   for (const ConditionDescription& c : body.conditions) {
     requireLabel(mesh, c.label, c.where, body.name);
     if (c.kind == Kind::displacement) {
       conditions.displacements.push_back({c.label, c.component, c.value.value});
+      displacements.push_back(&c);
     } else {
       conditions.tractions.push_back({c.label, c.component, c.value.value});
     }
   }
   requireFiniteData(body, mesh, times);
-  requireOneDisplacement(body, mesh, times);
+  requireOneDisplacement(Supports(mesh, conditions.displacements), displacements, mesh, times);
   for (const int c : {0, 1}) {
     if (body.force[c]) {
       conditions.forces.push_back({c, body.force[c]->value});

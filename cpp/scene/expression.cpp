@@ -2,6 +2,7 @@
 
 #include <muParser.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <memory>
@@ -80,7 +81,36 @@ bool assigns(const std::string& text) {
 }  // namespace
 
 Expression constantExpression(double value, std::string where) {
-  return {shortest(value), std::move(where), true, [value](double, double, double) { return value; }};
+  return {shortest(value), std::move(where), true, [value](double, double, double) { return value; }, {}};
+}
+
+Expression tableExpression(const std::vector<double>& times, const std::vector<double>& values,
+                           std::string where) {
+  // As an expression: nested choices, for those who need the text.
+  std::string text = shortest(values.back());
+  for (size_t i = times.size() - 1; i > 0; --i) {
+    const std::string slope = shortest((values[i] - values[i - 1]) / (times[i] - times[i - 1]));
+    text = "(t < " + shortest(times[i]) + " ? " + shortest(values[i - 1]) + " + (" + slope + ")*(t - (" +
+           shortest(times[i - 1]) + ")) : " + text + ")";
+  }
+  text = "(t < " + shortest(times.front()) + " ? " + shortest(values.front()) + " : " + text + ")";
+  const Function value = [times, values](double, double, double t) {
+    const size_t i = std::upper_bound(times.begin(), times.end(), t) - times.begin();
+    if (i == 0 || i == times.size()) {
+      return i == 0 ? values.front() : values.back();
+    }
+    const double part = (t - times[i - 1]) / (times[i] - times[i - 1]);
+    return (1 - part) * values[i - 1] + part * values[i];
+  };
+  return {std::move(text), std::move(where), false, value, times};
+}
+
+Expression negated(Expression expression) {
+  expression.text = "-(" + expression.text + ")";
+  expression.value = [value = std::move(expression.value)](double x, double y, double t) {
+    return -value(x, y, t);
+  };
+  return expression;
 }
 
 Expression parseExpression(const std::string& text, std::string where) {
@@ -102,7 +132,7 @@ Expression parseExpression(const std::string& text, std::string where) {
       requireFinite(result, {Point::Zero()}, {0.0});
       return result;
     }
-    return {text, std::move(where), false, Function(std::move(compiled))};
+    return {text, std::move(where), false, Function(std::move(compiled)), {}};
   } catch (const mu::Parser::exception_type& error) {
     std::string reason = error.GetMsg();
     reason = reason.substr(0, reason.find_first_of("\r\n"));

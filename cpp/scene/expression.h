@@ -14,9 +14,18 @@ struct Expression {
   std::string where;      ///< what a message about it begins with: `scenes/a.toml:14: body upper: ty = "1/t"`
   bool constant = false;  ///< depends on none of x, y, t
   Function value;         ///< copies are independent: a thread takes its own
+  std::vector<double> breaks = {};  ///< times at which it has kinks, ascending [s]; known of tables only
 };
 
 Expression constantExpression(double value, std::string where);
+
+/// Linear in time between the points of a table, constant before the first and after the last.
+/// \pre times ascend strictly; as many values
+Expression tableExpression(const std::vector<double>& times, const std::vector<double>& values,
+                           std::string where);
+
+/// -value
+Expression negated(Expression expression);
 
 /// Operators + - * / ^, comparisons, && ||, a ? b : c, the constant pi, and the usual functions
 /// (docs/scene.md). \throws InputError `where, expected an expression in x, y, t (what is wrong and at which

@@ -33,9 +33,9 @@ MaterialDescription readMaterial(const Node& node, const std::string& subject) {
 void addCondition(BodyDescription& body, const ConditionDescription& added) {
   for (const ConditionDescription& other : body.conditions) {
     if (other.label == added.label && other.component == added.component) {
-      throw InputError(added.value.where + ", expected one condition for component " +
-                       (added.component == 0 ? "x" : "y") + " of label " + std::to_string(added.label) +
-                       ", there is one at " + other.where);
+      constexpr const char* directions[] = {"component x", "component y", "the normal", "the tangent"};
+      throw InputError(added.value.where + ", expected one condition for " + directions[added.component] +
+                       " of label " + std::to_string(added.label) + ", there is one at " + other.where);
     }
   }
   body.conditions.push_back(added);
@@ -50,18 +50,22 @@ void readBoundary(const Node& node, BodyDescription& body) {
     const char* key;
     Kind kind;
     int component;
-  } data[] = {{"ux", Kind::displacement, 0},
-              {"uy", Kind::displacement, 1},
-              {"tx", Kind::traction, 0},
-              {"ty", Kind::traction, 1}};
+  } data[] = {{"ux", Kind::displacement, alongX},      {"uy", Kind::displacement, alongY},
+              {"un", Kind::displacement, alongNormal}, {"ut", Kind::displacement, alongTangent},
+              {"tx", Kind::traction, alongX},          {"ty", Kind::traction, alongY}};
   for (const auto& [key, kind, component] : data) {
     if (const Node* value = table.find(key)) {
       addCondition(body, {kind, label, component, table.expression(key), value->where});
     }
   }
+  if (const Node* value = table.find("pressure")) {
+    addCondition(body,
+                 {Kind::traction, label, alongNormal, negated(table.expression("pressure")), value->where});
+  }
   if (body.conditions.size() == before) {
-    throw InputError(table.message(node.where, "boundary label " + std::to_string(label) +
-                                                   " has no condition, expected one of ux, uy, tx, ty"));
+    throw InputError(
+        table.message(node.where, "boundary label " + std::to_string(label) +
+                                      " has no condition, expected one of ux, uy, un, ut, tx, ty, pressure"));
   }
 }
 
@@ -197,6 +201,26 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
     readContact(*contact, scene);
   }
   return scene;
+}
+
+std::vector<double> breaksOf(const SceneDescription& scene) {
+  std::vector<double> breaks;
+  const auto add = [&](const Expression& data) {
+    breaks.insert(breaks.end(), data.breaks.begin(), data.breaks.end());
+  };
+  for (const BodyDescription& body : scene.bodies) {
+    for (const ConditionDescription& condition : body.conditions) {
+      add(condition.value);
+    }
+    for (const std::optional<Expression>& force : body.force) {
+      if (force) {
+        add(*force);
+      }
+    }
+  }
+  std::sort(breaks.begin(), breaks.end());
+  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+  return breaks;
 }
 
 std::string word(CouplingKind kind) {

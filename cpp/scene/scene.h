@@ -17,12 +17,12 @@ struct MaterialDescription {
   std::optional<Viscoplasticity> viscoplasticity;  ///< none: elastic
 };
 
-/// One component of a displacement [m] or a traction [Pa] on a labelled part of the boundary.
+/// A displacement [m] or a traction [Pa] along one direction on a labelled part of the boundary.
 struct ConditionDescription {
   enum class Kind { displacement, traction };
   Kind kind = Kind::displacement;
   int label = 0;
-  int component = 0;  ///< 0: x, 1: y
+  int component = 0;  ///< Component (fem/supports.h)
   Expression value;
   std::string where;  ///< file and line of the label, or the --set that gave it
 };
@@ -64,6 +64,9 @@ struct SceneDescription {
 /// Reads a scene, applies the settings (`key=value`) in their order, and validates.
 /// \throws InputError with one line `file:line: subject: key = value, expected ...`.
 SceneDescription readScene(const std::string& path, const std::vector<std::string>& settings = {});
+
+/// Times at which data of the scene have kinks, ascending, each once [s].
+std::vector<double> breaksOf(const SceneDescription& scene);
 
 /// Words of the scene for what a scene can choose.
 std::string word(CouplingKind kind);

@@ -117,15 +117,57 @@ int TableReader::oneOf(const std::string& key, const Keys& words, std::optional<
   return static_cast<int>(found - words.begin());
 }
 
+std::vector<double> TableReader::numbers(const std::string& key) const {
+  const Node* node = find(key);
+  if (node == nullptr || !node->isArray()) {
+    reject(key, "an array of numbers");
+  }
+  std::vector<double> values;
+  for (const Node& element : node->elements) {
+    if (!element.isNumeric() || !std::isfinite(element.value)) {
+      throw InputError(message(element.where, key + "[" + std::to_string(values.size()) +
+                                                  "] = " + element.quoted() + ", expected a finite number"));
+    }
+    values.push_back(element.value);
+  }
+  return values;
+}
+
 Expression TableReader::expression(const std::string& key) const {
   const Node& node = require(key, "a number or an expression in x, y, t");
+  if (node.isTable()) {
+    return timeTable(key, node);
+  }
   if (node.isNumeric() && std::isfinite(node.value)) {
     return constantExpression(node.value, message(node.where, key + " = " + node.quoted()));
   }
   if (!node.isString()) {
-    reject(key, "a finite number or an expression in x, y, t");
+    reject(key, "a finite number, an expression in x, y, t, or a table { time = [...], value = [...] }");
   }
   return parseExpression(node.text, message(node.where, key + " = " + node.quoted()));
+}
+
+Expression TableReader::timeTable(const std::string& key, const Node& node) const {
+  const TableReader table(node, "datum", subject_.empty() ? key : subject_ + ": " + key);
+  const std::vector<double> times = table.numbers("time");
+  const std::vector<double> values = table.numbers("value");
+  if (times.size() < 2) {
+    table.reject("time", "two times or more");
+  }
+  if (values.size() != times.size()) {
+    throw InputError(table.message(table.find("value")->where,
+                                   "value has " + std::to_string(values.size()) + " numbers, expected " +
+                                       std::to_string(times.size()) + " as time has"));
+  }
+  for (size_t i = 1; i < times.size(); ++i) {
+    if (!(times[i] > times[i - 1])) {
+      throw InputError(table.message(table.find("time")->elements[i].where,
+                                     "time[" + std::to_string(i) + "] = " + shortest(times[i]) +
+                                         ", expected times that ascend, more than " +
+                                         shortest(times[i - 1])));
+    }
+  }
+  return tableExpression(times, values, message(node.where, key + " = " + node.quoted()));
 }
 
 std::vector<const Node*> TableReader::tables(const std::string& key) const {

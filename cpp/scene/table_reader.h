@@ -44,7 +44,9 @@ class TableReader {
   /// The index of the value among `words`.
   [[nodiscard]] int oneOf(const std::string& key, const Keys& words,
                           std::optional<int> fallback = std::nullopt) const;
-  /// A number or an expression in x, y, t.
+  /// An array of finite numbers.
+  [[nodiscard]] std::vector<double> numbers(const std::string& key) const;
+  /// A number, an expression in x, y, t, or a table in time.
   [[nodiscard]] Expression expression(const std::string& key) const;
   /// The table or tables under `key` (an array of tables or a single one), none where it is missing.
   [[nodiscard]] std::vector<const Node*> tables(const std::string& key) const;
@@ -55,6 +57,8 @@ class TableReader {
   [[noreturn]] void reject(const std::string& key, const std::string& expected) const;
 
  private:
+  [[nodiscard]] Expression timeTable(const std::string& key, const Node& node) const;
+
   const Node& table_;
   std::string path_;
   std::string subject_;

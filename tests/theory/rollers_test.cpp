@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <iostream>
 
 #include "theory/scenes.h"
 
@@ -86,6 +87,71 @@ TEST(Rollers, prescribedMotionsOnSlopedSidesGiveTheLinearField) {
     EXPECT_LE((result.state.bodies[0].displacement.segment<2>(2 * v) - F * model.bodies[0].mesh().vertices[v])
                   .norm(),
               rounding);
+}
+
+// Pressure on a closed curve, constant or from a fluid at rest (p = -rho y): resultants of the note's hydrostatics,
+// nothing and the weight of what the polygon displaces; no moment about any point but for the weight.
+TEST(Pressure, onAClosedCurveIsBalanced) {
+  constexpr double rounding = 1e-14;
+  const TriangleMesh mesh =
+      annulusMesh({.centre = {3, 1}, .inner = 1, .outer = 2, .cellsAround = 13, .cellsAcross = 2});
+  double inside = 0;  // area of the inner polygon
+  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
+    if (mesh.boundaryLabels[e] == 1) {
+      const Point a = mesh.vertices[mesh.boundaryEdges[e][0]] - Point(3, 1);
+      const Point b = mesh.vertices[mesh.boundaryEdges[e][1]] - Point(3, 1);
+      inside -= (a.x() * b.y() - a.y() * b.x()) / 2;
+    }
+  const auto resultant = [&](const Function& normalTraction) {
+    const Body body("ring", mesh, elasticMaterial({1, 0.3}), {{}, {{1, alongNormal, normalTraction}}, {}});
+    const Vector f = body.load(0);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int v = 0; v < body.nodes(); ++v) {
+      const Point x = mesh.vertices[v] - Point(3, 1);
+      sum += Eigen::Vector3d(f[2 * v], f[2 * v + 1], x.x() * f[2 * v + 1] - x.y() * f[2 * v]);
+    }
+    return sum;
+  };
+  EXPECT_LE(resultant(constant(-7)).norm(), 7 * rounding);
+  // The fluid fills the hole: it pushes the ring down by its weight.
+  const Eigen::Vector3d weight = resultant([](double, double y, double) { return y; });
+  EXPECT_NEAR(weight.x(), 0, 4 * rounding);
+  EXPECT_NEAR(weight.y(), -inside, 4 * rounding);
+  EXPECT_NEAR(weight.z(), 0, 4 * rounding);
+}
+
+// Lame's ring under inner pressure, plane stress: u_r = (1/E) a^2 p/(b^2 - a^2) ((1 - nu) r + (1 + nu) b^2/r). A
+// sector of it between rollers, turned by any angle, tends to it with h^2.
+TEST(Pressure, aSectorBetweenSlopedRollersTendsToLamesRing) {
+  constexpr double E = 100;
+  constexpr double nu = 0.3;
+  const auto radial = [](double r) { return 1 / E * 10 / 3 * ((1 - nu) * r + (1 + nu) * 4 / r); };
+  std::vector<double> h;
+  std::vector<double> errors;
+  for (const int cells : {4, 8, 16}) {
+    TriangleMesh mesh =
+        annulusMesh({.quarters = 1, .cellsAround = 2 * cells, .cellsAcross = cells}, Cut::both);
+    const Eigen::Rotation2Dd turn(0.5);
+    for (Point& x : mesh.vertices) x = turn * x;
+    Model model;
+    model.bodies.emplace_back("sector", std::move(mesh), elasticMaterial({E, nu}),
+                              Conditions{{{3, alongNormal, constant(0)}, {4, alongNormal, constant(0)}},
+                                         {{1, alongNormal, constant(-10)}},
+                                         {}});
+    const Result result = run(model, 1, 1);
+    ASSERT_EQ(result.report.status, Status::converged) << result.report.reason;
+    double worst = 0;
+    for (int v = 0; v < model.bodies[0].nodes(); ++v) {
+      const Point& x = model.bodies[0].mesh().vertices[v];
+      const Point u = result.state.bodies[0].displacement.segment<2>(2 * v);
+      worst = std::max(worst, (u - radial(x.norm()) * x.normalized()).norm());
+    }
+    h.push_back(1.0 / cells);
+    errors.push_back(worst / radial(1));
+    std::cout << "Lame's ring, " << cells << " cells across: error " << errors.back() << "\n";
+  }
+  EXPECT_GE(fittedOrder(h, errors), 1.8);
+  EXPECT_LE(errors.back(), 2e-3);
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ FAULTS = [
     ("steps = 4", "", "scene.toml:24: time: steps is missing, expected an integer >= 1"),
     ("[time]\nend = 1\nsteps = 4", "", "scene.toml:1: time is missing, expected a table [time] with end, steps"),
     ("label = 4\nux", "ux", "scene.toml:7: body upper: label is missing"),
-    ("ux = 0\n", "", "scene.toml:7: body upper: boundary label 4 has no condition, expected one of ux, uy, tx, ty"),
+    ("ux = 0\n", "", "scene.toml:7: body upper: boundary label 4 has no condition, expected one of ux, uy, un, ut, tx, ty, pressure"),
     # types and ranges
     ("poisson = 0.3, v", "poisson = 0.6, v", "scene.toml:6: body upper: poisson = 0.6, expected -1 < poisson < 0.5"),
     ("young = 3e11, poisson = 0.3, v", "young = nan, poisson = 0.3, v", "scene.toml:6: body upper: young = nan, expected young > 0"),
@@ -91,8 +91,8 @@ FAULTS = [
     ("\"-10*t\"", "\"-10*\"", "scene.toml:12: body upper: ty = \"-10*\", expected an expression in x, y, t (unexpected end"),
     ("\"-10*t\"", "\"-10*s\"", "scene.toml:12: body upper: ty = \"-10*s\", expected an expression in x, y, t (unexpected token \"s\""),
     ("\"-10*t\"", "\"1/t\"", "scene.toml:12: body upper: ty = \"1/t\", expected a finite number, is inf at x = "),
-    ("\"-10*t\"", "inf", "scene.toml:12: body upper: ty = inf, expected a finite number or an expression in x, y, t"),
-    ("\"-10*t\"", "true", "scene.toml:12: body upper: ty = true, expected a finite number or an expression in x, y, t"),
+    ("\"-10*t\"", "inf", "scene.toml:12: body upper: ty = inf, expected a finite number, an expression in x, y, t, or a table"),
+    ("\"-10*t\"", "true", "scene.toml:12: body upper: ty = true, expected a finite number, an expression in x, y, t, or a table"),
     # names, labels, conditions that contradict each other
     ("name = \"lower\"", "name = \"upper\"", "scene.toml:14: body upper: name = \"upper\", expected a name of its own"),
     ("label = 4\n", "label = 9\n", "scene.toml:9: body upper: label = 9, expected one of 1, 2, 3, 4 (boundary labels of "),
@@ -104,6 +104,19 @@ FAULTS = [
     ("label = 3 }\n", "label = 7 }\n", "scene.toml:22: body lower: label = 7, expected one of 1, 2, 3, 4"),
     ("label = 3 }\n", "label = 1 }\n", "scene.toml:20: contact: "),
     ("label = 3 }\n", "label = 2 }\n", "scene.toml:20: contact: "),
+    # rollers, pressures, tables
+    ("ux = 0\n", "un = 0\npressure = 3\n", "scene.toml:10: body upper: pressure = 3, expected one condition for the normal of label 4, there is one at scene.toml:9"),
+    ("ux = 0\n", "un = \"1/x\"\n", "scene.toml:9: body upper: un = \"1/x\", expected a finite number, is inf at x = 0"),
+    ("ux = 0 }, { label = 1, uy = 0 }", "ux = 0, uy = 0 }, { label = 1, un = 1 }", "scene.toml:18: body lower: un = 1 at (0, -1), t = 0: expected the 0 that label 4 prescribes there"),
+    ("\"-10*t\"", "{ time = [0, 1], value = [0] }", "scene.toml:12: body upper: ty: value has 1 numbers, expected 2 as time has"),
+    ("\"-10*t\"", "{ time = [0, 1, 1], value = [0, 1, 2] }", "scene.toml:12: body upper: ty: time[2] = 1, expected times that ascend, more than 1"),
+    ("\"-10*t\"", "{ time = [0], value = [0] }", "scene.toml:12: body upper: ty: time = an array, expected two times or more"),
+    ("\"-10*t\"", "{ time = [0, nan], value = [0, 1] }", "scene.toml:12: body upper: ty: time[1] = nan, expected a finite number"),
+    ("\"-10*t\"", "{ time = [0, 1], value = [0, \"x\"] }", "scene.toml:12: body upper: ty: value[1] = \"x\", expected a finite number"),
+    ("\"-10*t\"", "{ time = [0, 1], values = [0, 1] }", "scene.toml:12: body upper: ty: unknown key values, did you mean value?"),
+    ("\"-10*t\"", "{ time = [0, 1] }", "scene.toml:12: body upper: ty: value is missing, expected an array of numbers"),
+    ("\"-10*t\"", "{ time = 3, value = [0, 1] }", "scene.toml:12: body upper: ty: time = 3, expected an array of numbers"),
+    ("\"-10*t\"", "[0, 1]", "scene.toml:12: body upper: ty = an array, expected a finite number, an expression in x, y, t, or a table"),
     # meshes
     ("upper.mesh", "none.mesh", "scene.toml:5: body upper: mesh = \"none.mesh\", expected a Medit .mesh file"),
     ("upper.mesh", "broken.mesh", "broken.mesh:"),
@@ -278,14 +291,15 @@ class Cli(unittest.TestCase):
         os.mkdir("freefem")
         open("freefem/bodies.idp", "w").close()
         result = mortier("freefem", "scene.toml", "scene.edp", "--set", "contact.swap=true",
-                         "body.upper.force.x=3/2*ln(2)*x^2")
+                         "body.upper.force.x=3/2*ln(2)*x^2", "body.upper.boundary.3.pressure={time=[0, 2], value=[1, 5]}")
         self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
         script = read("scene.edp")
         for part in ["real lambda1 = 10, sigmaY1 = 1;", "real lambda2 = 0,", "int1d(Body1, 3)((-10.*t)*v2)",
-                     "int2d(Body1)((3./2.*log(2.)*x^2.)*v1)", "macro supports2 + on(4, u1 = 0.) + on(1, u2 = 0.) //",
+                     "int2d(Body1)((3./2.*log(2.)*x^2.)*v1)", "int1d(Body1, 3)((-((t < 0. ? 1. : (t < 2. ? 1. + (2.)*(t - (0.)) : 5.))))*(N.x*v1 + N.y*v2))", "macro supports2 + on(4, u1 = 0.) + on(1, u2 = 0.) //",
                      "string nonmortar = \"lower\";", "int contactLabel1 = 1, contactLabel2 = 3;", "int steps = 4;",
                      "include \"freefem/bodies.idp\""]:
             self.assertIn(part, script)
+        self.reject(mortier("freefem", "scene.toml", "--set", "body.upper.boundary.4.un=0"), "--set body.upper.boundary.4.un=0: body upper: un = 0: the FreeFEM method knows no rollers")
         self.write(SCENE[:SCENE.index("[contact]")] + SCENE[SCENE.index("[time]"):])
         self.reject(mortier("freefem", "scene.toml"), "scene.toml: 2 bodies and 0 contact interfaces, expected two")
 

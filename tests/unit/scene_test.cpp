@@ -171,6 +171,35 @@ TEST(Expression, evaluatesAndKnowsConstants) {
   EXPECT_FALSE(parseExpression("0*t", "").constant);
 }
 
+TEST(Expression, tablesAreLinearInTimeAndConstantOutside) {
+  const Expression table = tableExpression({0, 1, 3}, {2, 4, -2}, "here");
+  for (const auto& [t, value] :
+       {std::pair(-1.0, 2.0), {0.0, 2.0}, {0.25, 2.5}, {1.0, 4.0}, {2.0, 1.0}, {3.0, -2.0}, {9.0, -2.0}}) {
+    EXPECT_DOUBLE_EQ(table.value(7, 7, t), value);
+    // Its text says the same.
+    EXPECT_DOUBLE_EQ(parseExpression(table.text, "").value(7, 7, t), value);
+    EXPECT_DOUBLE_EQ(negated(table).value(7, 7, t), -value);
+    EXPECT_DOUBLE_EQ(parseExpression(negated(table).text, "").value(7, 7, t), -value);
+  }
+  EXPECT_EQ(table.breaks, (std::vector<double>{0, 1, 3}));
+  EXPECT_EQ(negated(table).breaks, table.breaks);
+}
+
+TEST_F(SceneFiles, readsRollersPressureAndTables) {
+  const SceneDescription scene = readScene(
+      path(), {"body.upper.boundary={label=3, pressure={time=[0, 0.5, 2], value=[0, 3, 1]}, ut=\"x\"}",
+               "body.lower.boundary={label=4, un=0}", "body.lower.force.x={time=[0.5, 1], value=[0, 1]}"});
+  const std::vector<ConditionDescription>& upper = scene.bodies[0].conditions;
+  ASSERT_EQ(upper.size(), 2u);
+  EXPECT_EQ(upper[0].kind, ConditionDescription::Kind::displacement);
+  EXPECT_EQ(upper[0].component, alongTangent);
+  EXPECT_EQ(upper[1].kind, ConditionDescription::Kind::traction);
+  EXPECT_EQ(upper[1].component, alongNormal);
+  EXPECT_DOUBLE_EQ(upper[1].value.value(0, 0, 0.25), -1.5);
+  EXPECT_EQ(scene.bodies[1].conditions[0].component, alongNormal);
+  EXPECT_EQ(breaksOf(scene), (std::vector<double>{0, 0.5, 1, 2}));
+}
+
 TEST(Expression, copiesAreIndependent) {
   const Function original = parseExpression("x + 10*y + 100*t", "").value;
   const auto work = [original](double shift) mutable {
