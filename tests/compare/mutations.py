@@ -213,27 +213,37 @@ class Cases:
         self.environment = dict(os.environ, ASAN_OPTIONS="exitcode=99:detect_leaks=1",
                                 UBSAN_OPTIONS="exitcode=99:print_stacktrace=1")
         self.codes = collections.Counter()
+        self.meshes = {}
         self.checks = b"check" in subprocess.run([self.program, "--help"], capture_output=True).stdout.split()
 
+    def mesh(self, folder, kind, cells, lower, upper):
+        """The text of a sound mesh."""
+        key = kind, cells, lower, upper
+        if key not in self.meshes:
+            subprocess.run([self.program, "mesh", kind, "--cells", cells, "--lower", lower, "--upper", upper, "new.mesh"],
+                           cwd=folder, check=True, stdout=subprocess.DEVNULL)
+            self.meshes[key] = (folder / "new.mesh").read_bytes()
+            (folder / "new.mesh").unlink()
+        return self.meshes[key]
+
     def make(self, number, folder):
-        """Writes case `number` into the folder."""
+        """Writes case `number` into the folder. Returns the name of the file that is not sound."""
         rng = random.Random(number)
         files = {"scene.toml": rng.choice([TWO_BLOCKS, TWO_BLOCKS, EVERY_KEY, ONE_BODY]).encode()}
         kind = rng.choice(["rectangle", "crisscross"])
         for name, cells, lower, upper in (("upper.mesh", "2", "0,0", "1,1"), ("lower.mesh", "3,2", "0,-1", "1,0")):
-            subprocess.run([self.program, "mesh", kind, "--cells", cells, "--lower", lower, "--upper", upper, name],
-                           cwd=folder, check=True, stdout=subprocess.DEVNULL)
-            files[name] = (folder / name).read_bytes()
+            files[name] = self.mesh(folder, kind, cells, lower, upper)
         target = rng.choice(["scene.toml", "scene.toml", "upper.mesh", "lower.mesh"])
         mutations = OF_SCENES if target == "scene.toml" else GENERAL
         for _ in range(rng.choice([1, 1, 1, 2, 3])):
             files[target] = rng.choice(mutations)(files[target] or b"\n", rng)
         for name, text in files.items():
             (folder / name).write_bytes(text)
+        return target
 
-    def try_case(self, folder):
-        for name in ("upper.mesh", "lower.mesh"):
-            self.run(folder, "mesh", "info", name)
+    def try_case(self, folder, target):
+        if target != "scene.toml":
+            self.run(folder, "mesh", "info", target)
         if self.checks:
             self.run(folder, "check", "scene.toml")
         code = self.run(folder, "run", "scene.toml", "--quiet", "--out", "out")
@@ -312,8 +322,7 @@ def explore(program, first, count, seconds=60, patience=2, keep=None):
     for number in range(first, first + count):
         folder = Path(tempfile.mkdtemp(prefix=f"mutation-{number}-"))
         try:
-            cases.make(number, folder)
-            cases.try_case(folder)
+            cases.try_case(folder, cases.make(number, folder))
         except Fault as fault:
             faults.append((number, str(fault)))
         finally:
