@@ -13,6 +13,7 @@
 #include "commands/version.h"
 #include "linear/versions.h"
 #include "report/checkpoint.h"
+#include "report/checkpoint_files.h"
 #include "report/clock.h"
 #include "report/log.h"
 #include "report/output_folder.h"
@@ -179,7 +180,14 @@ int run(RunCommand command) {
         scene.path + ": interrupted after step " + std::to_string(report.step) +
         (report.step == 0 ? "; nothing was written" : "; mortier run --restart " + path + " goes on"));
   };
-  const RunReport report = march(model, state, memory, scene.time, scene.solver, observe);
+  RunReport report;
+  try {
+    report = march(model, state, memory, scene.time, scene.solver, observe);
+  } catch (const OutputError& error) {
+    log.finish();
+    if (!hasCheckpoint(folder->temporary())) throw;
+    throw OutputError(error.what() + ("; mortier run --restart " + path + " goes on"));
+  }
   log.finish();
 
   // 4. The result, in place of an older one only when the run is complete.

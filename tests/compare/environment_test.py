@@ -80,6 +80,15 @@ class Environment(unittest.TestCase):
                 self.assertEqual(self.names("out"), ["scene"])
         self.mortier("run", "scene.toml", "--quiet", "--set", "output.every=1", preexec_fn=limit_files(largest))
 
+    def test_room_that_comes_back(self):
+        steps = ["--set", "time.steps=300"]
+        self.mortier("run", "scene.toml", "--quiet", *steps, "--out", "out/whole")
+        done = self.mortier("run", "scene.toml", "--quiet", *steps, "--checkpoint", "0", code=1, preexec_fn=limit_files(30000))
+        self.assertIn("history.csv: cannot be written: File too large; mortier run --restart out/scene goes on", done.stderr)
+        self.mortier("run", "--restart", "out/scene", "--quiet")
+        for name in ("history.csv", "contact.csv", "upper_000300.vtu", "lower_000300.vtu", "fields.pvd"):
+            self.assertEqual(*((self.folder / "out" / run / name).read_bytes() for run in ("whole", "scene")), name)
+
     def test_no_room_for_a_mesh_or_a_script(self):
         before = (self.folder / "upper.mesh").read_bytes()
         for size in [0, 1, 100, 1000]:
