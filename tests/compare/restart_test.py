@@ -148,7 +148,7 @@ class Restart(unittest.TestCase):
                 elif damage == "empty":
                     (left / "checkpoint").write_bytes(b"")
                 elif damage == "older":
-                    (left / "checkpoint").write_bytes(good.replace(b"checkpoint 1", b"checkpoint 0", 1))
+                    (left / "checkpoint").write_bytes(good.replace(b"mortier checkpoint ", b"mortier checkpoint 0", 1))
                 self.mortier("--restart", "out/killed")
                 self.expect_same("out/whole", "out/killed")
                 shutil.rmtree(self.folder / "out/killed")
