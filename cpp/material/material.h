@@ -41,6 +41,14 @@ class Material {
   /// end). \returns the largest |H^-1 r| over them [Pa].
   virtual double linearise(const MaterialStep& step, const Matrix& stress, Linearisation& result, int begin,
                            int end) const = 0;
+  /// The law regularised for the penalty-duality method (solver/penalty_duality.cpp). With penalties
+  /// w = penalty weight/(2 lambda) [1/Pa] per point and D^-1 = E^-1 + w, the moduli become D and the predictor
+  /// s + relaxation (t - s), where t is on the law at the strain + D^-1 (s - t). Columns [begin, end).
+  /// \returns the largest |t - s| over them [Pa].
+  virtual double regularise(const MaterialStep& step, const Matrix& stress, const Vector& penalty,
+                            double relaxation, Linearisation& result, int begin, int end) const = 0;
+  /// The penalties [-] that suit a stress: nothing where it is elastic, the mean stiffness of the flow where it flows.
+  virtual void choosePenalty(const Matrix& stress, Vector& penalty) const = 0;
   /// Viscoplastic strain rate G(s) [1/s], components x points.
   virtual void viscoplasticRate(const Matrix& stress, Matrix& rate) const = 0;
   /// E^-1 s [-], components x points.

@@ -80,6 +80,17 @@ class Elastic final : public Material {
     return residual.value();
   }
 
+  double regularise(const MaterialStep& step, const Matrix& stress, const Vector& /*penalty*/,
+                    double relaxation, Linearisation& result, int begin, int end) const override {
+    // D = E: the law is met halfway, and relaxation 2 is the whole way.
+    const double change = linearise(step, stress, result, begin, end);
+    for (int i = begin; i < end; ++i)
+      result.predictor.col(i) = stress.col(i) + 0.5 * relaxation * (result.predictor.col(i) - stress.col(i));
+    return 0.5 * change;
+  }
+
+  void choosePenalty(const Matrix& stress, Vector& penalty) const override { penalty.setZero(stress.cols()); }
+
   void viscoplasticRate(const Matrix& stress, Matrix& rate) const override {
     rate.setZero(stress.rows(), stress.cols());
   }
@@ -134,6 +145,43 @@ class Perzyna final : public Material {
       batch.store(law.moduli, result.moduli.data());
     }
     return residual.value();
+  }
+
+  // t solves A (t - s) = v - theta (t - P_B t), A = D^-1 + E^-1, v as above. With x = s + v/A and
+  // kappa = 1/(1 + theta/A) it is t = x - (theta kappa/A) (x - P x), P the projection with the weights w kappa.
+  double regularise(const MaterialStep& step, const Matrix& stress, const Vector& penalty, double relaxation,
+                    Linearisation& result, int begin, int end) const override {
+    const double theta = step.weight / (2 * law_.viscosity);
+    const Array3d norm = projectionNorm(law_.projection);
+    double change = 0;
+    for (int i = begin; i < end; ++i) {
+      const Array3d s = stress.col(i).array();
+      const Array3d v = step.strain.col(i).array() - (s - step.stress0.col(i).array()) / e_;
+      const Array3d A = 2 / e_ + penalty[i] * theta;
+      const Array3d x = s + v / A;
+      Array3d difference = v / A;
+      if (domain_.yields(x)) {
+        const Array3d kappa = A / (A + theta);
+        difference =
+            (v - theta * kappa * yieldDomain(law_.yieldStress, norm * kappa).project(x).overstress) / A;
+      }
+      const double size = difference.abs().maxCoeff<Eigen::PropagateNaN>();
+      if (!(size <= change) && !std::isnan(change)) change = size;
+      result.predictor.col(i) = s + relaxation * difference;
+      Eigen::Map<Eigen::Matrix3d>(&result.moduli(0, i)) =
+          (1 / (1 / e_ + penalty[i] * theta)).matrix().asDiagonal();
+    }
+    return change;
+  }
+
+  // The flow stiffens by 1 along the normal of the yield surface and by `softening` at least along it.
+  void choosePenalty(const Matrix& stress, Vector& penalty) const override {
+    penalty.setZero(stress.cols());
+    for (Eigen::Index i = 0; i < stress.cols(); ++i) {
+      const Array3d s = stress.col(i).array();
+      if (!domain_.yields(s)) continue;
+      penalty[i] = std::sqrt(domain_.project(s).softening.minCoeff());
+    }
   }
 
   void viscoplasticRate(const Matrix& stress, Matrix& rate) const override {

@@ -15,6 +15,7 @@ namespace {
 const Keys couplingWords{"interpolation", "mortar"};                   // in the order of CouplingKind
 const Keys projectionWords{"elasticity", "frobenius", "compliance"};   // in the order of Projection
 const Keys schemeWords{"backward-euler", "crank-nicolson", "sdirk2"};  // in the order of Scheme
+const Keys methodWords{"newton", "penalty-duality"};                   // in the order of Method
 const Keys linearWords{"multifrontal", "suitesparse"};                 // in the order of LinearEngine
 
 MaterialDescription readMaterial(const Node& node, const std::string& subject) {
@@ -165,7 +166,8 @@ void readOptions(const TableReader& root, SceneDescription& scene) {
   if (const Node* node = root.find("solver")) {
     const TableReader solver(*node, "solver", "solver");
     scene.solver.tolerance = solver.number("tolerance", between(0, 1), scene.solver.tolerance);
-    scene.solver.maxIterations = solver.integer("max_iterations", 1, scene.solver.maxIterations);
+    scene.solver.method = static_cast<Method>(solver.oneOf("method", methodWords, 0));
+    scene.solver.maxIterations = solver.integer("max_iterations", 1, defaultIterations(scene.solver.method));
     scene.solver.linear = static_cast<LinearEngine>(solver.oneOf("linear", linearWords, 0));
   }
   if (const Node* node = root.find("output")) {

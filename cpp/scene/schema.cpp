@@ -18,7 +18,7 @@ const Keys& keysOf(const std::string& path) {
       {"contact.nonmortar", {"body", "label"}},
       {"contact.mortar", {"body", "label"}},
       {"time", {"end", "steps", "scheme"}},
-      {"solver", {"tolerance", "max_iterations", "linear"}},
+      {"solver", {"method", "tolerance", "max_iterations", "linear"}},
       {"output", {"every"}},
   };
   static const Keys none;

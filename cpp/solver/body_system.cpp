@@ -96,7 +96,8 @@ void BodySystem::forEachBlock(const Work& work) {
                     [&](int i) { work(block * i, std::min(block * (i + 1), points)); });
 }
 
-double BodySystem::linearise(const MaterialStep& step, const Matrix* shift, BodyIterate& iterate) {
+template <class Law>
+double BodySystem::evaluate(const Matrix* shift, BodyIterate& iterate, const Law& law) {
   iterate.strain.resize(3, body_.points());
   std::atomic<bool> finite = true;
   std::atomic<double> largest = 0;
@@ -104,20 +105,40 @@ double BodySystem::linearise(const MaterialStep& step, const Matrix* shift, Body
     body_.strain(iterate.increment, iterate.small, iterate.strain, begin, end);
     if (shift != nullptr)
       iterate.strain.middleCols(begin, end - begin) -= shift->middleCols(begin, end - begin);
-    const double value = body_.material().linearise(step, iterate.stress, law_, begin, end);
+    const double value = law(begin, end);
     if (!std::isfinite(value)) finite = false;
     for (double known = largest; known < value && !largest.compare_exchange_weak(known, value);) {
     }
   });
   const double residual = finite ? largest.load() : std::nan("");
-  if (residual == 0) return 0;
-  if (body_.material().stressScale() > 0) return residual / body_.material().stressScale();
+  return residual == 0 ? 0 : residual / residualScale(iterate);
+}
+
+double BodySystem::linearise(const MaterialStep& step, const Matrix* shift, BodyIterate& iterate) {
+  return evaluate(shift, iterate, [&](int begin, int end) {
+    return body_.material().linearise(step, iterate.stress, law_, begin, end);
+  });
+}
+
+double BodySystem::residualScale(const BodyIterate& iterate) const {
+  if (body_.material().stressScale() > 0) return body_.material().stressScale();
   // An elastic body has no stress of its own to measure with. The largest in it serves, but not below what the rounding
   // of its displacement makes of a rigid motion: tolerances of 1e-10 times this part are 1e-14 of E |du|/L.
   constexpr double rigidPart = 1e-4;
   const double rigid =
       law_.moduli.cwiseAbs().maxCoeff() * iterate.increment.cwiseAbs().maxCoeff() / extent(body_.mesh());
-  return residual / std::max(law_.predictor.cwiseAbs().maxCoeff(), rigidPart * rigid);
+  return std::max(law_.predictor.cwiseAbs().maxCoeff(), rigidPart * rigid);
+}
+
+double BodySystem::regularise(const MaterialStep& step, const Matrix* shift, double relaxation,
+                              BodyIterate& iterate) {
+  return evaluate(shift, iterate, [&](int begin, int end) {
+    return body_.material().regularise(step, iterate.stress, penalty_, relaxation, law_, begin, end);
+  });
+}
+
+void BodySystem::choosePenalty(const Matrix& stress) {
+  body_.material().choosePenalty(stress, penalty_);
 }
 
 std::string BodySystem::factorise() {

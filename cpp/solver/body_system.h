@@ -29,6 +29,11 @@ class BodySystem {
   /// Linearises the law at the iterate, whose strain (that of `step`) becomes B du - shift; no shift where null.
   /// \returns the material residual, scaled [-].
   double linearise(const MaterialStep& step, const Matrix* shift, BodyIterate& iterate);
+  /// Regularises the law at the iterate instead (material/material.h). \returns the change of stress that is
+  /// still asked for, over the yield stress (an elastic body: its largest stress) [-].
+  double regularise(const MaterialStep& step, const Matrix* shift, double relaxation, BodyIterate& iterate);
+  /// Chooses the penalties for a stress field; the next factorise() takes them over.
+  void choosePenalty(const Matrix& stress);
   /// Factorises the tangent of the last linearisation, unless it is still that of a linear material.
   /// \returns why that is impossible, or nothing.
   std::string factorise();
@@ -61,8 +66,13 @@ class BodySystem {
   /// Calls work(begin, end) for all points, some thousands at a time.
   template <class Work>
   void forEachBlock(const Work& work);
+  /// Strain at the iterate, then the law's law(begin, end) for all points. \returns the largest value, scaled.
+  template <class Law>
+  double evaluate(const Matrix* shift, BodyIterate& iterate, const Law& law);
   void findContactDofs(const Model& model, int body, const std::vector<int>& firstRow);
   void findRigidMotions();
+  /// What stresses are measured against.
+  [[nodiscard]] double residualScale(const BodyIterate& iterate) const;
   [[nodiscard]] Matrix solveSchur(const Matrix& f) const;
 
   const Body& body_;
@@ -78,6 +88,7 @@ class BodySystem {
   bool refactorised_ = false;
   bool counted_ = false;
   Linearisation law_;
+  Vector penalty_;
   Eigen::LLT<Matrix> cholesky_;  ///< of S where the tangent is symmetric
   Eigen::PartialPivLU<Matrix> lu_;
   Matrix compliance_;

@@ -18,9 +18,20 @@ enum class LinearEngine {
   suitesparse    ///< CHOLMOD or UMFPACK only
 };
 
+enum class Method {
+  newton,         ///< mixed Newton, contact by principal pivoting
+  penaltyDuality  ///< the algorithm of the note: a constant matrix, multipliers for contact and material
+};
+
+/// An iteration of the second costs a fraction of one of the first.
+constexpr int defaultIterations(Method method) {
+  return method == Method::newton ? 300 : 5000;
+}
+
 struct SolverOptions {
-  double tolerance = 1e-10;  ///< material residual of a converged step [-]
-  int maxIterations = 300;   ///< linear solves in one step before it is given up
+  Method method = Method::newton;
+  double tolerance = 1e-10;                               ///< material residual of a converged step [-]
+  int maxIterations = defaultIterations(Method::newton);  ///< linear solves in one step before it is given up
   LinearEngine linear = LinearEngine::multifrontal;
   int threads = 1;
 };

@@ -147,8 +147,8 @@ bool StepSolver::factorise(StepOutcome& outcome) {
   return true;
 }
 
-void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>& loads, Iterate& iterate,
-                                 StepOutcome& outcome) {
+void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>& loads,
+                                 const ContactSolve& contactSolve, Iterate& iterate, StepOutcome& outcome) {
   // What is out of balance, and the slack as it is.
   std::vector<Vector> force(systems_.size());
   forEachBody([&](int b) { force[b] = loads[b] - model_.bodies[b].internalForce(systems_[b].predictor()); });
@@ -175,7 +175,7 @@ void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>&
     slack -= systems_[b].C() * motion[b];
     balance.segment(firstMotion_[b], systems_[b].R().cols()) = systems_[b].rigidForce();
   }
-  const ContactSolution contact = solveContact(contact_, slack, p, balance, active);
+  const ContactSolution contact = contactSolve(slack, p, balance, active);
   if (contact.outcome == ContactSolution::Outcome::cycled) {
     outcome.reason = "the contact problem of the linearised step has no solution";
     return;
@@ -193,7 +193,7 @@ void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>&
   });
   for (size_t k = 0; k < model_.interfaces.size(); ++k) {
     const int rows = model_.interfaces[k].rows();
-    iterate.contactForce[k] = (p + contact.change).segment(firstRow_[k], rows).cwiseMax(0);
+    iterate.contactForce[k] = (p + contact.change).segment(firstRow_[k], rows);
     iterate.active[k].assign(contact.active.begin() + firstRow_[k],
                              contact.active.begin() + firstRow_[k] + rows);
   }
@@ -242,6 +242,10 @@ StepOutcome StepSolver::newton(const State& state0, const StepData& step, const 
   // Beyond this many yield stresses an iterate does not come back.
   constexpr double hopeless = 1e3;
   constexpr int patience = 2;
+  const ContactSolve pivoting = [this](const Vector& slack, const Vector& p0, const Vector& balance,
+                                       const std::vector<char>& active) {
+    return solveContact(contact_, slack, p0, balance, active);
+  };
   int outOfBalance = 0;
   StepOutcome outcome;
   prescribe(state0, step.time, iterate);
@@ -269,12 +273,14 @@ StepOutcome StepSolver::newton(const State& state0, const StepData& step, const 
     }
     ++outcome.iterations;
     if (!factorise(outcome)) return outcome;
-    solveLinearised(state0, loads, iterate, outcome);
+    solveLinearised(state0, loads, pivoting, iterate, outcome);
     if (!outcome.reason.empty()) return outcome;
+    for (Vector& p : iterate.contactForce) p = p.cwiseMax(0);
   }
 }
 
 StepOutcome StepSolver::solve(const State& state0, const StepData& step, Iterate& guess) {
+  if (options_.method == Method::penaltyDuality) return penaltyDuality(state0, step, guess);
   constexpr int plainIterations = 7;
   StepOutcome plain = newton(state0, step, {plainIterations, options_.tolerance, false}, guess);
   if (plain.converged || plain.unheld) return plain;

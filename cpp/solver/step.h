@@ -11,6 +11,7 @@
 // is solved there.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -75,14 +76,19 @@ class StepSolver {
   [[nodiscard]] std::string describeRigid(const Vector& z) const;
   double linearise(const State& state0, const StepData& step, Iterate& iterate, bool anticipate);
   bool factorise(StepOutcome& outcome);
-  void solveLinearised(const State& state0, const std::vector<Vector>& loads, Iterate& iterate,
-                       StepOutcome& outcome);
+  /// The contact problem of a linear solve: slack g0 - C u, forces p0, balance r, active set.
+  using ContactSolve =
+      std::function<ContactSolution(const Vector&, const Vector&, const Vector&, const std::vector<char>&)>;
+  void solveLinearised(const State& state0, const std::vector<Vector>& loads,
+                       const ContactSolve& contactSolve, Iterate& iterate, StepOutcome& outcome);
   struct NewtonLimits {
     int iterations = 0;
     double tolerance = 0;
     bool anticipate = false;  ///< material/material.h
   };
   StepOutcome newton(const State& state0, const StepData& step, const NewtonLimits& limits, Iterate& iterate);
+  double regularise(const State& state0, const StepData& step, Iterate& iterate);
+  StepOutcome penaltyDuality(const State& state0, const StepData& step, Iterate& iterate);
   StepOutcome continuation(const State& state0, const StepData& step, int maxIterations, Iterate& solution);
   [[nodiscard]] Certificate certify(const State& state0, const std::vector<Vector>& loads,
                                     const Iterate& iterate, double materialResidual) const;
