@@ -101,7 +101,7 @@ def read_freefem(folder):
 
 
 def finished(run):
-    if len(run.contact.vertex) == 0:
+    if len(run.contact.vertex) == 0 and run.summary.get("interfaces") != []:
         raise ResultError(f"{run.folder}: no contact nodes of the last step")
     for name, body in run.bodies.items():
         require_finite(run.folder, f"displacement of {name}", body.displacement)

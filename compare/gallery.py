@@ -1,0 +1,160 @@
+#!/usr/bin/python3
+"""The gallery: scenes with a number that theory knows, and their pictures (docs/gallery.md).
+
+    compare/gallery.py                runs every scene of it, prints the numbers, draws docs/images/gallery/*.png
+    compare/gallery.py punch cook     these only
+    compare/gallery.py --out DIR      pictures go elsewhere
+
+Exit code 1 when a number misses its theory. tests/compare/gallery_test.py asserts the same table.
+"""
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Callable
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+
+import results  # noqa: E402
+from codes import ROOT, RunError, run_mortier  # noqa: E402
+from figures import COLOURS, MUTED, STYLE  # noqa: E402
+
+PICTURES = ROOT / "docs" / "images" / "gallery"
+
+
+@dataclass
+class Entry:
+    scene: str
+    quantity: str  # what is measured
+    measure: Callable  # of a run
+    theory: float
+    tolerance: float  # relative to theory
+    reason: str  # of the tolerance
+    scale: float  # of the displacements in the picture
+    window: tuple = None  # x and y range of the picture; None: everything
+
+
+def end_of_contact(run, side):
+    """Where the bodies part, on the left (-1) or the right (1): beyond it the gap grows with the power 3/2 of the distance,
+    so its power 2/3 is continued back by a line from the second and third node off contact."""
+    x, gap = side * run.contact.position[:, 0], -run.contact.gap
+    order = np.argsort(x)
+    beyond = [i for i in order if x[i] > x[run.contact.force > 0].max()]
+    (x1, x2), (d1, d2) = x[beyond[1:3]], gap[beyond[1:3]] ** (2 / 3)
+    return side * (x1 - d1 * (x2 - x1) / (d2 - d1))
+
+
+def worst_stress(run, exact):
+    """1 + the largest deviation of a stress component from a homogeneous field, over its size."""
+    field = np.concatenate([body.stress for body in run.bodies.values()])
+    return 1 + np.abs(field - exact).max() / np.abs(exact).max()
+
+
+def cook_deflection(run):
+    """u_y in the middle of the loaded side."""
+    panel = run.bodies["panel"]
+    tip = np.argmin(np.hypot(*(panel.points - (48, 52)).T))
+    return panel.displacement[tip, 1]
+
+
+def gap_at_three(run):
+    """Of the open blocks at t = 3 s, from the rows of contact.csv that the last step does not hold."""
+    rows = results.read_csv(run.folder / "contact.csv")
+    return -np.mean([float(row["gap"]) for row in rows if abs(float(row["time"]) - 3) < 1e-9])
+
+
+def punch_pressure(run):
+    """In the middle, over P/(pi a)."""
+    middle = np.argmin(np.abs(run.contact.position[:, 0]))
+    return run.contact.pressure[middle] * np.pi / np.sum(run.contact.force)
+
+
+GALLERY = [
+    Entry("cook", "u_y in the middle of the right side", cook_deflection, 23.275, 3e-5,
+          "half of the last digit of the value for 32 cells a side", 0.3),
+    Entry("stack", "1 + stress error", lambda run: worst_stress(run, np.array([0, -10, 0])), 1, 1e-10,
+          "the patch test holds to rounding", 300),
+    Entry("sloped", "1 + stress error", lambda run: worst_stress(run, np.array([-10, -10, 0])), 1, 1e-10,
+          "the patch test holds to rounding", 300),
+    Entry("exact-contact", "contact force", lambda run: run.scalars["contact_force"], 0.769126488659, 1e-3,
+          "the force converges with order 2 at least; 32 cells on 49", 0.05),
+    Entry("receding", "half-width of contact", lambda run: end_of_contact(run, 1), 1.324165, 1e-2,
+          "the mesh: an element at the end of contact is 0.08", 0.05, ((0, 4), (-2, 1.1))),
+    Entry("open-close", "gap at t = 3 s", gap_at_three, 0.04, 1e-6,
+          "the stress that has not yet relaxed at t = 2 s", 1),
+    Entry("punch", "pressure in the middle over P/(pi a)", punch_pressure, 1, 3e-2,
+          "the force of the unbounded pressure at the edges takes a fine mesh", 10, ((-3, 3), (-2.5, 1.2))),
+]
+
+
+def run_entry(entry, folder):
+    return run_mortier(Path(folder) / entry.scene, [], f"scenes/{entry.scene}.toml")
+
+
+def draw(entry, run, folder):
+    """Deformed bodies, coloured by von Mises stress."""
+    bodies = run.bodies.values()
+    shapes = [body.points + entry.scale * body.displacement for body in bodies]
+    (left, right), (low, high) = entry.window or [(min(s[:, k].min() for s in shapes),
+                                                   max(s[:, k].max() for s in shapes)) for k in (0, 1)]
+    size = max(right - left, high - low)
+    shown = [body.von_mises[seen(shape[body.triangles].mean(axis=1), left, right, low, high)]
+             for body, shape in zip(bodies, shapes)]
+    top = np.percentile(np.concatenate(shown), 99.5)
+    with plt.rc_context(STYLE):
+        figure, axes = plt.subplots(figsize=(4.6 * (right - left) / size + 1, 4.6 * (high - low) / size + 0.3))
+        for body, shape in zip(bodies, shapes):
+            picture = axes.tripcolor(*shape.T, body.triangles, facecolors=body.von_mises, cmap=COLOURS, vmin=0,
+                                     vmax=top, edgecolors=MUTED, linewidth=0.15)
+        axes.set_aspect("equal")
+        axes.set_xlim(left - 0.03 * size, right + 0.03 * size)
+        axes.set_ylim(low - 0.03 * size, high + 0.03 * size)
+        axes.set_axis_off()
+        figure.colorbar(picture, ax=axes, shrink=0.7, label="von Mises stress")
+        folder.mkdir(parents=True, exist_ok=True)
+        figure.savefig(folder / f"{entry.scene}.png", dpi=110, bbox_inches="tight", metadata={"Software": None})
+        plt.close(figure)
+
+
+def seen(points, left, right, low, high):
+    return (points[:, 0] > left) & (points[:, 0] < right) & (points[:, 1] > low) & (points[:, 1] < high)
+
+
+def error(entry, run):
+    return abs(entry.measure(run) / entry.theory - 1)
+
+
+def main():
+    parser = results.argument_parser(__doc__)
+    parser.add_argument("scenes", nargs="*", metavar="SCENE", help="names of scenes (default: all)")
+    parser.add_argument("--out", type=Path, default=PICTURES, metavar="DIR", help="folder of the pictures")
+    arguments = parser.parse_args()
+    names = [entry.scene for entry in GALLERY]
+    for scene in arguments.scenes:
+        if scene not in names:
+            parser.error(f"{scene}: expected one of {', '.join(names)}")
+    missed = 0
+    print(f"{'scene':14} {'quantity':42} {'measured':>14} {'theory':>14} {'error':>8} {'allowed':>8}")
+    with tempfile.TemporaryDirectory(prefix="mortier-gallery-") as folder:
+        for entry in GALLERY:
+            if arguments.scenes and entry.scene not in arguments.scenes:
+                continue
+            try:
+                run = run_entry(entry, folder)
+            except (RunError, results.ResultError) as fault:
+                print(f"gallery: {fault}", file=sys.stderr)
+                return 1
+            draw(entry, run, arguments.out)
+            miss = not error(entry, run) <= entry.tolerance
+            missed += miss
+            print(f"{entry.scene:14} {entry.quantity:42} {entry.measure(run):14.9g} {entry.theory:14.9g} "
+                  f"{error(entry, run):8.1e} {entry.tolerance:8.0e}{'  missed' if miss else ''}")
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

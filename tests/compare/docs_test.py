@@ -1,0 +1,202 @@
+"""What the documentation says is true: commands run, scenes run, files and functions exist."""
+import json
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import tomllib
+import unittest
+from pathlib import Path
+
+from support import ROOT
+
+MORTIER = os.environ.get("MORTIER", str(ROOT / "build" / "mortier"))
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+LABELS = {"unit", "theory", "compare"}
+# Files that an example takes for granted, and the command that makes them.
+PREPARED = {"finer.mesh": "mesh crisscross --cells 12 finer.mesh"}
+
+
+def blocks(page):
+    """Language and text of the fenced blocks."""
+    return re.findall(r"^```(\w*)\n(.*?)^```", page.read_text(), re.M | re.S)
+
+
+def is_command(line):
+    return re.match(r"(\w+=\S+ )*(\./|build[\w-]*/|compare/|tests/|bench/|mortier |cmake |ctest |ninja )", line)
+
+
+def commands():
+    """(page, command) of every line of a block that begins with a command; comments left out."""
+    for page in PAGES:
+        for language, text in blocks(page):
+            lines = [line for line in text.splitlines() if line.strip()]
+            if language in ("", "sh", "bash") and is_command(lines[0]):
+                for line in lines:
+                    for command in re.sub(r"\s+#.*", "", line).split("&&"):
+                        yield page, command.strip()
+
+
+def run(words, folder, expected=0):
+    done = subprocess.run(list(map(str, words)), cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    assert done.returncode == expected, f"{words}: exit code {done.returncode}\n{done.stdout[-2000:]}"
+    return done.stdout
+
+
+class Commands(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory(prefix="mortier-docs-")
+        cls.folder = Path(cls.scratch.name)
+        for name in ("scenes", "shared-meshes", "freefem"):
+            shutil.copytree(ROOT / name, cls.folder / name)
+        for name, command in PREPARED.items():
+            run([MORTIER, *command.split()], cls.folder)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def test_every_command(self):
+        found = list(commands())
+        self.assertGreater(len(found), 20)
+        for page, command in found:
+            with self.subTest(f"{page.name}: {command}"):
+                self.check(shlex.split(command))
+
+    def check(self, words):
+        while re.match(r"\w+=", words[0]):
+            words = words[1:]
+        if words[0].endswith("python3"):
+            words = words[1:]
+        program = Path(words[0])
+        if program.name == "mortier":
+            self.check_mortier(words[1:])
+        elif program.name in ("cmake", "ctest", "ninja"):
+            self.check_tool(words)
+        elif program.suffix == ".py":
+            self.check_script(ROOT / program, words[1:])
+        elif program.parts[0].startswith("build"):
+            self.check_built(program, words[1:])
+        else:
+            self.assertTrue(os.access(ROOT / program, os.X_OK), f"{program} is no program of ours")
+            self.check_labels(words)
+
+    def check_mortier(self, words):
+        if words[0] == "study" or "--restart" in words:  # long, or after a run that was stopped: tests of their own
+            help_text = run([MORTIER, words[0], "--help"], self.folder)
+            for word in words[1:]:
+                if word.startswith("--"):
+                    self.assertIn(word, help_text)
+                elif word.endswith(".toml"):
+                    self.assertTrue((ROOT / word).is_file(), word)
+            return
+        run([MORTIER, *words], self.folder)
+
+    def check_tool(self, words):
+        for option, value in zip(words, words[1:]):
+            if option == "--preset":
+                presets = json.loads((ROOT / "CMakePresets.json").read_text())
+                kinds = {"cmake": "buildPresets" if "--build" in words else "configurePresets", "ctest": "testPresets"}
+                self.assertIn(value, [preset["name"] for preset in presets[kinds[words[0]]]])
+        self.check_labels(words)
+        for option, value in zip(words, words[1:]):
+            if words[0] == "ctest" and option == "-R":
+                self.assertTrue(list((ROOT / "tests").rglob(f"{value}.py")) or value in all_tests(), value)
+
+    def check_labels(self, words):
+        for option, value in zip(words, words[1:]):
+            if option == "-L":
+                self.assertIn(value, LABELS)
+
+    def check_script(self, path, words):
+        self.assertTrue(path.is_file(), path)
+        if path.name.endswith("_test.py"):
+            for word in words:
+                if not word.startswith("-"):
+                    self.assertIn(f"def {word.split('.')[-1]}(", path.read_text())
+            return
+        self.assertTrue(os.access(path, os.X_OK), f"{path} is not executable")
+        help_text = run([sys.executable, path, "--help"], ROOT)
+        for word in words:
+            if word.startswith("--"):
+                self.assertIn(word, help_text)
+
+    def check_built(self, program, words):
+        kind, name = program.parts[1], program.name
+        if kind == "tests":
+            sources = list((ROOT / "tests").rglob(f"{name}.cpp"))
+        else:
+            sources = [path for path in (ROOT / "bench").rglob("*.cpp") if path.stem in (name, name.removeprefix("bench_"))]
+        self.assertEqual(len(sources), 1, f"{program}: {len(sources)} sources")
+        for word in words:
+            if word.startswith("--gtest_filter="):
+                suite = word.split("=")[1].split(".")[0]
+                self.assertRegex(sources[0].read_text(), rf"TEST(_F|_P)?\({suite},")
+
+
+def all_tests():
+    return "\n".join(path.read_text() for path in (ROOT / "tests").rglob("*_test.cpp"))
+
+
+class Scenes(unittest.TestCase):
+    """Blocks of TOML: whole scenes run, parts of scenes are TOML."""
+
+    def test_every_block(self):
+        whole = 0
+        for page in PAGES:
+            for language, text in blocks(page):
+                if language != "toml":
+                    continue
+                with self.subTest(f"{page.name}: {text.splitlines()[0]}"):
+                    scene = tomllib.loads(text)
+                    if "body" in scene and "time" in scene:
+                        whole += 1
+                        self.run_scene(text)
+        self.assertGreaterEqual(whole, 1)
+
+    def run_scene(self, text):
+        with tempfile.TemporaryDirectory(prefix="mortier-docs-") as folder:
+            for command in re.findall(r"# mortier (mesh .*)", text):
+                run([MORTIER, *shlex.split(command)], folder)
+            (Path(folder) / "scene.toml").write_text(text)
+            run([MORTIER, "run", "scene.toml"], folder)
+
+
+class Links(unittest.TestCase):
+    def test_files_of_links_exist(self):
+        for page in PAGES:
+            for target in re.findall(r"\]\(([^)#:\s]+)\)|src=\"([^\":]+)\"", page.read_text()):
+                path = page.parent / (target[0] or target[1])
+                with self.subTest(f"{page.name}: {path.name}"):
+                    self.assertTrue(path.exists(), path)
+
+
+class Theory(unittest.TestCase):
+    """docs/theory.md names files and functions of cpp/."""
+
+    def test_names_exist(self):
+        text = (ROOT / "docs" / "theory.md").read_text()
+        prose = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
+        files = {str(path.relative_to(ROOT / "cpp")): path for path in (ROOT / "cpp").rglob("*") if path.is_file()}
+        names = {path.name for path in files.values()}
+        identifiers = set(re.findall(r"\w+", "\n".join(path.read_text() for path in files.values())))
+        checked = 0
+        for word in re.findall(r"`([^`\n]+)`", prose):
+            with self.subTest(word):
+                if re.fullmatch(r"[\w/]+\.(h|cpp)", word):
+                    self.assertTrue(word in files or word in names, "no such file in cpp/")
+                elif re.fullmatch(r"\w+(::\w+)+", word) or re.fullmatch(r"[A-Za-z]\w*[a-z][A-Z]\w*", word):
+                    for part in word.split("::"):
+                        self.assertIn(part, identifiers)
+                else:
+                    continue
+                checked += 1
+        self.assertGreater(checked, 30)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,58 @@
+"""The gallery: every scene has a number that theory knows, a picture and a place in docs/gallery.md."""
+import re
+import tempfile
+import unittest
+from pathlib import Path
+
+from support import ROOT
+from codes import run_mortier
+from gallery import GALLERY, PICTURES, draw, error, run_entry
+
+PAGE = (ROOT / "docs" / "gallery.md").read_text()
+
+
+class Gallery(unittest.TestCase):
+    def test_numbers_are_those_of_theory(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for entry in GALLERY:
+                with self.subTest(entry.scene):
+                    run = run_entry(entry, folder)
+                    measured = f"{entry.quantity}: {entry.measure(run):.9g}, theory {entry.theory:.9g}"
+                    self.assertLessEqual(error(entry, run), entry.tolerance, measured)
+                    self.assertLess(run.summary["verification"]["force_balance"], 1e-12)
+
+    def test_a_wrong_model_misses(self):
+        wrong = {"stack": "contact.variant=interpolation", "sloped": "contact.variant=interpolation",
+                 "cook": "body.panel.material.poisson=0.3", "exact-contact": "body.lower.material.young=1.1",
+                 "receding": "body.half-plane.material.young=1.2", "open-close": "body.material.young=101",
+                 "punch": "body.punch.material.young=1"}
+        self.assertEqual(set(wrong), {entry.scene for entry in GALLERY})
+        with tempfile.TemporaryDirectory() as folder:
+            for entry in GALLERY:
+                with self.subTest(entry.scene):
+                    run = run_mortier(Path(folder) / "run", [wrong[entry.scene]], f"scenes/{entry.scene}.toml")
+                    self.assertGreater(error(entry, run), entry.tolerance)
+
+    def test_every_scene_is_in_it(self):
+        scenes = {path.stem for path in (ROOT / "scenes").glob("*.toml")}
+        self.assertEqual(scenes - {"compression"}, {entry.scene for entry in GALLERY})
+
+    def test_page_shows_every_scene(self):
+        for entry in GALLERY:
+            with self.subTest(entry.scene):
+                section = re.search(rf"^## [^\n]*\n(?:(?!^## ).)*scenes/{entry.scene}\.toml.*?(?=^## |\Z)", PAGE,
+                                    re.M | re.S)
+                self.assertIsNotNone(section, "no section names the scene")
+                self.assertIn(f"images/gallery/{entry.scene}.png", section[0])
+                self.assertIn(f"**{entry.theory:.12g}**", section[0])
+                self.assertTrue((PICTURES / f"{entry.scene}.png").is_file())
+
+    def test_pictures_are_drawn(self):
+        entry = GALLERY[0]
+        with tempfile.TemporaryDirectory() as folder:
+            draw(entry, run_entry(entry, folder), Path(folder) / "pictures")
+            self.assertEqual((Path(folder) / "pictures" / f"{entry.scene}.png").read_bytes()[:4], b"\x89PNG")
+
+
+if __name__ == "__main__":
+    unittest.main()
