@@ -166,6 +166,21 @@ class Scenes(unittest.TestCase):
             run([MORTIER, "run", "scene.toml"], folder)
 
 
+class Meshes(unittest.TestCase):
+    """The commands of shared-meshes/README.md make the meshes that stand beside it."""
+
+    def test_commands_make_the_same_bytes(self):
+        page = ROOT / "shared-meshes" / "README.md"
+        made = 0
+        with tempfile.TemporaryDirectory(prefix="mortier-docs-") as folder:
+            for command in re.findall(r"^mortier (mesh .* (\S+\.mesh))$", page.read_text(), re.M):
+                run([MORTIER, *shlex.split(command[0])], folder)
+                with self.subTest(command[1]):
+                    self.assertEqual((Path(folder) / command[1]).read_bytes(), (page.parent / command[1]).read_bytes())
+                made += 1
+        self.assertGreater(made, 10)
+
+
 class Links(unittest.TestCase):
     def test_files_of_links_exist(self):
         for page in PAGES:
