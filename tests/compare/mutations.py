@@ -4,7 +4,7 @@
 Whatever it is given, mortier must end by itself with exit code 0, 1, 2 or 3, say why in one line of printable text,
 leave a whole result or none, and write no number that is not finite.
 
-Usage: mutations.py [--count 1000] [--first 0] [--mortier build/mortier] [--seconds 60]
+Usage: mutations.py [--count 1000] [--first 0] [--mortier build/mortier] [--seconds 60] [--patience 2]
 Case N is the same on every machine: mutations.py --first N --count 1 --keep FOLDER shows it.
 """
 import argparse

@@ -50,7 +50,7 @@ class Restart(unittest.TestCase):
         for attempt in range(20):
             if self.stopped_one(arguments, max(1, after - 5 * attempt), pause, by):
                 return self.stopped()
-            shutil.rmtree(self.folder / arguments[arguments.index("--out") + 1])
+            shutil.rmtree(self.folder / "out" / Path(arguments[arguments.index("--out") + 1]).name)
         self.fail("no run could be stopped")
 
     def stopped_one(self, arguments, after, pause, by):
@@ -69,7 +69,8 @@ class Restart(unittest.TestCase):
         process.stderr.close()
         if process.returncode != 0:
             self.assertEqual(process.returncode, -by if by == signal.SIGKILL else 1)
-        return process.returncode != 0
+        # It may have been killed with its result in place.
+        return process.returncode != 0 and bool(list(self.folder.glob("out/*.tmp-*/checkpoint*")))
 
     def stopped(self):
         """The temporary folder of the stopped run."""

@@ -1,0 +1,215 @@
+"""A run that was stopped, however it was, goes on to the same bytes as one that was not."""
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+from mutations import require_whole
+from support import ROOT
+
+PROGRAM = str(Path(os.environ.get("MORTIER", "build/mortier")).resolve())
+SCENE = str(ROOT / "scenes/compression.toml")
+STEPS = 60
+ELASTIC = "body.lower.material={young=3e11, poisson=0.3}"
+
+# Settings and threads of the runs that are killed. The upper body is Perzyna in all of them.
+CASES = [
+    (["contact.variant=mortar", "time.scheme=sdirk2", "time.tolerance=1e-6"], 1),
+    (["contact.variant=interpolation", "time.scheme=sdirk2", "time.tolerance=1e-4"], 2),
+    (["contact.variant=mortar"], 1),
+    (["contact.variant=interpolation"], 1),
+    (["contact.variant=interpolation", "time.scheme=sdirk2"], 1),
+    (["contact.variant=mortar", "time.scheme=sdirk2", ELASTIC], 2),
+    (["contact.variant=interpolation", "time.scheme=crank-nicolson", "body.material.projection=frobenius"], 2),
+    (["contact.variant=interpolation", "contact.swap=true", "solver.linear=suitesparse", ELASTIC], 1),
+]
+KILLS = 20
+
+
+class Restart(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def mortier(self, *arguments, code=0):
+        done = subprocess.run([PROGRAM, "run", *map(str, arguments), "--quiet"], cwd=self.folder, timeout=300,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, code, done.stderr)
+        told = [line for line in done.stderr.splitlines() if not line.startswith("mortier: warning: ")]
+        self.assertEqual(len(told), 0 if code == 0 else 1, done.stderr)
+        return "".join(told)
+
+    def stop(self, *arguments, after, pause=0.0, by=signal.SIGKILL):
+        """Runs with a checkpoint after every step and stops the run when `after` of them were seen. A run that is over
+        before that, on a busy machine, is made again."""
+        for attempt in range(20):
+            if self.stopped_one(arguments, max(1, after - 5 * attempt), pause, by):
+                return self.stopped()
+            shutil.rmtree(self.folder / "out" / Path(arguments[arguments.index("--out") + 1]).name)
+        self.fail("no run could be stopped")
+
+    def stopped_one(self, arguments, after, pause, by):
+        process = subprocess.Popen([PROGRAM, "run", *map(str, arguments), "--quiet", "--checkpoint", "0"], cwd=self.folder,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        seen, checkpoint, deadline = set(), None, time.monotonic() + 120
+        while len(seen) < after and process.poll() is None and time.monotonic() < deadline:
+            try:
+                checkpoint = checkpoint or next(self.folder.glob(f"out/*.tmp-{process.pid}/checkpoint"), None)
+                seen.add(checkpoint.stat().st_mtime_ns)
+            except (AttributeError, FileNotFoundError):
+                checkpoint = checkpoint or next(self.folder.glob("out/*.tmp-*/checkpoint"), None)
+        time.sleep(pause)
+        process.send_signal(by)
+        process.wait(timeout=60)
+        process.stderr.close()
+        if process.returncode != 0:
+            self.assertEqual(process.returncode, -by if by == signal.SIGKILL else 1)
+        # It may have been killed with its result in place.
+        return process.returncode != 0 and bool(list(self.folder.glob("out/*.tmp-*/checkpoint*")))
+
+    def stopped(self):
+        """The temporary folder of the stopped run."""
+        left, = self.folder.glob("out/*.tmp-*")
+        return left
+
+    def settings(self, *more):
+        return ["--set", f"time.steps={STEPS}", "output.every=7", *more] if "time.tolerance" not in " ".join(more) else ["--set", "output.every=7", *more]
+
+    def expect_same(self, one, other):
+        names = sorted(path.name for path in (self.folder / one).iterdir())
+        self.assertEqual(sorted(path.name for path in (self.folder / other).iterdir()), names)
+        for name in names:
+            first, second = (self.folder / one / name).read_bytes(), (self.folder / other / name).read_bytes()
+            if name == "summary.json":
+                first, second = json.loads(first), json.loads(second)
+                for key in ("solve_time_s", "wall_time_s", "peak_memory_mib", "threads"):
+                    del first[key], second[key]
+            self.assertEqual(first, second, f"{name} differs")
+        require_whole(self.folder / other)
+
+    def test_killed_at_any_moment(self):
+        for number in range(KILLS):
+            settings, threads = CASES[number % len(CASES)]
+            rng = random.Random(number)
+            with self.subTest(number=number, settings=settings):
+                whole = f"out/whole-{number % len(CASES)}"
+                if not (self.folder / whole).exists():
+                    self.mortier(SCENE, *self.settings(*settings), "--out", whole)
+                result = f"out/killed-{number}"
+                self.stop(SCENE, *self.settings(*settings), "--out", result, after=rng.randrange(1, STEPS // 3),
+                          pause=rng.uniform(0, 5e-3))
+                if number % 3 == 0:  # and once more
+                    again = self.stopped_one(("--restart", result), rng.randrange(2, STEPS // 4), rng.uniform(0, 5e-3),
+                                             signal.SIGKILL)
+                else:
+                    again = True
+                if again:
+                    self.mortier("--restart", result, "--threads", threads)
+                self.expect_same(whole, result)
+                self.assertEqual(list(self.folder.glob("out/*.tmp-*")), [])
+
+    def test_killed_on_meshes_that_are_worth_threads(self):
+        for name, lower, upper in (("upper.mesh", "0,0", "1,1"), ("lower.mesh", "0,-1", "1,0")):
+            subprocess.run([PROGRAM, "mesh", "crisscross", "--cells", "66" if name == "upper.mesh" else "64", "--lower", lower,
+                            "--upper", upper, name], cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
+        settings = ["--set", "time.steps=6", "body.upper.mesh=upper.mesh", "body.lower.mesh=lower.mesh"]
+        self.mortier(SCENE, *settings, "--out", "out/whole", "--threads", 2)
+        self.stop(SCENE, *settings, "--out", "out/killed", "--threads", 2, after=3)
+        self.mortier("--restart", "out/killed", "--threads", 1)
+        self.expect_same("out/whole", "out/killed")
+
+    def test_interrupted(self):
+        self.mortier(SCENE, *self.settings(), "--out", "out/whole")
+        for by in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            self.stop(SCENE, *self.settings(), "--out", "out/stopped", after=5, by=by)
+            self.assertFalse((self.folder / "out/stopped").exists())
+            # The scene may be named, and must then be the same.
+            self.mortier(SCENE, *self.settings(), "--restart", "out/stopped")
+            self.expect_same("out/whole", "out/stopped")
+            shutil.rmtree(self.folder / "out/stopped")
+
+    def test_damaged_checkpoint(self):
+        self.mortier(SCENE, *self.settings(), "--out", "out/whole")
+        rng = random.Random(7)
+        for damage in ("cut", "flip", "empty", "none", "older"):
+            with self.subTest(damage=damage):
+                left = self.stop(SCENE, *self.settings(), "--out", "out/killed", after=9)
+                good = (left / "checkpoint.previous").read_bytes()
+                (left / "checkpoint").unlink(missing_ok=True)
+                if damage == "cut":
+                    (left / "checkpoint").write_bytes(good[:rng.randrange(len(good))])
+                elif damage == "flip":
+                    at = rng.randrange(len(good))
+                    (left / "checkpoint").write_bytes(good[:at] + bytes([good[at] ^ 4]) + good[at + 1:])
+                elif damage == "empty":
+                    (left / "checkpoint").write_bytes(b"")
+                elif damage == "older":
+                    (left / "checkpoint").write_bytes(good.replace(b"mortier checkpoint ", b"mortier checkpoint 0", 1))
+                self.mortier("--restart", "out/killed")
+                self.expect_same("out/whole", "out/killed")
+                shutil.rmtree(self.folder / "out/killed")
+
+    def test_no_sound_checkpoint(self):
+        left = self.stop(SCENE, *self.settings(), "--out", "out/killed", after=9)
+        good = (left / "checkpoint.previous").read_bytes()
+        for name in ("checkpoint", "checkpoint.previous"):
+            (left / name).write_bytes(good[:-1])
+        self.assertIn("checkpoint: damaged", self.mortier("--restart", "out/killed", code=2))
+        (left / "checkpoint").write_bytes(good)
+        (left / "history.csv").write_bytes(b"step\n")
+        self.assertIn("its history.csv is shorter than it was", self.mortier("--restart", "out/killed", code=2))
+        self.assertTrue(left.exists())
+
+    def test_another_scene(self):
+        scene = self.folder / "scene.toml"
+        for body in ("upper", "lower"):
+            cells = "16" if body == "lower" else "6"
+            shutil.copy(ROOT / f"shared-meshes/{body}-crisscross-{cells}.mesh", self.folder / f"{body}.mesh")
+        meshes = ["body.upper.mesh=upper.mesh", "body.lower.mesh=lower.mesh"]
+        shutil.copy(SCENE, scene)
+        left = self.stop(scene, *self.settings(*meshes), "--out", "out/killed", after=5)
+        text = scene.read_text()
+        scene.write_text(text.replace("viscosity = 10", "viscosity = 11", 1))
+        self.assertIn("scene.toml: line 9 has changed, expected", self.mortier("--restart", "out/killed", code=2))
+        scene.write_text(text)
+        other = ["--set", "time.steps=61", *self.settings(*meshes)[2:]]
+        self.assertIn("--set time.steps=61 output", self.mortier(scene, *other, "--restart", "out/killed", code=2))
+        mesh = (self.folder / "upper.mesh").read_text()
+        (self.folder / "upper.mesh").write_text(mesh.replace("\n1 1 0\n", "\n1 1.0000000000000002 0\n", 1))
+        self.assertNotEqual((self.folder / "upper.mesh").read_text(), mesh)
+        self.assertIn("upper.mesh has changed", self.mortier("--restart", "out/killed", code=2))
+        (self.folder / "upper.mesh").write_text(mesh)
+        self.assertTrue(left.exists())
+        self.mortier("--restart", "out/killed")
+
+    def test_nothing_to_go_on_with(self):
+        self.assertIn("out/none: no stopped run", self.mortier("--restart", "out/none", code=2))
+        self.mortier(SCENE, "--out", "out/done", "--set", "time.steps=2")
+        self.assertIn("out/done: no stopped run", self.mortier("--restart", "out/done", code=2))
+        self.assertIn("--out excludes --restart", self.mortier(SCENE, "--out", "out/a", "--restart", "out/a", code=2))
+
+    def test_a_living_run_is_not_taken_over(self):
+        living = subprocess.Popen([PROGRAM, "run", SCENE, "--quiet", "--checkpoint", "0", "--out", "out/a", "--set",
+                                   "time.steps=1000000"], cwd=self.folder, stderr=subprocess.DEVNULL)
+        self.addCleanup(living.wait)
+        self.addCleanup(living.kill)
+        while not list(self.folder.glob("out/a.tmp-*/checkpoint")):
+            time.sleep(0.01)
+        self.assertIn("still goes on", self.mortier("--restart", "out/a", code=2))
+
+    def test_begun_anew_instead(self):
+        self.stop(SCENE, *self.settings(), "--out", "out/a", after=3)
+        self.stopped()
+        self.mortier(SCENE, *self.settings(), "--out", "out/a")
+        self.assertEqual([path.name for path in (self.folder / "out").iterdir()], ["a"])
+
+
+if __name__ == "__main__":
+    unittest.main()
