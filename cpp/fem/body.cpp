@@ -11,7 +11,6 @@ namespace mortier {
 namespace {
 
 using Element = LinearTriangle;
-constexpr int elementDofs = 2 * Element::nodes;
 
 /// Calls f(edge length, vertex, midpoint weight...) for the edges of a label.
 template <class Visit>
@@ -37,11 +36,13 @@ Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> 
       supports_(mesh_, conditions_.displacements) {
   for (const auto& condition : conditions_.displacements) requireLabel(mesh_, name_, condition.label);
   for (const auto& condition : conditions_.tractions) requireLabel(mesh_, name_, condition.label);
+  weights_.reserve(mesh_.triangles.size());
+  gradients_.reserve(4 * mesh_.triangles.size());
   for (const auto& triangle : mesh_.triangles) {
     const auto table = Element::tabulate(
         {mesh_.vertices[triangle[0]], mesh_.vertices[triangle[1]], mesh_.vertices[triangle[2]]});
     weights_.push_back(table.weight);
-    for (int a = 0; a < Element::nodes; ++a)
+    for (int a = 1; a < Element::nodes; ++a)
       for (int c = 0; c < 2; ++c) gradients_.push_back(table.gradients(c, a) * (std::numbers::sqrt2 / 2));
   }
   numberEquations();

@@ -86,7 +86,7 @@ class Body {
 
   /// Pattern of the tangent over equations; symmetric where the material's tangent is.
   [[nodiscard]] const SparsePattern& pattern() const { return assembly_.pattern(); }
-  /// K = sum |T| B' H^-1 B (moduli 9 x points) as values of pattern().
+  /// K = sum |T| B' H^-1 B (moduli 9 or 6 x points) as values of pattern().
   void tangent(const Matrix& moduli, std::vector<double>& values, Threads& threads = Threads::none()) const;
 
  private:
@@ -106,7 +106,7 @@ class Body {
   std::vector<Eigen::Matrix2d> frames_;  ///< rows normal and tangent, of the turned supports
   std::vector<int> frameOf_;             ///< per node; -1 for the axes. Empty when all are
   std::vector<double> weights_;
-  std::vector<double> gradients_;  ///< 6 per point: gradient of each node's shape function over sqrt2
+  std::vector<double> gradients_;  ///< 4 per point: of the second and third node's shape function, over sqrt2
   TangentAssembly assembly_;
 };
 

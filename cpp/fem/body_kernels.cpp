@@ -10,13 +10,14 @@ namespace mortier {
 // The gradients of one triangle sum to zero: differences to its first node keep rigid motions exact.
 
 Vector Body::internalForce(const Matrix& stress) const {
+  const TriangleData triangles = triangleData();
   Vector f = Vector::Zero(dofs());
   for (int i = 0; i < points(); ++i) {
     const auto& triangle = mesh_.triangles[i];
     const double p = weights_[i] * stress(0, i);
     const double q = weights_[i] * stress(1, i);
     const double r = weights_[i] * stress(2, i);
-    const double* G = &gradients_[static_cast<size_t>(triangleDofs) * i];
+    const std::array<double, triangleDofs> G = triangles.gradientsOf(i);
     for (int a = 0; a < 3; ++a) {
       f[2 * triangle[a]] += (p + q) * G[2 * a] + r * G[2 * a + 1];
       f[2 * triangle[a] + 1] += (p - q) * G[2 * a + 1] + r * G[2 * a];
@@ -42,7 +43,7 @@ void Body::strain(const Vector& u, const Vector& small, Matrix& strain, int begi
         u1[k][lane] = u[dof];
         u0[k][lane] = u[dof0];
         smallChange[k][lane] = small[dof] - small[dof0];
-        G[k][lane] = gradients_[static_cast<size_t>(triangleDofs) * i + 2 + k];
+        G[k][lane] = gradients_[static_cast<size_t>(4) * i + k];
       }
     }
     double result[3][laneCount];
@@ -81,7 +82,7 @@ void Body::strain(const Vector& u, const Vector& small, Matrix& strain, int begi
 void Body::addStressOf(const Vector& d, const Matrix& moduli, Matrix& stress, int begin, int end) const {
   for (int i = begin; i < end; ++i) {
     const auto& triangle = mesh_.triangles[i];
-    const double* G = &gradients_[static_cast<size_t>(triangleDofs) * i];
+    const double* G = &gradients_[static_cast<size_t>(4) * i];
     double xx = 0;
     double yy = 0;
     double xy = 0;
@@ -90,11 +91,13 @@ void Body::addStressOf(const Vector& d, const Matrix& moduli, Matrix& stress, in
     for (int a = 1; a < 3; ++a) {
       const double dx = d[2 * triangle[a]] - x0;
       const double dy = d[2 * triangle[a] + 1] - y0;
-      xx += G[2 * a] * dx;
-      yy += G[2 * a + 1] * dy;
-      xy += G[2 * a + 1] * dx + G[2 * a] * dy;
+      const double gx = G[2 * a - 2];
+      const double gy = G[2 * a - 1];
+      xx += gx * dx;
+      yy += gy * dy;
+      xy += gy * dx + gx * dy;
     }
-    const double* D = &moduli(0, i);
+    const std::array<double, 9> D = moduliAt(moduli, i);
     for (int c = 0; c < 3; ++c) stress(c, i) += D[c] * (xx + yy) + D[3 + c] * (xx - yy) + D[6 + c] * xy;
   }
 }
@@ -108,7 +111,7 @@ void Body::addSupported(const Matrix& moduli, std::vector<double>& values) const
   for (const auto& [t, entries] : assembly_.supported()) {
     // B T: strains of the motions along the frames of the nodes.
     Eigen::Matrix<double, 3, triangleDofs> B;
-    const double* G = &gradients_[static_cast<size_t>(triangleDofs) * t];
+    const std::array<double, triangleDofs> G = triangleData().gradientsOf(t);
     for (int a = 0; a < 3; ++a) {
       const double gx = G[2 * a];
       const double gy = G[2 * a + 1];
@@ -117,8 +120,9 @@ void Body::addSupported(const Matrix& moduli, std::vector<double>& values) const
       if (frame >= 0) Ba = Ba * frames_[frame].transpose();
       B.middleCols<2>(2 * a) = Ba;
     }
-    const Eigen::Map<const Eigen::Matrix3d> D(&moduli(0, t));
-    const Eigen::Matrix<double, triangleDofs, triangleDofs> K = weights_[t] * (B.transpose() * D * B);
+    const std::array<double, 9> D = moduliAt(moduli, t);
+    const Eigen::Matrix<double, triangleDofs, triangleDofs> K =
+        weights_[t] * (B.transpose() * Eigen::Map<const Eigen::Matrix3d>(D.data()) * B);
     for (int j = 0; j < triangleDofs; ++j)
       for (int i = 0; i < triangleDofs; ++i)
         if (const int entry = entries[triangleDofs * j + i]; entry >= 0) values[entry] += K(i, j);

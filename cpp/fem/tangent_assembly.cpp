@@ -3,20 +3,33 @@
 #include <algorithm>
 #include <limits>
 
+#include "material/material.h"
+
 namespace mortier {
 namespace {
 
 // With G = gradient / sqrt2, a nodal displacement (ux, uy) strains p, q, r by
 //   B = [Gx Gy; Gx -Gy; Gy Gx].
 
-/// D B for one node: 3 x 2, from 3 x 3 moduli in column-major order.
-Eigen::Matrix<double, 3, 2> moduliTimesB(const double* D, double gx, double gy) {
-  Eigen::Matrix<double, 3, 2> result;
-  for (int i = 0; i < 3; ++i) {
-    result(i, 0) = (D[i] + D[3 + i]) * gx + D[6 + i] * gy;
-    result(i, 1) = (D[i] - D[3 + i]) * gy + D[6 + i] * gx;
+/// B_a' D B_b for a column of B_b, D the moduli (3 x 3, column major): the column's two entries in the rows of node a.
+struct ColumnOfDB {
+  double sum;         ///< of the rows p and q of D B
+  double difference;  ///< of these
+  double r;
+
+  [[nodiscard]] Eigen::Vector2d times(double gx, double gy) const {
+    return {sum * gx + r * gy, difference * gy + r * gx};
   }
-  return result;
+};
+
+ColumnOfDB columnOfDB(const std::array<double, 9>& D, double p, double q, double r) {
+  const double dp = D[0] * p + D[3] * q + D[6] * r;
+  const double dq = D[1] * p + D[4] * q + D[7] * r;
+  return {dp + dq, dp - dq, D[2] * p + D[5] * q + D[8] * r};
+}
+
+void add(double* target, const Eigen::Vector2d& values) {
+  Eigen::Map<Eigen::Vector2d>{target} += values;
 }
 
 }  // namespace
@@ -127,6 +140,7 @@ void TangentAssembly::placeBlocks(const TriangleData& triangles, const std::vect
     for (int b = 0; b < 3; ++b)
       if (b == 0 || part[b] != part[b - 1]) parts_[part[b]].triangles.push_back(static_cast<int>(t));
   }
+  for (Part& part : parts_) part.triangles.shrink_to_fit();
 }
 
 // Both rows of a node follow each other in every column, and its second column is its first one (where symmetric:
@@ -135,30 +149,36 @@ void TangentAssembly::assemblePlain(const TriangleData& triangles, const Matrix&
                                     std::vector<double>& values, Threads& threads) const {
   values.resize(pattern_.entries());
   const bool symmetric = pattern_.symmetric;
-  const int* start = pattern_.columnStart.data();
-  const int* equations = triangles.equations.data();
+  double* const first = values.data();
+  const int* const start = pattern_.columnStart.data();
+  const int* const equations = triangles.equations.data();
   threads.forEach(static_cast<int>(parts_.size()), [&](int p) {
     const Part& part = parts_[p];
     std::fill(values.begin() + start[part.firstColumn], values.begin() + start[part.endColumn], 0.0);
     for (const int t : part.triangles) {
-      const double* G = &triangles.gradients[static_cast<size_t>(triangleDofs) * t];
+      const std::array<double, triangleDofs> G = triangles.gradientsOf(t);
+      const std::array<double, 9> D = moduliAt(moduli, t);
+      const double weight = triangles.weights[t];
       const auto& nodes = triangles.nodes[t];
+      const auto& blocks = blocks_[t];
       const int equation[3] = {equations[2 * nodes[0]], equations[2 * nodes[1]], equations[2 * nodes[2]]};
       for (int b = 0; b < 3; ++b) {
         if (equation[b] < part.firstColumn || equation[b] >= part.endColumn) continue;
-        const Eigen::Matrix<double, 3, 2> DB =
-            triangles.weights[t] * moduliTimesB(&moduli(0, t), G[2 * b], G[2 * b + 1]);
-        double* column[2] = {&values[start[equation[b]]],
-                             &values[start[equation[b] + 1]] - (symmetric ? 1 : 0)};
+        const double gx = weight * G[2 * b];
+        const double gy = weight * G[2 * b + 1];
+        const ColumnOfDB x = columnOfDB(D, gx, gx, gy);
+        const ColumnOfDB y = columnOfDB(D, gy, -gy, gx);
+        double* columnX = first + start[equation[b]];
+        double* columnY = first + start[equation[b] + 1] - (symmetric ? 1 : 0);
         for (int a = 0; a < 3; ++a) {
           if (symmetric && equation[a] < equation[b]) continue;
-          const int place = blocks_[t][3 * b + a];
-          for (int c = 0; c < 2; ++c) {
-            const double x = (DB(0, c) + DB(1, c)) * G[2 * a] + DB(2, c) * G[2 * a + 1];
-            const double y = (DB(0, c) - DB(1, c)) * G[2 * a + 1] + DB(2, c) * G[2 * a];
-            if (!symmetric || a != b || c == 0) column[c][place] += x;
-            column[c][place + 1] += y;
-          }
+          const int place = blocks[3 * b + a];
+          const Eigen::Vector2d yy = y.times(G[2 * a], G[2 * a + 1]);
+          add(columnX + place, x.times(G[2 * a], G[2 * a + 1]));
+          if (symmetric && a == b)
+            columnY[place + 1] += yy[1];
+          else
+            add(columnY + place, yy);
         }
       }
     }

@@ -18,7 +18,13 @@ struct TriangleData {
   const std::vector<std::array<int, 3>>& nodes;
   const std::vector<int>& equations;     ///< of dof 2 node + component, ascending; -1 where there is none
   const std::vector<double>& weights;    ///< areas [m^2]
-  const std::vector<double>& gradients;  ///< 6 per triangle, over sqrt2 [1/m]
+  const std::vector<double>& gradients;  ///< of the second and third shape function, over sqrt2 [1/m]
+
+  /// Of all three. They sum to zero.
+  [[nodiscard]] std::array<double, 6> gradientsOf(int t) const {
+    const double* G = &gradients[static_cast<size_t>(4) * t];
+    return {-(G[0] + G[2]), -(G[1] + G[3]), G[0], G[1], G[2], G[3]};
+  }
 };
 
 class TangentAssembly {

@@ -143,6 +143,7 @@ Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept) 
     result.fronts[front.parent].children.push_back(s);
     const Front& parent = result.fronts[front.parent];
     for (size_t i = 0; i < parent.rows.size(); ++i) index[parent.rows[i]] = static_cast<int>(i);
+    front.inParent.reserve(front.updates());
     for (size_t i = front.pivots; i < front.rows.size(); ++i) front.inParent.push_back(index[front.rows[i]]);
   }
 

@@ -1,6 +1,7 @@
 // What a body asks of a material: the stress law of one time step, linearised. A material knows no mesh.
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "base/types.h"
@@ -20,8 +21,17 @@ struct MaterialStep {
 /// The law linearised at an iterate s of the stress: the next iterate is predictor + H^-1 B d.
 struct Linearisation {
   Matrix predictor;  ///< components x points: s + H^-1 r [Pa]
-  Matrix moduli;  ///< 9 x points: the block of H^-1 that acts on the strains of the plane, column major [Pa]
+  /// The block of H^-1 that acts on the strains of the plane [Pa], column major: 9 x points, or, where the moduli are
+  /// symmetric, 6 x points for the lower triangle. The caller sizes it.
+  Matrix moduli;
 };
+
+/// All 3 x 3 moduli of a point, column major.
+inline std::array<double, 9> moduliAt(const Matrix& moduli, int point) {
+  const double* D = &moduli(0, point);
+  if (moduli.rows() == 6) return {D[0], D[1], D[2], D[1], D[3], D[4], D[2], D[4], D[5]};
+  return {D[0], D[1], D[2], D[3], D[4], D[5], D[6], D[7], D[8]};
+}
 
 class Material {
  public:

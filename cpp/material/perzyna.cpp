@@ -32,6 +32,14 @@ std::array<Lanes, 9> diagonalMinusRankOne(const LaneVector& d, const Lanes& c, c
   return result;
 }
 
+/// All of the moduli, or their lower triangle.
+void store(const Batch& batch, const std::array<Lanes, 9>& D, Matrix& moduli) {
+  if (moduli.rows() == 6)
+    batch.store(std::array<Lanes, 6>{D[0], D[1], D[2], D[4], D[5], D[8]}, moduli.data());
+  else
+    batch.store(D, moduli.data());
+}
+
 /// The largest |x| so far; NaN and infinity stay, as NaN.
 class Largest {
  public:
@@ -75,7 +83,7 @@ class Elastic final : public Material {
       }
       residual.add(change);
       batch.store(s1, result.predictor.data());
-      batch.store(moduli, result.moduli.data());
+      store(batch, moduli, result.moduli);
     }
     return residual.value();
   }
@@ -142,7 +150,7 @@ class Perzyna final : public Material {
       LaneVector predictor = s;
       for (int k = 0; k < 3; ++k) predictor[k] += law.increment[k];
       batch.store(predictor, result.predictor.data());
-      batch.store(law.moduli, result.moduli.data());
+      store(batch, law.moduli, result.moduli);
     }
     return residual.value();
   }

@@ -48,7 +48,7 @@ BodySystem::BodySystem(const Model& model, int body, const std::vector<int>& fir
   solver_ = engine == LinearEngine::multifrontal ? multifrontalSolver(body_.pattern(), kept_)
                                                  : suiteSparseSolver(body_.pattern(), kept_);
   law_.predictor.resize(body_.material().components(), body_.points());
-  law_.moduli.resize(9, body_.points());
+  law_.moduli.resize(body_.material().symmetricTangent() ? 6 : 9, body_.points());
 }
 
 void BodySystem::findContactDofs(const Model& model, int body, const std::vector<int>& firstRow) {
