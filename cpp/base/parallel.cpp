@@ -42,10 +42,12 @@ class Threads::Pool {
     jobs_.push_back(&job);
     changed_.notify_all();
     while (job.unfinished > 0) {
-      if (job.ready.empty())
-        changed_.wait(lock);
+      // A caller that has nothing left to do helps with what its items have called for.
+      Job* const next = job.ready.empty() ? innermostReady(&job) : &job;
+      if (next != nullptr)
+        doOneItem(*next, lock);
       else
-        doOneItem(job, lock);
+        changed_.wait(lock);
     }
     jobs_.erase(std::find(jobs_.begin(), jobs_.end(), &job));
     if (job.failure) std::rethrow_exception(job.failure);
@@ -55,14 +57,18 @@ class Threads::Pool {
   void helpUntilStopped() {
     std::unique_lock lock(mutex_);
     while (!stopped_) {
-      // The innermost job first: others wait for it.
-      const auto job =
-          std::find_if(jobs_.rbegin(), jobs_.rend(), [](const Job* each) { return !each->ready.empty(); });
-      if (job == jobs_.rend())
-        changed_.wait(lock);
+      if (Job* const job = innermostReady(nullptr))
+        doOneItem(*job, lock);
       else
-        doOneItem(**job, lock);
+        changed_.wait(lock);
     }
+  }
+
+  /// The last job with an item to do that was called for after `outer`: others wait for it. \pre the lock is held.
+  [[nodiscard]] Job* innermostReady(const Job* outer) const {
+    for (auto job = jobs_.rbegin(); job != jobs_.rend() && *job != outer; ++job)
+      if (!(*job)->ready.empty()) return *job;
+    return nullptr;
   }
 
   /// \pre the lock is held and an item is ready.

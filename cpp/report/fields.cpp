@@ -92,17 +92,17 @@ void writePoints(VtuFile& file, const TriangleMesh& mesh, const Vector& displace
 
 void writeCells(VtuFile& file, const TriangleMesh& mesh) {
   constexpr uint8_t vtkTriangle = 5;
-  std::vector<int64_t> connectivity;
-  std::vector<int64_t> offsets;
+  std::vector<int32_t> connectivity;
+  std::vector<int32_t> offsets;
   connectivity.reserve(3 * mesh.triangles.size());
   offsets.reserve(mesh.triangles.size());
   for (const auto& triangle : mesh.triangles) {
     connectivity.insert(connectivity.end(), triangle.begin(), triangle.end());
-    offsets.push_back(static_cast<int64_t>(connectivity.size()));
+    offsets.push_back(static_cast<int32_t>(connectivity.size()));
   }
   file.open("Cells");
-  file.integers("Int64", "connectivity", connectivity);
-  file.integers("Int64", "offsets", offsets);
+  file.integers("Int32", "connectivity", connectivity);
+  file.integers("Int32", "offsets", offsets);
   file.integers("UInt8", "types", std::vector<uint8_t>(mesh.triangles.size(), vtkTriangle));
   file.shut("Cells");
 }
@@ -144,23 +144,39 @@ std::string Fields::nameOf(size_t body, int step) const {
   return model_.bodies[body].name() + "_" + number + ".vtu";
 }
 
-void Fields::add(const State& state, int step) {
+void Fields::write(const std::vector<BodyState>& bodies, int step) const {
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
     const TriangleMesh& mesh = body.mesh();
     VtuFile file(folder_ + "/" + nameOf(b, step));
     file.open("Piece", "NumberOfPoints=\"" + std::to_string(mesh.vertices.size()) + "\" NumberOfCells=\"" +
                            std::to_string(mesh.triangles.size()) + "\"");
-    writePoints(file, mesh, state.bodies[b].displacement);
+    writePoints(file, mesh, bodies[b].displacement);
     writeCells(file, mesh);
-    writeCellData(file, body, state.bodies[b]);
+    writeCellData(file, body, bodies[b]);
     file.shut("Piece");
     file.close();
   }
+}
+
+void Fields::wait() {
+  if (writing_.valid()) writing_.get();
+}
+
+void Fields::add(const State& state, int step) {
+  constexpr int trianglesWorthAThread = 20000;
+  size_t triangles = 0;
+  for (const Body& body : model_.bodies) triangles += body.mesh().triangles.size();
+  wait();
+  if (triangles < trianglesWorthAThread)
+    write(state.bodies, step);
+  else
+    writing_ = std::async(std::launch::async, [this, bodies = state.bodies, step] { write(bodies, step); });
   kept_.push_back({step, state.time});
 }
 
 const std::vector<KeptFields>& Fields::sync() {
+  wait();
   for (; synced_ < kept_.size(); ++synced_)
     for (size_t b = 0; b < model_.bodies.size(); ++b) {
       const std::string path = folder_ + "/" + nameOf(b, kept_[synced_].step);
@@ -170,6 +186,7 @@ const std::vector<KeptFields>& Fields::sync() {
 }
 
 void Fields::close() {
+  wait();
   OutputFile file(folder_ + "/fields.pvd");
   file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
           "byte_order=\"LittleEndian\">\n"

@@ -5,6 +5,7 @@
 // Points and cells are numbered as in the mesh, from 0. A cell with several material points shows their mean.
 #pragma once
 
+#include <future>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,8 @@ class Fields {
   /// \param kept  what an earlier part of the run has written.
   Fields(std::string folder, const Model& model, std::vector<KeptFields> kept = {})
       : folder_(std::move(folder)), model_(model), kept_(std::move(kept)), synced_(kept_.size()) {}
-  /// Writes <body>_<step>.vtu for every body. \throws OutputError, also when a field is not finite.
+  /// Writes <body>_<step>.vtu for every body; large ones while the run goes on, from a copy of the state.
+  /// \throws OutputError, also when a field is not finite, at the latest in the next call of any function here.
   void add(const State& state, int step);
   /// Brings everything to the disk. \returns what is written so far. \throws OutputError
   const std::vector<KeptFields>& sync();
@@ -32,11 +34,15 @@ class Fields {
 
  private:
   [[nodiscard]] std::string nameOf(size_t body, int step) const;
+  void write(const std::vector<BodyState>& bodies, int step) const;
+  /// Until the last step is written.
+  void wait();
 
   std::string folder_;
   const Model& model_;
   std::vector<KeptFields> kept_;
   size_t synced_;
+  std::future<void> writing_;
 };
 
 /// What is shown of one body's cells; one column (or entry) a triangle.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <random>
 #include <stdexcept>
 
@@ -61,6 +62,26 @@ TEST(Threads, itemsMayHaveItemsOfTheirOwn) {
     threads.forEach(5,
                     [&](int) { threads.forEach(7, [&](int) { threads.forEach(3, [&](int) { ++done; }); }); });
     EXPECT_EQ(done, 5 * 7 * 3);
+  }
+}
+
+// One of two items ends at once; the other has two items that can only end together.
+TEST(Threads, callersHelpWithTheItemsOfTheirItems) {
+  constexpr std::chrono::seconds enough(20);
+  Threads threads(2);
+  for (const int longOne : {0, 1}) {
+    std::atomic<int> together = 0;
+    std::atomic<bool> met = true;
+    threads.forEach(2, [&](int item) {
+      if (item != longOne) return;
+      threads.forEach(2, [&](int) {
+        ++together;
+        const auto begin = std::chrono::steady_clock::now();
+        while (together < 2 && met)
+          if (std::chrono::steady_clock::now() - begin > enough) met = false;
+      });
+    });
+    EXPECT_TRUE(met);
   }
 }
 
