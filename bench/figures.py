@@ -8,6 +8,7 @@
 measurements whose median counts; FreeFEM, where it is installed, is measured once.
 """
 import argparse
+import resource
 import shutil
 import statistics
 import subprocess
@@ -32,25 +33,25 @@ def row(name, value, target, at_least=False):
 
 
 def children_seconds():
-    import resource
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
 
 
-def seconds_of(command, cpu):
-    begin = children_seconds() if cpu else time.perf_counter()
-    codes.call(command)
-    return (children_seconds() if cpu else time.perf_counter()) - begin
+def seconds_of(work, cpu):
+    clock = children_seconds if cpu else time.perf_counter
+    begin = clock()
+    work()
+    return clock() - begin
 
 
 def note_test(folder, rounds, cpu):
     for variant, projection, target, times in NOTE:
         settings = ["--set", f"contact.variant={variant}", f"body.material.projection={projection}"]
         run = [codes.MORTIER, "run", codes.COMPRESSION, "--quiet", "--out", folder / "run", *settings]
-        seconds = statistics.median(seconds_of(run, cpu) for _ in range(rounds))
+        seconds = statistics.median(seconds_of(lambda: codes.call(run), cpu) for _ in range(rounds))
         row(f"1  note's test, whole process [s], {variant}, {projection}", seconds, target)
         if shutil.which(codes.FREEFEM):
-            freefem = codes.run_freefem(folder / "freefem", settings[1:]).wall_time
+            freefem = seconds_of(lambda: codes.run_freefem(folder / "freefem", settings[1:]), cpu)
             row(f"1  FreeFEM over it, {variant}, {projection}", freefem / seconds, times, at_least=True)
 
 
@@ -66,9 +67,9 @@ def output_of_every_step(folder, rounds, cpu):
         seconds = {0: [], 1: []}
         for _ in range(max(1, rounds // 2)):
             for every in seconds:
-                seconds[every].append(seconds_of(
-                    [codes.MORTIER, "run", codes.COMPRESSION, "--quiet", "--out", folder / "run", "--set", *settings,
-                     f"body.material.projection={projection}", f"output.every={every}"], cpu))
+                run = [codes.MORTIER, "run", codes.COMPRESSION, "--quiet", "--out", folder / "run", "--set", *settings,
+                       f"body.material.projection={projection}", f"output.every={every}"]
+                seconds[every].append(seconds_of(lambda: codes.call(run), cpu))
         share = statistics.median(seconds[1]) / statistics.median(seconds[0]) - 1
         row(f"10 output of every step over the run, 1e5, {projection}", share, 0.15)
 
