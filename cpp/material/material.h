@@ -33,6 +33,16 @@ inline std::array<double, 9> moduliAt(const Matrix& moduli, int point) {
   return {D[0], D[1], D[2], D[3], D[4], D[5], D[6], D[7], D[8]};
 }
 
+/// Stores the moduli of a point, their lower triangle where that is all that is kept.
+inline void storeModuli(const Eigen::Matrix3d& D, Matrix& moduli, int point) {
+  if (moduli.rows() == 6)
+    moduli.col(point) << D(0, 0), D(1, 0), D(2, 0), D(1, 1), D(2, 1), D(2, 2);
+  else
+    moduli.col(point) = Eigen::Map<const Eigen::VectorXd>(D.data(), 9);
+}
+
+class InteriorPath;
+
 class Material {
  public:
   virtual ~Material() = default;
@@ -59,6 +69,9 @@ class Material {
                             double relaxation, Linearisation& result, int begin, int end) const = 0;
   /// The penalties [-] that suit a stress: nothing where it is elastic, the mean stiffness of the flow where it flows.
   virtual void choosePenalty(const Matrix& stress, Vector& penalty) const = 0;
+  /// The path along which a hard step is solved; nothing where the law is linear. `stress0` must outlive it.
+  [[nodiscard]] virtual std::unique_ptr<InteriorPath> interiorPath(double weight,
+                                                                   const Matrix& stress0) const = 0;
   /// Viscoplastic strain rate G(s) [1/s], components x points.
   virtual void viscoplasticRate(const Matrix& stress, Matrix& rate) const = 0;
   /// E^-1 s [-], components x points.

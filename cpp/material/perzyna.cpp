@@ -5,6 +5,8 @@
 
 #include "base/error.h"
 #include "base/lanes.h"
+#include "material/interior_path.h"
+#include "material/perzyna_path.h"
 #include "material/stress.h"
 #include "material/yield_domain.h"
 #include "material/yield_lanes.h"
@@ -99,6 +101,11 @@ class Elastic final : public Material {
 
   void choosePenalty(const Matrix& stress, Vector& penalty) const override { penalty.setZero(stress.cols()); }
 
+  [[nodiscard]] std::unique_ptr<InteriorPath> interiorPath(double /*weight*/,
+                                                           const Matrix& /*stress0*/) const override {
+    return nullptr;
+  }
+
   void viscoplasticRate(const Matrix& stress, Matrix& rate) const override {
     rate.setZero(stress.rows(), stress.cols());
   }
@@ -176,8 +183,7 @@ class Perzyna final : public Material {
       const double size = difference.abs().maxCoeff<Eigen::PropagateNaN>();
       if (!(size <= change) && !std::isnan(change)) change = size;
       result.predictor.col(i) = s + relaxation * difference;
-      Eigen::Map<Eigen::Matrix3d>(&result.moduli(0, i)) =
-          (1 / (1 / e_ + penalty[i] * theta)).matrix().asDiagonal();
+      storeModuli((1 / (1 / e_ + penalty[i] * theta)).matrix().asDiagonal(), result.moduli, i);
     }
     return change;
   }
@@ -190,6 +196,12 @@ class Perzyna final : public Material {
       if (!domain_.yields(s)) continue;
       penalty[i] = std::sqrt(domain_.project(s).softening.minCoeff());
     }
+  }
+
+  [[nodiscard]] std::unique_ptr<InteriorPath> interiorPath(double weight,
+                                                           const Matrix& stress0) const override {
+    return perzynaPath({e_, domain_.a(), domain_.b(), law_.yieldStress, weight / (2 * law_.viscosity)},
+                       stress0);
   }
 
   void viscoplasticRate(const Matrix& stress, Matrix& rate) const override {

@@ -33,6 +33,9 @@ class YieldDomain {
     return (a_ * (s / yieldStress_).square()).sum() >= onSurface;
   }
 
+  [[nodiscard]] const Eigen::Array3d& a() const { return a_; }
+  [[nodiscard]] const Eigen::Array3d& b() const { return b_; }
+
   /// \pre yields(t)
   [[nodiscard]] ProjectionOnYield project(const Eigen::Array3d& t, double kappa = 1) const;
 

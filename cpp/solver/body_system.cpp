@@ -87,6 +87,15 @@ void BodySystem::findRigidMotions() {
   R_ *= T;
 }
 
+void BodyIterate::moveTowards(const BodyIterate& other, double part) {
+  const Vector d = (other.increment - increment) + (other.small - small);
+  for (Eigen::Index i = 0; i < d.size(); ++i) {
+    const DoubleDouble u = DoubleDouble::sum(increment[i], part * d[i]);
+    increment[i] = u.high;
+    small[i] += u.low;
+  }
+}
+
 template <class Work>
 void BodySystem::forEachBlock(const Work& work) {
   constexpr int block =

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "linear/condensing_solver.h"
+#include "material/interior_path.h"
 #include "solver/model.h"
 
 namespace mortier {
@@ -19,6 +20,9 @@ struct BodyIterate {
   Vector small;
   Matrix stress;  ///< s
   Matrix strain;  ///< B du - shift, 3 x points, as of the last linearisation
+
+  /// Moves the displacement by a part of its distance to another one.
+  void moveTowards(const BodyIterate& other, double part);
 };
 
 class BodySystem {
@@ -34,6 +38,10 @@ class BodySystem {
   double regularise(const MaterialStep& step, const Matrix* shift, double relaxation, BodyIterate& iterate);
   /// Chooses the penalties for a stress field; the next factorise() takes them over.
   void choosePenalty(const Matrix& stress);
+  /// Linearises along the path instead, for the strain of an iterate.
+  void linearise(InteriorPath& path, const Matrix& strain, double target, bool correct) {
+    path.linearise(strain, target, correct, law_);
+  }
   /// Factorises the tangent of the last linearisation, unless it is still that of a linear material.
   /// \returns why that is impossible, or nothing.
   std::string factorise();

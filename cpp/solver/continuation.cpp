@@ -6,17 +6,14 @@
 
 namespace mortier {
 
-// The step is solved with the viscosity raised so far that the bodies are almost elastic, then lowered by
-// about half decades, each stage begun from the last and solved roughly. Where a stage fails, the path goes
+// Where a step may have several solutions, the one at the end of this path is meant: the step is solved with the
+// viscosity raised so far that the bodies are almost elastic, then lowered by
+// less than half a decade (longer stages jump off the path), each stage begun from the last and solved roughly. Where a stage fails, the path goes
 // back by two and is followed more closely.
 StepOutcome StepSolver::continuation(const State& state0, const StepData& step, int maxIterations,
                                      Iterate& solution) {
   constexpr double firstStiffness = 0.3;
-  // Without a symmetric tangent a step may have several solutions: the one at the end of the path is meant,
-  // and stages of half a decade jump off it.
-  const bool unique = std::all_of(model_.bodies.begin(), model_.bodies.end(),
-                                  [](const Body& body) { return body.pattern().symmetric; });
-  const double decades = unique ? 0.5 : 0.4;
+  constexpr double decades = 0.4;
   constexpr double closer = 1.5;
   constexpr double finestPace = 0.02;
   constexpr int stageIterations = 4;
@@ -58,6 +55,7 @@ StepOutcome StepSolver::continuation(const State& state0, const StepData& step, 
     pace = std::max(finestPace, pace / closer);
     for (int i = 0; i < stagesBack && path.size() > 1; ++i) path.pop_back();
   }
+  total.converged = total.converged && path.back().decadesLeft == 0;
   solution = std::move(path.back().iterate);
   return total;
 }

@@ -24,9 +24,9 @@ struct State {
 struct Certificate {
   double forceBalance = 0;      ///< |F - sum |T| B' s - C' p|_inf over the largest nodal force
   double materialResidual = 0;  ///< |H^-1 r| over the yield stress (largest stress in an elastic body)
-  double gapOnActive = 0;       ///< |g| on active nodes over the extent of the bodies
+  double gapOnActive = 0;       ///< |g| on active nodes over the extent of the bodies, or the largest |u|
   double sign = 0;              ///< largest negative contact force over the largest
-  double complementarity = 0;   ///< max |p g| over (largest force times extent)
+  double complementarity = 0;   ///< max |p g| over (largest force times that length)
 };
 
 enum class Status { converged, failed, unheld };
@@ -37,7 +37,7 @@ struct StepReport {
   double timeStep = 0;  ///< [s]
   Status status = Status::converged;
   std::string reason;           ///< one line when the status is not converged
-  std::string rung = "newton";  ///< what it took: newton, continuation, cut
+  std::string rung = "newton";  ///< what it took: newton, continuation, interior-point, cut
   int iterations = 0;           ///< linear solves with a new tangent
   int factorisations = 0;       ///< matrices factorised, all bodies
   int active = 0;               ///< active contact nodes, and how many joined and left in this step

@@ -45,6 +45,7 @@ StepSolver::StepSolver(const Model& model, const SolverOptions& options)
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     systems_.emplace_back(model, static_cast<int>(b), firstRow_, options.linear);
     firstMotion_.push_back(firstMotion_.back() + static_cast<int>(systems_[b].R().cols()));
+    uniqueSolutions_ = uniqueSolutions_ && model.bodies[b].pattern().symmetric;
     triangles += static_cast<int>(model.bodies[b].mesh().triangles.size());
   }
   threads_ = std::make_unique<Threads>(triangles >= trianglesWorthThreads ? options.threads : 1);
@@ -110,6 +111,13 @@ std::vector<Vector> StepSolver::displacements(const State& state0, const Iterate
   for (size_t b = 0; b < model_.bodies.size(); ++b)
     u.push_back(state0.bodies[b].displacement + (iterate.bodies[b].increment + iterate.bodies[b].small));
   return u;
+}
+
+void StepSolver::strain(const StepData& step, int body, BodyIterate& iterate) const {
+  const Body& system = model_.bodies[body];
+  iterate.strain.resize(3, system.points());
+  system.strain(iterate.increment, iterate.small, iterate.strain, 0, system.points());
+  if (!step.shift.empty()) iterate.strain -= step.shift[body];
 }
 
 /// \returns the material residual, scaled; NaN when any stress is.
@@ -199,20 +207,30 @@ void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>&
   }
 }
 
+void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>& loads, Iterate& iterate,
+                                 StepOutcome& outcome) {
+  const ContactSolve pivoting = [this](const Vector& slack, const Vector& p0, const Vector& balance,
+                                       const std::vector<char>& active) {
+    return solveContact(contact_, slack, p0, balance, active);
+  };
+  solveLinearised(state0, loads, pivoting, iterate, outcome);
+}
+
 Certificate StepSolver::certify(const State& state0, const std::vector<Vector>& loads, const Iterate& iterate,
                                 double materialResidual) const {
   Certificate result;
   result.materialResidual = materialResidual;
   double force = 0;
-  double extentOfAll = 0;
+  double length = 0;  // gaps are differences of displacements
   std::vector<Vector> residual;
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Vector internal = model_.bodies[b].internalForce(iterate.bodies[b].stress);
     force = std::max({force, internal.cwiseAbs().maxCoeff(), loads[b].cwiseAbs().maxCoeff()});
     residual.push_back(loads[b] - internal);
-    extentOfAll = std::max(extentOfAll, extent(model_.bodies[b].mesh()));
+    length = std::max(length, extent(model_.bodies[b].mesh()));
   }
   const std::vector<Vector> u = displacements(state0, iterate);
+  for (const Vector& each : u) length = std::max(length, each.lpNorm<Eigen::Infinity>());
   double largestContact = 0;
   for (const Vector& p : iterate.contactForce)
     if (p.size() > 0) largestContact = std::max(largestContact, p.cwiseAbs().maxCoeff());
@@ -222,7 +240,7 @@ Certificate StepSolver::certify(const State& state0, const std::vector<Vector>& 
     const int b2 = interface.pair().mortar.body;
     const Vector& p = iterate.contactForce[k];
     interface.subtractForces(p, residual[b1], residual[b2]);
-    const Vector g = interface.gap(u[b1], u[b2]) / extentOfAll;
+    const Vector g = interface.gap(u[b1], u[b2]) / length;
     for (Eigen::Index i = 0; i < g.size(); ++i) {
       if (iterate.active[k][i] != 0) result.gapOnActive = std::max(result.gapOnActive, std::abs(g[i]));
       if (largestContact == 0) continue;
@@ -242,10 +260,6 @@ StepOutcome StepSolver::newton(const State& state0, const StepData& step, const 
   // Beyond this many yield stresses an iterate does not come back.
   constexpr double hopeless = 1e3;
   constexpr int patience = 2;
-  const ContactSolve pivoting = [this](const Vector& slack, const Vector& p0, const Vector& balance,
-                                       const std::vector<char>& active) {
-    return solveContact(contact_, slack, p0, balance, active);
-  };
   int outOfBalance = 0;
   StepOutcome outcome;
   prescribe(state0, step.time, iterate);
@@ -273,7 +287,7 @@ StepOutcome StepSolver::newton(const State& state0, const StepData& step, const 
     }
     ++outcome.iterations;
     if (!factorise(outcome)) return outcome;
-    solveLinearised(state0, loads, pivoting, iterate, outcome);
+    solveLinearised(state0, loads, iterate, outcome);
     if (!outcome.reason.empty()) return outcome;
     for (Vector& p : iterate.contactForce) p = p.cwiseMax(0);
   }
@@ -282,12 +296,21 @@ StepOutcome StepSolver::newton(const State& state0, const StepData& step, const 
 StepOutcome StepSolver::solve(const State& state0, const StepData& step, Iterate& guess) {
   if (options_.method == Method::penaltyDuality) return penaltyDuality(state0, step, guess);
   constexpr int plainIterations = 7;
+  constexpr int continuationIterations = 60;
   StepOutcome plain = newton(state0, step, {plainIterations, options_.tolerance, false}, guess);
   if (plain.converged || plain.unheld) return plain;
-  StepOutcome total = continuation(state0, step, options_.maxIterations - plain.iterations, guess);
-  total.rung = "continuation";
-  total.iterations += plain.iterations;
-  total.factorisations += plain.factorisations;
+  StepOutcome total = std::move(plain);
+  const auto climb = [&](const std::string& rung, StepOutcome next) {
+    next.rung = rung;
+    next.iterations += total.iterations;
+    next.factorisations += total.factorisations;
+    total = std::move(next);
+  };
+  const auto left = [&] { return options_.maxIterations - total.iterations; };
+  if (!uniqueSolutions_)
+    climb("continuation", continuation(state0, step, std::min(continuationIterations, left()), guess));
+  if (!total.converged && !total.unheld) climb("interior-point", interiorPoint(state0, step, left(), guess));
+  if (!total.converged && !total.unheld) climb("continuation", continuation(state0, step, left(), guess));
   return total;
 }
 

@@ -74,6 +74,7 @@ class StepSolver {
   [[nodiscard]] int rows() const { return firstRow_.back(); }
   [[nodiscard]] std::vector<Vector> displacements(const State& state0, const Iterate& iterate) const;
   [[nodiscard]] std::string describeRigid(const Vector& z) const;
+  void strain(const StepData& step, int body, BodyIterate& iterate) const;
   double linearise(const State& state0, const StepData& step, Iterate& iterate, bool anticipate);
   bool factorise(StepOutcome& outcome);
   /// The contact problem of a linear solve: slack g0 - C u, forces p0, balance r, active set.
@@ -81,6 +82,9 @@ class StepSolver {
       std::function<ContactSolution(const Vector&, const Vector&, const Vector&, const std::vector<char>&)>;
   void solveLinearised(const State& state0, const std::vector<Vector>& loads,
                        const ContactSolve& contactSolve, Iterate& iterate, StepOutcome& outcome);
+  /// By principal pivoting.
+  void solveLinearised(const State& state0, const std::vector<Vector>& loads, Iterate& iterate,
+                       StepOutcome& outcome);
   struct NewtonLimits {
     int iterations = 0;
     double tolerance = 0;
@@ -89,6 +93,7 @@ class StepSolver {
   StepOutcome newton(const State& state0, const StepData& step, const NewtonLimits& limits, Iterate& iterate);
   double regularise(const State& state0, const StepData& step, Iterate& iterate);
   StepOutcome penaltyDuality(const State& state0, const StepData& step, Iterate& iterate);
+  StepOutcome interiorPoint(const State& state0, const StepData& step, int maxIterations, Iterate& solution);
   StepOutcome continuation(const State& state0, const StepData& step, int maxIterations, Iterate& solution);
   [[nodiscard]] Certificate certify(const State& state0, const std::vector<Vector>& loads,
                                     const Iterate& iterate, double materialResidual) const;
@@ -102,6 +107,7 @@ class StepSolver {
   std::vector<BodySystem> systems_;
   std::vector<int> firstMotion_;  ///< of each body among all rigid motions, and their number at the end
   ContactProblem contact_;
+  bool uniqueSolutions_ = true;  ///< every tangent symmetric: a step minimises a convex energy
 };
 
 }  // namespace mortier

@@ -43,7 +43,7 @@ struct HardResult {
 
 inline HardResult solve(const Model& model, const TimePlan& plan) {
   const auto order = [](const std::string& rung) {
-    return rung == "newton" ? 0 : rung == "continuation" ? 1 : 2;
+    return rung == "newton" ? 0 : rung == "continuation" ? 1 : rung == "interior-point" ? 2 : 3;
   };
   const auto begin = std::chrono::steady_clock::now();
   HardResult result{initialState(model), {}, "newton", 0};
@@ -292,22 +292,17 @@ inline bool has(const std::string& name, const char* part) {
   return name.find(part) != std::string::npos;
 }
 
-/// Cases that miss the limits, by what they share.
+/// Cases that miss the limits: the projection is not associated there, and the steps around first yield may have
+/// no solution that a path from rest leads to.
 inline bool isOpen(const std::string& name) {
-  // Displacements of 1e3 to 1e8 times the bodies: the gap is rounding of them, above the limit.
-  if (has(name, "theta e 1e14, ") || has(name, "upper more viscous by 1e-09, mortar")) return true;
-  // The step of first yield fails, however small it is cut.
-  if (has(name, "nu -0.9, interpolation, elasticity, N 10") ||
-      has(name, "upper stiffer by 1e-06, interpolation, elasticity, N 10") ||
-      has(name, "interpolation 1:50, N 20"))
-    return true;
-  return has(name, "eccentric, rollers, frobenius");
+  return has(name, "nu -0.9, interpolation, elasticity, N 10") ||
+         has(name, "eccentric, rotation held by contact, elasticity, N 50") ||
+         (has(name, "interpolation 1:50, N 20") && !has(name, "12 cells high"));
 }
 
 /// Cases that take seconds.
 inline bool isSlow(const std::string& name) {
-  return has(name, "eccentric, rollers") ||
-         has(name, "eccentric, rotation held by contact, elasticity, N 50");
+  return has(name, "eccentric, rollers, elasticity, N 50");
 }
 
 inline std::vector<HardCase> hardCases() {
