@@ -9,6 +9,7 @@ packages=(
   g++ cmake ninja-build
   libeigen3-dev libsuitesparse-dev libopenblas-dev         # linear algebra
   libtomlplusplus-dev libmuparser-dev                      # scenes
+  libgmsh-dev                                              # meshes other than Medit's
   libcli11-dev nlohmann-json3-dev                          # command line, summaries
   libgtest-dev libbenchmark-dev groff-base                 # tests, benchmarks
   freefem++                                                # the other code

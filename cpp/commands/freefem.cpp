@@ -1,5 +1,6 @@
 #include "commands/freefem.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
@@ -169,6 +170,15 @@ int writeFreefem(const FreefemCommand& command) {
   if (scene.time.scheme != Scheme::backwardEuler) {
     throw InputError(scene.path + ": scheme = " + word(scene.time.scheme) +
                      ", expected backward-euler (all that the FreeFEM method knows)");
+  }
+
+  for (const BodyDescription& body : scene.bodies) {
+    const bool stressed = std::any_of(body.initialStress.begin(), body.initialStress.end(),
+                                      [](const auto& component) { return component.has_value(); });
+    if (stressed || !body.regions.empty()) {
+      throw InputError(body.where + ": body " + body.name +
+                       ": the FreeFEM method knows neither regions nor initial stress");
+    }
   }
 
   // 2. The script.

@@ -10,6 +10,7 @@
 #include "mesh/boundary_line.h"
 #include "mesh/generate.h"
 #include "mesh/medit.h"
+#include "mesh/read.h"
 
 namespace mortier {
 
@@ -109,7 +110,7 @@ int makeMesh(const MeshCommand& command) {
 
 int meshInfo(const std::string& file) {
   // 1. Read; the reader validates.
-  const TriangleMesh mesh = readMedit(file);
+  const TriangleMesh mesh = readMesh(file);
 
   // 2. Extents and area.
   Point lower = mesh.vertices.front();

@@ -21,6 +21,7 @@
 #include "report/summary.h"
 #include "scene/build.h"
 #include "scene/versions.h"
+#include "time/initial_balance.h"
 
 namespace mortier {
 
@@ -57,11 +58,21 @@ RunFacts factsOf(const RunCommand& command, const SceneDescription& scene) {
     facts.versions.insert(facts.versions.end(), libraries.begin(), libraries.end());
   std::vector<std::string> projections;
   for (const BodyDescription& body : scene.bodies) {
-    const auto& flow = body.material.viscoplasticity;
-    facts.materials.push_back(flow ? "Perzyna (" + word(flow->projection) + ")" : "elastic");
-    if (flow) {
-      projections.push_back(word(flow->projection));
+    std::vector<const MaterialDescription*> materials{&body.material};
+    for (const RegionDescription& region : body.regions) {
+      if (region.material) {
+        materials.push_back(&*region.material);
+      }
     }
+    std::vector<std::string> words;
+    for (const MaterialDescription* material : materials) {
+      const auto& flow = material->viscoplasticity;
+      words.push_back(flow ? "Perzyna (" + word(flow->projection) + ")" : "elastic");
+      if (flow) {
+        projections.push_back(word(flow->projection));
+      }
+    }
+    facts.materials.push_back(joinedOnce(words));
   }
   std::vector<std::string> nonmortars;
   for (const ContactDescription& contact : scene.contacts) {
@@ -89,6 +100,32 @@ void warnOfRinging(const SceneDescription& scene, const Model& model) {
   std::snprintf(ratio, sizeof ratio, "%.1e", 2 * stiffness);
   warn(scene.path + ": scheme = crank-nicolson rings here (step over relaxation time " + ratio +
        "); sdirk2 is of second order too and does not");
+}
+
+/// Initial stresses are brought into equilibrium; what the data lack at t = 0 is told.
+void checkInitialState(const SceneDescription& scene, const Model& model, State& state) {
+  constexpr double noticeable = 1e-6;
+  const auto told = [](double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g", value);
+    return std::string(text);
+  };
+  if (const double depth = initialPenetration(model, state); depth > noticeable)
+    warn(scene.path + ": the bodies overlap at t = 0, by up to " + told(depth) +
+         " of their size; contact parts them in the first step");
+  const auto stressed = [](const Body& body) { return body.hasInitialStress(); };
+  if (std::none_of(model.bodies.begin(), model.bodies.end(), stressed)) return;
+  double change = 0;
+  try {
+    change = balanceInitialStress(model, state, scene.solver);
+  } catch (const InputError& error) {
+    throw InputError(scene.path + ": " + error.what());
+  }
+  if (change > noticeable)
+    warn(scene.path +
+         ": the initial stress is not in equilibrium with the loads at t = 0; the bodies settled "
+         "elastically, which changed it by up to " +
+         told(change) + " of the largest stress");
 }
 
 /// Writes checkpoints at intervals of wall time, and never so often that a tenth of the time goes into them.
@@ -148,6 +185,7 @@ int run(RunCommand command) {
   std::optional<ResultFiles> files;
   StepReport last;
   State state = initialState(model);
+  if (!stopped) checkInitialState(scene, model, state);
   MarchMemory memory;
   if (stopped) {
     folder.emplace(path, stopped->folder, std::move(stopped->lock));

@@ -6,6 +6,7 @@
 #include "base/double_double.h"
 #include "base/error.h"
 #include "fem/element.h"
+#include "material/stress.h"
 
 namespace mortier {
 namespace {
@@ -163,6 +164,21 @@ Vector Body::load(double t) const {
       }
     }
   return f;
+}
+
+Matrix Body::initialStress() const {
+  Matrix cartesian = Matrix::Zero(3, points());
+  for (const auto& [component, region, value] : conditions_.initialStresses)
+    for (int i = 0; i < points(); ++i) {
+      const auto t = static_cast<size_t>(i / Element::points);
+      if (region && mesh_.regions[t] != *region) continue;
+      const auto& [a, b, c] = mesh_.triangles[t];
+      const Point centre = (mesh_.vertices[a] + mesh_.vertices[b] + mesh_.vertices[c]) / 3;
+      cartesian(component, i) = value(centre.x(), centre.y(), 0);
+    }
+  Matrix stress = Matrix::Zero(material_->components(), points());
+  for (int i = 0; i < points(); ++i) stress.col(i).head<3>() = fromCartesian(cartesian.col(i));
+  return stress;
 }
 
 }  // namespace mortier

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,10 +30,19 @@ struct BodyForce {
   Function value;
 };
 
+/// Stress at t = 0, one component (0: s11, 1: s22, 2: s12), in a region or everywhere [Pa]; later ones replace
+/// earlier ones.
+struct InitialStress {
+  int component = 0;
+  std::optional<int> region;
+  Function value;
+};
+
 struct Conditions {
   std::vector<PrescribedDisplacement> displacements;
   std::vector<Traction> tractions;
   std::vector<BodyForce> forces;
+  std::vector<InitialStress> initialStresses = {};
 };
 
 class Body {
@@ -75,6 +85,9 @@ class Body {
   /// Nodal forces (dofs) of tractions and body forces at time t [N/m].
   [[nodiscard]] Vector load(double t) const;
 
+  /// Stress at t = 0, at the centres of the triangles (components x points) [Pa].
+  [[nodiscard]] Matrix initialStress() const;
+  [[nodiscard]] bool hasInitialStress() const { return !conditions_.initialStresses.empty(); }
   /// sum |T| B' s: nodal forces (dofs) of a stress field (components x points) [N/m].
   [[nodiscard]] Vector internalForce(const Matrix& stress) const;
   /// B u (3 x points) of a displacement (dofs) carried as u + small, in twice the working precision: a

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct TriangleMesh {
   std::vector<int> regions;                       ///< label of each triangle
   std::vector<std::array<int, 2>> boundaryEdges;  ///< vertex numbers, the body to the left
   std::vector<int> boundaryLabels;                ///< label of each boundary edge
+  std::map<std::string, int> labelNames = {};     ///< boundary labels that have a name
+  std::map<std::string, int> regionNames = {};
 };
 
 /// Twice the signed area of triangle `t` [m^2]; positive when counterclockwise.

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
 
 #include "base/error.h"
-#include "mesh/medit.h"
+#include "material/parts.h"
+#include "mesh/read.h"
 #include "scene/document.h"
 #include "scene/schema.h"
 
@@ -33,6 +37,26 @@ void requireLabel(const TriangleMesh& mesh, int label, const std::string& where,
                    (words.empty()
                         ? ", the mesh " + mesh.name + " has no labelled boundary"
                         : ", expected one of " + joined(words) + " (boundary labels of " + mesh.name + ")"));
+}
+
+/// The number of a label that is given as a name.
+void findNumber(const std::map<std::string, int>& names, const std::string& name, const std::string& what,
+                const TriangleMesh& mesh, const std::string& where, int& label) {
+  if (name.empty()) {
+    return;
+  }
+  const auto found = names.find(name);
+  if (found == names.end()) {
+    Keys words;
+    for (const auto& [known, number] : names) {
+      words.push_back(known);
+    }
+    throw InputError(where + ": label = \"" + name + "\", " +
+                     (words.empty()
+                          ? "the mesh " + mesh.name + " has no names of " + what
+                          : "expected one of " + joined(words) + " (" + what + " of " + mesh.name + ")"));
+  }
+  label = found->second;
 }
 
 /// The vertices of a labelled boundary, or the middles of its edges.
@@ -91,6 +115,17 @@ void requireFiniteData(const BodyDescription& body, const TriangleMesh& mesh,
       requireFinite(*force, centres(mesh), times);
     }
   }
+  const auto requireFiniteStress = [&](const StressDescription& stress) {
+    for (const std::optional<Expression>& component : stress) {
+      if (component && !component->constant) {
+        requireFinite(*component, centres(mesh), {0});
+      }
+    }
+  };
+  requireFiniteStress(body.initialStress);
+  for (const RegionDescription& region : body.regions) {
+    requireFiniteStress(region.initialStress);
+  }
 }
 
 /// Where labels meet, all may prescribe a motion of a node, but not differently.
@@ -127,8 +162,86 @@ void requireOneDisplacement(const Supports& supports,
   }
 }
 
-Body buildBody(const BodyDescription& body, const std::vector<double>& times) {
-  TriangleMesh mesh = readMedit(body.mesh);
+std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description) {
+  const auto& [elasticity, viscoplasticity] = description;
+  return viscoplasticity ? perzynaMaterial(elasticity, *viscoplasticity) : elasticMaterial(elasticity);
+}
+
+/// One material, or as many as regions ask for.
+std::shared_ptr<const Material> buildMaterial(const BodyDescription& body, const TriangleMesh& mesh) {
+  std::vector<std::shared_ptr<const Material>> materials{buildMaterial(body.material)};
+  std::map<int, int> number;
+  for (const RegionDescription& region : body.regions) {
+    if (region.material) {
+      number[region.label] = static_cast<int>(materials.size());
+      materials.push_back(buildMaterial(*region.material));
+    }
+  }
+  if (materials.size() == 1) {
+    return materials.front();
+  }
+  std::vector<int> materialOf;
+  for (const int label : mesh.regions) {
+    const auto found = number.find(label);
+    materialOf.push_back(found == number.end() ? 0 : found->second);
+  }
+  return materialOfParts(std::move(materials), std::move(materialOf));
+}
+
+void addInitialStress(const StressDescription& stress, std::optional<int> region, Conditions& conditions) {
+  for (size_t c = 0; c < stress.size(); ++c) {
+    if (stress[c]) {
+      conditions.initialStresses.push_back({static_cast<int>(c), region, stress[c]->value});
+    }
+  }
+}
+
+void requireRegion(const TriangleMesh& mesh, const RegionDescription& region, const std::string& body) {
+  const std::set<int> labels(mesh.regions.begin(), mesh.regions.end());
+  if (labels.count(region.label) > 0) {
+    return;
+  }
+  Keys words;
+  for (const int known : labels) {
+    words.push_back(std::to_string(known));
+  }
+  throw InputError(region.where + ": body " + body + ": region label = " + std::to_string(region.label) +
+                   ", expected one of " + joined(words) + " (regions of " + mesh.name + ")");
+}
+
+/// Thin triangles spoil the accuracy: told with their number and the worst.
+void warnOfThinTriangles(const BodyDescription& body, const TriangleMesh& mesh,
+                         std::vector<std::string>& warnings) {
+  constexpr double thin = 30;  // its smallest angle is about 2 degrees or less
+  int count = 0;
+  int worst = 0;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    count += aspectRatio(mesh, t) > thin ? 1 : 0;
+    if (aspectRatio(mesh, t) > aspectRatio(mesh, worst)) {
+      worst = t;
+    }
+  }
+  if (count == 0) {
+    return;
+  }
+  std::ostringstream text;
+  text.precision(3);
+  text << body.meshWhere << ": body " << body.name << ": " << count << " of " << mesh.triangles.size()
+       << " triangles of " << mesh.name << " are thin; the worst is triangle " << worst + 1
+       << ", aspect ratio " << aspectRatio(mesh, worst);
+  warnings.push_back(text.str());
+}
+
+Body buildBody(BodyDescription body, const std::vector<double>& times, std::vector<std::string>& warnings) {
+  TriangleMesh mesh = readMesh(body.mesh);
+  warnOfThinTriangles(body, mesh, warnings);
+  for (ConditionDescription& c : body.conditions) {
+    findNumber(mesh.labelNames, c.labelName, "boundaries", mesh, c.where + ": body " + body.name, c.label);
+  }
+  for (RegionDescription& region : body.regions) {
+    findNumber(mesh.regionNames, region.labelName, "regions", mesh, region.where + ": body " + body.name,
+               region.label);
+  }
   Conditions conditions;
   std::vector<const ConditionDescription*> displacements;
   for (const ConditionDescription& c : body.conditions) {
@@ -140,6 +253,9 @@ Body buildBody(const BodyDescription& body, const std::vector<double>& times) {
       conditions.tractions.push_back({c.label, c.component, c.value.value});
     }
   }
+  for (const RegionDescription& region : body.regions) {
+    requireRegion(mesh, region, body.name);
+  }
   requireFiniteData(body, mesh, times);
   requireOneDisplacement(Supports(mesh, conditions.displacements), displacements, mesh, times);
   for (const int c : {0, 1}) {
@@ -147,17 +263,19 @@ Body buildBody(const BodyDescription& body, const std::vector<double>& times) {
       conditions.forces.push_back({c, body.force[c]->value});
     }
   }
-  const auto& [elasticity, viscoplasticity] = body.material;
-  return {body.name, std::move(mesh),
-          viscoplasticity ? perzynaMaterial(elasticity, *viscoplasticity) : elasticMaterial(elasticity),
-          std::move(conditions)};
+  addInitialStress(body.initialStress, std::nullopt, conditions);
+  for (const RegionDescription& region : body.regions) {
+    addInitialStress(region.initialStress, region.label, conditions);
+  }
+  const std::shared_ptr<const Material> material = buildMaterial(body, mesh);
+  return {body.name, std::move(mesh), material, std::move(conditions)};
 }
 
 /// Contact takes over the normal direction of its labels: further conditions there are rarely meant.
 void warnOfConditionsOn(const SideDescription& side, bool nonmortar, const SceneDescription& scene,
                         std::vector<std::string>& warnings) {
   for (const ConditionDescription& c : scene.bodies[bodyIndex(scene, side.body)].conditions) {
-    if (c.label == side.label && (c.kind == Kind::traction || nonmortar)) {
+    if (c.label == side.label && c.labelName == side.labelName && (c.kind == Kind::traction || nonmortar)) {
       warnings.push_back(c.value.where + ": label " + std::to_string(c.label) + " of body " + side.body +
                          " is in contact too; the condition is kept");
     }
@@ -171,7 +289,7 @@ Model buildModel(const SceneDescription& scene, std::vector<std::string>& warnin
   const std::vector<double> times = sampleTimes(scene.time);
   model.bodies.reserve(scene.bodies.size());
   for (const BodyDescription& body : scene.bodies) {
-    model.bodies.push_back(buildBody(body, times));
+    model.bodies.push_back(buildBody(body, times, warnings));
   }
   for (const ContactDescription& contact : scene.contacts) {
     ContactPair pair;
@@ -179,7 +297,10 @@ Model buildModel(const SceneDescription& scene, std::vector<std::string>& warnin
     for (const auto& [side, target, nonmortar] : {std::tuple(&contact.nonmortar, &pair.nonmortar, true),
                                                   std::tuple(&contact.mortar, &pair.mortar, false)}) {
       *target = {bodyIndex(scene, side->body), side->label};
-      requireLabel(model.bodies[target->body].mesh(), side->label, side->where, side->body);
+      const TriangleMesh& mesh = model.bodies[target->body].mesh();
+      findNumber(mesh.labelNames, side->labelName, "boundaries", mesh, side->where + ": body " + side->body,
+                 target->label);
+      requireLabel(mesh, target->label, side->where, side->body);
       warnOfConditionsOn(*side, nonmortar, scene, warnings);
     }
     try {

@@ -41,6 +41,9 @@ std::string handle(const Node& element) {
     return name->text;
   }
   const Node* label = element.find("label");
+  if (label != nullptr && label->isString()) {
+    return label->text;
+  }
   return label != nullptr && label->isNumeric() ? shortest(label->value) : "";
 }
 
@@ -64,8 +67,8 @@ void setInArray(Node& array, const Setting& setting, size_t depth, const std::st
   }
   size_t index = 0;
   const auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), index);
-  const bool isIndex =
-      status == std::errc() && end == word.data() + word.size() && schemaPath != "body.boundary";
+  const bool isIndex = status == std::errc() && end == word.data() + word.size() &&
+                       schemaPath != "body.boundary" && schemaPath != "body.region";
   if (isIndex && index < array.elements.size() && depth + 1 < setting.path.size()) {
     return set(array.elements[index], setting, depth + 1, schemaPath);
   }

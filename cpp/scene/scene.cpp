@@ -18,8 +18,8 @@ const Keys schemeWords{"backward-euler", "crank-nicolson", "sdirk2"};  // in the
 const Keys methodWords{"newton", "penalty-duality"};                   // in the order of Method
 const Keys linearWords{"multifrontal", "suitesparse"};                 // in the order of LinearEngine
 
-MaterialDescription readMaterial(const Node& node, const std::string& subject) {
-  const TableReader table(node, "body.material", subject);
+MaterialDescription readMaterial(const Node& node, const std::string& path, const std::string& subject) {
+  const TableReader table(node, path, subject);
   MaterialDescription material;
   material.elasticity = {table.number("young", above(0)), table.number("poisson", between(-1, 0.5))};
   const auto projection = static_cast<Projection>(table.oneOf("projection", projectionWords, 1));
@@ -33,10 +33,13 @@ MaterialDescription readMaterial(const Node& node, const std::string& subject) {
 /// Two data for one component of one label would have to be ordered by a rule that nobody remembers.
 void addCondition(BodyDescription& body, const ConditionDescription& added) {
   for (const ConditionDescription& other : body.conditions) {
-    if (other.label == added.label && other.component == added.component) {
+    if (other.label == added.label && other.labelName == added.labelName &&
+        other.component == added.component) {
       constexpr const char* directions[] = {"component x", "component y", "the normal", "the tangent"};
       throw InputError(added.value.where + ", expected one condition for " + directions[added.component] +
-                       " of label " + std::to_string(added.label) + ", there is one at " + other.where);
+                       " of label " +
+                       (added.labelName.empty() ? std::to_string(added.label) : added.labelName) +
+                       ", there is one at " + other.where);
     }
   }
   body.conditions.push_back(added);
@@ -45,7 +48,7 @@ void addCondition(BodyDescription& body, const ConditionDescription& added) {
 void readBoundary(const Node& node, BodyDescription& body) {
   const TableReader table(node, "body.boundary", "body " + body.name);
   using Kind = ConditionDescription::Kind;
-  const int label = table.integer("label", 0);
+  const auto [label, labelName] = table.label("label");
   const size_t before = body.conditions.size();
   const struct {
     const char* key;
@@ -56,18 +59,59 @@ void readBoundary(const Node& node, BodyDescription& body) {
               {"tx", Kind::traction, alongX},          {"ty", Kind::traction, alongY}};
   for (const auto& [key, kind, component] : data) {
     if (const Node* value = table.find(key)) {
-      addCondition(body, {kind, label, component, table.expression(key), value->where});
+      addCondition(body, {kind, label, labelName, component, table.expression(key), value->where});
     }
   }
   if (const Node* value = table.find("pressure")) {
-    addCondition(body,
-                 {Kind::traction, label, alongNormal, negated(table.expression("pressure")), value->where});
+    addCondition(body, {Kind::traction, label, labelName, alongNormal, negated(table.expression("pressure")),
+                        value->where});
   }
   if (body.conditions.size() == before) {
-    throw InputError(
-        table.message(node.where, "boundary label " + std::to_string(label) +
-                                      " has no condition, expected one of ux, uy, un, ut, tx, ty, pressure"));
+    throw InputError(table.message(
+        node.where, "boundary label " + (labelName.empty() ? std::to_string(label) : labelName) +
+                        " has no condition, expected one of ux, uy, un, ut, tx, ty, pressure"));
   }
+}
+
+StressDescription readInitialStress(const TableReader& owner, const std::string& path,
+                                    const std::string& subject) {
+  StressDescription stress;
+  if (const Node* node = owner.find("initial_stress")) {
+    const TableReader table(*node, path, subject);
+    const std::string keys[] = {"s11", "s22", "s12"};
+    for (size_t c = 0; c < 3; ++c) {
+      if (table.find(keys[c]) != nullptr) {
+        stress[c] = table.expression(keys[c]);
+      }
+    }
+  }
+  return stress;
+}
+
+void readRegion(const Node& node, BodyDescription& body) {
+  const std::string subject = "body " + body.name;
+  const TableReader table(node, "body.region", subject);
+  RegionDescription region;
+  const auto [label, labelName] = table.label("label");
+  region.label = label;
+  region.labelName = labelName;
+  region.where = table.find("label")->where;
+  for (const RegionDescription& other : body.regions) {
+    if (other.label == region.label && other.labelName == region.labelName) {
+      table.reject("label", "a region of its own, there is one at " + other.where);
+    }
+  }
+  const std::string shown = labelName.empty() ? std::to_string(label) : labelName;
+  const std::string here = subject + ", region " + shown;
+  if (const Node* material = table.find("material")) {
+    region.material = readMaterial(*material, "body.region.material", here);
+  }
+  region.initialStress = readInitialStress(table, "body.region.initial_stress", here);
+  if (!region.material && table.find("initial_stress") == nullptr) {
+    throw InputError(table.message(
+        node.where, "region label " + shown + " says nothing, expected material or initial_stress"));
+  }
+  body.regions.push_back(std::move(region));
 }
 
 /// Mesh paths are relative to the scene that names them, those of the command line to the current folder.
@@ -104,7 +148,12 @@ BodyDescription readBody(const Node& node, const std::string& scenePath, size_t 
   if (std::error_code ignored; !std::filesystem::is_regular_file(body.mesh, ignored)) {
     table.reject("mesh", "a Medit .mesh file (there is none at " + body.mesh + ")");
   }
-  body.material = readMaterial(table.require("material", "{ young = ..., poisson = ... }"), subject);
+  body.material =
+      readMaterial(table.require("material", "{ young = ..., poisson = ... }"), "body.material", subject);
+  body.initialStress = readInitialStress(table, "body.initial_stress", subject);
+  for (const Node* region : table.tables("region")) {
+    readRegion(*region, body);
+  }
   if (const Node* force = table.find("force")) {
     const TableReader components(*force, "body.force", subject);
     for (const int c : {0, 1}) {
@@ -123,7 +172,8 @@ BodyDescription readBody(const Node& node, const std::string& scenePath, size_t 
 SideDescription readSide(const TableReader& contact, const std::string& key, const SceneDescription& scene) {
   const Node& node = contact.require(key, "{ body = \"...\", label = ... }");
   const TableReader table(node, "contact." + key, key + " side of contact");
-  SideDescription side{table.string("body"), table.integer("label", 0), table.find("label")->where};
+  const auto [label, labelName] = table.label("label");
+  SideDescription side{table.string("body"), label, labelName, table.find("label")->where};
   if (bodyIndex(scene, side.body) < 0) {
     Keys names;
     for (const BodyDescription& body : scene.bodies) {
@@ -149,7 +199,8 @@ void readContact(const Node& node, SceneDescription& scene) {
                                    "both sides are body " + contact.mortar.body + ", expected two bodies"));
   }
   for (const ContactDescription& other : scene.contacts) {
-    if (other.nonmortar.body == contact.nonmortar.body && other.nonmortar.label == contact.nonmortar.label) {
+    if (other.nonmortar.body == contact.nonmortar.body && other.nonmortar.label == contact.nonmortar.label &&
+        other.nonmortar.labelName == contact.nonmortar.labelName) {
       throw InputError(table.message(contact.nonmortar.where,
                                      "label " + std::to_string(contact.nonmortar.label) + " of body " +
                                          contact.nonmortar.body + " is nonmortar twice, expected once"));

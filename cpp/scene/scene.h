@@ -1,6 +1,7 @@
 // A scene as written: what docs/scene.md documents, validated key by key. build.h turns it into a Model.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,9 +23,22 @@ struct ConditionDescription {
   enum class Kind { displacement, traction };
   Kind kind = Kind::displacement;
   int label = 0;
-  int component = 0;  ///< Component (fem/supports.h)
+  std::string labelName;  ///< where the label is a name; buildModel finds its number
+  int component = 0;      ///< Component (fem/supports.h)
   Expression value;
   std::string where;  ///< file and line of the label, or the --set that gave it
+};
+
+/// s11, s22, s12 at t = 0 [Pa].
+using StressDescription = std::array<std::optional<Expression>, 3>;
+
+/// What is different in the triangles of one region.
+struct RegionDescription {
+  int label = 0;
+  std::string labelName;  ///< where the label is a name; buildModel finds its number
+  std::optional<MaterialDescription> material;
+  StressDescription initialStress;
+  std::string where;
 };
 
 struct BodyDescription {
@@ -34,12 +48,15 @@ struct BodyDescription {
   MaterialDescription material;
   std::optional<Expression> force[2];  ///< x and y [N/m^3]
   std::vector<ConditionDescription> conditions;
+  StressDescription initialStress;
+  std::vector<RegionDescription> regions;
   std::string where;
 };
 
 struct SideDescription {
   std::string body;
   int label = 0;
+  std::string labelName;  ///< where the label is a name; buildModel finds its number
   std::string where;
 };
 

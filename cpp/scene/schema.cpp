@@ -9,7 +9,11 @@ namespace mortier {
 const Keys& keysOf(const std::string& path) {
   static const std::map<std::string, Keys> tables = {
       {"", {"title", "body", "contact", "time", "solver", "output"}},
-      {"body", {"name", "mesh", "material", "force", "boundary"}},
+      {"body", {"name", "mesh", "material", "force", "boundary", "region", "initial_stress"}},
+      {"body.initial_stress", {"s11", "s22", "s12"}},
+      {"body.region", {"label", "material", "initial_stress"}},
+      {"body.region.material", {"young", "poisson", "viscosity", "yield_stress", "projection"}},
+      {"body.region.initial_stress", {"s11", "s22", "s12"}},
       {"body.material", {"young", "poisson", "viscosity", "yield_stress", "projection"}},
       {"body.force", {"x", "y"}},
       {"body.boundary", {"label", "ux", "uy", "un", "ut", "tx", "ty", "pressure"}},

@@ -117,6 +117,17 @@ int TableReader::oneOf(const std::string& key, const Keys& words, std::optional<
   return static_cast<int>(found - words.begin());
 }
 
+TableReader::Label TableReader::label(const std::string& key) const {
+  const Node* node = find(key);
+  if (node != nullptr && node->isString() && !node->text.empty()) {
+    return {-1, node->text};
+  }
+  if (node != nullptr && !node->isNumeric()) {
+    reject(key, "an integer >= 0, or a name in the mesh");
+  }
+  return {integer(key, 0), ""};
+}
+
 std::vector<double> TableReader::numbers(const std::string& key) const {
   const Node* node = find(key);
   if (node == nullptr || !node->isArray()) {

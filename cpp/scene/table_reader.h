@@ -44,6 +44,12 @@ class TableReader {
   /// The index of the value among `words`.
   [[nodiscard]] int oneOf(const std::string& key, const Keys& words,
                           std::optional<int> fallback = std::nullopt) const;
+  /// A label: a number >= 0, or a name that the mesh knows.
+  struct Label {
+    int number = 0;
+    std::string name;
+  };
+  [[nodiscard]] Label label(const std::string& key) const;
   /// An array of finite numbers.
   [[nodiscard]] std::vector<double> numbers(const std::string& key) const;
   /// A number, an expression in x, y, t, or a table in time.

@@ -62,7 +62,7 @@ State initialState(const Model& model) {
   State state;
   for (const Body& body : model.bodies) {
     const int components = body.material().components();
-    BodyState initial{Vector::Zero(body.dofs()), Matrix::Zero(components, body.points()),
+    BodyState initial{Vector::Zero(body.dofs()), body.initialStress(),
                       Matrix::Zero(components, body.points())};
     body.prescribe(0, initial.displacement);
     state.bodies.push_back(std::move(initial));

@@ -20,7 +20,7 @@ struct TimePlan {
 /// Called for the initial state (report.step == 0) and after every converged step.
 using Observer = std::function<void(const State& state, const StepReport& report)>;
 
-/// u0 = 0 but for what is prescribed at t = 0, sigma0 = 0.
+/// u0 = 0 but for what is prescribed at t = 0, sigma0 the initial stress of the bodies.
 State initialState(const Model& model);
 
 /// Marches `state` to the end of the plan; on failure it is left at the last converged step.

@@ -117,6 +117,13 @@ FAULTS = [
     ("\"-10*t\"", "{ time = [0, 1] }", "scene.toml:12: body upper: ty: value is missing, expected an array of numbers"),
     ("\"-10*t\"", "{ time = 3, value = [0, 1] }", "scene.toml:12: body upper: ty: time = 3, expected an array of numbers"),
     ("\"-10*t\"", "[0, 1]", "scene.toml:12: body upper: ty = an array, expected a finite number, an expression in x, y, t, or a table"),
+    # regions and initial stress
+    ("[contact]", "region = [ { label = 7, material = { young = 1, poisson = 0 } } ]\n[contact]", "scene.toml:20: body lower: region label = 7, expected one of 1 (regions of lower.mesh)"),
+    ("[contact]", "region = [ { label = 1 } ]\n[contact]", "scene.toml:20: body lower: region label 1 says nothing, expected material or initial_stress"),
+    ("[contact]", "region = [ { material = { young = 1, poisson = 0 } } ]\n[contact]", "scene.toml:20: body lower: label is missing, expected an integer >= 0"),
+    ("[contact]", "region = [ { label = 1, material = { young = 1, poisson = 1 } } ]\n[contact]", "scene.toml:20: body lower, region 1: poisson = 1, expected -1 < poisson < 0.5"),
+    ("[contact]", "initial_stress = { s11 = 1, s23 = 1 }\n[contact]", "scene.toml:20: body lower: unknown key s23, did you mean s22?"),
+    ("[contact]", "initial_stress = { s11 = \"1/(x-x)\" }\n[contact]", "scene.toml:20: body lower: s11 = \"1/(x-x)\", expected a finite number, is inf at x = "),
     # meshes
     ("upper.mesh", "none.mesh", "scene.toml:5: body upper: mesh = \"none.mesh\", expected a Medit .mesh file"),
     ("upper.mesh", "broken.mesh", "broken.mesh:"),
@@ -327,6 +334,97 @@ class Cli(unittest.TestCase):
             with self.subTest(arguments=arguments):
                 self.reject(mortier("mesh", *arguments, "x.mesh"), message)
                 self.assertFalse(os.path.exists("x.mesh"))
+
+    def test_gmsh_files(self):
+        # Two squares side by side with a curve between them, in both formats and as a geometry; Gmsh may be missing.
+        points = [(0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1)]
+        lines = [(1, 1, 2), (1, 2, 3), (2, 3, 6), (3, 6, 5), (3, 5, 4), (4, 4, 1), (9, 2, 5)]
+        triangles = [(1, 1, 2, 5), (1, 1, 5, 4), (2, 2, 6, 3), (2, 2, 5, 6)]  # the third is clockwise
+        names = '$PhysicalNames\n3\n1 3 "top"\n1 4 "left"\n2 2 "right half"\n$EndPhysicalNames\n'
+        elements = [f"{i + 1} 1 2 {g} {g} {a} {b}" for i, (g, a, b) in enumerate(lines)]
+        elements += [f"{i + 20} 2 2 {g} {g} {a} {b} {c}" for i, (g, a, b, c) in enumerate(triangles)]
+        with open("a.msh", "w") as file:
+            file.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + names + "$Nodes\n6\n")
+            file.writelines(f"{i + 1} {x} {y} 0\n" for i, (x, y) in enumerate(points))
+            file.write(f"$EndNodes\n$Elements\n{len(elements)}\n" + "\n".join(elements) + "\n$EndElements\n")
+        with open("b.msh", "w") as file:
+            file.write("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n" + names + "$Entities\n0 5 2 0\n")
+            file.writelines(f"{tag} 0 0 0 2 1 0 1 {tag} 0\n" for tag in (1, 2, 3, 4, 9))
+            file.writelines(f"{tag} 0 0 0 2 1 0 1 {tag} 0\n" for tag in (1, 2))
+            file.write("$EndEntities\n$Nodes\n1 6 1 6\n2 1 0 6\n" + "".join(f"{i + 1}\n" for i in range(6)))
+            file.writelines(f"{x} {y} 0\n" for x, y in points)
+            file.write(f"$EndNodes\n$Elements\n7 {len(elements)} 1 {len(elements)}\n")
+            tag = 1
+            for dimension, kind, items in ((1, 1, lines), (2, 2, triangles)):
+                for group in sorted({item[0] for item in items}):
+                    own = [item[1:] for item in items if item[0] == group]
+                    file.write(f"{dimension} {group} {kind} {len(own)}\n")
+                    for item in own:
+                        file.write(f"{tag} " + " ".join(map(str, item)) + "\n")
+                        tag += 1
+            file.write("$EndElements\n")
+        with open("c.geo", "w") as file:
+            file.writelines(f"Point({i + 1}) = {{{x}, {y}, 0, 0.5}};\n" for i, (x, y) in enumerate(points))
+            file.writelines(f"Line({i + 1}) = {{{a}, {b}}};\n" for i, (_, a, b) in enumerate(lines))
+            file.write("Curve Loop(1) = {1, 7, 5, 6}; Plane Surface(1) = {1};\nCurve Loop(2) = {-7, 2, 3, 4}; Plane Surface(2) = {2};\n"
+                       "Physical Curve(1) = {1, 2}; Physical Curve(2) = {3}; Physical Curve(\"top\", 3) = {4, 5};\n"
+                       "Physical Curve(\"left\", 4) = {6}; Physical Surface(1) = {1}; Physical Surface(\"right half\", 2) = {2};\n")
+        scene = """
+            [[body]]
+            name = "plate"
+            mesh = "a.msh"
+            material = { young = 100, poisson = 0 }
+            boundary = [ { label = "left", ux = 0 }, { label = 1, uy = 0 }, { label = "top", pressure = 6 } ]
+            region = [ { label = "right half", material = { young = 100, poisson = 0, viscosity = 1, yield_stress = 50 } } ]
+            [time]
+            end = 1
+            steps = 1
+            """
+        self.write(scene)
+        info = mortier("mesh", "info", "a.msh")
+        if "this build is without" in info.stderr:
+            for name in ["a.msh", "b.msh", "c.geo"]:
+                self.reject(mortier("mesh", "info", name), f"{name}: read by Gmsh, which this build is without")
+                self.reject(mortier("run", "scene.toml", "--quiet", "--set", f"body.plate.mesh={name}"), f"{name}: read by Gmsh")
+            return
+        for name in ["a.msh", "b.msh", "c.geo"]:
+            with self.subTest(name=name):
+                info = mortier("mesh", "info", name)
+                self.assertEqual((info.returncode, info.stderr), (0, ""))
+                for part in ["area       2 m^2", "label 1 ", "label 2 ", "label 3 ", "label 4 ", "length 2 m", "region 1 ", "region 2 "]:
+                    self.assertIn(part, info.stdout)
+                self.assertNotIn("label 9", info.stdout)
+                result = mortier("run", "scene.toml", "--quiet", "--set", f"body.plate.mesh={name}", "--out", "plate")
+                self.assertEqual((result.returncode, result.stderr), (0, ""))
+                plate = json.loads(read("plate/summary.json"))
+                self.assertAlmostEqual(plate["final"]["displacement_min"][1], -0.06, places=12)
+                self.assertAlmostEqual(plate["final"]["von_mises_min"], 6, places=10)
+                self.assertEqual(plate["bodies"][0]["material"], "Perzyna (frobenius), elastic")
+        self.assertEqual(mortier("mesh", "info", "a.msh").stdout.count("4"), mortier("mesh", "info", "b.msh").stdout.count("4"))
+        for old, new, message in [
+                ("label = \"left\"", "label = \"lft\"", "scene.toml:6: body plate: label = \"lft\", expected one of left, top (boundaries of a.msh)"),
+                ("\"right half\"", "\"half\"", "scene.toml:7: body plate: label = \"half\", expected one of right half (regions of a.msh)"),
+                ("label = \"left\"", "label = true", "scene.toml:6: body plate: label = true, expected an integer >= 0, or a name in the mesh"),
+                ("a.msh", "upper.mesh", "scene.toml:6: body plate: label = \"left\", the mesh upper.mesh has no names of boundaries")]:
+            with self.subTest(new=new):
+                self.write(scene.replace(old, new, 1))
+                self.reject(mortier("run", "scene.toml", "--quiet"), message)
+        text = read("a.msh")
+        for old, new, message in [("20 2 2 1 1 1 2 5", "20 3 2 1 1 1 2 5 4", "elements of Gmsh's type 3, expected linear triangles"),
+                                  ("5 1 1 0", "5 1 1 3", "node 5 is at z = 3"),
+                                  (text, "$MeshFormat\n", "")]:
+            with self.subTest(new=new[:20]):
+                self.assertIn(old, text)
+                with open("x.msh", "w") as file:
+                    file.write(text.replace(old, new, 1))
+                self.reject(mortier("mesh", "info", "x.msh"), "x.msh: " + message)
+        self.reject(mortier("mesh", "info", "none.msh"), "none.msh: not a file")
+
+    def test_thin_triangles_are_told(self):
+        self.assertEqual(mortier("mesh", "crisscross", "--cells", "100,1", "upper.mesh").returncode, 0)
+        result = mortier("run", "scene.toml", "--quiet")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("warning: scene.toml:5: body upper: 400 of 400 triangles of upper.mesh are thin; the worst is triangle", result.stderr)
 
     def test_mesh_info(self):
         text = mortier("mesh", "info", "lower.mesh").stdout

@@ -1,0 +1,119 @@
+#include "material/parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mortier {
+namespace {
+
+class Parts final : public Material {
+ public:
+  Parts(std::vector<std::shared_ptr<const Material>> materials, std::vector<int> materialOf)
+      : materials_(std::move(materials)), materialOf_(std::move(materialOf)), points_(materials_.size()) {
+    for (size_t i = 0; i < materialOf_.size(); ++i) points_[materialOf_[i]].push_back(static_cast<int>(i));
+    for (const auto& material : materials_)
+      if (const double scale = material->stressScale();
+          scale > 0 && (stressScale_ == 0 || scale < stressScale_))
+        stressScale_ = scale;
+  }
+
+  [[nodiscard]] int components() const override { return materials_.front()->components(); }
+  [[nodiscard]] bool symmetricTangent() const override {
+    return std::all_of(materials_.begin(), materials_.end(),
+                       [](const auto& m) { return m->symmetricTangent(); });
+  }
+  [[nodiscard]] bool linear() const override {
+    return std::all_of(materials_.begin(), materials_.end(), [](const auto& m) { return m->linear(); });
+  }
+  [[nodiscard]] double stressScale() const override { return stressScale_; }
+  [[nodiscard]] double stiffness(double weight) const override {
+    double largest = 0;
+    for (const auto& material : materials_) largest = std::max(largest, material->stiffness(weight));
+    return largest;
+  }
+
+  double linearise(const MaterialStep& step, const Matrix& stress, Linearisation& result, int begin,
+                   int end) const override {
+    return worstOf(begin, end, [&](const Material& material, int first, int last) {
+      return material.linearise(step, stress, result, first, last);
+    });
+  }
+
+  double regularise(const MaterialStep& step, const Matrix& stress, const Vector& penalty, double relaxation,
+                    Linearisation& result, int begin, int end) const override {
+    return worstOf(begin, end, [&](const Material& material, int first, int last) {
+      return material.regularise(step, stress, penalty, relaxation, result, first, last);
+    });
+  }
+
+  void choosePenalty(const Matrix& stress, Vector& penalty) const override {
+    penalty.resize(stress.cols());
+    forEachPart([&](const Material& material, const std::vector<int>& points) {
+      Vector part;
+      material.choosePenalty(stress(Eigen::all, points), part);
+      penalty(points) = part;
+    });
+  }
+
+  void viscoplasticRate(const Matrix& stress, Matrix& rate) const override {
+    rate.resize(stress.rows(), stress.cols());
+    forEachPart([&](const Material& material, const std::vector<int>& points) {
+      Matrix part;
+      material.viscoplasticRate(stress(Eigen::all, points), part);
+      rate(Eigen::all, points) = part;
+    });
+  }
+
+  void elasticStrain(const Matrix& stress, Matrix& strain) const override {
+    strain.resize(stress.rows(), stress.cols());
+    forEachPart([&](const Material& material, const std::vector<int>& points) {
+      Matrix part;
+      material.elasticStrain(stress(Eigen::all, points), part);
+      strain(Eigen::all, points) = part;
+    });
+  }
+
+  [[nodiscard]] bool flows(const Matrix& stress, int point) const override {
+    return materials_[materialOf_[point]]->flows(stress, point);
+  }
+
+ private:
+  /// Calls residual(material, first, last) for neighbours of one material; \returns the largest, scaled.
+  template <class Residual>
+  [[nodiscard]] double worstOf(int begin, int end, Residual residual) const {
+    double worst = 0;
+    for (int first = begin; first < end;) {
+      int last = first + 1;
+      while (last < end && materialOf_[last] == materialOf_[first]) ++last;
+      const Material& material = *materials_[materialOf_[first]];
+      const double value = residual(material, first, last) * weightOf(material);
+      if (!(value <= worst)) worst = std::isnan(worst) ? worst : value;  // NaN stays
+      first = last;
+    }
+    return worst;
+  }
+
+  /// What makes a residual of this material one over stressScale_. It must not depend on the range of points.
+  [[nodiscard]] double weightOf(const Material& material) const {
+    return material.stressScale() > 0 ? stressScale_ / material.stressScale() : 1;
+  }
+
+  template <class Visit>
+  void forEachPart(Visit visit) const {
+    for (size_t k = 0; k < materials_.size(); ++k) visit(*materials_[k], points_[k]);
+  }
+
+  std::vector<std::shared_ptr<const Material>> materials_;
+  std::vector<int> materialOf_;
+  std::vector<std::vector<int>> points_;
+  double stressScale_ = 0;
+};
+
+}  // namespace
+
+std::shared_ptr<const Material> materialOfParts(std::vector<std::shared_ptr<const Material>> materials,
+                                                std::vector<int> materialOf) {
+  return std::make_shared<Parts>(std::move(materials), std::move(materialOf));
+}
+
+}  // namespace mortier

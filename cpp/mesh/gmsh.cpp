@@ -1,0 +1,245 @@
+// The library is opened when a file needs it: linked, its own libraries would start with every run.
+#include "mesh/gmsh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <set>
+#include <type_traits>
+
+#include "base/error.h"
+
+#ifdef MORTIER_GMSH
+#include <dlfcn.h>
+#include <gmshc.h>
+#endif
+
+namespace mortier {
+
+bool isGmshFile(const std::string& path) {
+  static const std::set<std::string> known{".msh", ".geo",  ".geo_unrolled", ".brep", ".step",
+                                           ".stp", ".iges", ".igs",          ".med",  ".unv"};
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return known.count(extension) > 0;
+}
+
+#ifndef MORTIER_GMSH
+
+TriangleMesh readGmsh(const std::string& path) {
+  throw InputError(
+      path +
+      ": read by Gmsh, which this build is without (libgmsh-dev was not there); expected a Medit "
+      ".mesh file, which gmsh -2 -format mesh writes");
+}
+
+#else
+
+namespace {
+
+/// Gmsh, from its start to its end, with one file.
+class Gmsh {
+ public:
+  explicit Gmsh(std::string path) : path_(std::move(path)) {
+    library_ = dlopen(MORTIER_GMSH, RTLD_NOW);
+    if (library_ == nullptr) throw InputError(path_ + ": Gmsh cannot be loaded: " + dlerror());
+    // Later versions ask as well whether to run as a program.
+    if constexpr (std::is_invocable_v<decltype(gmshInitialize), int, char**, int, int*>)
+      call<decltype(gmshInitialize)>("gmshInitialize", 0, nullptr, 0);
+    else
+      call<decltype(gmshInitialize)>("gmshInitialize", 0, nullptr, 0, 0);
+    call<decltype(gmshOptionSetNumber)>("gmshOptionSetNumber", "General.Terminal", 0.0);
+  }
+  Gmsh(const Gmsh&) = delete;
+  Gmsh& operator=(const Gmsh&) = delete;
+  ~Gmsh() {
+    int ignored = 0;
+    symbol<decltype(gmshFinalize)>("gmshFinalize")(&ignored);
+  }
+
+  /// \throws InputError with what Gmsh says.
+  template <class Function, class... Arguments>
+  void call(const char* name, Arguments... arguments) const {
+    int error = 0;
+    symbol<Function>(name)(arguments..., &error);
+    if (error != 0) throw InputError(path_ + ": Gmsh: " + lastError());
+  }
+
+  template <class Value>
+  struct Array {
+    Value* data = nullptr;
+    size_t size = 0;
+  };
+  /// Takes over an array that Gmsh made.
+  template <class Value>
+  std::vector<Value> take(const Array<Value>& array) const {
+    std::vector<Value> result(array.data, array.data + array.size);
+    symbol<decltype(gmshFree)>("gmshFree")(array.data);
+    return result;
+  }
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  template <class Function>
+  [[nodiscard]] Function* symbol(const char* name) const {
+    auto* found = reinterpret_cast<Function*>(dlsym(library_, name));
+    if (found == nullptr) throw InputError(path_ + ": Gmsh lacks " + name);
+    return found;
+  }
+
+  [[nodiscard]] std::string lastError() const {
+    char* text = nullptr;
+    int error = 0;
+    symbol<decltype(gmshLoggerGetLastError)>("gmshLoggerGetLastError")(&text, &error);
+    std::string result = text == nullptr || *text == 0 ? "cannot read it" : text;
+    std::replace(result.begin(), result.end(), '\n', ' ');
+    if (text != nullptr) symbol<decltype(gmshFree)>("gmshFree")(text);
+    return result;
+  }
+
+  std::string path_;
+  void* library_ = nullptr;
+};
+
+/// Physical groups of a dimension, as entities of a number and a name.
+struct Group {
+  int number = 0;
+  std::string name;
+  std::vector<int> entities;
+};
+
+std::vector<Group> groups(const Gmsh& gmsh, int dimension) {
+  Gmsh::Array<int> pairs;
+  gmsh.call<decltype(gmshModelGetPhysicalGroups)>("gmshModelGetPhysicalGroups", &pairs.data, &pairs.size,
+                                                  dimension);
+  const std::vector<int> physical = gmsh.take(pairs);
+  std::vector<Group> result;
+  for (size_t i = 0; i + 1 < physical.size(); i += 2) {
+    Group group{physical[i + 1], "", {}};
+    char* name = nullptr;
+    gmsh.call<decltype(gmshModelGetPhysicalName)>("gmshModelGetPhysicalName", dimension, group.number, &name);
+    if (name != nullptr) {
+      group.name = name;
+      gmsh.take(Gmsh::Array<char>{name, 0});
+    }
+    Gmsh::Array<int> tags;
+    gmsh.call<decltype(gmshModelGetEntitiesForPhysicalGroup)>(
+        "gmshModelGetEntitiesForPhysicalGroup", dimension, group.number, &tags.data, &tags.size);
+    group.entities = gmsh.take(tags);
+    result.push_back(std::move(group));
+  }
+  if (!result.empty()) return result;
+  Gmsh::Array<int> entities;
+  gmsh.call<decltype(gmshModelGetEntities)>("gmshModelGetEntities", &entities.data, &entities.size,
+                                            dimension);
+  const std::vector<int> all = gmsh.take(entities);
+  for (size_t i = 0; i + 1 < all.size(); i += 2) result.push_back({all[i + 1], "", {all[i + 1]}});
+  return result;
+}
+
+/// Node tags of the elements of one type on an entity.
+std::vector<size_t> elements(const Gmsh& gmsh, int type, int entity) {
+  Gmsh::Array<size_t> tags;
+  Gmsh::Array<size_t> nodes;
+  gmsh.call<decltype(gmshModelMeshGetElementsByType)>("gmshModelMeshGetElementsByType", type, &tags.data,
+                                                      &tags.size, &nodes.data, &nodes.size, entity, size_t{0},
+                                                      size_t{1});
+  gmsh.take(tags);
+  return gmsh.take(nodes);
+}
+
+std::vector<int> elementTypes(const Gmsh& gmsh, int dimension) {
+  Gmsh::Array<int> types;
+  gmsh.call<decltype(gmshModelMeshGetElementTypes)>("gmshModelMeshGetElementTypes", &types.data, &types.size,
+                                                    dimension, -1);
+  return gmsh.take(types);
+}
+
+std::map<size_t, Point> planeNodes(const Gmsh& gmsh) {
+  Gmsh::Array<size_t> tags;
+  Gmsh::Array<double> coordinates;
+  Gmsh::Array<double> parameters;
+  gmsh.call<decltype(gmshModelMeshGetNodes)>("gmshModelMeshGetNodes", &tags.data, &tags.size,
+                                             &coordinates.data, &coordinates.size, &parameters.data,
+                                             &parameters.size, -1, -1, 0, 0);
+  const std::vector<size_t> tag = gmsh.take(tags);
+  const std::vector<double> x = gmsh.take(coordinates);
+  gmsh.take(parameters);
+  std::map<size_t, Point> result;
+  for (size_t i = 0; i < tag.size(); ++i) {
+    if (x[3 * i + 2] != x[2])
+      throw InputError(gmsh.path() + ": node " + std::to_string(tag[i]) +
+                       " is at z = " + std::to_string(x[3 * i + 2]) +
+                       ", expected all nodes in one plane z = " + std::to_string(x[2]));
+    result[tag[i]] = {x[3 * i], x[3 * i + 1]};
+  }
+  return result;
+}
+
+}  // namespace
+
+TriangleMesh readGmsh(const std::string& path) {
+  constexpr int line = 1;
+  constexpr int triangle = 2;
+  if (std::error_code ignored; !std::filesystem::is_regular_file(path, ignored))
+    throw InputError(path + ": not a file, expected a mesh or a geometry for Gmsh");
+  const Gmsh gmsh(path);
+  gmsh.call<decltype(gmshOpen)>("gmshOpen", path.c_str());
+  if (elementTypes(gmsh, 2).empty()) gmsh.call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", 2);
+  for (const int type : elementTypes(gmsh, 2))
+    if (type != triangle)
+      throw InputError(path + ": elements of Gmsh's type " + std::to_string(type) +
+                       ", expected linear triangles (type 2) only");
+
+  const std::map<size_t, Point> nodes = planeNodes(gmsh);
+  TriangleMesh mesh;
+  std::map<size_t, int> vertexOf;
+  const auto vertex = [&](size_t tag) {
+    const auto [found, isNew] = vertexOf.try_emplace(tag, static_cast<int>(mesh.vertices.size()));
+    if (isNew) mesh.vertices.push_back(nodes.at(tag));
+    return found->second;
+  };
+  for (const Group& group : groups(gmsh, 2)) {
+    if (!group.name.empty()) mesh.regionNames[group.name] = group.number;
+    for (const int entity : group.entities) {
+      const std::vector<size_t> corners = elements(gmsh, triangle, entity);
+      for (size_t i = 0; i + 2 < corners.size(); i += 3) {
+        mesh.triangles.push_back({vertex(corners[i]), vertex(corners[i + 1]), vertex(corners[i + 2])});
+        mesh.regions.push_back(group.number);
+        // Surfaces of a geometry may be turned over.
+        if (doubleArea(mesh, static_cast<int>(mesh.triangles.size()) - 1) < 0)
+          std::swap(mesh.triangles.back()[1], mesh.triangles.back()[2]);
+      }
+    }
+  }
+  // Curves inside a body are of no use as its boundary.
+  std::map<std::pair<int, int>, int> triangles;
+  for (const auto& corners : mesh.triangles)
+    for (int k = 0; k < 3; ++k) ++triangles[std::minmax(corners[k], corners[(k + 1) % 3])];
+  for (const Group& group : groups(gmsh, 1)) {
+    if (!group.name.empty()) mesh.labelNames[group.name] = group.number;
+    for (const int entity : group.entities) {
+      const std::vector<size_t> ends = elements(gmsh, line, entity);
+      for (size_t i = 0; i + 1 < ends.size(); i += 2) {
+        const int a = vertex(ends[i]);
+        const int b = vertex(ends[i + 1]);
+        if (const auto found = triangles.find(std::minmax(a, b));
+            found != triangles.end() && found->second > 1)
+          continue;
+        mesh.boundaryEdges.push_back({a, b});
+        mesh.boundaryLabels.push_back(group.number);
+      }
+    }
+  }
+  mesh.name = path;
+  validate(mesh);
+  return mesh;
+}
+
+#endif
+
+}  // namespace mortier

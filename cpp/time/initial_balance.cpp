@@ -1,0 +1,42 @@
+#include "time/initial_balance.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "solver/step.h"
+
+namespace mortier {
+
+double balanceInitialStress(const Model& model, State& state, const SolverOptions& options) {
+  StepSolver solver(model, options);
+  Iterate iterate = solver.start(state);
+  const StepOutcome outcome = solver.solve(state, {state.time, 0, {}}, iterate);
+  if (!outcome.converged)
+    throw InputError("the initial stress cannot be brought into equilibrium at t = 0: " + outcome.reason);
+  double change = 0;
+  double largest = 0;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    BodyState& body = state.bodies[b];
+    const BodyIterate& settled = iterate.bodies[b];
+    change = std::max(change, (settled.stress - body.stress).cwiseAbs().maxCoeff());
+    largest = std::max(largest, settled.stress.cwiseAbs().maxCoeff());
+    body.displacement += settled.increment + settled.small;
+    body.stress = settled.stress;
+  }
+  state.contactForce = iterate.contactForce;
+  return largest > 0 ? change / largest : 0;
+}
+
+double initialPenetration(const Model& model, const State& state) {
+  double deepest = 0;
+  double size = 0;
+  for (const Body& body : model.bodies) size = std::max(size, extent(body.mesh()));
+  for (const ContactInterface& interface : model.interfaces) {
+    const Vector gap = interface.gap(state.bodies[interface.pair().nonmortar.body].displacement,
+                                     state.bodies[interface.pair().mortar.body].displacement);
+    if (gap.size() > 0) deepest = std::max(deepest, gap.maxCoeff());
+  }
+  return deepest / size;
+}
+
+}  // namespace mortier

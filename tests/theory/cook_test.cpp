@@ -1,0 +1,43 @@
+// Cook's membrane: the deflection of the middle of the free end, linear triangles, plane stress. Values of two
+// independent programs on cells cut along the rising diagonal.
+#include <gtest/gtest.h>
+
+#include "theory/scenes.h"
+
+namespace mortier {
+namespace {
+
+using namespace scenes;
+
+double deflection(int n, Cut cut) {
+  Model model;
+  model.bodies.emplace_back(
+      "membrane", quadrilateralMesh({{Point(0, 0), {48, 44}, {48, 60}, {0, 44}}, n, n}, cut),
+      elasticMaterial({1, 1.0 / 3}),
+      Conditions{
+          {{4, alongX, constant(0)}, {4, alongY, constant(0)}}, {{2, alongY, constant(1.0 / 16)}}, {}});
+  const Result result = run(model, 1, 1);
+  EXPECT_EQ(result.report.status, Status::converged) << result.report.reason;
+  const auto middle = [](const Point& x) { return x.x() == 48 && std::abs(x.y() - 52) < 1e-9; };
+  const Range range = displacementRange(model.bodies[0], result.state.bodies[0], 1, middle);
+  EXPECT_EQ(range.count, 1);
+  return range.max;
+}
+
+TEST(Cook, deflectionsAreThoseOfOtherPrograms) {
+  constexpr double digits = 5e-4;  // all that are known
+  const std::pair<int, double> known[] = {
+      {8, 17.331}, {16, 21.592}, {32, 23.275}, {64, 23.774}, {128, 23.913}};
+  for (const auto& [n, value] : known) EXPECT_NEAR(deflection(n, Cut::rising), value, digits) << n;
+}
+
+TEST(Cook, otherDiagonalsTendToTheSame) {
+  // Elements of second order have 23.9618 on 64 cells.
+  for (const Cut cut : {Cut::falling, Cut::both}) {
+    EXPECT_LT(deflection(32, cut), 23.9618);
+    EXPECT_NEAR(deflection(64, cut), 23.9618, 0.06);
+  }
+}
+
+}  // namespace
+}  // namespace mortier
