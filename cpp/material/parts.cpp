@@ -2,9 +2,97 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "material/interior_path.h"
 
 namespace mortier {
 namespace {
+
+/// The paths of all parts, each with its own points; linear parts have none and follow the strain.
+class PartsPath final : public InteriorPath {
+ public:
+  struct Part {
+    const Material* material = nullptr;
+    std::vector<int> points;
+    Matrix stress0;
+    std::unique_ptr<InteriorPath> path;
+    Linearisation law;  ///< of the last linearise()
+    Matrix next;        ///< stress at the end of the last direction, of a linear part
+  };
+
+  PartsPath(double weight, std::vector<Part> parts) : weight_(weight), parts_(std::move(parts)) {
+    for (Part& part : parts_) part.path = part.material->interiorPath(weight, part.stress0);
+  }
+
+  [[nodiscard]] double flowAtTwiceYield() const override {
+    double largest = 0;
+    for (const Part& part : parts_)
+      if (part.path) largest = std::max(largest, part.path->flowAtTwiceYield());
+    return largest;
+  }
+  void begin(double flow) override {
+    for (Part& part : parts_)
+      if (part.path) part.path->begin(flow);
+  }
+  [[nodiscard]] double complementarity() const override {
+    double sum = 0;
+    for (const Part& part : parts_) sum += part.path ? part.path->complementarity() : 0;
+    return sum;
+  }
+  [[nodiscard]] int points() const override {
+    int sum = 0;
+    for (const Part& part : parts_) sum += part.path ? part.path->points() : 0;
+    return sum;
+  }
+
+  void linearise(const Matrix& strain, double target, bool correct, Linearisation& result) override {
+    for (Part& part : parts_) {
+      const auto count = static_cast<int>(part.points.size());
+      part.law.predictor.resize(result.predictor.rows(), count);
+      part.law.moduli.resize(result.moduli.rows(), count);
+      const Matrix own = strain(Eigen::all, part.points);
+      if (part.path)
+        part.path->linearise(own, target, correct, part.law);
+      else
+        part.material->linearise({weight_, part.stress0, own}, part.stress0, part.law, 0, count);
+      result.predictor(Eigen::all, part.points) = part.law.predictor;
+      result.moduli(Eigen::all, part.points) = part.law.moduli;
+    }
+  }
+
+  double direct(const Matrix& strainChange) override {
+    double largest = std::numeric_limits<double>::infinity();
+    for (Part& part : parts_) {
+      const Matrix own = strainChange(Eigen::all, part.points);
+      if (part.path) {
+        largest = std::min(largest, part.path->direct(own));
+        continue;
+      }
+      part.next = part.law.predictor;
+      for (int i = 0; i < static_cast<int>(part.points.size()); ++i) {
+        const std::array<double, 9> D = moduliAt(part.law.moduli, i);
+        part.next.col(i).head<3>() += Eigen::Map<const Eigen::Matrix3d>(D.data()) * own.col(i);
+      }
+    }
+    return largest;
+  }
+
+  void advance(double step, Matrix& stress) override {
+    for (Part& part : parts_) {
+      Matrix own = stress(Eigen::all, part.points);
+      if (part.path)
+        part.path->advance(step, own);
+      else
+        own += step * (part.next - own);
+      stress(Eigen::all, part.points) = own;
+    }
+  }
+
+ private:
+  double weight_;
+  std::vector<Part> parts_;
+};
 
 class Parts final : public Material {
  public:
@@ -53,6 +141,18 @@ class Parts final : public Material {
       material.choosePenalty(stress(Eigen::all, points), part);
       penalty(points) = part;
     });
+  }
+
+  [[nodiscard]] std::unique_ptr<InteriorPath> interiorPath(double weight,
+                                                           const Matrix& stress0) const override {
+    if (linear()) return nullptr;
+    std::vector<PartsPath::Part> parts(materials_.size());
+    for (size_t k = 0; k < parts.size(); ++k) {
+      parts[k].material = materials_[k].get();
+      parts[k].points = points_[k];
+      parts[k].stress0 = stress0(Eigen::all, points_[k]);
+    }
+    return std::make_unique<PartsPath>(weight, std::move(parts));
   }
 
   void viscoplasticRate(const Matrix& stress, Matrix& rate) const override {
