@@ -75,7 +75,7 @@ inline State flowing(const Model& model) {
     state.bodies.push_back({Vector::Zero(body.dofs()), std::move(stress), -elastic});
   }
   for (const ContactInterface& interface : model.interfaces)
-    state.contactForce.emplace_back(interface.coupling().M * Vector::Constant(interface.rows(), pressure));
+    state.contactForce.emplace_back(interface.mass() * Vector::Constant(interface.rows(), pressure));
   return state;
 }
 

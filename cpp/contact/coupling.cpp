@@ -2,9 +2,13 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <array>
 
 namespace mortier {
 namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
 
 /// Values at s of the functions of the rows that belong to an element's two nodes (row -1: that node has
 /// none, and the other one's function is 1).
@@ -14,66 +18,175 @@ Eigen::Vector2d rowFunctions(const Trace& trace, int element, const Eigen::Vecto
   return hats(trace, element, s);
 }
 
-Matrix interpolate(const Trace& nonmortar, const std::vector<int>& nodes, const Trace& mortar) {
-  Matrix A = Matrix::Zero(static_cast<Eigen::Index>(nodes.size()), static_cast<Eigen::Index>(mortar.size()));
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    const double s = std::clamp(nonmortar[nodes[i]], mortar.front(), mortar.back());
-    const auto above = std::upper_bound(mortar.begin() + 1, mortar.end() - 1, s);
-    const auto element = static_cast<int>(above - mortar.begin()) - 1;
-    const Eigen::Vector2d psi = hats(mortar, element, s);
-    A(i, element) = psi[0];
-    A(i, element + 1) = psi[1];
+/// Rows of the trace nodes, -1 for none, and the nodes that have one. The last node of a closed trace has
+/// the row of the first.
+struct Rows {
+  std::vector<int> ofNode;
+  std::vector<int> nodes;
+
+  Rows(const Trace& nonmortar, const Trace& mortar, const std::vector<char>& merged, bool closed)
+      : ofNode(nonmortar.size(), -1) {
+    const Overlap overlap = overlapOf(nonmortar, mortar);
+    if (!(overlap.length() > 0)) return;
+    const size_t own = nonmortar.size() - (closed ? 1 : 0);
+    for (size_t i = 0; i < own; ++i)
+      if ((merged.empty() || merged[i] == 0) && nonmortar[i] >= overlap.begin &&
+          nonmortar[i] <= overlap.end) {
+        ofNode[i] = static_cast<int>(nodes.size());
+        nodes.push_back(static_cast<int>(i));
+      }
+    if (closed) ofNode.back() = ofNode.front();
   }
-  return A;
+  [[nodiscard]] Eigen::Vector2i at(int element) const { return {ofNode[element], ofNode[element + 1]}; }
+  [[nodiscard]] Eigen::Index count() const { return static_cast<Eigen::Index>(nodes.size()); }
+};
+
+Eigen::SparseMatrix<double> assembled(Eigen::Index rows, Eigen::Index columns, const Triplets& entries) {
+  Eigen::SparseMatrix<double> matrix(rows, columns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+/// The mortar element that holds s, the end elements beyond the ends.
+int elementAt(const Trace& mortar, double s) {
+  return static_cast<int>(std::upper_bound(mortar.begin() + 1, mortar.end() - 1, s) - mortar.begin()) - 1;
+}
+
+/// The 2 x 2 entries of one segment; those of rows that are none are left out.
+void scatter(const Eigen::Matrix2d& values, const Eigen::Vector2i& rows, const Eigen::Vector2i& columns,
+             Triplets& entries) {
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j)
+      if (rows[i] >= 0 && columns[j] >= 0) entries.emplace_back(rows[i], columns[j], values(i, j));
+}
+
+Matrix timesNormal(const Matrix& weights, const Point& n) {
+  Matrix C(weights.rows(), 2 * weights.cols());
+  for (Eigen::Index j = 0; j < weights.cols(); ++j) C.middleCols(2 * j, 2) = weights.col(j) * n.transpose();
+  return C;
+}
+
+/// A row at each node: its own motion against that of the mortar point which it sees.
+void interpolate(const SmoothPart& part, const FacingLine& mortar, PartCoupling& result) {
+  for (size_t i = 0; i < result.nodes.size(); ++i) {
+    const int node = result.nodes[i];
+    const double s = std::clamp(part.s[node], mortar.s.front(), mortar.s.back());
+    const Segment place{std::min(node, part.elements() - 1), elementAt(mortar.s, s), s, s};
+    const Eigen::Vector2d psi = mortarHats(part, mortar, place, part.s[node]);
+    const auto row = static_cast<Eigen::Index>(i);
+    result.C1.block<1, 2>(row, 2 * node) = part.normals[node].transpose();
+    for (int j = 0; j < 2; ++j)
+      result.C2.block<1, 2>(row, 2 * (place.mortar + j)) -= psi[j] * part.normals[node].transpose();
+  }
+}
+
+PartCoupling coupleCurved(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
+                          const std::vector<char>& merged) {
+  // Gauss's rule of four points on [-1, 1].
+  constexpr std::array<double, 4> places{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                                         0.8611363115940526};
+  constexpr std::array<double, 4> weights{0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
+                                          0.3478548451374538};
+  const Rows rows(part.s, mortar.s, merged, part.closed);
+  PartCoupling result;
+  result.nodes = rows.nodes;
+  result.C1 = Matrix::Zero(rows.count(), 2 * static_cast<Eigen::Index>(part.nodes.size()));
+  result.C2 = Matrix::Zero(rows.count(), 2 * static_cast<Eigen::Index>(mortar.nodes.size()));
+  Triplets mass;
+  Matrix C1 = result.C1;
+  Matrix C2 = result.C2;
+  for (const Segment& segment : commonRefinement(part.s, mortar.s)) {
+    const Eigen::Vector2i row = rows.at(segment.nonmortar);
+    if (row.maxCoeff() < 0) continue;
+    Eigen::Matrix2d M = Eigen::Matrix2d::Zero();
+    for (size_t k = 0; k < places.size(); ++k) {
+      const double half = (segment.end - segment.begin) / 2;
+      const double s = segment.begin + (1 + places[k]) * half;
+      const Eigen::Vector2d chi = weights[k] * half * rowFunctions(part.s, segment.nonmortar, row, s);
+      const Eigen::Vector2d phi = hats(part.s, segment.nonmortar, s);
+      const Eigen::Vector2d psi = mortarHats(part, mortar, segment, s);
+      const Point n = part.normalAt(segment.nonmortar, s);
+      M += chi * rowFunctions(part.s, segment.nonmortar, row, s).transpose();
+      for (int i = 0; i < 2; ++i)
+        for (int j = 0; row[i] >= 0 && j < 2; ++j) {
+          C1.block<1, 2>(row[i], 2 * (segment.nonmortar + j)) += chi[i] * phi[j] * n.transpose();
+          C2.block<1, 2>(row[i], 2 * (segment.mortar + j)) -= chi[i] * psi[j] * n.transpose();
+        }
+    }
+    scatter(M, row, row, mass);
+  }
+  result.M = assembled(rows.count(), rows.count(), mass);
+  if (rows.count() == 0) return result;
+  if (kind == CouplingKind::interpolation) {
+    interpolate(part, mortar, result);
+    return result;
+  }
+  const Factor factor(result.M);
+  result.C1 = factor.solve(C1);
+  result.C2 = factor.solve(C2);
+  return result;
 }
 
 }  // namespace
 
-Coupling couple(CouplingKind kind, const Trace& nonmortar, const Trace& mortar) {
-  Coupling result;
-  const Overlap overlap = overlapOf(nonmortar, mortar);
-  std::vector<int> row(nonmortar.size(), -1);
-  for (size_t i = 0; i < nonmortar.size(); ++i)
-    if (overlap.length() > 0 && nonmortar[i] >= overlap.begin && nonmortar[i] <= overlap.end) {
-      row[i] = static_cast<int>(result.nodes.size());
-      result.nodes.push_back(static_cast<int>(i));
-    }
-  const auto rows = static_cast<Eigen::Index>(result.nodes.size());
+Coupling couple(CouplingKind kind, const Trace& nonmortar, const Trace& mortar,
+                const std::vector<char>& merged) {
+  const Rows rows(nonmortar, mortar, merged, false);
   const auto columns = static_cast<Eigen::Index>(mortar.size());
+  Coupling result;
+  result.nodes = rows.nodes;
 
-  std::vector<Eigen::Triplet<double>> mass;
-  std::vector<Eigen::Triplet<double>> mixed;
+  Triplets mass;
+  Triplets own;
+  Triplets mixed;
+  bool allHats = true;  // chi = phi
   for (const Segment& segment : commonRefinement(nonmortar, mortar)) {
-    const Eigen::Vector2i rowOf(row[segment.nonmortar], row[segment.nonmortar + 1]);
-    if (rowOf.maxCoeff() < 0) continue;
+    const Eigen::Vector2i row = rows.at(segment.nonmortar);
+    if (row.maxCoeff() < 0) continue;
+    allHats = allHats && row.minCoeff() >= 0;
     // Simpson's rule is exact for products of linear functions.
     const double length = segment.end - segment.begin;
     const double points[] = {segment.begin, segment.begin + length / 2, segment.end};
     const double weights[] = {length / 6, 2 * length / 3, length / 6};
     Eigen::Matrix2d M = Eigen::Matrix2d::Zero();
+    Eigen::Matrix2d N = Eigen::Matrix2d::Zero();
     Eigen::Matrix2d D = Eigen::Matrix2d::Zero();
     for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector2d phi = rowFunctions(nonmortar, segment.nonmortar, rowOf, points[k]);
-      const Eigen::Vector2d psi = hats(mortar, segment.mortar, points[k]);
-      M += weights[k] * phi * phi.transpose();
-      D += weights[k] * phi * psi.transpose();
+      const Eigen::Vector2d chi = rowFunctions(nonmortar, segment.nonmortar, row, points[k]);
+      M += weights[k] * chi * chi.transpose();
+      N += weights[k] * chi * hats(nonmortar, segment.nonmortar, points[k]).transpose();
+      D += weights[k] * chi * hats(mortar, segment.mortar, points[k]).transpose();
     }
-    for (int i = 0; i < 2; ++i)
-      for (int j = 0; j < 2; ++j) {
-        if (rowOf[i] < 0) continue;
-        if (rowOf[j] >= 0) mass.emplace_back(rowOf[i], rowOf[j], M(i, j));
-        mixed.emplace_back(rowOf[i], segment.mortar + j, D(i, j));
-      }
+    scatter(M, row, row, mass);
+    scatter(N, row, {segment.nonmortar, segment.nonmortar + 1}, own);
+    scatter(D, row, {segment.mortar, segment.mortar + 1}, mixed);
   }
-  result.M.resize(rows, rows);
-  result.M.setFromTriplets(mass.begin(), mass.end());
-  result.D.resize(rows, columns);
-  result.D.setFromTriplets(mixed.begin(), mixed.end());
-  if (kind == CouplingKind::interpolation)
-    result.A = interpolate(nonmortar, result.nodes, mortar);
-  else if (rows > 0)
-    result.A = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(result.M).solve(Matrix(result.D));
+  result.M = assembled(rows.count(), rows.count(), mass);
+  result.D = assembled(rows.count(), columns, mixed);
+  result.A = Matrix::Zero(rows.count(), columns);
+  result.B = Matrix::Zero(rows.count(), static_cast<Eigen::Index>(nonmortar.size()));
+  for (size_t i = 0; i < rows.nodes.size(); ++i) result.B(static_cast<Eigen::Index>(i), rows.nodes[i]) = 1;
+  if (rows.count() == 0) return result;
+  if (kind == CouplingKind::interpolation) {
+    for (size_t i = 0; i < rows.nodes.size(); ++i) {
+      const double s = std::clamp(nonmortar[rows.nodes[i]], mortar.front(), mortar.back());
+      const int element = elementAt(mortar, s);
+      result.A.block<1, 2>(static_cast<Eigen::Index>(i), element) = hats(mortar, element, s).transpose();
+    }
+    return result;
+  }
+  const Factor factor(result.M);
+  result.A = factor.solve(Matrix(result.D));
+  if (!allHats) result.B = factor.solve(Matrix(assembled(rows.count(), result.B.cols(), own)));
   return result;
+}
+
+PartCoupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
+                    const std::vector<char>& merged) {
+  if (!part.straight) return coupleCurved(kind, part, mortar, merged);
+  Coupling scalar = couple(kind, part.s, mortar.s, merged);
+  const Point& n = part.normals.front();
+  return {std::move(scalar.nodes), std::move(scalar.M), timesNormal(scalar.B, n), timesNormal(-scalar.A, n)};
 }
 
 }  // namespace mortier

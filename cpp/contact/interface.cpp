@@ -10,110 +10,193 @@
 namespace mortier {
 namespace {
 
-/// Lines straight and bodies touching up to this part of their length.
-constexpr double straightness = 1e-9;
-/// Distances as meshed below this part of the length are rounding.
+/// Bodies whose distance is below this part of the shorter line touch.
 constexpr double touching = 1e-12;
+/// The same where the user wants to be told if they do not; coordinates may have nine digits.
+constexpr double touchingInFile = 1e-9;
+/// The largest penetration as meshed, as a part of the shorter line: far above that of two meshes of one
+/// curve, far below that of bodies in the wrong place.
+constexpr double largestPenetration = 1e-2;
 
-Point direction(const BoundaryLine& line) {
-  return (line.points.back() - line.points.front()).normalized();
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+double lengthOf(const BoundaryLine& line) {
+  double length = 0;
+  for (size_t i = 1; i < line.points.size(); ++i) length += (line.points[i] - line.points[i - 1]).norm();
+  return length;
 }
 
-double length(const BoundaryLine& line) {
-  return (line.points.back() - line.points.front()).norm();
-}
-
-void requireStraight(const BoundaryLine& line, const TriangleMesh& mesh, int label) {
-  const Point t = direction(line);
-  double previous = -1;
-  for (const Point& point : line.points) {
-    const Point x = point - line.points.front();
-    const double s = x.dot(t);
-    if (line.closed || std::abs(x.x() * t.y() - x.y() * t.x()) > straightness * length(line) ||
-        !(s > previous)) {
-      std::ostringstream message;
-      message << mesh.name << ": label " << label << " is bent at (" << point.x() << ", " << point.y()
-              << "), expected a straight contact line";
-      throw InputError(message.str());
+/// A closed nonmortar line that faces an open one begins where it is farthest off.
+std::vector<SmoothPart> partsFacing(const BoundaryLine& line, const BoundaryLine& mortar) {
+  std::vector<SmoothPart> parts = smoothParts(line);
+  if (!parts.front().closed || mortar.closed) return parts;
+  size_t farthest = 0;
+  double distance = -1;
+  for (size_t i = 0; i + 1 < line.points.size(); ++i) {
+    double nearest = INFINITY;
+    for (const Point& x : mortar.points) nearest = std::min(nearest, (x - line.points[i]).squaredNorm());
+    if (nearest > distance) {
+      distance = nearest;
+      farthest = i;
     }
-    previous = s;
   }
+  return smoothParts(begunAt(line, static_cast<int>(farthest)));
 }
 
-Trace abscissae(const BoundaryLine& line, const Point& origin, const Point& tangent) {
-  Trace trace;
-  for (const Point& point : line.points) trace.push_back((point - origin).dot(tangent));
-  return trace;
+/// The smallest angle between outward normals of two lines, in degrees, for a message.
+double angleBetween(const std::vector<SmoothPart>& parts, const BoundaryLine& mortar) {
+  double widest = 0;
+  for (const SmoothPart& part : parts)
+    for (int e = 0; e < part.elements(); ++e)
+      for (size_t j = 1; j < mortar.points.size(); ++j) {
+        const Point d = (mortar.points[j] - mortar.points[j - 1]).normalized();
+        widest = std::max(widest, std::acos(std::clamp(part.direction(e).dot(d), -1.0, 1.0)));
+      }
+  return widest * 180 / M_PI;
 }
 
-/// weights (rows x nodes) times the normal, as rows over the dofs of a mesh.
-ConstraintRows rowsAlong(const Point& normal, const Matrix& weights, const std::vector<int>& nodes,
-                         const TriangleMesh& mesh) {
-  std::vector<Eigen::Triplet<double>> entries;
+/// The ends of the nonmortar line that are merged into their neighbours, as flags by the nodes of the part.
+std::vector<char> mergedNodes(const SmoothPart& part, const FacingLine& mortar, CouplingKind kind,
+                              const InterfaceOptions& options) {
+  std::vector<char> merged(part.nodes.size(), 0);
+  if (!options.nonmortarHeld || part.closed) return merged;
+  const auto held = [&](size_t i) { return options.nonmortarHeld(part.nodes[i], part.normals[i]); };
+  const auto facingHeld = [&](double s, const Point& normal) {
+    const auto above = std::lower_bound(mortar.s.begin(), mortar.s.end(), s);
+    const auto j = std::min<size_t>(above - mortar.s.begin(), mortar.s.size() - 1);
+    const bool onNode = mortar.s[j] == s || j == 0;
+    return options.mortarHeld && options.mortarHeld(mortar.nodes[j], normal) &&
+           (onNode || options.mortarHeld(mortar.nodes[j - 1], normal));
+  };
+  const size_t last = part.nodes.size() - 1;
+  for (const auto& [end, neighbour] : {std::pair<size_t, size_t>{0, 1}, {last, last - 1}})
+    if (held(end) && !held(neighbour))
+      merged[end] = kind == CouplingKind::mortar || facingHeld(part.s[end], part.normals[end]) ? 1 : 0;
+  return merged;
+}
+
+/// Columns 2 node + component to dofs of the mesh.
+void scatter(const Matrix& values, const std::vector<int>& nodes, int firstRow, Triplets& entries) {
   for (size_t j = 0; j < nodes.size(); ++j)
-    for (Eigen::Index i = 0; i < weights.rows(); ++i)
+    for (Eigen::Index i = 0; i < values.rows(); ++i)
       for (int c = 0; c < 2; ++c)
-        if (const double value = weights(i, static_cast<Eigen::Index>(j)) * normal[c]; value != 0)
-          entries.emplace_back(static_cast<int>(i), 2 * nodes[j] + c, value);
-  ConstraintRows C(weights.rows(), 2 * static_cast<Eigen::Index>(mesh.vertices.size()));
-  C.setFromTriplets(entries.begin(), entries.end());
-  return C;
+        if (const double value = values(i, 2 * static_cast<Eigen::Index>(j) + c); value != 0)
+          entries.emplace_back(firstRow + static_cast<int>(i), 2 * nodes[j] + c, value);
 }
 
-double normalComponent(const Vector& u, int node, const Point& n) {
-  return u[2 * node] * n.x() + u[2 * node + 1] * n.y();
+Eigen::SparseMatrix<double> assembled(Eigen::Index rows, Eigen::Index columns, const Triplets& entries) {
+  Eigen::SparseMatrix<double> matrix(rows, columns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+/// Places of vertices by dofs, from `origin`.
+Vector placesOf(const TriangleMesh& mesh, const Point& origin) {
+  Vector x(2 * static_cast<Eigen::Index>(mesh.vertices.size()));
+  for (size_t v = 0; v < mesh.vertices.size(); ++v)
+    x.segment<2>(2 * static_cast<Eigen::Index>(v)) = mesh.vertices[v] - origin;
+  return x;
+}
+
+/// \throws InputError when the distances are not such as the user wants them.
+void requireAllowed(const Vector& distance, InitialGap initial, double shorter, const std::string& names) {
+  const auto refuse = [&](const std::string& what, double by, const std::string& expected) {
+    std::ostringstream message;
+    message << names << what << by << " m as meshed, expected " << expected;
+    throw InputError(message.str());
+  };
+  const double least = distance.minCoeff();
+  if (initial == InitialGap::asMeshed && least < -largestPenetration * shorter) {
+    std::ostringstream expected;
+    expected << "at most " << largestPenetration * shorter
+             << " m (a hundredth of the shorter line); initial = \"close\" would let them touch";
+    refuse(" penetrate each other by ", -least, expected.str());
+  }
+  if (initial != InitialGap::reject) return;
+  const std::string expected = "bodies that touch (initial = \"reject\")";
+  if (least < -touchingInFile * shorter) refuse(" penetrate each other by ", -least, expected);
+  if (distance.maxCoeff() > touchingInFile * shorter)
+    refuse(" are apart by up to ", distance.maxCoeff(), expected);
 }
 
 }  // namespace
 
 ContactInterface::ContactInterface(const ContactPair& pair, const TriangleMesh& nonmortarMesh,
-                                   const TriangleMesh& mortarMesh)
-    : pair_(pair),
-      nonmortarLine_(boundaryLine(nonmortarMesh, pair.nonmortar.label)),
-      mortarLine_(boundaryLine(mortarMesh, pair.mortar.label)) {
-  requireStraight(nonmortarLine_, nonmortarMesh, pair.nonmortar.label);
-  requireStraight(mortarLine_, mortarMesh, pair.mortar.label);
-  const Point tangent = direction(nonmortarLine_);
-  normal_ = {tangent.y(), -tangent.x()};
-  const double angle = direction(mortarLine_).dot(tangent);
+                                   const TriangleMesh& mortarMesh, const InterfaceOptions& options)
+    : pair_(pair) {
+  const BoundaryLine nonmortar = boundaryLine(nonmortarMesh, pair.nonmortar.label);
+  const BoundaryLine mortar = boundaryLine(mortarMesh, pair.mortar.label);
   const std::string names = nonmortarMesh.name + " label " + std::to_string(pair.nonmortar.label) + " and " +
                             mortarMesh.name + " label " + std::to_string(pair.mortar.label);
-  if (!(angle < -1 + straightness)) {
-    std::ostringstream message;
-    message << names << " do not face each other: their outward normals make an angle of "
-            << std::acos(std::clamp(angle, -1.0, 1.0)) * 180 / M_PI << " degrees, expected 180";
-    throw InputError(message.str());
+  const double shorter = std::min(lengthOf(nonmortar), lengthOf(mortar));
+
+  const std::vector<SmoothPart> parts = partsFacing(nonmortar, mortar);
+  std::vector<FacingLine> facing;
+  for (const SmoothPart& part : parts) facing.push_back(facingLine(part, mortar));
+  if (std::all_of(facing.begin(), facing.end(), [](const FacingLine& line) { return line.empty(); })) {
+    if (const double angle = angleBetween(parts, mortar); angle < 120) {
+      std::ostringstream message;
+      message << names << " do not face each other: their outward normals make an angle of " << angle
+              << " degrees, expected 180, or 120 at least";
+      throw InputError(message.str());
+    }
+  } else {
+    assemble(parts, facing, nonmortarMesh, mortarMesh, options);
   }
-  std::reverse(mortarLine_.nodes.begin(), mortarLine_.nodes.end());
-  std::reverse(mortarLine_.points.begin(), mortarLine_.points.end());
-
-  nonmortarTrace_ = abscissae(nonmortarLine_, nonmortarLine_.points.front(), tangent);
-  mortarTrace_ = abscissae(mortarLine_, nonmortarLine_.points.front(), tangent);
-  const double shorter = std::min(length(nonmortarLine_), length(mortarLine_));
-  overlap_ = std::max(0.0, overlapOf(nonmortarTrace_, mortarTrace_).length()) / shorter;
-  coupling_ = couple(pair.coupling, nonmortarTrace_, mortarTrace_);
-  if (coupling_.nodes.empty())
+  if (rows() == 0)
     throw InputError(names + " overlap at no nonmortar node, expected bodies that face each other");
-  for (const int node : coupling_.nodes) nonmortarNodes_.push_back(nonmortarLine_.nodes[node]);
-  mortarNodes_ = mortarLine_.nodes;
-  const auto rows = static_cast<Eigen::Index>(nonmortarNodes_.size());
-  C1_ = rowsAlong(normal_, Matrix::Identity(rows, rows), nonmortarNodes_, nonmortarMesh);
-  C2_ = rowsAlong(normal_, -coupling_.A, mortarNodes_, mortarMesh);
+  overlap_ /= shorter;
+  mortarNodes_ = mortar.nodes;
+  if (mortar.closed) mortarNodes_.pop_back();
 
-  Vector x1(coupling_.nodes.size());
-  for (size_t i = 0; i < coupling_.nodes.size(); ++i)
-    x1[i] = (nonmortarLine_.points[coupling_.nodes[i]] - nonmortarLine_.points.front()).dot(normal_);
-  Vector x2(mortarLine_.points.size());
-  for (size_t j = 0; j < mortarLine_.points.size(); ++j)
-    x2[j] = (mortarLine_.points[j] - nonmortarLine_.points.front()).dot(normal_);
-  distance_ = coupling_.A * x2 - x1;
+  if (options.gap) return;
+  const bool closed = options.initial == InitialGap::close;
   for (double& distance : distance_)
-    if (std::abs(distance) < touching * shorter) distance = 0;
-  if (distance_.minCoeff() < -straightness * shorter) {
-    std::ostringstream message;
-    message << names << " penetrate each other by " << -distance_.minCoeff()
-            << " m as meshed, expected a distance >= 0";
-    throw InputError(message.str());
+    if (closed || std::abs(distance) < touching * shorter) distance = 0;
+  requireAllowed(distance_, options.initial, shorter, names);
+}
+
+void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std::vector<FacingLine>& facing,
+                                const TriangleMesh& nonmortarMesh, const TriangleMesh& mortarMesh,
+                                const InterfaceOptions& options) {
+  Triplets rows1;
+  Triplets rows2;
+  Triplets mass;
+  std::vector<double> given;  // distances, where the user gives them
+  for (size_t k = 0; k < parts.size(); ++k) {
+    if (facing[k].empty()) continue;
+    const SmoothPart& part = parts[k];
+    const PartCoupling coupling =
+        couple(pair_.coupling, part, facing[k], mergedNodes(part, facing[k], pair_.coupling, options));
+    const auto firstRow = static_cast<int>(nonmortarNodes_.size());
+    scatter(coupling.C1, part.nodes, firstRow, rows1);
+    scatter(coupling.C2, facing[k].nodes, firstRow, rows2);
+    for (int j = 0; j < coupling.M.outerSize(); ++j)
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(coupling.M, j); entry; ++entry)
+        mass.emplace_back(firstRow + static_cast<int>(entry.row()), firstRow + j, entry.value());
+    for (const int node : coupling.nodes) {
+      nonmortarNodes_.push_back(part.nodes[node]);
+      normals_.push_back(part.normals[node]);
+      if (options.gap) given.push_back(options.gap(part.points[node]));
+    }
+    overlap_ += std::max(0.0, overlapOf(part.s, facing[k].s).length());
+    penetration_.add(part, facing[k], [&](int element, double s, const Point& across, const Point& normal) {
+      if (options.gap) {
+        const Eigen::Vector2d phi = hats(part.s, element, s);
+        return phi[0] * options.gap(part.points[element]) + phi[1] * options.gap(part.points[element + 1]);
+      }
+      return options.initial == InitialGap::close ? 0.0 : across.dot(normal);
+    });
+  }
+  const auto n = static_cast<Eigen::Index>(nonmortarNodes_.size());
+  C1_ = assembled(n, 2 * static_cast<Eigen::Index>(nonmortarMesh.vertices.size()), rows1);
+  C2_ = assembled(n, 2 * static_cast<Eigen::Index>(mortarMesh.vertices.size()), rows2);
+  mass_ = assembled(n, n, mass);
+  if (options.gap) {
+    distance_ = Eigen::Map<const Vector>(given.data(), n);
+  } else {
+    const Point& origin = parts.front().points.front();
+    distance_ = -(C1_ * placesOf(nonmortarMesh, origin) + C2_ * placesOf(mortarMesh, origin));
   }
 }
 
@@ -127,35 +210,7 @@ void ContactInterface::subtractForces(const Vector& p, Vector& fNonmortar, Vecto
 }
 
 Vector ContactInterface::contactPressure(const Vector& p) const {
-  return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(coupling_.M).solve(p);
-}
-
-double ContactInterface::interpenetration(const Vector& uNonmortar, const Vector& uMortar) const {
-  const auto position = [&](const BoundaryLine& line, int i, const Vector& u) {
-    return (line.points[i] - nonmortarLine_.points.front()).dot(normal_) +
-           normalComponent(u, line.nodes[i], normal_);
-  };
-  double integral = 0;
-  for (const Segment& segment : commonRefinement(nonmortarTrace_, mortarTrace_)) {
-    const auto jump = [&](double s) {
-      const Eigen::Vector2d phi = hats(nonmortarTrace_, segment.nonmortar, s);
-      const Eigen::Vector2d psi = hats(mortarTrace_, segment.mortar, s);
-      double value = 0;
-      for (int i = 0; i < 2; ++i) {
-        value += phi[i] * position(nonmortarLine_, segment.nonmortar + i, uNonmortar);
-        value -= psi[i] * position(mortarLine_, segment.mortar + i, uMortar);
-      }
-      return value;
-    };
-    const double a = jump(segment.begin);
-    const double b = jump(segment.end);
-    const double h = segment.end - segment.begin;
-    if (a >= 0 && b >= 0)
-      integral += h * (a + b) / 2;
-    else if (a > 0 || b > 0)
-      integral += h * std::max(a, b) * std::max(a, b) / (2 * std::abs(a - b));
-  }
-  return integral;
+  return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(mass_).solve(p);
 }
 
 }  // namespace mortier

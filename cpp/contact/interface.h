@@ -1,17 +1,24 @@
 // A contact interface between two meshes, discretised: the rows of C, the gap, and what is measured on
 // Gamma_C.
 //
-//   [C u]_i = (u1_i - sum_j A_ij u2_j) . n,      g = C u - g0 <= 0,   p >= 0,   p g = 0
+//   C u = C1 u1 + C2 u2,      g = C u - g0 <= 0,   p >= 0,   p g = 0
 //
-// i runs over the nonmortar contact nodes, j over the mortar nodes, n is the outward normal of the nonmortar
-// body, A comes from the coupling (interpolation or projection), g0 is the distance of the bodies as meshed.
-// The solver sees two sparse matrices and a vector only: C u = C1 u1 + C2 u2, and g0.
+// One row per nonmortar node that faces the mortar side (one per adjacent part at a corner), along the normal
+// of the nonmortar side: coupling.h. g0 is the distance of the bodies along the normal. The solver sees the
+// two sparse matrices and g0, nothing of geometry.
+//
+// A nonmortar node at an end of Gamma_C whose normal motion is prescribed, while its neighbour's is not, has
+// no row of its own with the mortar coupling: its hat function goes to the neighbour, so that Dirichlet
+// conditions may reach to the end of Gamma_C and there are not more conditions than nodes that can move. With
+// interpolation the row is left out where the mortar side is held there too.
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <functional>
 
 #include "base/types.h"
 #include "contact/coupling.h"
+#include "contact/penetration.h"
 #include "mesh/boundary_line.h"
 
 namespace mortier {
@@ -28,27 +35,45 @@ struct ContactPair {
   CouplingKind coupling = CouplingKind::mortar;
 };
 
+/// What is made of the distance as meshed.
+enum class InitialGap {
+  asMeshed,  ///< it is kept; a penetration of up to a hundredth of the shorter line is a negative distance
+  close,     ///< the bodies touch all along
+  reject     ///< an error, unless they do
+};
+
+struct InterfaceOptions {
+  InitialGap initial = InitialGap::asMeshed;  ///< of no effect where `gap` is given
+  std::function<double(const Point&)> gap =
+      {};  ///< distance at a nonmortar node instead of that as meshed [m]
+  /// Whether the motion of a vertex along a direction is prescribed; none is where empty.
+  std::function<bool(int, const Point&)> nonmortarHeld = {};
+  std::function<bool(int, const Point&)> mortarHeld = {};
+};
+
 /// Rows of C on one body: conditions x dofs (2 vertex + component), without entries that are zero.
 using ConstraintRows = Eigen::SparseMatrix<double>;
 
 class ContactInterface {
  public:
-  /// \throws InputError when a line is not straight, or the lines do not face each other, overlap nowhere or
-  /// penetrate.
-  ContactInterface(const ContactPair& pair, const TriangleMesh& nonmortarMesh,
-                   const TriangleMesh& mortarMesh);
+  /// \throws InputError when the lines do not face each other, overlap nowhere, or are not as far from each
+  /// other as the options allow.
+  ContactInterface(const ContactPair& pair, const TriangleMesh& nonmortarMesh, const TriangleMesh& mortarMesh,
+                   const InterfaceOptions& options = {});
 
   [[nodiscard]] const ContactPair& pair() const { return pair_; }
-  /// Vertex numbers of the nonmortar nodes that carry a condition, along the line; one row of C each.
+  /// Vertex numbers of the nonmortar nodes that carry a condition, along the line; one row of C each. A node
+  /// at a corner comes twice.
   [[nodiscard]] const std::vector<int>& nonmortarNodes() const { return nonmortarNodes_; }
-  /// Vertex numbers of the mortar nodes; one column of coupling().A each.
+  /// Vertex numbers of the nodes of the mortar line.
   [[nodiscard]] const std::vector<int>& mortarNodes() const { return mortarNodes_; }
-  [[nodiscard]] const Coupling& coupling() const { return coupling_; }
-  /// Outward normal of the nonmortar body.
-  [[nodiscard]] const Point& normal() const { return normal_; }
+  /// Outward normal of the nonmortar body at the node of each row.
+  [[nodiscard]] const std::vector<Point>& normals() const { return normals_; }
   [[nodiscard]] const ConstraintRows& C1() const { return C1_; }             ///< on the nonmortar body
   [[nodiscard]] const ConstraintRows& C2() const { return C2_; }             ///< on the mortar body
   [[nodiscard]] const Vector& initialDistance() const { return distance_; }  ///< g0 [m]
+  /// Mass of the row functions, rows x rows [m]: nodal forces are M times the contact pressure.
+  [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
   /// Share of the shorter line that faces the other.
   [[nodiscard]] double overlap() const { return overlap_; }
   [[nodiscard]] int rows() const { return static_cast<int>(distance_.size()); }
@@ -59,24 +84,26 @@ class ContactInterface {
   void subtractForces(const Vector& p, Vector& fNonmortar, Vector& fMortar) const;
   /// M^-1 p: nodal values of the contact pressure [Pa] for nodal forces p [N/m].
   [[nodiscard]] Vector contactPressure(const Vector& p) const;
-  /// Integral over Gamma_C of (u1.n1 + u2.n2 - distance)_+, exact for the piecewise linear traces [m^2].
-  [[nodiscard]] double interpenetration(const Vector& uNonmortar, const Vector& uMortar) const;
+  /// Integral over Gamma_C of ((u1 - u2).n - distance)_+, exact where the nonmortar line is straight [m^2].
+  [[nodiscard]] double interpenetration(const Vector& uNonmortar, const Vector& uMortar) const {
+    return penetration_.of(uNonmortar, uMortar);
+  }
 
  private:
+  void assemble(const std::vector<SmoothPart>& parts, const std::vector<FacingLine>& facing,
+                const TriangleMesh& nonmortarMesh, const TriangleMesh& mortarMesh,
+                const InterfaceOptions& options);
+
   ContactPair pair_;
-  Point normal_;
-  Coupling coupling_;
   std::vector<int> nonmortarNodes_;
   std::vector<int> mortarNodes_;
+  std::vector<Point> normals_;
   ConstraintRows C1_;
   ConstraintRows C2_;
+  Eigen::SparseMatrix<double> mass_;
   Vector distance_;
   double overlap_ = 0;
-  // The whole traces, for integrals over Gamma_C.
-  BoundaryLine nonmortarLine_;
-  BoundaryLine mortarLine_;
-  Trace nonmortarTrace_;
-  Trace mortarTrace_;
+  PenetrationIntegral penetration_;
 };
 
 }  // namespace mortier

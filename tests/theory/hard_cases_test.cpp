@@ -138,14 +138,15 @@ TEST(Unheld, translationAlongTheContactIsNamed) {
               "upper", "translation along (1, 0)");
 }
 
-// One contact node under the right corner; rollers on the bottom leave the rotation about points of it.
+// One contact node under the right corner, its force in the middle of the overlap from 0.9 to 1; rollers on the
+// bottom leave the rotation about that.
 TEST(Unheld, rotationAboutTheOnlyContactNodeIsNamed) {
   Body upper("upper", square(0, 3), elasticMaterial(noteElasticity),
              {{{bottom, 0, constant(0)}}, {{top, 1, constant(-1)}}, {}});
   TriangleMesh below = crissCrossMesh({{0.9, -1}, {1.9, 0}, 4, 4});
   expectNames(unheldMessage(contactModel(std::move(upper), heldBelow(std::move(below)), CouplingKind::mortar,
                                          upperBody)),
-              "upper", "rotation about (1, ");
+              "upper", "rotation about (0.95, ");
 }
 
 TEST(Unheld, bodyWithoutContactIsNamed) {
@@ -159,7 +160,9 @@ TEST(Unheld, bodyWithoutContactIsNamed) {
 // The load turns round at t = 0.3, within a step or at its end, and pulls a block off that only contact holds.
 TEST(Unheld, pullOffEndsAtTheLastEquilibrium) {
   constexpr double balance = 1e-10;
-  const Function load = [](double, double, double t) { return -10 * (1 - t / 0.3); };
+  // A hair later, or rounding decides whether the step that ends there is held.
+  constexpr double turn = 0.3 * (1 + 1e-9);
+  const Function load = [](double, double, double t) { return -10 * (1 - t / turn); };
   for (const bool elastic : {true, false})
     for (const CouplingKind coupling : couplings)
       for (const int steps : {7, 13, 20, 23}) {
@@ -192,7 +195,7 @@ TEST(Unheld, pullOffEndsAtTheLastEquilibrium) {
 // ---- random scenes
 
 /// An elastic scene of two single rows of cells, and its solution by code of its own: dense stiffness, trial
-/// of all active sets. Only the coupling matrix is taken from the model. Supports and loads grow with time to
+/// of all active sets. Only the rows of C are taken from the model. Supports and loads grow with time to
 /// time 1.
 class RandomScene {
  public:
@@ -254,15 +257,9 @@ class RandomScene {
     std::vector<char> fixed(n, 0);
     for (size_t b = 0; b < 2; ++b) assemble(sides_[b], b == 0 ? 0 : n0, K, f, u, fixed);
 
-    // g = C u - g0: the normal points down from the upper body, up from the lower one.
     const bool upper = nonmortar_ == upperBody;
-    const double normal = upper ? -1 : 1;
-    Matrix C = Matrix::Zero(interface.rows(), n);
-    for (int i = 0; i < interface.rows(); ++i) {
-      C(i, (upper ? 0 : n0) + 2 * interface.nonmortarNodes()[i] + 1) = normal;
-      for (size_t j = 0; j < interface.mortarNodes().size(); ++j)
-        C(i, (upper ? n0 : 0) + 2 * interface.mortarNodes()[j] + 1) = -normal * interface.coupling().A(i, j);
-    }
+    Matrix C(interface.rows(), n);
+    C << Matrix(upper ? interface.C1() : interface.C2()), Matrix(upper ? interface.C2() : interface.C1());
 
     std::vector<int> open;
     for (Eigen::Index i = 0; i < n; ++i)
@@ -389,8 +386,8 @@ TEST(RandomScenes, agreeWithTrialOfAllActiveSets) {
     worstForce = std::max(worstForce, force);
     worstDisplacement = std::max(worstDisplacement, displacement);
   }
-  std::cout << count << " random scenes: forces agree to " << worstForce
-            << ", displacements to " << worstDisplacement << "\n";
+  std::cout << count << " random scenes: forces agree to " << worstForce << ", displacements to "
+            << worstDisplacement << "\n";
 }
 
 }  // namespace

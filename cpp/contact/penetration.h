@@ -1,0 +1,39 @@
+// The note's measure of interpenetration, the integral over Gamma_C of ((u1 - u2).n - g0)_+, on the common
+// refinement: the jump is taken as linear between its points, which is exact where the nonmortar line is
+// straight.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "contact/facing_line.h"
+
+namespace mortier {
+
+/// Distance g0 at the nonmortar and the mortar point of one place [m].
+using DistanceAt = std::function<double(int element, double s, const Point& gapVector, const Point& normal)>;
+
+class PenetrationIntegral {
+ public:
+  void add(const SmoothPart& part, const FacingLine& mortar, const DistanceAt& distance);
+  /// Displacements by dofs of the two bodies [m]. \returns [m^2]
+  [[nodiscard]] double of(const Vector& uNonmortar, const Vector& uMortar) const;
+
+ private:
+  /// A point of the common refinement, seen from one of its segments.
+  struct Place {
+    std::array<int, 2> nonmortar, mortar;  ///< vertex numbers of the two elements
+    Eigen::Vector2d phi, psi;              ///< their hat functions there
+    Point normal;
+    double distance = 0;
+    [[nodiscard]] double jump(const Vector& uNonmortar, const Vector& uMortar) const;
+  };
+  struct Stretch {
+    Place begin, end;
+    double length = 0;
+  };
+  std::vector<Stretch> stretches_;
+};
+
+}  // namespace mortier

@@ -1,0 +1,153 @@
+#include "contact/smooth_part.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mortier {
+namespace {
+
+/// A part whose nodes lie on its chord up to this part of its length is straight.
+constexpr double straightness = 1e-9;
+
+double cross(const Point& a, const Point& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Perpendicular to a direction, away from the body on its left.
+Point outward(const Point& t) {
+  return {t.y(), -t.x()};
+}
+
+/// Angle by which the line turns at its nodes, and that angle over the mean length of the elements there.
+/// None at the ends of an open line.
+struct Bends {
+  std::vector<double> turn;
+  std::vector<double> curvature;
+};
+
+Bends bendsOf(const BoundaryLine& line) {
+  const std::vector<Point>& x = line.points;
+  const size_t n = x.size();
+  Bends bends{std::vector<double>(n, 0), std::vector<double>(n, 0)};
+  for (size_t i = line.closed ? 0 : 1; i + 1 < n; ++i) {
+    const Point before = x[i] - x[i == 0 ? n - 2 : i - 1];
+    const Point after = x[i + 1] - x[i];
+    bends.turn[i] = std::abs(std::atan2(cross(before, after), before.dot(after)));
+    bends.curvature[i] = 2 * bends.turn[i] / (before.norm() + after.norm());
+  }
+  if (line.closed) {
+    bends.turn.back() = bends.turn.front();
+    bends.curvature.back() = bends.curvature.front();
+  }
+  return bends;
+}
+
+std::vector<int> cornersOf(const BoundaryLine& line) {
+  constexpr double degree = M_PI / 180;
+  constexpr double always = 60 * degree;
+  constexpr double least = degree;
+  constexpr double ratio = 4;
+  const Bends bends = bendsOf(line);
+  const auto last = static_cast<int>(line.points.size()) - 1;
+  std::vector<int> corners;
+  for (int i = line.closed ? 0 : 1; i < last; ++i) {
+    const double neighbours = std::max(bends.curvature[i == 0 ? last - 1 : i - 1], bends.curvature[i + 1]);
+    if (bends.turn[i] > always || (bends.turn[i] > least && bends.curvature[i] > ratio * neighbours))
+      corners.push_back(i);
+  }
+  return corners;
+}
+
+bool isStraight(const std::vector<Point>& points) {
+  const Point chord = points.back() - points.front();
+  const double length = chord.norm();
+  double previous = -1;
+  for (const Point& point : points) {
+    const Point x = point - points.front();
+    const double along = x.dot(chord) / length;
+    if (!(std::abs(cross(x, chord)) <= straightness * length * length) || !(along > previous)) return false;
+    previous = along;
+  }
+  return true;
+}
+
+void setCurvedNormals(SmoothPart& part) {
+  const int n = part.elements();
+  const auto tangent = [&](int before, int after) {
+    const double h1 = part.s[before + 1] - part.s[before];
+    const double h2 = part.s[after + 1] - part.s[after];
+    return Point((h2 * part.direction(before) + h1 * part.direction(after)).normalized());
+  };
+  part.normals.resize(n + 1);
+  for (int i = 1; i < n; ++i) part.normals[i] = outward(tangent(i - 1, i));
+  if (part.closed) {
+    part.normals.front() = part.normals.back() = outward(tangent(n - 1, 0));
+    return;
+  }
+  const auto reflected = [&](const Point& normal, int element) {
+    const Point e = outward(part.direction(element));
+    return Point((2 * e.dot(normal) * e - normal).normalized());
+  };
+  part.normals.front() = reflected(part.normals[1], 0);
+  part.normals.back() = reflected(part.normals[n - 1], n - 1);
+}
+
+SmoothPart partOf(const BoundaryLine& line, int begin, int end) {
+  SmoothPart part;
+  part.nodes.assign(line.nodes.begin() + begin, line.nodes.begin() + end + 1);
+  part.points.assign(line.points.begin() + begin, line.points.begin() + end + 1);
+  part.closed = part.nodes.front() == part.nodes.back();
+  part.straight = !part.closed && isStraight(part.points);
+  if (part.straight) {
+    const Point t = (part.points.back() - part.points.front()).normalized();
+    for (const Point& point : part.points) part.s.push_back((point - part.points.front()).dot(t));
+    part.normals.assign(part.points.size(), outward(t));
+  } else {
+    part.s.push_back(0);
+    for (size_t i = 1; i < part.points.size(); ++i)
+      part.s.push_back(part.s.back() + (part.points[i] - part.points[i - 1]).norm());
+    setCurvedNormals(part);
+  }
+  return part;
+}
+
+}  // namespace
+
+Point SmoothPart::at(int element, double abscissa) const {
+  const Eigen::Vector2d phi = hats(s, element, abscissa);
+  return phi[0] * points[element] + phi[1] * points[element + 1];
+}
+
+Point SmoothPart::normalAt(int element, double abscissa) const {
+  if (straight) return normals.front();
+  const Eigen::Vector2d phi = hats(s, element, abscissa);
+  return (phi[0] * normals[element] + phi[1] * normals[element + 1]).normalized();
+}
+
+Point SmoothPart::direction(int element) const {
+  return (points[element + 1] - points[element]).normalized();
+}
+
+BoundaryLine begunAt(const BoundaryLine& line, int first) {
+  BoundaryLine result = line;
+  result.nodes.pop_back();
+  result.points.pop_back();
+  std::rotate(result.nodes.begin(), result.nodes.begin() + first, result.nodes.end());
+  std::rotate(result.points.begin(), result.points.begin() + first, result.points.end());
+  result.nodes.push_back(result.nodes.front());
+  result.points.push_back(result.points.front());
+  return result;
+}
+
+std::vector<SmoothPart> smoothParts(const BoundaryLine& line) {
+  std::vector<int> corners = cornersOf(line);
+  if (line.closed && !corners.empty() && corners.front() != 0)
+    return smoothParts(begunAt(line, corners.front()));
+  if (corners.empty() || corners.front() != 0) corners.insert(corners.begin(), 0);
+  corners.push_back(static_cast<int>(line.points.size()) - 1);
+  std::vector<SmoothPart> parts;
+  for (size_t i = 1; i < corners.size(); ++i) parts.push_back(partOf(line, corners[i - 1], corners[i]));
+  return parts;
+}
+
+}  // namespace mortier

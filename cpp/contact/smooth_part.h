@@ -1,0 +1,47 @@
+// The nonmortar line cut at its corners, each part with a continuous field of normals.
+//
+// A part is straight, with the one normal that it has, or it approximates a curve. There the normal at a node
+// is perpendicular to the parabola through it and its two neighbours (t1, t2 the directions of the elements
+// before and after, of lengths h1, h2):
+//
+//   t = (h2 t1 + h1 t2) / (h1 + h2),
+//
+// which is exact on a circle; at an end the neighbour's normal is reflected in that of the element.
+// Between nodes the normal is interpolated linearly and made a unit vector.
+//
+// A node is a corner where the line turns by more than 60 degrees, or by more than one degree with a
+// curvature (turn over length) more than four times that of both neighbours: a curve that a mesh resolves
+// turns about as much at every node, a broken line at few. At a corner two parts meet, and its node gets one
+// condition from each, along the normal of each.
+#pragma once
+
+#include <vector>
+
+#include "contact/segments.h"
+#include "mesh/boundary_line.h"
+
+namespace mortier {
+
+struct SmoothPart {
+  std::vector<int> nodes;      ///< vertex numbers along the line; first and last agree where it is closed
+  std::vector<Point> points;   ///< [m]
+  std::vector<Point> normals;  ///< at the nodes, outward, of length one
+  Trace s;                     ///< arc length from the first node [m]
+  bool straight = false;
+  bool closed = false;
+
+  [[nodiscard]] int elements() const { return static_cast<int>(nodes.size()) - 1; }
+  [[nodiscard]] double length() const { return s.back(); }
+  [[nodiscard]] Point at(int element, double abscissa) const;
+  [[nodiscard]] Point normalAt(int element, double abscissa) const;
+  /// Direction of an element, of length one.
+  [[nodiscard]] Point direction(int element) const;
+};
+
+/// The parts in their order. A closed line without a corner is one closed part.
+std::vector<SmoothPart> smoothParts(const BoundaryLine& line);
+
+/// The same closed line begun at another of its nodes (an index of `line.nodes`).
+BoundaryLine begunAt(const BoundaryLine& line, int first);
+
+}  // namespace mortier
