@@ -167,6 +167,13 @@ int writeFreefem(const FreefemCommand& command) {
         std::to_string(scene.contacts.size()) +
         " contact interfaces, expected two bodies and one interface (all that the FreeFEM method knows)");
   }
+  const ContactDescription& contact = scene.contacts.front();
+  if (!contact.sidesGiven || contact.gap || contact.initial != InitialGap::asMeshed) {
+    throw InputError(
+        contact.where +
+        ": contact: sides, gap or initial, expected nonmortar and mortar at their distance as meshed "
+        "(all that the FreeFEM method knows)");
+  }
   if (scene.time.scheme != Scheme::backwardEuler) {
     throw InputError(scene.path + ": scheme = " + word(scene.time.scheme) +
                      ", expected backward-euler (all that the FreeFEM method knows)");

@@ -77,6 +77,7 @@ RunFacts factsOf(const RunCommand& command, const SceneDescription& scene) {
   std::vector<std::string> nonmortars;
   for (const ContactDescription& contact : scene.contacts) {
     facts.variants.push_back(word(contact.variant));
+    facts.choices.push_back(contact.sidesGiven ? "" : "nonmortar is the finer mesh");
     nonmortars.push_back(contact.nonmortar.body);
   }
   facts.contact = joinedOnce(facts.variants);

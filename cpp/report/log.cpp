@@ -34,11 +34,12 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
   text += "; plane stress\n";
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
-    text +=
-        format("interface  %s, %zu nonmortar (%s) x %zu mortar (%s) nodes, overlap %.3f\n",
-               facts.variants[k].c_str(), interface.nonmortarNodes().size(),
-               model.bodies[interface.pair().nonmortar.body].name().c_str(), interface.mortarNodes().size(),
-               model.bodies[interface.pair().mortar.body].name().c_str(), interface.overlap());
+    const std::string chosen = k < facts.choices.size() ? facts.choices[k] : "";
+    text += format("interface  %s, %zu nonmortar (%s) x %zu mortar (%s) nodes, overlap %.3f%s%s\n",
+                   facts.variants[k].c_str(), interface.nonmortarNodes().size(),
+                   model.bodies[interface.pair().nonmortar.body].name().c_str(),
+                   interface.mortarNodes().size(), model.bodies[interface.pair().mortar.body].name().c_str(),
+                   interface.overlap(), chosen.empty() ? "" : "; ", chosen.c_str());
   }
   return text +
          "  step     time[s]  iter    active(+/-)  |residual|  penetration[m^2]   max p[Pa]  viscoplastic"

@@ -13,9 +13,11 @@ struct RunFacts {
   std::vector<std::string> settings;   ///< --set, as given
   std::vector<std::string> materials;  ///< per body: "elastic" or "Perzyna (frobenius)"
   std::vector<std::string> variants;   ///< per interface: "mortar" or "interpolation"
-  std::string contact;                 ///< all variants, each once; "none" without an interface
-  std::string nonmortar;               ///< names of the nonmortar bodies; "none" without an interface
-  std::string projection;              ///< all projections, each once; "none" where every body is elastic
+  std::vector<std::string>
+      choices;             ///< per interface: why its nonmortar side is that; empty where the scene says it
+  std::string contact;     ///< all variants, each once; "none" without an interface
+  std::string nonmortar;   ///< names of the nonmortar bodies; "none" without an interface
+  std::string projection;  ///< all projections, each once; "none" where every body is elastic
   std::string scheme;
   int plannedSteps = 0;
   int threads = 1;

@@ -282,6 +282,61 @@ void warnOfConditionsOn(const SideDescription& side, bool nonmortar, const Scene
   }
 }
 
+/// Whether the mortar side has the finer mesh along the contact and should be nonmortar. Measured by
+/// bench_nonmortar_side; stiffness does not matter.
+bool mortarIsFiner(const Model& model, const ContactPair& pair) {
+  const auto meanLength = [&](const ContactSide& side) {
+    const TriangleMesh& mesh = model.bodies[side.body].mesh();
+    double length = 0;
+    int edges = 0;
+    for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
+      if (mesh.boundaryLabels[e] == side.label) {
+        const auto [a, b] = mesh.boundaryEdges[e];
+        length += (mesh.vertices[b] - mesh.vertices[a]).norm();
+        ++edges;
+      }
+    }
+    return length / edges;
+  };
+  constexpr double equal = 1e-9;  // then the side named first
+  return meanLength(pair.mortar) < (1 - equal) * meanLength(pair.nonmortar);
+}
+
+void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model,
+                std::vector<std::string>& warnings) {
+  ContactPair pair;
+  pair.coupling = contact.variant;
+  for (const auto& [side, target] :
+       {std::pair(&contact.nonmortar, &pair.nonmortar), std::pair(&contact.mortar, &pair.mortar)}) {
+    *target = {bodyIndex(scene, side->body), side->label};
+    const TriangleMesh& mesh = model.bodies[target->body].mesh();
+    findNumber(mesh.labelNames, side->labelName, "boundaries", mesh, side->where + ": body " + side->body,
+               target->label);
+    requireLabel(mesh, target->label, side->where, side->body);
+  }
+  const bool exchanged = !contact.sidesGiven && mortarIsFiner(model, pair);
+  if (exchanged) {
+    std::swap(pair.nonmortar, pair.mortar);
+  }
+  warnOfConditionsOn(contact.nonmortar, !exchanged, scene, warnings);
+  warnOfConditionsOn(contact.mortar, exchanged, scene, warnings);
+  InterfaceOptions options;
+  options.initial = contact.initial;
+  if (contact.gap) {
+    std::vector<Point> points;
+    for (const int v : verticesOn(model.bodies[pair.nonmortar.body].mesh(), pair.nonmortar.label)) {
+      points.push_back(model.bodies[pair.nonmortar.body].mesh().vertices[v]);
+    }
+    requireFinite(*contact.gap, points, {0});
+    options.gap = [value = contact.gap->value](const Point& x) { return value(x.x(), x.y(), 0); };
+  }
+  try {
+    addInterface(model, pair, options);
+  } catch (const InputError& error) {
+    throw InputError(contact.where + ": contact: " + error.what());
+  }
+}
+
 }  // namespace
 
 Model buildModel(const SceneDescription& scene, std::vector<std::string>& warnings) {
@@ -292,23 +347,7 @@ Model buildModel(const SceneDescription& scene, std::vector<std::string>& warnin
     model.bodies.push_back(buildBody(body, times, warnings));
   }
   for (const ContactDescription& contact : scene.contacts) {
-    ContactPair pair;
-    pair.coupling = contact.variant;
-    for (const auto& [side, target, nonmortar] : {std::tuple(&contact.nonmortar, &pair.nonmortar, true),
-                                                  std::tuple(&contact.mortar, &pair.mortar, false)}) {
-      *target = {bodyIndex(scene, side->body), side->label};
-      const TriangleMesh& mesh = model.bodies[target->body].mesh();
-      findNumber(mesh.labelNames, side->labelName, "boundaries", mesh, side->where + ": body " + side->body,
-                 target->label);
-      requireLabel(mesh, target->label, side->where, side->body);
-      warnOfConditionsOn(*side, nonmortar, scene, warnings);
-    }
-    try {
-      model.interfaces.emplace_back(pair, model.bodies[pair.nonmortar.body].mesh(),
-                                    model.bodies[pair.mortar.body].mesh());
-    } catch (const InputError& error) {
-      throw InputError(contact.where + ": contact: " + error.what());
-    }
+    addContact(scene, contact, model, warnings);
   }
   return model;
 }

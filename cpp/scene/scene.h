@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/coupling.h"
+#include "contact/interface.h"
 #include "material/perzyna.h"
 #include "scene/expression.h"
 #include "time/march.h"
@@ -63,7 +63,10 @@ struct SideDescription {
 struct ContactDescription {
   SideDescription nonmortar;
   SideDescription mortar;
+  bool sidesGiven = true;  ///< otherwise which one is nonmortar is left to the program
   CouplingKind variant = CouplingKind::mortar;
+  InitialGap initial = InitialGap::asMeshed;
+  std::optional<Expression> gap;  ///< in x, y [m]
   std::string where;
 };
 

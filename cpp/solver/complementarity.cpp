@@ -19,8 +19,10 @@ std::vector<int> indices(const std::vector<char>& set) {
 
 class Pivoting {
  public:
-  Pivoting(const ContactProblem& problem, const Vector& slack, const Vector& p0, const Vector& balance)
-      : problem_(problem), slack_(slack), p0_(p0), balance_(balance) {
+  /// \param idle  conditions that stay inactive.
+  Pivoting(const ContactProblem& problem, const std::vector<char>& idle, const Vector& slack,
+           const Vector& p0, const Vector& balance)
+      : problem_(problem), idle_(idle), slack_(slack), p0_(p0), balance_(balance) {
     // The proximal weight against the stiffness that all nodes together give to rigid motions.
     constexpr double proximal = 1e-9;
     if (problem.G.cols() > 0) {
@@ -39,6 +41,7 @@ class Pivoting {
     while (solution.pivots < limit) {
       ++solution.pivots;
       solveOn(indices(solution.active), z0, solution);
+      if (redundant_) return false;
       std::vector<int> wrong = wrongSigns(solution);
       if (wrong.empty()) return true;
       const auto count = static_cast<int>(wrong.size());
@@ -49,6 +52,9 @@ class Pivoting {
     }
     return false;
   }
+
+  /// Whether a matrix that was to be solved with is singular but for rounding.
+  [[nodiscard]] bool redundant() const { return redundant_; }
 
   /// What the proximal term still carries of the balance, against all forces in it.
   [[nodiscard]] double imbalance(const ContactSolution& solution) const {
@@ -69,8 +75,19 @@ class Pivoting {
 
  private:
   [[nodiscard]] Matrix solve(const Matrix& block, const Matrix& right) const {
-    if (problem_.symmetric) return block.llt().solve(right);
-    return block.partialPivLu().solve(right);
+    constexpr double singular = 1e-12;
+    if (problem_.symmetric) {
+      const Eigen::LLT<Matrix> factor(block);
+      const auto pivots = factor.matrixLLT().diagonal().array().square();
+      redundant_ = redundant_ || factor.info() != Eigen::Success ||
+                   !((pivots / block.diagonal().array()).minCoeff() > singular);
+      return factor.solve(right);
+    }
+    const Eigen::PartialPivLU<Matrix> factor(block);
+    const auto pivots = factor.matrixLU().diagonal().cwiseAbs();
+    const Vector sizes = block.colwise().lpNorm<Eigen::Infinity>();
+    redundant_ = redundant_ || !((pivots.array() / sizes.array()).minCoeff() > singular);
+    return factor.solve(right);
   }
 
   /// p = 0 off the active set, s = 0 on it.
@@ -103,9 +120,12 @@ class Pivoting {
     const Vector p = p0_ + solution.change;
     double largest = 0;
     for (Eigen::Index i = 0; i < s.size(); ++i)
-      largest = std::max({largest, std::abs(p[i]), std::abs(p0_[i]), std::abs(slack_[i]) / problem_.W(i, i)});
+      if (idle_[i] == 0)
+        largest =
+            std::max({largest, std::abs(p[i]), std::abs(p0_[i]), std::abs(slack_[i]) / problem_.W(i, i)});
     std::vector<int> wrong;
     for (Eigen::Index i = 0; i < s.size(); ++i) {
+      if (idle_[i] != 0) continue;
       const double value = solution.active[i] != 0 ? p[i] : s[i] / problem_.W(i, i);
       if (!(value >= -rounding * largest)) wrong.push_back(static_cast<int>(i));
     }
@@ -113,31 +133,42 @@ class Pivoting {
   }
 
   const ContactProblem& problem_;
+  const std::vector<char>& idle_;
   const Vector& slack_;
   const Vector& p0_;
   const Vector& balance_;
   double proximal_ = 0;
+  mutable bool redundant_ = false;
 };
+
+/// Conditions that no free motion can change: both sides are held there.
+std::vector<char> idleConditions(const Matrix& W) {
+  constexpr double rounding = 1e-24;  // W is quadratic in the rows of C
+  std::vector<char> idle(W.rows(), 0);
+  const double largest = W.rows() > 0 ? W.diagonal().maxCoeff() : 0;
+  for (Eigen::Index i = 0; i < W.rows(); ++i) idle[i] = W(i, i) > rounding * largest ? 0 : 1;
+  return idle;
+}
 
 }  // namespace
 
-ContactSolution solveContact(const ContactProblem& problem, const Vector& slack, const Vector& p0,
-                             const Vector& balance, std::vector<char> active) {
+namespace {
+
+ContactSolution solveRegular(const ContactProblem& problem, const std::vector<char>& idle,
+                             const Vector& slack, const Vector& p0, const Vector& balance,
+                             const std::vector<char>& active, bool& redundant) {
   constexpr int repetitions = 12;
   constexpr double balanced = 1e-14;
 
   ContactSolution solution;
-  solution.active = std::move(active);
+  solution.active = active;
   solution.rigid = Vector::Zero(problem.G.cols());
-  if (slack.size() == 0) {
-    solution.change = p0;
-    solution.outcome = ContactSolution::Outcome::solved;
-    return solution;
-  }
-  const Pivoting pivoting(problem, slack, p0, balance);
+  const Pivoting pivoting(problem, idle, slack, p0, balance);
   Vector z0 = solution.rigid;
   for (int repetition = 0; repetition < repetitions; ++repetition) {
-    if (!pivoting.run(z0, solution)) return solution;
+    const bool ended = pivoting.run(z0, solution);
+    redundant = pivoting.redundant();
+    if (!ended) return solution;
     if (problem.G.cols() == 0 || pivoting.imbalance(solution) <= balanced) break;
     z0 = solution.rigid;
   }
@@ -148,6 +179,62 @@ ContactSolution solveContact(const ContactProblem& problem, const Vector& slack,
   else
     solution.outcome = ContactSolution::Outcome::solved;
   return solution;
+}
+
+/// Conditions that say the same twice leave the forces undetermined and W singular: a proximal term on dp
+/// makes it regular, repeated until it no longer acts.
+ContactSolution solveRedundant(const ContactProblem& problem, const std::vector<char>& idle,
+                               const Vector& slack, const Vector& p0, const Vector& balance,
+                               const std::vector<char>& active) {
+  constexpr int repetitions = 12;
+  constexpr double weight = 1e-9;
+  constexpr double done = 1e-15;
+  ContactProblem regular = problem;
+  const Vector term = weight * problem.W.diagonal();
+  regular.W.diagonal() += term;
+  ContactSolution solution;
+  solution.active = active;
+  Vector before = Vector::Zero(slack.size());
+  int pivots = 0;
+  for (int repetition = 0; repetition < repetitions; ++repetition) {
+    bool redundant = false;
+    solution = solveRegular(regular, idle, slack - term.cwiseProduct(before), p0, balance, solution.active,
+                            redundant);
+    pivots += solution.pivots;
+    solution.pivots = pivots;
+    if (solution.outcome != ContactSolution::Outcome::solved) break;
+    const double left = term.cwiseProduct(solution.change - before).cwiseAbs().maxCoeff();
+    const double scale =
+        problem.W.diagonal().cwiseProduct(p0.cwiseAbs() + solution.change.cwiseAbs()).maxCoeff();
+    if (left <= done * scale) break;
+    before = solution.change;
+  }
+  return solution;
+}
+
+}  // namespace
+
+ContactSolution solveContact(const ContactProblem& problem, const Vector& slack, const Vector& p0,
+                             const Vector& balance, std::vector<char> active) {
+  if (slack.size() == 0) {
+    ContactSolution solution;
+    solution.change = p0;
+    solution.rigid = Vector::Zero(problem.G.cols());
+    solution.outcome = ContactSolution::Outcome::solved;
+    return solution;
+  }
+  const std::vector<char> idle = idleConditions(problem.W);
+  for (size_t i = 0; i < idle.size(); ++i)
+    if (idle[i] != 0) active[i] = 0;
+  bool redundant = std::count(idle.begin(), idle.end(), 1) > 0 && problem.G.cols() > 0;
+  if (!redundant) {
+    ContactSolution solution = solveRegular(problem, idle, slack, p0, balance, active, redundant);
+    if (!redundant) return solution;
+  }
+  ContactProblem regular = problem;
+  for (size_t i = 0; i < idle.size(); ++i)
+    if (idle[i] != 0) regular.W(i, i) = problem.W.diagonal().maxCoeff();
+  return solveRedundant(regular, idle, slack, p0, balance, active);
 }
 
 }  // namespace mortier

@@ -13,7 +13,7 @@
 namespace mortier {
 
 struct ContactProblem {
-  Matrix W;               ///< rows x rows, W_ii > 0
+  Matrix W;               ///< rows x rows; W_ii = 0 where no free motion changes a condition
   bool symmetric = true;  ///< whether W is
   Matrix G;               ///< rows x rigid motions, none where all bodies are supported
 };
@@ -34,7 +34,8 @@ struct ContactSolution {
 /// Principal pivoting: all wrong signs change sides at once; when that stops helping, one at a time by the
 /// least index, which ends after finitely many steps for every P-matrix, symmetric or not (Murty 1974; Judice
 /// and Pires 1994). The balance is held by a proximal term on z, small enough that one or two repetitions
-/// make it exact (Rockafellar 1976). \param active  the set to begin with.
+/// make it exact (Rockafellar 1976). Conditions with W_ii = 0 stay inactive; where conditions depend on each other
+/// the same kind of term on dp picks one of the solutions. \param active  the set to begin with.
 ContactSolution solveContact(const ContactProblem& problem, const Vector& slack, const Vector& p0,
                              const Vector& balance, std::vector<char> active);
 

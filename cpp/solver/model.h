@@ -13,6 +13,10 @@ struct Model {
   std::vector<ContactInterface> interfaces;
 };
 
+/// Adds an interface between bodies of the model; which nodes their supports hold is taken from them.
+/// \throws InputError
+void addInterface(Model& model, const ContactPair& pair, InterfaceOptions options = {});
+
 enum class LinearEngine {
   multifrontal,  ///< our own, SuiteSparse where it fails
   suitesparse    ///< CHOLMOD or UMFPACK only

@@ -45,8 +45,7 @@ inline Model contactModel(Body upper, Body lower, CouplingKind coupling, int non
   const ContactSide lowerSide{lowerBody, top};
   const bool first = nonmortarBody == upperBody;
   const ContactPair pair{first ? upperSide : lowerSide, first ? lowerSide : upperSide, coupling};
-  model.interfaces.emplace_back(pair, model.bodies[pair.nonmortar.body].mesh(),
-                                model.bodies[pair.mortar.body].mesh());
+  addInterface(model, pair);
   return model;
 }
 

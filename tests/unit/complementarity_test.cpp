@@ -197,6 +197,37 @@ TEST(Complementarity, unitsOfPowersOfFourChangeNoBit) {
   }
 }
 
+// W = B B' of a rank below the number of conditions, some of which no motion changes: the gaps are those of the
+// problem in the motions, whatever the forces.
+TEST(Complementarity, dependentConditionsAreSolved) {
+  constexpr double tolerance = 1e-12;
+  Randoms random(11);
+  for (const bool symmetric : {true, false})
+    for (int trial = 0; trial < 200; ++trial) {
+      const int n = 4 + trial % 9;
+      const int rank = 1 + trial % (n - 2);
+      Matrix B = random.matrix(n, rank);
+      B.row(1) = B.row(0);
+      B.row(n - 1).setZero();
+      // s0 = c - B u of motions within reach of the conditions that no motion changes
+      const Vector c = random.vector(n).cwiseAbs().cwiseMax(n > 5 ? 0 : 0.1);
+      const Vector u = 3 * random.vector(rank);
+      Case problem{{B * B.transpose(), symmetric, Matrix(n, 0)}, c - B * u, Vector::Zero(n), Vector(0)};
+      const ContactSolution solution = solve(problem, std::vector<char>(n, trial % 2 == 0 ? 1 : 0));
+      ASSERT_EQ(solution.outcome, Outcome::solved) << trial;
+      const Vector p = problem.p0 + solution.change;
+      const Vector s = problem.slack + problem.problem.W * solution.change;
+      const double size =
+          problem.problem.W.cwiseAbs().maxCoeff() * p.maxCoeff() + problem.slack.cwiseAbs().maxCoeff();
+      EXPECT_EQ(p[n - 1], 0);
+      EXPECT_GE(p.minCoeff(), -tolerance * (1 + p.maxCoeff()));
+      for (int i = 0; i + 1 < n; ++i) {
+        EXPECT_GE(s[i], -tolerance * size) << trial;
+        EXPECT_LE(std::abs(p[i] * s[i]), tolerance * size * (1 + p.maxCoeff())) << trial;
+      }
+    }
+}
+
 TEST(Complementarity, nothingToSolveIsSolved) {
   EXPECT_EQ(solveContact({Matrix(0, 0), true, Matrix(0, 0)}, Vector(0), Vector(0), Vector(0), {}).outcome,
             Outcome::solved);

@@ -111,6 +111,39 @@ TEST_F(SceneFiles, buildsTheModel) {
   EXPECT_TRUE(warnings.empty());
 }
 
+// The upper mesh is the coarser one.
+TEST_F(SceneFiles, sidesInAnyOrderAndInitialDistances) {
+  std::vector<std::string> warnings;
+  const auto model = [&](const std::string& contact) {
+    const std::string text = twoBlocks;
+    const size_t begin = text.find("nonmortar");
+    const size_t end = text.find("[time]");
+    write(text.substr(0, begin) + contact + "\n" + text.substr(end));
+    return buildModel(readScene(path()), warnings);
+  };
+  const std::string upper = "{ body = \"upper\", label = 1 }";
+  const std::string lower = "{ body = \"lower\", label = 3 }";
+  for (const std::string& sides : {upper + ", " + lower, lower + ", " + upper})
+    EXPECT_EQ(model("sides = [" + sides + "]").interfaces[0].pair().nonmortar.body, 1);
+  const std::string both = "nonmortar = " + upper + "\nmortar = " + lower + "\n";
+  const ContactInterface given = model(both + "gap = \"0.25*x^2\"").interfaces[0];
+  EXPECT_LE((given.initialDistance() - Vector{{0, 0.0625, 0.25}}).cwiseAbs().maxCoeff(), 1e-16);
+  EXPECT_EQ(model(both + "initial = \"close\"").interfaces[0].initialDistance().cwiseAbs().maxCoeff(), 0);
+  const auto refused = [&](const std::string& contact) -> std::string {
+    try {
+      static_cast<void>(model(contact));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_NE(refused(both + "sides = [" + upper + ", " + lower + "]").find("beside sides"), std::string::npos);
+  EXPECT_NE(refused("sides = [" + upper + "]").find("expected two tables"), std::string::npos);
+  EXPECT_NE(refused(both + "gap = 1\ninitial = \"close\"").find("gap beside initial"), std::string::npos);
+  EXPECT_NE(refused(both + "gap = \"1/x\"").find("gap = "), std::string::npos);
+  EXPECT_NE(refused(both + "initial = \"open\"").find("as-meshed, close, reject"), std::string::npos);
+}
+
 TEST_F(SceneFiles, overridesByNameByLabelByIndexAndForAll) {
   const SceneDescription scene =
       readScene(path(), {"time.steps=5", "contact.variant=interpolation", "body.upper.boundary.3.ty=-7",

@@ -1,0 +1,26 @@
+#include "solver/model.h"
+
+#include <cmath>
+
+namespace mortier {
+namespace {
+
+/// Whether the supports of a body leave no more than rounding of a direction at a node.
+bool holds(const Body& body, int node, const Point& direction) {
+  constexpr double rounding = 1e-9;
+  for (const auto& [equation, value] : body.parts(node, direction))
+    if (equation >= 0 && std::abs(value) > rounding) return false;
+  return true;
+}
+
+}  // namespace
+
+void addInterface(Model& model, const ContactPair& pair, InterfaceOptions options) {
+  const Body& nonmortar = model.bodies[pair.nonmortar.body];
+  const Body& mortar = model.bodies[pair.mortar.body];
+  options.nonmortarHeld = [&](int node, const Point& n) { return holds(nonmortar, node, n); };
+  options.mortarHeld = [&](int node, const Point& n) { return holds(mortar, node, n); };
+  model.interfaces.emplace_back(pair, nonmortar.mesh(), mortar.mesh(), options);
+}
+
+}  // namespace mortier

@@ -1,0 +1,104 @@
+// The contact of two half planes with an exact solution and a known end of contact.
+#pragma once
+
+#include <complex>
+
+#include "theory/scenes.h"
+
+namespace mortier::scenes {
+
+/// s : E^-1 s
+inline double complementaryEnergy(const Eigen::Vector3d& s, const Elasticity& elasticity) {
+  return (s.array().square() / elasticity.moduli()).sum();
+}
+
+/// A half plane y > 0 in contact with its mirror image for x > 0 under the pressure A sqrt(x), open for x <
+/// 0: with z = x + i y, Z = -A sqrt(z), Zh = -(2 A/3) z^(3/2), kappa = (3 - nu)/(1 + nu) in plane stress,
+///   2 mu u_x = (kappa - 1)/2 Re Zh - y Im Z,   2 mu u_y = (kappa + 1)/2 Im Zh - y Re Z,
+///   s_xx = Re Z - y Im Z',   s_yy = Re Z + y Im Z',   s_xy = -y Re Z'.
+class HalfOpenContact {
+ public:
+  HalfOpenContact(const Elasticity& elasticity, bool mirrored)
+      : elasticity_(elasticity), mirrored_(mirrored) {}
+
+  [[nodiscard]] Point displacement(double x, double y) const {
+    const double mu = elasticity_.young / (2 * (1 + elasticity_.poisson));
+    const double kappa = (3 - elasticity_.poisson) / (1 + elasticity_.poisson);
+    const double above = mirrored_ ? -y : y;
+    const Complex z(x, above);
+    const Complex Z = -std::sqrt(z);
+    const Complex Zh = 2.0 / 3 * z * Z;
+    const double ux = ((kappa - 1) / 2 * Zh.real() - above * Z.imag()) / (2 * mu);
+    const double uy = ((kappa + 1) / 2 * Zh.imag() - above * Z.real()) / (2 * mu);
+    return {ux, mirrored_ ? -uy : uy};
+  }
+
+  /// (s11, s22, s12)
+  [[nodiscard]] Eigen::Vector3d stress(double x, double y) const {
+    const double above = mirrored_ ? -y : y;
+    const Complex z(x, above);
+    const Complex Z = -std::sqrt(z);
+    const Complex slope = Z / (2.0 * z);
+    const double shear = -above * slope.real();
+    return {Z.real() - above * slope.imag(), Z.real() + above * slope.imag(), mirrored_ ? -shear : shear};
+  }
+
+  /// The part of it that is modelled, [-0.9, 1.1] x [0, 1], loaded in proportion to time.
+  [[nodiscard]] Body body(int cells) const {
+    const double lower = mirrored_ ? -1 : 0;
+    const auto self = *this;
+    const auto traction = [self](int component, double sign) {
+      return [self, component, sign](double x, double y, double t) {
+        return sign * t * self.stress(x, y)[component];
+      };
+    };
+    const auto displacement = [self](int component) {
+      return
+          [self, component](double x, double y, double t) { return t * self.displacement(x, y)[component]; };
+    };
+    const int held = mirrored_ ? bottom : top;
+    return {
+        mirrored_ ? "lower" : "upper",
+        crissCrossMesh(
+            {.lower = {-0.9, lower}, .upper = {1.1, lower + 1}, .cellsX = cells, .cellsY = (cells + 1) / 2}),
+        elasticMaterial(elasticity_),
+        {{{held, 0, displacement(0)}, {held, 1, displacement(1)}},
+         {{right, 0, traction(0, 1)},
+          {right, 1, traction(2, 1)},
+          {left, 0, traction(0, -1)},
+          {left, 1, traction(2, -1)}},
+         {}}};
+  }
+
+  /// Energy of the stress error and of the exact stress, by four times four midpoint triangles with the three
+  /// edge midpoints of each: far finer than the error that is measured.
+  void addEnergies(const Body& body, const Matrix& stress, double& error, double& norm) const {
+    constexpr int cuts = 4;
+    for (int i = 0; i < body.points(); ++i) {
+      const auto& t = body.mesh().triangles[i];
+      const Point& a = body.mesh().vertices[t[0]];
+      const Point u = (body.mesh().vertices[t[1]] - a) / cuts;
+      const Point v = (body.mesh().vertices[t[2]] - a) / cuts;
+      const double weight = body.weights()[i] / (cuts * cuts);
+      const auto add = [&](double s, double r) {
+        const Point x = a + s * u + r * v;
+        const Eigen::Vector3d exact = fromCartesian(this->stress(x.x(), x.y()));
+        error += weight * complementaryEnergy(stress.col(i) - exact, elasticity_);
+        norm += weight * complementaryEnergy(exact, elasticity_);
+      };
+      // Centroids of the pieces.
+      for (int j = 0; j < cuts; ++j)
+        for (int k = 0; j + k < cuts; ++k) {
+          add(j + 1.0 / 3, k + 1.0 / 3);
+          if (j + k + 1 < cuts) add(j + 2.0 / 3, k + 2.0 / 3);
+        }
+    }
+  }
+
+ private:
+  using Complex = std::complex<double>;
+  Elasticity elasticity_;
+  bool mirrored_;
+};
+
+}  // namespace mortier::scenes

@@ -1,0 +1,317 @@
+// The patch test where Gamma_C is no horizontal line, and the cases where conditions meet.
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <numbers>
+#include <random>
+
+#include "theory/scenes.h"
+
+namespace mortier {
+namespace {
+
+using namespace scenes;
+
+using Map = std::function<Point(const Point&)>;
+
+constexpr double pi = std::numbers::pi;
+constexpr Elasticity elasticity{1000, 0.3};
+constexpr double pressure = 10;
+constexpr double stressTolerance = 1e-10;  // of the pressure
+constexpr CouplingKind mortar = CouplingKind::mortar;
+
+TriangleMesh mapped(int cells, double lower, const Map& map) {
+  TriangleMesh mesh =
+      crissCrossMesh({.lower = {0, lower}, .upper = {1, lower + 1}, .cellsX = cells, .cellsY = cells});
+  for (Point& x : mesh.vertices) x = map(x);
+  validate(mesh);
+  return mesh;
+}
+
+/// What holds and loads the sides that are not in contact.
+enum class Sides { pressed, held };
+
+/// A body under hydrostatic pressure, u = strain (x, y) on `supports`. No shear acts on any line, so the state
+/// is one of frictionless contact whatever Gamma_C looks like.
+Body hydrostatic(const std::string& name, TriangleMesh mesh, const std::vector<int>& held,
+                 const std::vector<int>& pressed) {
+  const double strain = -pressure * (1 - elasticity.poisson) / elasticity.young;
+  Conditions conditions;
+  for (const int label : held)
+    for (const int c : {0, 1})
+      conditions.displacements.push_back(
+          {label, c, [=](double x, double y, double t) { return t * strain * (c == 0 ? x : y); }});
+  for (const int label : pressed)
+    conditions.tractions.push_back(
+        {label, alongNormal, [](double, double, double t) { return -pressure * t; }});
+  return {name, std::move(mesh), elasticMaterial(elasticity), std::move(conditions)};
+}
+
+/// Bodies on each other from the top down, each contact between the bottom of one and the top of the next.
+Model stack(const std::vector<int>& cells, const Map& map, CouplingKind coupling, bool upperNonmortar,
+            Sides sides) {
+  Model model;
+  for (size_t b = 0; b < cells.size(); ++b) {
+    std::vector<int> held;
+    std::vector<int> pressed;
+    (sides == Sides::held ? held : pressed) = {left, right};
+    // Nothing else keeps a body between two others from sliding.
+    if (b > 0 && b + 1 < cells.size()) held.push_back(left);
+    if (b == 0) held.push_back(top);
+    if (b + 1 == cells.size()) held.push_back(bottom);
+    model.bodies.push_back(hydrostatic("body" + std::to_string(b),
+                                       mapped(cells[b], -static_cast<double>(b), map), held, pressed));
+  }
+  for (size_t b = 1; b < cells.size(); ++b) {
+    const ContactSide above{static_cast<int>(b) - 1, bottom};
+    const ContactSide below{static_cast<int>(b), top};
+    addInterface(model, {upperNonmortar ? above : below, upperNonmortar ? below : above, coupling});
+  }
+  return model;
+}
+
+double patchError(const Model& model, const State& state) {
+  const Eigen::Vector3d exact = fromCartesian({-pressure, -pressure, 0});
+  double worst = 0;
+  for (size_t b = 0; b < model.bodies.size(); ++b)
+    worst = std::max(worst, (state.bodies[b].stress.colwise() - exact).cwiseAbs().maxCoeff() / pressure);
+  return worst;
+}
+
+/// The largest resultant and moment of the contact forces on all bodies, over their sum.
+double imbalance(const Model& model, const State& state) {
+  double worst = 0;
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    const ContactInterface& interface = model.interfaces[k];
+    Point force = Point::Zero();
+    double moment = 0;
+    std::vector<Vector> f;
+    const std::array<int, 2> bodies{interface.pair().nonmortar.body, interface.pair().mortar.body};
+    for (const int b : bodies) f.push_back(Vector::Zero(model.bodies[b].dofs()));
+    interface.subtractForces(state.contactForce[k], f[0], f[1]);
+    for (size_t side = 0; side < 2; ++side)
+      for (int v = 0; v < model.bodies[bodies[side]].nodes(); ++v) {
+        const Point& x = model.bodies[bodies[side]].mesh().vertices[v];
+        force += f[side].segment<2>(2 * v);
+        moment += x.x() * f[side][2 * v + 1] - x.y() * f[side][2 * v];
+      }
+    worst = std::max({worst, force.norm(), std::abs(moment)});
+    worst /= state.contactForce[k].cwiseAbs().sum();
+  }
+  return worst;
+}
+
+Map turned(double angle, const Map& map = [](const Point& x) { return x; }) {
+  const Eigen::Matrix2d rotation{{std::cos(angle), -std::sin(angle)}, {std::sin(angle), std::cos(angle)}};
+  return [=](const Point& x) { return Point(rotation * map(x)); };
+}
+
+void expectPatch(const Model& model, double& worst) {
+  const auto [state, report] = run(model, 1, 1);
+  ASSERT_EQ(report.status, Status::converged) << report.reason;
+  EXPECT_EQ(report.iterations, 1);
+  const double error = patchError(model, state);
+  EXPECT_LE(error, stressTolerance);
+  EXPECT_LE(imbalance(model, state), 1e-12);
+  worst = std::max(worst, error);
+}
+
+TEST(InterfacePatch, slopedLine) {
+  double worst = 0;
+  for (int degrees = 0; degrees < 90; ++degrees)
+    for (const bool upperNonmortar : {true, false})
+      for (const Sides sides : {Sides::pressed, Sides::held})
+        expectPatch(stack({4, 7}, turned(degrees * pi / 180), mortar, upperNonmortar, sides), worst);
+  std::cout << "sloped by 0 to 89 degrees: stress error at most " << worst << "\n";
+}
+
+// Corners at nodes of both meshes.
+TEST(InterfacePatch, brokenLine) {
+  double worst = 0;
+  for (const double slope : {-1.5, -0.5, 0.1, 0.5, 1.5})
+    for (const bool upperNonmortar : {true, false})
+      for (const Sides sides : {Sides::pressed, Sides::held})
+        for (const double angle : {0.0, 1.0}) {
+          const Map roof = [=](const Point& x) {
+            return Point(x.x(), x.y() + slope * std::abs(x.x() - 0.5));
+          };
+          expectPatch(stack({4, 6}, turned(angle, roof), mortar, upperNonmortar, sides), worst);
+          const Map steps = [=](const Point& x) {
+            return Point(x.x(), x.y() + slope * std::clamp(x.x() - 0.25, 0.0, 0.5));
+          };
+          expectPatch(stack({8, 12}, turned(angle, steps), mortar, upperNonmortar, sides), worst);
+        }
+  std::cout << "broken lines: stress error at most " << worst << "\n";
+}
+
+TEST(InterfacePatch, threeBodiesTurnedAtRandom) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> angle(0, 2 * pi);
+  double worst = 0;
+  for (int trial = 0; trial < 20; ++trial)
+    for (const bool upperNonmortar : {true, false})
+      for (const Sides sides : {Sides::pressed, Sides::held})
+        expectPatch(stack({4, 7, 3}, turned(angle(random)), mortar, upperNonmortar, sides), worst);
+  std::cout << "three bodies, turned at random: stress error at most " << worst << "\n";
+}
+
+/// A block pressed on an arc: all of contact, parting and curvature, nothing uniform.
+Model bow(const Map& motion, CouplingKind coupling, bool upperNonmortar) {
+  // The upper arc is a little flatter than the lower one.
+  const auto place = [&](const Point& x, bool upper) {
+    const double phi = 1.2 * (x.x() - 0.5);
+    const double r = 2 + x.y() + (upper ? 0.2 * (x.x() - 0.5) * (x.x() - 0.5) : 0);
+    return motion({r * std::sin(phi), r * std::cos(phi)});
+  };
+  const Point down = motion({0.2, -1}) - motion({0, 0});
+  Model model;
+  const auto body = [&](const std::string& name, int cells, double lower, int label, double by) {
+    Conditions conditions;
+    for (const int c : {0, 1})
+      conditions.displacements.push_back(
+          {label, c, [=](double, double, double t) { return t * by * down[c]; }});
+    TriangleMesh mesh =
+        crissCrossMesh({.lower = {0, lower}, .upper = {1, lower + 1}, .cellsX = cells, .cellsY = cells});
+    for (Point& x : mesh.vertices) x = place(x, lower == 0);
+    // Mirrored triangles run the other way round.
+    for (size_t t = 0; t < mesh.triangles.size(); ++t)
+      if (doubleArea(mesh, static_cast<int>(t)) < 0) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+    for (auto& edge : mesh.boundaryEdges) std::sort(edge.begin(), edge.end());
+    validate(mesh);
+    model.bodies.emplace_back(name, std::move(mesh), elasticMaterial(elasticity), std::move(conditions));
+  };
+  body("upper", 9, 0, top, 0.05);
+  body("lower", 14, -1, bottom, 0);
+  const ContactSide above{0, bottom};
+  const ContactSide below{1, top};
+  addInterface(model, {upperNonmortar ? above : below, upperNonmortar ? below : above, coupling});
+  return model;
+}
+
+TEST(InterfacePatch, turningAndMirroringChangeNoInvariant) {
+  constexpr double tolerance = 1e-10;
+  constexpr double balance = 1e-12;
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> angle(0, 2 * pi);
+  double worst = 0;
+  for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::interpolation})
+    for (const bool upperNonmortar : {true, false}) {
+      const Model first = bow(turned(0), coupling, upperNonmortar);
+      const auto [state, report] = run(first, 1, 1);
+      ASSERT_EQ(report.status, Status::converged) << report.reason;
+      EXPECT_LE(imbalance(first, state), balance);
+      int open = 0;
+      for (const double p : state.contactForce[0]) open += p == 0 ? 1 : 0;
+      EXPECT_GT(open, 0);
+      EXPECT_LT(open, first.interfaces[0].rows());
+      for (int trial = 0; trial < 6; ++trial) {
+        const bool mirrored = trial % 2 == 1;
+        const Map mirror = [=](const Point& x) { return mirrored ? Point(-x.x(), x.y()) : x; };
+        const Model second = bow(turned(angle(random), mirror), coupling, upperNonmortar);
+        const auto [again, other] = run(second, 1, 1);
+        ASSERT_EQ(other.status, Status::converged) << other.reason;
+        Vector p = state.contactForce[0];
+        if (mirrored) p.reverseInPlace();
+        worst = std::max(worst, (again.contactForce[0] - p).cwiseAbs().maxCoeff() / p.maxCoeff());
+        const double largest = vonMisesRange(state).max;
+        for (size_t b = 0; b < 2; ++b)
+          for (int i = 0; i < first.bodies[b].points(); ++i)
+            worst = std::max(worst, std::abs(vonMises(again.bodies[b].stress.col(i)) -
+                                             vonMises(state.bodies[b].stress.col(i))) /
+                                        largest);
+      }
+    }
+  EXPECT_LE(worst, tolerance);
+  std::cout << "turned and mirrored: von Mises stress and contact forces change by at most " << worst << "\n";
+}
+
+/// Everything that a run certifies.
+void expectSolved(const Model& model, const std::string& what) {
+  SCOPED_TRACE(what);
+  State state = initialState(model);
+  Certificate worst;
+  const RunReport report =
+      march(model, state, {.end = 1, .steps = 2}, {}, [&](const State&, const StepReport& step) {
+        worst.forceBalance = std::max(worst.forceBalance, step.certificate.forceBalance);
+        worst.complementarity = std::max(worst.complementarity, step.certificate.complementarity);
+        worst.gapOnActive = std::max(worst.gapOnActive, step.certificate.gapOnActive);
+        worst.sign = std::max(worst.sign, step.certificate.sign);
+      });
+  EXPECT_EQ(report.status, Status::converged) << report.reason;
+  EXPECT_LE(worst.forceBalance, 1e-10);
+  EXPECT_LE(worst.complementarity, 1e-12);
+  EXPECT_LE(worst.gapOnActive, 1e-12);
+  EXPECT_LE(worst.sign, 1e-12);
+  EXPECT_LE(imbalance(model, state), 1e-12);
+}
+
+// Gamma_C between sides that are held on both bodies, meshes that match and meshes that do not.
+TEST(ConditionsMeet, heldToTheEndOfTheContact) {
+  double worst = 0;
+  for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::interpolation})
+    for (const bool upperNonmortar : {true, false})
+      for (const int cells : {3, 5, 12}) {
+        const Model model = stack({5, cells}, turned(0), coupling, upperNonmortar, Sides::held);
+        expectSolved(model, std::to_string(cells));
+        if (coupling == mortar || cells == 5) expectPatch(model, worst);
+      }
+}
+
+// Conditions that depend on each other: a rigid nonmortar line finer than the mortar one, and an interface that
+// is given twice.
+TEST(ConditionsMeet, redundantConditions) {
+  for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::interpolation}) {
+    const Function down = [](double, double, double t) { return -0.01 * t; };
+    Model rigid;
+    rigid.bodies.emplace_back("tool", square(0, 12), elasticMaterial(elasticity),
+                              Conditions{{{bottom, 0, constant(0)}, {bottom, 1, down}}, {}, {}});
+    rigid.bodies.emplace_back("block", square(-1, 4), elasticMaterial(elasticity),
+                              Conditions{{{bottom, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}});
+    addInterface(rigid, {{0, bottom}, {1, top}, coupling});
+    expectSolved(rigid, "rigid tool");
+
+    for (const int cells : {4, 7}) {
+      Model twice = stack({4, cells}, turned(0.3), coupling, true, Sides::pressed);
+      addInterface(twice, {{1, top}, {0, bottom}, coupling});
+      expectSolved(twice, "given twice");
+      twice = stack({4, cells}, turned(0.3), coupling, true, Sides::pressed);
+      addInterface(twice, twice.interfaces[0].pair());
+      expectSolved(twice, "given twice the same way");
+    }
+  }
+}
+
+/// Two blocks side by side below one: the interfaces share the node in the middle. With a kink they meet at a
+/// corner.
+TEST(ConditionsMeet, interfacesThatShareANode) {
+  constexpr int middle = 7;
+  for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::interpolation})
+    for (const double slope : {0.0, 0.4, -0.4})
+      for (const bool upperNonmortar : {true, false}) {
+        const Map roof = [=](const Point& x) { return Point(x.x(), x.y() + slope * std::abs(x.x() - 0.5)); };
+        TriangleMesh upper = mapped(4, 0, roof);
+        for (size_t e = 0; e < upper.boundaryEdges.size(); ++e)
+          if (upper.boundaryLabels[e] == bottom &&
+              upper.vertices[upper.boundaryEdges[e][0]].x() + upper.vertices[upper.boundaryEdges[e][1]].x() >
+                  1)
+            upper.boundaryLabels[e] = middle;
+        Model model;
+        model.bodies.push_back(hydrostatic("upper", std::move(upper), {top}, {left, right}));
+        for (const int side : {0, 1}) {
+          const Map half = [=](const Point& x) { return roof({0.5 * (x.x() + side), x.y()}); };
+          model.bodies.push_back(hydrostatic(side == 0 ? "west" : "east", mapped(side == 0 ? 3 : 2, -1, half),
+                                             {bottom}, {left, right}));
+        }
+        for (const int side : {0, 1}) {
+          const ContactSide above{0, side == 0 ? bottom : middle};
+          const ContactSide below{1 + side, top};
+          addInterface(model, {upperNonmortar ? above : below, upperNonmortar ? below : above, coupling});
+        }
+        expectSolved(model, std::to_string(slope));
+        double worst = 0;
+        if (coupling == mortar) expectPatch(model, worst);
+      }
+}
+
+}  // namespace
+}  // namespace mortier
