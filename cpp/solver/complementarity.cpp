@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace mortier {
@@ -145,8 +146,8 @@ class Pivoting {
 std::vector<char> idleConditions(const Matrix& W) {
   constexpr double rounding = 1e-24;  // W is quadratic in the rows of C
   std::vector<char> idle(W.rows(), 0);
-  const double largest = W.rows() > 0 ? W.diagonal().maxCoeff() : 0;
-  for (Eigen::Index i = 0; i < W.rows(); ++i) idle[i] = W(i, i) > rounding * largest ? 0 : 1;
+  const double largest = W.rows() > 0 ? W.diagonal().cwiseAbs().maxCoeff() : 0;
+  for (Eigen::Index i = 0; i < W.rows(); ++i) idle[i] = std::abs(W(i, i)) <= rounding * largest ? 1 : 0;
   return idle;
 }
 
