@@ -73,6 +73,16 @@ def punch_pressure(run):
     return run.contact.pressure[middle] * np.pi / np.sum(run.contact.force)
 
 
+def hertz_peak(run):
+    """Largest pressure over sqrt(F E*/(pi R)), E* = 52500 MPa of both bodies in plane stress, R = 50 mm."""
+    return run.contact.pressure.max() / np.sqrt(np.sum(run.contact.force) * 52500 / (np.pi * 50))
+
+
+def ring_pressure(run):
+    """Over the quarter of a circle of radius 1."""
+    return np.sum(run.contact.force) / (np.pi / 2)
+
+
 GALLERY = [
     Entry("cook", "u_y in the middle of the right side", cook_deflection, 23.275, 3e-5,
           "half of the last digit of the value for 32 cells a side", 0.3),
@@ -84,10 +94,14 @@ GALLERY = [
           "the patch test holds to rounding", 3000),
     Entry("exact-contact", "contact force", lambda run: run.scalars["contact_force"], 0.769126488659, 1e-3,
           "the force converges with order 2 at least; 32 cells on 49", 0.05),
+    Entry("hertz", "peak pressure over sqrt(F E*/(pi R))", hertz_peak, 1, 2e-2,
+          "half-width 0.13 R, where Hertz takes parabolas, and polygons for arcs", 1, ((-25, 25), (-25, 18))),
     Entry("receding", "half-width of contact", lambda run: end_of_contact(run, 1), 1.324165, 1e-2,
           "the mesh: an element at the end of contact is 0.08", 0.05, ((0, 4), (-2, 1.1))),
     Entry("open-close", "gap at t = 3 s", gap_at_three, 0.04, 1e-6,
           "the stress that has not yet relaxed at t = 2 s", 1),
+    Entry("ring", "mean contact pressure", ring_pressure, 0.128205128205, 5e-3,
+          "falls as h^2: 8.4e-3, 2.2e-3, 5.4e-4 with 18, 36, 72 edges of the ring", 5),
     Entry("punch", "pressure in the middle over P/(pi a)", punch_pressure, 1, 3e-2,
           "the force of the unbounded pressure at the edges takes a fine mesh", 10, ((-3, 3), (-2.5, 1.2))),
 ]

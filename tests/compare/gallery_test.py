@@ -22,7 +22,8 @@ class Gallery(unittest.TestCase):
                     self.assertLess(run.summary["verification"]["force_balance"], 1e-12)
 
     def test_a_wrong_model_misses(self):
-        wrong = {"broken-line": "contact.variant=interpolation", "stack": "contact.variant=interpolation",
+        wrong = {"ring": "body.plate.material.young=52", "hertz": "body.block.material.young=60000",
+                 "broken-line": "contact.variant=interpolation", "stack": "contact.variant=interpolation",
                  "sloped": "contact.variant=interpolation",
                  "cook": "body.panel.material.poisson=0.3", "exact-contact": "body.lower.material.young=1.1",
                  "receding": "body.half-plane.material.young=1.2", "open-close": "body.material.young=101",
