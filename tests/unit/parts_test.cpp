@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "material/interior_path.h"
 #include "unit/one_point.h"
 
 namespace mortier {
@@ -15,6 +16,12 @@ const Elasticity hard{100, 0.3};
 std::vector<std::shared_ptr<const Material>> three() {
   return {elasticMaterial(soft), perzynaMaterial(hard, {10, 1, Projection::elasticity}),
           perzynaMaterial(soft, {3, 4, Projection::frobenius})};
+}
+
+Matrix elasticOf(const Material& material, const Matrix& stress) {
+  Matrix strain;
+  material.elasticStrain(stress, strain);
+  return strain;
 }
 
 TEST(Parts, everyPointIsOfItsMaterial) {
@@ -100,6 +107,56 @@ TEST(Parts, residualsOfEachPartAreScaledByIts) {
   EXPECT_DOUBLE_EQ(mixed->linearise(step, stress, law, 0, 2) / mixed->stressScale(), 0.25);
   stress(1, 1) = NAN;
   EXPECT_TRUE(std::isnan(mixed->linearise(step, stress, law, 0, 2)));
+}
+
+TEST(Parts, interiorPathIsThatOfEachPart) {
+  const auto materials = three();
+  const std::vector<int> of{1, 0, 2, 1, 0};
+  const auto mixed = materialOfParts(materials, of);
+  std::mt19937 random(2);
+  Matrix stress0(3, 5);
+  Matrix strain(3, 5);
+  Matrix change(3, 5);
+  for (int i = 0; i < 5; ++i) {
+    stress0.col(i) = randomStress(random, 0.5);
+    strain.col(i) = randomStress(random, 0.1);
+    change.col(i) = randomStress(random, 0.01);
+  }
+  const auto path = mixed->interiorPath(0.1, stress0);
+  ASSERT_TRUE(path);
+  EXPECT_EQ(path->points(), 3);
+  path->begin(0.2);
+  Linearisation law{Matrix(3, 5), Matrix(9, 5)};
+  path->linearise(strain, 0, false, law);
+  const double largest = path->direct(change);
+  Matrix stress = stress0;
+  path->advance(0.5, stress);
+  double expectedLargest = INFINITY;
+  double complementarity = 0;
+  for (int i = 0; i < 5; ++i) {
+    const Matrix s0 = stress0.col(i);
+    const Matrix e = strain.col(i);
+    Linearisation own{Matrix(3, 1), Matrix(9, 1)};
+    Matrix s = s0;
+    if (const auto alone = materials[of[i]]->interiorPath(0.1, s0)) {
+      alone->begin(0.2);
+      alone->linearise(e, 0, false, own);
+      expectedLargest = std::min(expectedLargest, alone->direct(change.col(i)));
+      alone->advance(0.5, s);
+      complementarity += alone->complementarity();
+    } else {
+      materials[of[i]]->linearise({0.1, s0, e}, s0, own, 0, 1);
+      // Half the way to the stress of the strain at the end of the direction.
+      EXPECT_LE((elasticOf(*materials[of[i]], own.predictor - s0) - e).norm(), 1e-15);
+      s = 0.5 * (s0 + own.predictor + Eigen::Map<const Eigen::Matrix3d>(own.moduli.data()) * change.col(i));
+    }
+    EXPECT_LE((law.predictor.col(i) - own.predictor.col(0)).norm(), 1e-12);
+    EXPECT_LE((law.moduli.col(i) - own.moduli.col(0)).norm(), 1e-10);
+    EXPECT_LE((stress.col(i) - s.col(0)).norm(), 1e-12);
+  }
+  EXPECT_DOUBLE_EQ(largest, expectedLargest);
+  EXPECT_NEAR(path->complementarity(), complementarity, 1e-14);
+  EXPECT_FALSE(materialOfParts({materials[0], elasticMaterial(hard)}, {0, 1})->interiorPath(0.1, stress0));
 }
 
 }  // namespace
