@@ -179,6 +179,10 @@ int writeFreefem(const FreefemCommand& command) {
                      ", expected backward-euler (all that the FreeFEM method knows)");
   }
 
+  if (scene.time.tolerance > 0) {
+    throw InputError(scene.path + ": tolerance = " + shortest(scene.time.tolerance) +
+                     ", expected equal steps (all that the FreeFEM method knows)");
+  }
   for (const BodyDescription& body : scene.bodies) {
     const bool stressed = std::any_of(body.initialStress.begin(), body.initialStress.end(),
                                       [](const auto& component) { return component.has_value(); });

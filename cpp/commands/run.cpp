@@ -20,6 +20,7 @@
 #include "report/result_files.h"
 #include "report/summary.h"
 #include "scene/build.h"
+#include "scene/load_breaks.h"
 #include "scene/versions.h"
 #include "time/initial_balance.h"
 
@@ -52,6 +53,7 @@ RunFacts factsOf(const RunCommand& command, const SceneDescription& scene) {
   facts.settings = command.settings;
   facts.scheme = word(scene.time.scheme);
   facts.plannedSteps = scene.time.steps;
+  facts.tolerance = scene.time.tolerance;
   facts.threads = command.threads;
   facts.versions = {{"mortier", version}, {"compiler", __VERSION__}};
   for (const auto& libraries : {linearLibraries(), sceneLibraries()})
@@ -93,10 +95,11 @@ std::string defaultFolder(const std::string& scene) {
 /// Crank-Nicolson multiplies an overstress by almost -1 in every step of a stiff scene.
 void warnOfRinging(const SceneDescription& scene, const Model& model) {
   constexpr double ringing = 10;
+  if (scene.time.scheme != Scheme::crankNicolson) return;
   const double weight = scene.time.end / scene.time.steps / 2;
   double stiffness = 0;
   for (const Body& body : model.bodies) stiffness = std::max(stiffness, body.material().stiffness(weight));
-  if (scene.time.scheme != Scheme::crankNicolson || stiffness <= ringing) return;
+  if (stiffness <= ringing) return;
   char ratio[32];
   std::snprintf(ratio, sizeof ratio, "%.1e", 2 * stiffness);
   warn(scene.path + ": scheme = crank-nicolson rings here (step over relaxation time " + ratio +
@@ -179,6 +182,7 @@ int run(RunCommand command) {
   warnOfRinging(scene, model);
   addMeshes(model, identity);
   if (stopped) requireSame(stopped->checkpoint.identity, identity, stopped->folder);
+  if (scene.time.tolerance > 0) scene.time.breaks = loadBreaks(scene, model);
 
   // 2. Where the result goes, and what is reported.
   const std::string path = command.out.empty() ? defaultFolder(command.scene) : command.out;

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Names the layout below; it changes with any member.
-constexpr std::string_view magic = "mortier checkpoint 1\n";
+constexpr std::string_view magic = "mortier checkpoint 2\n";
 
 uint64_t fnv1a(std::string_view bytes, uint64_t hash = 14695981039346656037U) {
   for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211U;
@@ -162,17 +162,19 @@ void visitMembers(Archive& archive, Certificate& certificate) {
 }
 template <class Archive>
 void visitMembers(Archive& archive, StepReport& report) {
-  auto& [step, time, timeStep, status, reason, rung, iterations, factorisations, active, joined, left,
-         penetration, maxPressure, contactForce, viscoplasticFraction, certificate] = report;
-  archive(step, time, timeStep, status, reason, rung, iterations, factorisations, active, joined, left,
-          penetration, maxPressure, contactForce, viscoplasticFraction, certificate);
+  auto& [step, time, timeStep, status, reason, rung, guarded, rejections, estimate, iterations,
+         factorisations, active, joined, left, penetration, maxPressure, contactForce, viscoplasticFraction,
+         certificate] = report;
+  archive(step, time, timeStep, status, reason, rung, guarded, rejections, estimate, iterations,
+          factorisations, active, joined, left, penetration, maxPressure, contactForce, viscoplasticFraction,
+          certificate);
 }
 template <class Archive>
 void visitMembers(Archive& archive, RunReport& report) {
-  auto& [status, reason, steps, iterations, maxIterationsInAStep, factorisations, solveSeconds, worst,
-         rungs] = report;
-  archive(status, reason, steps, iterations, maxIterationsInAStep, factorisations, solveSeconds, worst,
-          rungs);
+  auto& [status, reason, steps, iterations, maxIterationsInAStep, factorisations, pilotIterations, rejected,
+         guarded, solveSeconds, worst, rungs] = report;
+  archive(status, reason, steps, iterations, maxIterationsInAStep, factorisations, pilotIterations, rejected,
+          guarded, solveSeconds, worst, rungs);
 }
 template <class Archive>
 void visitMembers(Archive& archive, BodyState& body) {
@@ -190,9 +192,14 @@ void visitMembers(Archive& archive, BodyIncrement& increment) {
   archive(displacement, small, stress);
 }
 template <class Archive>
+void visitMembers(Archive& archive, ControllerMemory& controller) {
+  auto& [timeStep, stress, displacement] = controller;
+  archive(timeStep, stress, displacement);
+}
+template <class Archive>
 void visitMembers(Archive& archive, MarchMemory& memory) {
-  auto& [begin, run, increments, timeStep, libraries] = memory;
-  archive(begin, run, increments, timeStep, libraries);
+  auto& [begin, run, increments, timeStep, libraries, controller] = memory;
+  archive(begin, run, increments, timeStep, libraries, controller);
 }
 template <class Archive>
 void visitMembers(Archive& archive, Checkpoint& checkpoint) {

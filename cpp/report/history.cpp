@@ -3,7 +3,8 @@
 namespace mortier {
 
 History::History(const std::string& folder) : file_(folder + "/history.csv") {
-  file_ << "step,time[s],time_step[s],rung,iterations,factorisations,active,joined,left,penetration[m^2],"
+  file_ << "step,time[s],time_step[s],estimate,rejections,guarded,rung,iterations,factorisations,active,"
+           "joined,left,penetration[m^2],"
            "max_pressure[Pa],contact_force[N/"
            "m],viscoplastic_fraction,force_balance,material_residual,gap_on_active,"
            "sign,complementarity\n";
@@ -11,11 +12,11 @@ History::History(const std::string& folder) : file_(folder + "/history.csv") {
 
 void History::add(const StepReport& r) {
   const Certificate& c = r.certificate;
-  file_ << r.step << ',' << r.time << ',' << r.timeStep << ',' << r.rung << ',' << r.iterations << ','
-        << r.factorisations << ',' << r.active << ',' << r.joined << ',' << r.left << ',' << r.penetration
-        << ',' << r.maxPressure << ',' << r.contactForce << ',' << r.viscoplasticFraction << ','
-        << c.forceBalance << ',' << c.materialResidual << ',' << c.gapOnActive << ',' << c.sign << ','
-        << c.complementarity << '\n';
+  file_ << r.step << ',' << r.time << ',' << r.timeStep << ',' << r.estimate << ',' << r.rejections << ','
+        << (r.guarded ? 1 : 0) << ',' << r.rung << ',' << r.iterations << ',' << r.factorisations << ','
+        << r.active << ',' << r.joined << ',' << r.left << ',' << r.penetration << ',' << r.maxPressure << ','
+        << r.contactForce << ',' << r.viscoplasticFraction << ',' << c.forceBalance << ','
+        << c.materialResidual << ',' << c.gapOnActive << ',' << c.sign << ',' << c.complementarity << '\n';
 }
 
 }  // namespace mortier

@@ -47,12 +47,14 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
 }
 
 std::string logRow(const StepReport& r) {
+  std::string remarks = r.rung == "newton" ? "" : "  " + r.rung;
+  if (r.guarded) remarks += "  guarded";
+  if (r.rejections > 0) remarks += "  " + std::to_string(r.rejections) + " rejected";
   const std::string change = format("%d (+%d/-%d)", r.active, r.joined, r.left);
-  return format("%6d  %10.5g  %4d  %13s  %10.1e  %16.1e  %10.5g  %11.0f%%  %10.5g%s%s\n", r.step, r.time,
+  return format("%6d  %10.5g  %4d  %13s  %10.1e  %16.1e  %10.5g  %11.0f%%  %10.5g%s\n", r.step, r.time,
                 r.iterations, change.c_str(),
                 std::max(r.certificate.forceBalance, r.certificate.materialResidual), r.penetration,
-                r.maxPressure, 100 * r.viscoplasticFraction, r.contactForce, r.rung == "newton" ? "" : "  ",
-                r.rung == "newton" ? "" : r.rung.c_str());
+                r.maxPressure, 100 * r.viscoplasticFraction, r.contactForce, remarks.c_str());
 }
 
 std::string logStatus(const RunReport& report, const std::string& folder) {

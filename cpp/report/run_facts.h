@@ -20,6 +20,7 @@ struct RunFacts {
   std::string projection;  ///< all projections, each once; "none" where every body is elastic
   std::string scheme;
   int plannedSteps = 0;
+  double tolerance = 0;  ///< of a step; 0: equal steps
   int threads = 1;
   std::vector<std::pair<std::string, std::string>> versions;  ///< of mortier and its libraries
 };

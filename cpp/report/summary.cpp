@@ -117,7 +117,14 @@ void writeSummary(const std::string& folder, const RunFacts& facts, const Model&
   json["bodies"] = bodies(facts, model);
   json["interfaces"] = interfaces(facts, model);
   json["steps"] = report.steps;
-  json["planned_steps"] = facts.plannedSteps;
+  if (facts.tolerance > 0) {
+    json["tolerance"] = facts.tolerance;
+    json["pilot_iterations"] = report.pilotIterations;
+  } else {
+    json["planned_steps"] = facts.plannedSteps;
+  }
+  json["rejected_attempts"] = report.rejected;
+  json["guarded_steps"] = report.guarded;
   json["newton_iterations"] = report.iterations;
   json["max_iterations_in_a_step"] = report.maxIterationsInAStep;
   json["factorisations"] = report.factorisations;

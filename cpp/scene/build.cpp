@@ -20,7 +20,7 @@ using Kind = ConditionDescription::Kind;
 
 /// Where data are tried before the run: the ends of the first and last step, and between.
 std::vector<double> sampleTimes(const TimePlan& plan) {
-  const double step = plan.end / plan.steps;
+  const double step = plan.end / (plan.steps > 0 ? plan.steps : 100);
   return {0, step, 0.5 * plan.end, plan.end - step, plan.end};
 }
 

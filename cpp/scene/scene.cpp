@@ -239,15 +239,60 @@ void readContact(const Node& node, SceneDescription& scene) {
   scene.contacts.push_back(contact);
 }
 
+std::vector<double> readBreaks(const TableReader& time, double end) {
+  std::vector<double> breaks;
+  const Node* node = time.find("breaks");
+  if (node == nullptr) {
+    return breaks;
+  }
+  const std::string expected = "an array of times between 0 and end = " + shortest(end);
+  if (!node->isArray()) {
+    time.reject("breaks", expected);
+  }
+  for (const Node& element : node->elements) {
+    if (!element.isNumeric() || !(element.value > 0 && element.value < end)) {
+      throw InputError(
+          time.message(element.where, "breaks has " + element.quoted() + ", expected " + expected));
+    }
+    breaks.push_back(element.value);
+  }
+  std::sort(breaks.begin(), breaks.end());
+  return breaks;
+}
+
+TimePlan readTime(const Node& node) {
+  const TableReader time(node, "time", "time");
+  TimePlan plan;
+  plan.end = time.number("end", above(0));
+  plan.scheme = static_cast<Scheme>(time.oneOf("scheme", schemeWords, 0));
+  if (time.find("tolerance") == nullptr) {
+    plan.steps = time.integer("steps", 1);
+    for (const char* key : {"max_steps", "breaks"}) {
+      if (time.find(key) != nullptr) {
+        time.reject(key, "it only beside tolerance: without, steps are equal");
+      }
+    }
+    return plan;
+  }
+  plan.tolerance = time.number("tolerance", between(0, 1));
+  plan.steps = time.integer("steps", 1, 0);
+  plan.maxSteps = time.integer("max_steps", 1, plan.maxSteps);
+  plan.breaks = readBreaks(time, plan.end);
+  if (plan.scheme == Scheme::crankNicolson) {
+    time.reject("scheme", "sdirk2 or backward-euler beside tolerance: crank-nicolson has no error estimate");
+  }
+  return plan;
+}
+
 void readOptions(const TableReader& root, SceneDescription& scene) {
-  const TableReader time(root.require("time", "a table [time] with end, steps"), "time", "time");
-  scene.time.end = time.number("end", above(0));
-  scene.time.steps = time.integer("steps", 1);
-  scene.time.scheme = static_cast<Scheme>(time.oneOf("scheme", schemeWords, 0));
+  scene.time = readTime(root.require("time", "a table [time] with end, steps"));
   if (const Node* node = root.find("solver")) {
     const TableReader solver(*node, "solver", "solver");
     scene.solver.tolerance = solver.number("tolerance", between(0, 1), scene.solver.tolerance);
     scene.solver.method = static_cast<Method>(solver.oneOf("method", methodWords, 0));
+    if (scene.time.tolerance > 0 && scene.solver.method != Method::newton) {
+      solver.reject("method", "newton beside time.tolerance: the error is estimated with its tangent");
+    }
     scene.solver.maxIterations = solver.integer("max_iterations", 1, defaultIterations(scene.solver.method));
     scene.solver.linear = static_cast<LinearEngine>(solver.oneOf("linear", linearWords, 0));
   }

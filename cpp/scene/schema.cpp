@@ -22,7 +22,7 @@ const Keys& keysOf(const std::string& path) {
       {"contact.sides", {"body", "label"}},
       {"contact.nonmortar", {"body", "label"}},
       {"contact.mortar", {"body", "label"}},
-      {"time", {"end", "steps", "scheme"}},
+      {"time", {"end", "steps", "scheme", "tolerance", "max_steps", "breaks"}},
       {"solver", {"method", "tolerance", "max_iterations", "linear"}},
       {"output", {"every"}},
   };

@@ -205,14 +205,26 @@ Vector BodySystem::condense(const Vector& force) {
   return inContact() ? Vector(solveSchur(contactForce_)) : contactForce_;
 }
 
-void BodySystem::expand(const Vector& forceChange, const Vector& z, BodyIterate& iterate) {
+Vector BodySystem::displacementOf(const Vector& forceChange, const Vector& z) {
   if (inContact()) {
     Vector x = solveSchur(contactForce_ - C_.transpose() * forceChange);
     if (R_.cols() > 0) x += R_ * (z - R_.transpose() * x);
     residual_(kept_) = x;
   }
   solver_->expand(residual_);
-  const Vector d = body_.spread(residual_);
+  return body_.spread(residual_);
+}
+
+Matrix BodySystem::stressOf(const Matrix& strain) const {
+  Matrix stress = Matrix::Zero(body_.material().components(), strain.cols());
+  for (Eigen::Index i = 0; i < strain.cols(); ++i)
+    stress.col(i).head<3>() =
+        Eigen::Map<const Eigen::Matrix3d>(law_.moduli.col(i).data()) * strain.col(i).head<3>();
+  return stress;
+}
+
+void BodySystem::expand(const Vector& forceChange, const Vector& z, BodyIterate& iterate) {
+  const Vector d = displacementOf(forceChange, z);
   for (int dof = 0; dof < body_.dofs(); ++dof) {
     const DoubleDouble u = DoubleDouble::sum(iterate.increment[dof], d[dof]);
     iterate.increment[dof] = u.high;

@@ -60,7 +60,12 @@ class BodySystem {
   /// Completes the linear solve for a change of the contact forces and rigid motions `z` of this body, and
   /// takes it over.
   void expand(const Vector& forceChange, const Vector& z, BodyIterate& iterate);
+  /// The same, \returns the displacement (dofs) without taking it over.
+  Vector displacementOf(const Vector& forceChange, const Vector& z);
+  /// H^-1 of the last linearisation times a strain in the plane (3 x points).
+  [[nodiscard]] Matrix stressOf(const Matrix& strain) const;
 
+  [[nodiscard]] const Matrix& moduli() const { return law_.moduli; }  ///< H^-1 of the last linearisation
   [[nodiscard]] const Matrix& predictor() const { return law_.predictor; }
   [[nodiscard]] bool inContact() const { return !kept_.empty(); }
   [[nodiscard]] const Matrix& C() const { return C_; }                    ///< contact rows x contact dofs

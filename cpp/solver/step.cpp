@@ -88,18 +88,6 @@ Iterate StepSolver::start(const State& state0) const {
   return iterate;
 }
 
-std::vector<char> StepSolver::libraries() const {
-  std::vector<char> bodies;
-  for (const BodySystem& system : systems_) bodies.push_back(system.usesLibraries() ? 1 : 0);
-  return bodies;
-}
-
-void StepSolver::resume(const std::vector<char>& libraries) {
-  for (size_t b = 0; b < libraries.size(); ++b)
-    if (libraries[b] != 0) systems_[b].useLibraries();
-  for (BodySystem& system : systems_) system.resume();
-}
-
 void StepSolver::prescribe(const State& state0, double time, Iterate& iterate) const {
   for (size_t b = 0; b < model_.bodies.size(); ++b)
     model_.bodies[b].prescribeIncrement(time, state0.bodies[b].displacement, iterate.bodies[b].increment,
@@ -163,7 +151,6 @@ void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>&
   const std::vector<Vector> u = displacements(state0, iterate);
   Vector slack(rows());
   Vector p(rows());
-  std::vector<char> active;
   for (size_t k = 0; k < model_.interfaces.size(); ++k) {
     const ContactInterface& interface = model_.interfaces[k];
     const int b1 = interface.pair().nonmortar.body;
@@ -171,7 +158,6 @@ void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>&
     interface.subtractForces(iterate.contactForce[k], force[b1], force[b2]);
     slack.segment(firstRow_[k], interface.rows()) = -interface.gap(u[b1], u[b2]);
     p.segment(firstRow_[k], interface.rows()) = iterate.contactForce[k];
-    active.insert(active.end(), iterate.active[k].begin(), iterate.active[k].end());
   }
 
   // Condense, and find the contact forces on the interface.
@@ -183,7 +169,7 @@ void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>&
     slack -= systems_[b].C() * motion[b];
     balance.segment(firstMotion_[b], systems_[b].R().cols()) = systems_[b].rigidForce();
   }
-  const ContactSolution contact = contactSolve(slack, p, balance, active);
+  const ContactSolution contact = contactSolve(slack, p, balance, joined(iterate.active));
   if (contact.outcome == ContactSolution::Outcome::cycled) {
     outcome.reason = "the contact problem of the linearised step has no solution";
     return;

@@ -52,6 +52,12 @@ struct StepOutcome {
   Certificate certificate;
 };
 
+/// What a body answers to an error of its strain.
+struct Response {
+  Vector displacement;  ///< by dofs [m]
+  Matrix stress;        ///< components x points [Pa]
+};
+
 class StepSolver {
  public:
   /// \throws UnheldBodyError when neither supports nor contact hold a body.
@@ -62,6 +68,11 @@ class StepSolver {
 
   /// Solves from `guess`, falling back to a start from `state0`; the solution is left in `guess`.
   StepOutcome solve(const State& state0, const StepData& step, Iterate& guess);
+
+  /// With the tangent and the factors of the last solve, its active contacts kept closed and the others open:
+  ///   s = H^-1 (B d - error),   sum |T| B' s + C_A' p = 0,   C_A d = 0.
+  /// \param error  per body, a strain added in every triangle (3 x points).
+  [[nodiscard]] std::vector<Response> respond(const std::vector<Matrix>& error, const ActiveSets& active);
 
   /// Per body, whether SuiteSparse has taken over; empty: nowhere.
   [[nodiscard]] std::vector<char> libraries() const;
@@ -98,6 +109,7 @@ class StepSolver {
   [[nodiscard]] Certificate certify(const State& state0, const std::vector<Vector>& loads,
                                     const Iterate& iterate, double materialResidual) const;
   void prescribe(const State& state0, double time, Iterate& iterate) const;
+  [[nodiscard]] std::vector<char> joined(const ActiveSets& active) const;
 
   const Model& model_;
   SolverOptions options_;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include "time/controller.h"
 #include "time/measure.h"
 #include "time/step_taker.h"
 
@@ -26,6 +27,7 @@ void advance(StepTaker& taker, const State& state, double t1, StepReport& report
     if (outcome.rung != "newton" && report.rung == "newton") report.rung = outcome.rung;
     if (outcome.converged) {
       report.certificate = worse(report.certificate, outcome.certificate);
+      report.guarded = report.guarded || taker.guarded();
       taker.commit();
       ++done;
       continue;
@@ -39,6 +41,7 @@ void advance(StepTaker& taker, const State& state, double t1, StepReport& report
     }
     parts *= 2;
     done *= 2;
+    ++report.rejections;
     report.rung = "cut";
   }
 }
@@ -48,11 +51,13 @@ void add(const StepReport& report, RunReport& run) {
   run.iterations += report.iterations;
   run.factorisations += report.factorisations;
   run.maxIterationsInAStep = std::max(run.maxIterationsInAStep, report.iterations);
+  run.rejected += report.rejections;
   run.status = report.status;
   run.reason = report.reason;
   if (report.status != Status::converged) return;
   run.steps = report.step;
   ++run.rungs[report.rung];
+  run.guarded += report.guarded ? 1 : 0;
   run.worst = worse(run.worst, report.certificate);
 }
 
@@ -88,19 +93,27 @@ RunReport march(const Model& model, State& state, MarchMemory& memory, const Tim
     run.solveSeconds += std::chrono::duration<double>(Clock::now() - begin).count();
   };
 
+  const bool controlled = plan.tolerance > 0;
+  if (run.steps == 0) memory.begin = state.time;
   std::optional<StepTaker> taker;
-  timed([&] { taker.emplace(model, state, memory, plan.scheme, options); });
-  if (run.steps == 0) {
-    memory.begin = state.time;
-    observer(state, StepReport{});
-  }
-  while (run.status == Status::converged && run.steps < plan.steps) {
+  std::optional<Controller> controller;
+  timed([&] {
+    taker.emplace(model, state, memory, plan.scheme, options);
+    if (!controlled) return;
+    controller.emplace(model, plan, memory);
+    if (run.steps == 0) controller->pilot(*taker, state);
+  });
+  if (run.steps == 0) observer(state, StepReport{});
+  while (run.status == Status::converged && (controlled ? state.time < plan.end : run.steps < plan.steps)) {
     StepReport report;
     report.step = run.steps + 1;
-    report.time = memory.begin + (plan.end - memory.begin) * report.step / plan.steps;
-    report.timeStep = report.time - state.time;
     const ActiveSets before = startingSets(state);
-    timed([&] { advance(*taker, state, report.time, report); });
+    timed([&] {
+      if (controlled) return controller->advance(*taker, state, report);
+      report.time = memory.begin + (plan.end - memory.begin) * report.step / plan.steps;
+      report.timeStep = report.time - state.time;
+      advance(*taker, state, report.time, report);
+    });
     add(report, run);
     if (report.status != Status::converged) break;
     compareActive(before, taker->active(), report);

@@ -6,16 +6,10 @@
 #include "solver/model.h"
 #include "solver/state.h"
 #include "time/memory.h"
+#include "time/plan.h"
 #include "time/report.h"
-#include "time/scheme.h"
 
 namespace mortier {
-
-struct TimePlan {
-  double end = 1;  ///< T [s]
-  int steps = 1;   ///< N equal steps
-  Scheme scheme = Scheme::backwardEuler;
-};
 
 /// Called for the initial state (report.step == 0) and after every converged step.
 using Observer = std::function<void(const State& state, const StepReport& report)>;

@@ -16,6 +16,13 @@ struct BodyIncrement {
   Matrix stress;  ///< components x points [Pa]
 };
 
+/// Of steps chosen by their error.
+struct ControllerMemory {
+  double timeStep = 0;      ///< to try next [s]; 0: the march has not begun
+  double stress = 0;        ///< scale of the error of the stress: its largest energy norm so far [sqrt(J/m)]
+  double displacement = 0;  ///< scale of that of the displacement, a mean over the bodies [m]
+};
+
 struct MarchMemory {
   double begin = 0;  ///< time at which the march began [s]
   RunReport run;     ///< so far
@@ -23,6 +30,7 @@ struct MarchMemory {
   std::vector<std::vector<BodyIncrement>> increments;
   double timeStep = 0;          ///< of `increments` [s]
   std::vector<char> libraries;  ///< bodies for which SuiteSparse has taken over
+  ControllerMemory controller;
 };
 
 }  // namespace mortier

@@ -15,6 +15,9 @@ struct RunReport {
   int iterations = 0;
   int maxIterationsInAStep = 0;
   int factorisations = 0;
+  int pilotIterations = 0;           ///< part of `iterations` that went into scales of the error
+  int rejected = 0;                  ///< attempts
+  int guarded = 0;                   ///< steps done again with backward Euler
   double solveSeconds = 0;           ///< wall time of the march without its observer
   Certificate worst;                 ///< the largest residuals of any step
   std::map<std::string, int> rungs;  ///< how many steps took which (StepReport::rung)

@@ -16,14 +16,15 @@ StepTaker::StepTaker(const Model& model, State& state, MarchMemory& memory, Sche
 // An explicit or second-order scheme may overshoot into the elastic domain, where nothing brings the stress
 // back. When the flow turns round between the stages in more than a small share of the bodies, the step is
 // redone with backward Euler, which cannot.
-StepOutcome StepTaker::attempt(double t1) {
+StepOutcome StepTaker::attempt(double t1, Scheme scheme) {
   constexpr double turned = 0.05;
   t1_ = t1;
-  StepOutcome outcome = solveStages(tableau(scheme_), t1);
-  guarded_ = scheme_ == Scheme::sdirk2 && outcome.converged && turnedShare() > turned;
+  tableau_ = tableau(scheme);
+  StepOutcome outcome = solveStages(t1);
+  guarded_ = scheme == Scheme::sdirk2 && outcome.converged && turnedShare() > turned;
   if (guarded_) {
-    memory_.increments.clear();
-    StepOutcome again = solveStages(tableau(Scheme::backwardEuler), t1);
+    tableau_ = tableau(Scheme::backwardEuler);
+    StepOutcome again = solveStages(t1);
     again.iterations += outcome.iterations;
     again.factorisations += outcome.factorisations;
     outcome = std::move(again);
@@ -33,18 +34,18 @@ StepOutcome StepTaker::attempt(double t1) {
   return outcome;
 }
 
-StepOutcome StepTaker::solveStages(const Tableau& scheme, double t1) {
+StepOutcome StepTaker::solveStages(double t1) {
   const double k = t1 - state_.time;
   rates_.clear();
   solutions_.clear();
-  if (scheme.explicitFirst) rates_.push_back(ratesOf(solver_.start(state_)));
+  if (tableau_.explicitFirst) rates_.push_back(ratesOf(state_.bodies));
   StepOutcome total;
-  for (size_t i = 0; i < scheme.stages.size(); ++i) {
-    const Stage& stage = scheme.stages[i];
+  for (size_t i = 0; i < tableau_.stages.size(); ++i) {
+    const Stage& stage = tableau_.stages[i];
     StepData data{stage.time == 1 ? t1 : state_.time + stage.time * k, stage.diagonal * k, {}};
     shiftOf(stage, k);
     data.shift = shift_;
-    Iterate iterate = guess(i, k, scheme.stages.size());
+    Iterate iterate = guess(i, k);
     StepOutcome outcome = solver_.solve(state_, data, iterate);
     outcome.iterations += total.iterations;
     outcome.factorisations += total.factorisations;
@@ -52,7 +53,7 @@ StepOutcome StepTaker::solveStages(const Tableau& scheme, double t1) {
     if (total.rung != "newton") outcome.rung = total.rung;
     total = std::move(outcome);
     if (!total.converged) return total;
-    if (scheme.stages.size() > 1) rates_.push_back(ratesOf(iterate));
+    if (tableau_.stages.size() > 1) rates_.push_back(ratesOf(iterate.bodies));
     solutions_.push_back(std::move(iterate));
   }
   return total;
@@ -68,27 +69,79 @@ void StepTaker::shiftOf(const Stage& stage, double k) {
   }
 }
 
-/// In steady flow the last increments are a good guess; a hard step before, or another step size, makes them
-/// a bad one.
-Iterate StepTaker::guess(size_t stage, double k, size_t stageCount) const {
+/// In steady flow the last increments, scaled to the step, are a good guess; a hard step before makes them a bad
+/// one.
+Iterate StepTaker::guess(size_t stage, double k) const {
   constexpr double sameStep = 1e-9;
   Iterate iterate = solver_.start(state_);
-  if (memory_.increments.size() != stageCount || std::abs(memory_.timeStep - k) > sameStep * k)
-    return iterate;
+  constexpr double farthest = 10;
+  if (memory_.increments.size() != tableau_.stages.size() || k > farthest * memory_.timeStep) return iterate;
+  const double ratio = std::abs(memory_.timeStep - k) > sameStep * k ? k / memory_.timeStep : 1;
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyIncrement& last = memory_.increments[stage][b];
-    iterate.bodies[b].increment = last.displacement;
-    iterate.bodies[b].small = last.small;
-    iterate.bodies[b].stress += last.stress;
+    iterate.bodies[b].increment = ratio * last.displacement;
+    iterate.bodies[b].small = ratio * last.small;
+    iterate.bodies[b].stress += ratio * last.stress;
   }
   return iterate;
 }
 
-std::vector<Matrix> StepTaker::ratesOf(const Iterate& iterate) const {
-  std::vector<Matrix> rates(model_.bodies.size());
-  for (size_t b = 0; b < model_.bodies.size(); ++b)
-    model_.bodies[b].material().viscoplasticRate(iterate.bodies[b].stress, rates[b]);
+template <class Stresses>
+std::vector<Matrix> StepTaker::ratesOf(const Stresses& bodies) const {
+  std::vector<Matrix> rates(bodies.size());
+  for (size_t b = 0; b < bodies.size(); ++b)
+    model_.bodies[b].material().viscoplasticRate(bodies[b].stress, rates[b]);
   return rates;
+}
+
+/// Where flow begins within the step the weights may cancel by chance. Before the first stage its rate is all
+/// that is known; after it, the change between the stages does not vanish.
+void StepTaker::judgeOnset(const Matrix& rate0, const Matrix& rate1, const Matrix& rate2, double k,
+                           Matrix& error) const {
+  const double last = k * tableau_.stages.back().diagonal;
+  const double change = k * tableau_.errorWeights.back();
+  for (Eigen::Index i = 0; i < error.cols(); ++i) {
+    if (!rate0.col(i).isZero(0)) continue;
+    if (rate1.col(i).isZero(0)) {
+      error.col(i) = last * rate2.col(i).head<3>();
+      continue;
+    }
+    const Eigen::Vector3d d = change * (rate2.col(i) - rate1.col(i)).head<3>();
+    if (d.squaredNorm() > error.col(i).squaredNorm()) error.col(i) = d;
+  }
+}
+
+/// k sum_j w_j G_j, 3 x points.
+std::vector<Matrix> StepTaker::strainError() {
+  const double k = t1_ - state_.time;
+  const std::vector<double>& weights = tableau_.errorWeights;
+  if (rates_.empty()) rates_.push_back(ratesOf(solutions_.back().bodies));
+  std::vector<Matrix> error;
+  for (size_t b = 0; b < model_.bodies.size(); ++b) {
+    Matrix rate;
+    model_.bodies[b].material().viscoplasticRate(state_.bodies[b].stress, rate);
+    Matrix e = k * weights[0] * rate.topRows<3>();
+    for (size_t j = 0; j < rates_.size(); ++j) e += k * weights[j + 1] * rates_[j][b].topRows<3>();
+    if (rates_.size() > 1) judgeOnset(rate, rates_[0][b], rates_[1][b], k, e);
+    error.push_back(std::move(e));
+  }
+  return error;
+}
+
+std::vector<Response> StepTaker::error(bool lasting) {
+  std::vector<Matrix> strain = strainError();
+  const ActiveSets& active = solutions_.back().active;
+  std::vector<Response> error = solver_.respond(strain, active);
+  if (!lasting) return error;
+  // What of the strain is still viscoplastic: B d - E^-1 s.
+  for (size_t b = 0; b < strain.size(); ++b) {
+    const Vector none = Vector::Zero(error[b].displacement.size());
+    Matrix elastic;
+    model_.bodies[b].strain(error[b].displacement, none, strain[b], 0, model_.bodies[b].points());
+    model_.bodies[b].material().elasticStrain(error[b].stress, elastic);
+    strain[b] -= elastic.topRows<3>();
+  }
+  return solver_.respond(strain, active);
 }
 
 /// Share of |G_1| in triangles where G_1 : G_2 <= 0.

@@ -1,4 +1,4 @@
-// One step in time: the stages of the scheme, and the guard.
+// One step in time: the stages of the scheme, the guard, and an estimate of the error.
 #pragma once
 
 #include <vector>
@@ -18,17 +18,32 @@ class StepTaker {
             const SolverOptions& options);
 
   /// Solves the step from the state to `t1`. The state is not changed before commit().
-  StepOutcome attempt(double t1);
+  StepOutcome attempt(double t1) { return attempt(t1, scheme_); }
+  /// The same with another scheme.
+  StepOutcome attempt(double t1, Scheme scheme);
+  /// Whether the last attempt was done again with backward Euler.
+  [[nodiscard]] bool guarded() const { return guarded_; }
+  /// Estimate of the local error of the last attempt, per body: the embedded estimate of the viscoplastic strain,
+  /// filtered through the tangent at the end of the step with the contact kept as it is. Where steps are longer
+  /// than the relaxation time, that is the error of the overstress. What is `lasting` of it is filtered once more:
+  /// the rest is forgotten in the next steps.
+  std::vector<Response> error(bool lasting);
+  /// Power of the step with which that falls.
+  [[nodiscard]] int errorOrder() const { return tableau_.errorOrder; }
   /// Takes the last attempt over.
   void commit();
-  /// Active sets of the last attempt.
+  /// Active sets of the last step.
   [[nodiscard]] const ActiveSets& active() const { return active_; }
 
  private:
-  StepOutcome solveStages(const Tableau& scheme, double t1);
-  [[nodiscard]] Iterate guess(size_t stage, double k, size_t stageCount) const;
+  StepOutcome solveStages(double t1);
+  [[nodiscard]] Iterate guess(size_t stage, double k) const;
   void shiftOf(const Stage& stage, double k);
-  [[nodiscard]] std::vector<Matrix> ratesOf(const Iterate& iterate) const;
+  template <class Stresses>
+  [[nodiscard]] std::vector<Matrix> ratesOf(const Stresses& bodies) const;
+  [[nodiscard]] std::vector<Matrix> strainError();
+  void judgeOnset(const Matrix& rate0, const Matrix& rate1, const Matrix& rate2, double k,
+                  Matrix& error) const;
   [[nodiscard]] double turnedShare() const;
 
   const Model& model_;
@@ -36,12 +51,14 @@ class StepTaker {
   MarchMemory& memory_;
   Scheme scheme_;
   StepSolver solver_;
-  std::vector<Iterate> solutions_;          ///< of the stages of the last attempt
-  std::vector<std::vector<Matrix>> rates_;  ///< G of its stages, per body
-  std::vector<Matrix> shift_;               ///< of its last stage
-  ActiveSets active_;
+  // Of the last attempt:
+  Tableau tableau_;
+  std::vector<Iterate> solutions_;          ///< by stage
+  std::vector<std::vector<Matrix>> rates_;  ///< G by stage and body
+  std::vector<Matrix> shift_;               ///< of the last stage
   double t1_ = 0;
   bool guarded_ = false;
+  ActiveSets active_;
 };
 
 }  // namespace mortier

@@ -11,6 +11,7 @@
 #include "mesh/medit.h"
 #include "scene/build.h"
 #include "scene/document.h"
+#include "scene/load_breaks.h"
 #include "scene/overrides.h"
 #include "scene/schema.h"
 
@@ -183,7 +184,37 @@ TEST_F(SceneFiles, messagesNameFileLineKeyValueAndExpectation) {
       {{"contact.mortar.body=upper"},
        "scene.toml:20: contact: both sides are body upper, expected two bodies"},
       {{"time.step=3"},
-       "--set time.step=3: no step in time, did you mean steps? Expected one of end, steps, scheme"},
+       "--set time.step=3: no step in time, did you mean steps? Expected one of end, steps, scheme, "
+       "tolerance, max_steps, "
+       "breaks"},
+  };
+  for (const auto& [settings, message] : faults) {
+    EXPECT_EQ(fault(settings), message);
+  }
+}
+
+TEST_F(SceneFiles, stepsByTheirErrorNeedATolerance) {
+  const SceneDescription scene = readScene(
+      path(), {"time={end=2, scheme=\"sdirk2\", tolerance=1e-4, max_steps=50, breaks=[1.5, 0.25]}"});
+  EXPECT_EQ(scene.time.tolerance, 1e-4);
+  EXPECT_EQ(scene.time.steps, 0);
+  EXPECT_EQ(scene.time.maxSteps, 50);
+  EXPECT_EQ(scene.time.breaks, (std::vector<double>{0.25, 1.5}));
+  // The jump of the lower support's datum is found beside them.
+  std::vector<std::string> warnings;
+  EXPECT_EQ(loadBreaks(scene, buildModel(scene, warnings)),
+            (std::vector<double>{0.25, 1, std::nextafter(1.0, 2.0), 1.5}));
+  const std::vector<std::pair<std::vector<std::string>, std::string>> faults = {
+      {{"time.tolerance=0"}, "--set time.tolerance=0: time: tolerance = 0, expected 0 < tolerance < 1"},
+      {{"time.max_steps=9"},
+       "--set time.max_steps=9: time: max_steps = 9, expected it only beside tolerance: without, steps are "
+       "equal"},
+      {{"time.tolerance=0.1", "time.scheme=crank-nicolson"},
+       "--set time.scheme=crank-nicolson: time: scheme = \"crank-nicolson\", expected sdirk2 or "
+       "backward-euler "
+       "beside tolerance: crank-nicolson has no error estimate"},
+      {{"time.tolerance=0.1", "time.breaks=[1, 2]"},
+       "--set time.breaks=[1, 2]: time: breaks has 2, expected an array of times between 0 and end = 2"},
   };
   for (const auto& [settings, message] : faults) {
     EXPECT_EQ(fault(settings), message);

@@ -1,0 +1,46 @@
+#include "scene/load_breaks.h"
+
+#include <algorithm>
+
+#include "time/breaks.h"
+
+namespace mortier {
+namespace {
+
+/// A few vertices of a labelled boundary, or of the whole mesh.
+std::vector<Point> samplePoints(const TriangleMesh& mesh, const int* label) {
+  constexpr size_t few = 4;
+  std::vector<Point> points;
+  for (size_t e = 0; label != nullptr && e < mesh.boundaryEdges.size(); ++e)
+    if (mesh.boundaryLabels[e] == *label) points.push_back(mesh.vertices[mesh.boundaryEdges[e][0]]);
+  if (label == nullptr) points = mesh.vertices;
+  const size_t stride = 1 + points.size() / few;
+  std::vector<Point> sample;
+  for (size_t i = 0; i < points.size(); i += stride) sample.push_back(points[i]);
+  return sample;
+}
+
+}  // namespace
+
+std::vector<double> loadBreaks(const SceneDescription& scene, const Model& model) {
+  std::vector<std::function<double(double)>> data;
+  const auto add = [&](const Expression& expression, const std::vector<Point>& points) {
+    if (expression.constant) return;
+    for (const Point& p : points)
+      data.emplace_back([&expression, p](double t) { return expression.value(p[0], p[1], t); });
+  };
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    const TriangleMesh& mesh = model.bodies[b].mesh();
+    for (const ConditionDescription& condition : scene.bodies[b].conditions)
+      add(condition.value, samplePoints(mesh, &condition.label));
+    for (const std::optional<Expression>& force : scene.bodies[b].force)
+      if (force) add(*force, samplePoints(mesh, nullptr));
+  }
+  std::vector<double> breaks = findBreaks(data, 0, scene.time.end);
+  breaks.insert(breaks.end(), scene.time.breaks.begin(), scene.time.breaks.end());
+  std::sort(breaks.begin(), breaks.end());
+  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+  return breaks;
+}
+
+}  // namespace mortier

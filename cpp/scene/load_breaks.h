@@ -1,0 +1,15 @@
+// When the data of a scene change abruptly.
+#pragma once
+
+#include <vector>
+
+#include "scene/scene.h"
+#include "solver/model.h"
+
+namespace mortier {
+
+/// Kinks and jumps in time of displacements, tractions and body forces, each tried at a few points where it acts,
+/// and the breaks that the scene names, ascending [s].
+std::vector<double> loadBreaks(const SceneDescription& scene, const Model& model);
+
+}  // namespace mortier

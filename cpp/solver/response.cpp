@@ -1,0 +1,84 @@
+#include <Eigen/LU>
+
+#include "solver/step.h"
+
+namespace mortier {
+namespace {
+
+/// The linear problem that is left of (contact) when the active set is given: s = 0 on it, dp = 0 off it, the
+/// balance G' dp = r. A little compliance keeps it regular where conditions or motions are redundant.
+ContactSolution holdClosed(const ContactProblem& problem, const Vector& slack, const Vector& balance,
+                           const std::vector<char>& active) {
+  constexpr double little = 1e-12;
+  ContactSolution solution;
+  solution.change = Vector::Zero(slack.size());
+  solution.rigid = Vector::Zero(problem.G.cols());
+  std::vector<int> closed;
+  for (size_t i = 0; i < active.size(); ++i)
+    if (active[i] != 0) closed.push_back(static_cast<int>(i));
+  if (closed.empty()) return solution;
+  const auto n = static_cast<Eigen::Index>(closed.size());
+  const Eigen::Index motions = problem.G.cols();
+  const Matrix G = problem.G(closed, Eigen::all);
+  Matrix system = Matrix::Zero(n + motions, n + motions);
+  system.topLeftCorner(n, n) = problem.W(closed, closed);
+  const double compliance = system.diagonal().cwiseAbs().maxCoeff();
+  system.topLeftCorner(n, n).diagonal().array() += little * compliance;
+  system.topRightCorner(n, motions) = -G;
+  system.bottomLeftCorner(motions, n) = G.transpose();
+  system.bottomRightCorner(motions, motions).diagonal().array() += little / compliance;
+  Vector right(n + motions);
+  right << -slack(closed), balance;
+  const Vector x = system.partialPivLu().solve(right);
+  solution.change(closed) = x.head(n);
+  solution.rigid = x.tail(motions);
+  return solution;
+}
+
+}  // namespace
+
+/// The sets of all interfaces as one.
+std::vector<char> StepSolver::joined(const ActiveSets& active) const {
+  std::vector<char> set;
+  set.reserve(rows());
+  for (const std::vector<char>& part : active) set.insert(set.end(), part.begin(), part.end());
+  return set;
+}
+
+std::vector<Response> StepSolver::respond(const std::vector<Matrix>& error, const ActiveSets& active) {
+  std::vector<Response> responses(systems_.size());
+  std::vector<Vector> motion(systems_.size());
+  forEachBody([&](int b) {
+    responses[b].stress = -systems_[b].stressOf(error[b]);
+    motion[b] = systems_[b].condense(-model_.bodies[b].internalForce(responses[b].stress));
+  });
+  Vector slack = Vector::Zero(rows());
+  Vector balance = Vector::Zero(contact_.G.cols());
+  for (size_t b = 0; b < systems_.size(); ++b) {
+    if (!systems_[b].inContact()) continue;
+    slack -= systems_[b].C() * motion[b];
+    balance.segment(firstMotion_[b], systems_[b].R().cols()) = systems_[b].rigidForce();
+  }
+  const ContactSolution contact = holdClosed(contact_, slack, balance, joined(active));
+  forEachBody([&](int b) {
+    responses[b].displacement = systems_[b].displacementOf(
+        contact.change, contact.rigid.segment(firstMotion_[b], systems_[b].R().cols()));
+    model_.bodies[b].addStressOf(responses[b].displacement, systems_[b].moduli(), responses[b].stress, 0,
+                                 model_.bodies[b].points());
+  });
+  return responses;
+}
+
+std::vector<char> StepSolver::libraries() const {
+  std::vector<char> bodies;
+  for (const BodySystem& system : systems_) bodies.push_back(system.usesLibraries() ? 1 : 0);
+  return bodies;
+}
+
+void StepSolver::resume(const std::vector<char>& libraries) {
+  for (size_t b = 0; b < libraries.size(); ++b)
+    if (libraries[b] != 0) systems_[b].useLibraries();
+  for (BodySystem& system : systems_) system.resume();
+}
+
+}  // namespace mortier

@@ -1,0 +1,20 @@
+// When a march makes its steps.
+#pragma once
+
+#include <vector>
+
+#include "time/scheme.h"
+
+namespace mortier {
+
+struct TimePlan {
+  double end = 1;  ///< T [s]
+  int steps = 1;   ///< N equal steps; with a tolerance the first step tried is T/N, 0: chosen
+  Scheme scheme = Scheme::backwardEuler;
+  double tolerance = 0;   ///< relative local error of a step; 0: equal steps
+  int maxSteps = 100000;  ///< attempts before the run is given up; with a tolerance
+  /// Times of kinks and jumps of the data, ascending [s]; steps chosen by their error end there.
+  std::vector<double> breaks = {};
+};
+
+}  // namespace mortier

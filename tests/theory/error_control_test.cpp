@@ -1,0 +1,330 @@
+// Steps chosen by their error: what a tolerance buys, and what it must not depend on.
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <numbers>
+
+#include "theory/pressed_blocks.h"
+#include "theory/scenes.h"
+#include "time/breaks.h"
+
+namespace mortier {
+namespace {
+
+using namespace scenes;
+
+TimePlan controlled(double end, double tolerance, Scheme scheme = Scheme::sdirk2) {
+  return {.end = end, .steps = 0, .scheme = scheme, .tolerance = tolerance};
+}
+
+RunReport runWith(
+    const Model& model, State& state, const TimePlan& plan,
+    const Observer& observer = [](const State&, const StepReport&) {}) {
+  return march(model, state, plan, {}, observer);
+}
+
+int count(const RunReport& run, const char* rung) {
+  const auto found = run.rungs.find(rung);
+  return found == run.rungs.end() ? 0 : found->second;
+}
+
+void print(const std::string& what, const RunReport& run) {
+  std::cout << what << ": " << run.steps << " steps, " << run.rejected << " rejected, " << run.guarded
+            << " guarded, " << count(run, "continuation") << " with continuation, " << count(run, "cut")
+            << " cut, " << run.iterations << " linear solves (pilot " << run.pilotIterations << ")";
+}
+
+// ---- the note's test
+
+struct NotesRun {
+  RunReport run;
+  double top = 0;     ///< u2 on top [m]
+  double spread = 0;  ///< of u2 along the top [m]
+};
+
+NotesRun notesRun(CouplingKind coupling, const TimePlan& plan) {
+  const Model model = compression(6, 16, perzynaMaterial(noteElasticity, noteLaw(Projection::elasticity)),
+                                  coupling, upperBody);
+  State state = initialState(model);
+  NotesRun result{runWith(model, state, plan)};
+  EXPECT_EQ(result.run.status, Status::converged) << result.run.reason;
+  EXPECT_EQ(state.time, plan.end);
+  const Range u2 =
+      displacementRange(model.bodies[0], state.bodies[0], 1, [](const Point& x) { return x.y() == 1; });
+  result.top = u2.mean();
+  result.spread = u2.max - u2.min;
+  return result;
+}
+
+constexpr double exactTop = -0.39250058416512;
+
+TEST(ErrorControl, theErrorOfTheNotesTestFollowsTheTolerance) {
+  struct Bound {
+    double tolerance;
+    double error;
+    int steps;
+    int solves;
+  };
+  const Bound bounds[] = {{1e-2, 2e-2, 10, 30},
+                          {1e-3, 2e-3, 12, 40},
+                          {1e-4, 1e-4, 15, 55},
+                          {1e-5, 2e-5, 30, 100},
+                          {1e-6, 2e-6, 45, 180}};
+  for (const Bound& bound : bounds) {
+    const NotesRun result = notesRun(CouplingKind::mortar, controlled(1, bound.tolerance));
+    const double error = std::abs(result.top / exactTop - 1);
+    print("tolerance " + std::to_string(bound.tolerance), result.run);
+    // Backward Euler's error is 1.13/N (SchemesTest fits it).
+    std::cout << ", error " << error << " = " << error / bound.tolerance
+              << " of the tolerance; backward Euler needs about " << static_cast<int>(1.13 / error)
+              << " steps\n";
+    EXPECT_LT(error, bound.error);
+    EXPECT_GT(error, 0.1 * bound.tolerance);
+    EXPECT_LT(result.spread, 1e-9);
+    EXPECT_LE(result.run.steps + result.run.rejected, bound.steps);
+    EXPECT_LE(result.run.iterations, bound.solves);
+  }
+}
+
+// Interpolation, coarse side nonmortar: the triangles along the interface yield one after the other from t = 0.04
+// on. The reference is SDIRK2 with 640 and 1280 equal steps, which agree to 2e-8.
+TEST(ErrorControl, interpolationDoesNotStall) {
+  constexpr double reference = -0.404520189;
+  constexpr int solvesOfEqualSteps = 293;
+  const NotesRun result = notesRun(CouplingKind::interpolation, controlled(1, 2e-4));
+  const double error = std::abs(result.top / reference - 1);
+  print("interpolation", result.run);
+  std::cout << ", error " << error << "\n";
+  EXPECT_LT(error, 1e-4);
+  EXPECT_LT(result.run.iterations, solvesOfEqualSteps);
+}
+
+TEST(ErrorControl, backwardEulerMeetsATolerance) {
+  const NotesRun result = notesRun(CouplingKind::mortar, controlled(1, 1e-2, Scheme::backwardEuler));
+  const double error = std::abs(result.top / exactTop - 1);
+  print("backward Euler", result.run);
+  std::cout << ", error " << error << "\n";
+  EXPECT_LT(error, 1.2e-2);
+  EXPECT_LT(result.run.steps, 130);
+}
+
+TEST(ErrorControl, unitsDoNotChangeTheSteps) {
+  struct Units {
+    double length, stress, time;
+  };
+  std::vector<RunReport> runs;
+  for (const Units& units : {Units{1, 1, 1}, Units{1024, 0x1p-20, 0x1p10}, Units{1e3, 1e-6, 3600}}) {
+    const double load = 10 * units.stress / units.time;
+    const double side = units.length;
+    const auto material = perzynaMaterial(
+        {3e11 * units.stress, 0.3}, {10 * units.stress * units.time, units.stress, Projection::frobenius});
+    const auto square = [&](double y, int cells) {
+      return crissCrossMesh(
+          {.lower = {0, y * side}, .upper = {side, (y + 1) * side}, .cellsX = cells, .cellsY = cells});
+    };
+    Body upper(
+        "upper", square(0, 3), material,
+        {{{left, 0, constant(0)}}, {{top, 1, [load](double, double, double t) { return -load * t; }}}, {}});
+    Body lower("lower", square(-1, 4), material,
+               {{{left, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}});
+    const Model model = contactModel(std::move(upper), std::move(lower), CouplingKind::mortar, upperBody);
+    State state = initialState(model);
+    runs.push_back(runWith(model, state, controlled(units.time, 1e-5)));
+  }
+  for (const RunReport& run : runs) {
+    EXPECT_EQ(run.status, Status::converged);
+    EXPECT_EQ(run.steps, runs[0].steps);
+    EXPECT_EQ(run.rejected, runs[0].rejected);
+    EXPECT_EQ(run.iterations, runs[0].iterations);
+  }
+}
+
+// A march that goes on from state and memory takes the steps that an uninterrupted one takes, bit for bit.
+TEST(ErrorControl, goesOnFromItsMemory) {
+  const Model model = compression(2, 3, perzynaMaterial(noteElasticity, noteLaw(Projection::elasticity)),
+                                  CouplingKind::interpolation, upperBody);
+  const TimePlan plan = controlled(1, 1e-4);
+  State whole = initialState(model);
+  std::vector<std::pair<State, MarchMemory>> stops;
+  MarchMemory memory;
+  const RunReport run =
+      march(model, whole, memory, plan, {}, [&](const State& state, const StepReport& report) {
+        if (report.step % 4 == 2) stops.emplace_back(state, memory);
+      });
+  ASSERT_EQ(run.status, Status::converged);
+  ASSERT_GE(stops.size(), 2);
+  for (auto& [state, at] : stops) {
+    const RunReport rest = march(model, state, at, plan, {}, [](const State&, const StepReport&) {});
+    EXPECT_EQ(rest.steps, run.steps);
+    EXPECT_EQ(rest.iterations, run.iterations);
+    for (size_t b = 0; b < state.bodies.size(); ++b) {
+      EXPECT_TRUE(state.bodies[b].stress == whole.bodies[b].stress);
+      EXPECT_TRUE(state.bodies[b].displacement == whole.bodies[b].displacement);
+    }
+  }
+}
+
+TEST(ErrorControl, tooFewStepsEndTheRunWithTheLastGoodState) {
+  const Model model = compression(2, 3, perzynaMaterial(noteElasticity, noteLaw(Projection::elasticity)),
+                                  CouplingKind::mortar, upperBody);
+  State state = initialState(model);
+  TimePlan plan = controlled(1, 1e-6);
+  plan.maxSteps = 7;
+  double last = 0;
+  const RunReport run =
+      runWith(model, state, plan, [&](const State& now, const StepReport&) { last = now.time; });
+  EXPECT_EQ(run.status, Status::failed);
+  EXPECT_NE(run.reason.find("max_steps = 7"), std::string::npos) << run.reason;
+  EXPECT_EQ(run.steps + run.rejected, 7);
+  EXPECT_EQ(state.time, last);
+  EXPECT_GT(last, 0);
+}
+
+// ---- open, close, reclose
+
+TEST(ErrorControl, openCloseRecloseToTheTolerance) {
+  for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6})
+    for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::interpolation}) {
+      const Model model = pressedBlocks(coupling);
+      TimePlan plan = controlled(4, tolerance);
+      plan.breaks = findBreaks({[](double t) { return pathOfTheTop(t); }}, 0, 4);
+      EXPECT_EQ(plan.breaks, (std::vector<double>{1, 2, 3}));
+      OpenClose values(model);
+      State state = initialState(model);
+      const RunReport run = runWith(model, state, plan, values.observer());
+      SCOPED_TRACE(tolerance);
+      ASSERT_EQ(run.status, Status::converged) << run.reason;
+      print(coupling == CouplingKind::mortar ? "mortar" : "interpolation", run);
+      std::cout << ", tolerance " << tolerance << ": s(1) " << values.stress[1].mean() << ", s(2) "
+                << values.stress[2].mean() << ", gap(3) " << values.gapAt3.mean() << ", s(4) "
+                << values.stress[4].mean() << "\n";
+      EXPECT_EQ(count(run, "cut"), 0);
+      if (coupling == CouplingKind::mortar) {
+        EXPECT_LT(values.stress[1].distance(exactAfterRamp), tolerance);
+        EXPECT_LT(values.stress[2].distance(1), tolerance);
+        EXPECT_LT(values.gapAt3.distance(0.04), 0.04 * tolerance);
+        EXPECT_LT(values.stress[4].distance(1), tolerance);
+      } else {
+        // The stress is not uniform; against 640 equal steps: 0.14185 and 0.14195 at most from 1, gaps to 0.0412687.
+        EXPECT_NEAR(values.stress[2].distance(1), 0.1419, std::max(1.5 * tolerance, 2e-4));
+        EXPECT_NEAR(values.gapAt3.max, 0.0412687, 0.04 * std::max(tolerance, 1e-4));
+      }
+    }
+}
+
+// ---- guard
+
+/// A square whose outline is held, under twice the yield stress in both directions: s = 1 + exp(-rate t).
+struct Held {
+  double rate;
+  Model model;
+  State state;
+
+  explicit Held(double relaxation) : rate(relaxation) {
+    Conditions held;
+    for (const int side : {bottom, right, top, left})
+      for (const int component : {0, 1}) held.displacements.push_back({side, component, constant(0)});
+    model.bodies.emplace_back("square", square(0, 2),
+                              perzynaMaterial({2 * rate * (1 - 0.3), 0.3}, {1, 1, Projection::frobenius}),
+                              held);
+    state = initialState(model);
+    state.bodies[0].stress.colwise() = fromCartesian(Eigen::Vector3d(2, 2, 0));
+  }
+  [[nodiscard]] double stress() const { return toCartesian(state.bodies[0].stress.col(0))[0]; }
+};
+
+// A step that is too long overshoots, the guard does it again with backward Euler, and that error is of the first
+// order: taken for one of the third it would be let through.
+TEST(ErrorControl, aGuardedStepIsJudgedByItsOwnError) {
+  constexpr double tolerance = 1e-3;
+  for (const double rate : {2.0, 20.0, 200.0}) {
+    Held held(rate);
+    TimePlan plan = controlled(1, tolerance);
+    plan.steps = 1;
+    double worst = 0;
+    const RunReport run =
+        runWith(held.model, held.state, plan, [&](const State& now, const StepReport& report) {
+          if (report.step == 0) return;
+          const double s = toCartesian(now.bodies[0].stress.col(0))[0];
+          worst = std::max(worst, std::abs(s - 1 - std::exp(-rate * now.time)));
+        });
+    ASSERT_EQ(run.status, Status::converged) << run.reason;
+    print("relaxation, rate " + std::to_string(rate), run);
+    std::cout << ", worst error of the stress " << worst << "\n";
+    EXPECT_LT(worst, 6 * tolerance);  // of 2, at any step; local errors of one sign add up
+  }
+}
+
+// Ramp, then hold, theta e = 1e8: the stress is the yield stress and a little of the order of 1e-8.
+TEST(ErrorControl, stiffRampAndHold) {
+  constexpr double lambda = 1;
+  constexpr double young = 2e8;
+  const auto path = [](double t) { return -1e-3 * std::min(t, 1.0); };
+  const Function moved = [path](double, double, double t) { return path(t); };
+  const auto worstError = [&](const TimePlan& plan) {
+    const auto material = perzynaMaterial({young, 0.3}, {lambda, 1, Projection::frobenius});
+    Body upper("upper", square(0, 3), material, {{{left, 0, constant(0)}, {top, 1, moved}}, {}, {}});
+    Body lower("lower", square(-1, 4), material,
+               {{{left, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}});
+    const Model model = contactModel(std::move(upper), std::move(lower), CouplingKind::mortar, upperBody);
+    State state = initialState(model);
+    double worst = 0;
+    const RunReport run = runWith(model, state, plan, [&](const State& now, const StepReport&) {
+      if (now.time <= 1) return;
+      for (const BodyState& body : now.bodies)
+        for (Eigen::Index i = 0; i < body.stress.cols(); ++i)
+          worst = std::max(worst, std::abs(vonMises(body.stress.col(i)) - 1));
+    });
+    EXPECT_EQ(run.status, Status::converged) << run.reason;
+    EXPECT_EQ(count(run, "cut"), 0);
+    print("stiff hold", run);
+    std::cout << ", error " << worst << "\n";
+    return worst;
+  };
+  const double euler = worstError({.end = 2, .steps = 20});
+  const double equal = worstError({.end = 2, .steps = 20, .scheme = Scheme::sdirk2});
+  TimePlan plan = controlled(2, 1e-4);
+  plan.breaks = findBreaks({path}, 0, 2);
+  const double chosen = worstError(plan);
+  constexpr double rounding = 1e-9;
+  EXPECT_LT(euler, 1e-7);
+  EXPECT_LE(equal, euler + rounding);
+  EXPECT_LE(chosen, euler + rounding);
+}
+
+// ---- a load that reverses twenty times
+
+// The top goes down and up by 0.04 like a saw. Contact opens in each ascent; in each descent the blocks flow only
+// at its very end, a little less each time: equal steps see little of it.
+TEST(ErrorControl, twentyReversals) {
+  constexpr double lastPeak = 1.0045361;  // tolerances 1e-7 and 1e-8 agree
+  constexpr double end = 21;
+  const auto saw = [](double t) {
+    return -0.02 * (1 - 2 / std::numbers::pi * std::asin(std::cos(std::numbers::pi * t)));
+  };
+  const Model model = pressedBlocks(CouplingKind::mortar, [saw](double, double, double t) { return saw(t); });
+  const auto errorOf = [&](const TimePlan& plan) {
+    State state = initialState(model);
+    const RunReport run = runWith(model, state, plan);
+    EXPECT_EQ(run.status, Status::converged) << run.reason;
+    EXPECT_EQ(count(run, "cut"), 0);
+    Range stress;
+    for (const BodyState& body : state.bodies)
+      for (Eigen::Index i = 0; i < body.stress.cols(); ++i) stress.add(-toCartesian(body.stress.col(i))[1]);
+    print("twenty reversals", run);
+    std::cout << ", error of the last peak " << stress.distance(lastPeak) << "\n";
+    return stress.distance(lastPeak);
+  };
+  const double equal = errorOf({.end = end, .steps = 21 * 20, .scheme = Scheme::sdirk2});
+  for (const double tolerance : {1e-4, 1e-5}) {
+    TimePlan plan = controlled(end, tolerance);
+    plan.breaks = findBreaks({saw}, 0, end);
+    ASSERT_EQ(plan.breaks.size(), 20);
+    const double chosen = errorOf(plan);
+    EXPECT_LT(chosen, 4 * tolerance);  // what twenty cycles add up to
+    EXPECT_LT(chosen, equal / 5);
+  }
+}
+
+}  // namespace
+}  // namespace mortier

@@ -1,0 +1,63 @@
+#include "time/breaks.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace mortier {
+namespace {
+
+using Times = std::vector<double>;
+
+Times breaksOf(const std::function<double(double)>& datum, double end = 4) {
+  return findBreaks({datum}, 0, end);
+}
+
+TEST(Breaks, smoothDataHaveNone) {
+  EXPECT_EQ(breaksOf([](double) { return 3.0; }), Times());
+  EXPECT_EQ(breaksOf([](double t) { return -10 * t; }), Times());
+  EXPECT_EQ(breaksOf([](double t) { return std::sin(40 * t) + 1e6; }), Times());
+  EXPECT_EQ(breaksOf([](double t) { return std::exp(-30 * t); }), Times());
+  EXPECT_EQ(breaksOf([](double t) { return std::tanh(200 * (t - 1.3)); }), Times());
+}
+
+TEST(Breaks, kinksAreFoundAsTheyWereWritten) {
+  const auto ramps = [](double t) { return -0.06 * (t <= 1 ? t : t <= 2 ? 1 : t <= 3 ? 3 - t : t - 3); };
+  EXPECT_EQ(breaksOf(ramps), (Times{1, 2, 3}));
+  EXPECT_EQ(breaksOf([](double t) { return std::abs(t - 1.37) + 2; }), Times{1.37});
+  // Twenty reversals of a sawtooth, and where intervals of the search begin.
+  const auto saw = [](double t) { return std::asin(std::sin(2 * std::numbers::pi * t)); };
+  const Times found = breaksOf(saw, 10);
+  ASSERT_EQ(found.size(), 20);
+  for (size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], 0.25 + 0.5 * static_cast<double>(i), 1e-6);
+  for (int i = 1; i < 97; ++i) {
+    const double kink = 4.0 * i / 97;
+    const Times one = breaksOf([kink](double t) { return std::max(t, kink); });
+    ASSERT_EQ(one.size(), 1) << kink;
+    EXPECT_NEAR(one[0], kink, 4e-7);
+  }
+}
+
+TEST(Breaks, aJumpIsBetweenTwoNeighbouringNumbers) {
+  EXPECT_EQ(breaksOf([](double t) { return t < 1 ? 0.0 : 5.0; }), (Times{std::nextafter(1.0, 0.0), 1}));
+  EXPECT_EQ(breaksOf([](double t) { return t <= 0.7 ? t : t + 1e-3; }),
+            (Times{0.7, std::nextafter(0.7, 1.0)}));
+}
+
+TEST(Breaks, unitsOfTimeAndValueDoNotMatter) {
+  for (const double scale : {1e-12, 1.0, 1e9}) {
+    const Times found = breaksOf([scale](double t) { return scale * std::min(t, 1.5 * scale); }, 4 * scale);
+    ASSERT_EQ(found.size(), 1);
+    EXPECT_NEAR(found[0] / scale, 1.5, 1e-8);
+  }
+}
+
+TEST(Breaks, ofSeveralDataEachOnce) {
+  const auto a = [](double t) { return std::min(t, 1.0); };
+  const auto b = [](double t) { return std::max(t, 0.5) + std::min(t, 1.0); };
+  EXPECT_EQ(findBreaks({a, b}, 0, 2), (Times{0.5, 1}));
+}
+
+}  // namespace
+}  // namespace mortier
