@@ -38,7 +38,7 @@ struct StepReport {
   Status status = Status::converged;
   std::string reason;           ///< one line when the status is not converged
   std::string rung = "newton";  ///< what it took: newton, continuation, interior-point, cut
-  bool guarded = false;         ///< done again with backward Euler
+  bool guarded = false;         ///< done again as two half steps of backward Euler
   int rejections = 0;           ///< attempts that were not good enough or could not be solved
   double estimate = 0;          ///< of the local error, relative; 0 with equal steps
   int iterations = 0;           ///< linear solves with a new tangent

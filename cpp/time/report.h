@@ -17,7 +17,7 @@ struct RunReport {
   int factorisations = 0;
   int pilotIterations = 0;           ///< part of `iterations` that went into scales of the error
   int rejected = 0;                  ///< attempts
-  int guarded = 0;                   ///< steps done again with backward Euler
+  int guarded = 0;                   ///< steps done again as two half steps of backward Euler
   double solveSeconds = 0;           ///< wall time of the march without its observer
   Certificate worst;                 ///< the largest residuals of any step
   std::map<std::string, int> rungs;  ///< how many steps took which (StepReport::rung)

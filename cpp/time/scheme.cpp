@@ -23,4 +23,8 @@ Tableau tableau(Scheme scheme) {
   return {false, {{{}, 1, 1}}, {-0.5, 0.5}, 2};
 }
 
+Tableau twoHalfSteps() {
+  return {false, {{{}, 0.5, 0.5}, {{0.5}, 0.5, 1}}, {-0.25, 0, 0.25}, 2};
+}
+
 }  // namespace mortier

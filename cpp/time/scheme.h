@@ -33,4 +33,7 @@ struct Tableau {
 
 Tableau tableau(Scheme scheme);
 
+/// Two half steps of backward Euler as the stages of one step.
+Tableau twoHalfSteps();
+
 }  // namespace mortier

@@ -21,7 +21,7 @@ class StepTaker {
   StepOutcome attempt(double t1) { return attempt(t1, scheme_); }
   /// The same with another scheme.
   StepOutcome attempt(double t1, Scheme scheme);
-  /// Whether the last attempt was done again with backward Euler.
+  /// Whether the last attempt was done again as two half steps of backward Euler.
   [[nodiscard]] bool guarded() const { return guarded_; }
   /// Estimate of the local error of the last attempt, per body: the embedded estimate of the viscoplastic strain,
   /// filtered through the tangent at the end of the step with the contact kept as it is. Where steps are longer
