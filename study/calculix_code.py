@@ -16,12 +16,15 @@ from process import measured
 
 YOUNG, LOAD = 2e5, 100.0  # of the scaled problem
 PENALTY = 50  # slope of pressure over penetration, times E over one metre
+REAL = ".12e"  # it reads 20 characters
 FACE = {(0, 1): "S3", (1, 2): "S4", (0, 2): "S5"}  # of a wedge, by the corners of its triangle
 
 
 def solve(problem):
     if problem.flows:
         raise RunFailure("Perzyna's law with the note's projection cannot be expressed")
+    if problem.variant == "interpolation":
+        raise RunFailure("contact by interpolation cannot be expressed (face-to-face penalty only)")
     young = max(body.young for body in problem.bodies.values())
     load = largest_load(problem)
     thickness = float(np.mean([np.sqrt(body.mesh.areas().mean()) for body in problem.bodies.values()]))
@@ -55,7 +58,7 @@ def write_input(problem, first, count, thickness, young, load):
     for layer in (0, 1):
         for name, body in problem.bodies.items():
             base = layer * count + first[name] + 1
-            lines += [f"{base + i}, {x!r}, {y!r}, {layer * thickness!r}" for i, (x, y) in enumerate(body.mesh.points.tolist())]
+            lines += [f"{base + i}, {x:{REAL}}, {y:{REAL}}, {layer * thickness:{REAL}}" for i, (x, y) in enumerate(body.mesh.points.tolist())]
     element, surfaces = 1, {}
     for k, (name, body) in enumerate(problem.bodies.items()):
         lines.append(f"*ELEMENT, TYPE=C3D6, ELSET=BODY{k}")
@@ -65,11 +68,11 @@ def write_input(problem, first, count, thickness, young, load):
         label = problem.nonmortar_label if name == problem.nonmortar else problem.mortar_label
         surfaces[name] = faces(body.mesh, label, element)
         element += len(corners)
-        lines += [f"*MATERIAL, NAME=M{k}", "*ELASTIC", f"{body.young / young * YOUNG!r}, {body.poisson!r}",
+        lines += [f"*MATERIAL, NAME=M{k}", "*ELASTIC", f"{body.young / young * YOUNG:{REAL}}, {body.poisson:{REAL}}",
                   f"*SOLID SECTION, ELSET=BODY{k}, MATERIAL=M{k}"]
     for name, word in ((problem.nonmortar, "SLAVE"), (problem.mortar, "MASTER")):
         lines += [f"*SURFACE, NAME={word}, TYPE=ELEMENT", *surfaces[name]]
-    lines += ["*SURFACE INTERACTION, NAME=TOUCH", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", f"{PENALTY * YOUNG!r}",
+    lines += ["*SURFACE INTERACTION, NAME=TOUCH", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", f"{PENALTY * YOUNG:{REAL}}",
               f"*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE, ADJUST={1e-6 * thickness:.3e}", "SLAVE, MASTER"]
     lines.append("*BOUNDARY")
     lines += [f"{i + 1}, 3, 3" for i in range(count)]
@@ -103,7 +106,7 @@ def supports(problem, first, count, time, factor):
             nodes = body.mesh.nodes_of(label)
             for node, u in zip(nodes.tolist(), value(*body.mesh.points[nodes].T, time).tolist()):
                 given[first[name] + node + 1, component + 1] = u * factor
-    return [f"{node + layer * count}, {dof}, {dof}, {u!r}" for (node, dof), u in given.items() for layer in (0, 1)]
+    return [f"{node + layer * count}, {dof}, {dof}, {u:{REAL}}" for (node, dof), u in given.items() for layer in (0, 1)]
 
 
 def loads(problem, first, count, time, thickness, factor):
@@ -117,7 +120,7 @@ def loads(problem, first, count, time, thickness, factor):
                 for node, f in ((i, h * (2 * a + b) / 6), (j, h * (a + 2 * b) / 6)):
                     key = first[name] + node + 1, component + 1
                     total[key] = total.get(key, 0.0) + f * thickness / 2 * factor
-    return [f"{node + layer * count}, {dof}, {float(f)!r}" for (node, dof), f in total.items() for layer in (0, 1)]
+    return [f"{node + layer * count}, {dof}, {f:{REAL}}" for (node, dof), f in total.items() for layer in (0, 1)]
 
 
 def read_tables(path, count, triangles):

@@ -52,6 +52,7 @@ def settings_of(case, meshes):
 
 def run(case, scene, meshes, folder, timeout=None, repeat=1):
     """The outcome of a case; its cost is the median of the repeats. RunFailure with the reason otherwise."""
+    folder = folder.resolve()  # some codes run inside it
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     settings = settings_of(case, meshes)
@@ -154,6 +155,8 @@ def read_peer(folder, cost):
     run_.scalars = {"von_mises_min": mises.min(), "von_mises_max": mises.max(),
                     "displacement_min_x": u[:, 0].min(), "displacement_min_y": u[:, 1].min(),
                     "displacement_max_x": u[:, 0].max(), "displacement_max_y": u[:, 1].max()}
+    if contact is not None:
+        run_.scalars["contact_force"] = float(contact.force.sum())
     if "wall_time" in facts:
         cost = Cost(facts["wall_time"], facts["processor_time"], facts["memory"])
     return outcome_of(run_, cost, facts["steps"], facts["iterations"])

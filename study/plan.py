@@ -229,10 +229,11 @@ def read(path):
     comparisons = [read_comparison(each, errors, names) for each in top.tables("compare")]
     plan = Plan(path, title, scene, meshes, sweeps, errors, reference, comparisons, let, timeout, repeat)
     decides = {key: document.get(key) for key in ("mesh", "error", "reference", "let", "repeat", "timeout")}
-    files = [scene] + [file for each in meshes.values() for file in each if isinstance(file, Path)]
+    files = [scene, *(scene.parent / str(body.get("mesh", "")) for body in tomllib.loads(scene.read_text())["body"]),
+             *(file for each in meshes.values() for file in each if isinstance(file, Path))]
     digest = hashlib.sha256(json.dumps(decides, sort_keys=True, default=str).encode())
     for file in files:
-        digest.update(file.read_bytes())
+        digest.update(file.read_bytes() if file.is_file() else b"")
     plan.fingerprint = digest.hexdigest()
     return plan
 

@@ -194,6 +194,27 @@ class Studies(unittest.TestCase):
         self.assertIn("6 runs, 4 of them done before", self.run_study(SPACE))
         self.assertIn("6 runs, 0 of them done before", self.run_study(SPACE.replace("-10*t", "-11*t")))
 
+    def test_another_scene_or_mesh_is_another_study(self):
+        (self.folder / "scene.toml").write_text((support.ROOT / "scenes" / "compression.toml").read_text()
+                                                .replace("../shared-meshes", str(self.folder)))
+        meshes = support.ROOT / "shared-meshes"
+        for name in ("upper-crisscross-6.mesh", "lower-crisscross-16.mesh"):
+            (self.folder / name).write_text((meshes / name).read_text())
+        path = self.folder / "study.toml"
+        path.write_text(f'scene = "scene.toml"\n{SPACE[SPACE.index("[[error]]"):SPACE.index("[[sweep]]")]}'
+                        '[[sweep]]\nsteps = 2\n')
+
+        def keys():
+            done = plan.read(path)
+            return [done.key(case) for case in done.cases()]
+        first = keys()
+        self.assertEqual(first, keys())
+        for name in ("scene.toml", "lower-crisscross-16.mesh"):
+            with open(self.folder / name, "a") as file:
+                file.write("\n# other\n")
+            self.assertNotEqual(first, keys())
+            first = keys()
+
     def test_a_run_that_fails_is_a_row_with_its_reason(self):
         text = SPACE.replace("level = [0, 1, 2]", "level = 0\nbody.upper.material.young = [-1, 3e11]")
         self.run_study(text.replace('variant = ["mortar", "interpolation"]', 'variant = "interpolation"')
@@ -202,8 +223,28 @@ class Studies(unittest.TestCase):
         self.assertEqual([row["status"] for row in rows], ["failed", "done", "failed", "done"])
         self.assertIn("body upper: young = -1, expected young > 0", rows[0]["reason"])
         self.assertIn("scheme = sdirk2, expected backward-euler", rows[2]["reason"])
+        again = study(self.folder / "study.toml", self.out)
+        self.assertIn("4 runs, 2 of them done before", again.stdout)  # what failed is tried again
         report = (self.out / "report.html").read_text()
         self.assertTrue("young = -1, expected young" in report)
+
+    def test_other_codes(self):
+        text = (STUDIES / "exact-contact.toml").read_text()
+        text = text[:text.index("[[sweep]]")].replace('"exact-contact.scene', f'"{STUDIES}/exact-contact.scene')
+        self.out = Path("out")  # relative: some codes run in a folder of their own
+        path = self.folder / "study.toml"
+        path.write_text(text + '[[sweep]]\nlevel = 1\ncode = ["mortier", "freefem", "getfem", "calculix"]\n')
+        result = subprocess.run([MORTIER, "study", path.name, "--out", "out"], capture_output=True, text=True, cwd=self.folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = rows_of(self.folder / "out")
+        ours = float(rows[0]["error energy"])
+        for row, allowed in zip(rows, (0, 1e-6, 0.02, 0.1)):  # FreeFEM integrates the tractions by another rule
+            with self.subTest(row["code"]):
+                if row["code"] in ("getfem", "calculix") and row["status"] == "failed":
+                    self.assertIn("is not installed", row["reason"])
+                    continue
+                self.assertLessEqual(abs(float(row["error energy"]) / ours - 1), allowed, row["reason"])
+                self.assertAlmostEqual(float(row["error contact force"]), float(rows[0]["error contact force"]), delta=0.02)
 
     def test_no_result_at_all_is_code_one(self):
         path = self.folder / "study.toml"
