@@ -7,6 +7,7 @@
 #include <new>
 
 #include "base/error.h"
+#include "commands/check.h"
 #include "commands/complain.h"
 #include "commands/exit_code.h"
 #include "commands/freefem.h"
@@ -59,6 +60,14 @@ int dispatch(int argc, char** argv) {
 
   const std::function<int()> meshCommand = addMeshCommand(app);
 
+  CheckCommand checkCommand;
+  CLI::App* checkApp = app.add_subcommand(
+      "check", "say what a run would model and leave out, and what is wrong or doubtful (docs/check.md)");
+  checkApp->add_option("SCENE", checkCommand.scene, "scene, a TOML file");
+  checkApp->add_option("--set", checkCommand.settings, settingsHelp)->type_name("KEY=VALUE ...");
+  checkApp->add_flag("--json", checkCommand.json, "machine-readable");
+  checkApp->add_flag("--list", checkCommand.list, "all faults that it knows, and their remedies; no scene");
+
   FreefemCommand freefemCommand;
   CLI::App* freefemApp = app.add_subcommand("freefem", "write a scene as a FreeFEM script");
   freefemApp->add_option("SCENE", freefemCommand.scene, "scene, a TOML file");
@@ -84,6 +93,12 @@ int dispatch(int argc, char** argv) {
       giveBackScene(runCommand.settings, runCommand.scene);
     }
     return run(runCommand);
+  }
+  if (*checkApp) {
+    if (!checkCommand.list) {
+      giveBackScene(checkCommand.settings, checkCommand.scene);
+    }
+    return check(checkCommand);
   }
   if (*freefemApp) {
     giveBackScene(freefemCommand.settings, freefemCommand.scene);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/error.h"
+#include "base/fault_error.h"
 
 namespace mortier {
 namespace {
@@ -58,8 +58,11 @@ class Validator {
     bool labelled;
   };
 
-  [[noreturn]] void fail(MeshPart part, int index, const std::string& what) const {
-    throw InputError((place_ ? place_(part, index) : mesh_.name) + ": " + what);
+  [[noreturn]] void fail(MeshPart part, int index, const std::string& what,
+                         const std::string& id = {}) const {
+    const std::string message = (place_ ? place_(part, index) : mesh_.name) + ": " + what;
+    if (id.empty()) throw InputError(message);
+    throw FaultError(message, id);
   }
 
   void checkSizes() const {
@@ -87,8 +90,8 @@ class Validator {
   void checkTriangles() const {
     for (int t = 0; t < int(mesh_.triangles.size()); ++t) {
       const auto& v = mesh_.triangles[t];
-      const auto failHere = [&](const std::string& what) {
-        fail(MeshPart::triangle, t, "triangle " + std::to_string(t + 1) + " (" + numbers(v) + ")" + what);
+      const auto failHere = [&](const std::string& what, const std::string& id = {}) {
+        fail(MeshPart::triangle, t, "triangle " + std::to_string(t + 1) + " (" + numbers(v) + ")" + what, id);
       };
       if (!isVertex(v[0]) || !isVertex(v[1]) || !isVertex(v[2])) failHere(", " + range());
       const double square = longestEdgeSquared(mesh_, t);
@@ -97,9 +100,11 @@ class Validator {
         failHere(": longest edge " + text(std::sqrt(square)) + " m, expected between 1e-140 and 1e140 m");
       }
       if (area > degenerateRatio * square) continue;
-      if (area < -degenerateRatio * square) failHere(" is clockwise, expected counterclockwise");
+      if (area < -degenerateRatio * square)
+        failHere(" is clockwise, expected counterclockwise", "clockwise-triangle");
       failHere(" is degenerate: area " + text(area / 2) + " m^2, longest edge " + text(std::sqrt(square)) +
-               " m, expected three corners that are not in line");
+                   " m, expected three corners that are not in line",
+               "degenerate-triangle");
     }
   }
 
@@ -110,7 +115,7 @@ class Validator {
     if (unused == used.end()) return;
     const int v = int(unused - used.begin());
     fail(MeshPart::vertex, v,
-         "vertex " + std::to_string(v + 1) + " is unused, expected a corner of a triangle");
+         "vertex " + std::to_string(v + 1) + " is unused, expected a corner of a triangle", "unused-vertex");
   }
 
   // Counting sort by the smaller vertex, then by the larger one: equal edges become neighbours.
@@ -167,10 +172,12 @@ class Validator {
     if (several == 2) {
       fail(MeshPart::triangle, t1,
            "triangles " + std::to_string(t0 + 1) + " and " + std::to_string(t1 + 1) +
-               " lie on the same side of edge " + edge + ", expected one on each side");
+               " lie on the same side of edge " + edge + ", expected one on each side",
+           "overlapping-triangles");
     }
     fail(MeshPart::triangle, sides_[begin + 2].triangle,
-         "edge " + edge + " is shared by " + std::to_string(end - begin) + " triangles, expected 2 at most");
+         "edge " + edge + " is shared by " + std::to_string(end - begin) + " triangles, expected 2 at most",
+         "overlapping-triangles");
   }
 
   void failIfRepeated(int t0, int t1) const {
@@ -180,22 +187,25 @@ class Validator {
     if (v0 != v1) return;
     fail(MeshPart::triangle, t1,
          "triangle " + std::to_string(t1 + 1) + " (" + numbers(mesh_.triangles[t1]) + ") repeats triangle " +
-             std::to_string(t0 + 1) + ", expected it once");
+             std::to_string(t0 + 1) + ", expected it once",
+         "repeated-triangle");
   }
 
   void checkAndOrientLabelledEdges() {
     for (int e = 0; e < int(mesh_.boundaryEdges.size()); ++e) {
       auto& edge = mesh_.boundaryEdges[e];
-      const auto failHere = [&](const std::string& what) {
-        fail(MeshPart::edge, e, "edge " + std::to_string(e + 1) + " (" + numbers(edge) + ")" + what);
+      const auto failHere = [&](const std::string& what, const std::string& id = {}) {
+        fail(MeshPart::edge, e, "edge " + std::to_string(e + 1) + " (" + numbers(edge) + ")" + what, id);
       };
       if (!isVertex(edge[0]) || !isVertex(edge[1])) failHere(", " + range());
       const auto [near, far] = std::minmax(edge[0], edge[1]);
       const auto [begin, end] = sidesOn(near, far);
-      if (begin == end) failHere(" is not an edge of a triangle, expected an edge of the boundary");
-      if (end - begin > 1) failHere(" lies between two triangles, expected an edge of the boundary");
+      if (begin == end)
+        failHere(" is not an edge of a triangle, expected an edge of the boundary", "label-inside");
+      if (end - begin > 1)
+        failHere(" lies between two triangles, expected an edge of the boundary", "label-inside");
       Side& side = sides_[begin];
-      if (side.labelled) failHere(" is labelled twice, expected once");
+      if (side.labelled) failHere(" is labelled twice, expected once", "label-twice");
       side.labelled = true;
       edge = side.rising ? std::array<int, 2>{near, far} : std::array<int, 2>{far, near};
     }

@@ -107,6 +107,7 @@ void requireFiniteData(const BodyDescription& body, const TriangleMesh& mesh,
       }
     } else {
       points = middlesOn(mesh, condition.label);
+      for (const int v : verticesOn(mesh, condition.label)) points.push_back(mesh.vertices[v]);
     }
     requireFinite(condition.value, points, times);
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/error.h"
+#include "base/fault_error.h"
 #include "scene/document.h"
 #include "scene/overrides.h"
 #include "scene/table_reader.h"
@@ -225,8 +225,9 @@ void readContact(const Node& node, SceneDescription& scene) {
     std::swap(contact.nonmortar, contact.mortar);
   }
   if (contact.nonmortar.body == contact.mortar.body) {
-    throw InputError(table.message(contact.mortar.where,
-                                   "both sides are body " + contact.mortar.body + ", expected two bodies"));
+    throw FaultError(table.message(contact.mortar.where,
+                                   "both sides are body " + contact.mortar.body + ", expected two bodies"),
+                     "same-body");
   }
   for (const ContactDescription& other : scene.contacts) {
     if (other.nonmortar.body == contact.nonmortar.body && other.nonmortar.label == contact.nonmortar.label &&
@@ -298,6 +299,9 @@ void readOptions(const TableReader& root, SceneDescription& scene) {
   }
   if (const Node* node = root.find("output")) {
     scene.every = TableReader(*node, "output", "output").integer("every", 0, 0);
+  }
+  if (const Node* node = root.find("check")) {
+    scene.allowed = TableReader(*node, "check", "check").strings("allow");
   }
 }
 

@@ -79,6 +79,7 @@ struct SceneDescription {
   SolverOptions solver;
   int every =
       0;  ///< keep each so many steps (and the initial state) beside the last one; 0: the last one only
+  std::vector<std::string> allowed;  ///< faults that mortier check is not to name (docs/check.md)
 };
 
 /// Reads a scene, applies the settings (`key=value`) in their order, and validates.

@@ -8,7 +8,7 @@ namespace mortier {
 
 const Keys& keysOf(const std::string& path) {
   static const std::map<std::string, Keys> tables = {
-      {"", {"title", "body", "contact", "time", "solver", "output"}},
+      {"", {"title", "body", "contact", "time", "solver", "output", "check"}},
       {"body", {"name", "mesh", "material", "force", "boundary", "region", "initial_stress"}},
       {"body.initial_stress", {"s11", "s22", "s12"}},
       {"body.region", {"label", "material", "initial_stress"}},
@@ -24,6 +24,7 @@ const Keys& keysOf(const std::string& path) {
       {"contact.mortar", {"body", "label"}},
       {"time", {"end", "steps", "scheme", "tolerance", "max_steps", "breaks"}},
       {"solver", {"method", "tolerance", "max_iterations", "linear"}},
+      {"check", {"allow"}},
       {"output", {"every"}},
   };
   static const Keys none;

@@ -104,6 +104,24 @@ std::string TableReader::string(const std::string& key, std::optional<std::strin
   return node->text;
 }
 
+std::vector<std::string> TableReader::strings(const std::string& key) const {
+  const Node* node = find(key);
+  std::vector<std::string> result;
+  if (node == nullptr) {
+    return result;
+  }
+  if (!node->isArray()) {
+    reject(key, "a list of strings");
+  }
+  for (const Node& each : node->elements) {
+    if (!each.isString()) {
+      reject(key, "a list of strings");
+    }
+    result.push_back(each.text);
+  }
+  return result;
+}
+
 int TableReader::oneOf(const std::string& key, const Keys& words, std::optional<int> fallback) const {
   const Node* node = find(key);
   if (node == nullptr && fallback) {

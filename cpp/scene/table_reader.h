@@ -41,6 +41,8 @@ class TableReader {
   [[nodiscard]] bool boolean(const std::string& key, bool fallback) const;
   [[nodiscard]] std::string string(const std::string& key,
                                    std::optional<std::string> fallback = std::nullopt) const;
+  /// The strings of a list; none where the key is missing.
+  [[nodiscard]] std::vector<std::string> strings(const std::string& key) const;
   /// The index of the value among `words`.
   [[nodiscard]] int oneOf(const std::string& key, const Keys& words,
                           std::optional<int> fallback = std::nullopt) const;

@@ -1,0 +1,84 @@
+#include "commands/check.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "commands/exit_code.h"
+#include "lint/lint.h"
+#include "plan/plan.h"
+
+namespace mortier {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void print(const Json& json) {
+  std::puts(json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+}
+
+int listKinds(bool json) {
+  Json list = Json::array();
+  for (const FaultKind& kind : faultKinds()) {
+    list.push_back(
+        {{"id", kind.id}, {"severity", word(kind.severity)}, {"what", kind.what}, {"remedy", kind.remedy}});
+  }
+  if (json) {
+    print(list);
+    return exitDone;
+  }
+  for (const FaultKind& kind : faultKinds()) {
+    std::printf("| `%s` | %s | %s | %s |\n", kind.id.c_str(), word(kind.severity).c_str(), kind.what.c_str(),
+                kind.remedy.c_str());
+  }
+  return exitDone;
+}
+
+Json asJson(const std::string& scene, const Plan& plan, const Faults& faults) {
+  Json json;
+  json["scene"] = scene;
+  json["plan"] = Json::array();
+  for (const PlanItem& item : plan) {
+    json["plan"].push_back(
+        {{"part", item.part}, {"modelled", item.modelled}, {"what", item.what}, {"why", item.why}});
+  }
+  json["faults"] = Json::array();
+  for (const Fault& fault : faults.all()) {
+    json["faults"].push_back({{"id", fault.kind->id},
+                              {"severity", word(fault.kind->severity)},
+                              {"place", fault.place},
+                              {"message", fault.message},
+                              {"remedy", fault.kind->remedy}});
+  }
+  return json;
+}
+
+std::string counted(int n, const std::string& what) {
+  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
+
+}  // namespace
+
+int check(const CheckCommand& command) {
+  if (command.list) {
+    return listKinds(command.json);
+  }
+  const LintReport report = lint(command.scene, command.settings);
+  const Plan plan = report.model ? planOf(*report.scene, *report.model) : Plan();
+  const Faults& faults = report.faults;
+  const int wrong = faults.count(Severity::error);
+  const int unheld = faults.count(Severity::unheld);
+  if (command.json) {
+    print(asJson(command.scene, plan, faults));
+  } else {
+    std::fputs(planText(plan).c_str(), stdout);
+    for (const Fault& fault : faults.all()) {
+      std::puts(oneLine(fault).c_str());
+    }
+    std::printf("%s, %s\n", counted(wrong + unheld, "error").c_str(),
+                counted(faults.count(Severity::warning), "warning").c_str());
+  }
+  return wrong > 0 ? exitWrongInput : unheld > 0 ? exitUnheld : exitDone;
+}
+
+}  // namespace mortier

@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "lint/lint.h"
+
+namespace mortier {
+namespace {
+
+bool inContact(const SceneDescription& scene, const std::string& a, const std::string& b) {
+  return std::any_of(scene.contacts.begin(), scene.contacts.end(), [&](const ContactDescription& c) {
+    return (c.nonmortar.body == a && c.mortar.body == b) || (c.nonmortar.body == b && c.mortar.body == a);
+  });
+}
+
+/// By the number of boundary edges that a ray to the right crosses.
+bool inside(const Point& p, const TriangleMesh& mesh, const Topology& topology) {
+  bool result = false;
+  for (const BoundaryEdge& edge : topology.boundary) {
+    const Point& a = mesh.vertices[edge.from];
+    const Point& b = mesh.vertices[edge.to];
+    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+    if (p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) result = !result;
+  }
+  return result;
+}
+
+double meanEdge(const TriangleMesh& mesh, const Topology& topology) {
+  double sum = 0;
+  for (const BoundaryEdge& edge : topology.boundary)
+    sum += (mesh.vertices[edge.to] - mesh.vertices[edge.from]).norm();
+  return sum / static_cast<double>(topology.boundary.size());
+}
+
+struct Meeting {
+  int inside = -1;   ///< a vertex of the first deep in the second
+  int touching = 0;  ///< vertices of the first on the boundary of the second
+  int where = -1;    ///< one of them
+};
+
+Meeting meet(const TriangleMesh& a, const Topology& boundaryOfA, const TriangleMesh& b,
+             const Topology& boundaryOfB) {
+  constexpr double touching = 1e-6;  // of the extent
+  constexpr double deep = 0.25;      // of the edges: curved sides that touch overlap by less
+  Meeting result;
+  const auto [lower, upper] = boundingBox(b);
+  const SegmentGrid grid = boundaryGrid(b, boundaryOfB);
+  const double edge = meanEdge(b, boundaryOfB);
+  const Point margin = Point::Constant(deep * edge);
+  for (const BoundaryEdge& each : boundaryOfA.boundary) {
+    const Point& p = a.vertices[each.from];
+    if ((p.array() < (lower - margin).array()).any() || (p.array() > (upper + margin).array()).any())
+      continue;
+    double distance = INFINITY;
+    grid.near(p - margin, p + margin,
+              [&](int e) { distance = std::min(distance, distanceToSegment(p, grid.segments()[e])); });
+    if (distance <= touching * extent(b)) {
+      ++result.touching;
+      result.where = each.from;
+    } else if (result.inside < 0 && distance > deep * edge && inside(p, b, boundaryOfB)) {
+      result.inside = each.from;
+    }
+  }
+  return result;
+}
+
+void comparePair(const LintInput& input, size_t i, size_t j, Faults& faults) {
+  const BodyDescription& one = input.scene.bodies[i];
+  const BodyDescription& two = input.scene.bodies[j];
+  const std::string both = "bodies " + one.name + " and " + two.name;
+  const TriangleMesh& a = *input.meshes[i];
+  const TriangleMesh& b = *input.meshes[j];
+  constexpr double units = 300;
+  const double ratio = extent(a) / extent(b);
+  if (std::max(ratio, 1 / ratio) > units)
+    faults.add("extent-ratio", ratio < 1 ? one.meshWhere : two.meshWhere,
+               both + " are " + shortest(extent(a)) + " m and " + shortest(extent(b)) + " m wide");
+  const double young = one.material.elasticity.young / two.material.elasticity.young;
+  if (std::max(young, 1 / young) >= units)
+    faults.add("stiffness-ratio", input.whereInBody(young < 1 ? i : j, {"material", "young"}),
+               both + " have young = " + shortest(one.material.elasticity.young) + " Pa and " +
+                   shortest(two.material.elasticity.young) + " Pa");
+  if (std::error_code ignored; std::filesystem::equivalent(one.mesh, two.mesh, ignored)) {
+    faults.add("same-mesh", two.meshWhere, both + " are meshed by the same file and lie on each other");
+    return;
+  }
+  if (input.topologies[i].boundary.empty() || input.topologies[j].boundary.empty()) return;
+  const Meeting m1 = meet(a, input.topologies[i], b, input.topologies[j]);
+  const Meeting m2 = meet(b, input.topologies[j], a, input.topologies[i]);
+  if (m1.inside >= 0 || m2.inside >= 0) {
+    const TriangleMesh& mesh = m1.inside >= 0 ? a : b;
+    const int v = m1.inside >= 0 ? m1.inside : m2.inside;
+    faults.add("bodies-overlap", mesh.name + ": vertex " + std::to_string(v + 1),
+               both + " overlap, e.g. at (" + shortest(mesh.vertices[v].x()) + ", " +
+                   shortest(mesh.vertices[v].y()) + ")");
+  } else if (m1.touching + m2.touching > 2 && !inContact(input.scene, one.name, two.name)) {
+    const TriangleMesh& mesh = m1.touching > 0 ? a : b;
+    const int v = m1.touching > 0 ? m1.where : m2.where;
+    faults.add("contact-missing", mesh.name + ": vertex " + std::to_string(v + 1),
+               both + " touch, e.g. at (" + shortest(mesh.vertices[v].x()) + ", " +
+                   shortest(mesh.vertices[v].y()) + "), and no contact says so");
+  }
+}
+
+}  // namespace
+
+void lintBodies(const LintInput& input, Faults& faults) {
+  const auto& bodies = input.scene.bodies;
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    for (size_t j = i + 1; j < bodies.size(); ++j)
+      if (input.meshes[i] != nullptr && input.meshes[j] != nullptr) comparePair(input, i, j, faults);
+    const bool meetsAny = std::any_of(bodies.begin(), bodies.end(), [&](const BodyDescription& other) {
+      return inContact(input.scene, bodies[i].name, other.name);
+    });
+    if (bodies.size() > 1 && !meetsAny)
+      faults.add("body-alone", bodies[i].where,
+                 "body " + bodies[i].name + " is in no contact: it is solved beside the others");
+  }
+}
+
+}  // namespace mortier

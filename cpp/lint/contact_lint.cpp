@@ -1,0 +1,257 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "contact/interface.h"
+#include "lint/held_dofs.h"
+#include "lint/lint.h"
+#include "mesh/boundary_line.h"
+
+namespace mortier {
+namespace {
+
+/// A side of a contact, as far as its mesh is known.
+struct Side {
+  const SideDescription* description = nullptr;
+  size_t body = 0;
+  const TriangleMesh* mesh = nullptr;
+  Point normal{0,
+               0};  ///< sum of the outward normals times lengths, over the length: shorter than 1 where bent
+  Point first{0, 0};
+  double length = 0;
+  int edges = 0;
+};
+
+Side sideOf(const LintInput& input, const SideDescription& description, int label) {
+  Side side;
+  side.description = &description;
+  side.body = static_cast<size_t>(bodyIndex(input.scene, description.body));
+  side.mesh = input.meshes[side.body];
+  if (side.mesh == nullptr) return side;
+  for (size_t e = 0; e < side.mesh->boundaryEdges.size(); ++e) {
+    if (side.mesh->boundaryLabels[e] != label) continue;
+    const auto [a, b] = side.mesh->boundaryEdges[e];
+    const Point along = side.mesh->vertices[b] - side.mesh->vertices[a];
+    if (side.edges++ == 0) side.first = side.mesh->vertices[a];
+    side.normal += Point(along.y(), -along.x());
+    side.length += along.norm();
+  }
+  if (side.length > 0) side.normal /= side.length;
+  return side;
+}
+
+std::string name(const Side& side) {
+  return "label " + std::to_string(side.description->label) + " of body " + side.description->body;
+}
+
+/// Whether both sides have a direction of their own; a closed line has none.
+bool directed(const Side& a, const Side& b) {
+  constexpr double bent = 0.5;
+  return a.normal.norm() > bent && b.normal.norm() > bent;
+}
+
+bool faces(const Side& a, const Side& b) {
+  constexpr double opposite = -0.9;
+  return a.edges > 0 && b.edges > 0 && directed(a, b) &&
+         a.normal.normalized().dot(b.normal.normalized()) < opposite;
+}
+
+/// The pair of labels of these bodies that face each other at the least distance, for a remedy.
+std::string facingPair(const LintInput& input, const Side& a, const Side& b) {
+  double least = INFINITY;
+  std::string pair;
+  for (const int i : boundaryLabels(*a.mesh))
+    for (const int j : boundaryLabels(*b.mesh)) {
+      const Side one = sideOf(input, *a.description, i);
+      const Side two = sideOf(input, *b.description, j);
+      if (!faces(one, two)) continue;
+      const double distance = (two.first - one.first).dot(one.normal.normalized());
+      const double tolerance = 1e-6 * std::min(one.length, two.length);
+      if (distance < -tolerance || distance >= least) continue;
+      least = distance;
+      pair = "label " + std::to_string(i) + " of body " + a.description->body + " faces label " +
+             std::to_string(j) + " of body " + b.description->body;
+    }
+  return pair.empty() ? "no labels of these bodies face each other" : pair;
+}
+
+ContactInterface interfaceOf(const ContactDescription& contact, const Side& one, const Side& two,
+                             bool swapped) {
+  const ContactSide first{static_cast<int>(one.body),
+                          swapped ? contact.mortar.label : contact.nonmortar.label};
+  const ContactSide second{static_cast<int>(two.body),
+                           swapped ? contact.nonmortar.label : contact.mortar.label};
+  return {{first, second, contact.variant}, *one.mesh, *two.mesh};
+}
+
+bool fits(const ContactDescription& contact, const Side& one, const Side& two, bool swapped) {
+  try {
+    static_cast<void>(interfaceOf(contact, one, two, swapped));
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// Why the interface cannot be made: the fault behind the message of its constructor.
+void diagnose(const LintInput& input, const ContactDescription& contact, const Side& one, const Side& two,
+              const std::string& message, Faults& faults) {
+  const std::string both = name(one) + " and " + name(two);
+  for (const Side* side : {&one, &two}) {
+    try {
+      static_cast<void>(boundaryLine(*side->mesh, side->description->label));
+    } catch (const InputError& error) {
+      faults.add("contact-line", side->description->where, error.what());
+      return;
+    }
+  }
+  if (contact.nonmortar.label != contact.mortar.label && fits(contact, one, two, true)) {
+    faults.add("contact-labels-swapped", contact.where,
+               both + " do not meet, with their labels exchanged they do");
+    return;
+  }
+  if (directed(one, two) && !faces(one, two)) {
+    const bool same = one.normal.dot(two.normal) > 0.5;
+    faults.add(same ? "contact-normals" : "contact-not-facing", contact.where,
+               both + (same ? " look the same way" : " do not face each other") + "; " +
+                   facingPair(input, one, two));
+    return;
+  }
+  if (message.find("overlap") != std::string::npos)
+    faults.add("contact-no-overlap", contact.where,
+               both + " pass each other: no nonmortar node sees the other side");
+  else if (message.find("penetrate") != std::string::npos)
+    faults.add("contact-penetration", contact.where, message);
+  else
+    faults.add("contact-line", contact.where, message);
+}
+
+struct EdgeLengths {
+  double mean = 0;
+  int count = 0;
+};
+
+EdgeLengths edgeLengths(const Side& side) {
+  return {side.length / std::max(1, side.edges), side.edges};
+}
+
+void compareMeshes(const ContactDescription& contact, const Side& one, const Side& two, Faults& faults) {
+  constexpr double different = 10;
+  constexpr double coarser = 4;
+  const EdgeLengths h1 = edgeLengths(one);
+  const EdgeLengths h2 = edgeLengths(two);
+  for (const Side* side : {&one, &two})
+    if (side->edges == 1)
+      faults.add("contact-one-edge", side->description->where, name(*side) + " is one edge");
+  const double ratio = h1.mean / h2.mean;
+  if (std::max(ratio, 1 / ratio) > different)
+    faults.add("contact-size-ratio", contact.where,
+               "edges of " + name(one) + " are " + shortest(h1.mean) + " m long, those of " + name(two) +
+                   " " + shortest(h2.mean) + " m");
+  else if (ratio > coarser)
+    faults.add("nonmortar-coarser", contact.nonmortar.where,
+               "edges of the nonmortar side are " + shortest(std::round(10 * ratio) / 10) +
+                   " times as long as those of the mortar side");
+}
+
+void compareStiffness(const LintInput& input, const ContactDescription& contact, const Side& one,
+                      const Side& two, Faults& faults) {
+  constexpr double stiffer = 100;
+  const double e1 = input.scene.bodies[one.body].material.elasticity.young;
+  const double e2 = input.scene.bodies[two.body].material.elasticity.young;
+  if (e1 > stiffer * e2)
+    faults.add("nonmortar-stiffer", contact.nonmortar.where,
+               "the nonmortar body has young = " + shortest(e1) + ", the mortar body " + shortest(e2));
+}
+
+void checkConditions(const LintInput& input, const ContactDescription& contact,
+                     const ContactInterface& interface, Faults& faults) {
+  using Kind = ConditionDescription::Kind;
+  for (const SideDescription* side : {&contact.nonmortar, &contact.mortar}) {
+    const BodyDescription& body = input.scene.bodies[bodyIndex(input.scene, side->body)];
+    const TriangleMesh& mesh = *input.meshes[bodyIndex(input.scene, side->body)];
+    for (const ConditionDescription& c : body.conditions) {
+      const std::string what = "label " + std::to_string(c.label) + " of body " + body.name;
+      if (c.label == side->label) {
+        if (c.kind == Kind::traction)
+          faults.add("load-on-contact", c.where, what + " is in contact and carries a traction");
+        else if (side == &contact.nonmortar)
+          faults.add("support-on-contact", c.where, what + " is the nonmortar side and is held");
+        continue;
+      }
+      // A held node with a contact condition of its own: its normal motion is given twice.
+      if (c.kind != Kind::displacement || side != &contact.nonmortar) continue;
+      int node = -1;
+      for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
+        if (mesh.boundaryLabels[e] != c.label) continue;
+        const auto [a, b] = mesh.boundaryEdges[e];
+        const auto axis = axisOf(c, mesh.vertices[a], mesh.vertices[b]);
+        for (const int v : {a, b})
+          if (axis && interface.C1().col(2 * v + *axis).nonZeros() > 0) node = v;
+      }
+      if (node >= 0)
+        faults.add("contact-meets-support", c.where,
+                   what + " holds vertex " + std::to_string(node + 1) +
+                       " along the normal of contact, of which it is a nonmortar node");
+    }
+  }
+}
+
+/// Whether every nonmortar node lies on a mortar node.
+bool matching(const ContactInterface& interface) {
+  std::vector<int> vertex(interface.rows(), -1);
+  for (int dof = 0; dof < interface.C2().outerSize(); ++dof)
+    for (ConstraintRows::InnerIterator entry(interface.C2(), dof); entry; ++entry) {
+      int& seen = vertex[entry.row()];
+      if (seen >= 0 && seen != dof / 2) return false;
+      seen = dof / 2;
+    }
+  return true;
+}
+
+void checkInterface(const ContactDescription& contact, const Side& one, const Side& two,
+                    const ContactInterface& interface, double smallerExtent, Faults& faults) {
+  constexpr double tiny = 0.25;
+  constexpr double large = 0.5;
+  const double gap = interface.initialDistance().minCoeff();
+  if (interface.overlap() < tiny)
+    faults.add("contact-overlap", contact.where,
+               name(one) + " and " + name(two) + " face each other over " +
+                   shortest(std::round(1000 * interface.overlap()) / 1000) + " of the shorter one");
+  if (gap > large * smallerExtent)
+    faults.add("gap-large", contact.where,
+               "the bodies are at least " + shortest(gap) + " m apart, the smaller one is " +
+                   shortest(smallerExtent) + " m wide");
+  if (contact.variant == CouplingKind::interpolation && !matching(interface))
+    faults.add("interpolation-unmatched", contact.where,
+               "interpolation on meshes that do not match has an error of order one along the contact line");
+}
+
+}  // namespace
+
+void lintContacts(const LintInput& input, Faults& faults) {
+  for (size_t k = 0; k < input.scene.contacts.size(); ++k) {
+    const ContactDescription& contact = input.scene.contacts[k];
+    for (size_t j = 0; j < k; ++j)
+      for (const SideDescription* a : {&contact.nonmortar, &contact.mortar})
+        for (const SideDescription* b : {&input.scene.contacts[j].nonmortar, &input.scene.contacts[j].mortar})
+          if (a->body == b->body && a->label == b->label)
+            faults.add("contact-side-twice", a->where,
+                       "label " + std::to_string(a->label) + " of body " + a->body +
+                           " is a side of another contact too, at " + b->where);
+    const Side one = sideOf(input, contact.nonmortar, contact.nonmortar.label);
+    const Side two = sideOf(input, contact.mortar, contact.mortar.label);
+    if (one.edges == 0 || two.edges == 0) continue;  // named elsewhere
+    compareMeshes(contact, one, two, faults);
+    compareStiffness(input, contact, one, two, faults);
+    try {
+      const ContactInterface interface = interfaceOf(contact, one, two, false);
+      checkInterface(contact, one, two, interface, std::min(extent(*one.mesh), extent(*two.mesh)), faults);
+      checkConditions(input, contact, interface, faults);
+    } catch (const InputError& error) {
+      diagnose(input, contact, one, two, error.what(), faults);
+    }
+  }
+}
+
+}  // namespace mortier

@@ -1,0 +1,36 @@
+#include "lint/fault.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace mortier {
+
+const FaultKind& faultKind(const std::string& id) {
+  const auto& kinds = faultKinds();
+  const auto found =
+      std::find_if(kinds.begin(), kinds.end(), [&](const FaultKind& kind) { return kind.id == id; });
+  if (found == kinds.end()) throw std::logic_error("no fault is called " + id);
+  return *found;
+}
+
+void Faults::add(const std::string& id, const std::string& place, const std::string& message) {
+  const FaultKind& kind = faultKind(id);
+  if (kind.severity == Severity::warning && allowed_.count(id) != 0) return;
+  faults_.push_back({&kind, place, message});
+}
+
+int Faults::count(Severity severity) const {
+  return static_cast<int>(std::count_if(
+      faults_.begin(), faults_.end(), [&](const Fault& fault) { return fault.kind->severity == severity; }));
+}
+
+std::string oneLine(const Fault& fault) {
+  return fault.place + ": " + word(fault.kind->severity) + ": " + fault.message + "; " + fault.kind->remedy +
+         " [" + fault.kind->id + "]";
+}
+
+std::string word(Severity severity) {
+  return severity == Severity::warning ? "warning" : "error";
+}
+
+}  // namespace mortier

@@ -1,0 +1,56 @@
+// What the linter names. Every kind of fault has an id, a severity and a remedy; docs/check.md lists them all.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace mortier {
+
+enum class Severity {
+  warning,  ///< doubtful, but a run would go on
+  error,    ///< a run would refuse it as wrong input
+  unheld    ///< a run would refuse it as nothing holds a body
+};
+
+struct FaultKind {
+  std::string id;
+  Severity severity = Severity::warning;
+  bool inRun = false;  ///< whether `mortier run` says it as well
+  std::string what;    ///< for the documentation
+  std::string remedy;
+};
+
+/// All kinds, in the order of the documentation.
+const std::vector<FaultKind>& faultKinds();
+
+/// \pre the id is one of faultKinds().
+const FaultKind& faultKind(const std::string& id);
+
+struct Fault {
+  const FaultKind* kind = nullptr;
+  std::string place;    ///< `file:line`, or a mesh and what of it
+  std::string message;  ///< what was found, with its numbers
+};
+
+class Faults {
+ public:
+  /// \param allowed  ids of warnings that are not to be named.
+  explicit Faults(const std::vector<std::string>& allowed = {}) : allowed_(allowed.begin(), allowed.end()) {}
+
+  void add(const std::string& id, const std::string& place, const std::string& message);
+  [[nodiscard]] const std::vector<Fault>& all() const { return faults_; }
+  [[nodiscard]] int count(Severity severity) const;
+
+ private:
+  std::set<std::string> allowed_;
+  std::vector<Fault> faults_;
+};
+
+/// `place: warning: message; remedy [id]`
+std::string oneLine(const Fault& fault);
+
+/// "warning" or "error".
+std::string word(Severity severity);
+
+}  // namespace mortier

@@ -1,0 +1,155 @@
+#include "lint/lint.h"
+
+#include <algorithm>
+#include <deque>
+
+#include "base/fault_error.h"
+#include "mesh/read.h"
+#include "scene/build.h"
+#include "scene/overrides.h"
+#include "solver/step.h"
+
+namespace mortier {
+namespace {
+
+/// The place with which a message begins, `file:line` or `file`, and the rest of it.
+std::pair<std::string, std::string> splitPlace(const std::string& message) {
+  const size_t end = message.find(": ");
+  if (end == std::string::npos) return {"", message};
+  return {message.substr(0, end), message.substr(end + 2)};
+}
+
+/// \param id  of faults that have none of their own.
+void addError(const InputError& error, const std::string& id, Faults& faults) {
+  const auto* own = dynamic_cast<const FaultError*>(&error);
+  const auto [place, text] = splitPlace(error.what());
+  faults.add(own != nullptr ? own->id() : id, place, text);
+}
+
+Node documentOf(const std::string& path, const std::vector<std::string>& settings) {
+  Node document = readDocument(path);
+  for (const std::string& setting : settings) applyOverride(document, setting);
+  return document;
+}
+
+std::string whereIn(const Node& node, const std::vector<std::string>& keys) {
+  const Node* at = &node;
+  for (const std::string& key : keys) {
+    const Node* next = at->isTable() ? at->find(key) : nullptr;
+    if (next == nullptr) break;
+    at = next;
+  }
+  return at->where;
+}
+
+/// Labels that are names get the number that the mesh gives them, one that no mesh has where it gives none.
+void numberLabels(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes) {
+  constexpr int none = -2;
+  const auto number = [&](size_t body, const std::string& name, int& label) {
+    if (name.empty() || meshes[body] == nullptr) return;
+    const auto found = meshes[body]->labelNames.find(name);
+    label = found == meshes[body]->labelNames.end() ? none : found->second;
+  };
+  for (size_t b = 0; b < scene.bodies.size(); ++b)
+    for (ConditionDescription& c : scene.bodies[b].conditions) number(b, c.labelName, c.label);
+  for (ContactDescription& contact : scene.contacts)
+    for (SideDescription* side : {&contact.nonmortar, &contact.mortar})
+      number(static_cast<size_t>(bodyIndex(scene, side->body)), side->labelName, side->label);
+}
+
+void runChecks(const LintInput& input, Faults& faults) {
+  lintMeshes(input, faults);
+  lintLabels(input, faults);
+  lintBodies(input, faults);
+  lintContacts(input, faults);
+  lintMaterials(input, faults);
+  lintLoads(input, faults);
+  lintTime(input, faults);
+}
+
+/// What only the model can say: data where they are used, and whether everything is held.
+void build(const SceneDescription& scene, LintReport& report) {
+  try {
+    std::vector<std::string> doubts;  // named above, each with its remedy
+    Model model = buildModel(scene, doubts);
+    const StepSolver held(model, scene.solver);
+    report.model = std::move(model);
+  } catch (const InputError& error) {
+    addError(error, "data", report.faults);
+  } catch (const UnheldBodyError& error) {
+    report.faults.add("unheld-body", scene.path, error.what());
+  }
+}
+
+}  // namespace
+
+const Node* LintInput::bodyNode(size_t body) const {
+  const Node* bodies = document.find("body");
+  if (bodies == nullptr) return nullptr;
+  if (bodies->isTable()) return bodies;
+  return body < bodies->elements.size() ? &bodies->elements[body] : nullptr;
+}
+
+std::string LintInput::where(const std::vector<std::string>& keys) const {
+  return whereIn(document, keys);
+}
+
+std::string LintInput::whereInBody(size_t body, const std::vector<std::string>& keys) const {
+  const Node* node = bodyNode(body);
+  return node == nullptr ? document.where : whereIn(*node, keys);
+}
+
+Faults lintForRun(const std::vector<std::string>& settings, const SceneDescription& scene,
+                  const Model& model) {
+  const Node document = documentOf(scene.path, settings);
+  LintInput input{{scene, {}}, document, {}};
+  for (const Body& body : model.bodies) {
+    input.meshes.push_back(&body.mesh());
+    input.topologies.emplace_back();  // none: what is geometric takes too long for a run
+  }
+  Faults all(scene.allowed);
+  lintBodies(input, all);
+  lintMaterials(input, all);
+  lintLoads(input, all);
+  Faults some;
+  for (const Fault& fault : all.all())
+    if (fault.kind->inRun) some.add(fault.kind->id, fault.place, fault.message);
+  return some;
+}
+
+LintReport lint(const std::string& path, const std::vector<std::string>& settings) {
+  LintReport report;
+  Node document;
+  try {
+    document = documentOf(path, settings);
+    report.scene = readScene(path, settings);
+  } catch (const InputError& error) {
+    addError(error, "scene", report.faults);
+    return report;
+  }
+  SceneDescription& scene = *report.scene;
+  report.faults = Faults(scene.allowed);
+  for (const std::string& id : scene.allowed) {
+    const auto& kinds = faultKinds();
+    if (std::none_of(kinds.begin(), kinds.end(), [&](const FaultKind& kind) { return kind.id == id; }))
+      report.faults.add("allow-unknown", whereIn(document, {"check", "allow"}), "no fault is called " + id);
+  }
+  LintInput input{{scene, {}}, document, {}};
+  std::deque<TriangleMesh> meshes;
+  for (const BodyDescription& body : scene.bodies) {
+    input.meshes.push_back(nullptr);
+    input.topologies.emplace_back();
+    try {
+      input.meshes.back() = &meshes.emplace_back(readMesh(body.mesh));
+      input.topologies.back() = topologyOf(meshes.back());
+    } catch (const InputError& error) {
+      addError(error, "mesh-file", report.faults);
+    }
+  }
+  numberLabels(scene, input.meshes);
+  runChecks(input, report.faults);
+  if (report.faults.count(Severity::error) == 0) build(scene, report);
+  return report;
+}
+
+}  // namespace mortier

@@ -1,0 +1,53 @@
+// The linter: names what is wrong or doubtful in a scene and its meshes, each with its remedy, without solving
+// anything.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lint/fault.h"
+#include "lint/topology.h"
+#include "plan/loads.h"
+#include "scene/document.h"
+#include "scene/scene.h"
+#include "solver/model.h"
+
+namespace mortier {
+
+/// What the checks look at.
+struct LintInput : MeshedScene {
+  const Node& document;
+  std::vector<Topology> topologies;  ///< of the meshes
+
+  /// The table of a body; nullptr where there is none.
+  [[nodiscard]] const Node* bodyNode(size_t body) const;
+  /// `file:line` of a key of the scene, or of the innermost table above it.
+  [[nodiscard]] std::string where(const std::vector<std::string>& keys) const;
+  /// The same for a key of the body with this index.
+  [[nodiscard]] std::string whereInBody(size_t body, const std::vector<std::string>& keys) const;
+};
+
+struct LintReport {
+  Faults faults;
+  std::optional<SceneDescription> scene;  ///< none where it cannot be read
+  std::optional<Model> model;             ///< none where a run would refuse the scene
+};
+
+/// Everything. \throws nothing that a scene could cause: errors become faults.
+LintReport lint(const std::string& scene, const std::vector<std::string>& settings);
+
+/// What a run says of a scene that it can solve: the kinds marked so, all of them cheap.
+Faults lintForRun(const std::vector<std::string>& settings, const SceneDescription& scene,
+                  const Model& model);
+
+// One file each.
+void lintMeshes(const LintInput& input, Faults& faults);
+void lintLabels(const LintInput& input, Faults& faults);
+void lintContacts(const LintInput& input, Faults& faults);
+void lintBodies(const LintInput& input, Faults& faults);
+void lintMaterials(const LintInput& input, Faults& faults);
+void lintLoads(const LintInput& input, Faults& faults);
+void lintTime(const LintInput& input, Faults& faults);
+
+}  // namespace mortier

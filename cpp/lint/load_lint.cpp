@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "lint/held_dofs.h"
+#include "lint/lint.h"
+
+namespace mortier {
+namespace {
+
+using Kind = SampledDatum::Kind;
+
+/// The `file:line` with which the messages about an expression begin.
+std::string placeOf(const Expression& expression) {
+  const size_t end = expression.where.find(": ");
+  return expression.where.substr(0, end);
+}
+
+bool flows(const BodyDescription& body) {
+  const auto materials = materialsOf(body);
+  return std::any_of(materials.begin(), materials.end(),
+                     [](const MaterialDescription* m) { return m->viscoplasticity.has_value(); });
+}
+
+void checkDatum(const LintInput& input, const SampledDatum& datum, Faults& faults) {
+  constexpr double large = 0.2;
+  const BodyDescription& body = input.scene.bodies[datum.body];
+  const std::string subject = "body " + body.name + ": ";
+  if (datum.kind == Kind::displacement) {
+    double most = 0;
+    for (const double t : trialTimes(input.scene.time)) most = std::max(most, datum.change(0, t));
+    if (most > large * datum.size)
+      faults.add("large-displacement", placeOf(*datum.value),
+                 subject + "a displacement of " + shortest(most) + " m is prescribed on a body of " +
+                     shortest(datum.size) + " m");
+    if (const double initial = datum.largest(0); initial > 0)
+      faults.add(
+          "initial-displacement", placeOf(*datum.value),
+          subject + "a displacement of " + shortest(initial) +
+              " m is prescribed at t = 0, where the run begins unstressed: only its change has an effect");
+  } else if (flows(body) && datum.largest(0) > 0) {
+    faults.add("initial-load", placeOf(*datum.value),
+               subject + "a load of " + shortest(datum.largest(0)) +
+                   (datum.kind == Kind::force ? " N/m^3" : " Pa") +
+                   " acts at t = 0, where the run begins unstressed: it comes at once in the first step");
+  }
+}
+
+/// A traction that acts on held nodes only.
+void checkHeldLoads(const LintInput& input, size_t b, Faults& faults) {
+  const TriangleMesh& mesh = *input.meshes[b];
+  const auto& conditions = input.scene.bodies[b].conditions;
+  const std::vector<char> held = heldDofs(mesh, conditions);
+  for (const ConditionDescription& c : conditions) {
+    if (c.kind != ConditionDescription::Kind::traction) continue;
+    bool all = true;
+    bool any = false;
+    for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
+      if (mesh.boundaryLabels[e] != c.label) continue;
+      const auto [from, to] = mesh.boundaryEdges[e];
+      const auto axis = axisOf(c, mesh.vertices[from], mesh.vertices[to]);
+      for (const int v : {from, to}) all = all && axis && held[2 * v + *axis] != 0;
+      any = true;
+    }
+    if (any && all)
+      faults.add("load-on-support", c.where,
+                 "body " + input.scene.bodies[b].name + ": every node of label " + std::to_string(c.label) +
+                     " is held in the direction of its traction");
+  }
+}
+
+/// Numbers that t is compared with in an expression: where it may have kinks.
+std::vector<double> kinks(const std::string& text) {
+  std::vector<double> result;
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '<' && text[i] != '>') continue;
+    size_t before = i;
+    while (before > 0 && text[before - 1] == ' ') --before;
+    size_t after = i + 1;
+    while (after < text.size() && (text[after] == '=' || text[after] == ' ')) ++after;
+    const bool isTime = before > 0 && text[before - 1] == 't' &&
+                        (before == 1 || std::isalnum(static_cast<unsigned char>(text[before - 2])) == 0);
+    if (!isTime || after >= text.size() || std::isdigit(static_cast<unsigned char>(text[after])) == 0)
+      continue;
+    result.push_back(std::strtod(text.c_str() + after, nullptr));
+  }
+  return result;
+}
+
+void checkKinks(const LintInput& input, const SampledDatum& datum, Faults& faults) {
+  constexpr double onStep = 1e-6;
+  const TimePlan& time = input.scene.time;
+  const double step = time.end / time.steps;
+  std::vector<double> times = kinks(datum.value->text);
+  times.insert(times.end(), datum.value->breaks.begin(), datum.value->breaks.end());
+  for (const double kink : times) {
+    if (kink <= 0) continue;
+    if (kink > time.end * (1 + onStep))
+      faults.add("kink-after-end", placeOf(*datum.value),
+                 "\"" + datum.value->text + "\" changes at t = " + shortest(kink) + ", the run ends at " +
+                     shortest(time.end));
+    else if (std::abs(kink / step - std::round(kink / step)) > onStep)
+      faults.add("kink-between-steps", placeOf(*datum.value),
+                 "\"" + datum.value->text + "\" changes at t = " + shortest(kink) +
+                     ", within a step: steps are " + shortest(step) + " s long");
+  }
+}
+
+}  // namespace
+
+void lintLoads(const LintInput& input, Faults& faults) {
+  const std::vector<SampledDatum> data = sampledData(input);
+  const TimePlan& time = input.scene.time;
+  bool any = false;
+  bool changes = false;
+  bool complete = true;
+  for (const SampledDatum& datum : data) {
+    checkDatum(input, datum, faults);
+    checkKinks(input, datum, faults);
+    const bool moves = changesInTime(datum, time);
+    changes = changes || moves;
+    any = any || moves || (datum.kind != Kind::displacement && datum.largest(0) > 0);
+  }
+  for (size_t b = 0; b < input.meshes.size(); ++b) {
+    complete = complete && input.meshes[b] != nullptr;
+    if (input.meshes[b] != nullptr) checkHeldLoads(input, b, faults);
+  }
+  if (!complete) return;
+  if (!any) {
+    faults.add("no-load", input.where({"body"}),
+               "no traction, body force or prescribed displacement is other than 0");
+    return;
+  }
+  const bool elastic = std::none_of(input.scene.bodies.begin(), input.scene.bodies.end(), flows);
+  if (elastic && !changes && time.steps > 1)
+    faults.add("constant-loads", input.where({"time", "steps"}),
+               "nothing depends on time: of " + std::to_string(time.steps) + " steps the first one says all");
+}
+
+}  // namespace mortier

@@ -1,0 +1,166 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "lint/lint.h"
+
+namespace mortier {
+namespace {
+
+/// One of the materials of a body, and where the scene says it.
+struct PlacedMaterial {
+  const MaterialDescription& description;
+  std::string subject;
+  std::function<std::string(const std::string& key)> where;
+};
+
+std::vector<PlacedMaterial> placedMaterials(const LintInput& input, size_t b) {
+  const BodyDescription& body = input.scene.bodies[b];
+  std::vector<PlacedMaterial> materials{
+      {body.material, "body " + body.name + ": ", [&input, b](const std::string& key) {
+         return input.whereInBody(b, {"material", key});
+       }}};
+  for (const RegionDescription& region : body.regions)
+    if (region.material)
+      materials.push_back({*region.material,
+                           "body " + body.name + ", region " + std::to_string(region.label) + ": ",
+                           [&region](const std::string&) { return region.where; }});
+  return materials;
+}
+
+void checkElasticity(const PlacedMaterial& material, double nominal, Faults& faults) {
+  constexpr double incompressible = 0.49;
+  constexpr double large = 0.05;
+  const Elasticity& e = material.description.elasticity;
+  const std::string& subject = material.subject;
+  if (e.poisson > incompressible)
+    faults.add("poisson-limit", material.where("poisson"),
+               subject + "poisson = " + shortest(e.poisson) + " is nearly incompressible");
+  if (e.poisson < 0)
+    faults.add("poisson-negative", material.where("poisson"),
+               subject + "poisson = " + shortest(e.poisson) + " is negative");
+  if (nominal > large * e.young)
+    faults.add("large-strain", material.where("young"),
+               subject + "the loads are of the order of " + shortest(nominal) +
+                   " Pa, young = " + shortest(e.young) + " Pa: strains of " +
+                   shortest(std::round(100 * nominal / e.young)) + " %");
+}
+
+void checkFlow(const LintInput& input, const PlacedMaterial& material, double largest, double afterFirstStep,
+               double firstYield, Faults& faults) {
+  constexpr double unreachable = 20;
+  constexpr double far = 3;
+  constexpr double frozen = 1e-3;
+  constexpr double tooStiff = 1e13;
+  constexpr double plastic = 0.1;
+  const Viscoplasticity& flow = *material.description.viscoplasticity;
+  const double e = material.description.elasticity.moduli().maxCoeff();
+  const TimePlan& time = input.scene.time;
+  const std::string& subject = material.subject;
+  const std::string yield = "yield_stress = " + shortest(flow.yieldStress) + " Pa";
+  const std::string yieldPlace = material.where("yield_stress");
+  if (flow.yieldStress > plastic * e) {
+    faults.add("yield-over-young", yieldPlace,
+               subject + yield + " is " + shortest(std::round(100 * flow.yieldStress / e)) +
+                   " % of Young's modulus");
+    return;
+  }
+  if (largest > 0 && largest * unreachable < flow.yieldStress) {
+    faults.add("never-yields", yieldPlace,
+               subject + yield + ", the loads are at most of the order of " + shortest(largest) + " Pa");
+    return;
+  }
+  const double step = time.end / time.steps;
+  const double relaxation = 2 * flow.viscosity / e;
+  if (time.end < frozen * relaxation)
+    faults.add("viscosity-large", material.where("viscosity"),
+               subject + "relaxes in 2 viscosity/E = " + shortest(relaxation) + " s, the run ends at " +
+                   shortest(time.end) + " s: nothing has time to flow");
+  if (step > tooStiff * relaxation)
+    faults.add("viscosity-small", material.where("viscosity"),
+               subject + "a step is " + shortest(step / relaxation) +
+                   " relaxation times long, more than doubles resolve");
+  if (afterFirstStep > far * flow.yieldStress)
+    faults.add("yields-at-once", input.where({"time", "steps"}),
+               subject + "the first step goes to " + shortest(afterFirstStep) + " Pa, with " + yield);
+  constexpr int few = 10;
+  if (time.scheme == Scheme::backwardEuler && largest > flow.yieldStress && time.steps < few)
+    faults.add("few-steps-across-yield", input.where({"time", "steps"}),
+               subject + "backward-euler is of first order, " + std::to_string(time.steps) +
+                   " steps across yield leave an error of about " + shortest(std::round(100.0 / time.steps)) +
+                   " %");
+  const bool hard =
+      std::any_of(input.scene.contacts.begin(), input.scene.contacts.end(),
+                  [](const ContactDescription& c) { return c.variant == CouplingKind::interpolation; });
+  constexpr double lands = 1e-9;
+  if (hard && firstYield > 0 && std::abs(firstYield / step - std::round(firstYield / step)) < lands)
+    faults.add("lands-on-yield", input.where({"time", "steps"}),
+               subject + "a step ends at t = " + shortest(firstYield) +
+                   " s, where the traction reaches the yield stress");
+}
+
+/// The first time at which the largest traction reaches the yield stress; 0 where it does not.
+double yieldTime(const std::vector<SampledDatum>& data, const TimePlan& plan, double yieldStress) {
+  const auto traction = [&](double t) {
+    double result = 0;
+    for (const SampledDatum& datum : data)
+      if (datum.kind == SampledDatum::Kind::traction) result = std::max(result, datum.largest(t));
+    return result;
+  };
+  double before = 0;
+  for (const double t : trialTimes(plan)) {
+    if (traction(t) < yieldStress) {
+      before = t;
+      continue;
+    }
+    if (t == 0) return 0;
+    double after = t;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = (before + after) / 2;
+      (traction(middle) < yieldStress ? before : after) = middle;
+    }
+    return after;
+  }
+  return 0;
+}
+
+}  // namespace
+
+void lintMaterials(const LintInput& input, Faults& faults) {
+  const std::vector<SampledDatum> data = sampledData(input);
+  const TimePlan& time = input.scene.time;
+  double largest = 0;
+  for (const double t : trialTimes(time)) largest = std::max(largest, nominalStress(input.scene, data, t));
+  const double afterFirstStep = nominalStress(input.scene, data, time.end / time.steps);
+  double stiffest = 0;
+  for (size_t b = 0; b < input.scene.bodies.size(); ++b) {
+    double onBody = 0;
+    for (const SampledDatum& datum : data) {
+      if (datum.body != b || datum.kind == SampledDatum::Kind::displacement) continue;
+      for (const double t : trialTimes(time))
+        onBody =
+            std::max(onBody, datum.largest(t) * (datum.kind == SampledDatum::Kind::force ? datum.size : 1));
+    }
+    for (const PlacedMaterial& material : placedMaterials(input, b)) {
+      checkElasticity(material, onBody, faults);
+      const auto& flow = material.description.viscoplasticity;
+      if (!flow) continue;
+      stiffest = std::max(stiffest, time.end / time.steps / (4 * flow->viscosity) *
+                                        material.description.elasticity.moduli().maxCoeff());
+      checkFlow(input, material, largest, afterFirstStep, yieldTime(data, time, flow->yieldStress), faults);
+    }
+    const Node* body = input.bodyNode(b);
+    const Node* table = body == nullptr ? nullptr : body->find("material");
+    if (!input.scene.bodies[b].material.viscoplasticity && table != nullptr &&
+        table->find("projection") != nullptr)
+      faults.add("projection-unused", table->find("projection")->where,
+                 "body " + input.scene.bodies[b].name + " is elastic, projection has no meaning in it");
+  }
+  constexpr double ringing = 10;
+  if (time.scheme == Scheme::crankNicolson && stiffest > ringing)
+    faults.add("scheme-rings", input.where({"time", "scheme"}),
+               "crank-nicolson multiplies an overstress by almost -1 in every step: a step is " +
+                   shortest(2 * stiffest) + " relaxation times long");
+}
+
+}  // namespace mortier

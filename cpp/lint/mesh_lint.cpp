@@ -1,0 +1,217 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "lint/lint.h"
+
+namespace mortier {
+namespace {
+
+/// Points closer than this part of the extent are the same.
+constexpr double coincident = 1e-9;
+
+std::string at(const Point& p) {
+  return "(" + shortest(p.x()) + ", " + shortest(p.y()) + ")";
+}
+
+std::string count(size_t n, const std::string& what) {
+  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
+
+std::string triangle(const TriangleMesh& mesh, int t) {
+  return mesh.name + ": triangle " + std::to_string(t + 1);
+}
+
+std::string vertex(const TriangleMesh& mesh, int v) {
+  return mesh.name + ": vertex " + std::to_string(v + 1);
+}
+
+class Parts {
+ public:
+  explicit Parts(const TriangleMesh& mesh) : parent_(mesh.vertices.size()) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+    for (const auto& t : mesh.triangles) {
+      join(t[0], t[1]);
+      join(t[0], t[2]);
+    }
+  }
+  int of(int v) {
+    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
+    return v;
+  }
+
+ private:
+  void join(int a, int b) { parent_[of(a)] = of(b); }
+  std::vector<int> parent_;
+};
+
+void findParts(const TriangleMesh& mesh, Faults& faults) {
+  Parts parts(mesh);
+  std::map<int, std::vector<int>> triangles;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
+    triangles[parts.of(mesh.triangles[t][0])].push_back(t);
+  if (triangles.size() == 1) return;
+  const auto smallest =
+      std::min_element(triangles.begin(), triangles.end(),
+                       [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
+  faults.add("mesh-parts", triangle(mesh, smallest->second.front()),
+             count(triangles.size(), "part") + " that share no vertex, the smallest has " +
+                 count(smallest->second.size(), "triangle") + ", one of them at " +
+                 at(mesh.vertices[mesh.triangles[smallest->second.front()][0]]));
+}
+
+/// Boundary vertices that lie where another one does, and boundary edges that do.
+void findDoubles(const TriangleMesh& mesh, const Topology& topology, Faults& faults) {
+  const double tolerance = coincident * extent(mesh);
+  std::vector<int> vertices;
+  for (const BoundaryEdge& edge : topology.boundary) vertices.push_back(edge.from);
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  std::sort(vertices.begin(), vertices.end(),
+            [&](int a, int b) { return mesh.vertices[a].x() < mesh.vertices[b].x(); });
+  std::map<int, int> twin;  // the lowest vertex at the same place
+  for (size_t i = 0; i < vertices.size(); ++i)
+    for (size_t j = i + 1;
+         j < vertices.size() && mesh.vertices[vertices[j]].x() - mesh.vertices[vertices[i]].x() <= tolerance;
+         ++j)
+      if ((mesh.vertices[vertices[i]] - mesh.vertices[vertices[j]]).norm() <= tolerance) {
+        const int low = std::min(vertices[i], vertices[j]);
+        twin[vertices[i]] = twin.count(vertices[i]) != 0 ? std::min(twin[vertices[i]], low) : low;
+        twin[vertices[j]] = twin.count(vertices[j]) != 0 ? std::min(twin[vertices[j]], low) : low;
+      }
+  if (twin.empty()) return;
+  const auto same = [&](int v) { return twin.count(v) != 0 ? twin.at(v) : v; };
+  std::map<std::pair<int, int>, int> seen;
+  std::vector<const BoundaryEdge*> cracks;
+  for (const BoundaryEdge& edge : topology.boundary) {
+    seen[{same(edge.from), same(edge.to)}] += 1;
+    if (seen.count({same(edge.to), same(edge.from)}) != 0) cracks.push_back(&edge);
+  }
+  if (!cracks.empty()) {
+    faults.add("crack", vertex(mesh, cracks.front()->from),
+               count(cracks.size(), "edge") + " with double nodes, as a crack has, one at " +
+                   at(mesh.vertices[cracks.front()->from]));
+    return;
+  }
+  const auto first =
+      std::find_if(twin.begin(), twin.end(), [](const auto& v) { return v.first != v.second; });
+  faults.add("duplicate-node", vertex(mesh, first->first),
+             count(twin.size(), "vertex") + " lie in one place with another, this one with vertex " +
+                 std::to_string(first->second + 1) + " at " + at(mesh.vertices[first->first]));
+}
+
+void findHangingNodes(const TriangleMesh& mesh, const Topology& topology, Faults& faults) {
+  const SegmentGrid grid = boundaryGrid(mesh, topology);
+  const double tolerance = coincident * extent(mesh);
+  std::vector<int> hanging;
+  for (const BoundaryEdge& each : topology.boundary) {
+    const Point& p = mesh.vertices[each.from];
+    bool found = false;
+    grid.near(p, p, [&](int e) {
+      const auto& [a, b] = grid.segments()[e];
+      found = found || (distanceToSegment(p, {a, b}) <= tolerance && (p - a).norm() > tolerance &&
+                        (p - b).norm() > tolerance);
+    });
+    if (found) hanging.push_back(each.from);
+  }
+  if (hanging.empty()) return;
+  faults.add("hanging-node", vertex(mesh, hanging.front()),
+             count(hanging.size(), "vertex") + " on an edge without being one of its ends, this one at " +
+                 at(mesh.vertices[hanging.front()]));
+}
+
+double cross(const Point& a, const Point& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+void findCrossings(const TriangleMesh& mesh, const Topology& topology, Faults& faults) {
+  const SegmentGrid grid = boundaryGrid(mesh, topology);
+  const auto crosses = [](const std::array<Point, 2>& s, const std::array<Point, 2>& r) {
+    constexpr double clear = 1e-9;
+    const Point u = s[1] - s[0];
+    const Point v = r[1] - r[0];
+    const double scale = clear * u.norm() * v.norm();
+    const double a = cross(u, r[0] - s[0]);
+    const double b = cross(u, r[1] - s[0]);
+    const double c = cross(v, s[0] - r[0]);
+    const double d = cross(v, s[1] - r[0]);
+    return ((a > scale && b < -scale) || (a < -scale && b > scale)) &&
+           ((c > scale && d < -scale) || (c < -scale && d > scale));
+  };
+  for (size_t i = 0; i < topology.boundary.size(); ++i) {
+    const auto& segment = grid.segments()[i];
+    bool found = false;
+    grid.near(segment[0].cwiseMin(segment[1]), segment[0].cwiseMax(segment[1]),
+              [&](int e) { found = found || crosses(segment, grid.segments()[e]); });
+    if (!found) continue;
+    faults.add("mesh-overlaps-itself", triangle(mesh, topology.boundary[i].triangle),
+               "its boundary crosses itself near " + at(segment[0]));
+    return;
+  }
+}
+
+void findBadTriangles(const TriangleMesh& mesh, const Topology& topology, Faults& faults) {
+  constexpr double flat = 20;  // of the aspect ratio; 1 is best
+  constexpr double jump = 64;  // of the area between neighbours
+  constexpr size_t few = 8;
+  size_t slivers = 0;
+  double worst = flat;
+  int where = 0;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    const double ratio = aspectRatio(mesh, t);
+    slivers += ratio > flat ? 1 : 0;
+    if (ratio > worst) {
+      worst = ratio;
+      where = t;
+    }
+  }
+  if (slivers > 0)
+    faults.add("sliver", triangle(mesh, where),
+               count(slivers, "triangle") + " with an aspect ratio above " + shortest(flat) +
+                   " (equilateral: 1), this one has " + shortest(std::round(worst)));
+  size_t jumps = 0;
+  worst = jump;
+  for (const auto& [a, b] : topology.neighbours) {
+    const double ratio = doubleArea(mesh, a) / doubleArea(mesh, b);
+    jumps += std::max(ratio, 1 / ratio) > jump ? 1 : 0;
+    if (std::max(ratio, 1 / ratio) <= worst) continue;
+    worst = std::max(ratio, 1 / ratio);
+    where = ratio > 1 ? a : b;
+  }
+  if (jumps > 0)
+    faults.add("size-jump", triangle(mesh, where),
+               count(jumps, "pair") + " of neighbours whose areas differ by more than " + shortest(jump) +
+                   " times, this one by " + shortest(std::round(worst)));
+  if (mesh.triangles.size() < few)
+    faults.add("mesh-coarse", mesh.name, count(mesh.triangles.size(), "triangle") + " in all");
+}
+
+void findLostDigits(const TriangleMesh& mesh, Faults& faults) {
+  constexpr double far = 1e5;
+  const auto [lower, upper] = boundingBox(mesh);
+  const double distance = std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
+  if (distance <= far * extent(mesh)) return;
+  faults.add("far-from-origin", mesh.name,
+             "coordinates up to " + shortest(distance) + " m for an extent of " + shortest(extent(mesh)) +
+                 " m: " + shortest(std::floor(std::log10(distance / extent(mesh)))) +
+                 " of 16 digits say where the mesh is, not what it is");
+}
+
+}  // namespace
+
+void lintMeshes(const LintInput& input, Faults& faults) {
+  for (size_t b = 0; b < input.meshes.size(); ++b) {
+    if (input.meshes[b] == nullptr) continue;
+    const TriangleMesh& mesh = *input.meshes[b];
+    const Topology& topology = input.topologies[b];
+    findParts(mesh, faults);
+    findDoubles(mesh, topology, faults);
+    findHangingNodes(mesh, topology, faults);
+    findCrossings(mesh, topology, faults);
+    findBadTriangles(mesh, topology, faults);
+    findLostDigits(mesh, faults);
+  }
+}
+
+}  // namespace mortier

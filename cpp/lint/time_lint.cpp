@@ -1,0 +1,37 @@
+#include "lint/lint.h"
+
+namespace mortier {
+
+void lintTime(const LintInput& input, Faults& faults) {
+  constexpr double loose = 1e-6;
+  constexpr double tight = 1e-13;
+  constexpr int few = 20;
+  constexpr double large = 4e9;  // bytes
+  const SceneDescription& scene = input.scene;
+  if (scene.every > scene.time.steps)
+    faults.add("output-every", input.where({"output", "every"}),
+               "every = " + std::to_string(scene.every) + " with " + std::to_string(scene.time.steps) +
+                   " steps keeps the first and the last state only");
+  if (scene.solver.tolerance > loose)
+    faults.add("tolerance-loose", input.where({"solver", "tolerance"}),
+               "tolerance = " + shortest(scene.solver.tolerance) + " shows in the results");
+  if (scene.solver.tolerance < tight)
+    faults.add("tolerance-tight", input.where({"solver", "tolerance"}),
+               "tolerance = " + shortest(scene.solver.tolerance) + " is below the rounding of the residual");
+  if (scene.solver.maxIterations < few)
+    faults.add("iterations-few", input.where({"solver", "max_iterations"}),
+               "max_iterations = " + std::to_string(scene.solver.maxIterations) +
+                   ", a step in which bodies yield may need more");
+  double bytes = 0;
+  for (const TriangleMesh* mesh : input.meshes)
+    if (mesh != nullptr)
+      bytes += 8.0 * (6.0 * static_cast<double>(mesh->vertices.size()) +
+                      11.0 * static_cast<double>(mesh->triangles.size()));
+  const double kept = scene.every > 0 ? 1.0 + scene.time.steps / scene.every : 1.0;
+  if (bytes * kept > large)
+    faults.add(
+        "output-large", input.where({"output", "every"}),
+        shortest(kept) + " kept states of about " + shortest(std::round(bytes / 1e5) / 10) + " MB each");
+}
+
+}  // namespace mortier

@@ -1,0 +1,93 @@
+#include "plan/loads.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mortier {
+
+std::vector<const MaterialDescription*> materialsOf(const BodyDescription& body) {
+  std::vector<const MaterialDescription*> materials{&body.material};
+  for (const RegionDescription& region : body.regions)
+    if (region.material) materials.push_back(&*region.material);
+  return materials;
+}
+
+double SampledDatum::largest(double t) const {
+  double result = 0;
+  for (const Point& p : points) result = std::max(result, std::abs(value->value(p.x(), p.y(), t)));
+  return result;
+}
+
+double SampledDatum::change(double s, double t) const {
+  double result = 0;
+  for (const Point& p : points)
+    result = std::max(result, std::abs(value->value(p.x(), p.y(), t) - value->value(p.x(), p.y(), s)));
+  return result;
+}
+
+std::vector<SampledDatum> sampledData(const MeshedScene& input) {
+  constexpr size_t enough = 60;
+  const auto thinned = [](std::vector<Point> points) {
+    const size_t stride = 1 + points.size() / enough;
+    std::vector<Point> some;
+    for (size_t i = 0; i < points.size(); i += stride) some.push_back(points[i]);
+    return some;
+  };
+  std::vector<SampledDatum> data;
+  for (size_t b = 0; b < input.meshes.size(); ++b) {
+    if (input.meshes[b] == nullptr) continue;
+    const TriangleMesh& mesh = *input.meshes[b];
+    const double size = extent(mesh);
+    for (const ConditionDescription& c : input.scene.bodies[b].conditions) {
+      std::vector<Point> points;
+      for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
+        if (mesh.boundaryLabels[e] == c.label)
+          for (const int v : mesh.boundaryEdges[e]) points.push_back(mesh.vertices[v]);
+      const bool held = c.kind == ConditionDescription::Kind::displacement;
+      data.push_back({held ? SampledDatum::Kind::displacement : SampledDatum::Kind::traction, b, &c.value,
+                      thinned(std::move(points)), size});
+    }
+    for (const std::optional<Expression>& force : input.scene.bodies[b].force)
+      if (force) data.push_back({SampledDatum::Kind::force, b, &*force, thinned(mesh.vertices), size});
+  }
+  return data;
+}
+
+std::vector<double> trialTimes(const TimePlan& plan) {
+  constexpr int count = 64;
+  constexpr double uneven = 0.3819660112501051;
+  std::vector<double> times{0};
+  for (int i = 0; i < count; ++i) {
+    times.push_back(plan.end * (i + uneven) / count);
+    times.push_back(plan.end * (i + 1) / count);
+  }
+  return times;
+}
+
+bool changesInTime(const SampledDatum& datum, const TimePlan& plan) {
+  if (datum.value->constant) return false;
+  for (const double t : trialTimes(plan))
+    if (datum.change(0, t) != 0) return true;
+  return false;
+}
+
+double nominalStress(const SceneDescription& scene, const std::vector<SampledDatum>& data, double t) {
+  double result = 0;
+  for (const SampledDatum& datum : data) {
+    const double young = scene.bodies[datum.body].material.elasticity.young;
+    switch (datum.kind) {
+      case SampledDatum::Kind::traction:
+        result = std::max(result, datum.largest(t));
+        break;
+      case SampledDatum::Kind::force:
+        result = std::max(result, datum.largest(t) * datum.size);
+        break;
+      case SampledDatum::Kind::displacement:
+        result = std::max(result, datum.change(0, t) / datum.size * young);
+        break;
+    }
+  }
+  return result;
+}
+
+}  // namespace mortier

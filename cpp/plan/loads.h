@@ -1,0 +1,48 @@
+// How large the data of a scene are in the course of a run, for comparisons with stiffness and strength.
+#pragma once
+
+#include <vector>
+
+#include "mesh/triangle_mesh.h"
+#include "scene/scene.h"
+
+namespace mortier {
+
+/// A scene and the meshes of its bodies; nullptr where one cannot be read.
+struct MeshedScene {
+  const SceneDescription& scene;
+  std::vector<const TriangleMesh*> meshes;
+};
+
+/// The material of a body and those of its regions.
+std::vector<const MaterialDescription*> materialsOf(const BodyDescription& body);
+
+/// A condition of a body with the points at which it is tried.
+struct SampledDatum {
+  enum class Kind { displacement, traction, force };
+  Kind kind = Kind::traction;
+  size_t body = 0;
+  const Expression* value = nullptr;
+  std::vector<Point> points;
+  double size = 0;  ///< extent of the body [m]
+
+  /// Largest |value| over the points at a time.
+  [[nodiscard]] double largest(double t) const;
+  /// Largest |value(t) - value(s)| over the points.
+  [[nodiscard]] double change(double s, double t) const;
+};
+
+/// Of all bodies whose mesh is known.
+std::vector<SampledDatum> sampledData(const MeshedScene& input);
+
+/// Times from 0 to the end, evenly; among them times that no period of an expression meets.
+std::vector<double> trialTimes(const TimePlan& plan);
+
+/// Whether the value differs at any of the times.
+bool changesInTime(const SampledDatum& datum, const TimePlan& plan);
+
+/// The stress that the data of the scene ask for at a time, by order of magnitude [Pa]: tractions as they are, body
+/// forces times the extent, prescribed displacements over the extent times Young's modulus.
+double nominalStress(const SceneDescription& scene, const std::vector<SampledDatum>& data, double t);
+
+}  // namespace mortier

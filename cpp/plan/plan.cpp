@@ -1,0 +1,136 @@
+#include "plan/plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/document.h"
+
+namespace mortier {
+namespace {
+
+class Planner {
+ public:
+  Planner(const SceneDescription& scene, const Model& model) : scene_(scene), model_(model) {
+    MeshedScene meshed{scene, {}};
+    for (const Body& body : model.bodies) meshed.meshes.push_back(&body.mesh());
+    data_ = sampledData(meshed);
+    for (const double t : trialTimes(scene.time))
+      largest_ = std::max(largest_, nominalStress(scene, data_, t));
+  }
+
+  Plan make() {
+    for (size_t b = 0; b < model_.bodies.size(); ++b) planBody(b);
+    planContact();
+    planTime();
+    add("scene", false, "inertia, friction, finite strains and slips",
+        "quasistatic, small strains, frictionless");
+    return std::move(plan_);
+  }
+
+ private:
+  void add(const std::string& part, bool modelled, const std::string& what, const std::string& why) {
+    plan_.push_back({part, modelled, what, why});
+  }
+
+  void planBody(size_t b) {
+    const Body& body = model_.bodies[b];
+    const std::string part = "body " + body.name();
+    const bool symmetric = body.material().symmetricTangent();
+    const std::string factor = symmetric ? "Cholesky" : "LU";
+    if (body.material().linear()) {
+      add(part, true, "linear: one " + factor + " factor for the whole run", "it is elastic");
+      return;
+    }
+    std::string projection;
+    double yieldStress = INFINITY;
+    for (const MaterialDescription* material : materialsOf(scene_.bodies[b])) {
+      if (!material->viscoplasticity) continue;
+      projection = word(material->viscoplasticity->projection);
+      yieldStress = std::min(yieldStress, material->viscoplasticity->yieldStress);
+    }
+    const std::string law = "projection " + projection + " makes its tangent " +
+                            (symmetric ? "symmetric" : "unsymmetric where it flows");
+    add(part, true, factor + " in every iteration", law);
+    const std::string loads = "loads of the order of " + shortest(rounded(largest_)) + " Pa, yield_stress " +
+                              shortest(yieldStress) + " Pa";
+    if (largest_ < yieldStress)
+      add(part, false, "flow, unless some point yields after all", loads);
+    else
+      add(part, true, "flow", loads);
+  }
+
+  void planContact() {
+    if (model_.interfaces.empty()) {
+      add("contact", false, "contact: nothing is condensed, every body is solved by itself",
+          model_.bodies.size() == 1 ? "there is one body" : "the scene has none");
+      return;
+    }
+    for (size_t k = 0; k < model_.interfaces.size(); ++k) {
+      const ContactInterface& interface = model_.interfaces[k];
+      const std::string part = "contact " + std::to_string(k);
+      add(part, true,
+          "unilateral contact by " + word(scene_.contacts[k].variant) + " at " +
+              std::to_string(interface.rows()) + " nodes of " +
+              model_.bodies[interface.pair().nonmortar.body].name(),
+          "any of them may open");
+    }
+    add("contact", false, "a bilateral tie where nothing opens",
+        "nothing to save: contact that keeps its active set costs what a tie would, docs/check.md");
+  }
+
+  void planTime() {
+    const TimePlan& time = scene_.time;
+    const bool elastic = std::all_of(model_.bodies.begin(), model_.bodies.end(),
+                                     [](const Body& body) { return body.material().linear(); });
+    const bool changes = std::any_of(data_.begin(), data_.end(),
+                                     [&](const SampledDatum& datum) { return changesInTime(datum, time); });
+    const std::string steps = std::to_string(time.steps) + (time.steps == 1 ? " step" : " steps");
+    add("time", true, steps + " of " + shortest(time.end / time.steps) + " s, " + word(time.scheme),
+        changes   ? "loads change"
+        : elastic ? "nothing depends on time: one step would do"
+                  : "bodies flow");
+  }
+
+  static double rounded(double x) {
+    if (!(x > 0)) return 0;
+    const double unit = std::pow(10, std::floor(std::log10(x)) - 1);
+    return std::round(x / unit) * unit;
+  }
+
+  const SceneDescription& scene_;
+  const Model& model_;
+  std::vector<SampledDatum> data_;
+  double largest_ = 0;
+  Plan plan_;
+};
+
+}  // namespace
+
+Plan planOf(const SceneDescription& scene, const Model& model) {
+  return Planner(scene, model).make();
+}
+
+std::string planText(const Plan& plan) {
+  std::string text;
+  for (const bool modelled : {true, false})
+    for (const PlanItem& item : plan)
+      if (item.modelled == modelled)
+        text += (modelled ? "modelled   " : "left out   ") + item.part + ": " + item.what + " (" + item.why +
+                ")\n";
+  return text;
+}
+
+std::vector<std::string> planLines(const Plan& plan) {
+  std::vector<std::string> lines;
+  for (const bool modelled : {true, false}) {
+    std::string line;
+    for (const PlanItem& item : plan)
+      if (item.modelled == modelled)
+        line += (line.empty() ? (modelled ? "modelled   " : "left out   ") : "; ") +
+                (item.part == "scene" ? "" : item.part + ": ") + item.what;
+    if (!line.empty()) lines.push_back(line);
+  }
+  return lines;
+}
+
+}  // namespace mortier
