@@ -179,8 +179,11 @@ void checkConditions(const LintInput& input, const ContactDescription& contact,
           faults.add("support-on-contact", c.where, what + " is the nonmortar side and is held");
         continue;
       }
-      // A held node with a contact condition of its own: its normal motion is given twice.
-      if (c.kind != Kind::displacement || side != &contact.nonmortar) continue;
+      // A held node with a contact condition of its own: its normal motion is given twice. The mortar coupling gives the
+      // condition to its neighbour.
+      if (c.kind != Kind::displacement || side != &contact.nonmortar ||
+          contact.variant != CouplingKind::interpolation)
+        continue;
       int node = -1;
       for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
         if (mesh.boundaryLabels[e] != c.label) continue;

@@ -109,8 +109,9 @@ const std::vector<FaultKind>& faultKinds() {
        "take one of them away, unless both are meant"},
       {"support-on-contact", warning, checkOnly, "the nonmortar side is held",
        "let the held body be the mortar side (contact.swap)"},
-      {"contact-meets-support", warning, checkOnly, "a nonmortar node is held along the normal of contact",
-       "let the held body be the mortar side (contact.swap), or end its support one node before"},
+      {"contact-meets-support", warning, checkOnly,
+       "a nonmortar node is held along the normal of contact, with interpolation",
+       "take variant = \"mortar\", or let the held body be the mortar side (contact.swap)"},
       // Materials.
       {"poisson-limit", warning, checkOnly, "Poisson's ratio is next to 0.5",
        "P1 triangles lock in plane strain: take poisson <= 0.49, or refine until nothing changes"},

@@ -474,6 +474,7 @@ def _(case):
 @fault("contact-meets-support", "scene.toml:8")
 def _(case):
     case.replace("ux = 0", "ux = 0\nuy = 0")
+    case.replace("label = 3 }\n", "label = 3 }\nvariant = \"interpolation\"\n")
 
 
 # Materials.
