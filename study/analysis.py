@@ -179,8 +179,8 @@ def comparison_text(each, costs, reason):
         return [head, f"  not compared: {reason}"]
     lines = [head]
     for cost, (dear, cheap) in costs.items():
-        if cost == "dofs" and np.isclose(dear.value, cheap.value):
-            continue
+        if cost == "dofs" and not (np.isfinite(dear.value) and not np.isclose(dear.value, cheap.value)):
+            continue  # the same meshes throughout
         ratio = dear.value / cheap.value if np.isfinite(cheap.value) and cheap.value else np.nan
         name = COSTS[cost].replace("_", " ")
         lines.append(f"  {name:<18} {dear.value:>12.4g} ({dear.how}) / {cheap.value:.4g} ({cheap.how})"
