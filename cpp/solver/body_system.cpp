@@ -217,9 +217,10 @@ Vector BodySystem::displacementOf(const Vector& forceChange, const Vector& z) {
 
 Matrix BodySystem::stressOf(const Matrix& strain) const {
   Matrix stress = Matrix::Zero(body_.material().components(), strain.cols());
-  for (Eigen::Index i = 0; i < strain.cols(); ++i)
-    stress.col(i).head<3>() =
-        Eigen::Map<const Eigen::Matrix3d>(law_.moduli.col(i).data()) * strain.col(i).head<3>();
+  for (int i = 0; i < strain.cols(); ++i) {
+    const std::array<double, 9> moduli = moduliAt(law_.moduli, i);
+    stress.col(i).head<3>() = Eigen::Map<const Eigen::Matrix3d>(moduli.data()) * strain.col(i).head<3>();
+  }
   return stress;
 }
 
