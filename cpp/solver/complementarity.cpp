@@ -57,10 +57,10 @@ class Pivoting {
   /// Whether a matrix that was to be solved with is singular but for rounding.
   [[nodiscard]] bool redundant() const { return redundant_; }
 
-  /// What the proximal term still carries of the balance, against all forces in it.
-  [[nodiscard]] double imbalance(const ContactSolution& solution) const {
+  /// What the proximal term still carries of the balance, against all forces in it, or those that are usual.
+  [[nodiscard]] double imbalance(const ContactSolution& solution, double usual = 0) const {
     const Vector rest = balance_ - problem_.G.transpose() * solution.change;
-    const Vector forces = p0_.cwiseAbs() + (p0_ + solution.change).cwiseAbs();
+    const Vector forces = ((p0_.cwiseAbs() + (p0_ + solution.change).cwiseAbs()).array() + usual).matrix();
     const double scale =
         balance_.cwiseAbs().maxCoeff() + (problem_.G.cwiseAbs().transpose() * forces).maxCoeff();
     return scale > 0 ? rest.cwiseAbs().maxCoeff() / scale : 0;
@@ -174,7 +174,7 @@ ContactSolution solveRegular(const ContactProblem& problem, const std::vector<ch
     z0 = solution.rigid;
   }
   constexpr double hopeless = 1e-6;
-  if (problem.G.cols() > 0 && pivoting.imbalance(solution) > hopeless)
+  if (problem.G.cols() > 0 && pivoting.imbalance(solution, problem.force) > hopeless)
     solution.outcome =
         pivoting.leaves(solution) ? ContactSolution::Outcome::unbalanced : ContactSolution::Outcome::cycled;
   else

@@ -16,6 +16,7 @@ struct ContactProblem {
   Matrix W;               ///< rows x rows; W_ii = 0 where no free motion changes a condition
   bool symmetric = true;  ///< whether W is
   Matrix G;               ///< rows x rigid motions, none where all bodies are supported
+  double force = 0;       ///< a contact force beside which an imbalance is nothing but rounding
 };
 
 struct ContactSolution {

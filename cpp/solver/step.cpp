@@ -149,6 +149,9 @@ void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>&
   std::vector<Vector> force(systems_.size());
   forEachBody([&](int b) { force[b] = loads[b] - model_.bodies[b].internalForce(systems_[b].predictor()); });
   const std::vector<Vector> u = displacements(state0, iterate);
+  contact_.force = 0;
+  for (const Vector& before : state0.contactForce)
+    if (before.size() > 0) contact_.force = std::max(contact_.force, before.maxCoeff());
   Vector slack(rows());
   Vector p(rows());
   for (size_t k = 0; k < model_.interfaces.size(); ++k) {
@@ -204,6 +207,7 @@ void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>&
 
 Certificate StepSolver::certify(const State& state0, const std::vector<Vector>& loads, const Iterate& iterate,
                                 double materialResidual) const {
+  constexpr double roundingOfMotion = 1e-15;
   Certificate result;
   result.materialResidual = materialResidual;
   double force = 0;
@@ -213,6 +217,10 @@ Certificate StepSolver::certify(const State& state0, const std::vector<Vector>& 
     const Vector internal = model_.bodies[b].internalForce(iterate.bodies[b].stress);
     force = std::max({force, internal.cwiseAbs().maxCoeff(), loads[b].cwiseAbs().maxCoeff()});
     residual.push_back(loads[b] - internal);
+    // An elastic body that moves without any load has forces that are nothing but rounding.
+    if (model_.bodies[b].material().linear())
+      force = std::max(force, roundingOfMotion * systems_[b].moduli().lpNorm<Eigen::Infinity>() *
+                                  iterate.bodies[b].increment.lpNorm<Eigen::Infinity>());
     length = std::max(length, extent(model_.bodies[b].mesh()));
   }
   const std::vector<Vector> u = displacements(state0, iterate);

@@ -160,12 +160,11 @@ TEST(Unheld, bodyWithoutContactIsNamed) {
 // The load turns round at t = 0.3, within a step or at its end, and pulls a block off that only contact holds.
 TEST(Unheld, pullOffEndsAtTheLastEquilibrium) {
   constexpr double balance = 1e-10;
-  // A hair later, or rounding decides whether the step that ends there is held.
-  constexpr double turn = 0.3 * (1 + 1e-9);
+  constexpr double turn = 0.3;
   const Function load = [](double, double, double t) { return -10 * (1 - t / turn); };
   for (const bool elastic : {true, false})
     for (const CouplingKind coupling : couplings)
-      for (const int steps : {7, 13, 20, 23}) {
+      for (const int steps : {7, 10, 13, 20, 23, 30}) {
         const auto material = elastic ? elasticMaterial(noteElasticity)
                                       : perzynaMaterial(noteElasticity, noteLaw(Projection::frobenius));
         Body upper("upper", square(0, 4), material, {{{left, 0, constant(0)}}, {{top, 1, load}}, {}});
@@ -363,7 +362,7 @@ class RandomScene {
 };
 
 TEST(RandomScenes, agreeWithTrialOfAllActiveSets) {
-  constexpr int count = 1000;
+  constexpr int count = 10000;
   constexpr double tolerance = 1e-9;
   double worstForce = 0;
   double worstDisplacement = 0;
