@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstdint>
 #include <filesystem>
+#include <sstream>
 
 #include "base/error.h"
 #include "material/stress.h"
@@ -12,19 +13,20 @@ namespace mortier {
 
 namespace {
 
-/// A .vtu file: the arrays are described first, their bytes follow in one appended block.
+/// A .vtu file: the arrays are described first, their bytes follow in one appended block, the last array first:
+/// meshio renames offsets as it reads and must not meet a new one before an old one of the same value.
 class VtuFile {
  public:
   explicit VtuFile(std::string path) : path_(std::move(path)), file_(path_) {
     static_assert(std::endian::native == std::endian::little);
-    file_ << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-             "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n";
+    xml_ << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+            "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n";
   }
 
   void open(const std::string& tag, const std::string& attributes = "") {
-    file_ << '<' << tag << (attributes.empty() ? "" : " ") << attributes << ">\n";
+    xml_ << '<' << tag << (attributes.empty() ? "" : " ") << attributes << ">\n";
   }
-  void shut(const std::string& tag) { file_ << "</" << tag << ">\n"; }
+  void shut(const std::string& tag) { xml_ << "</" << tag << ">\n"; }
 
   void array(const std::string& name, std::vector<double> values, int components,
              const std::vector<std::string>& componentNames = {}) {
@@ -42,31 +44,43 @@ class VtuFile {
   }
 
   void close() {
-    file_ << "</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" << bytes_
-          << "\n</AppendedData>\n</VTKFile>\n";
+    uint64_t offset = 0;
+    for (const std::string& array : arrays_) offset += array.size();
+    for (size_t i = 0; i < arrays_.size(); ++i) {
+      offset -= arrays_[i].size();
+      file_ << descriptions_[i] << " format=\"appended\" offset=\"" << offset << "\"/>\n";
+    }
+    file_ << xml_.str() << "</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+    for (auto array = arrays_.rbegin(); array != arrays_.rend(); ++array) file_ << *array;
+    file_ << "\n</AppendedData>\n</VTKFile>\n";
     file_.close();
   }
 
  private:
   void describe(const std::string& type, const std::string& name, int components,
                 const std::vector<std::string>& componentNames) {
-    file_ << "<DataArray type=\"" << type << "\" Name=\"" << name << '"';
+    xml_ << "<DataArray type=\"" << type << "\" Name=\"" << name << '"';
     if (components > 1) {  // a scalar says nothing, so that readers give it back without a second dimension
-      file_ << " NumberOfComponents=\"" << components << '"';
+      xml_ << " NumberOfComponents=\"" << components << '"';
     }
     for (size_t c = 0; c < componentNames.size(); ++c) {
-      file_ << " ComponentName" << c << "=\"" << componentNames[c] << '"';
+      xml_ << " ComponentName" << c << "=\"" << componentNames[c] << '"';
     }
-    file_ << " format=\"appended\" offset=\"" << bytes_.size() << "\"/>\n";
+    descriptions_.push_back(xml_.str());
+    xml_.str("");
   }
   void append(const void* data, uint64_t size) {
-    bytes_.append(reinterpret_cast<const char*>(&size), sizeof size);
-    bytes_.append(static_cast<const char*>(data), size);
+    std::string& bytes = arrays_.emplace_back();
+    bytes.reserve(sizeof size + size);
+    bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
+    bytes.append(static_cast<const char*>(data), size);
   }
 
   std::string path_;
   OutputFile file_;
-  std::string bytes_;
+  std::ostringstream xml_;                 ///< since the last array
+  std::vector<std::string> descriptions_;  ///< all up to an array, and its own but for the offset
+  std::vector<std::string> arrays_;
 };
 
 std::vector<double> flat(const Matrix& m) {

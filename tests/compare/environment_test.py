@@ -26,6 +26,12 @@ def told(done):
     return [line for line in done.stderr.splitlines() if not line.startswith("mortier: warning: ")]
 
 
+def vanish(path):
+    """Removes a folder into which a run is writing."""
+    while path.exists():
+        shutil.rmtree(path, ignore_errors=True)
+
+
 class Environment(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -128,7 +134,7 @@ class Environment(unittest.TestCase):
             with self.subTest(what=what):
                 process = self.begin("--set", "output.every=1")
                 for path in self.folder.glob(what):
-                    shutil.rmtree(path)
+                    vanish(path)
                 err = process.stderr.read()
                 self.assertEqual(process.wait(timeout=60), 1, err)
                 process.stderr.close()
