@@ -16,7 +16,6 @@ enum class Severity {
 struct FaultKind {
   std::string id;
   Severity severity = Severity::warning;
-  bool inRun = false;  ///< whether `mortier run` says it as well
   std::string what;    ///< for the documentation
   std::string remedy;
 };

@@ -99,24 +99,6 @@ std::string LintInput::whereInBody(size_t body, const std::vector<std::string>& 
   return node == nullptr ? document.where : whereIn(*node, keys);
 }
 
-Faults lintForRun(const std::vector<std::string>& settings, const SceneDescription& scene,
-                  const Model& model) {
-  const Node document = documentOf(scene.path, settings);
-  LintInput input{{scene, {}}, document, {}};
-  for (const Body& body : model.bodies) {
-    input.meshes.push_back(&body.mesh());
-    input.topologies.emplace_back();  // none: what is geometric takes too long for a run
-  }
-  Faults all(scene.allowed);
-  lintBodies(input, all);
-  lintMaterials(input, all);
-  lintLoads(input, all);
-  Faults some;
-  for (const Fault& fault : all.all())
-    if (fault.kind->inRun) some.add(fault.kind->id, fault.place, fault.message);
-  return some;
-}
-
 LintReport lint(const std::string& path, const std::vector<std::string>& settings) {
   LintReport report;
   Node document;

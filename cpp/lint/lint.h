@@ -37,10 +37,6 @@ struct LintReport {
 /// Everything. \throws nothing that a scene could cause: errors become faults.
 LintReport lint(const std::string& scene, const std::vector<std::string>& settings);
 
-/// What a run says of a scene that it can solve: the kinds marked so, all of them cheap.
-Faults lintForRun(const std::vector<std::string>& settings, const SceneDescription& scene,
-                  const Model& model);
-
 // One file each.
 void lintMeshes(const LintInput& input, Faults& faults);
 void lintLabels(const LintInput& input, Faults& faults);

@@ -120,17 +120,4 @@ std::string planText(const Plan& plan) {
   return text;
 }
 
-std::vector<std::string> planLines(const Plan& plan) {
-  std::vector<std::string> lines;
-  for (const bool modelled : {true, false}) {
-    std::string line;
-    for (const PlanItem& item : plan)
-      if (item.modelled == modelled)
-        line += (line.empty() ? (modelled ? "modelled   " : "left out   ") : "; ") +
-                (item.part == "scene" ? "" : item.part + ": ") + item.what;
-    if (!line.empty()) lines.push_back(line);
-  }
-  return lines;
-}
-
 }  // namespace mortier

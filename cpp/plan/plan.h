@@ -23,7 +23,5 @@ Plan planOf(const SceneDescription& scene, const Model& model);
 
 /// A line an item, for `mortier check`.
 std::string planText(const Plan& plan);
-/// Two lines for the head of a log: what is modelled, what is left out.
-std::vector<std::string> planLines(const Plan& plan);
 
 }  // namespace mortier
