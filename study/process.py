@@ -12,6 +12,12 @@ from problems import RunFailure
 LAUNCH = [sys.executable, "-I", "-S", str(Path(__file__).resolve().parent / "launch.py")]
 WORDS = 400  # of a failed process that are kept as its reason
 running = set()  # process groups under way
+stopping = threading.Event()  # set once, when the study itself is stopped
+starts = threading.Lock()  # no process starts between the order to stop and the list of those to kill
+
+
+class Stopped(Exception):
+    """The study was stopped: the process has no result, and that is no failure of its own."""
 
 
 @dataclass
@@ -22,16 +28,24 @@ class Cost:
 
 
 def measured(command, timeout=None, cwd=None, environment=None):
-    """Runs a command to its end: its cost and its output. RunFailure with its reason when it fails."""
+    """Runs a command to its end: its cost and its output. RunFailure with its reason when it fails, Stopped when the
+    study is stopped."""
     command = [str(word) for word in command]
     read_end, write_end = os.pipe()
     try:
-        process = subprocess.Popen([*LAUNCH, str(write_end), *command], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                   stderr=subprocess.STDOUT, cwd=cwd, env={**os.environ, **(environment or {})},
-                                   pass_fds=[write_end], start_new_session=True, text=True, errors="replace")
+        with starts:
+            if stopping.is_set():
+                raise Stopped
+            process = subprocess.Popen([*LAUNCH, str(write_end), *command], stdin=subprocess.DEVNULL,
+                                       stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=cwd,
+                                       env={**os.environ, **(environment or {})}, pass_fds=[write_end],
+                                       start_new_session=True, text=True, errors="replace")
+            running.add(process.pid)
+    except BaseException:
+        os.close(read_end)
+        raise
     finally:
         os.close(write_end)
-    running.add(process.pid)
     late = threading.Event()
 
     def stop():
@@ -46,6 +60,8 @@ def measured(command, timeout=None, cwd=None, environment=None):
         timer.cancel()
     with os.fdopen(read_end) as pipe:
         facts = pipe.read().split()
+    if stopping.is_set():
+        raise Stopped
     if late.is_set():
         raise RunFailure(f"stopped after {timeout:g} s")
     if len(facts) != 4 or facts[0] != "0":
@@ -54,6 +70,8 @@ def measured(command, timeout=None, cwd=None, environment=None):
 
 
 def stop_all():
+    with starts:
+        stopping.set()
     for pid in list(running):
         try:
             os.killpg(pid, signal.SIGKILL)
