@@ -2,6 +2,7 @@
 // discretised.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "mesh/triangle_mesh.h"
@@ -20,5 +21,11 @@ BoundaryLine boundaryLine(const TriangleMesh& mesh, int label);
 
 /// The labels present on the boundary, ascending, each once.
 std::vector<int> boundaryLabels(const TriangleMesh& mesh);
+
+/// The edges that carry a label, in the mesh's order; none where the label is missing.
+std::vector<std::array<int, 2>> edgesOn(const TriangleMesh& mesh, int label);
+
+/// The vertices of those edges, ascending, each once.
+std::vector<int> verticesOn(const TriangleMesh& mesh, int label);
 
 }  // namespace mortier

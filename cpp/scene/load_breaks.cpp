@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesh/boundary_line.h"
 #include "time/breaks.h"
 
 namespace mortier {
@@ -11,9 +12,11 @@ namespace {
 std::vector<Point> samplePoints(const TriangleMesh& mesh, const int* label) {
   constexpr size_t few = 4;
   std::vector<Point> points;
-  for (size_t e = 0; label != nullptr && e < mesh.boundaryEdges.size(); ++e)
-    if (mesh.boundaryLabels[e] == *label) points.push_back(mesh.vertices[mesh.boundaryEdges[e][0]]);
-  if (label == nullptr) points = mesh.vertices;
+  if (label == nullptr) {
+    points = mesh.vertices;
+  } else {
+    for (const auto& [from, to] : edgesOn(mesh, *label)) points.push_back(mesh.vertices[from]);
+  }
   const size_t stride = 1 + points.size() / few;
   std::vector<Point> sample;
   for (size_t i = 0; i < points.size(); i += stride) sample.push_back(points[i]);

@@ -1,0 +1,77 @@
+#include "scene/build_contact.h"
+
+#include <utility>
+
+#include "base/error.h"
+#include "mesh/boundary_line.h"
+#include "scene/labels.h"
+
+namespace mortier {
+
+namespace {
+
+/// Contact takes over the normal direction of its labels: further conditions there are rarely meant.
+void warnOfConditionsOn(const SideDescription& side, bool nonmortar, const SceneDescription& scene,
+                        std::vector<std::string>& warnings) {
+  for (const ConditionDescription& c : scene.bodies[bodyIndex(scene, side.body)].conditions) {
+    if (c.label == side.label && c.labelName == side.labelName &&
+        (c.kind == ConditionDescription::Kind::traction || nonmortar)) {
+      warnings.push_back(c.value.where + ": label " + std::to_string(c.label) + " of body " + side.body +
+                         " is in contact too; the condition is kept");
+    }
+  }
+}
+
+/// Whether the mortar side has the finer mesh along the contact and should be nonmortar. Measured by
+/// bench_nonmortar_side; stiffness does not matter.
+bool mortarIsFiner(const Model& model, const ContactPair& pair) {
+  const auto meanLength = [&](const ContactSide& side) {
+    const TriangleMesh& mesh = model.bodies[side.body].mesh();
+    const auto edges = edgesOn(mesh, side.label);
+    double length = 0;
+    for (const auto& [a, b] : edges) {
+      length += (mesh.vertices[b] - mesh.vertices[a]).norm();
+    }
+    return length / static_cast<double>(edges.size());
+  };
+  constexpr double equal = 1e-9;  // then the side named first
+  return meanLength(pair.mortar) < (1 - equal) * meanLength(pair.nonmortar);
+}
+
+}  // namespace
+
+void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model,
+                std::vector<std::string>& warnings) {
+  ContactPair pair;
+  pair.coupling = contact.variant;
+  for (const auto& [side, target] :
+       {std::pair(&contact.nonmortar, &pair.nonmortar), std::pair(&contact.mortar, &pair.mortar)}) {
+    target->body = bodyIndex(scene, side->body);
+    target->label = boundaryLabel(model.bodies[target->body].mesh(), side->label, side->labelName,
+                                  side->where + ": body " + side->body);
+  }
+  const bool exchanged = !contact.sidesGiven && mortarIsFiner(model, pair);
+  if (exchanged) {
+    std::swap(pair.nonmortar, pair.mortar);
+  }
+  warnOfConditionsOn(contact.nonmortar, !exchanged, scene, warnings);
+  warnOfConditionsOn(contact.mortar, exchanged, scene, warnings);
+  InterfaceOptions options;
+  options.initial = contact.initial;
+  if (contact.gap) {
+    const TriangleMesh& mesh = model.bodies[pair.nonmortar.body].mesh();
+    std::vector<Point> points;
+    for (const int v : verticesOn(mesh, pair.nonmortar.label)) {
+      points.push_back(mesh.vertices[v]);
+    }
+    requireFinite(*contact.gap, points, {0});
+    options.gap = [value = contact.gap->value](const Point& x) { return value(x.x(), x.y(), 0); };
+  }
+  try {
+    addInterface(model, pair, options);
+  } catch (const InputError& error) {
+    throw InputError(contact.where + ": contact: " + error.what());
+  }
+}
+
+}  // namespace mortier

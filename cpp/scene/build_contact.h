@@ -1,0 +1,19 @@
+// From a [[contact]] of a scene to an interface between two bodies of a model.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "solver/model.h"
+
+namespace mortier {
+
+/// Adds the interface to the model, which has its bodies; where the scene leaves it open, the side with the finer
+/// mesh is nonmortar. Doubtful but legal input is added to `warnings`, one line each.
+/// \throws InputError with file and line: a label that the mesh does not have, a gap [m] that is not finite,
+/// sides that do not face each other.
+void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model,
+                std::vector<std::string>& warnings);
+
+}  // namespace mortier

@@ -1,0 +1,102 @@
+#include "scene/check_data.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "mesh/boundary_line.h"
+#include "scene/document.h"
+
+namespace mortier {
+
+namespace {
+
+/// The middles of the edges of a label.
+std::vector<Point> middlesOn(const TriangleMesh& mesh, int label) {
+  std::vector<Point> points;
+  for (const auto& [a, b] : edgesOn(mesh, label)) {
+    points.emplace_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]));
+  }
+  return points;
+}
+
+/// A few hundred centres of triangles are enough to find an expression that has no value.
+std::vector<Point> centres(const TriangleMesh& mesh) {
+  std::vector<Point> points;
+  const size_t stride = 1 + mesh.triangles.size() / 500;
+  for (size_t t = 0; t < mesh.triangles.size(); t += stride) {
+    const auto [a, b, c] = mesh.triangles[t];
+    points.emplace_back((mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3);
+  }
+  return points;
+}
+
+}  // namespace
+
+void requireFiniteData(const BodyDescription& body, const TriangleMesh& mesh,
+                       const std::vector<double>& times) {
+  for (const ConditionDescription& condition : body.conditions) {
+    if (condition.value.constant) {
+      continue;
+    }
+    std::vector<Point> points;
+    if (condition.kind == ConditionDescription::Kind::traction) {
+      points = middlesOn(mesh, condition.label);
+    }
+    for (const int v : verticesOn(mesh, condition.label)) {
+      points.push_back(mesh.vertices[v]);
+    }
+    requireFinite(condition.value, points, times);
+  }
+  for (const std::optional<Expression>& force : body.force) {
+    if (force && !force->constant) {
+      requireFinite(*force, centres(mesh), times);
+    }
+  }
+  const auto requireFiniteStress = [&](const StressDescription& stress) {
+    for (const std::optional<Expression>& component : stress) {
+      if (component && !component->constant) {
+        requireFinite(*component, centres(mesh), {0});
+      }
+    }
+  };
+  requireFiniteStress(body.initialStress);
+  for (const RegionDescription& region : body.regions) {
+    requireFiniteStress(region.initialStress);
+  }
+}
+
+void requireOneDisplacement(const Supports& supports,
+                            const std::vector<const ConditionDescription*>& displacements,
+                            const TriangleMesh& mesh, const std::vector<double>& times) {
+  constexpr double rounding = 1e-9;  // normals of meshed circles are rounded
+  for (const FurtherMotion& motion : supports.further()) {
+    const NodeSupport& support = supports.nodes()[motion.support];
+    const Point& p = mesh.vertices[support.node];
+    for (const double t : times) {
+      const auto valueOf = [&](int condition) {
+        return displacements[condition]->value.value(p[0], p[1], t);
+      };
+      std::array<double, 2> values{0, 0};
+      double scale = std::abs(valueOf(motion.condition));
+      for (int i = 0; i < support.count; ++i) {
+        values[i] = valueOf(support.conditions[i]);
+        scale = std::max(scale, std::abs(values[i]));
+      }
+      const double implied = impliedMotion(support, values, motion.direction) + 0.0;  // no -0
+      if (std::abs(valueOf(motion.condition) - implied) <= rounding * scale) {
+        continue;
+      }
+      const auto labelOf = [&](int i) { return std::to_string(displacements[support.conditions[i]]->label); };
+      const int same = sameMotion(support, motion.direction);
+      throw InputError(displacements[motion.condition]->value.where + " at (" + shortest(p[0]) + ", " +
+                       shortest(p[1]) + "), t = " + shortest(t) + ": expected the " + shortest(implied) +
+                       " that " +
+                       (same >= 0 ? "label " + labelOf(same) + " prescribes"
+                                  : "labels " + labelOf(0) + " and " + labelOf(1) + " prescribe") +
+                       " there");
+    }
+  }
+}
+
+}  // namespace mortier

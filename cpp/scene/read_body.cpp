@@ -1,0 +1,167 @@
+#include "scene/read_body.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/error.h"
+#include "scene/table_reader.h"
+#include "scene/words.h"
+
+namespace mortier {
+
+namespace {
+
+MaterialDescription readMaterial(const Node& node, const std::string& path, const std::string& subject) {
+  const TableReader table(node, path, subject);
+  MaterialDescription material;
+  material.elasticity = {table.number("young", above(0)), table.number("poisson", between(-1, 0.5))};
+  const auto projection = static_cast<Projection>(table.oneOf("projection", projectionWords, 1));
+  if (table.find("viscosity") != nullptr || table.find("yield_stress") != nullptr) {
+    material.viscoplasticity = Viscoplasticity{table.number("viscosity", above(0)),
+                                               table.number("yield_stress", above(0)), projection};
+  }
+  return material;
+}
+
+/// Two data for one component of one label would have to be ordered by a rule that nobody remembers.
+void addCondition(BodyDescription& body, const ConditionDescription& added) {
+  for (const ConditionDescription& other : body.conditions) {
+    if (other.label == added.label && other.labelName == added.labelName &&
+        other.component == added.component) {
+      constexpr const char* directions[] = {"component x", "component y", "the normal", "the tangent"};
+      throw InputError(added.value.where + ", expected one condition for " + directions[added.component] +
+                       " of label " +
+                       (added.labelName.empty() ? std::to_string(added.label) : added.labelName) +
+                       ", there is one at " + other.where);
+    }
+  }
+  body.conditions.push_back(added);
+}
+
+void readBoundary(const Node& node, BodyDescription& body) {
+  const TableReader table(node, "body.boundary", "body " + body.name);
+  using Kind = ConditionDescription::Kind;
+  const auto [label, labelName] = table.label("label");
+  const size_t before = body.conditions.size();
+  const struct {
+    const char* key;
+    Kind kind;
+    int component;
+  } data[] = {{"ux", Kind::displacement, alongX},      {"uy", Kind::displacement, alongY},
+              {"un", Kind::displacement, alongNormal}, {"ut", Kind::displacement, alongTangent},
+              {"tx", Kind::traction, alongX},          {"ty", Kind::traction, alongY}};
+  for (const auto& [key, kind, component] : data) {
+    if (const Node* value = table.find(key)) {
+      addCondition(body, {kind, label, labelName, component, table.expression(key), value->where});
+    }
+  }
+  if (const Node* value = table.find("pressure")) {
+    addCondition(body, {Kind::traction, label, labelName, alongNormal, negated(table.expression("pressure")),
+                        value->where});
+  }
+  if (body.conditions.size() == before) {
+    throw InputError(table.message(
+        node.where, "boundary label " + (labelName.empty() ? std::to_string(label) : labelName) +
+                        " has no condition, expected one of ux, uy, un, ut, tx, ty, pressure"));
+  }
+}
+
+StressDescription readInitialStress(const TableReader& owner, const std::string& path,
+                                    const std::string& subject) {
+  StressDescription stress;
+  if (const Node* node = owner.find("initial_stress")) {
+    const TableReader table(*node, path, subject);
+    const std::string keys[] = {"s11", "s22", "s12"};
+    for (size_t c = 0; c < 3; ++c) {
+      if (table.find(keys[c]) != nullptr) {
+        stress[c] = table.expression(keys[c]);
+      }
+    }
+  }
+  return stress;
+}
+
+void readRegion(const Node& node, BodyDescription& body) {
+  const std::string subject = "body " + body.name;
+  const TableReader table(node, "body.region", subject);
+  RegionDescription region;
+  const auto [label, labelName] = table.label("label");
+  region.label = label;
+  region.labelName = labelName;
+  region.where = table.find("label")->where;
+  for (const RegionDescription& other : body.regions) {
+    if (other.label == region.label && other.labelName == region.labelName) {
+      table.reject("label", "a region of its own, there is one at " + other.where);
+    }
+  }
+  const std::string shown = labelName.empty() ? std::to_string(label) : labelName;
+  const std::string here = subject + ", region " + shown;
+  if (const Node* material = table.find("material")) {
+    region.material = readMaterial(*material, "body.region.material", here);
+  }
+  region.initialStress = readInitialStress(table, "body.region.initial_stress", here);
+  if (!region.material && table.find("initial_stress") == nullptr) {
+    throw InputError(table.message(
+        node.where, "region label " + shown + " says nothing, expected material or initial_stress"));
+  }
+  body.regions.push_back(std::move(region));
+}
+
+/// Mesh paths are relative to the scene that names them, those of the command line to the current folder.
+std::string meshPath(const Node& node, const std::string& scenePath) {
+  const std::filesystem::path path(node.text);
+  if (path.is_absolute() || node.fromCommandLine) {
+    return path.string();
+  }
+  return (std::filesystem::path(scenePath).parent_path() / path).lexically_normal().string();
+}
+
+/// Names become file names.
+bool isName(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-';
+  });
+}
+
+}  // namespace
+
+BodyDescription readBody(const Node& node, const std::string& scenePath, size_t index) {
+  const Node* name = node.find("name");
+  const bool named = name != nullptr && name->isString();
+  const TableReader table(node, "body", "body " + (named ? name->text : std::to_string(index)));
+  BodyDescription body;
+  body.where = node.where;
+  body.name = table.string("name");
+  if (!isName(body.name)) {
+    table.reject("name", "letters, digits, _ and -");
+  }
+  const std::string subject = "body " + body.name;
+  static_cast<void>(table.string("mesh"));
+  const Node& mesh = *table.find("mesh");
+  body.mesh = meshPath(mesh, scenePath);
+  body.meshWhere = mesh.where;
+  if (std::error_code ignored; !std::filesystem::is_regular_file(body.mesh, ignored)) {
+    table.reject("mesh", "a Medit .mesh file (there is none at " + body.mesh + ")");
+  }
+  body.material =
+      readMaterial(table.require("material", "{ young = ..., poisson = ... }"), "body.material", subject);
+  body.initialStress = readInitialStress(table, "body.initial_stress", subject);
+  for (const Node* region : table.tables("region")) {
+    readRegion(*region, body);
+  }
+  if (const Node* force = table.find("force")) {
+    const TableReader components(*force, "body.force", subject);
+    for (const int c : {0, 1}) {
+      const std::string key = c == 0 ? "x" : "y";
+      if (components.find(key) != nullptr) {
+        body.force[c] = components.expression(key);
+      }
+    }
+  }
+  for (const Node* boundary : table.tables("boundary")) {
+    readBoundary(*boundary, body);
+  }
+  return body;
+}
+
+}  // namespace mortier

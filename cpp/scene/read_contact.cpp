@@ -1,0 +1,85 @@
+#include "scene/read_contact.h"
+
+#include <utility>
+
+#include "base/fault_error.h"
+#include "scene/table_reader.h"
+#include "scene/words.h"
+
+namespace mortier {
+
+namespace {
+
+SideDescription readSide(const Node& node, const std::string& key, const SceneDescription& scene) {
+  const TableReader table(node, "contact." + key,
+                          key == "sides" ? "side of contact" : key + " side of contact");
+  const auto [label, labelName] = table.label("label");
+  SideDescription side{table.string("body"), label, labelName, table.find("label")->where};
+  if (bodyIndex(scene, side.body) < 0) {
+    Keys names;
+    for (const BodyDescription& body : scene.bodies) {
+      names.push_back(body.name);
+    }
+    table.reject("body", "one of " + joined(names));
+  }
+  return side;
+}
+
+/// `nonmortar` and `mortar`, or `sides` in any order.
+void readSides(const TableReader& table, const SceneDescription& scene, ContactDescription& contact) {
+  constexpr auto example = "{ body = \"...\", label = ... }";
+  const std::vector<const Node*> sides = table.tables("sides");
+  contact.sidesGiven = sides.empty();
+  if (contact.sidesGiven) {
+    contact.nonmortar = readSide(table.require("nonmortar", example), "nonmortar", scene);
+    contact.mortar = readSide(table.require("mortar", example), "mortar", scene);
+    return;
+  }
+  for (const char* other : {"nonmortar", "mortar"}) {
+    if (const Node* node = table.find(other)) {
+      throw InputError(table.message(
+          node->where, std::string(other) + " beside sides, expected either sides or nonmortar and mortar"));
+    }
+  }
+  if (sides.size() != 2) {
+    table.reject("sides", std::string("two tables [") + example + ", " + example + "]");
+  }
+  contact.nonmortar = readSide(*sides[0], "sides", scene);
+  contact.mortar = readSide(*sides[1], "sides", scene);
+}
+
+}  // namespace
+
+ContactDescription readContact(const Node& node, const SceneDescription& scene) {
+  const TableReader table(node, "contact", "contact");
+  ContactDescription contact;
+  contact.where = node.where;
+  readSides(table, scene, contact);
+  contact.variant = static_cast<CouplingKind>(table.oneOf("variant", couplingWords, 1));
+  contact.initial = static_cast<InitialGap>(table.oneOf("initial", initialWords, 0));
+  if (const Node* gap = table.find("gap")) {
+    contact.gap = table.expression("gap");
+    if (table.find("initial") != nullptr) {
+      throw InputError(table.message(gap->where, "gap beside initial, expected one of them"));
+    }
+  }
+  if (table.boolean("swap", false)) {
+    std::swap(contact.nonmortar, contact.mortar);
+  }
+  if (contact.nonmortar.body == contact.mortar.body) {
+    throw FaultError(table.message(contact.mortar.where,
+                                   "both sides are body " + contact.mortar.body + ", expected two bodies"),
+                     "same-body");
+  }
+  for (const ContactDescription& other : scene.contacts) {
+    if (other.nonmortar.body == contact.nonmortar.body && other.nonmortar.label == contact.nonmortar.label &&
+        other.nonmortar.labelName == contact.nonmortar.labelName && contact.sidesGiven && other.sidesGiven) {
+      throw InputError(table.message(contact.nonmortar.where,
+                                     "label " + std::to_string(contact.nonmortar.label) + " of body " +
+                                         contact.nonmortar.body + " is nonmortar twice, expected once"));
+    }
+  }
+  return contact;
+}
+
+}  // namespace mortier
