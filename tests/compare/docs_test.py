@@ -6,14 +6,12 @@ import shlex
 import shutil
 import subprocess
 import sys
-import tempfile
 import tomllib
 import unittest
 from pathlib import Path
 
-from support import ROOT
+from support import PROGRAM, ROOT, InFolder, InSharedFolder
 
-MORTIER = os.environ.get("MORTIER", str(ROOT / "build" / "mortier"))
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
 LABELS = {"unit", "theory", "compare"}
 # Files that an example takes for granted, and the command that makes them.
@@ -46,19 +44,14 @@ def run(words, folder, expected=0):
     return done.stdout
 
 
-class Commands(unittest.TestCase):
+class Commands(InSharedFolder):
     @classmethod
     def setUpClass(cls):
-        cls.scratch = tempfile.TemporaryDirectory(prefix="mortier-docs-")
-        cls.folder = Path(cls.scratch.name)
+        super().setUpClass()
         for name in ("scenes", "shared-meshes", "freefem"):
             shutil.copytree(ROOT / name, cls.folder / name)
         for name, command in PREPARED.items():
-            run([MORTIER, *command.split()], cls.folder)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.scratch.cleanup()
+            run([PROGRAM, *command.split()], cls.folder)
 
     def test_every_command(self):
         found = list(commands())
@@ -87,14 +80,14 @@ class Commands(unittest.TestCase):
 
     def check_mortier(self, words):
         if words[0] == "study" or "--restart" in words:  # long, or after a run that was stopped: tests of their own
-            help_text = run([MORTIER, words[0], "--help"], self.folder)
+            help_text = run([PROGRAM, words[0], "--help"], self.folder)
             for word in words[1:]:
                 if word.startswith("--"):
                     self.assertIn(word, help_text)
                 elif word.endswith(".toml"):
                     self.assertTrue((ROOT / word).is_file(), word)
             return
-        run([MORTIER, *words], self.folder)
+        run([PROGRAM, *words], self.folder)
 
     def check_tool(self, words):
         for option, value in zip(words, words[1:]):
@@ -142,7 +135,7 @@ def all_tests():
     return "\n".join(path.read_text() for path in (ROOT / "tests").rglob("*_test.cpp"))
 
 
-class Scenes(unittest.TestCase):
+class Scenes(InFolder):
     """Blocks of TOML: whole scenes run, parts of scenes are TOML."""
 
     def test_every_block(self):
@@ -159,25 +152,24 @@ class Scenes(unittest.TestCase):
         self.assertGreaterEqual(whole, 1)
 
     def run_scene(self, text):
-        with tempfile.TemporaryDirectory(prefix="mortier-docs-") as folder:
-            for command in re.findall(r"# mortier (mesh .*)", text):
-                run([MORTIER, *shlex.split(command)], folder)
-            (Path(folder) / "scene.toml").write_text(text)
-            run([MORTIER, "run", "scene.toml"], folder)
+        self.setUp()  # a folder of its own
+        for command in re.findall(r"# mortier (mesh .*)", text):
+            self.mortier(*shlex.split(command))
+        self.write(text)
+        self.mortier("run", "scene.toml")
 
 
-class Meshes(unittest.TestCase):
+class Meshes(InFolder):
     """The commands of shared-meshes/README.md make the meshes that stand beside it."""
 
     def test_commands_make_the_same_bytes(self):
         page = ROOT / "shared-meshes" / "README.md"
         made = 0
-        with tempfile.TemporaryDirectory(prefix="mortier-docs-") as folder:
-            for command in re.findall(r"^mortier (mesh .* (\S+\.mesh))$", page.read_text(), re.M):
-                run([MORTIER, *shlex.split(command[0])], folder)
-                with self.subTest(command[1]):
-                    self.assertEqual((Path(folder) / command[1]).read_bytes(), (page.parent / command[1]).read_bytes())
-                made += 1
+        for command, name in re.findall(r"^mortier (mesh .* (\S+\.mesh))$", page.read_text(), re.M):
+            self.mortier(*shlex.split(command))
+            with self.subTest(name):
+                self.assertEqual((self.folder / name).read_bytes(), (page.parent / name).read_bytes())
+            made += 1
         self.assertGreater(made, 10)
 
 

@@ -1,18 +1,14 @@
 """Faults of the environment and of the input: no room, no reader, folders that vanish, kill -9, a thousand broken scenes."""
-import json
-import os
 import resource
 import shutil
 import signal
 import subprocess
-import tempfile
-import time
 import unittest
-from pathlib import Path
 
-from mutations import ONE_BODY, TWO_BLOCKS, explore, require_whole
+from mutations import explore, require_whole
+from scenes import ONE_BODY
+from support import PROGRAM, OfTwoBlocks
 
-PROGRAM = str(Path(os.environ.get("MORTIER", "build/mortier")).resolve())
 LONG = ("--set", "time.steps=1000000")
 
 
@@ -22,34 +18,13 @@ def limit_files(size):
     return apply
 
 
-def told(done):
-    return [line for line in done.stderr.splitlines() if not line.startswith("mortier: warning: ")]
-
-
 def vanish(path):
     """Removes a folder into which a run is writing."""
     while path.exists():
         shutil.rmtree(path, ignore_errors=True)
 
 
-class Environment(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-        for name, lower, upper in (("upper.mesh", "0,0", "1,1"), ("lower.mesh", "0,-1", "1,0")):
-            self.mortier("mesh", "crisscross", "--cells", "4" if name == "upper.mesh" else "3", "--lower", lower, "--upper",
-                         upper, name)
-        (self.folder / "scene.toml").write_text(TWO_BLOCKS)
-
-    def mortier(self, *arguments, code=0, **options):
-        options.setdefault("stdout", subprocess.PIPE)
-        done = subprocess.run([PROGRAM, *arguments], cwd=self.folder, stderr=subprocess.PIPE, text=True, timeout=120,
-                              **options)
-        self.assertEqual(done.returncode, code, done.stderr)
-        self.assertEqual(len(told(done)), 0 if code == 0 else 1, done.stderr)
-        return done
-
+class Environment(OfTwoBlocks):
     def begin(self, *arguments):
         """A long run, once it has made its folder and some steps."""
         process = subprocess.Popen([PROGRAM, "run", "scene.toml", *LONG, *arguments], cwd=self.folder, text=True,
@@ -60,9 +35,6 @@ class Environment(unittest.TestCase):
                 break
         process.stdout.close()
         return process
-
-    def names(self, folder="."):
-        return sorted(path.name for path in (self.folder / folder).iterdir())
 
     def temporaries(self):
         return [name for name in self.names("out") if ".tmp-" in name or ".new-" in name]
@@ -75,14 +47,14 @@ class Environment(unittest.TestCase):
 
     def test_no_room_for_the_result(self):
         self.mortier("run", "scene.toml", "--quiet", "--set", "output.every=1")
-        before = (self.folder / "out/scene/summary.json").read_text()
+        before = self.read("out/scene/summary.json")
         largest = max(path.stat().st_size for path in (self.folder / "out/scene").iterdir())
         for size in [0, 1, 100, 500, 1500, 3000, largest - 1]:
             with self.subTest(size=size):
                 done = self.mortier("run", "scene.toml", "--quiet", "--set", "output.every=1", code=1,
                                     preexec_fn=limit_files(size))
                 self.assertIn("cannot be written: File too large", done.stderr)
-                self.assertEqual((self.folder / "out/scene/summary.json").read_text(), before)
+                self.assertEqual(self.read("out/scene/summary.json"), before)
                 self.assertEqual(self.names("out"), ["scene"])
         self.mortier("run", "scene.toml", "--quiet", "--set", "output.every=1", preexec_fn=limit_files(largest))
 
@@ -121,7 +93,7 @@ class Environment(unittest.TestCase):
         require_whole(self.folder / "out/scene")
 
     def test_places_where_nothing_can_be_made(self):
-        (self.folder / "file").write_text("mine")
+        self.write("mine", "file")
         for out in ("file", "file/out", "/proc/self/out", "/dev/null/out", "x" * 300):
             with self.subTest(out=out):
                 self.mortier("run", "scene.toml", "--quiet", "--out", out, code=2 if out == "file" else 1)
@@ -147,13 +119,13 @@ class Environment(unittest.TestCase):
         process.wait()
         process.stderr.close()
         left, = self.temporaries()
-        (self.folder / "out" / left / "picture.png").write_text("mine")
+        self.write("mine", f"out/{left}/picture.png")
         self.mortier("run", "scene.toml", "--quiet")
         self.assertEqual(self.names("out"), ["scene", left])
         self.assertEqual(self.names("out/" + left), ["picture.png"])
         self.mortier("run", "scene.toml", "--quiet")
         self.assertEqual(self.names("out"), ["scene"])
-        self.assertEqual((self.folder / "out/scene/picture.png").read_text(), "mine")
+        self.assertEqual(self.read("out/scene/picture.png"), "mine")
         require_whole(self.folder / "out/scene")
 
     def test_the_folder_of_a_living_run_is_left_alone(self):
@@ -169,7 +141,7 @@ class Environment(unittest.TestCase):
 
     def test_no_memory(self):
         self.mortier("mesh", "crisscross", "--cells", "300", "upper.mesh")
-        (self.folder / "scene.toml").write_text(ONE_BODY)
+        self.write(ONE_BODY)
         size = 250 << 20
         done = self.mortier("run", "scene.toml", "--quiet", code=1,
                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (size, size)))

@@ -1,9 +1,7 @@
 """The comparison fails when it should: every injected fault is caught, by its exit code and with its name."""
 import json
 import shutil
-import tempfile
 import unittest
-from pathlib import Path
 
 import meshio
 import numpy as np
@@ -15,17 +13,12 @@ from codes import run_freefem, run_mortier
 SETTINGS = ["contact.variant=interpolation", "time.steps=20"]
 
 
-class Faults(unittest.TestCase):
+class Faults(support.InSharedFolder):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.folder = Path(cls.temporary.name)
+        super().setUpClass()
         run_mortier(cls.folder / "mortier", SETTINGS)
         run_freefem(cls.folder / "freefem", SETTINGS)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.temporary.cleanup()
 
     def setUp(self):
         for code in ("mortier", "freefem"):

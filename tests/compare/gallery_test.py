@@ -1,25 +1,22 @@
 """The gallery: every scene has a number that theory knows, a picture and a place in docs/gallery.md."""
 import re
-import tempfile
 import unittest
-from pathlib import Path
 
-from support import ROOT
+from support import ROOT, InFolder
 from codes import run_mortier
 from gallery import GALLERY, PICTURES, draw, error, run_entry
 
 PAGE = (ROOT / "docs" / "gallery.md").read_text()
 
 
-class Gallery(unittest.TestCase):
+class Gallery(InFolder):
     def test_numbers_are_those_of_theory(self):
-        with tempfile.TemporaryDirectory() as folder:
-            for entry in GALLERY:
-                with self.subTest(entry.scene):
-                    run = run_entry(entry, folder)
-                    measured = f"{entry.quantity}: {entry.measure(run):.9g}, theory {entry.theory:.9g}"
-                    self.assertLessEqual(error(entry, run), entry.tolerance, measured)
-                    self.assertLess(run.summary["verification"]["force_balance"], 1e-12)
+        for entry in GALLERY:
+            with self.subTest(entry.scene):
+                run = run_entry(entry, self.folder)
+                measured = f"{entry.quantity}: {entry.measure(run):.9g}, theory {entry.theory:.9g}"
+                self.assertLessEqual(error(entry, run), entry.tolerance, measured)
+                self.assertLess(run.summary["verification"]["force_balance"], 1e-12)
 
     def test_a_wrong_model_misses(self):
         wrong = {"ring": "body.plate.material.young=52", "hertz": "body.block.material.young=60000",
@@ -29,11 +26,10 @@ class Gallery(unittest.TestCase):
                  "receding": "body.half-plane.material.young=1.2", "open-close": "body.material.young=101",
                  "punch": "body.punch.material.young=1"}
         self.assertEqual(set(wrong), {entry.scene for entry in GALLERY})
-        with tempfile.TemporaryDirectory() as folder:
-            for entry in GALLERY:
-                with self.subTest(entry.scene):
-                    run = run_mortier(Path(folder) / "run", [wrong[entry.scene]], f"scenes/{entry.scene}.toml")
-                    self.assertGreater(error(entry, run), entry.tolerance)
+        for entry in GALLERY:
+            with self.subTest(entry.scene):
+                run = run_mortier(self.folder / "run", [wrong[entry.scene]], f"scenes/{entry.scene}.toml")
+                self.assertGreater(error(entry, run), entry.tolerance)
 
     def test_every_scene_is_in_it(self):
         scenes = {path.stem for path in (ROOT / "scenes").glob("*.toml")}
@@ -51,9 +47,8 @@ class Gallery(unittest.TestCase):
 
     def test_pictures_are_drawn(self):
         entry = GALLERY[0]
-        with tempfile.TemporaryDirectory() as folder:
-            draw(entry, run_entry(entry, folder), Path(folder) / "pictures")
-            self.assertEqual((Path(folder) / "pictures" / f"{entry.scene}.png").read_bytes()[:4], b"\x89PNG")
+        draw(entry, run_entry(entry, self.folder), self.folder / "pictures")
+        self.assertEqual((self.folder / "pictures" / f"{entry.scene}.png").read_bytes()[:4], b"\x89PNG")
 
 
 if __name__ == "__main__":

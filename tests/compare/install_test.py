@@ -1,16 +1,13 @@
 """What `cmake --install` puts in place: a package that another project finds, the man page, completion."""
 import csv
-import os
 import re
 import subprocess
-import tempfile
 import unittest
 from pathlib import Path
 
-from support import ROOT
+from support import PROGRAM, ROOT, InSharedFolder
 
-PROGRAM = Path(os.environ.get("MORTIER", "build/mortier")).resolve()
-BUILD = PROGRAM.parent
+BUILD = Path(PROGRAM).parent
 
 
 def output(*command, **options):
@@ -31,17 +28,12 @@ def commands(program, *path):
             yield from commands(program, *path, line.split()[0])
 
 
-class Install(unittest.TestCase):
+class Install(InSharedFolder):
     @classmethod
     def setUpClass(cls):
-        cls.holder = tempfile.TemporaryDirectory()
-        cls.folder = Path(cls.holder.name)
+        super().setUpClass()
         cls.prefix = cls.folder / "prefix"
         output("cmake", "--install", BUILD, "--prefix", cls.prefix)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.holder.cleanup()
 
     def test_another_project_finds_the_package(self):
         # Elsewhere, so that nothing of the source tree is seen by accident.

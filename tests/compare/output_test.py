@@ -1,10 +1,8 @@
 """What mortier writes is read back by meshio, named by ParaView's collection, drawn and tabulated."""
 import csv
 import json
-import tempfile
 import unittest
 import xml.etree.ElementTree as xml
-from pathlib import Path
 
 import meshio
 import numpy as np
@@ -15,20 +13,15 @@ from codes import run_freefem, run_mortier
 STEPS = 5
 
 
-class Output(unittest.TestCase):
+class Output(support.InSharedFolder):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.folder = Path(cls.temporary.name)
+        super().setUpClass()
         for variant in ("mortar", "interpolation"):
             settings = [f"time.steps={STEPS}", f"contact.variant={variant}", "output.every=2"]
             run_mortier(cls.folder / f"mortier-{variant}", settings)
             run_freefem(cls.folder / f"freefem-{variant}", settings)
         cls.run_folder = cls.folder / "mortier-interpolation"
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.temporary.cleanup()
 
     def test_meshio_reads_the_fields(self):
         for name, cells in (("upper", 6), ("lower", 16)):

@@ -3,35 +3,27 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 
-import support
+from support import PROGRAM, ROOT, InFolder
+import calculix_code
+import peer
+import scene
+from perzyna import project
 
-sys.path.insert(0, str(support.ROOT / "study"))
-
-import calculix_code  # noqa: E402
-import peer  # noqa: E402
-import scene  # noqa: E402
-from perzyna import project  # noqa: E402
-
-MORTIER = os.environ.get("MORTIER", str(support.ROOT / "build" / "mortier"))
 STRESS_ERROR = {("mortier", "mortar"): 1e-12, ("FreeFEM", "mortar"): 1e-12, ("GetFEM", "mortar"): 1e-3,
                 ("CalculiX", "mortar"): 1e-4}
 
 
-class Peers(unittest.TestCase):
+class Peers(InFolder):
     def test_small_problems(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "rows.json"
-            done = subprocess.run([sys.executable, str(support.ROOT / "bench" / "peers"), "--small", "--problems", "patch",
-                                   "separation", "--json", str(path)], capture_output=True, text=True,
-                                  env={**os.environ, "MORTIER": MORTIER})
-            self.assertEqual(done.returncode, 0, done.stderr)
-            rows = json.loads(path.read_text())
+        done = subprocess.run([sys.executable, str(ROOT / "bench" / "peers"), "--small", "--problems", "patch",
+                               "separation", "--json", str(self.folder / "rows.json")], capture_output=True, text=True,
+                              env={**os.environ, "MORTIER": PROGRAM})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = json.loads(self.read("rows.json"))
         self.assertEqual(len(rows), 14)
         errors = {(row["problem"], row["code"], row["coupling"]): row.get("error") for row in rows}
         for row in rows:
@@ -51,13 +43,11 @@ class Peers(unittest.TestCase):
         self.assertLess(abs(errors["separation", "FreeFEM", "mortar"] / errors["separation", "mortier", "mortar"] - 1), 1e-9)
 
 
-class Drivers(unittest.TestCase):
+class Drivers(InFolder):
     def problem(self, *settings):
-        document = scene.load(support.ROOT / "scenes" / "compression.toml", settings)
-        with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
-            json.dump(document, file)
-            file.flush()
-            return peer.Problem(file.name)
+        document = scene.load(ROOT / "scenes" / "compression.toml", settings)
+        self.write(json.dumps(document), "problem.json")
+        return peer.Problem(str(self.folder / "problem.json"))
 
     def test_settings_reach_the_scene(self):
         problem = self.problem("contact.swap=true", "time.steps=7", "body.upper.material.poisson=0.2",

@@ -1,19 +1,16 @@
 """A run that was stopped, however it was, goes on to the same bytes as one that was not."""
 import json
-import os
 import random
 import shutil
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 from pathlib import Path
 
 from mutations import require_whole
-from support import ROOT
+from support import PROGRAM, ROOT, InFolder
 
-PROGRAM = str(Path(os.environ.get("MORTIER", "build/mortier")).resolve())
 SCENE = str(ROOT / "scenes/compression.toml")
 STEPS = 60
 ELASTIC = "body.lower.material={young=3e11, poisson=0.3}"
@@ -32,19 +29,10 @@ CASES = [
 KILLS = 20
 
 
-class Restart(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
-    def mortier(self, *arguments, code=0):
-        done = subprocess.run([PROGRAM, "run", *map(str, arguments), "--quiet"], cwd=self.folder, timeout=300,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self.assertEqual(done.returncode, code, done.stderr)
-        told = [line for line in done.stderr.splitlines() if not line.startswith("mortier: warning: ")]
-        self.assertEqual(len(told), 0 if code == 0 else 1, done.stderr)
-        return "".join(told)
+class Restart(InFolder):
+    def run_mortier(self, *arguments, code=0):
+        """Runs to the end; what is told where that is not the result."""
+        return self.mortier("run", *arguments, "--quiet", code=code, timeout=300).stderr
 
     def stop(self, *arguments, after, pause=0.0, by=signal.SIGKILL):
         """Runs with a checkpoint after every step and stops the run when `after` of them were seen. A run that is over
@@ -102,7 +90,7 @@ class Restart(unittest.TestCase):
             with self.subTest(number=number, settings=settings):
                 whole = f"out/whole-{number % len(CASES)}"
                 if not (self.folder / whole).exists():
-                    self.mortier(SCENE, *self.settings(*settings), "--out", whole)
+                    self.run_mortier(SCENE, *self.settings(*settings), "--out", whole)
                 result = f"out/killed-{number}"
                 self.stop(SCENE, *self.settings(*settings), "--out", result, after=rng.randrange(1, STEPS // 3),
                           pause=rng.uniform(0, 5e-3))
@@ -112,32 +100,31 @@ class Restart(unittest.TestCase):
                 else:
                     again = True
                 if again:
-                    self.mortier("--restart", result, "--threads", threads)
+                    self.run_mortier("--restart", result, "--threads", threads)
                 self.expect_same(whole, result)
                 self.assertEqual(list(self.folder.glob("out/*.tmp-*")), [])
 
     def test_killed_on_meshes_that_are_worth_threads(self):
-        for name, lower, upper in (("upper.mesh", "0,0", "1,1"), ("lower.mesh", "0,-1", "1,0")):
-            subprocess.run([PROGRAM, "mesh", "crisscross", "--cells", "66" if name == "upper.mesh" else "64", "--lower", lower,
-                            "--upper", upper, name], cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
+        for name, cells, lower, upper in (("upper.mesh", 66, "0,0", "1,1"), ("lower.mesh", 64, "0,-1", "1,0")):
+            self.mortier("mesh", "crisscross", "--cells", cells, "--lower", lower, "--upper", upper, name)
         settings = ["--set", "time.steps=6", "body.upper.mesh=upper.mesh", "body.lower.mesh=lower.mesh"]
-        self.mortier(SCENE, *settings, "--out", "out/whole", "--threads", 2)
+        self.run_mortier(SCENE, *settings, "--out", "out/whole", "--threads", 2)
         self.stop(SCENE, *settings, "--out", "out/killed", "--threads", 2, after=3)
-        self.mortier("--restart", "out/killed", "--threads", 1)
+        self.run_mortier("--restart", "out/killed", "--threads", 1)
         self.expect_same("out/whole", "out/killed")
 
     def test_interrupted(self):
-        self.mortier(SCENE, *self.settings(), "--out", "out/whole")
+        self.run_mortier(SCENE, *self.settings(), "--out", "out/whole")
         for by in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             self.stop(SCENE, *self.settings(), "--out", "out/stopped", after=5, by=by)
             self.assertFalse((self.folder / "out/stopped").exists())
             # The scene may be named, and must then be the same.
-            self.mortier(SCENE, *self.settings(), "--restart", "out/stopped")
+            self.run_mortier(SCENE, *self.settings(), "--restart", "out/stopped")
             self.expect_same("out/whole", "out/stopped")
             shutil.rmtree(self.folder / "out/stopped")
 
     def test_damaged_checkpoint(self):
-        self.mortier(SCENE, *self.settings(), "--out", "out/whole")
+        self.run_mortier(SCENE, *self.settings(), "--out", "out/whole")
         rng = random.Random(7)
         for damage in ("cut", "flip", "empty", "none", "older"):
             with self.subTest(damage=damage):
@@ -153,7 +140,7 @@ class Restart(unittest.TestCase):
                     (left / "checkpoint").write_bytes(b"")
                 elif damage == "older":
                     (left / "checkpoint").write_bytes(good.replace(b"mortier checkpoint ", b"mortier checkpoint 0", 1))
-                self.mortier("--restart", "out/killed")
+                self.run_mortier("--restart", "out/killed")
                 self.expect_same("out/whole", "out/killed")
                 shutil.rmtree(self.folder / "out/killed")
 
@@ -162,10 +149,10 @@ class Restart(unittest.TestCase):
         good = (left / "checkpoint.previous").read_bytes()
         for name in ("checkpoint", "checkpoint.previous"):
             (left / name).write_bytes(good[:-1])
-        self.assertIn("checkpoint: damaged", self.mortier("--restart", "out/killed", code=2))
+        self.assertIn("checkpoint: damaged", self.run_mortier("--restart", "out/killed", code=2))
         (left / "checkpoint").write_bytes(good)
         (left / "history.csv").write_bytes(b"step\n")
-        self.assertIn("its history.csv is shorter than it was", self.mortier("--restart", "out/killed", code=2))
+        self.assertIn("its history.csv is shorter than it was", self.run_mortier("--restart", "out/killed", code=2))
         self.assertTrue(left.exists())
 
     def test_another_scene(self):
@@ -178,23 +165,23 @@ class Restart(unittest.TestCase):
         left = self.stop(scene, *self.settings(*meshes), "--out", "out/killed", after=5)
         text = scene.read_text()
         scene.write_text(text.replace("viscosity = 10", "viscosity = 11", 1))
-        self.assertIn("scene.toml: line 9 has changed, expected", self.mortier("--restart", "out/killed", code=2))
+        self.assertIn("scene.toml: line 9 has changed, expected", self.run_mortier("--restart", "out/killed", code=2))
         scene.write_text(text)
         other = ["--set", "time.steps=61", *self.settings(*meshes)[2:]]
-        self.assertIn("--set time.steps=61 output", self.mortier(scene, *other, "--restart", "out/killed", code=2))
+        self.assertIn("--set time.steps=61 output", self.run_mortier(scene, *other, "--restart", "out/killed", code=2))
         mesh = (self.folder / "upper.mesh").read_text()
         (self.folder / "upper.mesh").write_text(mesh.replace("\n1 1 0\n", "\n1 1.0000000000000002 0\n", 1))
         self.assertNotEqual((self.folder / "upper.mesh").read_text(), mesh)
-        self.assertIn("upper.mesh has changed", self.mortier("--restart", "out/killed", code=2))
+        self.assertIn("upper.mesh has changed", self.run_mortier("--restart", "out/killed", code=2))
         (self.folder / "upper.mesh").write_text(mesh)
         self.assertTrue(left.exists())
-        self.mortier("--restart", "out/killed")
+        self.run_mortier("--restart", "out/killed")
 
     def test_nothing_to_go_on_with(self):
-        self.assertIn("out/none: no stopped run", self.mortier("--restart", "out/none", code=2))
-        self.mortier(SCENE, "--out", "out/done", "--set", "time.steps=2")
-        self.assertIn("out/done: no stopped run", self.mortier("--restart", "out/done", code=2))
-        self.assertIn("--out excludes --restart", self.mortier(SCENE, "--out", "out/a", "--restart", "out/a", code=2))
+        self.assertIn("out/none: no stopped run", self.run_mortier("--restart", "out/none", code=2))
+        self.run_mortier(SCENE, "--out", "out/done", "--set", "time.steps=2")
+        self.assertIn("out/done: no stopped run", self.run_mortier("--restart", "out/done", code=2))
+        self.assertIn("--out excludes --restart", self.run_mortier(SCENE, "--out", "out/a", "--restart", "out/a", code=2))
 
     def test_a_living_run_is_not_taken_over(self):
         living = subprocess.Popen([PROGRAM, "run", SCENE, "--quiet", "--checkpoint", "0", "--out", "out/a", "--set",
@@ -203,12 +190,12 @@ class Restart(unittest.TestCase):
         self.addCleanup(living.kill)
         while not list(self.folder.glob("out/a.tmp-*/checkpoint")):
             time.sleep(0.01)
-        self.assertIn("still goes on", self.mortier("--restart", "out/a", code=2))
+        self.assertIn("still goes on", self.run_mortier("--restart", "out/a", code=2))
 
     def test_begun_anew_instead(self):
         self.stop(SCENE, *self.settings(), "--out", "out/a", after=3)
         self.stopped()
-        self.mortier(SCENE, *self.settings(), "--out", "out/a")
+        self.run_mortier(SCENE, *self.settings(), "--out", "out/a")
         self.assertEqual([path.name for path in (self.folder / "out").iterdir()], ["a"])
 
 

@@ -1,12 +1,28 @@
-"""What the tests of this folder share. Run by ctest, or alone: MORTIER=build/mortier /usr/bin/python3 FILE"""
+"""What the Python tests share. Each is run by ctest, or alone: MORTIER=build/mortier /usr/bin/python3 FILE"""
 import os
 import subprocess
 import sys
+import tempfile
+import unittest
 from pathlib import Path
+
+from scenes import TWO_BLOCKS
 
 ROOT = Path(os.environ.get("MORTIER_ROOT", Path(__file__).resolve().parents[2]))
 COMPARE = ROOT / "compare"
-sys.path.insert(0, str(COMPARE))
+PROGRAM = str(Path(os.environ.get("MORTIER", ROOT / "build" / "mortier")).resolve())
+sys.path[:0] = [str(COMPARE), str(ROOT / "study")]
+
+
+def mortier(*arguments, **options):
+    """Runs the program; its standard output and errors are text."""
+    options.setdefault("stdout", subprocess.PIPE)
+    return subprocess.run([PROGRAM, *map(str, arguments)], **{"stderr": subprocess.PIPE, "text": True, "timeout": 120, **options})
+
+
+def told(errors):
+    """The lines of standard error that are no warnings."""
+    return [line for line in errors.splitlines() if not line.startswith("mortier: warning: ")]
 
 
 def script(name, *arguments):
@@ -14,3 +30,51 @@ def script(name, *arguments):
     done = subprocess.run([sys.executable, str(COMPARE / name), *map(str, arguments)], stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, text=True)
     return done.returncode, done.stdout
+
+
+class InFolder(unittest.TestCase):
+    """Each test has a temporary folder of its own."""
+
+    def setUp(self):
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+    def write(self, text, name="scene.toml"):
+        (self.folder / name).write_text(text)
+
+    def read(self, name):
+        return (self.folder / name).read_text()
+
+    def names(self, folder="."):
+        return sorted(path.name for path in (self.folder / folder).iterdir())
+
+    def mortier(self, *arguments, code=0, **options):
+        """Runs the program in the folder: it ends with this code, and tells one line where that is not 0."""
+        done = mortier(*arguments, cwd=self.folder, **options)
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertEqual(len(told(done.stderr)), 0 if code == 0 else 1, done.stderr)
+        return done
+
+    def reject(self, message, *arguments):
+        """The program refuses what it is given with one line, which begins with the message, and makes no result."""
+        errors = self.mortier(*arguments, code=2).stderr
+        self.assertTrue(errors.startswith("mortier: " + message), f"\nexpected {message}\nis       {errors}")
+        self.assertEqual(errors.count("\n"), 1, errors)
+        self.assertFalse((self.folder / "out").exists())
+
+
+class OfTwoBlocks(InFolder):
+    """Each test has scenes.TWO_BLOCKS as scene.toml, with its meshes."""
+
+    def setUp(self):
+        super().setUp()
+        self.mortier("mesh", "crisscross", "--cells", "3", "upper.mesh")
+        self.mortier("mesh", "crisscross", "--cells", "4,2", "--lower", "0,-1", "--upper", "1,0", "lower.mesh")
+        self.write(TWO_BLOCKS)
+
+
+class InSharedFolder(unittest.TestCase):
+    """All tests of the class have one temporary folder."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))

@@ -1,0 +1,128 @@
+"""Files of Gmsh: two squares side by side with a curve between them, as a mesh in both formats and as a geometry."""
+import json
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "compare"))
+
+from support import OfTwoBlocks, mortier  # noqa: E402
+
+POINTS = [(0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1)]
+LINES = [(1, 1, 2), (1, 2, 3), (2, 3, 6), (3, 6, 5), (3, 5, 4), (4, 4, 1), (9, 2, 5)]  # group, ends
+TRIANGLES = [(1, 1, 2, 5), (1, 1, 5, 4), (2, 2, 6, 3), (2, 2, 5, 6)]  # the third is clockwise
+NAMES = '$PhysicalNames\n3\n1 3 "top"\n1 4 "left"\n2 2 "right half"\n$EndPhysicalNames\n'
+
+
+def format_2():
+    elements = [f"{i + 1} 1 2 {g} {g} {a} {b}" for i, (g, a, b) in enumerate(LINES)]
+    elements += [f"{i + 20} 2 2 {g} {g} {a} {b} {c}" for i, (g, a, b, c) in enumerate(TRIANGLES)]
+    nodes = [f"{i + 1} {x} {y} 0" for i, (x, y) in enumerate(POINTS)]
+    return ("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + NAMES + "$Nodes\n6\n" + "\n".join(nodes) +
+            f"\n$EndNodes\n$Elements\n{len(elements)}\n" + "\n".join(elements) + "\n$EndElements\n")
+
+
+def format_4():
+    entities = [f"{tag} 0 0 0 2 1 0 1 {tag} 0\n" for tag in (1, 2, 3, 4, 9, 1, 2)]  # five curves, two surfaces
+    nodes = [f"{i + 1}\n" for i in range(6)] + [f"{x} {y} 0\n" for x, y in POINTS]
+    elements, tag = [], 1
+    for dimension, items in ((1, LINES), (2, TRIANGLES)):
+        for group in sorted({item[0] for item in items}):
+            own = [item[1:] for item in items if item[0] == group]
+            elements.append(f"{dimension} {group} {dimension} {len(own)}\n")
+            for item in own:
+                elements.append(f"{tag} " + " ".join(map(str, item)) + "\n")
+                tag += 1
+    return ("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n" + NAMES + "$Entities\n0 5 2 0\n" + "".join(entities) +
+            "$EndEntities\n$Nodes\n1 6 1 6\n2 1 0 6\n" + "".join(nodes) +
+            f"$EndNodes\n$Elements\n7 {tag - 1} 1 {tag - 1}\n" + "".join(elements) + "$EndElements\n")
+
+
+def geometry():
+    points = [f"Point({i + 1}) = {{{x}, {y}, 0, 0.5}};\n" for i, (x, y) in enumerate(POINTS)]
+    lines = [f"Line({i + 1}) = {{{a}, {b}}};\n" for i, (_, a, b) in enumerate(LINES)]
+    return "".join(points + lines) + """\
+Curve Loop(1) = {1, 7, 5, 6}; Plane Surface(1) = {1};
+Curve Loop(2) = {-7, 2, 3, 4}; Plane Surface(2) = {2};
+Physical Curve(1) = {1, 2}; Physical Curve(2) = {3}; Physical Curve("top", 3) = {4, 5};
+Physical Curve("left", 4) = {6}; Physical Surface(1) = {1}; Physical Surface("right half", 2) = {2};
+"""
+
+
+FILES = {"a.msh": format_2, "b.msh": format_4, "c.geo": geometry}
+SCENE = """
+[[body]]
+name = "plate"
+mesh = "a.msh"
+material = { young = 100, poisson = 0 }
+boundary = [ { label = "left", ux = 0 }, { label = 1, uy = 0 }, { label = "top", pressure = 6 } ]
+region = [ { label = "right half", material = { young = 100, poisson = 0, viscosity = 1, yield_stress = 50 } } ]
+[time]
+end = 1
+steps = 1
+"""
+
+# What is changed in the scene above, or in the mesh, and the message that must come with exit code 2.
+WRONG_LABELS = [
+    ("label = \"left\"", "label = \"lft\"", "label = \"lft\", expected one of left, top (boundaries of a.msh)"),
+    ("\"right half\"", "\"half\"", "label = \"half\", expected one of right half (regions of a.msh)"),
+    ("label = \"left\"", "label = true", "label = true, expected an integer >= 0, or a name in the mesh"),
+    ("a.msh", "upper.mesh", "label = \"left\", the mesh upper.mesh has no names of boundaries"),
+]
+WRONG_MESHES = [
+    ("20 2 2 1 1 1 2 5", "20 3 2 1 1 1 2 5 4", "elements of Gmsh's type 3, expected linear triangles"),
+    ("5 1 1 0", "5 1 1 3", "node 5 is at z = 3"),
+    (format_2(), "$MeshFormat\n", ""),
+]
+
+
+class GmshFiles(OfTwoBlocks):
+    def test_gmsh_files(self):
+        for name, text in FILES.items():
+            self.write(text(), name)
+        self.write(SCENE)
+        if "this build is without" in mortier("mesh", "info", "a.msh", cwd=self.folder).stderr:
+            self.check_refused()
+            return
+        self.check_read()
+        self.check_wrong()
+
+    def check_refused(self):
+        for name in FILES:
+            self.reject(f"{name}: read by Gmsh, which this build is without", "mesh", "info", name)
+            self.reject(f"{name}: read by Gmsh", "run", "scene.toml", "--quiet", "--set", f"body.plate.mesh={name}")
+
+    def check_read(self):
+        for name in FILES:
+            with self.subTest(name=name):
+                info = self.mortier("mesh", "info", name)
+                self.assertEqual(info.stderr, "")
+                for part in ["area       2 m^2", "label 1 ", "label 2 ", "label 3 ", "label 4 ", "length 2 m",
+                             "region 1 ", "region 2 "]:
+                    self.assertIn(part, info.stdout)
+                self.assertNotIn("label 9", info.stdout)
+                run = self.mortier("run", "scene.toml", "--quiet", "--set", f"body.plate.mesh={name}", "--out", "plate")
+                self.assertEqual(run.stderr, "")
+                plate = json.loads(self.read("plate/summary.json"))
+                self.assertAlmostEqual(plate["final"]["displacement_min"][1], -0.06, places=12)
+                self.assertAlmostEqual(plate["final"]["von_mises_min"], 6, places=10)
+                self.assertEqual(plate["bodies"][0]["material"], "Perzyna (frobenius), elastic")
+        fours = [self.mortier("mesh", "info", name).stdout.count("4") for name in ("a.msh", "b.msh")]
+        self.assertEqual(*fours)
+
+    def check_wrong(self):
+        for old, new, message in WRONG_LABELS:
+            with self.subTest(new=new):
+                self.write(SCENE.replace(old, new, 1))
+                line = 7 if old == "\"right half\"" else 6
+                self.reject(f"scene.toml:{line}: body plate: {message}", "run", "scene.toml", "--quiet")
+        for old, new, message in WRONG_MESHES:
+            with self.subTest(new=new[:20]):
+                self.assertIn(old, format_2())
+                self.write(format_2().replace(old, new, 1), "x.msh")
+                self.reject("x.msh: " + message, "mesh", "info", "x.msh")
+        self.reject("none.msh: not a file", "mesh", "info", "none.msh")
+
+
+if __name__ == "__main__":
+    unittest.main()
