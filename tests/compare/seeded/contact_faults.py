@@ -1,0 +1,95 @@
+"""Contact: sides that do not face each other, and conditions that contradict it."""
+from seeded.case import THIRD, Mesh, fault
+
+
+@fault("contact-line", "scene.toml:24")
+def _(case):
+    case.upper.relabel(lambda x, y, label: 5 if y == 0 and 0.3 < x < 0.6 else label)
+
+
+@fault("contact-labels-swapped", "[contact]")
+def _(case):
+    case.replace('body = "upper", label = 1', 'body = "upper", label = 3')
+    case.replace('body = "lower", label = 3', 'body = "lower", label = 1')
+
+
+@fault("contact-normals", "[contact]")
+def _(case):
+    case.replace('body = "lower", label = 3', 'body = "lower", label = 1')
+
+
+@fault("contact-not-facing", "[contact]")
+def _(case):
+    case.replace('body = "lower", label = 3', 'body = "lower", label = 2')
+
+
+@fault("contact-no-overlap", "[contact]")
+def _(case):
+    case.lower.move(lambda x, y: (x + 1.5, y))
+
+
+@fault("contact-penetration", "[contact]")
+def _(case):
+    case.lower.move(lambda x, y: (x, y + 0.05))
+
+
+@fault("contact-overlap", "[contact]")
+def _(case):
+    case.lower.move(lambda x, y: (x + 0.8, y))
+
+
+@fault("gap-large", "[contact]")
+def _(case):
+    case.lower.move(lambda x, y: (x, y - 5))
+
+
+@fault("contact-side-twice", "mortar = { body = \"upper\", label = 1 }\nnonmortar")
+def _(case):
+    case.third = Mesh(1.5, -1, 2.5, 0, 8, 8)
+    case.replace("[contact]", THIRD.replace("label = 1", "label = 2") + "[[contact]]")
+    case.upper.move(lambda x, y: (2.5 * x, y))
+    case.replace("[time]", "[[contact]]\nmortar = { body = \"upper\", label = 1 }\n"
+                           "nonmortar = { body = \"third\", label = 3 }\n\n[time]")
+
+
+@fault("contact-one-edge", "scene.toml:24")
+def _(case):
+    case.upper = Mesh(0, 0, 1, 1, 1, 6)
+
+
+@fault("contact-size-ratio", "[contact]")
+def _(case):
+    case.lower = Mesh(0, -1, 1, 0, 70, 20)
+
+
+@fault("nonmortar-coarser", "scene.toml:24")
+def _(case):
+    case.lower = Mesh(0, -1, 1, 0, 32, 16)
+
+
+@fault("nonmortar-stiffer", "scene.toml:24")
+def _(case):
+    lower = case.scene.index('name = "lower"')
+    case.scene = case.scene[:lower] + case.scene[lower:].replace("young = 3e11", "young = 2e9")
+
+
+@fault("interpolation-unmatched", "[contact]")
+def _(case):
+    case.replace("label = 3 }\n", "label = 3 }\nvariant = \"interpolation\"\n")
+    case.replace("steps = 100", "steps = 101")
+
+
+@fault("load-on-contact", "scene.toml:10")
+def _(case):
+    case.replace("label = 4\nux = 0\n", "label = 4\nux = 0\n[[body.boundary]]\nlabel = 1\nty = \"-t\"\n")
+
+
+@fault("support-on-contact", "scene.toml:10")
+def _(case):
+    case.replace("label = 4\nux = 0\n", "label = 4\nux = 0\n[[body.boundary]]\nlabel = 1\nux = 0\n")
+
+
+@fault("contact-meets-support", "scene.toml:8")
+def _(case):
+    case.replace("ux = 0", "ux = 0\nuy = 0")
+    case.replace("label = 3 }\n", "label = 3 }\nvariant = \"interpolation\"\n")

@@ -1,0 +1,45 @@
+"""Loads: none, too large, abrupt."""
+from seeded.case import ELASTIC, fault
+
+
+@fault("no-load", "scene.toml:1")
+def _(case):
+    case.replace("\"-10*t\"", "0")
+
+
+@fault("large-displacement", "uy = \"0.7*t\"")
+def _(case):
+    case.replace("uy = 0", "uy = \"0.7*t\"")
+
+
+@fault("initial-displacement", "uy = 0.01")
+def _(case):
+    case.replace("uy = 0", "uy = 0.01")
+
+
+@fault("initial-load", 'ty = "')
+def _(case):
+    case.replace("-10*t", "-5-5*t")
+
+
+@fault("load-on-support", "scene.toml:7")
+def _(case):
+    """Supports on the last edges to the left and right of one that carries a traction."""
+    case.replace("[[body.boundary]]\nlabel = 4", "[[body.boundary]]\nlabel = 6\ntx = \"t\"\n"
+                 "[[body.boundary]]\nlabel = 7\nux = 0\n[[body.boundary]]\nlabel = 4")
+    case.upper.relabel(lambda x, y, label: label if y < 1 or not 0.3 < x < 0.9 else 6 if 0.5 < x < 0.66 else 7)
+
+
+@fault("kink-between-steps", 'ty = "')
+def _(case):
+    case.replace("-10*t", "t < 0.123 ? -10*t : -1.23")
+
+
+@fault("kink-after-end", 'ty = "')
+def _(case):
+    case.replace("-10*t", "t <= 2 ? -10*t : -20")
+
+
+@fault("constant-loads", "steps = ", ELASTIC)
+def _(case):
+    case.replace("steps = 1", "steps = 50")

@@ -1,0 +1,63 @@
+"""Materials: values out of range, and yield against load and steps."""
+from seeded.case import ELASTIC, Mesh, fault
+
+
+@fault("poisson-limit", "poisson = 0.4999")
+def _(case):
+    case.replace("poisson = 0.3", "poisson = 0.4999")
+
+
+@fault("poisson-negative", "poisson = -0.3")
+def _(case):
+    case.replace("poisson = 0.3", "poisson = -0.3")
+
+
+@fault("projection-unused", "projection = ", ELASTIC)
+def _(case):
+    case.replace("poisson = 0.3", "poisson = 0.3, projection = \"elasticity\"")
+
+
+@fault("large-strain", "young = 70", ELASTIC)
+def _(case):
+    case.replace("young = 3e11", "young = 70", 2)
+
+
+@fault("yield-over-young", "yield_stress = 2e11")
+def _(case):
+    case.replace("yield_stress = 1", "yield_stress = 2e11")
+
+
+@fault("never-yields", "yield_stress = 1e6")
+def _(case):
+    case.replace("yield_stress = 1", "yield_stress = 1e6")
+
+
+@fault("yields-at-once", "steps = ")
+def _(case):
+    case.replace("-10*t", "-1000*t")
+
+
+@fault("few-steps-across-yield", "steps = ")
+def _(case):
+    case.replace("steps = 100", "steps = 5")
+
+
+@fault("viscosity-large", "viscosity = 1e16")
+def _(case):
+    case.replace("viscosity = 10", "viscosity = 1e16")
+
+
+@fault("viscosity-small", "viscosity = 1e-6")
+def _(case):
+    case.replace("viscosity = 10", "viscosity = 1e-6")
+
+
+@fault("lands-on-yield", "steps = ")
+def _(case):
+    case.replace("label = 3 }\n", "label = 3 }\nvariant = \"interpolation\"\n")
+    case.lower = Mesh(0, -1, 1, 0, 6, 6)
+
+
+@fault("scheme-rings", "scheme = ")
+def _(case):
+    case.scene += 'scheme = "crank-nicolson"\n'
