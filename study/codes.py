@@ -12,12 +12,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "compare"))
+sys.path.append(str(HERE.parent / "compare"))
 
 import results  # noqa: E402
 
 import scene as scenes  # noqa: E402
-from plan import AXES  # noqa: E402
+from axes import AXES  # noqa: E402
 from problems import RunFailure  # noqa: E402
 from process import Cost, measured  # noqa: E402
 

@@ -1,5 +1,4 @@
 """What a study is: STUDY.toml read and validated (docs/study.md). Nothing is run and nothing written here."""
-import difflib
 import hashlib
 import itertools
 import json
@@ -8,25 +7,13 @@ import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from expressions import Expression
+from axes import flattened, read_axes
+from errors import read_errors, read_let
 from problems import StudyError
+from study_file import Lines, Table, is_count, is_number, is_text, text
 
-# axis of a sweep: key of the scene that it sets, and what it takes
-AXES = {
-    "steps": ("time.steps", "integers >= 1"), "tolerance": ("time.tolerance", "numbers > 0"),
-    "scheme": ("time.scheme", "strings"), "variant": ("contact.variant", "strings"),
-    "projection": ("body.material.projection", "strings"), "linear": ("solver.linear", "strings"),
-    "swap": ("contact.swap", "booleans"),
-    "level": (None, "integers >= 0"), "code": (None, "strings"), "threads": (None, "integers >= 1"),
-}
-CODES = ("mortier", "freefem", "getfem", "calculix")
-FIELDS = {"energy": ("s11", "s22", "s12"), "displacement": ("ux", "uy"), "pressure": ("p",)}
-SCALARS = ("von_mises_min", "von_mises_max", "interpenetration", "contact_force", "active_nodes", "displacement_min_x",
-           "displacement_min_y", "displacement_max_x", "displacement_max_y")
 KINDS = ("rectangle", "crisscross")
-COSTS = ("wall_time", "processor_time", "memory", "dofs", "iterations")
 KEYS = ("title", "scene", "mesh", "let", "error", "reference", "sweep", "compare", "repeat", "timeout")
-REQUIRED = object()
 
 
 @dataclass(frozen=True)
@@ -50,13 +37,6 @@ class Case:
 
     def __str__(self):
         return ", ".join(f"{axis} = {text(value)}" for axis, value in self.values) or "the scene as it stands"
-
-
-@dataclass
-class ErrorMeasure:
-    name: str
-    quantity: str
-    exact: object = None  # a number; or {body or "": {component: Expression}}; None: the reference run
 
 
 @dataclass
@@ -96,99 +76,6 @@ class Plan:
     def key(self, case):
         """Names a case in study.csv and among the folders."""
         return hashlib.sha256((self.fingerprint + json.dumps(case.values)).encode()).hexdigest()[:16]
-
-
-class Lines:
-    """Where a key stands in the file: tomllib does not say."""
-
-    def __init__(self, path, source):
-        self.path = path
-        self.found = {}
-        table, counts = "", {}
-        for number, line in enumerate(source.splitlines(), 1):
-            if header := re.match(r"\s*\[\[\s*([^\]]+?)\s*\]\]", line):
-                index = counts[header[1]] = counts.get(header[1], -1) + 1
-                self.found.setdefault(header[1], number)
-                table = f"{header[1]}.{index}"
-            elif header := re.match(r"\s*\[\s*([^\]]+?)\s*\]", line):
-                table = header[1]
-            elif key := re.match(r"\s*([A-Za-z0-9_\-.\"]+)\s*=", line):
-                self.found.setdefault(f"{table}.{key[1]}".strip(".").replace('"', ""), number)
-                continue
-            else:
-                continue
-            self.found.setdefault(table, number)
-
-    def place(self, path):
-        while path:
-            if path in self.found:
-                return f"{self.path}:{self.found[path]}"
-            path = path.rpartition(".")[0]
-        return f"{self.path}:1"
-
-
-class Table:
-    """A table of the file whose keys are taken one by one; what is left over is unknown."""
-
-    def __init__(self, values, lines, path="", words=""):
-        self.values, self.lines, self.path, self.words = dict(values), lines, path, words
-        self.known = []
-
-    def fault(self, key, value, expected):
-        at = self.lines.place(f"{self.path}.{key}".strip("."))
-        subject = f"{self.words}: " if self.words else ""
-        return StudyError(f"{at}: {subject}{key} = {text(value)}, expected {expected}")
-
-    def take(self, key, expected, test, default=REQUIRED):
-        self.known.append(key)
-        if key not in self.values:
-            if default is REQUIRED:
-                place = self.lines.place(self.path)
-                raise StudyError(f"{place}: {self.words + ': ' if self.words else ''}{key} is missing, expected {expected}")
-            return default
-        value = self.values.pop(key)
-        if not test(value):
-            raise self.fault(key, value, expected)
-        return value
-
-    def tables(self, key, required=False):
-        """The tables of [[key]]."""
-        values = self.take(key, f"tables [[{key}]]", lambda v: isinstance(v, list) and v and
-                           all(isinstance(each, dict) for each in v), REQUIRED if required else [])
-        return [Table(each, self.lines, f"{self.path}.{key}.{i}".strip("."), f"{key} {i}")
-                for i, each in enumerate(values)]
-
-    def table(self, key):
-        value = self.take(key, f"a table [{key}]", lambda v: isinstance(v, dict), None)
-        return None if value is None else Table(value, self.lines, f"{self.path}.{key}".strip("."), key)
-
-    def finish(self, known=()):
-        for key in self.values:
-            if key in known:
-                continue
-            self.known = list(known) or self.known
-            near = difflib.get_close_matches(key, self.known, 1)
-            place = self.lines.place(f"{self.path}.{key}".strip("."))
-            subject = f"{self.words}: " if self.words else ""
-            raise StudyError(f"{place}: {subject}unknown key {key}, " + (f"did you mean {near[0]}? Expected" if near
-                             else "expected") + f" one of {', '.join(self.known)}")
-
-
-def text(value):
-    """A value as TOML writes it, for messages."""
-    return json.dumps(value, default=str) if not isinstance(value, float) else f"{value:g}"
-
-
-def is_text(value):
-    return isinstance(value, str) and value.strip() != ""
-
-
-def is_number(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < float("inf")
-
-
-def is_count(least):
-    return lambda value: isinstance(value, int) and not isinstance(value, bool) and value >= least
 
 
 def read(path):
@@ -287,99 +174,6 @@ def generated(table):
     upper = table.take("upper", "[X, Y]", is_point)
     table.finish()
     return [{"kind": kind, "cells": n, "lower": lower, "upper": upper} for n in cells]
-
-
-def read_let(table):
-    """Named expressions for the exact solution, in their order."""
-    let = []
-    for name, value in list(table.values.items()) if table else []:
-        if not name.isidentifier() or name in ("x", "y", "t", "pi"):
-            raise table.fault(name, value, "a name of letters, digits and _ that is not x, y, t or pi")
-        let.append((name, expression(table, name, value, [known for known, _ in let])))
-    return let
-
-
-def expression(table, key, value, names):
-    try:
-        return Expression(value, names)
-    except ValueError as error:
-        raise table.fault(key, value, f"a number or an expression in {', '.join(['x, y, t', *names])} ({error})") from error
-
-
-def read_errors(top, bodies, names):
-    errors = []
-    for table in top.tables("error", required=True):
-        quantities = (*FIELDS, *SCALARS)
-        quantity = table.take("quantity", "one of " + ", ".join(quantities), lambda v: v in quantities)
-        name = table.take("name", "a text", is_text, quantity)
-        table.words = f"error {name}"
-        if name in [each.name for each in errors]:
-            raise table.fault("name", name, "a name of its own")
-        exact = None
-        if quantity in FIELDS:
-            if (value := table.table("exact")) is not None:
-                exact = read_exact(value, quantity, bodies, names)
-        else:
-            exact = table.take("exact", "a number", lambda v: is_number(v) and v != 0, None)
-        table.finish()
-        errors.append(ErrorMeasure(name, quantity, exact))
-    return errors
-
-
-def read_exact(table, quantity, bodies, names):
-    """{"": components} for all bodies alike, or {body: components}."""
-    components = FIELDS[quantity]
-    each_body = quantity != "pressure" and set(table.values) <= set(bodies) and table.values
-    tables = {"": table}
-    if each_body:
-        if missing := [body for body in bodies if body not in table.values]:
-            raise StudyError(f"{table.lines.place(table.path)}: {table.words}: {missing[0]} is missing, expected every body")
-        tables = {body: table.table(body) for body in bodies}
-    exact = {}
-    for body, inner in tables.items():
-        exact[body] = {c: expression(inner, c, inner.take(c, "an expression", lambda v: True), names) for c in components}
-        inner.finish()
-    return exact
-
-
-def check_axis(table, axis, values, levels):
-    expected = AXES.get(axis, (axis, "values"))[1]
-    tests = {"integers >= 1": is_count(1), "integers >= 0": is_count(0), "numbers > 0": lambda v: is_number(v) and v > 0,
-             "strings": is_text, "booleans": lambda v: isinstance(v, bool),
-             "values": lambda v: is_number(v) or isinstance(v, (bool, str))}
-    for value in values:
-        if not tests[expected](value):
-            raise table.fault(axis, value, expected)
-        if axis == "level" and value >= levels:
-            raise table.fault(axis, value, f"a level below {levels} (the levels of [mesh])" if levels else "a table [mesh]")
-        if axis == "code" and value not in CODES:
-            raise table.fault(axis, value, "one of " + ", ".join(CODES))
-
-
-def flattened(values, prefix=""):
-    """TOML reads `time.end = 1` as a table in a table."""
-    for key, value in values.items():
-        if isinstance(value, dict):
-            yield from flattened(value, f"{prefix}{key}.")
-        else:
-            yield prefix + key, value
-
-
-def read_axes(table, levels, single):
-    """axis -> value (single) or list of values."""
-    axes = {}
-    for axis, value in flattened(table.values):
-        if axis not in AXES and "." not in axis:
-            near = difflib.get_close_matches(axis, AXES, 1)
-            raise StudyError(f"{table.lines.place(f'{table.path}.{axis}')}: {table.words}: unknown axis {axis}, "
-                             + (f"did you mean {near[0]}? Expected" if near else "expected")
-                             + f" one of {', '.join(AXES)}, or a dotted key of the scene")
-        values = value if isinstance(value, list) else [value]
-        if not values or (single and isinstance(value, list)):
-            raise table.fault(axis, value, "one value" if single else "one value or more")
-        check_axis(table, axis, values, levels)
-        axes[axis] = value if single else list(dict.fromkeys(values))
-    return axes
 
 
 def read_sweep(table, index, levels, lines):

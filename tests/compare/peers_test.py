@@ -7,6 +7,7 @@ import unittest
 
 import numpy as np
 
+import study_support  # noqa: F401
 from support import PROGRAM, ROOT, InFolder
 import calculix_code
 import peer

@@ -11,7 +11,7 @@ from scenes import TWO_BLOCKS
 ROOT = Path(os.environ.get("MORTIER_ROOT", Path(__file__).resolve().parents[2]))
 COMPARE = ROOT / "compare"
 PROGRAM = str(Path(os.environ.get("MORTIER", ROOT / "build" / "mortier")).resolve())
-sys.path[:0] = [str(COMPARE), str(ROOT / "study")]
+sys.path.insert(0, str(COMPARE))
 
 
 def mortier(*arguments, **options):

@@ -1,0 +1,55 @@
+"""The axes of a sweep: what a study can vary, and the values that it takes."""
+import difflib
+
+from problems import StudyError
+from study_file import is_count, is_number, is_text
+
+# axis of a sweep: key of the scene that it sets, and what it takes
+AXES = {
+    "steps": ("time.steps", "integers >= 1"), "tolerance": ("time.tolerance", "numbers > 0"),
+    "scheme": ("time.scheme", "strings"), "variant": ("contact.variant", "strings"),
+    "projection": ("body.material.projection", "strings"), "linear": ("solver.linear", "strings"),
+    "swap": ("contact.swap", "booleans"),
+    "level": (None, "integers >= 0"), "code": (None, "strings"), "threads": (None, "integers >= 1"),
+}
+CODES = ("mortier", "freefem", "getfem", "calculix")
+
+
+def check_axis(table, axis, values, levels):
+    expected = AXES.get(axis, (axis, "values"))[1]
+    tests = {"integers >= 1": is_count(1), "integers >= 0": is_count(0), "numbers > 0": lambda v: is_number(v) and v > 0,
+             "strings": is_text, "booleans": lambda v: isinstance(v, bool),
+             "values": lambda v: is_number(v) or isinstance(v, (bool, str))}
+    for value in values:
+        if not tests[expected](value):
+            raise table.fault(axis, value, expected)
+        if axis == "level" and value >= levels:
+            raise table.fault(axis, value, f"a level below {levels} (the levels of [mesh])" if levels else "a table [mesh]")
+        if axis == "code" and value not in CODES:
+            raise table.fault(axis, value, "one of " + ", ".join(CODES))
+
+
+def flattened(values, prefix=""):
+    """TOML reads `time.end = 1` as a table in a table."""
+    for key, value in values.items():
+        if isinstance(value, dict):
+            yield from flattened(value, f"{prefix}{key}.")
+        else:
+            yield prefix + key, value
+
+
+def read_axes(table, levels, single):
+    """axis -> value (single) or list of values."""
+    axes = {}
+    for axis, value in flattened(table.values):
+        if axis not in AXES and "." not in axis:
+            near = difflib.get_close_matches(axis, AXES, 1)
+            raise StudyError(f"{table.lines.place(f'{table.path}.{axis}')}: {table.words}: unknown axis {axis}, "
+                             + (f"did you mean {near[0]}? Expected" if near else "expected")
+                             + f" one of {', '.join(AXES)}, or a dotted key of the scene")
+        values = value if isinstance(value, list) else [value]
+        if not values or (single and isinstance(value, list)):
+            raise table.fault(axis, value, "one value" if single else "one value or more")
+        check_axis(table, axis, values, levels)
+        axes[axis] = value if single else list(dict.fromkeys(values))
+    return axes

@@ -1,0 +1,70 @@
+"""The errors that a study measures: quantities, and the exact solution that they are measured against."""
+from dataclasses import dataclass
+
+from expressions import Expression
+from problems import StudyError
+from study_file import is_number, is_text
+
+FIELDS = {"energy": ("s11", "s22", "s12"), "displacement": ("ux", "uy"), "pressure": ("p",)}
+SCALARS = ("von_mises_min", "von_mises_max", "interpenetration", "contact_force", "active_nodes", "displacement_min_x",
+           "displacement_min_y", "displacement_max_x", "displacement_max_y")
+
+
+@dataclass
+class ErrorMeasure:
+    name: str
+    quantity: str
+    exact: object = None  # a number; or {body or "": {component: Expression}}; None: the reference run
+
+
+def read_let(table):
+    """Named expressions for the exact solution, in their order."""
+    let = []
+    for name, value in list(table.values.items()) if table else []:
+        if not name.isidentifier() or name in ("x", "y", "t", "pi"):
+            raise table.fault(name, value, "a name of letters, digits and _ that is not x, y, t or pi")
+        let.append((name, expression(table, name, value, [known for known, _ in let])))
+    return let
+
+
+def expression(table, key, value, names):
+    try:
+        return Expression(value, names)
+    except ValueError as error:
+        raise table.fault(key, value, f"a number or an expression in {', '.join(['x, y, t', *names])} ({error})") from error
+
+
+def read_errors(top, bodies, names):
+    errors = []
+    for table in top.tables("error", required=True):
+        quantities = (*FIELDS, *SCALARS)
+        quantity = table.take("quantity", "one of " + ", ".join(quantities), lambda v: v in quantities)
+        name = table.take("name", "a text", is_text, quantity)
+        table.words = f"error {name}"
+        if name in [each.name for each in errors]:
+            raise table.fault("name", name, "a name of its own")
+        exact = None
+        if quantity in FIELDS:
+            if (value := table.table("exact")) is not None:
+                exact = read_exact(value, quantity, bodies, names)
+        else:
+            exact = table.take("exact", "a number", lambda v: is_number(v) and v != 0, None)
+        table.finish()
+        errors.append(ErrorMeasure(name, quantity, exact))
+    return errors
+
+
+def read_exact(table, quantity, bodies, names):
+    """{"": components} for all bodies alike, or {body: components}."""
+    components = FIELDS[quantity]
+    each_body = quantity != "pressure" and set(table.values) <= set(bodies) and table.values
+    tables = {"": table}
+    if each_body:
+        if missing := [body for body in bodies if body not in table.values]:
+            raise StudyError(f"{table.lines.place(table.path)}: {table.words}: {missing[0]} is missing, expected every body")
+        tables = {body: table.table(body) for body in bodies}
+    exact = {}
+    for body, inner in tables.items():
+        exact[body] = {c: expression(inner, c, inner.take(c, "an expression", lambda v: True), names) for c in components}
+        inner.finish()
+    return exact

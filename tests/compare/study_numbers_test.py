@@ -1,0 +1,91 @@
+"""The numbers of a study: norms of errors, expressions, orders, costs at equal error, what a process takes."""
+import sys
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import study_support  # noqa: F401
+import analysis
+import measure
+import process
+import results
+from expressions import Expression
+from problems import RunFailure
+
+
+def square(cells):
+    """A body on the unit square with the fields u = (x, 2 y), s = (x, 1, 0) at the centroids."""
+    n = cells + 1
+    x, y = np.meshgrid(np.linspace(0, 1, n), np.linspace(0, 1, n))
+    points = np.column_stack([x.ravel(), y.ravel()])
+    a = (np.arange(cells)[:, None] * n + np.arange(cells)).ravel()
+    triangles = np.vstack([np.column_stack([a, a + 1, a + n]), np.column_stack([a + 1, a + n + 1, a + n])])
+    stress = np.column_stack([points[triangles].mean(1)[:, 0], np.ones(len(triangles)), np.zeros(len(triangles))])
+    return results.Run("test", Path("."), {"b": results.Body(points * [1, 2], stress, points, triangles)}, None, {})
+
+
+class Norms(unittest.TestCase):
+    MATERIALS = {"b": (2.0, 0.25)}
+
+    def exact(self, **components):
+        return measure.Exact({"": {c: Expression(e) for c, e in components.items()}}, [], 1.0)
+
+    def test_linear_displacements_are_exact(self):
+        error = measure.field_error("displacement", square(3), self.exact(ux="x", uy="2*y*t"), self.MATERIALS)
+        self.assertLess(error, 1e-15)
+
+    def test_energy_norm_of_a_known_difference(self):
+        # s - exact = (x - xc, 0, 0): the energy of a linear function about its mean, h^2/18 |T| a right triangle,
+        # over that of (x, 1, 0): (1/3 + 1 - 2 nu/2).
+        error = measure.field_error("energy", square(4), self.exact(s11="x", s22="1", s12="0"), self.MATERIALS)
+        self.assertAlmostEqual(error, np.sqrt(1 / 16 / 18 / (1 / 3 + 1 - 0.25)), places=12)
+
+    def test_against_a_finer_run(self):
+        coarse, fine = square(2), square(8)
+        self.assertLess(measure.field_error("displacement", coarse, fine, self.MATERIALS), 1e-14)
+        self.assertEqual(measure.field_error("energy", fine, fine, self.MATERIALS), 0)
+        difference = measure.field_error("energy", coarse, fine, self.MATERIALS)
+        exact = measure.field_error("energy", coarse, self.exact(s11="x", s22="1", s12="0"), self.MATERIALS)
+        self.assertAlmostEqual(difference / exact, np.sqrt(1 - 1 / 16), delta=2e-3)  # what the finer run lacks
+
+    def test_pressure_from_nodal_forces(self):
+        s = np.array([0, 0.2, 0.7, 1.0])
+        mass = np.array([[2, 1, 0, 0], [1, 7, 2.5, 0], [0, 2.5, 8, 1.5], [0, 0, 1.5, 3]]) * 0.2 / 6
+        run = results.Run("test", Path("."), {}, results.Contact(np.arange(4), np.column_stack([s, 0 * s]), 0 * s,
+                                                                 mass @ (1 + s)), {})
+        self.assertLess(measure.pressure_error(run, self.exact(p="1 + x")), 1e-14)
+
+    def test_expressions(self):
+        x = np.array([-1.0, 0.5])
+        for text, value in (("2^3^0.5", 2**3**0.5), ("-2^2", -4), ("x < 0 ? -1 : x > 0.4 && x < 1 ? 2 : 3", [-1, 2]),
+                            ("max(x, 0) + min(1, 2)", [1, 1.5]), ("abs(x ? x : 1)", [1, 0.5]), ("1e-3*t", 2e-3)):
+            np.testing.assert_allclose(Expression(text)(x, 0 * x, 2.0), np.broadcast_to(value, 2), err_msg=text)
+        for text in ("x.real", "[1]", "lambda: 1", "open('f')", "x[0]", "'a'", "x if x else y", "z", "sin", "1 +", ")("):
+            with self.assertRaises(ValueError, msg=text):
+                Expression(text)(x, x, 0.0)
+
+    def test_front_and_equal_error(self):
+        self.assertEqual(analysis.front([(1, 1), (2, 2), (3, 0.5), (2.5, 0.9), (4, 0.5)]), [0, 3, 2])
+        rows = [{"steps": n, "error e": 1 / n, "wall_time[s]": n} for n in (1, 2, 4, 8)]
+        line = analysis.Series("s", {}, "steps", rows)
+        self.assertAlmostEqual(analysis.order(line, "e")[0], 1, places=12)
+        for at, value, how in ((0.3, 1 / 0.3, "between runs"), (0.01, 100, "extrapolated"), (2, 1, "at most")):
+            found = analysis.cost_at(line, "e", at, "wall_time")
+            self.assertAlmostEqual(found.value, value, places=9)
+            self.assertEqual(found.how, how)
+
+    def test_memory_and_time_of_a_process(self):
+        cost, output = process.measured([sys.executable, "-c", "a = bytearray(300 << 20); print(len(a))"])
+        self.assertEqual(output.strip(), str(300 << 20))
+        self.assertTrue(300 < cost.memory < 340, cost.memory)
+        small, _ = process.measured(["true"])
+        self.assertLess(small.memory, 20)
+        with self.assertRaisesRegex(RunFailure, "stopped after 0.2 s"):
+            process.measured(["sleep", "60"], timeout=0.2)
+        with self.assertRaisesRegex(RunFailure, "out of luck"):
+            process.measured(["sh", "-c", "echo out of luck; exit 3"])
+
+
+if __name__ == "__main__":
+    unittest.main()
