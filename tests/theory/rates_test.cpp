@@ -1,8 +1,6 @@
 // Orders of convergence, fitted by least squares over sequences of meshes and steps, and printed.
 #include <gtest/gtest.h>
 
-#include <array>
-#include <complex>
 #include <iostream>
 
 #include "theory/half_open_contact.h"
@@ -72,49 +70,6 @@ TEST(Rates, backwardEulerIsOfFirstOrder) {
     print("backward Euler, u2 on top", k, errors);
     EXPECT_NEAR(fittedOrder(k, errors), 1, orderTolerance);
   }
-}
-
-TEST(Rates, mortarIsOfFirstOrderWhereContactEnds) {
-  constexpr double leastOrder = 0.95;              // tends to 1
-  constexpr double forceTolerance = 1e-4;          // of order h^2
-  constexpr double contactForce = 0.769126488659;  // 2/3 1.1^(3/2)
-  const std::array<std::pair<int, int>, 4> meshes{{{8, 12}, {16, 24}, {32, 49}, {64, 97}}};
-  for (const double contrast : {1.0, 1e3, 1e6})
-    for (const int nonmortar : {upperBody, lowerBody}) {
-      const std::array<HalfOpenContact, 2> exact{HalfOpenContact({1, 0.3}, false),
-                                                 HalfOpenContact({contrast, 0.2}, true)};
-      std::vector<double> h;
-      std::array<std::vector<double>, 2> errors;
-      double force = 0;
-      for (const auto& [upperCells, lowerCells] : meshes) {
-        const Model model = contactModel(exact[0].body(upperCells), exact[1].body(lowerCells),
-                                         CouplingKind::mortar, nonmortar);
-        const auto [state, report] = run(model, 1, 1);
-        ASSERT_EQ(report.status, Status::converged) << report.reason;
-        h.push_back(1.0 / upperCells);
-        for (size_t b = 0; b < 2; ++b) {
-          double error = 0;
-          double norm = 0;
-          exact[b].addEnergies(model.bodies[b], state.bodies[b].stress, error, norm);
-          errors[b].push_back(std::sqrt(error / norm));
-        }
-        force = state.contactForce[0].sum();
-        // Contact ends at x = 0.
-        const ContactInterface& interface = model.interfaces[0];
-        double end = 1;
-        for (int i = 0; i < interface.rows(); ++i)
-          if (state.contactForce[0][i] > 0)
-            end = std::min(end, model.bodies[nonmortar].mesh().vertices[interface.nonmortarNodes()[i]].x());
-        EXPECT_LE(std::abs(end), 2.0 / std::min(upperCells, lowerCells));
-      }
-      std::cout << "contrast " << contrast << ", nonmortar " << (nonmortar == upperBody ? "coarse" : "fine")
-                << ", contact force on the finest meshes " << force << " (exact " << contactForce << ")\n";
-      for (size_t b = 0; b < 2; ++b) {
-        print(b == upperBody ? "  energy error, upper body" : "  energy error, lower body", h, errors[b]);
-        EXPECT_GE(fittedOrder(h, errors[b]), leastOrder);
-      }
-      EXPECT_NEAR(force, contactForce, forceTolerance);
-    }
 }
 
 }  // namespace
