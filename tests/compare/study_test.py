@@ -86,7 +86,7 @@ class Studies(StudyTest):
 
     def test_contact_with_a_known_end(self):
         text = (STUDIES / "exact-contact.toml").read_text()
-        text = text.replace('"exact-contact.scene', f'"{STUDIES}/exact-contact.scene')
+        text = text.replace('"../exact-contact', f'"{STUDIES.parent}/exact-contact')
         self.run_study(text.replace("level = [0, 1, 2, 3, 4]", "level = [1, 2, 3]"))
         rows = self.assert_complete(6)
         self.assert_order("mortar", "energy", 0.95, 1.05, "h")
@@ -129,7 +129,7 @@ class Studies(StudyTest):
 
     def test_other_codes(self):
         text = (STUDIES / "exact-contact.toml").read_text()
-        text = text[:text.index("[[sweep]]")].replace('"exact-contact.scene', f'"{STUDIES}/exact-contact.scene')
+        text = text[:text.index("[[sweep]]")].replace('"../exact-contact', f'"{STUDIES.parent}/exact-contact')
         self.path.write_text(text + '[[sweep]]\nlevel = 1\ncode = ["mortier", "freefem", "getfem", "calculix"]\n')
         self.mortier("study", "study.toml", "--out", "out")  # relative: some codes run in a folder of their own
         rows = self.rows()
