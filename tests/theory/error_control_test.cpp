@@ -194,7 +194,7 @@ TEST(ErrorControl, openCloseRecloseToTheTolerance) {
       const RunReport run = runWith(model, state, plan, values.observer());
       SCOPED_TRACE(tolerance);
       ASSERT_EQ(run.status, Status::converged) << run.reason;
-      print(coupling == CouplingKind::mortar ? "mortar" : "interpolation", run);
+      print(scenes::nameOf(coupling), run);
       std::cout << ", tolerance " << tolerance << ": s(1) " << values.stress[1].mean() << ", s(2) "
                 << values.stress[2].mean() << ", gap(3) " << values.gapAt3.mean() << ", s(4) "
                 << values.stress[4].mean() << "\n";

@@ -85,8 +85,8 @@ TEST(Hertz, discOnABlock) {
   EXPECT_NEAR(hertz(35000).width, 6.514700, 1e-6);
   for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::interpolation})
     for (const bool discNonmortar : {true, false}) {
-      std::cout << (coupling == CouplingKind::mortar ? "mortar" : "interpolation") << ", nonmortar "
-                << (discNonmortar ? "disc " : "block") << ": peak and width over Hertz's";
+      std::cout << scenes::nameOf(coupling) << ", nonmortar " << (discNonmortar ? "disc " : "block")
+                << ": peak and width over Hertz's";
       std::vector<Measured> found;
       for (const int cells : {6, 12, 24, 48}) {
         found.push_back(solveHertz(cells, coupling, discNonmortar));

@@ -22,6 +22,11 @@ constexpr int left = 4;
 constexpr int upperBody = 0;
 constexpr int lowerBody = 1;
 
+constexpr CouplingKind couplings[] = {CouplingKind::interpolation, CouplingKind::mortar};
+inline const char* nameOf(CouplingKind coupling) {
+  return coupling == CouplingKind::mortar ? "mortar" : "interpolation";
+}
+
 /// The note's material: E = 3e11 Pa, nu = 0.3, lambda = 10 Pa s, sigma_Y = 1 Pa.
 constexpr Elasticity noteElasticity{3e11, 0.3};
 inline Viscoplasticity noteLaw(Projection projection) {

@@ -234,8 +234,8 @@ void expectTimesOfContact(const OpenClose& result, int steps) {
 }
 
 std::string nameOf(CouplingKind coupling, Scheme scheme, int steps) {
-  return std::string(coupling == CouplingKind::mortar ? "mortar, " : "interpolation, ") + nameOf(scheme) +
-         ", " + std::to_string(steps) + " steps";
+  return std::string(scenes::nameOf(coupling)) + ", " + nameOf(scheme) + ", " + std::to_string(steps) +
+         " steps";
 }
 
 void print(const std::string& name, const OpenCloseRun& run) {
