@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The gallery: scenes with a number that theory knows, and their pictures (docs/gallery.md).
+"""The gallery: scenes with numbers that theory knows, and their pictures (docs/gallery.md).
 
     compare/gallery.py                runs every scene of it, prints the numbers, draws docs/images/gallery/*.png
     compare/gallery.py punch cook     these only
@@ -27,13 +27,18 @@ PICTURES = ROOT / "docs" / "images" / "gallery"
 
 
 @dataclass
-class Entry:
-    scene: str
+class Number:
     quantity: str  # what is measured
     measure: Callable  # of a run
     theory: float
     tolerance: float  # relative to theory
     reason: str  # of the tolerance
+
+
+@dataclass
+class Entry:
+    scene: str
+    numbers: list
     scale: float  # of the displacements in the picture
     window: tuple = None  # x and y range of the picture; None: everything
 
@@ -73,6 +78,20 @@ def punch_pressure(run):
     return run.contact.pressure[middle] * np.pi / np.sum(run.contact.force)
 
 
+def receding_pressure(run):
+    """Under the load, over the load; half of it is modelled."""
+    return run.contact.pressure[np.argmin(run.contact.position[:, 0])] / (2 * np.sum(run.contact.force))
+
+
+def lift_off(run):
+    """Eccentricity e = 0.6 t at which the left edge parts: in full contact all forces are linear in e."""
+    rows = [row for row in results.read_csv(run.folder / "contact.csv") if float(row["x"]) == -1]
+    times, forces = np.array([[float(row["time"]), float(row["force"])] for row in rows]).T
+    full = forces > 0
+    slope, constant = np.polyfit(0.6 * times[full], forces[full], 1)
+    return -constant / slope
+
+
 def hertz_peak(run):
     """Largest pressure over sqrt(F E*/(pi R)), E* = 52500 MPa of both bodies in plane stress, R = 50 mm."""
     return run.contact.pressure.max() / np.sqrt(np.sum(run.contact.force) * 52500 / (np.pi * 50))
@@ -83,27 +102,36 @@ def ring_pressure(run):
     return np.sum(run.contact.force) / (np.pi / 2)
 
 
+EXACT_STRESS = "the patch test holds to rounding"
+
 GALLERY = [
-    Entry("cook", "u_y in the middle of the right side", cook_deflection, 23.275, 3e-5,
-          "half of the last digit of the value for 32 cells a side", 0.3),
-    Entry("stack", "1 + stress error", lambda run: worst_stress(run, np.array([0, -10, 0])), 1, 1e-10,
-          "the patch test holds to rounding", 300),
-    Entry("sloped", "1 + stress error", lambda run: worst_stress(run, np.array([-10, -10, 0])), 1, 1e-10,
-          "the patch test holds to rounding", 300),
-    Entry("broken-line", "1 + stress error", lambda run: worst_stress(run, np.array([-10, -10, 0])), 1, 1e-10,
-          "the patch test holds to rounding", 3000),
-    Entry("exact-contact", "contact force", lambda run: run.scalars["contact_force"], 0.769126488659, 1e-3,
-          "the force converges with order 2 at least; 32 cells on 49", 0.05),
-    Entry("hertz", "peak pressure over sqrt(F E*/(pi R))", hertz_peak, 1, 2e-2,
-          "half-width 0.13 R, where Hertz takes parabolas, and polygons for arcs", 1, ((-25, 25), (-25, 18))),
-    Entry("receding", "half-width of contact", lambda run: end_of_contact(run, 1), 1.324165, 1e-2,
-          "the mesh: an element at the end of contact is 0.08", 0.05, ((0, 4), (-2, 1.1))),
-    Entry("open-close", "gap at t = 3 s", gap_at_three, 0.04, 1e-6,
-          "the stress that has not yet relaxed at t = 2 s", 1),
-    Entry("ring", "mean contact pressure", ring_pressure, 0.128205128205, 5e-3,
-          "falls as h^2: 8.4e-3, 2.2e-3, 5.4e-4 with 18, 36, 72 edges of the ring", 5),
-    Entry("punch", "pressure in the middle over P/(pi a)", punch_pressure, 1, 3e-2,
-          "the force of the unbounded pressure at the edges takes a fine mesh", 10, ((-3, 3), (-2.5, 1.2))),
+    Entry("cook", [Number("u_y in the middle of the right side", cook_deflection, 23.275, 3e-5,
+                          "half of the last digit of the value for 32 cells a side")], 0.3),
+    Entry("stack", [Number("1 + stress error", lambda run: worst_stress(run, np.array([0, -10, 0])), 1, 1e-10,
+                           EXACT_STRESS)], 300),
+    Entry("sloped", [Number("1 + stress error", lambda run: worst_stress(run, np.array([-10, -10, 0])), 1, 1e-10,
+                            EXACT_STRESS)], 300),
+    Entry("broken-line", [Number("1 + stress error", lambda run: worst_stress(run, np.array([-10, -10, 0])), 1, 1e-10,
+                                 EXACT_STRESS)], 3000),
+    Entry("exact-contact", [Number("contact force", lambda run: run.scalars["contact_force"], 0.769126488659, 1e-3,
+                                   "the force converges with order 2 at least; 32 cells on 49")], 0.05),
+    Entry("hertz", [Number("peak pressure over sqrt(F E*/(pi R))", hertz_peak, 1, 2e-2,
+                           "half-width 0.13 R, where Hertz takes parabolas, and polygons for arcs")], 1,
+          ((-25, 25), (-25, 18))),
+    Entry("receding", [Number("half-width of contact", lambda run: end_of_contact(run, 1), 1.324165, 1e-2,
+                              "the mesh: an element at the end of contact is 0.08"),
+                       Number("p(0)/P", receding_pressure, 0.713081, 1e-2, "the mesh, and the width of the load")],
+          0.05, ((0, 4), (-2, 1.1))),
+    Entry("open-close", [Number("gap at t = 3 s", gap_at_three, 0.04, 1e-6,
+                                "the stress that has not yet relaxed at t = 2 s")], 1),
+    Entry("ring", [Number("mean contact pressure", ring_pressure, 0.128205128205, 5e-3,
+                          "falls as h^2: 8.4e-3, 2.2e-3, 5.4e-4 with 18, 36, 72 edges of the ring")], 5),
+    Entry("punch", [Number("pressure in the middle over P/(pi a)", punch_pressure, 1, 3e-2,
+                           "the force of the unbounded pressure at the edges takes a fine mesh")], 10,
+          ((-3, 3), (-2.5, 1.2))),
+    Entry("eccentric-punch", [Number("eccentricity over a at lift-off", lift_off, 0.5, 4e-2,
+                                     "the edge node has a mean of the pressure beside it: 0.518, 0.508 with 26, 52 cells")],
+          10, ((-3, 3), (-2.5, 1.2))),
 ]
 
 
@@ -140,8 +168,8 @@ def seen(points, left, right, low, high):
     return (points[:, 0] > left) & (points[:, 0] < right) & (points[:, 1] > low) & (points[:, 1] < high)
 
 
-def error(entry, run):
-    return abs(entry.measure(run) / entry.theory - 1)
+def error(number, run):
+    return abs(number.measure(run) / number.theory - 1)
 
 
 def main():
@@ -154,7 +182,7 @@ def main():
         if scene not in names:
             parser.error(f"{scene}: expected one of {', '.join(names)}")
     missed = 0
-    print(f"{'scene':14} {'quantity':42} {'measured':>14} {'theory':>14} {'error':>8} {'allowed':>8}")
+    print(f"{'scene':16} {'quantity':42} {'measured':>14} {'theory':>14} {'error':>8} {'allowed':>8}")
     with tempfile.TemporaryDirectory(prefix="mortier-gallery-") as folder:
         for entry in GALLERY:
             if arguments.scenes and entry.scene not in arguments.scenes:
@@ -165,10 +193,11 @@ def main():
                 print(f"gallery: {fault}", file=sys.stderr)
                 return 1
             draw(entry, run, arguments.out)
-            miss = not error(entry, run) <= entry.tolerance
-            missed += miss
-            print(f"{entry.scene:14} {entry.quantity:42} {entry.measure(run):14.9g} {entry.theory:14.9g} "
-                  f"{error(entry, run):8.1e} {entry.tolerance:8.0e}{'  missed' if miss else ''}")
+            for number in entry.numbers:
+                miss = not error(number, run) <= number.tolerance
+                missed += miss
+                print(f"{entry.scene:16} {number.quantity:42} {number.measure(run):14.9g} {number.theory:14.9g} "
+                      f"{error(number, run):8.1e} {number.tolerance:8.0e}{'  missed' if miss else ''}")
     return 1 if missed else 0
 
 
