@@ -15,7 +15,7 @@ StoppedRun findStoppedRun(const std::string& path) {
   for (const std::string& folder : stoppedRuns(path)) {
     FolderLock lock(folder);
     if (!lock.held()) {
-      fault = path + ": the run in " + folder + " still goes on, expected one that was stopped";
+      fault.assign(path).append(": the run in " + folder + " still goes on, expected one that was stopped");
       continue;
     }
     return {folder, std::move(lock), readCheckpoint(folder)};

@@ -44,6 +44,7 @@ int study(const StudyCommand& command) {
   if (command.quiet) words.emplace_back("--quiet");
   words.insert(words.end(), {"--", command.study});
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
 

@@ -186,7 +186,7 @@ PartCoupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine&
   if (!part.straight) return coupleCurved(kind, part, mortar, merged);
   Coupling scalar = couple(kind, part.s, mortar.s, merged);
   const Point& n = part.normals.front();
-  return {std::move(scalar.nodes), std::move(scalar.M), timesNormal(scalar.B, n), timesNormal(-scalar.A, n)};
+  return {std::move(scalar.nodes), scalar.M, timesNormal(scalar.B, n), timesNormal(-scalar.A, n)};
 }
 
 }  // namespace mortier

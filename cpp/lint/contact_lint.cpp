@@ -28,9 +28,7 @@ Side sideOf(const LintInput& input, const SideDescription& description, int labe
   side.body = static_cast<size_t>(bodyIndex(input.scene, description.body));
   side.mesh = input.meshes[side.body];
   if (side.mesh == nullptr) return side;
-  for (size_t e = 0; e < side.mesh->boundaryEdges.size(); ++e) {
-    if (side.mesh->boundaryLabels[e] != label) continue;
-    const auto [a, b] = side.mesh->boundaryEdges[e];
+  for (const auto& [a, b] : edgesOn(*side.mesh, label)) {
     const Point along = side.mesh->vertices[b] - side.mesh->vertices[a];
     if (side.edges++ == 0) side.first = side.mesh->vertices[a];
     side.normal += Point(along.y(), -along.x());
@@ -185,9 +183,7 @@ void checkConditions(const LintInput& input, const ContactDescription& contact,
           contact.variant != CouplingKind::interpolation)
         continue;
       int node = -1;
-      for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
-        if (mesh.boundaryLabels[e] != c.label) continue;
-        const auto [a, b] = mesh.boundaryEdges[e];
+      for (const auto& [a, b] : edgesOn(mesh, c.label)) {
         const auto axis = axisOf(c, mesh.vertices[a], mesh.vertices[b]);
         for (const int v : {a, b})
           if (axis && interface.C1().col(2 * v + *axis).nonZeros() > 0) node = v;

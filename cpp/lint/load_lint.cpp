@@ -4,6 +4,7 @@
 
 #include "lint/held_dofs.h"
 #include "lint/lint.h"
+#include "mesh/boundary_line.h"
 
 namespace mortier {
 namespace {
@@ -53,16 +54,13 @@ void checkHeldLoads(const LintInput& input, size_t b, Faults& faults) {
   const std::vector<char> held = heldDofs(mesh, conditions);
   for (const ConditionDescription& c : conditions) {
     if (c.kind != ConditionDescription::Kind::traction) continue;
-    bool all = true;
-    bool any = false;
-    for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
-      if (mesh.boundaryLabels[e] != c.label) continue;
-      const auto [from, to] = mesh.boundaryEdges[e];
+    const auto edges = edgesOn(mesh, c.label);
+    bool all = !edges.empty();
+    for (const auto& [from, to] : edges) {
       const auto axis = axisOf(c, mesh.vertices[from], mesh.vertices[to]);
       for (const int v : {from, to}) all = all && axis && held[2 * v + *axis] != 0;
-      any = true;
     }
-    if (any && all)
+    if (all)
       faults.add("load-on-support", c.where,
                  "body " + input.scene.bodies[b].name + ": every node of label " + std::to_string(c.label) +
                      " is held in the direction of its traction");
