@@ -44,6 +44,7 @@ struct Coupling {
   Matrix B;                       ///< rows x nonmortar nodes; rows sum to one
 };
 
+/// \param nonmortar, mortar  traces on one line [m]
 /// \param merged  trace nodes without a row of their own (empty: none). No rows when no node lies within the
 /// overlap.
 Coupling couple(CouplingKind kind, const Trace& nonmortar, const Trace& mortar,
@@ -52,11 +53,12 @@ Coupling couple(CouplingKind kind, const Trace& nonmortar, const Trace& mortar,
 /// The rows of one part of the nonmortar line.
 struct PartCoupling {
   std::vector<int> nodes;         ///< nodes of the part with a row, ascending
-  Eigen::SparseMatrix<double> M;  ///< rows x rows [m]
+  Eigen::SparseMatrix<double> M;  ///< mass of the row functions, rows x rows [m]
   Matrix C1;                      ///< rows x 2 (nodes of the part): columns 2 node + component
   Matrix C2;                      ///< rows x 2 (nodes of the facing line)
 };
 
+/// The same for a part of the nonmortar line and what it faces: C1 and C2 take displacements by components.
 PartCoupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
                     const std::vector<char>& merged = {});
 

@@ -16,6 +16,7 @@ using DistanceAt = std::function<double(int element, double s, const Point& gapV
 
 class PenetrationIntegral {
  public:
+  /// Adds a part of the nonmortar line with what it faces.
   void add(const SmoothPart& part, const FacingLine& mortar, const DistanceAt& distance);
   /// Displacements by dofs of the two bodies [m]. \returns [m^2]
   [[nodiscard]] double of(const Vector& uNonmortar, const Vector& uMortar) const;

@@ -28,6 +28,7 @@ struct Overlap {
 /// Ends of the two traces that differ by rounding only count as one.
 Overlap overlapOf(const Trace& nonmortar, const Trace& mortar);
 
+/// The segments of the overlap, ascending; none where there is no overlap.
 std::vector<Segment> commonRefinement(const Trace& nonmortar, const Trace& mortar);
 
 /// Values at s of the two hat functions of an element: 1 - x and x.

@@ -32,6 +32,7 @@ struct SmoothPart {
 
   [[nodiscard]] int elements() const { return static_cast<int>(nodes.size()) - 1; }
   [[nodiscard]] double length() const { return s.back(); }
+  /// x1(s) and n(s) at an abscissa s [m] on an element, or beyond its ends.
   [[nodiscard]] Point at(int element, double abscissa) const;
   [[nodiscard]] Point normalAt(int element, double abscissa) const;
   /// Direction of an element, of length one.

@@ -16,6 +16,7 @@ bool partialLU(double* panel, int n, int pivots, double* upper, double* update, 
 /// One thread in BLAS: bodies and runs are what is done side by side.
 void useOneThread();
 
+/// Interchanges the first n entries of x as partialLU told.
 void swapRows(double* x, const int* interchange, int n);
 /// x = L^-1 x; `unit`: ones on the diagonal.
 void solveLower(const double* L, int ld, int n, bool unit, double* x);

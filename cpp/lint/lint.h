@@ -37,7 +37,7 @@ struct LintReport {
 /// Everything. \throws nothing that a scene could cause: errors become faults.
 LintReport lint(const std::string& scene, const std::vector<std::string>& settings);
 
-// One file each.
+// What the linter looks for, one file each.
 void lintMeshes(const LintInput& input, Faults& faults);
 void lintLabels(const LintInput& input, Faults& faults);
 void lintContacts(const LintInput& input, Faults& faults);

@@ -52,8 +52,10 @@ class SegmentGrid {
   std::vector<std::vector<int>> cells_;
 };
 
+/// Over the edges of `topology.boundary`, in their order.
 SegmentGrid boundaryGrid(const TriangleMesh& mesh, const Topology& topology);
 
+/// [m]
 double distanceToSegment(const Point& p, const std::array<Point, 2>& segment);
 
 /// Lower left and upper right corner of all vertices [m].

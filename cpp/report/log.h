@@ -9,9 +9,13 @@
 
 namespace mortier {
 
+/// What is solved: bodies, interfaces, the head of the table of steps.
 std::string logHeader(const RunFacts& facts, const Model& model);
+/// One step.
 std::string logRow(const StepReport& report);
+/// How the run ended, and where its result is.
 std::string logStatus(const RunReport& report, const std::string& folder);
+/// How well the equations hold in the worst step.
 std::string logVerification(const Certificate& worst);
 
 /// Prints the above, and a progress bar where the run is long. A quiet log prints nothing.

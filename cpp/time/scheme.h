@@ -12,7 +12,7 @@ namespace mortier {
 enum class Scheme {
   backwardEuler,  ///< order 1; never overshoots the yield surface
   crankNicolson,  ///< order 2 where smooth; rings for theta e >> 1
-  sdirk2          ///< order 2, L-stable (Alexander 1977), gamma = 1 - 1/sqrt2, guarded (see march.cpp)
+  sdirk2          ///< order 2, L-stable (Alexander 1977), gamma = 1 - 1/sqrt2, guarded (step_taker.h)
 };
 
 struct Stage {
