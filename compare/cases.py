@@ -1,4 +1,4 @@
-"""The cases in which the codes are compared: the note's test on every shared pair of meshes."""
+"""The cases in which the codes are compared: the note's test on every shared pair of meshes, and the scenes."""
 import itertools
 from dataclasses import dataclass
 
@@ -51,3 +51,57 @@ def quick_cases():
             + [Case("6/16", "elasticity", variant, "upper", 100) for variant in VARIANTS]
             # step 10 has several solutions (docs/theory.md)
             + [Case("7/11", "elasticity", "interpolation", "upper", 100)])
+
+
+@dataclass(frozen=True)
+class SceneCase:
+    """A scene of scenes/ in both codes."""
+    name: str
+    variant: str
+    what: str = "as it stands"  # what the settings change
+    changes: tuple = ()
+
+    def __str__(self):
+        return f"{self.name} {self.variant} {self.what}"
+
+    @property
+    def scene(self):
+        return f"scenes/{self.name}.toml"
+
+    @property
+    def settings(self):
+        return [f"contact.variant={self.variant}", *self.changes]
+
+
+# The scenes that FreeFEM solves as they stand, and the keys that it knows only so.
+SCENES = {
+    "sloped": (), "broken-line": (), "stack": (), "exact-contact": (), "punch": (), "eccentric-punch": (), "receding": (),
+    "turned": (), "cut-ring": (),
+    "open-close": ("time.scheme=backward-euler",),
+}
+# Those that it does not, and why (the beginning of what mortier freefem says behind the scene's name).
+UNKNOWN_TO_FREEFEM = {
+    "hertz": "contact: a curved or broken line", "ring": "contact: a curved or broken line", "cook": "no contact interface",
+}
+HELD = ("body.top.boundary.4.uy=-1e-4*t", "body.middle.boundary.4.uy=-1e-4*t*(1+y)", "body.bottom.boundary.4.uy=0")
+SOFT = "body.material={young=100, poisson=0.3, viscosity=1, yield_stress=1}"  # Newton's method is at ease
+
+
+def scene_cases():
+    """Every scene with both variants, and changes of them for what no scene has."""
+    return ([SceneCase(name, variant, changes=changes) for name, changes in SCENES.items() for variant in VARIANTS] + [
+        SceneCase("sloped", "interpolation", "sides swapped, parted by a parabola",
+                  ("contact.swap=true", "contact.gap=1e-5*x^2+2e-6")),
+        SceneCase("punch", "mortar", "sides swapped: overlap in part", ("contact.swap=true",)),
+        SceneCase("punch", "mortar", "a round punch", ("contact.gap=2e-3*x^2",)),
+        SceneCase("stack", "mortar", "held on the left up to the contact lines", HELD),
+        SceneCase("stack", "interpolation", "held on the left, but for the bottom", HELD[:2]),
+        SceneCase("turned", "mortar", "sheared by a tangential motion",
+                  (SOFT, "contact.swap=true", "body.lower.boundary.4.ut=-0.02*t*(y+0.8)")),
+        SceneCase("turned", "interpolation", "a bent roller, body forces",
+                  (SOFT, "body.lower.boundary.1.un=0.1*t*(x-0.6)", "body.lower.force.x=x^2*t",
+                   "body.upper.force.y=-3*sin(x)*t")),
+        SceneCase("cut-ring", "interpolation", "normal and tangential motion",
+                  ("body.upper.boundary.1.un=0.01*t*x", "body.lower.boundary.1.ut=0.01*t*x",
+                   "body.lower.boundary.1.un=0.003*t*y")),
+    ])

@@ -42,12 +42,14 @@ def run_mortier(folder, settings=(), scene=COMPRESSION):
     return run
 
 
-def run_freefem(folder, settings=(), scene=COMPRESSION):
-    """Solves a scene with FreeFEM."""
+def run_freefem(folder, settings=(), scene=COMPRESSION, method="freefem"):
+    """Solves a scene with FreeFEM; another method than that of freefem/ is a folder like it."""
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     script = folder / "scene.edp"
     call([MORTIER, "freefem", scene, script, *set_option(settings)])
+    if method != "freefem":
+        script.write_text(script.read_text().replace('include "freefem/', f'include "{method}/'))
     _, seconds = call([FREEFEM, "-nw", "-nw", "-ne", "-v", "0", script, "-quiet", "-out", folder])
     run = results.read_freefem(folder)
     run.wall_time = seconds

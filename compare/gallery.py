@@ -59,6 +59,9 @@ def worst_stress(run, exact):
     return 1 + np.abs(field - exact).max() / np.abs(exact).max()
 
 
+TURNED = np.array([-3.6, -6.4, 4.8])  # -10 along (-3/5, 4/5)
+
+
 def cook_deflection(run):
     """u_y in the middle of the loaded side."""
     panel = run.bodies["panel"]
@@ -113,6 +116,9 @@ GALLERY = [
                             EXACT_STRESS)], 300),
     Entry("broken-line", [Number("1 + stress error", lambda run: worst_stress(run, np.array([-10, -10, 0])), 1, 1e-10,
                                  EXACT_STRESS)], 3000),
+    Entry("turned", [Number("1 + stress error", lambda run: worst_stress(run, TURNED), 1, 1e-10, EXACT_STRESS)], 0.3),
+    Entry("cut-ring", [Number("contact force", lambda run: run.scalars["contact_force"], 0.644067796610, 2e-4,
+                              "falls as h^2: 3.1e-4, 6.0e-5, 1.6e-5 with 15, 30, 60 edges of the quarter circle")], 10),
     Entry("exact-contact", [Number("contact force", lambda run: run.scalars["contact_force"], 0.769126488659, 1e-3,
                                    "the force converges with order 2 at least; 32 cells on 49")], 0.05),
     Entry("hertz", [Number("peak pressure over sqrt(F E*/(pi R))", hertz_peak, 1, 2e-2,

@@ -63,7 +63,7 @@ def read(folder):
     folder = Path(folder)
     if not folder.is_dir():
         raise ResultError(f"{folder}: no such folder")
-    return read_freefem(folder) if (folder / "contact.txt").exists() else read_mortier(folder)
+    return read_freefem(folder) if read_summary(folder).get("code") == "FreeFEM" else read_mortier(folder)
 
 
 def read_mortier(folder):
@@ -89,12 +89,10 @@ def read_freefem(folder):
     """A run of the FreeFEM method."""
     folder = Path(folder)
     summary = read_summary(folder)
-    bodies = {}
-    for path in sorted(folder.glob("*.displacement.txt")):
-        name = path.name[: -len(".displacement.txt")]
-        bodies[name] = Body(read_table(path, 2), read_table(folder / f"{name}.stress.txt", 3))
-    if len(bodies) != 2:
-        raise ResultError(f"{folder}: fields of {len(bodies)} bodies, expected two")
+    bodies = {b["name"]: Body(read_table(folder / f"{b['name']}.displacement.txt", 2),
+                              read_table(folder / f"{b['name']}.stress.txt", 3)) for b in summary.get("bodies", [])}
+    if not bodies:
+        raise ResultError(f"{folder / 'summary.json'}: no bodies")
     table = read_table(folder / "contact.txt", 5)
     contact = Contact(table[:, 0].astype(int), table[:, 1:3], table[:, 3], table[:, 4])
     return finished(Run("FreeFEM", folder, bodies, contact, summary))

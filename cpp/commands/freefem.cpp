@@ -1,17 +1,16 @@
 #include "commands/freefem.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <sstream>
 
 #include "base/error.h"
 #include "base/whole_file.h"
 #include "commands/exit_code.h"
+#include "commands/freefem_expression.h"
 #include "commands/shipped.h"
+#include "mesh/gmsh.h"
 #include "scene/build.h"
 #include "scene/document.h"
 
@@ -20,56 +19,6 @@ namespace mortier {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Functions that mean the same in both languages, and how FreeFEM calls them.
-const std::map<std::string, std::string>& freefemWords() {
-  static const std::map<std::string, std::string> words = [] {
-    std::map<std::string, std::string> same;
-    for (const char* word : {"x",    "y",     "t",    "pi",   "sin",  "cos",   "tan",   "asin",  "acos",
-                             "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "exp",
-                             "log",  "log10", "sqrt", "abs",  "min",  "max",   "sign",  "rint"}) {
-      same[word] = word;
-    }
-    same["ln"] = "log";
-    same["_pi"] = "pi";
-    same["_e"] = "exp(1.)";
-    return same;
-  }();
-  return words;
-}
-
-/// The expression with every number real (FreeFEM divides integers as integers) and every word FreeFEM's.
-std::string translated(const Expression& expression) {
-  const std::string& text = expression.text;
-  std::string result;
-  for (size_t i = 0; i < text.size();) {
-    const auto is = [&](size_t k, auto test) {
-      return k < text.size() && test(static_cast<unsigned char>(text[k])) != 0;
-    };
-    const size_t begin = i;
-    if (is(i, [](int c) { return std::isalpha(c) != 0 || c == '_' ? 1 : 0; })) {
-      while (is(i, [](int c) { return std::isalnum(c) != 0 || c == '_' ? 1 : 0; })) ++i;
-      const auto word = freefemWords().find(text.substr(begin, i - begin));
-      if (word == freefemWords().end()) {
-        throw InputError(expression.where + ": " + text.substr(begin, i - begin) +
-                         " is not known to FreeFEM");
-      }
-      result += word->second;
-    } else if (is(i, [](int c) { return std::isdigit(c) != 0 || c == '.' ? 1 : 0; })) {
-      bool real = false;
-      for (; is(i, [](int c) { return std::isalnum(c) != 0 || c == '.' ? 1 : 0; }) ||
-             ((text[i] == '-' || text[i] == '+') && i < text.size() && i > begin &&
-              std::tolower(text[i - 1]) == 'e');
-           ++i) {
-        real = real || text[i] == '.' || std::tolower(text[i]) == 'e';
-      }
-      result += text.substr(begin, i - begin) + (real ? "" : ".");
-    } else {
-      result += text[i++];
-    }
-  }
-  return result;
-}
 
 /// The folder that holds the method: beside the current folder, the scene or the program, or above them.
 std::string methodFolder(const std::string& scene) {
@@ -85,7 +34,7 @@ std::string methodFolder(const std::string& scene) {
 void writeBody(std::ostream& out, const BodyDescription& body, int number) {
   const auto& [elasticity, flow] = body.material;
   out << "string name" << number << " = \"" << body.name << "\";\n"
-      << "string mesh" << number << " = \"" << body.mesh << "\";\n"
+      << "string meshFile" << number << " = \"" << body.mesh << "\";\n"
       << "string projection" << number << " = \"" << word(flow ? flow->projection : Projection::frobenius)
       << "\";\n"
       << "real E" << number << " = " << shortest(elasticity.young) << ", nu" << number << " = "
@@ -95,105 +44,153 @@ void writeBody(std::ostream& out, const BodyDescription& body, int number) {
       << ";  // viscosity [Pa s] (0: elastic body), yield stress [Pa]\n";
 }
 
+using Kind = ConditionDescription::Kind;
+
+bool isRoller(const ConditionDescription& condition) {
+  return condition.kind == Kind::displacement &&
+         (condition.component == alongNormal || condition.component == alongTangent);
+}
+
+/// Loads by the rules that mortier takes (docs/theory.md), for they decide what nodal forces are. A macro must
+/// not be empty.
 void writeConditions(std::ostream& out, const BodyDescription& body, int number) {
-  bool held = false;  // a macro must not be empty
-  out << "macro supports" << number << ' ';
+  const std::string n = std::to_string(number);
+  std::string supports;
+  std::string loads;
   for (const ConditionDescription& c : body.conditions) {
-    if (c.kind == ConditionDescription::Kind::displacement) {
-      if (c.component != alongX && c.component != alongY) {
-        throw InputError(c.value.where +
-                         ": the FreeFEM method knows no rollers on sloped sides, expected ux, uy");
-      }
-      out << "+ on(" << c.label << ", u" << c.component + 1 << " = " << translated(c.value) << ") ";
-      held = true;
-    }
-  }
-  out << (held ? "" : "+ int1d(Body" + std::to_string(number) + ")(0.*u1*v1) ") << "//\nmacro loads" << number
-      << " + int2d(Body" << number << ")(0.*v2) ";
-  for (const ConditionDescription& c : body.conditions) {
-    if (c.kind == ConditionDescription::Kind::traction) {
-      out << "+ int1d(Body" << number << ", " << c.label << ")((" << translated(c.value) << ")*";
-      if (c.component == alongNormal) {
-        out << "(N.x*v1 + N.y*v2)) ";
-      } else {
-        out << "v" << c.component + 1 << ") ";
-      }
+    const std::string label = std::to_string(c.label);
+    const std::string value = freefemExpression(c.value);
+    if (c.kind == Kind::displacement && !isRoller(c)) {
+      supports += "+ on(" + label + ", u" + std::to_string(c.component + 1) + " = " + value + ") ";
+    } else if (c.kind == Kind::traction) {
+      const std::string direction =
+          c.component == alongNormal ? "(N.x*v1 + N.y*v2)" : "v" + std::to_string(c.component + 1);
+      loads += "+ simpson(" + n + ", " + label + ", (" + value + ")*" + direction + ") ";
     }
   }
   for (const int c : {0, 1}) {
     if (body.force[c]) {
-      out << "+ int2d(Body" << number << ")((" << translated(*body.force[c]) << ")*v" << c + 1 << ") ";
+      loads += "+ midpoints(" + n + ", (" + freefemExpression(*body.force[c]) + ")*v" +
+               std::to_string(c + 1) + ") ";
     }
   }
-  out << "//\n";
+  out << "macro supports" << n << ' ' << (supports.empty() ? "+ int2d(Body" + n + ")(0.*u1*v1) " : supports)
+      << "//\nmacro loads" << n << ' ' << (loads.empty() ? "+ int2d(Body" + n + ")(0.*v2) " : loads)
+      << "//\n";
 }
 
-std::string script(const SceneDescription& scene) {
-  const ContactDescription& contact = scene.contacts.front();
-  const bool first = contact.nonmortar.body == scene.bodies[0].name;
+/// One macro for all bodies; none where there are no rollers.
+std::string rollers(const SceneDescription& scene) {
+  std::string text;
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    for (const ConditionDescription& c : scene.bodies[b].conditions) {
+      if (isRoller(c)) {
+        text += "roller(" + std::to_string(b + 1) + ", " + std::to_string(c.label) + ", " +
+                (c.component == alongNormal ? "normal" : "tangent") + ", " + freefemExpression(c.value) +
+                ") ";
+      }
+    }
+  }
+  return text.empty() ? text : "macro rollers " + text + "//  body, label, direction, displacement\n";
+}
+
+/// What an interface has in place of its distance as meshed; none where it is that everywhere.
+std::string distances(const SceneDescription& scene, const Model& model) {
+  std::string text;
+  for (size_t k = 0; k < scene.contacts.size(); ++k) {
+    const ContactDescription& contact = scene.contacts[k];
+    if (!contact.gap && contact.initial != InitialGap::close) continue;
+    const ContactPair& pair = model.interfaces[k].pair();
+    text += "distance(" + std::to_string(k + 1) + ", " + std::to_string(pair.nonmortar.body + 1) + ", " +
+            std::to_string(pair.mortar.body + 1) + ", " +
+            (contact.gap ? freefemExpression(*contact.gap) : "0.") + ") ";
+  }
+  return text.empty() ? text : "macro distances " + text + "//  interface, its bodies, distance\n";
+}
+
+std::string script(const SceneDescription& scene, const Model& model) {
   const std::string method = methodFolder(scene.path);
+  const int bodies = static_cast<int>(scene.bodies.size());
   std::ostringstream out;
   out << "// " << (scene.title.empty() ? scene.path : scene.title) << "\n// Written by mortier freefem "
-      << scene.path << "; run from the folder in which that was called.\n\n// Bodies (plane stress)\n";
-  for (const int b : {0, 1}) {
-    writeBody(out, scene.bodies[b], b + 1);
-  }
+      << scene.path << "; run from the folder in which that was called.\n\n// Bodies (plane stress)\n"
+      << "macro eachBody(what)";
+  for (int b = 0; b < bodies; ++b) out << " what(" << b + 1 << ')';
+  out << " //\n";
+  for (int b = 0; b < bodies; ++b) writeBody(out, scene.bodies[b], b + 1);
   out << "\n// Boundary conditions and loads, functions of x, y and t\n";
-  for (const int b : {0, 1}) {
-    writeConditions(out, scene.bodies[b], b + 1);
+  for (int b = 0; b < bodies; ++b) writeConditions(out, scene.bodies[b], b + 1);
+  out << rollers(scene)
+      << "\n// Contact: nonmortar body and label, mortar body and label; time\nint[int, int] contact = ";
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    const auto& [nonmortar, mortar, coupling] = model.interfaces[k].pair();
+    out << (k == 0 ? "[[" : ", [") << nonmortar.body + 1 << ", " << nonmortar.label << ", " << mortar.body + 1
+        << ", " << mortar.label << ']';
   }
-  out << "\n// Contact and time\nstring nonmortar = \"" << contact.nonmortar.body
-      << "\";\nstring variant = \"" << word(contact.variant)
-      << "\";\nint contactLabel1 = " << (first ? contact.nonmortar : contact.mortar).label
-      << ", contactLabel2 = " << (first ? contact.mortar : contact.nonmortar).label
-      << ";\nreal endTime = " << shortest(scene.time.end) << ";  // [s]\nint steps = " << scene.time.steps
+  out << "];\n"
+      << distances(scene, model) << "string variant = \"" << word(scene.contacts.front().variant)
+      << "\";\nreal endTime = " << shortest(scene.time.end) << ";  // [s]\nint steps = " << scene.time.steps
       << ";  // backward Euler, equal steps\n\n";
-  for (const char* part : {"bodies", "coupling", "contact", "loop"}) {
+  for (const char* part : {"bodies", "supports", "coupling", "contact", "loop"}) {
     out << "include \"" << method << '/' << part << ".idp\"\n";
   }
   return out.str();
 }
 
-}  // namespace
+[[noreturn]] void refuse(const std::string& what, const std::string& expected) {
+  throw InputError(what + ", expected " + expected + " (all that the FreeFEM method knows)");
+}
 
-int writeFreefem(const FreefemCommand& command) {
-  // 1. The scene, as checked as for a run of our own.
-  const SceneDescription scene = readScene(command.scene, command.settings);
-  std::vector<std::string> warnings;
-  static_cast<void>(buildModel(scene, warnings));
-  if (scene.bodies.size() != 2 || scene.contacts.size() != 1) {
-    throw InputError(
-        scene.path + ": " + std::to_string(scene.bodies.size()) + " bodies and " +
-        std::to_string(scene.contacts.size()) +
-        " contact interfaces, expected two bodies and one interface (all that the FreeFEM method knows)");
-  }
-  const ContactDescription& contact = scene.contacts.front();
-  if (!contact.sidesGiven || contact.gap || contact.initial != InitialGap::asMeshed) {
-    throw InputError(
-        contact.where +
-        ": contact: sides, gap or initial, expected nonmortar and mortar at their distance as meshed "
-        "(all that the FreeFEM method knows)");
+/// \throws InputError for the first thing in the scene that the FreeFEM method does not know.
+void requireKnown(const SceneDescription& scene) {
+  if (scene.contacts.empty()) refuse(scene.path + ": no contact interface", "one at least");
+  for (const ContactDescription& contact : scene.contacts) {
+    if (contact.variant != scene.contacts.front().variant) {
+      refuse(contact.where + ": contact: variant = " + word(contact.variant),
+             "one variant for all interfaces");
+    }
   }
   if (scene.time.scheme != Scheme::backwardEuler) {
-    throw InputError(scene.path + ": scheme = " + word(scene.time.scheme) +
-                     ", expected backward-euler (all that the FreeFEM method knows)");
+    refuse(scene.path + ": scheme = " + word(scene.time.scheme), "backward-euler");
   }
-
   if (scene.time.tolerance > 0) {
-    throw InputError(scene.path + ": tolerance = " + shortest(scene.time.tolerance) +
-                     ", expected equal steps (all that the FreeFEM method knows)");
+    refuse(scene.path + ": tolerance = " + shortest(scene.time.tolerance), "equal steps");
   }
   for (const BodyDescription& body : scene.bodies) {
     const bool stressed = std::any_of(body.initialStress.begin(), body.initialStress.end(),
                                       [](const auto& component) { return component.has_value(); });
     if (stressed || !body.regions.empty()) {
-      throw InputError(body.where + ": body " + body.name +
-                       ": the FreeFEM method knows neither regions nor initial stress");
+      refuse(body.where + ": body " + body.name + ": regions or initial stress", "neither");
+    }
+    if (isGmshFile(body.mesh))
+      refuse(body.meshWhere + ": body " + body.name + ": mesh " + body.mesh, "a .mesh file");
+  }
+}
+
+/// \throws InputError where a nonmortar line is not straight.
+void requireStraight(const SceneDescription& scene, const Model& model) {
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    const ContactInterface& interface = model.interfaces[k];
+    const std::vector<Point>& normals = interface.normals();
+    const auto turned = [&](const Point& n) { return (n - normals.front()).norm() > 1e-9; };
+    if (std::any_of(normals.begin(), normals.end(), turned)) {
+      refuse(scene.contacts[k].where + ": contact: a curved or broken line", "a straight one");
     }
   }
+}
+
+}  // namespace
+
+int writeFreefem(const FreefemCommand& command) {
+  // 1. The scene, checked as for a run of our own.
+  const SceneDescription scene = readScene(command.scene, command.settings);
+  std::vector<std::string> warnings;
+  const Model model = buildModel(scene, warnings);
+  requireKnown(scene);
+  requireStraight(scene, model);
 
   // 2. The script.
-  const std::string text = script(scene);
+  const std::string text = script(scene, model);
   if (command.file.empty()) {
     std::cout << text;
     return exitDone;

@@ -191,9 +191,9 @@ class Faults(support.InSharedFolder):
     # ---- no result ----
     def test_missing_files(self):
         for run, name, named in (("theirs", "upper.stress.txt", "upper.stress.txt"),
-                                 ("theirs", "lower.displacement.txt", "expected two"),
+                                 ("theirs", "lower.displacement.txt", "lower.displacement.txt"),
                                  ("theirs", "summary.json", "summary.json"),
-                                 ("theirs", "contact.txt", "no bodies"),
+                                 ("theirs", "contact.txt", "contact.txt"),
                                  ("ours", "contact.csv", "contact.csv"),
                                  ("ours", "upper_000020.vtu", "upper_000020.vtu")):
             with self.subTest(name):

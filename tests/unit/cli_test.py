@@ -71,17 +71,6 @@ class Cli(OfTwoBlocks):
         self.assertTrue(left.startswith("scene.tmp-"))
         self.assertIn("checkpoint", self.names("out/" + left))
 
-    def test_steps_chosen_by_their_error_end_at_kinks(self):
-        # The table is a ramp but for a pulse that is too short to be found by trying.
-        kinks = {0.2001: "body.upper.boundary.3.ty={time=[0, 0.2001, 0.2002, 0.2003, 1], value=[0, -0.4002, -3, -0.4006, -2]}",
-                 0.2002: None, 0.2003: "body.lower.force={x={time=[0.9, 2], value=[0, 1]}, y='t < 0.7 ? 0 : t - 0.7'}",
-                 0.7: "time={end=1, tolerance=1e-2, scheme='sdirk2', breaks=[0.35]}", 0.9: None, 0.35: None}
-        self.mortier("run", "scene.toml", "--quiet", "--set", *filter(None, kinks.values()))
-        times = [float(row["time[s]"]) for row in csv.DictReader(self.read("out/scene/history.csv").splitlines())]
-        self.assertLess(len(times), 100)
-        for kink in kinks:
-            self.assertIn(kink, times)
-
     def test_output_that_cannot_be_written(self):
         self.write("", "file")
         self.mortier("run", "scene.toml", "--quiet", "--out", "file/out", code=1)
@@ -135,26 +124,6 @@ class Cli(OfTwoBlocks):
     def test_quiet_prints_nothing(self):
         result = self.mortier("run", "scene.toml", "--quiet")
         self.assertEqual((result.stdout, result.stderr), ("", ""))
-
-    def test_freefem_script(self):
-        (self.folder / "freefem").mkdir()
-        self.write("", "freefem/bodies.idp")
-        result = self.mortier("freefem", "scene.toml", "scene.edp", "--set", "contact.swap=true",
-                              "body.upper.force.x=3/2*ln(2)*x^2",
-                              "body.upper.boundary.3.pressure={time=[0, 2], value=[1, 5]}")
-        self.assertEqual((result.stdout, result.stderr), ("", ""))
-        text = self.read("scene.edp")
-        pressure = "-((t < 0. ? 1. : (t < 2. ? 1. + (2.)*(t - (0.)) : 5.)))"
-        for part in ["real lambda1 = 10, sigmaY1 = 1;", "real lambda2 = 0,", "int1d(Body1, 3)((-10.*t)*v2)",
-                     "int2d(Body1)((3./2.*log(2.)*x^2.)*v1)", f"int1d(Body1, 3)(({pressure})*(N.x*v1 + N.y*v2))",
-                     "macro supports2 + on(4, u1 = 0.) + on(1, u2 = 0.) //", "string nonmortar = \"lower\";",
-                     "int contactLabel1 = 1, contactLabel2 = 3;", "int steps = 4;", "include \"freefem/bodies.idp\""]:
-            self.assertIn(part, text)
-        roller = "body.upper.boundary.4.un=0"
-        self.reject(f"--set {roller}: body upper: un = 0: the FreeFEM method knows no rollers", "freefem", "scene.toml",
-                    "--set", roller)
-        self.write(TWO_BLOCKS[:TWO_BLOCKS.index("[contact]")] + TWO_BLOCKS[TWO_BLOCKS.index("[time]"):])
-        self.reject("scene.toml: 2 bodies and 0 contact interfaces, expected two", "freefem", "scene.toml")
 
     def test_thin_triangles_are_told(self):
         self.mortier("mesh", "crisscross", "--cells", "100,1", "upper.mesh")

@@ -1,0 +1,96 @@
+"""mortier and FreeFEM agree on the scenes; faults of the FreeFEM method that the compression test does not see are caught."""
+import shutil
+import unittest
+
+import support
+from cases import SCENES, UNKNOWN_TO_FREEFEM, SceneCase, scene_cases
+from codes import RunError, run_freefem, run_mortier
+from compare import compare
+from oracle import compare_scenes
+
+COMPRESSION = SceneCase("compression", "interpolation", changes=("time.steps=3",))
+
+
+class Oracle(unittest.TestCase):
+    def test_codes_agree(self):
+        for row in compare_scenes(scene_cases()):
+            with self.subTest(row["case"]):
+                self.assertTrue(row["agree"], row["verdict"])
+
+    def test_every_scene_is_compared_or_refused(self):
+        scenes = {path.stem for path in (support.ROOT / "scenes").glob("*.toml")}
+        self.assertEqual(scenes, {"compression"} | SCENES.keys() | UNKNOWN_TO_FREEFEM.keys())
+
+    def test_what_freefem_does_not_know_is_refused(self):
+        for name, reason in UNKNOWN_TO_FREEFEM.items():
+            self.refused(reason, name)
+        self.refused("contact: variant = interpolation, expected one variant for all interfaces", "stack",
+                     "--set", "contact.1.variant=interpolation")
+        self.refused("scheme = sdirk2, expected backward-euler", "open-close")
+
+    def refused(self, reason, name, *arguments):
+        with self.subTest(name, arguments=arguments):
+            done = support.mortier("freefem", f"scenes/{name}.toml", *arguments, cwd=support.ROOT)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertRegex(done.stderr, rf"\Amortier: [^\n]*: {reason}[^\n]*\n\Z")
+
+
+# Fault, file, right words, wrong words, scene and what tells its case, what then differs (empty: or FreeFEM gives up).
+FAULTS = [
+    ("normals mirrored", "supports", "dx = dy; dy = -tx;", "dx = dy; dy = tx;", "turned", "as it stands", "displacement"),
+    ("normal for tangent", "supports", "rollerAlong(r) == normal", "rollerAlong(r) == tangent", "turned", "sheared", ""),
+    ("normals of sides on a circle", "supports", "cos(40*pi/180)", "2", "cut-ring", "as it stands", "displacement"),
+    ("no circle at the end of a roller", "supports", "&& smooth(v, to, b)", "&& false", "cut-ring", "normal and",
+     "displacement"),
+    ("rollers do not move", "loop", "g0(nc + i) = rowValue(i);", "g0(nc + i) = 0;", "turned", "bent", "displacement"),
+    ("one roller at a corner", "supports", "hold(v, dx, dy);\n", "hold(v, dx, dy); held(v) = 2;\n", "turned",
+     "as it stands", ""),
+    ("normal of a level line", "coupling", "real nx = ty, ny = -tx;", "real nx = 0, ny = -1;", "sloped", "as it stands", ""),
+    ("one normal for all interfaces", "coupling", "edgeLabel(e) == contact(c, 1)) {", "edgeLabel(e) == contact(0, 1)) {",
+     "broken-line", "as it stands", ""),
+    ("row functions end with the hats", "coupling", "row(i + 1) < 0 ? 1. : phi, ", "phi, ", "punch", "sides swapped",
+     "displacement"),
+    ("conditions at held ends", "coupling", "faces = faces && !", "faces = faces || false && !", "stack", "mortar held", ""),
+    ("no conditions at held ends", "coupling", '(variant == "mortar" || mortarHeld)', "true", "stack", "interpolation held",
+     ""),
+    ("given distance not read", "coupling", "given(c) ? givenGap(c, v1(i)) : asMeshed", "asMeshed", "sloped", "parted",
+     "displacement"),
+    ("given distance not in the interpenetration", "coupling", "cutGap(cuts) = at1*gap0(piece)",
+     "cutGap(cuts) = 0*gap0(piece)", "sloped", "parted", "interpenetration"),
+    ("another rule for tractions", "bodies", "qf1pElump", "qf1pE", "exact-contact", "as it stands", "displacement"),
+    ("another rule for body forces", "bodies", "qf2pT)(load)", "qf1pT)(load)", "turned", "bent", "displacement"),
+    ("contact that pulls", "contact", "p(i) < -tinyForce", "false", "open-close", "as it stands", ""),
+    ("third body as the second", "bodies", "eP[b] = young[b]", "eP[b] = young[min(b, 1)]", "stack", "as it stands",
+     "displacement"),
+]
+
+
+class FaultsOfTheMethod(support.InSharedFolder):
+    """Each is seen by a scene, and not by the compression test."""
+
+    def test_each_is_caught(self):
+        for fault, file, right, wrong, scene, what, quantity in FAULTS:
+            with self.subTest(fault):
+                method = self.folder / "method"
+                shutil.copytree(support.ROOT / "freefem", method, dirs_exist_ok=True)
+                path = method / f"{file}.idp"
+                self.assertIn(right, path.read_text())
+                path.write_text(path.read_text().replace(right, wrong, 1))
+                case = next(case for case in scene_cases() if case.name == scene and what in str(case))
+                self.assertEqual(self.verdict(COMPRESSION, method), "agree")
+                self.assertRegex(self.verdict(case, method), rf"\ADIFFER: .*{quantity}" if quantity else r"\A(DIFFER|FAILED): ")
+
+    ours = {}  # runs of mortier, by case
+
+    def verdict(self, case, method):
+        """On FreeFEM's run with this method, in words."""
+        if case not in self.ours:
+            self.ours[case] = run_mortier(self.folder / f"mortier-{len(self.ours)}", case.settings, case.scene)
+        try:
+            return str(compare(self.ours[case], run_freefem(self.folder / "freefem", case.settings, case.scene, method)))
+        except RunError as error:
+            return f"FAILED: {error}"
+
+
+if __name__ == "__main__":
+    unittest.main()
