@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesh/boundary_line.h"
+#include "scene/labels.h"
 #include "time/breaks.h"
 
 namespace mortier {
@@ -27,20 +28,25 @@ std::vector<Point> samplePoints(const TriangleMesh& mesh, const int* label) {
 
 std::vector<double> loadBreaks(const SceneDescription& scene, const Model& model) {
   std::vector<std::function<double(double)>> data;
+  std::vector<double> breaks = scene.time.breaks;
   const auto add = [&](const Expression& expression, const std::vector<Point>& points) {
-    if (expression.constant) return;
+    for (const double t : expression.breaks)
+      if (t > 0 && t < scene.time.end) breaks.push_back(t);
+    if (expression.constant || !expression.breaks.empty()) return;
     for (const Point& p : points)
       data.emplace_back([&expression, p](double t) { return expression.value(p[0], p[1], t); });
   };
   for (size_t b = 0; b < scene.bodies.size(); ++b) {
     const TriangleMesh& mesh = model.bodies[b].mesh();
-    for (const ConditionDescription& condition : scene.bodies[b].conditions)
-      add(condition.value, samplePoints(mesh, &condition.label));
+    for (const ConditionDescription& c : scene.bodies[b].conditions) {
+      const int label = boundaryLabel(mesh, c.label, c.labelName, c.where);
+      add(c.value, samplePoints(mesh, &label));
+    }
     for (const std::optional<Expression>& force : scene.bodies[b].force)
       if (force) add(*force, samplePoints(mesh, nullptr));
   }
-  std::vector<double> breaks = findBreaks(data, 0, scene.time.end);
-  breaks.insert(breaks.end(), scene.time.breaks.begin(), scene.time.breaks.end());
+  const std::vector<double> found = findBreaks(data, 0, scene.time.end);
+  breaks.insert(breaks.end(), found.begin(), found.end());
   std::sort(breaks.begin(), breaks.end());
   breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
   return breaks;

@@ -65,26 +65,6 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   return scene;
 }
 
-std::vector<double> breaksOf(const SceneDescription& scene) {
-  std::vector<double> breaks;
-  const auto add = [&](const Expression& data) {
-    breaks.insert(breaks.end(), data.breaks.begin(), data.breaks.end());
-  };
-  for (const BodyDescription& body : scene.bodies) {
-    for (const ConditionDescription& condition : body.conditions) {
-      add(condition.value);
-    }
-    for (const std::optional<Expression>& force : body.force) {
-      if (force) {
-        add(*force);
-      }
-    }
-  }
-  std::sort(breaks.begin(), breaks.end());
-  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
-  return breaks;
-}
-
 std::string word(CouplingKind kind) {
   return couplingWords[static_cast<size_t>(kind)];
 }

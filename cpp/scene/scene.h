@@ -86,9 +86,6 @@ struct SceneDescription {
 /// \throws InputError with one line `file:line: subject: key = value, expected ...`.
 SceneDescription readScene(const std::string& path, const std::vector<std::string>& settings = {});
 
-/// Times at which data of the scene have kinks, ascending, each once [s].
-std::vector<double> breaksOf(const SceneDescription& scene);
-
 /// Words of the scene for what a scene can choose.
 std::string word(CouplingKind kind);
 std::string word(Projection projection);

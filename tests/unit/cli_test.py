@@ -71,6 +71,17 @@ class Cli(OfTwoBlocks):
         self.assertTrue(left.startswith("scene.tmp-"))
         self.assertIn("checkpoint", self.names("out/" + left))
 
+    def test_steps_chosen_by_their_error_end_at_kinks(self):
+        # The table is a ramp but for a pulse that is too short to be found by trying.
+        kinks = {0.2001: "body.upper.boundary.3.ty={time=[0, 0.2001, 0.2002, 0.2003, 1], value=[0, -0.4002, -3, -0.4006, -2]}",
+                 0.2002: None, 0.2003: "body.lower.force={x={time=[0.9, 2], value=[0, 1]}, y='t < 0.7 ? 0 : t - 0.7'}",
+                 0.7: "time={end=1, tolerance=1e-2, scheme='sdirk2', breaks=[0.35]}", 0.9: None, 0.35: None}
+        self.mortier("run", "scene.toml", "--quiet", "--set", *filter(None, kinks.values()))
+        times = [float(row["time[s]"]) for row in csv.DictReader(self.read("out/scene/history.csv").splitlines())]
+        self.assertLess(len(times), 100)
+        for kink in kinks:
+            self.assertIn(kink, times)
+
     def test_output_that_cannot_be_written(self):
         self.write("", "file")
         self.mortier("run", "scene.toml", "--quiet", "--out", "file/out", code=1)

@@ -1,4 +1,5 @@
 """Files of Gmsh: two squares side by side with a curve between them, as a mesh in both formats and as a geometry."""
+import csv
 import json
 import sys
 import unittest
@@ -107,6 +108,10 @@ class GmshFiles(OfTwoBlocks):
                 self.assertAlmostEqual(plate["final"]["displacement_min"][1], -0.06, places=12)
                 self.assertAlmostEqual(plate["final"]["von_mises_min"], 6, places=10)
                 self.assertEqual(plate["bodies"][0]["material"], "Perzyna (frobenius), elastic")
+        # The kink of an expression on a label that has a name: a step ends there.
+        self.mortier("run", "scene.toml", "--quiet", "--out", "plate", "--set", "time={end=1, tolerance=1e-2, scheme='sdirk2'}",
+                     "body.plate.boundary.top.pressure='t < 0.37 ? t : 0.37'")
+        self.assertIn("0.37", [row["time[s]"] for row in csv.DictReader(self.read("plate/history.csv").splitlines())])
         fours = [self.mortier("mesh", "info", name).stdout.count("4") for name in ("a.msh", "b.msh")]
         self.assertEqual(*fours)
 
