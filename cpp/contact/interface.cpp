@@ -132,6 +132,7 @@ ContactInterface::ContactInterface(const ContactPair& pair, const TriangleMesh& 
 
   const std::vector<SmoothPart> parts = partsFacing(nonmortar, mortar);
   std::vector<FacingLine> facing;
+  facing.reserve(parts.size());
   for (const SmoothPart& part : parts) facing.push_back(facingLine(part, mortar));
   if (std::all_of(facing.begin(), facing.end(), [](const FacingLine& line) { return line.empty(); })) {
     if (const double angle = angleBetween(parts, mortar); angle < 120) {

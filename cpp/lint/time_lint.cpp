@@ -27,11 +27,11 @@ void lintTime(const LintInput& input, Faults& faults) {
     if (mesh != nullptr)
       bytes += 8.0 * (6.0 * static_cast<double>(mesh->vertices.size()) +
                       11.0 * static_cast<double>(mesh->triangles.size()));
-  const double kept = scene.every > 0 ? 1.0 + scene.time.steps / scene.every : 1.0;
+  const int kept = scene.every > 0 ? 1 + scene.time.steps / scene.every : 1;
   if (bytes * kept > large)
-    faults.add(
-        "output-large", input.where({"output", "every"}),
-        shortest(kept) + " kept states of about " + shortest(std::round(bytes / 1e5) / 10) + " MB each");
+    faults.add("output-large", input.where({"output", "every"}),
+               std::to_string(kept) + " kept states of about " + shortest(std::round(bytes / 1e5) / 10) +
+                   " MB each");
 }
 
 }  // namespace mortier

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstdint>
 #include <filesystem>
+#include <ranges>
 #include <sstream>
 
 #include "base/error.h"
@@ -51,7 +52,7 @@ class VtuFile {
       file_ << descriptions_[i] << " format=\"appended\" offset=\"" << offset << "\"/>\n";
     }
     file_ << xml_.str() << "</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
-    for (auto array = arrays_.rbegin(); array != arrays_.rend(); ++array) file_ << *array;
+    for (const std::string& array : std::views::reverse(arrays_)) file_ << array;
     file_ << "\n</AppendedData>\n</VTKFile>\n";
     file_.close();
   }

@@ -207,6 +207,7 @@ std::vector<std::string> stoppedRuns(const std::string& path) {
       found.emplace_back(fs::last_write_time(folder, none), folder.string());
   std::sort(found.rbegin(), found.rend());
   std::vector<std::string> names;
+  names.reserve(found.size());
   for (auto& [time, name] : found) names.push_back(std::move(name));
   return names;
 }
