@@ -127,7 +127,7 @@ Pivots contactPivots(const Model& model) {
   Pivots result;
   for (const int b : {0, 1}) {
     const Body& body = model.bodies[b];
-    BodySystem system(model, b, firstRow, LinearEngine::multifrontal);
+    BodySystem system(model, b, firstRow, SolverOptions{});
     BodyIterate iterate{Vector::Zero(body.dofs()), Vector::Zero(body.dofs()), state.bodies[b].stress,
                         Matrix::Zero(3, body.points())};
     system.linearise({0, state.bodies[b].stress, iterate.strain}, nullptr, iterate);

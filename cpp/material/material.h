@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <memory>
 
 #include "base/types.h"
@@ -24,6 +25,10 @@ struct Linearisation {
   /// The block of H^-1 that acts on the strains of the plane [Pa], column major: 9 x points, or, where the moduli are
   /// symmetric, 6 x points for the lower triangle. The caller sizes it.
   Matrix moduli;
+  /// Points at which the moduli are those of elasticity: the caller sets 0, linearise() adds its own, from any
+  /// thread. Points of a law that does not count are taken to flow.
+  int elastic = 0;
+  void addElastic(int points) { std::atomic_ref(elastic).fetch_add(points, std::memory_order_relaxed); }
 };
 
 /// All 3 x 3 moduli of a point, column major.

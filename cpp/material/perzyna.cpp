@@ -87,6 +87,7 @@ class Elastic final : public Material {
       batch.store(s1, result.predictor.data());
       store(batch, moduli, result.moduli);
     }
+    result.addElastic(end - begin);
     return residual.value();
   }
 
@@ -146,6 +147,7 @@ class Perzyna final : public Material {
   double linearise(const MaterialStep& step, const Matrix& stress, Linearisation& result, int begin,
                    int end) const override {
     Largest residual;
+    bool flows = false;
     for (int i = begin; i < end; i += laneCount) {
       const Batch batch(i, end);
       const LaneVector s = batch.load<3>(stress.data());
@@ -154,11 +156,13 @@ class Perzyna final : public Material {
       for (int k = 0; k < 3; ++k) v[k] -= (s[k] - s0[k]) / e_[k];
       const LinearisedLanes law = lineariseLanes(step, s, v);
       residual.add(law.increment);
+      flows = flows || law.flows;
       LaneVector predictor = s;
       for (int k = 0; k < 3; ++k) predictor[k] += law.increment[k];
       batch.store(predictor, result.predictor.data());
       store(batch, law.moduli, result.moduli);
     }
+    if (!flows) result.addElastic(end - begin);
     return residual.value();
   }
 
@@ -227,6 +231,7 @@ class Perzyna final : public Material {
   struct LinearisedLanes {
     LaneVector increment;  ///< H^-1 r
     std::array<Lanes, 9> moduli;
+    bool flows = false;  ///< any of them
   };
 
   [[nodiscard]] LinearisedLanes lineariseLanes(const MaterialStep& step, const LaneVector& s,
@@ -245,7 +250,9 @@ class Perzyna final : public Material {
     LaneVector hy{};
     Lanes rankOne = 0;
     const LaneMask flowing = lanes_.yields(t);
-    if (any_of(flowing)) {
+    LinearisedLanes result;
+    result.flows = any_of(flowing);
+    if (result.flows) {
       const Lanes kappa = step.anticipate ? 1 / (1 + c * theta) : Lanes(1);
       const LaneProjection P = lanes_.project(t, kappa, flowing);
       for (int k = 0; k < 3; ++k) r[k] = select(flowing, v[k] - theta * kappa * P.overstress[k], v[k]);
@@ -263,7 +270,6 @@ class Perzyna final : public Material {
       }
       rankOne = select(flowing, theta / (P.z + theta * dot(P.y, hx)), 0);
     }
-    LinearisedLanes result;
     const Lanes along = rankOne * dot(hy, r);
     for (int k = 0; k < 3; ++k) result.increment[k] = h[k] * r[k] - along * hx[k];
     result.moduli = diagonalMinusRankOne(h, rankOne, hx, hy);

@@ -50,7 +50,8 @@ class Planner {
     }
     const std::string law = "projection " + projection + " makes its tangent " +
                             (symmetric ? "symmetric" : "unsymmetric where it flows");
-    add(part, true, factor + " in every iteration", law);
+    add(part, true, factor + " in every iteration in which it flows", law);
+    add(part, false, "a new factor while nothing in it flows", "its tangent is that of elasticity");
     const std::string loads = "loads of the order of " + shortest(rounded(largest_)) + " Pa, yield_stress " +
                               shortest(yieldStress) + " Pa";
     if (largest_ < yieldStress)
@@ -84,11 +85,15 @@ class Planner {
                                      [](const Body& body) { return body.material().linear(); });
     const bool changes = std::any_of(data_.begin(), data_.end(),
                                      [&](const SampledDatum& datum) { return changesInTime(datum, time); });
+    if (elastic && !changes) {
+      add("time", true, "one step", "nothing depends on time");
+      if (time.steps > 1)
+        add("time", false, "the other " + std::to_string(time.steps - 1) + " steps", "they are at rest");
+      return;
+    }
     const std::string steps = std::to_string(time.steps) + (time.steps == 1 ? " step" : " steps");
     add("time", true, steps + " of " + shortest(time.end / time.steps) + " s, " + word(time.scheme),
-        changes   ? "loads change"
-        : elastic ? "nothing depends on time: one step would do"
-                  : "bodies flow");
+        changes ? "loads change" : "bodies flow");
   }
 
   static double rounded(double x) {

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Names the layout below; it changes with any member.
-constexpr std::string_view magic = "mortier checkpoint 2\n";
+constexpr std::string_view magic = "mortier checkpoint 3\n";
 
 uint64_t fnv1a(std::string_view bytes, uint64_t hash = 14695981039346656037U) {
   for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211U;
@@ -197,9 +197,14 @@ void visitMembers(Archive& archive, ControllerMemory& controller) {
   archive(timeStep, stress, displacement);
 }
 template <class Archive>
+void visitMembers(Archive& archive, SolverMemory& solver) {
+  auto& [libraries, elasticFactors] = solver;
+  archive(libraries, elasticFactors);
+}
+template <class Archive>
 void visitMembers(Archive& archive, MarchMemory& memory) {
-  auto& [begin, run, increments, timeStep, libraries, controller] = memory;
-  archive(begin, run, increments, timeStep, libraries, controller);
+  auto& [begin, run, increments, timeStep, solver, controller] = memory;
+  archive(begin, run, increments, timeStep, solver, controller);
 }
 template <class Archive>
 void visitMembers(Archive& archive, Checkpoint& checkpoint) {

@@ -26,6 +26,7 @@ void readOptions(const TableReader& root, SceneDescription& scene) {
     }
     scene.solver.maxIterations = solver.integer("max_iterations", 1, defaultIterations(scene.solver.method));
     scene.solver.linear = static_cast<LinearEngine>(solver.oneOf("linear", linearWords, 0));
+    scene.solver.reduce = solver.boolean("reduce", scene.solver.reduce);
   }
   if (const Node* node = root.find("output")) {
     scene.every = TableReader(*node, "output", "output").integer("every", 0, 0);

@@ -23,7 +23,7 @@ const Keys& keysOf(const std::string& path) {
       {"contact.nonmortar", {"body", "label"}},
       {"contact.mortar", {"body", "label"}},
       {"time", {"end", "steps", "scheme", "tolerance", "max_steps", "breaks"}},
-      {"solver", {"method", "tolerance", "max_iterations", "linear"}},
+      {"solver", {"method", "tolerance", "max_iterations", "linear", "reduce"}},
       {"check", {"allow"}},
       {"output", {"every"}},
   };

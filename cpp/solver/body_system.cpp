@@ -41,12 +41,13 @@ void forEachEntryOfC(const ContactInterface& interface, int body, Visit visit) {
 
 }  // namespace
 
-BodySystem::BodySystem(const Model& model, int body, const std::vector<int>& firstRow, LinearEngine engine)
-    : body_(model.bodies[body]), engine_(engine) {
+BodySystem::BodySystem(const Model& model, int body, const std::vector<int>& firstRow,
+                       const SolverOptions& options)
+    : body_(model.bodies[body]), engine_(options.linear), reduce_(options.reduce) {
   findContactDofs(model, body, firstRow);
   findRigidMotions();
-  solver_ = engine == LinearEngine::multifrontal ? multifrontalSolver(body_.pattern(), kept_)
-                                                 : suiteSparseSolver(body_.pattern(), kept_);
+  solver_ = engine_ == LinearEngine::multifrontal ? multifrontalSolver(body_.pattern(), kept_)
+                                                  : suiteSparseSolver(body_.pattern(), kept_);
   law_.predictor.resize(body_.material().components(), body_.points());
   law_.moduli.resize(body_.material().symmetricTangent() ? 6 : 9, body_.points());
 }
@@ -108,6 +109,7 @@ void BodySystem::forEachBlock(const Work& work) {
 template <class Law>
 double BodySystem::evaluate(const Matrix* shift, BodyIterate& iterate, const Law& law) {
   iterate.strain.resize(3, body_.points());
+  law_.elastic = 0;
   std::atomic<bool> finite = true;
   std::atomic<double> largest = 0;
   forEachBlock([&](int begin, int end) {
@@ -152,8 +154,10 @@ void BodySystem::choosePenalty(const Matrix& stress) {
 
 std::string BodySystem::factorise() {
   refactorised_ = false;
-  if (factorised_ && body_.material().linear()) return {};
-  refactorised_ = !std::exchange(counted_, false);
+  const bool elastic = law_.elastic == body_.points();
+  if (reduce_ && factorised_ && elastic && elasticFactors_) return {};
+  refactorised_ = !(std::exchange(counted_, false) && elastic);
+  elasticFactors_ = elastic;
   body_.tangent(law_.moduli, values_, *threads_);
   factorised_ = solver_->factorise(values_);
   if (!factorised_ && engine_ == LinearEngine::multifrontal && !body_.pattern().symmetric) {

@@ -28,7 +28,7 @@ struct BodyIterate {
 class BodySystem {
  public:
   /// \param firstRow  of each interface among all contact conditions, and their number at the end.
-  BodySystem(const Model& model, int body, const std::vector<int>& firstRow, LinearEngine engine);
+  BodySystem(const Model& model, int body, const std::vector<int>& firstRow, const SolverOptions& options);
 
   /// Linearises the law at the iterate, whose strain (that of `step`) becomes B du - shift; no shift where null.
   /// \returns the material residual, scaled [-].
@@ -40,13 +40,17 @@ class BodySystem {
   void choosePenalty(const Matrix& stress);
   /// Linearises along the path instead, for the strain of an iterate.
   void linearise(InteriorPath& path, const Matrix& strain, double target, bool correct) {
+    law_.elastic = 0;
     path.linearise(strain, target, correct, law_);
   }
-  /// Factorises the tangent of the last linearisation, unless it is still that of a linear material.
+  /// Factorises the tangent of the last linearisation, unless that and the last one are both of a body in which
+  /// nothing flows.
   /// \returns why that is impossible, or nothing.
   std::string factorise();
-  /// Goes on with a run in which a linear material has been factorised and counted before.
-  void resume() { counted_ = body_.material().linear(); }
+  /// Whether the factors are those of elasticity.
+  [[nodiscard]] bool elasticFactors() const { return elasticFactors_; }
+  /// Goes on with a run in which these have been made and counted before.
+  void resumeElastic() { counted_ = true; }
   /// Whether the last factorise() did any work that counts.
   [[nodiscard]] bool refactorised() const { return refactorised_; }
   /// Works on these threads from now on; they must outlive the system.
@@ -94,11 +98,13 @@ class BodySystem {
   Matrix motions_;
   Matrix R_;
   LinearEngine engine_;
+  bool reduce_;
   Threads* threads_ = &Threads::none();
   std::unique_ptr<CondensingSolver> solver_;
   std::vector<double> values_;
   bool factorised_ = false;
   bool refactorised_ = false;
+  bool elasticFactors_ = false;
   bool counted_ = false;
   Linearisation law_;
   Vector penalty_;

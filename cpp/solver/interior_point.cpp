@@ -28,8 +28,7 @@ StepOutcome StepSolver::interiorPoint(const State& state0, const StepData& step,
     total.unheld = part.unheld;
     total.reason = part.reason;
   };
-  std::vector<Vector> loads;
-  for (const Body& body : model_.bodies) loads.push_back(body.load(step.time));
+  const std::vector<Vector>& loads = loadsAt(step.time);
 
   Iterate iterate = start(state0);
   prescribe(state0, step.time, iterate);

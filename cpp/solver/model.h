@@ -38,6 +38,8 @@ struct SolverOptions {
   int maxIterations = defaultIterations(Method::newton);  ///< linear solves in one step before it is given up
   LinearEngine linear = LinearEngine::multifrontal;
   int threads = 1;
+  /// Leave out what changes nothing: factors of bodies in which nothing flows, steps in which nothing happens.
+  bool reduce = true;
 };
 
 }  // namespace mortier

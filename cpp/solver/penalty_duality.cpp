@@ -27,7 +27,6 @@ namespace {
 
 constexpr double relaxation = 0.75;  ///< a; towards 1 bodies that only contact holds come to rest slowly
 constexpr double contactTolerance = 1e-12;
-constexpr double balanceTolerance = 1e-11;
 
 /// When to choose the penalties again: after spans that grow, where the change did not fall enough in one.
 class Restarts {
@@ -129,12 +128,9 @@ StepOutcome StepSolver::penaltyDuality(const State& state0, const StepData& step
   StepOutcome outcome;
   outcome.rung = "penalty-duality";
   prescribe(state0, step.time, iterate);
-  std::vector<Vector> loads;
+  const std::vector<Vector>& loads = loadsAt(step.time);
   double largestLoad = 0;
-  for (const Body& body : model_.bodies) {
-    loads.push_back(body.load(step.time));
-    largestLoad = std::max(largestLoad, loads.back().cwiseAbs().maxCoeff());
-  }
+  for (const Vector& load : loads) largestLoad = std::max(largestLoad, load.cwiseAbs().maxCoeff());
   Restarts restarts;
   std::optional<MultiplierSystem> system;
   double change = 0;         // of stresses

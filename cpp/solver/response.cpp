@@ -1,4 +1,5 @@
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "solver/step.h"
 
@@ -47,6 +48,12 @@ std::vector<char> StepSolver::joined(const ActiveSets& active) const {
 
 std::vector<Response> StepSolver::respond(const std::vector<Matrix>& error, const ActiveSets& active) {
   std::vector<Response> responses(systems_.size());
+  if (std::all_of(error.begin(), error.end(), [](const Matrix& e) { return e.isZero(0); })) {
+    for (size_t b = 0; b < systems_.size(); ++b)
+      responses[b] = {Vector::Zero(model_.bodies[b].dofs()),
+                      Matrix::Zero(model_.bodies[b].material().components(), error[b].cols())};
+    return responses;
+  }
   std::vector<Vector> motion(systems_.size());
   forEachBody([&](int b) {
     responses[b].stress = -systems_[b].stressOf(error[b]);
@@ -69,16 +76,20 @@ std::vector<Response> StepSolver::respond(const std::vector<Matrix>& error, cons
   return responses;
 }
 
-std::vector<char> StepSolver::libraries() const {
-  std::vector<char> bodies;
-  for (const BodySystem& system : systems_) bodies.push_back(system.usesLibraries() ? 1 : 0);
-  return bodies;
+SolverMemory StepSolver::memory() const {
+  SolverMemory memory;
+  for (const BodySystem& system : systems_) {
+    memory.libraries.push_back(system.usesLibraries() ? 1 : 0);
+    memory.elasticFactors.push_back(system.elasticFactors() ? 1 : 0);
+  }
+  return memory;
 }
 
-void StepSolver::resume(const std::vector<char>& libraries) {
-  for (size_t b = 0; b < libraries.size(); ++b)
-    if (libraries[b] != 0) systems_[b].useLibraries();
-  for (BodySystem& system : systems_) system.resume();
+void StepSolver::resume(const SolverMemory& memory) {
+  for (size_t b = 0; b < memory.libraries.size(); ++b) {
+    if (memory.libraries[b] != 0) systems_[b].useLibraries();
+    if (memory.elasticFactors[b] != 0) systems_[b].resumeElastic();
+  }
 }
 
 }  // namespace mortier

@@ -20,6 +20,12 @@ struct State {
   std::vector<Vector> contactForce;  ///< per interface and nonmortar node, p >= 0 [N/m]
 };
 
+/// What of the solver itself a run must know to go on, per body; empty before the first step.
+struct SolverMemory {
+  std::vector<char> libraries;       ///< whether SuiteSparse has taken over
+  std::vector<char> elasticFactors;  ///< whether the factors are those of elasticity
+};
+
 /// Residuals of a converged step, all free of units.
 struct Certificate {
   double forceBalance = 0;      ///< |F - sum |T| B' s - C' p|_inf over the largest nodal force

@@ -13,9 +13,6 @@
 namespace mortier {
 namespace {
 
-/// Force balance asked of a converged step; far above rounding, far below what any result shows.
-constexpr double balanceTolerance = 1e-11;
-
 /// Starting threads costs more than it gains below this many triangles.
 constexpr int trianglesWorthThreads = 30000;
 
@@ -43,7 +40,7 @@ StepSolver::StepSolver(const Model& model, const SolverOptions& options)
   int triangles = 0;
   systems_.reserve(model.bodies.size());
   for (size_t b = 0; b < model.bodies.size(); ++b) {
-    systems_.emplace_back(model, static_cast<int>(b), firstRow_, options.linear);
+    systems_.emplace_back(model, static_cast<int>(b), firstRow_, options);
     firstMotion_.push_back(firstMotion_.back() + static_cast<int>(systems_[b].R().cols()));
     uniqueSolutions_ = uniqueSolutions_ && model.bodies[b].pattern().symmetric;
     triangles += static_cast<int>(model.bodies[b].mesh().triangles.size());
@@ -257,8 +254,7 @@ StepOutcome StepSolver::newton(const State& state0, const StepData& step, const 
   int outOfBalance = 0;
   StepOutcome outcome;
   prescribe(state0, step.time, iterate);
-  std::vector<Vector> loads;
-  for (const Body& body : model_.bodies) loads.push_back(body.load(step.time));
+  const std::vector<Vector>& loads = loadsAt(step.time);
   for (int iteration = 0;; ++iteration) {
     const double residual = linearise(state0, step, iterate, limits.anticipate);
     if (iteration > 0 && residual <= limits.tolerance) {
@@ -288,6 +284,13 @@ StepOutcome StepSolver::newton(const State& state0, const StepData& step, const 
 }
 
 StepOutcome StepSolver::solve(const State& state0, const StepData& step, Iterate& guess) {
+  if (options_.reduce && step.settled) {
+    Iterate resting;
+    if (StepOutcome outcome = rest(state0, step, resting); outcome.converged) {
+      guess = std::move(resting);
+      return outcome;
+    }
+  }
   if (options_.method == Method::penaltyDuality) return penaltyDuality(state0, step, guess);
   constexpr int plainIterations = 7;
   constexpr int continuationIterations = 60;

@@ -11,6 +11,8 @@
 // is solved there.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -40,6 +42,7 @@ struct StepData {
   double time = 0;            ///< t1: loads and prescribed displacements are taken here [s]
   double weight = 0;          ///< time step times the scheme's diagonal coefficient [s]
   std::vector<Matrix> shift;  ///< per body, 3 x points; empty for none
+  bool settled = false;       ///< the start of the step is the solution of the one before
 };
 
 struct StepOutcome {
@@ -74,14 +77,16 @@ class StepSolver {
   /// \param error  per body, a strain added in every triangle (3 x points).
   [[nodiscard]] std::vector<Response> respond(const std::vector<Matrix>& error, const ActiveSets& active);
 
-  /// Per body, whether SuiteSparse has taken over; empty: nowhere.
-  [[nodiscard]] std::vector<char> libraries() const;
-  /// Goes on with a run in which SuiteSparse had taken over for these bodies.
-  void resume(const std::vector<char>& libraries);
+  /// What of the solver itself a run must know to go on from here as if it had not stopped.
+  [[nodiscard]] SolverMemory memory() const;
+  void resume(const SolverMemory& memory);
 
  private:
   void requireHeld();
   void forEachBody(const Threads::Work& work) { threads_->forEach(static_cast<int>(systems_.size()), work); }
+  /// Force balance asked of a converged step; far above rounding, far below what any result shows.
+  static constexpr double balanceTolerance = 1e-11;
+
   [[nodiscard]] int rows() const { return firstRow_.back(); }
   [[nodiscard]] std::vector<Vector> displacements(const State& state0, const Iterate& iterate) const;
   [[nodiscard]] std::string describeRigid(const Vector& z) const;
@@ -101,6 +106,11 @@ class StepSolver {
     double tolerance = 0;
     bool anticipate = false;  ///< material/material.h
   };
+  /// Nodal forces of all bodies at a time; good until another time is asked for.
+  const std::vector<Vector>& loadsAt(double time);
+  bool sameData(double time, double other);
+  [[nodiscard]] bool flows(const State& state) const;
+  StepOutcome rest(const State& state0, const StepData& step, Iterate& solution);
   StepOutcome newton(const State& state0, const StepData& step, const NewtonLimits& limits, Iterate& iterate);
   double regularise(const State& state0, const StepData& step, Iterate& iterate);
   StepOutcome penaltyDuality(const State& state0, const StepData& step, Iterate& iterate);
@@ -119,7 +129,12 @@ class StepSolver {
   std::vector<BodySystem> systems_;
   std::vector<int> firstMotion_;  ///< of each body among all rigid motions, and their number at the end
   ContactProblem contact_;
-  bool uniqueSolutions_ = true;  ///< every tangent symmetric: a step minimises a convex energy
+  struct Loads {
+    double time = NAN;
+    std::vector<Vector> forces;  ///< per body
+  };
+  std::array<Loads, 2> recentLoads_;  ///< the later used one first
+  bool uniqueSolutions_ = true;       ///< every tangent symmetric: a step minimises a convex energy
 };
 
 }  // namespace mortier

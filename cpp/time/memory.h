@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/types.h"
+#include "solver/state.h"
 #include "time/report.h"
 
 namespace mortier {
@@ -28,8 +29,8 @@ struct MarchMemory {
   RunReport run;     ///< so far
   /// Of the last step, by stage and body; empty after a step that gives no good guess of the next.
   std::vector<std::vector<BodyIncrement>> increments;
-  double timeStep = 0;          ///< of `increments` [s]
-  std::vector<char> libraries;  ///< bodies for which SuiteSparse has taken over
+  double timeStep = 0;  ///< of `increments` [s]
+  SolverMemory solver;
   ControllerMemory controller;
 };
 

@@ -10,7 +10,7 @@ namespace mortier {
 StepTaker::StepTaker(const Model& model, State& state, MarchMemory& memory, Scheme scheme,
                      const SolverOptions& options)
     : model_(model), state_(state), memory_(memory), scheme_(scheme), solver_(model, options) {
-  if (memory.run.steps > 0) solver_.resume(memory.libraries);
+  if (memory.run.steps > 0) solver_.resume(memory.solver);
 }
 
 // An explicit or second-order scheme may overshoot into the elastic domain, where nothing brings the stress
@@ -32,7 +32,7 @@ StepOutcome StepTaker::attempt(double t1, Scheme scheme) {
     outcome = std::move(again);
   }
   if (!outcome.converged) memory_.increments.clear();
-  memory_.libraries = solver_.libraries();
+  memory_.solver = solver_.memory();
   return outcome;
 }
 
@@ -44,15 +44,16 @@ StepOutcome StepTaker::solveStages(double t1) {
   StepOutcome total;
   for (size_t i = 0; i < tableau_.stages.size(); ++i) {
     const Stage& stage = tableau_.stages[i];
-    StepData data{stage.time == 1 ? t1 : state_.time + stage.time * k, stage.diagonal * k, {}};
     shiftOf(stage, k);
-    data.shift = shift_;
+    const double time = stage.time == 1 ? t1 : state_.time + stage.time * k;
+    const StepData data{time, stage.diagonal * k, shift_, memory_.run.steps > 0};
     Iterate iterate = guess(i, k);
     StepOutcome outcome = solver_.solve(state_, data, iterate);
     outcome.iterations += total.iterations;
     outcome.factorisations += total.factorisations;
     outcome.certificate = worse(outcome.certificate, total.certificate);
-    if (total.rung != "newton") outcome.rung = total.rung;
+    if (i > 0 && (outcome.rung == "rest" || (total.rung != "newton" && total.rung != "rest")))
+      outcome.rung = total.rung;
     total = std::move(outcome);
     if (!total.converged) return total;
     if (tableau_.stages.size() > 1) rates_.push_back(ratesOf(iterate.bodies));

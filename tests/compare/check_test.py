@@ -94,14 +94,18 @@ class Check(InFolder):
                     for item in self.check(case, *settings)[1]["plan"]]
 
         viscoplastic = plan(Case(), "--set", "body.upper.material.projection=elasticity")
-        self.assertIn(("body upper", True, "LU in every iteration",
+        self.assertIn(("body upper", True, "LU in every iteration in which it flows",
                        "projection elasticity makes its tangent unsymmetric where it flows"), viscoplastic)
-        self.assertIn(("body lower", True, "Cholesky in every iteration",
+        self.assertIn(("body lower", True, "Cholesky in every iteration in which it flows",
                        "projection frobenius makes its tangent symmetric"), viscoplastic)
         strong = plan(Case(), "--set", "body.material.yield_stress=15")
         self.assertTrue(any(part == "body upper" and not modelled and what.startswith("flow")
                             for part, modelled, what, _ in strong))
         elastic = plan(Case(ELASTIC), "--set", "time.steps=50")
+        self.assertIn(("time", True, "one step", "nothing depends on time"), elastic)
+        self.assertIn(("time", False, "the other 49 steps", "they are at rest"), elastic)
+        growing = plan(Case(ELASTIC), "--set", "time.steps=50", "body.upper.boundary.ty=\"-t\"")
+        self.assertIn(("time", True, "loads change"), [(part, modelled, why) for part, modelled, _, why in growing])
         self.assertIn(("body upper", True, "linear: one Cholesky factor for the whole run", "it is elastic"), elastic)
 
 
