@@ -11,7 +11,7 @@ packages=(
   libtomlplusplus-dev libmuparser-dev                      # scenes
   libgmsh-dev                                              # meshes other than Medit's
   libcli11-dev nlohmann-json3-dev                          # command line, summaries
-  libgtest-dev libbenchmark-dev groff-base                 # tests, benchmarks
+  libgtest-dev libbenchmark-dev groff-base zsh             # tests, benchmarks
   freefem++                                                # the other code
   python3 python3-numpy python3-matplotlib python3-meshio  # comparison and pictures
 )

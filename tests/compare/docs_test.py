@@ -12,7 +12,7 @@ from pathlib import Path
 
 from support import PROGRAM, ROOT, InFolder, InSharedFolder
 
-PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md")), ROOT / "freefem" / "README.md"]
 LABELS = {"unit", "theory", "compare"}
 # Files that an example takes for granted, and the command that makes them.
 PREPARED = {"finer.mesh": "mesh crisscross --cells 12 finer.mesh"}
@@ -24,7 +24,7 @@ def blocks(page):
 
 
 def is_command(line):
-    return re.match(r"(\w+=\S+ )*(\./|build[\w-]*/|compare/|tests/|bench/|mortier |cmake |ctest |ninja )", line)
+    return re.match(r"(\w+=\S+ )*(\./|build[\w-]*/|compare/|tests/|bench/|mortier |cmake |ctest |ninja |FreeFem\S* )", line)
 
 
 def commands():
@@ -36,6 +36,16 @@ def commands():
                 for line in lines:
                     for command in re.sub(r"\s+#.*", "", line).split("&&"):
                         yield page, command.strip()
+
+
+def mentioned():
+    """(page, command) of those that stand in the text or in a table."""
+    for page in PAGES:
+        prose = re.sub(r"^```.*?^```", "", page.read_text(), flags=re.M | re.S)
+        for text in re.findall(r"`([^`\n]+)`", prose):
+            if is_command(text):
+                for command in text.split("&&"):
+                    yield page, command.strip()
 
 
 def run(words, folder, expected=0):
@@ -60,6 +70,17 @@ class Commands(InSharedFolder):
             with self.subTest(f"{page.name}: {command}"):
                 self.check(shlex.split(command))
 
+    def test_every_command_in_the_text(self):
+        found = list(mentioned())
+        self.assertGreater(len(found), 20)
+        for page, command in found:
+            with self.subTest(f"{page.name}: {command}"):
+                words = shlex.split(command)
+                if words[0] == "mortier":
+                    self.check_options(words[1:])
+                elif len(words) > 1 or not (ROOT / command).exists():
+                    self.check(words)
+
     def check(self, words):
         while re.match(r"\w+=", words[0]):
             words = words[1:]
@@ -70,6 +91,8 @@ class Commands(InSharedFolder):
             self.check_mortier(words[1:])
         elif program.name in ("cmake", "ctest", "ninja"):
             self.check_tool(words)
+        elif program.name.startswith("FreeFem"):
+            run(words, self.folder)
         elif program.suffix == ".py":
             self.check_script(ROOT / program, words[1:])
         elif program.parts[0].startswith("build"):
@@ -80,14 +103,19 @@ class Commands(InSharedFolder):
 
     def check_mortier(self, words):
         if words[0] == "study" or "--restart" in words:  # long, or after a run that was stopped: tests of their own
-            help_text = run([PROGRAM, words[0], "--help"], self.folder)
-            for word in words[1:]:
-                if word.startswith("--"):
-                    self.assertIn(word, help_text)
-                elif word.endswith(".toml"):
-                    self.assertTrue((ROOT / word).is_file(), word)
-            return
-        run([PROGRAM, *words], self.folder)
+            self.check_options(words)
+        else:
+            run([PROGRAM, *words], self.folder)
+
+    def check_options(self, words):
+        """Of mortier; names in capitals stand for a file of the user's."""
+        below = [] if len(words) == 1 or not re.fullmatch("[a-z]+", words[1]) else words[1:2]
+        help_text = run([PROGRAM, words[0], *below, "--help"], self.folder)
+        for word in words[1:]:
+            if word.startswith("--"):
+                self.assertIn(word, help_text)
+            elif word.endswith(".toml") and not re.search("[A-Z]{2}", word):
+                self.assertTrue((ROOT / word).is_file(), word)
 
     def check_tool(self, words):
         for option, value in zip(words, words[1:]):

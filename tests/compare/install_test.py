@@ -6,6 +6,7 @@ import unittest
 from pathlib import Path
 
 from support import PROGRAM, ROOT, InSharedFolder
+from zsh_session import ZshSession
 
 BUILD = Path(PROGRAM).parent
 
@@ -82,7 +83,7 @@ class Install(InSharedFolder):
                 self.assertIn(word, words[at:], f"{path}: {word} is missing in the man page")
                 at = words.index(word, at) + 1
 
-    def complete(self, *words):
+    def bash(self, *words):
         """What bash offers after these words."""
         script = self.prefix / "share/bash-completion/completions/mortier"
         program = str(self.prefix / "bin/mortier")
@@ -90,22 +91,30 @@ class Install(InSharedFolder):
                 'printf "%s\\n" "${COMPREPLY[@]}"')
         return sorted(output("bash", "-c", text, "bash", program, *words, cwd=self.folder).split())
 
-    def test_completion(self):
+    def test_completion_of_bash(self):
+        self.check_completion(self.bash)
+
+    def test_completion_of_zsh(self):
+        zsh = ZshSession(self.folder, self.prefix / "bin", self.prefix / "share/zsh/site-functions")
+        self.addCleanup(zsh.close)
+        self.check_completion(lambda *words: zsh.complete("mortier", *words))
+
+    def check_completion(self, complete):
         def stated(*path):
             return sorted(re.findall(r"^  (?:-h,)?(--[a-z-]+)", output(PROGRAM, *path, "--help"), re.M))
         known = [path for path, _ in commands(PROGRAM)]
         for path in known:
-            self.assertEqual(self.complete(*path, "--"), stated(*path))
+            self.assertEqual(complete(*path, "--"), stated(*path))
             below = sorted(each[-1] for each in known if each[:-1] == path and len(each) == len(path) + 1)
             if below:
-                self.assertEqual(self.complete(*path, ""), below)
-        self.assertEqual(self.complete("ru"), ["run"])
-        self.assertEqual(self.complete("mesh", "cr"), ["crisscross"])
-        self.assertEqual(self.complete("run", "scene.toml", "--che"), ["--checkpoint"])
+                self.assertEqual(complete(*path, ""), below)
+        self.assertEqual(complete("ru"), ["run"])
+        self.assertEqual(complete("mesh", "cr"), ["crisscross"])
+        self.assertEqual(complete("run", "scene.toml", "--che"), ["--checkpoint"])
         for name in ("a.toml", "a.mesh", "a.txt"):
             (self.folder / name).touch()
-        self.assertEqual(self.complete("run", "a"), ["a.mesh", "a.toml"])
-        self.assertEqual(self.complete("run", "--out", "pre"), ["prefix"])
+        self.assertEqual(complete("run", "a"), ["a.mesh", "a.toml"])
+        self.assertEqual(complete("run", "--out", "pre"), ["prefix"])
 
 
 if __name__ == "__main__":
