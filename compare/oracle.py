@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Compares both codes on the scenes of scenes/: sloped and broken interfaces, three bodies, rollers, given distances.
+"""Compares both codes on the scenes of scenes/: sloped and curved interfaces, three bodies, rollers, given
+distances.
 
     compare/oracle.py [--only WORD ...] [--keep DIR] [--json FILE]
 

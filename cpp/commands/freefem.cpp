@@ -10,6 +10,7 @@
 #include "commands/exit_code.h"
 #include "commands/freefem_expression.h"
 #include "commands/shipped.h"
+#include "contact/smooth_part.h"
 #include "mesh/gmsh.h"
 #include "scene/build.h"
 #include "scene/document.h"
@@ -167,14 +168,15 @@ void requireKnown(const SceneDescription& scene) {
   }
 }
 
-/// \throws InputError where a nonmortar line is not straight.
-void requireStraight(const SceneDescription& scene, const Model& model) {
+/// \throws InputError where a nonmortar line has corners or is closed.
+void requireSmooth(const SceneDescription& scene, const Model& model) {
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
-    const ContactInterface& interface = model.interfaces[k];
-    const std::vector<Point>& normals = interface.normals();
-    const auto turned = [&](const Point& n) { return (n - normals.front()).norm() > 1e-9; };
-    if (std::any_of(normals.begin(), normals.end(), turned)) {
-      refuse(scene.contacts[k].where + ": contact: a curved or broken line", "a straight one");
+    const ContactSide& side = model.interfaces[k].pair().nonmortar;
+    const std::vector<SmoothPart> parts =
+        smoothParts(boundaryLine(model.bodies[side.body].mesh(), side.label));
+    if (parts.size() > 1 || parts.front().closed) {
+      refuse(scene.contacts[k].where + ": contact: a line that is closed or has corners",
+             "an open line without");
     }
   }
 }
@@ -187,7 +189,7 @@ int writeFreefem(const FreefemCommand& command) {
   std::vector<std::string> warnings;
   const Model model = buildModel(scene, warnings);
   requireKnown(scene);
-  requireStraight(scene, model);
+  requireSmooth(scene, model);
 
   // 2. The script.
   const std::string text = script(scene, model);
