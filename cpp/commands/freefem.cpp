@@ -175,8 +175,8 @@ void requireSmooth(const SceneDescription& scene, const Model& model) {
     const std::vector<SmoothPart> parts =
         smoothParts(boundaryLine(model.bodies[side.body].mesh(), side.label));
     if (parts.size() > 1 || parts.front().closed) {
-      refuse(scene.contacts[k].where + ": contact: a line that is closed or has corners",
-             "an open line without");
+      refuse(scene.contacts[k].where + ": contact: a closed line, or one with corners",
+             "an open line without corners");
     }
   }
 }

@@ -67,6 +67,14 @@ class Script(support.OfTwoBlocks):
             with self.subTest(setting):
                 self.reject(f"{message} {ALL}", "freefem", "scene.toml", "--set", setting)
 
+    def test_corners(self):
+        head, edges = self.read("upper.mesh").split("Edges\n")
+        edges, triangles = edges.split("Triangles")
+        edges = edges.replace(" 2\n", " 1\n")  # label 1 below and on the right
+        self.write(head + "Edges\n" + edges + "Triangles" + triangles, "upper.mesh")
+        self.reject(f"scene.toml:20: contact: a closed line, or one with corners, expected an open line without corners {ALL}",
+                    "freefem", "scene.toml")
+
     def test_no_interface(self):
         self.write(TWO_BLOCKS[:TWO_BLOCKS.index("[contact]")] + TWO_BLOCKS[TWO_BLOCKS.index("[time]"):])
         self.reject(f"scene.toml: no contact interface, expected one at least {ALL}", "freefem", "scene.toml")
