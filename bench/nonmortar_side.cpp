@@ -1,6 +1,7 @@
 // Which side should be nonmortar? Measured: 500 random pairs of meshes and materials on the contact with an
-// exact solution (tests/theory/half_open_contact.h), each solved with either side nonmortar, the energy errors
-// compared, and rules judged by how often they choose a side that is at most 10 % worse than the better one.
+// exact solution (tests/theory/half_open_contact.h), each solved with either side nonmortar, the energy
+// errors compared, and rules judged by how often they choose a side that is at most 10 % worse than the
+// better one.
 //
 //   bench_nonmortar_side [pairs] [seed]
 #include <cstdio>

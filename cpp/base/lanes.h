@@ -18,8 +18,8 @@ inline Lanes select(const LaneMask& mask, const Lanes& yes, const Lanes& no) {
   return result;
 }
 
-/// The points [first, first + count) of a matrix with `rows` rows, column major, `data` at its first point; lanes
-/// beyond `count` repeat the last point.
+/// The points [first, first + count) of a matrix with `rows` rows, column major, `data` at its first point;
+/// lanes beyond `count` repeat the last point.
 struct Batch {
   int first = 0;
   int count = laneCount;

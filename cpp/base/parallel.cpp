@@ -64,7 +64,8 @@ class Threads::Pool {
     }
   }
 
-  /// The last job with an item to do that was called for after `outer`: others wait for it. \pre the lock is held.
+  /// The last job with an item to do that was called for after `outer`: others wait for it. \pre the lock is
+  /// held.
   [[nodiscard]] Job* innermostReady(const Job* outer) const {
     for (auto job = jobs_.rbegin(); job != jobs_.rend() && *job != outer; ++job)
       if (!(*job)->ready.empty()) return *job;

@@ -1,5 +1,6 @@
-// Work on threads that are kept. What a piece of work computes must not depend on which thread does it, nor on the order
-// of pieces that do not wait for each other: then results are the same, bit for bit, for any number of threads.
+// Work on threads that are kept. What a piece of work computes must not depend on which thread does it, nor
+// on the order of pieces that do not wait for each other: then results are the same, bit for bit, for any
+// number of threads.
 #pragma once
 
 #include <functional>

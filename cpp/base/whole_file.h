@@ -15,7 +15,8 @@
 namespace mortier {
 
 /// Writes `text` to `path`, in place of what stands there. Pipes and devices are written as they are.
-/// \param durable  also brings it to the disk before it gets its name, so that a loss of power spares the old one.
+/// \param durable  also brings it to the disk before it gets its name, so that a loss of power spares the old
+/// one.
 /// \throws OutputError
 inline void writeWhole(const std::string& path, std::string_view text, bool durable = false) {
   namespace fs = std::filesystem;

@@ -10,7 +10,8 @@ void complain(const std::string& text);
 /// `mortier: warning: text`
 void warn(const std::string& text);
 
-/// Writes out what standard output still holds. A reader that has gone away (`mortier run ... | head`) is no error.
+/// Writes out what standard output still holds. A reader that has gone away (`mortier run ... | head`) is no
+/// error.
 /// \throws OutputError when it cannot be written.
 void finishStandardOutput();
 

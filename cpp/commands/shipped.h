@@ -7,8 +7,9 @@
 
 namespace mortier {
 
-/// The folder `name` that comes with the program and holds `file`: in one of `starts`, the program's folder or any
-/// folder above them, there also under share/mortier; else in the sources that the program was built from.
+/// The folder `name` that comes with the program and holds `file`: in one of `starts`, the program's folder
+/// or any folder above them, there also under share/mortier; else in the sources that the program was built
+/// from.
 std::optional<std::filesystem::path> shippedFolder(const std::string& name, const std::string& file,
                                                    const std::vector<std::filesystem::path>& starts = {});
 

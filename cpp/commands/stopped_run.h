@@ -15,7 +15,8 @@ struct StoppedRun {
   Checkpoint checkpoint;
 };
 
-/// The latest stopped run whose result was to be `path`. \throws InputError when there is none that can go on.
+/// The latest stopped run whose result was to be `path`. \throws InputError when there is none that can go
+/// on.
 StoppedRun findStoppedRun(const std::string& path);
 
 /// Goes to the folder in which the run was begun, and asks for what it was asked for.

@@ -11,7 +11,8 @@ namespace {
 // With G = gradient / sqrt2, a nodal displacement (ux, uy) strains p, q, r by
 //   B = [Gx Gy; Gx -Gy; Gy Gx].
 
-/// B_a' D B_b for a column of B_b, D the moduli (3 x 3, column major): the column's two entries in the rows of node a.
+/// B_a' D B_b for a column of B_b, D the moduli (3 x 3, column major): the column's two entries in the rows
+/// of node a.
 struct ColumnOfDB {
   double sum;         ///< of the rows p and q of D B
   double difference;  ///< of these
@@ -143,8 +144,9 @@ void TangentAssembly::placeBlocks(const TriangleData& triangles, const std::vect
   for (Part& part : parts_) part.triangles.shrink_to_fit();
 }
 
-// Both rows of a node follow each other in every column, and its second column is its first one (where symmetric:
-// without its first row). Every entry is a sum over triangles in their order, whichever part it lies in.
+// Both rows of a node follow each other in every column, and its second column is its first one (where
+// symmetric: without its first row). Every entry is a sum over triangles in their order, whichever part it
+// lies in.
 void TangentAssembly::assemblePlain(const TriangleData& triangles, const Matrix& moduli,
                                     std::vector<double>& values, Threads& threads) const {
   values.resize(pattern_.entries());

@@ -1,4 +1,5 @@
-// Where the matrices of the triangles go: the sparse pattern of the tangent, and the places of its 2 x 2 blocks.
+// Where the matrices of the triangles go: the sparse pattern of the tangent, and the places of its 2 x 2
+// blocks.
 #pragma once
 
 #include <array>
@@ -35,7 +36,8 @@ class TangentAssembly {
 
   [[nodiscard]] const SparsePattern& pattern() const { return pattern_; }
 
-  /// values = sum |T| B' D B over the plain triangles: those whose nodes all have two equations along the axes.
+  /// values = sum |T| B' D B over the plain triangles: those whose nodes all have two equations along the
+  /// axes.
   void assemblePlain(const TriangleData& triangles, const Matrix& moduli, std::vector<double>& values,
                      Threads& threads) const;
 

@@ -4,13 +4,14 @@
 
 namespace mortier::dense {
 
-/// Panel (n x pivots, lower triangle) becomes [L11; L21], update (updates x updates, lower triangle) -L21 L21'.
+/// Panel (n x pivots, lower triangle) becomes [L11; L21], update (updates x updates, lower triangle) -L21
+/// L21'.
 /// \returns false unless the pivot block is positive definite.
 bool partialCholesky(double* panel, int n, int pivots, double* update);
 
-/// Panel (n x pivots) becomes [L11\U11; L21], upper (updates x pivots) from F12' to U12', update -L21 U12; the rows
-/// of the pivot block are interchanged as `interchange` (from 0) tells. \returns false when the pivot block is
-/// singular.
+/// Panel (n x pivots) becomes [L11\U11; L21], upper (updates x pivots) from F12' to U12', update -L21 U12;
+/// the rows of the pivot block are interchanged as `interchange` (from 0) tells. \returns false when the
+/// pivot block is singular.
 bool partialLU(double* panel, int n, int pivots, double* upper, double* update, int* interchange);
 
 /// One thread in BLAS: bodies and runs are what is done side by side.

@@ -12,8 +12,8 @@
 namespace mortier {
 
 /// A dense matrix over `rows`; the first `pivots` of them are eliminated in it, the others are updated and
-/// passed on. It is held in three parts, column major: the panel (rows x pivots), the upper part transposed (updates x
-/// pivots; none where symmetric) and the update (updates x updates).
+/// passed on. It is held in three parts, column major: the panel (rows x pivots), the upper part transposed
+/// (updates x pivots; none where symmetric) and the update (updates x updates).
 struct Front {
   int parent = -1;  ///< the front that takes the update, -1 for none
   int pivots = 0;

@@ -11,8 +11,8 @@ double workIn(const Front& front) {
   return front.pivots * n * n;
 }
 
-/// The most that is held at any time: what a front passes on is made in `workspace(front)` on top of that of its
-/// children, then moved down over them (`passed(front)`).
+/// The most that is held at any time: what a front passes on is made in `workspace(front)` on top of that of
+/// its children, then moved down over them (`passed(front)`).
 template <class Size, class Workspace>
 size_t stackOf(const std::vector<Front>& fronts, const Piece& piece, Size passed, Workspace workspace) {
   size_t stack = 0;

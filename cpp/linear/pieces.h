@@ -1,5 +1,5 @@
-// The elimination tree cut into pieces that threads work on. The cut depends on the tree alone, so what is computed does
-// not depend on the number of threads.
+// The elimination tree cut into pieces that threads work on. The cut depends on the tree alone, so what is
+// computed does not depend on the number of threads.
 #pragma once
 
 #include <vector>

@@ -177,8 +177,8 @@ void checkConditions(const LintInput& input, const ContactDescription& contact,
           faults.add("support-on-contact", c.where, what + " is the nonmortar side and is held");
         continue;
       }
-      // A held node with a contact condition of its own: its normal motion is given twice. The mortar coupling gives the
-      // condition to its neighbour.
+      // A held node with a contact condition of its own: its normal motion is given twice. The mortar
+      // coupling gives the condition to its neighbour.
       if (c.kind != Kind::displacement || side != &contact.nonmortar ||
           contact.variant != CouplingKind::interpolation)
         continue;

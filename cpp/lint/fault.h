@@ -1,4 +1,5 @@
-// What the linter names. Every kind of fault has an id, a severity and a remedy; docs/check.md lists them all.
+// What the linter names. Every kind of fault has an id, a severity and a remedy; docs/check.md lists them
+// all.
 #pragma once
 
 #include <set>
@@ -16,7 +17,7 @@ enum class Severity {
 struct FaultKind {
   std::string id;
   Severity severity = Severity::warning;
-  std::string what;    ///< for the documentation
+  std::string what;  ///< for the documentation
   std::string remedy;
 };
 

@@ -61,7 +61,8 @@ void findMissing(const LintInput& input, size_t b, const Topology& topology, Fau
       if (side->body == input.scene.bodies[b].name) require(side->label, side->where);
 }
 
-/// Stretches of the boundary that nothing is said of, where their neighbourhood suggests that something was meant.
+/// Stretches of the boundary that nothing is said of, where their neighbourhood suggests that something was
+/// meant.
 void findUnused(const LintInput& input, size_t b, const Topology& topology, Faults& faults) {
   constexpr double sameDirection = 1 - 1e-6;
   const TriangleMesh& mesh = *input.meshes[b];

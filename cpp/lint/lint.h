@@ -1,5 +1,5 @@
-// The linter: names what is wrong or doubtful in a scene and its meshes, each with its remedy, without solving
-// anything.
+// The linter: names what is wrong or doubtful in a scene and its meshes, each with its remedy, without
+// solving anything.
 #pragma once
 
 #include <optional>

@@ -10,9 +10,9 @@ namespace mortier {
 /// Whether a file is one for Gmsh, by its extension.
 bool isGmshFile(const std::string& path);
 
-/// Physical curves become boundary labels, physical surfaces regions, with their numbers and names; where there are none,
-/// the curves or surfaces themselves, without names. \throws InputError when Gmsh cannot read the file, when it is no sound plane
-/// mesh of linear triangles, or when this build has no Gmsh.
+/// Physical curves become boundary labels, physical surfaces regions, with their numbers and names; where
+/// there are none, the curves or surfaces themselves, without names. \throws InputError when Gmsh cannot read
+/// the file, when it is no sound plane mesh of linear triangles, or when this build has no Gmsh.
 TriangleMesh readGmsh(const std::string& path);
 
 }  // namespace mortier

@@ -35,7 +35,8 @@ class MeditWords {
   /// Passes a string in double quotes, which FreeFEM's savemesh writes into the head of its files.
   void skipString();
 
-  /// Offsets into the text: of what comes next, of the end of the last word, of the word that comes `words` after `begin`.
+  /// Offsets into the text: of what comes next, of the end of the last word, of the word that comes `words`
+  /// after `begin`.
   [[nodiscard]] size_t at() const { return at_; }
   [[nodiscard]] size_t lastEnd() const { return lastEnd_; }
   [[nodiscard]] size_t offset(size_t begin, size_t words) const;

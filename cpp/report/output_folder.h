@@ -1,7 +1,7 @@
-// Where a run writes: a temporary folder DIR.tmp-PID beside the result DIR, renamed when it is complete, so that a run
-// that is killed or fails leaves what stood there. Files of others in the old result (pictures, ParaView states) move
-// into the new one. A lock tells the folder of a run that goes on from what a killed one left; of that the next run
-// takes away whatever has no checkpoint.
+// Where a run writes: a temporary folder DIR.tmp-PID beside the result DIR, renamed when it is complete, so
+// that a run that is killed or fails leaves what stood there. Files of others in the old result (pictures,
+// ParaView states) move into the new one. A lock tells the folder of a run that goes on from what a killed
+// one left; of that the next run takes away whatever has no checkpoint.
 #pragma once
 
 #include <string>
@@ -53,7 +53,8 @@ class OutputFolder {
   FolderLock lock_;
 };
 
-/// The temporary folders of runs for `path` that have a checkpoint, of living and dead processes, the latest first.
+/// The temporary folders of runs for `path` that have a checkpoint, of living and dead processes, the latest
+/// first.
 std::vector<std::string> stoppedRuns(const std::string& path);
 
 }  // namespace mortier

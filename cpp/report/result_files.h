@@ -19,7 +19,8 @@ struct FilesSoFar {
 
 class ResultFiles {
  public:
-  /// \param every  keep fields and contact of the steps 0, k, 2k, ... beside the last one; 0: the last one only.
+  /// \param every  keep fields and contact of the steps 0, k, 2k, ... beside the last one; 0: the last one
+  /// only.
   ResultFiles(const std::string& folder, const Model& model, int every);
   /// Goes on with files that are there; what they hold beyond `soFar` is cut off.
   ResultFiles(const std::string& folder, const Model& model, int every, const FilesSoFar& soFar);

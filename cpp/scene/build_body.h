@@ -1,4 +1,5 @@
-// From a [[body]] of a scene to a Body: mesh read, labels found in it, data tried, material and conditions made.
+// From a [[body]] of a scene to a Body: mesh read, labels found in it, data tried, material and conditions
+// made.
 #pragma once
 
 #include <string>

@@ -82,7 +82,8 @@ std::string oneLine(std::string_view text) {
   return line;
 }
 
-/// Names of a key may be joined by dots without end, and every table of them stands on the stack when it is taken away.
+/// Names of a key may be joined by dots without end, and every table of them stands on the stack when it is
+/// taken away.
 /// \throws InputError for more names than a scene could need.
 void requireShortKeys(const std::string& text, const std::string& place) {
   constexpr int longest = 32;

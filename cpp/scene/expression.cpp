@@ -87,13 +87,13 @@ Expression constantExpression(double value, std::string where) {
 Expression tableExpression(const std::vector<double>& times, const std::vector<double>& values,
                            std::string where) {
   // As an expression: nested choices, for those who need the text.
-  std::string text = shortest(values.back());
-  for (size_t i = times.size() - 1; i > 0; --i) {
+  std::string text = "(t < " + shortest(times.front()) + " ? " + shortest(values.front()) + " : ";
+  for (size_t i = 1; i < times.size(); ++i) {
     const std::string slope = shortest((values[i] - values[i - 1]) / (times[i] - times[i - 1]));
-    text = "(t < " + shortest(times[i]) + " ? " + shortest(values[i - 1]) + " + (" + slope + ")*(t - (" +
-           shortest(times[i - 1]) + ")) : " + text + ")";
+    text.append("(t < " + shortest(times[i]) + " ? " + shortest(values[i - 1]) + " + (" + slope + ")*(t - (" +
+                shortest(times[i - 1]) + ")) : ");
   }
-  text = "(t < " + shortest(times.front()) + " ? " + shortest(values.front()) + " : " + text + ")";
+  text.append(shortest(values.back())).append(times.size(), ')');
   const Function value = [times, values](double, double, double t) {
     const size_t i = std::upper_bound(times.begin(), times.end(), t) - times.begin();
     if (i == 0 || i == times.size()) {

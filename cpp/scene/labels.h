@@ -7,7 +7,8 @@
 
 namespace mortier {
 
-/// The number of a label of the boundary that a scene gives as a number or, unless `name` is empty, as a name.
+/// The number of a label of the boundary that a scene gives as a number or, unless `name` is empty, as a
+/// name.
 /// \throws InputError, headed by `place` ("scene.toml:9: body upper"), with the labels that the mesh has.
 int boundaryLabel(const TriangleMesh& mesh, int label, const std::string& name, const std::string& place);
 

@@ -149,7 +149,8 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
       continue;
     }
     failures = 0;
-    // Errors of the first order add up over as many steps as it takes: they are judged by their share of the time.
+    // Errors of the first order add up over as many steps as it takes: they are judged by their share of the
+    // time.
     const bool summed = plan_.scheme == Scheme::backwardEuler;
     const double error =
         measured(taker.error(t1 < stopAfter(state.time))) * (summed ? (plan_.end - memory_.begin) / k : 1);

@@ -1,6 +1,6 @@
-// Steps chosen by their error. The estimate of a step (step_taker.h) is measured in two norms, each over a scale
-// of the run: the stress in the energy norm, which is blind where equilibrium alone decides the stress, and the
-// displacement in the mean. With err their maximum over the tolerance,
+// Steps chosen by their error. The estimate of a step (step_taker.h) is measured in two norms, each over a
+// scale of the run: the stress in the energy norm, which is blind where equilibrium alone decides the stress,
+// and the displacement in the mean. With err their maximum over the tolerance,
 //   k <- k 0.9 err^(-1/order), by a factor between 1/5 and 5,
 // and a step with err > 1 is rejected. Steps end on the breaks of the plan.
 #pragma once
@@ -19,8 +19,8 @@ class Controller {
  public:
   Controller(const Model& model, const TimePlan& plan, MarchMemory& memory);
 
-  /// A few large steps of backward Euler to the end and back: only they tell how large the displacements of this
-  /// run will be, of which early ones may be a tiny part.
+  /// A few large steps of backward Euler to the end and back: only they tell how large the displacements of
+  /// this run will be, of which early ones may be a tiny part.
   void pilot(StepTaker& taker, State& state);
   /// Takes one step that meets the tolerance, or reports why there is none.
   void advance(StepTaker& taker, const State& state, StepReport& report);

@@ -6,8 +6,9 @@ namespace mortier {
 
 Tableau tableau(Scheme scheme) {
   constexpr double gamma = 1 - std::numbers::sqrt2 / 2;
-  // All weights that sum to zero and are blind to linear rates are multiples of these. 0.0286 is the error where
-  // the rate is a given function of time, 0.195 where it is proportional to the strain; this is between.
+  // All weights that sum to zero and are blind to linear rates are multiples of these. 0.0286 is the error
+  // where the rate is a given function of time, 0.195 where it is proportional to the strain; this is
+  // between.
   constexpr double embedded = 0.1143;
   switch (scheme) {
     case Scheme::crankNicolson:

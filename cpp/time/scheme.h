@@ -25,8 +25,8 @@ struct Stage {
 struct Tableau {
   bool explicitFirst = false;
   std::vector<Stage> stages;  ///< the implicit ones
-  /// Weights of the rates at the start of the step and at the stages: k times their sum estimates the local error
-  /// of the viscoplastic strain. Empty where there is no estimate.
+  /// Weights of the rates at the start of the step and at the stages: k times their sum estimates the local
+  /// error of the viscoplastic strain. Empty where there is no estimate.
   std::vector<double> errorWeights;
   int errorOrder = 0;  ///< the estimate falls as this power of k
 };

@@ -1,5 +1,5 @@
-// Cook's membrane: the deflection of the middle of the free end, linear triangles, plane stress. Values of two
-// independent programs on cells cut along the rising diagonal.
+// Cook's membrane: the deflection of the middle of the free end, linear triangles, plane stress. Values of
+// two independent programs on cells cut along the rising diagonal.
 #include <gtest/gtest.h>
 
 #include <iostream>

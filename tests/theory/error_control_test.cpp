@@ -86,8 +86,8 @@ TEST(ErrorControl, theErrorOfTheNotesTestFollowsTheTolerance) {
   }
 }
 
-// Interpolation, coarse side nonmortar: the triangles along the interface yield one after the other from t = 0.04
-// on. The reference is SDIRK2 with 640 and 1280 equal steps, which agree to 2e-8.
+// Interpolation, coarse side nonmortar: the triangles along the interface yield one after the other from t =
+// 0.04 on. The reference is SDIRK2 with 640 and 1280 equal steps, which agree to 2e-8.
 TEST(ErrorControl, interpolationDoesNotStall) {
   constexpr double reference = -0.404520189;
   constexpr int solvesOfEqualSteps = 293;
@@ -205,7 +205,8 @@ TEST(ErrorControl, openCloseRecloseToTheTolerance) {
         EXPECT_LT(values.gapAt3.distance(0.04), 0.04 * tolerance);
         EXPECT_LT(values.stress[4].distance(1), tolerance);
       } else {
-        // The stress is not uniform; against 640 equal steps: 0.14185 and 0.14195 at most from 1, gaps to 0.0412687.
+        // The stress is not uniform; against 640 equal steps: 0.14185 and 0.14195 at most from 1, gaps to
+        // 0.0412687.
         EXPECT_NEAR(values.stress[2].distance(1), 0.1419, std::max(1.5 * tolerance, 2e-4));
         EXPECT_NEAR(values.gapAt3.max, 0.0412687, 0.04 * std::max(tolerance, 1e-4));
       }
@@ -233,8 +234,8 @@ struct Held {
   [[nodiscard]] double stress() const { return toCartesian(state.bodies[0].stress.col(0))[0]; }
 };
 
-// A step that is too long overshoots, the guard does it again with backward Euler, and that error is of the first
-// order: taken for one of the third it would be let through.
+// A step that is too long overshoots, the guard does it again with backward Euler, and that error is of the
+// first order: taken for one of the third it would be let through.
 TEST(ErrorControl, aGuardedStepIsJudgedByItsOwnError) {
   constexpr double tolerance = 1e-3;
   for (const double rate : {2.0, 20.0, 200.0}) {
@@ -294,8 +295,8 @@ TEST(ErrorControl, stiffRampAndHold) {
 
 // ---- a load that reverses twenty times
 
-// The top goes down and up by 0.04 like a saw. Contact opens in each ascent; in each descent the blocks flow only
-// at its very end, a little less each time: equal steps see little of it.
+// The top goes down and up by 0.04 like a saw. Contact opens in each ascent; in each descent the blocks flow
+// only at its very end, a little less each time: equal steps see little of it.
 TEST(ErrorControl, twentyReversals) {
   constexpr double lastPeak = 1.0045361;  // tolerances 1e-7 and 1e-8 agree
   constexpr double end = 21;

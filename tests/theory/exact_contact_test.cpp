@@ -1,5 +1,5 @@
-// Contact problems with known solutions whose extent of contact is not known beforehand: Hertz's line contact on
-// curved meshes, and receding contact.
+// Contact problems with known solutions whose extent of contact is not known beforehand: Hertz's line contact
+// on curved meshes, and receding contact.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -33,7 +33,8 @@ Measured hertz(double force) {
   return {2 * force / (pi * b), b};
 }
 
-/// The flat side of the disc is moved down. \returns pressure and width over those of Hertz for the same force.
+/// The flat side of the disc is moved down. \returns pressure and width over those of Hertz for the same
+/// force.
 Measured solveHertz(int cells, CouplingKind coupling, bool discNonmortar) {
   constexpr int arc = 1;
   constexpr int flat = 2;
@@ -153,7 +154,8 @@ Measured solveReceding(const Receding& scene, double load, double focus) {
   int last = 0;
   for (int i = 0; i < interface.rows(); ++i)
     if (state.contactForce[0][i] > 0) last = i;
-  // Near its end the pressure goes as the square root of the distance: the zero of its square through two nodes.
+  // Near its end the pressure goes as the square root of the distance: the zero of its square through two
+  // nodes.
   const int i = last - 2;
   const int j = last - 5;
   const double a = pressure[i] * pressure[i];

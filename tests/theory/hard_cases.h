@@ -216,8 +216,8 @@ inline bool has(const std::string& name, const char* part) {
   return name.find(part) != std::string::npos;
 }
 
-/// Cases that miss the limits: the projection is not associated there, and the steps around first yield may have
-/// no solution that a path from rest leads to.
+/// Cases that miss the limits: the projection is not associated there, and the steps around first yield may
+/// have no solution that a path from rest leads to.
 inline bool isOpen(const std::string& name) {
   return has(name, "nu -0.9, interpolation, elasticity, N 10") ||
          has(name, "eccentric, rotation held by contact, elasticity, N 50") ||

@@ -100,8 +100,8 @@ TEST(KnownEnd, mortarIsOfFirstOrderInEveryBody) {
 
 // Distance of the first node in contact from the end of contact, on meshes that lie in many ways to it. It is
 // below an element of the nonmortar side where that is the coarser one, or as soft as the other. A stiff
-// nonmortar side that is finer asks more than the soft side can follow between two of its nodes: there it may be
-// two elements, one and a half of the coarser side.
+// nonmortar side that is finer asks more than the soft side can follow between two of its nodes: there it may
+// be two elements, one and a half of the coarser side.
 TEST(KnownEnd, contactEndsWithinOneElement) {
   for (const Setting& setting : settings()) {
     const bool rigid = setting.exact.size() == 1;

@@ -128,8 +128,8 @@ TEST(PenaltyDuality, parametersHaveNoUnits) {
   EXPECT_EQ(iterations[2], iterations[0]);
 }
 
-// theta e = 2e8, some triangles on the yield surface, some inside: the rate is 1 - O((theta e)^(-1/2)). The step is
-// given up, and says so.
+// theta e = 2e8, some triangles on the yield surface, some inside: the rate is 1 - O((theta e)^(-1/2)). The
+// step is given up, and says so.
 TEST(PenaltyDuality, givesUpWhereItIsTooSlow) {
   SolverOptions options = penaltyDuality();
   options.maxIterations = 100;

@@ -1,4 +1,5 @@
-// Two blocks that are pressed, held, drawn apart and pressed again; contact ends at t = 7/3 and comes back at 11/3.
+// Two blocks that are pressed, held, drawn apart and pressed again; contact ends at t = 7/3 and comes back at
+// 11/3.
 #pragma once
 
 #include <array>

@@ -89,8 +89,9 @@ TEST(Rollers, prescribedMotionsOnSlopedSidesGiveTheLinearField) {
               rounding);
 }
 
-// Pressure on a closed curve, constant or from a fluid at rest (p = -rho y): resultants of the note's hydrostatics,
-// nothing and the weight of what the polygon displaces; no moment about any point but for the weight.
+// Pressure on a closed curve, constant or from a fluid at rest (p = -rho y): resultants of the note's
+// hydrostatics, nothing and the weight of what the polygon displaces; no moment about any point but for the
+// weight.
 TEST(Pressure, onAClosedCurveIsBalanced) {
   constexpr double rounding = 1e-14;
   const TriangleMesh mesh =
@@ -120,8 +121,8 @@ TEST(Pressure, onAClosedCurveIsBalanced) {
   EXPECT_NEAR(weight.z(), 0, 4 * rounding);
 }
 
-// Lame's ring under inner pressure, plane stress: u_r = (1/E) a^2 p/(b^2 - a^2) ((1 - nu) r + (1 + nu) b^2/r). A
-// sector of it between rollers, turned by any angle, tends to it with h^2.
+// Lame's ring under inner pressure, plane stress: u_r = (1/E) a^2 p/(b^2 - a^2) ((1 - nu) r + (1 + nu)
+// b^2/r). A sector of it between rollers, turned by any angle, tends to it with h^2.
 TEST(Pressure, aSectorBetweenSlopedRollersTendsToLamesRing) {
   constexpr double E = 100;
   constexpr double nu = 0.3;

@@ -102,7 +102,8 @@ TEST(Schemes, errorsOnTheNotesTestAreTheKnownOnes) {
 
 enum class Loading { equibiaxial, shear };
 
-/// A square whose outline is held, under a constant stress beyond yield: stress s(t) = yield + (s0 - yield) exp(-rate t).
+/// A square whose outline is held, under a constant stress beyond yield: stress s(t) = yield + (s0 - yield)
+/// exp(-rate t).
 struct Relaxation {
   Loading loading = Loading::equibiaxial;
   Projection projection = Projection::frobenius;

@@ -37,8 +37,8 @@ TEST(Unheld, translationAlongTheContactIsNamed) {
               "upper", "translation along (1, 0)");
 }
 
-// One contact node under the right corner, its force in the middle of the overlap from 0.9 to 1; rollers on the
-// bottom leave the rotation about that.
+// One contact node under the right corner, its force in the middle of the overlap from 0.9 to 1; rollers on
+// the bottom leave the rotation about that.
 TEST(Unheld, rotationAboutTheOnlyContactNodeIsNamed) {
   Body upper("upper", square(0, 3), elasticMaterial(noteElasticity),
              {{{bottom, 0, constant(0)}}, {{top, 1, constant(-1)}}, {}});
@@ -56,7 +56,8 @@ TEST(Unheld, bodyWithoutContactIsNamed) {
   expectNames(unheldMessage(model), "loose", "translation along (0, 1)");
 }
 
-// The load turns round at t = 0.3, within a step or at its end, and pulls a block off that only contact holds.
+// The load turns round at t = 0.3, within a step or at its end, and pulls a block off that only contact
+// holds.
 TEST(Unheld, pullOffEndsAtTheLastEquilibrium) {
   constexpr double balance = 1e-10;
   constexpr double turn = 0.3;

@@ -197,8 +197,8 @@ TEST(Complementarity, unitsOfPowersOfFourChangeNoBit) {
   }
 }
 
-// W = B B' of a rank below the number of conditions, some of which no motion changes: the gaps are those of the
-// problem in the motions, whatever the forces.
+// W = B B' of a rank below the number of conditions, some of which no motion changes: the gaps are those of
+// the problem in the motions, whatever the forces.
 TEST(Complementarity, dependentConditionsAreSolved) {
   constexpr double tolerance = 1e-12;
   Randoms random(11);

@@ -94,7 +94,8 @@ TEST(GradedRectangle, cellsGrowGeometricallyFromTheFocus) {
     const auto focus = std::find(top.begin(), top.end(), Point(0, 0));
     ASSERT_NE(focus, top.end());
     const auto size = [](auto p) { return p->x() - (p + 1)->x(); };
-    // One ratio on each side, sizes at the focus alike, the farthest cell 20 times the nearest up to one ratio.
+    // One ratio on each side, sizes at the focus alike, the farthest cell 20 times the nearest up to one
+    // ratio.
     const double left = size(focus + 1) / size(focus);
     for (auto p = focus + 1; p + 2 < top.end(); ++p) EXPECT_NEAR(size(p + 1) / size(p), left, 1e-9);
     const double right = size(focus - 2) / size(focus - 1);
