@@ -47,6 +47,8 @@ const std::vector<FaultKind>& faultKinds() {
       // Labels.
       {"missing-label", error, "the scene names a label that no edge of the mesh carries",
        "take one of the labels there are, or label the edges"},
+      {"missing-region", error, "the scene names a region that no triangle of the mesh has",
+       "take one of the regions there are, or label the triangles"},
       {"label-interrupted", warning,
        "a few edges between edges of a label have another one, of which the scene says nothing",
        "give them the label of their neighbours, or a condition"},

@@ -43,22 +43,36 @@ std::string sideOf(const TriangleMesh& mesh, const Topology& topology, int label
   return upright ? (n.y() > 0 ? "top" : "bottom") : (n.x() > 0 ? "right" : "left");
 }
 
+/// A label as the scene writes it.
+std::string written(int label, const std::string& name) {
+  return name.empty() ? std::to_string(label) : "\"" + name + "\"";
+}
+
+/// ` "top"` where the mesh has a name for the number.
+std::string nameOf(const std::map<std::string, int>& names, int number) {
+  for (const auto& [name, known] : names)
+    if (known == number) return " \"" + name + "\"";
+  return "";
+}
+
 void findMissing(const LintInput& input, size_t b, const Topology& topology, Faults& faults) {
   const TriangleMesh& mesh = *input.meshes[b];
   const std::vector<int> labels = boundaryLabels(mesh);
   std::string known;
   for (const int label : labels)
-    known += (known.empty() ? "" : ", ") + std::to_string(label) + " " + sideOf(mesh, topology, label);
-  const auto require = [&](int label, const std::string& place) {
+    known += (known.empty() ? "" : ", ") + std::to_string(label) + nameOf(mesh.labelNames, label) + " " +
+             sideOf(mesh, topology, label);
+  const auto require = [&](int label, const std::string& name, const std::string& place) {
     if (std::binary_search(labels.begin(), labels.end(), label)) return;
     faults.add("missing-label", place,
                "body " + input.scene.bodies[b].name + ": no edge of " + mesh.name + " has label " +
-                   std::to_string(label) + "; there are: " + (known.empty() ? "none" : known));
+                   written(label, name) + "; there are: " + (known.empty() ? "none" : known));
   };
-  for (const ConditionDescription& c : input.scene.bodies[b].conditions) require(c.label, c.where);
+  for (const ConditionDescription& c : input.scene.bodies[b].conditions)
+    require(c.label, c.labelName, c.where);
   for (const ContactDescription& contact : input.scene.contacts)
     for (const SideDescription* side : {&contact.nonmortar, &contact.mortar})
-      if (side->body == input.scene.bodies[b].name) require(side->label, side->where);
+      if (side->body == input.scene.bodies[b].name) require(side->label, side->labelName, side->where);
 }
 
 /// Stretches of the boundary that nothing is said of, where their neighbourhood suggests that something was
@@ -143,15 +157,21 @@ void findLocked(const LintInput& input, size_t b, Faults& faults) {
 
 void findRegions(const LintInput& input, size_t b, Faults& faults) {
   const TriangleMesh& mesh = *input.meshes[b];
+  const BodyDescription& body = input.scene.bodies[b];
   std::vector<int> regions = mesh.regions;
   std::sort(regions.begin(), regions.end());
   regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
-  if (regions.size() < 2 || !input.scene.bodies[b].regions.empty()) return;
   std::string list;
-  for (const int region : regions) list += (list.empty() ? "" : ", ") + std::to_string(region);
-  faults.add("regions-unused", input.scene.bodies[b].meshWhere,
-             "body " + input.scene.bodies[b].name + ": " + mesh.name + " has regions " + list +
-                 ", the body one material");
+  for (const int region : regions)
+    list += (list.empty() ? "" : ", ") + std::to_string(region) + nameOf(mesh.regionNames, region);
+  for (const RegionDescription& region : body.regions)
+    if (!std::binary_search(regions.begin(), regions.end(), region.label))
+      faults.add("missing-region", region.where,
+                 "body " + body.name + ": no triangle of " + mesh.name + " is in region " +
+                     written(region.label, region.labelName) + "; there are: " + list);
+  if (regions.size() >= 2 && body.regions.empty())
+    faults.add("regions-unused", body.meshWhere,
+               "body " + body.name + ": " + mesh.name + " has regions " + list + ", the body one material");
 }
 
 }  // namespace

@@ -45,13 +45,19 @@ std::string whereIn(const Node& node, const std::vector<std::string>& keys) {
 /// Labels that are names get the number that the mesh gives them, one that no mesh has where it gives none.
 void numberLabels(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes) {
   constexpr int none = -2;
-  const auto number = [&](size_t body, const std::string& name, int& label) {
-    if (name.empty() || meshes[body] == nullptr) return;
-    const auto found = meshes[body]->labelNames.find(name);
-    label = found == meshes[body]->labelNames.end() ? none : found->second;
+  const auto find = [&](const std::map<std::string, int>& names, const std::string& name, int& label) {
+    if (name.empty()) return;
+    const auto found = names.find(name);
+    label = found == names.end() ? none : found->second;
   };
-  for (size_t b = 0; b < scene.bodies.size(); ++b)
+  const auto number = [&](size_t body, const std::string& name, int& label) {
+    if (meshes[body] != nullptr) find(meshes[body]->labelNames, name, label);
+  };
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
     for (ConditionDescription& c : scene.bodies[b].conditions) number(b, c.labelName, c.label);
+    for (RegionDescription& region : scene.bodies[b].regions)
+      if (meshes[b] != nullptr) find(meshes[b]->regionNames, region.labelName, region.label);
+  }
   for (ContactDescription& contact : scene.contacts)
     for (SideDescription* side : {&contact.nonmortar, &contact.mortar})
       number(static_cast<size_t>(bodyIndex(scene, side->body)), side->labelName, side->label);

@@ -23,7 +23,9 @@ std::vector<PlacedMaterial> placedMaterials(const LintInput& input, size_t b) {
   for (const RegionDescription& region : body.regions)
     if (region.material)
       materials.push_back({*region.material,
-                           "body " + body.name + ", region " + std::to_string(region.label) + ": ",
+                           "body " + body.name + ", region " +
+                               (region.labelName.empty() ? std::to_string(region.label) : region.labelName) +
+                               ": ",
                            [&region](const std::string&) { return region.where; }});
   return materials;
 }

@@ -86,6 +86,7 @@ class GmshFiles(OfTwoBlocks):
             self.check_refused()
             return
         self.check_read()
+        self.check_linted()
         self.check_wrong()
 
     def check_refused(self):
@@ -114,6 +115,22 @@ class GmshFiles(OfTwoBlocks):
         self.assertIn("0.37", [row["time[s]"] for row in csv.DictReader(self.read("plate/history.csv").splitlines())])
         fours = [self.mortier("mesh", "info", name).stdout.count("4") for name in ("a.msh", "b.msh")]
         self.assertEqual(*fours)
+
+    def check_linted(self):
+        """Names that the mesh has are no fault; those that it has not are named with those that there are."""
+        for old, new, message in [
+                ("left", "left", None),
+                ("label = \"left\"", "label = \"lft\"",
+                 'scene.toml:6: error: body plate: no edge of a.msh has label "lft"; there are: 1 bottom, 2 right, '
+                 '3 "top" top, 4 "left" left; take one of the labels there are, or label the edges [missing-label]'),
+                ("\"right half\"", "\"half\"",
+                 'scene.toml:7: error: body plate: no triangle of a.msh is in region "half"; there are: 1, 2 "right half"; '
+                 'take one of the regions there are, or label the triangles [missing-region]')]:
+            self.write(SCENE.replace(old, new, 1))
+            lines = mortier("check", "scene.toml", cwd=self.folder).stdout.splitlines()
+            self.assertEqual([line for line in lines if "error: " in line], [message] if message else [])
+            region = "half" if "half" in new else "right half"
+            self.assertTrue(any(f": body plate, region {region}: " in line for line in lines), lines)
 
     def check_wrong(self):
         for old, new, message in WRONG_LABELS:

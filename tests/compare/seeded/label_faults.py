@@ -12,6 +12,11 @@ def _(case):
     case.replace('body = "lower", label = 3', 'body = "lower", label = 9')
 
 
+@fault("missing-region", "label = 7")
+def _(case):
+    case.replace("[contact]", "[[body.region]]\nlabel = 7\nmaterial = { young = 3e11, poisson = 0.3 }\n[contact]")
+
+
 @fault("label-interrupted", "upper.mesh: edge from vertex")
 def _(case):
     case.upper.relabel(lambda x, y, label: 8 if y == 1 and 0.4 < x < 0.6 else label)
