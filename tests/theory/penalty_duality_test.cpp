@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "material/parts.h"
 #include "theory/hard_cases.h"
 
 namespace mortier {
@@ -48,6 +49,7 @@ void expectSameAsNewton(const Model& model, int steps) {
   ASSERT_EQ(newton.report.status, Status::converged) << newton.report.reason;
   ASSERT_EQ(duality.report.status, Status::converged) << duality.report.reason;
   EXPECT_EQ(duality.report.steps, steps);
+  EXPECT_EQ(duality.report.rejected, 0) << "cut steps have another answer";
   EXPECT_LE(difference(duality.state, newton.state), asked);
   EXPECT_LE(duality.report.worst.forceBalance, hardcases::forceBalanceLimit);
   EXPECT_LE(duality.report.worst.complementarity, hardcases::complementarityLimit);
@@ -81,6 +83,45 @@ TEST(PenaltyDuality, interpolationPassesYieldInAMoreViscousBody) {
 TEST(PenaltyDuality, elasticBodiesDifferOnlyByTheContactMultipliers) {
   for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::interpolation})
     expectSameAsNewton(compression(6, 16, elasticMaterial(noteElasticity), coupling, upperBody), 2);
+}
+
+/// Squares of the note's test whose left part is elastic and three times as stiff, on a right part that flows.
+Body mixed(const std::string& name, double lowerY, int cells, Projection projection, Conditions conditions) {
+  const auto& [young, poisson] = noteElasticity;
+  Viscoplasticity law = noteLaw(projection);
+  law.viscosity = 0.25 * noteElasticity.moduli()[0] / (2 * 1e2);  // theta e = 100 at N = 4
+  TriangleMesh mesh = square(lowerY, cells);
+  std::vector<int> part;
+  for (const auto& [a, b, c] : mesh.triangles)
+    part.push_back(mesh.vertices[a].x() + mesh.vertices[b].x() + mesh.vertices[c].x() < 1.2 ? 0 : 1);
+  return {
+      name, std::move(mesh),
+      materialOfParts({elasticMaterial({3 * young, poisson}), perzynaMaterial({young, poisson}, law)}, part),
+      std::move(conditions)};
+}
+
+// Stiff elastic regions beside regions that flow, in both bodies; the load leaves the one for the other.
+TEST(PenaltyDuality, regionsOfTwoMaterialsGiveNewtonsAnswer) {
+  const Function load = [](double, double, double t) { return -10 * t; };
+  for (const Projection projection : allProjections)
+    for (const int nonmortar : {upperBody, lowerBody}) {
+      const Model model = contactModel(
+          mixed("upper", 0, 5, projection, {{{left, 0, constant(0)}}, {{top, 1, load}}, {}}),
+          mixed("lower", -1, 8, projection, {{{left, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}}),
+          CouplingKind::mortar, nonmortar);
+      expectSameAsNewton(model, 4);
+      const State state = run(model, 1, 4, penaltyDuality()).state;
+      for (const BodyState& body : state.bodies) {
+        double most = 0;
+        double least = INFINITY;
+        for (Eigen::Index i = 0; i < body.viscoplasticStrain.cols(); ++i) {
+          most = std::max(most, body.viscoplasticStrain.col(i).norm());
+          least = std::min(least, body.viscoplasticStrain.col(i).norm());
+        }
+        EXPECT_GT(most, 1 / noteElasticity.young);  // the strain of first yield
+        EXPECT_LE(least, 1e-12 * most);             // rounding
+      }
+    }
 }
 
 // An edge that lifts off: nodes change sides between iterations.
