@@ -1,0 +1,126 @@
+// Plain data to bytes and back, member by member: an archive calls visitMembers(archive, value) for the
+// members of what is no number, text, matrix, list or map of those. Bytes are those of this machine.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "base/error.h"
+#include "base/types.h"
+
+namespace mortier {
+
+template <class T>
+concept PlainValue = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+/// Puts values into a string of bytes.
+class ArchiveWriter {
+ public:
+  std::string bytes;
+
+  template <class... T>
+  void operator()(T&... values) {
+    (put(values), ...);
+  }
+
+ private:
+  void raw(const void* data, size_t size) { bytes.append(static_cast<const char*>(data), size); }
+  void size(uint64_t n) { raw(&n, sizeof n); }
+  template <PlainValue T>
+  void put(T& value) {
+    raw(&value, sizeof value);
+  }
+  void put(std::string& text) {
+    size(text.size());
+    raw(text.data(), text.size());
+  }
+  template <int Columns>
+  void put(Eigen::Matrix<double, Eigen::Dynamic, Columns>& m) {
+    size(m.rows());
+    size(m.cols());
+    raw(m.data(), m.size() * sizeof(double));
+  }
+  void put(std::map<std::string, int>& counts) {
+    size(counts.size());
+    for (auto& [key, count] : counts) {
+      std::string name = key;
+      (*this)(name, count);
+    }
+  }
+  template <class T>
+  void put(std::vector<T>& values) {
+    size(values.size());
+    for (T& value : values) put(value);
+  }
+  template <class T>
+  void put(T& value) {
+    visitMembers(*this, value);
+  }
+};
+
+/// Takes them out again. \throws InputError where they do not fit.
+class ArchiveReader {
+ public:
+  explicit ArchiveReader(std::string_view bytes) : bytes_(bytes) {}
+
+  template <class... T>
+  void operator()(T&... values) {
+    (get(values), ...);
+  }
+  [[nodiscard]] bool atEnd() const { return bytes_.empty(); }
+
+ private:
+  void raw(void* data, size_t size) {
+    if (size > bytes_.size()) throw InputError("too short");
+    if (size > 0) std::memcpy(data, bytes_.data(), size);
+    bytes_.remove_prefix(size);
+  }
+  uint64_t size() {
+    uint64_t n = 0;
+    raw(&n, sizeof n);
+    if (n > bytes_.size()) throw InputError("too short");
+    return n;
+  }
+  template <PlainValue T>
+  void get(T& value) {
+    raw(&value, sizeof value);
+  }
+  void get(std::string& text) {
+    text.resize(size());
+    raw(text.data(), text.size());
+  }
+  template <int Columns>
+  void get(Eigen::Matrix<double, Eigen::Dynamic, Columns>& m) {
+    uint64_t shape[2];
+    raw(shape, sizeof shape);
+    if (shape[0] != 0 && shape[1] > bytes_.size() / sizeof(double) / shape[0]) throw InputError("too short");
+    m.resize(static_cast<Eigen::Index>(shape[0]), static_cast<Eigen::Index>(shape[1]));
+    raw(m.data(), m.size() * sizeof(double));
+  }
+  void get(std::map<std::string, int>& counts) {
+    for (uint64_t n = size(); n > 0; --n) {
+      std::string key;
+      (*this)(key);
+      (*this)(counts[key]);
+    }
+  }
+  template <class T>
+  void get(std::vector<T>& values) {
+    values.resize(size());
+    for (T& value : values) get(value);
+  }
+  template <class T>
+  void get(T& value) {
+    visitMembers(*this, value);
+  }
+
+  std::string_view bytes_;
+};
+
+}  // namespace mortier

@@ -1,0 +1,81 @@
+// What of a run a checkpoint holds, for archives: every member by name, so that one that is added and
+// forgotten here does not compile.
+#pragma once
+
+#include "report/checkpoint.h"
+
+namespace mortier {
+
+template <class Archive>
+void visitMembers(Archive& archive, RunIdentity& identity) {
+  auto& [workingFolder, scene, text, settings, meshes, meshHashes] = identity;
+  archive(workingFolder, scene, text, settings, meshes, meshHashes);
+}
+template <class Archive>
+void visitMembers(Archive& archive, KeptFields& fields) {
+  auto& [step, time] = fields;
+  archive(step, time);
+}
+template <class Archive>
+void visitMembers(Archive& archive, FilesSoFar& files) {
+  auto& [history, contact, fields] = files;
+  archive(history, contact, fields);
+}
+template <class Archive>
+void visitMembers(Archive& archive, Certificate& certificate) {
+  auto& [forceBalance, materialResidual, gapOnActive, sign, complementarity] = certificate;
+  archive(forceBalance, materialResidual, gapOnActive, sign, complementarity);
+}
+template <class Archive>
+void visitMembers(Archive& archive, StepReport& report) {
+  auto& [step, time, timeStep, status, reason, rung, guarded, rejections, estimate, iterations,
+         factorisations, active, joined, left, penetration, maxPressure, contactForce, viscoplasticFraction,
+         certificate] = report;
+  archive(step, time, timeStep, status, reason, rung, guarded, rejections, estimate, iterations,
+          factorisations, active, joined, left, penetration, maxPressure, contactForce, viscoplasticFraction,
+          certificate);
+}
+template <class Archive>
+void visitMembers(Archive& archive, RunReport& report) {
+  auto& [status, reason, steps, iterations, maxIterationsInAStep, factorisations, pilotIterations, rejected,
+         guarded, solveSeconds, worst, rungs] = report;
+  archive(status, reason, steps, iterations, maxIterationsInAStep, factorisations, pilotIterations, rejected,
+          guarded, solveSeconds, worst, rungs);
+}
+template <class Archive>
+void visitMembers(Archive& archive, BodyState& body) {
+  auto& [displacement, stress, viscoplasticStrain] = body;
+  archive(displacement, stress, viscoplasticStrain);
+}
+template <class Archive>
+void visitMembers(Archive& archive, State& state) {
+  auto& [time, bodies, contactForce] = state;
+  archive(time, bodies, contactForce);
+}
+template <class Archive>
+void visitMembers(Archive& archive, BodyIncrement& increment) {
+  auto& [displacement, small, stress] = increment;
+  archive(displacement, small, stress);
+}
+template <class Archive>
+void visitMembers(Archive& archive, ControllerMemory& controller) {
+  auto& [timeStep, stress, displacement] = controller;
+  archive(timeStep, stress, displacement);
+}
+template <class Archive>
+void visitMembers(Archive& archive, SolverMemory& solver) {
+  auto& [libraries, elasticFactors] = solver;
+  archive(libraries, elasticFactors);
+}
+template <class Archive>
+void visitMembers(Archive& archive, MarchMemory& memory) {
+  auto& [begin, run, increments, timeStep, solver, controller] = memory;
+  archive(begin, run, increments, timeStep, solver, controller);
+}
+template <class Archive>
+void visitMembers(Archive& archive, Checkpoint& checkpoint) {
+  auto& [identity, files, last, state, memory] = checkpoint;
+  archive(identity, files, last, state, memory);
+}
+
+}  // namespace mortier
