@@ -80,7 +80,7 @@ SCENES = {
     "open-close": ("time.scheme=backward-euler",),
 }
 # Those that it does not, and why (the beginning of what mortier freefem says behind the scene's name).
-UNKNOWN_TO_FREEFEM = {"cook": "no contact interface"}
+UNKNOWN_TO_FREEFEM = {"cook": "no contact interface", "thick-cylinder": "plane = "}
 HELD = ("body.top.boundary.4.uy=-1e-4*t", "body.middle.boundary.4.uy=-1e-4*t*(1+y)", "body.bottom.boundary.4.uy=0")
 SOFT = "body.material={young=100, poisson=0.3, viscosity=1, yield_stress=1}"  # Newton's method is at ease
 

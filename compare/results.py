@@ -90,7 +90,7 @@ def read_freefem(folder):
     folder = Path(folder)
     summary = read_summary(folder)
     bodies = {b["name"]: Body(read_table(folder / f"{b['name']}.displacement.txt", 2),
-                              read_table(folder / f"{b['name']}.stress.txt", 3)) for b in summary.get("bodies", [])}
+                              read_table(folder / f"{b['name']}.stress.txt", 3, 4)) for b in summary.get("bodies", [])}
     if not bodies:
         raise ResultError(f"{folder / 'summary.json'}: no bodies")
     table = read_table(folder / "contact.txt", 5)
@@ -170,14 +170,14 @@ def read_csv(path):
         raise ResultError(f"{path}: {error.strerror}") from error
 
 
-def read_table(path, columns):
-    """Numbers, one line an item."""
+def read_table(path, *columns):
+    """Numbers, one line an item, so many in a line."""
     try:
         table = np.loadtxt(path, ndmin=2)
     except (OSError, ValueError) as error:
         raise ResultError(f"{path}: {error}") from error
-    if table.shape[1] != columns:
-        raise ResultError(f"{path}: {table.shape[1]} columns, expected {columns}")
+    if table.shape[1] not in columns:
+        raise ResultError(f"{path}: {table.shape[1]} columns, expected {' or '.join(map(str, columns))}")
     return table
 
 

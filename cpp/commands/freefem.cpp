@@ -114,7 +114,8 @@ std::string script(const SceneDescription& scene, const Model& model) {
   const int bodies = static_cast<int>(scene.bodies.size());
   std::ostringstream out;
   out << "// " << (scene.title.empty() ? scene.path : scene.title) << "\n// Written by mortier freefem "
-      << scene.path << "; run from the folder in which that was called.\n\n// Bodies (plane stress)\n"
+      << scene.path
+      << "; run from the folder in which that was called.\n\nstring plane = \"stress\";\n\n// Bodies\n"
       << "macro eachBody(what)";
   for (int b = 0; b < bodies; ++b) out << " what(" << b + 1 << ')';
   out << " //\n";
