@@ -12,6 +12,7 @@
 #include "commands/stopped_run.h"
 #include "commands/version.h"
 #include "linear/versions.h"
+#include "report/accuracy.h"
 #include "report/checkpoint.h"
 #include "report/checkpoint_files.h"
 #include "report/clock.h"
@@ -235,7 +236,8 @@ int run(RunCommand command) {
 
   // 4. The result, in place of an older one only when the run is complete.
   files->close(state, last.step);
-  writeSummary(folder->temporary(), facts, model, state, last, report);
+  const Accuracy accuracy = accuracyOf(model, state);
+  writeSummary(folder->temporary(), facts, model, state, last, report, accuracy);
   const bool complete = report.status == Status::converged;
   std::string where = path;
   if (complete) {
@@ -247,6 +249,7 @@ int run(RunCommand command) {
   // 5. How well it holds.
   log.print(logStatus(report, where));
   log.print(logVerification(report.worst));
+  log.print(logAccuracy(model, accuracy));
   if (!complete) {
     complain(scene.path + ": " + report.reason + "; the state after step " + std::to_string(last.step) +
              " is in " + where);

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "fem/error_estimate.h"
 #include "material/stress.h"
 #include "report/output_file.h"
 
@@ -130,6 +131,9 @@ void writeCellData(VtuFile& file, const Body& body, const BodyState& state) {
   file.array("viscoplastic_strain", flat(fields.viscoplasticStrain), 3, {"e11", "e22", "e12"});
   file.integers("Int32", "viscoplastic", fields.viscoplastic);
   file.integers("Int32", "region", body.mesh().regions);
+  const ErrorEstimate estimate = estimateError(body, state.stress);
+  const double energy = estimate.energy > 0 ? estimate.energy : 1;
+  file.array("error", flat((estimate.error / energy).cwiseSqrt()), 1);
   file.shut("CellData");
 }
 

@@ -77,6 +77,19 @@ std::string logVerification(const Certificate& w) {
       w.forceBalance, w.materialResidual, w.gapOnActive, w.complementarity, w.sign);
 }
 
+std::string logAccuracy(const Model& model, const Accuracy& accuracy) {
+  std::string bodies;
+  for (size_t b = 0; b < model.bodies.size() && model.bodies.size() > 1; ++b)
+    bodies += (b == 0 ? " (" : ", ") + model.bodies[b].name() + format(" %.2g %%", 100 * accuracy.bodies[b]);
+  if (!bodies.empty()) bodies += ")";
+  std::string text =
+      format("accuracy   estimated error of the stress, meshes only: %.2g %%", 100 * accuracy.all) + bodies;
+  if (!accuracy.worstBody.empty())
+    text += ", largest in " + accuracy.worstBody +
+            format(" at (%.4g, %.4g)", accuracy.worst[0], accuracy.worst[1]);
+  return text + "\n";
+}
+
 Log::Log(bool quiet, double endTime)
     : quiet_(quiet), sharesTerminal_(isatty(STDOUT_FILENO) == 1), progress_(!quiet, endTime) {}
 

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "report/accuracy.h"
 #include "report/progress.h"
 #include "report/run_facts.h"
 #include "time/march.h"
@@ -17,6 +18,8 @@ std::string logRow(const StepReport& report);
 std::string logStatus(const RunReport& report, const std::string& folder);
 /// How well the equations hold in the worst step.
 std::string logVerification(const Certificate& worst);
+/// How far the stress of the last step is from the exact one, by its own estimate.
+std::string logAccuracy(const Model& model, const Accuracy& accuracy);
 
 /// Prints the above, and a progress bar where the run is long. A quiet log prints nothing.
 class Log {

@@ -70,6 +70,15 @@ Json finalState(const Model& model, const State& state, const StepReport& last) 
           {"active_nodes", last.active}};
 }
 
+Json jsonOf(const Model& model, const Accuracy& accuracy) {
+  Json bodies = Json::object();
+  for (size_t b = 0; b < model.bodies.size(); ++b) bodies[model.bodies[b].name()] = accuracy.bodies[b];
+  Json json = {{"energy_error", accuracy.all}, {"bodies", std::move(bodies)}};
+  if (!accuracy.worstBody.empty())
+    json["largest"] = {{"body", accuracy.worstBody}, {"at", {accuracy.worst[0], accuracy.worst[1]}}};
+  return json;
+}
+
 }  // namespace
 
 Extremes extremes(const Model& model, const State& state) {
@@ -87,7 +96,7 @@ Extremes extremes(const Model& model, const State& state) {
 }
 
 void writeSummary(const std::string& folder, const RunFacts& facts, const Model& model, const State& state,
-                  const StepReport& last, const RunReport& report) {
+                  const StepReport& last, const RunReport& report, const Accuracy& accuracy) {
   size_t triangles = 0;
   int nodes = 0;
   int dofs = 0;
@@ -137,6 +146,7 @@ void writeSummary(const std::string& folder, const RunFacts& facts, const Model&
                           {"gap_on_active", report.worst.gapOnActive},
                           {"sign", report.worst.sign},
                           {"complementarity", report.worst.complementarity}};
+  json["accuracy"] = jsonOf(model, accuracy);
   json["peak_memory_mib"] = peakMemory();
   json["wall_time_s"] = processSeconds();
   json["versions"] = Json::object();

@@ -221,17 +221,20 @@ TEST_F(Output, summaryHasItsKeys) {
   const Blocks blocks;
   StepReport last;
   last.penetration = 1e-18;
-  writeSummary(path, blocks.facts, blocks.model, blocks.state, last, {});
+  writeSummary(path, blocks.facts, blocks.model, blocks.state, last, {},
+               accuracyOf(blocks.model, blocks.state));
   const auto json = nlohmann::json::parse(contentOf(path + "/summary.json"));
-  for (const char* key : {"scene", "status", "contact", "nonmortar", "projection", "triangles", "nodes",
-                          "dofs", "steps", "newton_iterations", "max_iterations_in_a_step", "factorisations",
-                          "wall_time_s", "solve_time_s", "peak_memory_mib", "final", "verification"}) {
+  for (const char* key :
+       {"scene", "status", "contact", "nonmortar", "projection", "triangles", "nodes", "dofs", "steps",
+        "newton_iterations", "max_iterations_in_a_step", "factorisations", "wall_time_s", "solve_time_s",
+        "peak_memory_mib", "final", "verification", "accuracy"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
   for (const char* key : {"time", "von_mises_min", "von_mises_max", "interpenetration", "displacement_min",
                           "displacement_max", "contact_force", "active_nodes"}) {
     EXPECT_TRUE(json["final"].contains(key)) << key;
   }
+  EXPECT_EQ(json["accuracy"]["bodies"].size(), 2);
   for (const char* key : {"force_balance", "material_residual", "gap_on_active", "complementarity"}) {
     EXPECT_TRUE(json["verification"].contains(key)) << key;
   }
@@ -244,7 +247,9 @@ TEST_F(Output, summaryThatIsNotFiniteIsNotWritten) {
   const Blocks blocks;
   RunReport report;
   report.worst.forceBalance = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(writeSummary(path, blocks.facts, blocks.model, blocks.state, {}, report), OutputError);
+  EXPECT_THROW(writeSummary(path, blocks.facts, blocks.model, blocks.state, {}, report,
+                            accuracyOf(blocks.model, blocks.state)),
+               OutputError);
   EXPECT_TRUE(names().empty());
 }
 
