@@ -78,16 +78,14 @@ std::string logVerification(const Certificate& w) {
 }
 
 std::string logAccuracy(const Model& model, const Accuracy& accuracy) {
-  std::string bodies;
-  for (size_t b = 0; b < model.bodies.size() && model.bodies.size() > 1; ++b)
-    bodies += (b == 0 ? " (" : ", ") + model.bodies[b].name() + format(" %.2g %%", 100 * accuracy.bodies[b]);
-  if (!bodies.empty()) bodies += ")";
-  std::string text =
-      format("accuracy   estimated error of the stress, meshes only: %.2g %%", 100 * accuracy.all) + bodies;
-  if (!accuracy.worstBody.empty())
-    text += ", largest in " + accuracy.worstBody +
-            format(" at (%.4g, %.4g)", accuracy.worst[0], accuracy.worst[1]);
-  return text + "\n";
+  constexpr double rounding = 1e-12;
+  std::string text = "accuracy   estimated error of the stress, meshes only: ";
+  if (accuracy.all < rounding) return text + "0 to rounding\n";
+  text += format("%.2g %%", 100 * accuracy.all);
+  for (size_t b = 0; b < model.bodies.size(); ++b)
+    text += (b == 0 ? " (" : ", ") + model.bodies[b].name() + format(" %.2g %%", 100 * accuracy.bodies[b]);
+  return text + "), largest in " + accuracy.worstBody +
+         format(" at (%.4g, %.4g)\n", accuracy.worst[0], accuracy.worst[1]);
 }
 
 Log::Log(bool quiet, double endTime)

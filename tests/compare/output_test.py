@@ -32,16 +32,19 @@ class Output(support.InSharedFolder):
             np.testing.assert_array_equal(mesh.cells_dict["triangle"], medit.cells_dict["triangle"])
             self.assertEqual(set(mesh.point_data), {"displacement"})
             self.assertEqual(set(mesh.cell_data),
-                             {"stress", "von_mises", "viscoplastic_strain", "viscoplastic", "region"})
+                             {"stress", "von_mises", "viscoplastic_strain", "viscoplastic", "region", "error"})
             triangles = len(mesh.cells_dict["triangle"])
             self.assertEqual(mesh.point_data["displacement"].shape, (len(mesh.points), 3))
             for key, shape in (("stress", (triangles, 3)), ("viscoplastic_strain", (triangles, 3)),
-                               ("von_mises", (triangles,)), ("viscoplastic", (triangles,))):
+                               ("von_mises", (triangles,)), ("viscoplastic", (triangles,)), ("error", (triangles,))):
                 self.assertEqual(mesh.cell_data[key][0].shape, shape, key)
             s11, s22, s12 = mesh.cell_data["stress"][0].T
             np.testing.assert_allclose(mesh.cell_data["von_mises"][0],
                                        np.sqrt(s11**2 + s22**2 - s11 * s22 + 3 * s12**2), rtol=1e-14)
             self.assertTrue((mesh.cell_data["viscoplastic"][0] == 1).all())
+            accuracy = json.loads((self.run_folder / "summary.json").read_text())["accuracy"]["bodies"][name]
+            self.assertAlmostEqual(np.linalg.norm(mesh.cell_data["error"][0]), accuracy, delta=1e-13)
+            self.assertGreater(accuracy, 0.01)
 
     def test_viscoplastic_strain_is_what_elasticity_leaves_of_the_strain(self):
         young, poisson = 3e11, 0.3

@@ -93,7 +93,7 @@ class Cli(OfTwoBlocks):
         self.assertEqual(result.stderr, "")
         rows = [line for line in result.stdout.splitlines() if line.split()[0].isdigit()]
         self.assertEqual(len(rows), 4)
-        self.assertIn("verification", result.stdout.splitlines()[-1])
+        self.assertEqual([line.split()[0] for line in result.stdout.splitlines()[-2:]], ["verification", "accuracy"])
 
         summary = json.loads(self.read("result/summary.json"))
         self.assertEqual(summary["status"], "converged")
