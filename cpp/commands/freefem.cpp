@@ -56,28 +56,29 @@ bool isRoller(const ConditionDescription& condition) {
 /// not be empty.
 void writeConditions(std::ostream& out, const BodyDescription& body, int number) {
   const std::string n = std::to_string(number);
-  std::string supports;
-  std::string loads;
+  std::ostringstream supports;
+  std::ostringstream loads;
   for (const ConditionDescription& c : body.conditions) {
-    const std::string label = std::to_string(c.label);
     const std::string value = freefemExpression(c.value);
     if (c.kind == Kind::displacement && !isRoller(c)) {
-      supports += "+ on(" + label + ", u" + std::to_string(c.component + 1) + " = " + value + ") ";
+      supports << "+ on(" << c.label << ", u" << c.component + 1 << " = " << value << ") ";
     } else if (c.kind == Kind::traction) {
       const std::string direction =
           c.component == alongNormal ? "(N.x*v1 + N.y*v2)" : "v" + std::to_string(c.component + 1);
-      loads += "+ simpson(" + n + ", " + label + ", (" + value + ")*" + direction + ") ";
+      loads << "+ simpson(" << n << ", " << c.label << ", (" << value << ")*" << direction << ") ";
     }
   }
   for (const int c : {0, 1}) {
     if (body.force[c]) {
-      loads += "+ midpoints(" + n + ", (" + freefemExpression(*body.force[c]) + ")*v" +
-               std::to_string(c + 1) + ") ";
+      loads << "+ midpoints(" << n << ", (" << freefemExpression(*body.force[c]) << ")*v" << c + 1 << ") ";
     }
   }
-  out << "macro supports" << n << ' ' << (supports.empty() ? "+ int2d(Body" + n + ")(0.*u1*v1) " : supports)
-      << "//\nmacro loads" << n << ' ' << (loads.empty() ? "+ int2d(Body" + n + ")(0.*v2) " : loads)
-      << "//\n";
+  const auto orNothing = [&](const std::ostringstream& terms, const char* nothing) {
+    const std::string text = terms.str();
+    return text.empty() ? "+ int2d(Body" + n + ")(" + nothing + ") " : text;
+  };
+  out << "macro supports" << n << ' ' << orNothing(supports, "0.*u1*v1") << "//\nmacro loads" << n << ' '
+      << orNothing(loads, "0.*v2") << "//\n";
 }
 
 /// One macro for all bodies; none where there are no rollers.

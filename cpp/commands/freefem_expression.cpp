@@ -47,7 +47,7 @@ class Choices {
       case ',':
         return endOf(':') + ",";
       case ')': {
-        const std::string closed = endOf(':') + ")";
+        std::string closed = endOf(':') + ")";
         if (!open_.empty()) open_.pop_back();
         return closed;
       }
