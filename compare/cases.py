@@ -1,5 +1,6 @@
 """The cases in which the codes are compared: the note's test on every shared pair of meshes, and the scenes."""
 import itertools
+import re
 from dataclasses import dataclass
 
 # name: nonmatching pairs, upper and lower; the third is unstructured, graded in opposite directions
@@ -63,6 +64,10 @@ class SceneCase:
 
     def __str__(self):
         return f"{self.name} {self.variant} {self.what}"
+
+    @property
+    def folder(self):
+        return re.sub(r"[^\w-]+", "_", str(self))
 
     @property
     def scene(self):

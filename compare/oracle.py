@@ -6,14 +6,10 @@ distances.
 
 Exit code 1 when one pair of runs differs or fails.
 """
-import json
 import sys
-import tempfile
-from pathlib import Path
 
+from both import add_options, chosen, compare_all, compare_runs, finish
 from cases import scene_cases
-from codes import RunError, run_freefem, run_mortier
-from compare import compare
 import results
 
 HEADER = (f"{'scene':<15} {'variant':<13} {'what':<42} {'displacement':>12} {'stress':>8} {'force':>8} {'gap':>8}  "
@@ -21,17 +17,7 @@ HEADER = (f"{'scene':<15} {'variant':<13} {'what':<42} {'displacement':>12} {'st
 
 
 def compare_case(case, folder):
-    """One row: what it measured, in a dictionary."""
-    row = {"case": str(case), "agree": False}
-    try:
-        ours = run_mortier(folder / "mortier", case.settings, case.scene)
-        theirs = run_freefem(folder / "freefem", case.settings, case.scene)
-    except (RunError, results.ResultError) as error:
-        return row | {"verdict": f"FAILED: {error}"}
-    verdict = compare(ours, theirs)
-    return row | {"agree": verdict.agrees, "verdict": str(verdict), "displacement": verdict.norm("displacement "),
-                  "stress": verdict.norm("stress"), "force": verdict.norm("contact force"),
-                  "gap": verdict.norm("contact gap"), "mortier_s": ours.wall_time, "freefem_s": theirs.wall_time}
+    return {"case": str(case)} | compare_runs(folder, case.settings, case.scene)
 
 
 def row_text(case, row):
@@ -44,30 +30,14 @@ def row_text(case, row):
 
 def compare_scenes(cases, keep=None):
     """Prints a row a case as it is done. Returns the rows."""
-    print(HEADER, flush=True)
-    rows = []
-    with tempfile.TemporaryDirectory(prefix="mortier-oracle-") as temporary:
-        for number, case in enumerate(cases):
-            row = compare_case(case, Path(keep or temporary).resolve() / f"{number:02d}-{case.name}")
-            print(row_text(case, row), flush=True)
-            rows.append(row)
-    print(f"{sum(row['agree'] for row in rows)} of {len(rows)} pairs of runs agree")
-    return rows
+    return compare_all(HEADER, cases, compare_case, row_text, keep)
 
 
 def main():
     parser = results.argument_parser(__doc__)
-    parser.add_argument("--only", nargs="+", default=[], metavar="WORD", help="cases that contain all of these words")
-    parser.add_argument("--keep", metavar="DIR", help="keeps the run folders there")
-    parser.add_argument("--json", metavar="FILE", help="writes the rows as JSON")
+    add_options(parser)
     arguments = parser.parse_args()
-    cases = [case for case in scene_cases() if all(word in str(case).split() for word in arguments.only)]
-    if not cases:
-        parser.error(f"no case contains {' '.join(arguments.only)}; a case reads: {scene_cases()[0]}")
-    rows = compare_scenes(cases, arguments.keep)
-    if arguments.json:
-        Path(arguments.json).write_text(json.dumps(rows, indent=2) + "\n")
-    return 0 if all(row["agree"] for row in rows) else 1
+    return finish(arguments, compare_scenes(chosen(parser, arguments, scene_cases()), arguments.keep))
 
 
 if __name__ == "__main__":

@@ -101,7 +101,8 @@ double imbalance(const Model& model, const State& state) {
   return worst;
 }
 
-Map turned(double angle, const Map& map = [](const Point& x) { return x; }) {
+Map turned(
+    double angle, const Map& map = [](const Point& x) { return x; }) {
   const Eigen::Matrix2d rotation{{std::cos(angle), -std::sin(angle)}, {std::sin(angle), std::cos(angle)}};
   return [=](const Point& x) { return Point(rotation * map(x)); };
 }
