@@ -58,7 +58,8 @@ def write_input(problem, first, count, thickness, young, load):
     for layer in (0, 1):
         for name, body in problem.bodies.items():
             base = layer * count + first[name] + 1
-            lines += [f"{base + i}, {x:{REAL}}, {y:{REAL}}, {layer * thickness:{REAL}}" for i, (x, y) in enumerate(body.mesh.points.tolist())]
+            lines += [f"{base + i}, {x:{REAL}}, {y:{REAL}}, {layer * thickness:{REAL}}"
+                      for i, (x, y) in enumerate(body.mesh.points.tolist())]
     element, surfaces = 1, {}
     for k, (name, body) in enumerate(problem.bodies.items()):
         lines.append(f"*ELEMENT, TYPE=C3D6, ELSET=BODY{k}")

@@ -17,7 +17,8 @@ from scenes import TWO_BLOCKS  # noqa: E402
 from support import PROGRAM, OfTwoBlocks, mortier  # noqa: E402
 
 USAGE = [[], ["bla"], ["run"], ["run", "--frobnicate"], ["run", "scene.toml", "--threads", "0"], ["run", "none.toml"],
-         ["mesh"], ["mesh", "crisscross", "x.mesh"], ["mesh", "info", "none.mesh"], ["freefem"], ["mesh", "rectangle", "--cells", "2,a", "x.mesh"],
+         ["mesh"], ["mesh", "crisscross", "x.mesh"], ["mesh", "info", "none.mesh"], ["freefem"],
+         ["mesh", "rectangle", "--cells", "2,a", "x.mesh"],
          ["run", "scene.toml", "--out", "."]]
 
 
