@@ -249,6 +249,7 @@ int run(RunCommand command) {
   // 5. How well it holds.
   log.print(logStatus(report, where));
   log.print(logVerification(report.worst));
+  log.print(logSpecial(report.special));
   log.print(logAccuracy(model, accuracy));
   if (!complete) {
     complain(scene.path + ": " + report.reason + "; the state after step " + std::to_string(last.step) +

@@ -167,8 +167,9 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
   for (size_t k = 0; k < parts.size(); ++k) {
     if (facing[k].empty()) continue;
     const SmoothPart& part = parts[k];
-    const PartCoupling coupling =
-        couple(pair_.coupling, part, facing[k], mergedNodes(part, facing[k], pair_.coupling, options));
+    const std::vector<char> merged = mergedNodes(part, facing[k], pair_.coupling, options);
+    heldEnds_ += static_cast<int>(std::count(merged.begin(), merged.end(), 1));
+    const PartCoupling coupling = couple(pair_.coupling, part, facing[k], merged);
     const auto firstRow = static_cast<int>(nonmortarNodes_.size());
     scatter(coupling.C1, part.nodes, firstRow, rows1);
     scatter(coupling.C2, facing[k].nodes, firstRow, rows2);

@@ -74,6 +74,8 @@ class ContactInterface {
   [[nodiscard]] const Vector& initialDistance() const { return distance_; }  ///< g0 [m]
   /// Mass of the row functions, rows x rows [m]: nodal forces are M times the contact pressure.
   [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
+  /// Held end nodes of the nonmortar line that have no condition: merged into their neighbours, or left out.
+  [[nodiscard]] int heldEnds() const { return heldEnds_; }
   /// Share of the shorter line that faces the other.
   [[nodiscard]] double overlap() const { return overlap_; }
   [[nodiscard]] int rows() const { return static_cast<int>(distance_.size()); }
@@ -103,6 +105,7 @@ class ContactInterface {
   Eigen::SparseMatrix<double> mass_;
   Vector distance_;
   double overlap_ = 0;
+  int heldEnds_ = 0;
   PenetrationIntegral penetration_;
 };
 

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Names the layout (checkpoint_members.h); it changes with any member.
-constexpr std::string_view magic = "mortier checkpoint 3\n";
+constexpr std::string_view magic = "mortier checkpoint 4\n";
 
 uint64_t fnv1a(std::string_view bytes, uint64_t hash = 14695981039346656037U) {
   for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211U;

@@ -27,6 +27,11 @@ void visitMembers(Archive& archive, Certificate& certificate) {
   archive(forceBalance, materialResidual, gapOnActive, sign, complementarity);
 }
 template <class Archive>
+void visitMembers(Archive& archive, SpecialConditions& special) {
+  auto& [idle, dependent] = special;
+  archive(idle, dependent);
+}
+template <class Archive>
 void visitMembers(Archive& archive, StepReport& report) {
   auto& [step, time, timeStep, status, reason, rung, guarded, rejections, estimate, iterations,
          factorisations, active, joined, left, penetration, maxPressure, contactForce, viscoplasticFraction,
@@ -38,9 +43,9 @@ void visitMembers(Archive& archive, StepReport& report) {
 template <class Archive>
 void visitMembers(Archive& archive, RunReport& report) {
   auto& [status, reason, steps, iterations, maxIterationsInAStep, factorisations, pilotIterations, rejected,
-         guarded, solveSeconds, worst, rungs] = report;
+         guarded, solveSeconds, special, worst, rungs] = report;
   archive(status, reason, steps, iterations, maxIterationsInAStep, factorisations, pilotIterations, rejected,
-          guarded, solveSeconds, worst, rungs);
+          guarded, solveSeconds, special, worst, rungs);
 }
 template <class Archive>
 void visitMembers(Archive& archive, BodyState& body) {

@@ -22,6 +22,14 @@ namespace {
   return {text, static_cast<size_t>(std::clamp<int>(size, 0, sizeof text - 1))};
 }
 
+/// What became of end nodes whose normal motion is prescribed.
+std::string heldEnds(const ContactInterface& interface) {
+  if (interface.heldEnds() == 0) return "";
+  const bool mortar = interface.pair().coupling == CouplingKind::mortar;
+  return format("; %d held end%s without a condition: %s", interface.heldEnds(),
+                interface.heldEnds() > 1 ? "s" : "", mortar ? "merged into the next node" : "left out");
+}
+
 }  // namespace
 
 std::string logHeader(const RunFacts& facts, const Model& model) {
@@ -35,11 +43,12 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
     const std::string chosen = k < facts.choices.size() ? facts.choices[k] : "";
-    text += format("interface  %s, %zu nonmortar (%s) x %zu mortar (%s) nodes, overlap %.3f%s%s\n",
-                   facts.variants[k].c_str(), interface.nonmortarNodes().size(),
-                   model.bodies[interface.pair().nonmortar.body].name().c_str(),
-                   interface.mortarNodes().size(), model.bodies[interface.pair().mortar.body].name().c_str(),
-                   interface.overlap(), chosen.empty() ? "" : "; ", chosen.c_str());
+    text +=
+        format("interface  %s, %zu nonmortar (%s) x %zu mortar (%s) nodes, overlap %.3f%s%s%s\n",
+               facts.variants[k].c_str(), interface.nonmortarNodes().size(),
+               model.bodies[interface.pair().nonmortar.body].name().c_str(), interface.mortarNodes().size(),
+               model.bodies[interface.pair().mortar.body].name().c_str(), interface.overlap(),
+               chosen.empty() ? "" : "; ", chosen.c_str(), heldEnds(interface).c_str());
   }
   return text +
          "  step     time[s]  iter    active(+/-)  |residual|  penetration[m^2]   max p[Pa]  viscoplastic"
@@ -86,6 +95,16 @@ std::string logAccuracy(const Model& model, const Accuracy& accuracy) {
     text += (b == 0 ? " (" : ", ") + model.bodies[b].name() + format(" %.2g %%", 100 * accuracy.bodies[b]);
   return text + "), largest in " + accuracy.worstBody +
          format(" at (%.4g, %.4g)\n", accuracy.worst[0], accuracy.worst[1]);
+}
+
+std::string logSpecial(const SpecialConditions& special) {
+  if (special.idle == 0 && special.dependent == 0) return "";
+  std::string text = "conditions ";
+  if (special.idle > 0)
+    text += format(" %d idle: both sides are held there%s", special.idle, special.dependent > 0 ? ";" : "");
+  if (special.dependent > 0)
+    text += format(" %d dependent on others: the contact forces are one choice of many", special.dependent);
+  return text + "\n";
 }
 
 Log::Log(bool quiet, double endTime)

@@ -20,6 +20,8 @@ std::string logStatus(const RunReport& report, const std::string& folder);
 std::string logVerification(const Certificate& worst);
 /// How far the stress of the last step is from the exact one, by its own estimate.
 std::string logAccuracy(const Model& model, const Accuracy& accuracy);
+/// A line where contact conditions have no force of their own, otherwise nothing.
+std::string logSpecial(const SpecialConditions& special);
 
 /// Prints the above, and a progress bar where the run is long. A quiet log prints nothing.
 class Log {

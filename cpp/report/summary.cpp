@@ -51,7 +51,8 @@ Json interfaces(const RunFacts& facts, const Model& model) {
                     {"mortar", model.bodies[interface.pair().mortar.body].name()},
                     {"nonmortar_nodes", interface.nonmortarNodes().size()},
                     {"mortar_nodes", interface.mortarNodes().size()},
-                    {"overlap", interface.overlap()}});
+                    {"overlap", interface.overlap()},
+                    {"held_ends", interface.heldEnds()}});
   }
   return list;
 }
@@ -138,6 +139,8 @@ void writeSummary(const std::string& folder, const RunFacts& facts, const Model&
   json["max_iterations_in_a_step"] = report.maxIterationsInAStep;
   json["factorisations"] = report.factorisations;
   json["rungs"] = report.rungs;
+  json["idle_conditions"] = report.special.idle;
+  json["dependent_conditions"] = report.special.dependent;
   json["threads"] = facts.threads;
   json["solve_time_s"] = report.solveSeconds;
   json["final"] = finalState(model, state, last);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -215,6 +216,15 @@ ContactSolution solveRedundant(const ContactProblem& problem, const std::vector<
 
 }  // namespace
 
+int dependentConditions(const Matrix& W) {
+  constexpr double singular = 1e-12;  // as in Pivoting::solve
+  const std::vector<char> idle = idleConditions(W);
+  const auto idles = static_cast<Eigen::Index>(std::count(idle.begin(), idle.end(), 1));
+  Eigen::ColPivHouseholderQR<Matrix> factor(W);
+  factor.setThreshold(singular);
+  return static_cast<int>(W.rows() - idles - factor.rank());
+}
+
 ContactSolution solveContact(const ContactProblem& problem, const Vector& slack, const Vector& p0,
                              const Vector& balance, std::vector<char> active) {
   if (slack.size() == 0) {
@@ -227,15 +237,20 @@ ContactSolution solveContact(const ContactProblem& problem, const Vector& slack,
   const std::vector<char> idle = idleConditions(problem.W);
   for (size_t i = 0; i < idle.size(); ++i)
     if (idle[i] != 0) active[i] = 0;
-  bool redundant = std::count(idle.begin(), idle.end(), 1) > 0 && problem.G.cols() > 0;
-  if (!redundant) {
-    ContactSolution solution = solveRegular(problem, idle, slack, p0, balance, active, redundant);
-    if (!redundant) return solution;
+  const auto idles = static_cast<int>(std::count(idle.begin(), idle.end(), 1));
+  bool dependent = false;
+  if (idles == 0 || problem.G.cols() == 0) {
+    ContactSolution solution = solveRegular(problem, idle, slack, p0, balance, active, dependent);
+    solution.idle = idles;
+    if (!dependent) return solution;
   }
   ContactProblem regular = problem;
   for (size_t i = 0; i < idle.size(); ++i)
     if (idle[i] != 0) regular.W(i, i) = problem.W.diagonal().maxCoeff();
-  return solveRedundant(regular, idle, slack, p0, balance, active);
+  ContactSolution solution = solveRedundant(regular, idle, slack, p0, balance, active);
+  solution.idle = idles;
+  solution.dependent = dependent;
+  return solution;
 }
 
 }  // namespace mortier

@@ -30,7 +30,12 @@ struct ContactSolution {
   Vector rigid;              ///< z
   std::vector<char> active;  ///< the set on which s = 0 was asked
   int pivots = 0;            ///< dense solves
+  int idle = 0;              ///< conditions that no free motion changes: W_ii = 0
+  bool dependent = false;    ///< conditions depend on each other: the forces are one choice of many
 };
+
+/// How many conditions depend on others: those that change, less the rank of W.
+int dependentConditions(const Matrix& W);
 
 /// Principal pivoting: all wrong signs change sides at once; when that stops helping, one at a time by the
 /// least index, which ends after finitely many steps for every P-matrix, symmetric or not (Murty 1974; Judice

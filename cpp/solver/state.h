@@ -35,6 +35,12 @@ struct Certificate {
   double complementarity = 0;   ///< max |p g| over (largest force times that length)
 };
 
+/// Contact conditions without a force of their own.
+struct SpecialConditions {
+  int idle = 0;       ///< no free motion changes them, both sides are held: they stay inactive
+  int dependent = 0;  ///< others imply them: the forces are one choice of many
+};
+
 enum class Status { converged, failed, unheld };
 
 struct StepReport {

@@ -197,7 +197,10 @@ void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>&
                                  StepOutcome& outcome) {
   const ContactSolve pivoting = [this](const Vector& slack, const Vector& p0, const Vector& balance,
                                        const std::vector<char>& active) {
-    return solveContact(contact_, slack, p0, balance, active);
+    ContactSolution solution = solveContact(contact_, slack, p0, balance, active);
+    special_.idle = std::max(special_.idle, solution.idle);
+    if (solution.dependent && special_.dependent == 0) special_.dependent = dependentConditions(contact_.W);
+    return solution;
   };
   solveLinearised(state0, loads, pivoting, iterate, outcome);
 }

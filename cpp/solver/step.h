@@ -77,6 +77,9 @@ class StepSolver {
   /// \param error  per body, a strain added in every triangle (3 x points).
   [[nodiscard]] std::vector<Response> respond(const std::vector<Matrix>& error, const ActiveSets& active);
 
+  /// What was met among the contact conditions so far.
+  [[nodiscard]] const SpecialConditions& special() const { return special_; }
+
   /// What of the solver itself a run must know to go on from here as if it had not stopped.
   [[nodiscard]] SolverMemory memory() const;
   void resume(const SolverMemory& memory);
@@ -129,6 +132,7 @@ class StepSolver {
   std::vector<BodySystem> systems_;
   std::vector<int> firstMotion_;  ///< of each body among all rigid motions, and their number at the end
   ContactProblem contact_;
+  SpecialConditions special_;
   struct Loads {
     double time = NAN;
     std::vector<Vector> forces;  ///< per body

@@ -115,6 +115,7 @@ RunReport march(const Model& model, State& state, MarchMemory& memory, const Tim
       advance(*taker, state, report.time, report);
     });
     add(report, run);
+    run.special = taker->special();
     if (report.status != Status::converged) break;
     compareActive(before, taker->active(), report);
     measure(model, state, report);

@@ -19,6 +19,7 @@ struct RunReport {
   int rejected = 0;                  ///< attempts
   int guarded = 0;                   ///< steps done again as two half steps of backward Euler
   double solveSeconds = 0;           ///< wall time of the march without its observer
+  SpecialConditions special;         ///< of contact
   Certificate worst;                 ///< the largest residuals of any step
   std::map<std::string, int> rungs;  ///< how many steps took which (StepReport::rung)
 };

@@ -30,6 +30,8 @@ class StepTaker {
   std::vector<Response> error(bool lasting);
   /// Power of the step with which that falls.
   [[nodiscard]] int errorOrder() const { return tableau_.errorOrder; }
+  /// What was met among the contact conditions so far.
+  [[nodiscard]] const SpecialConditions& special() const { return solver_.special(); }
   /// Takes the last attempt over.
   void commit();
   /// Active sets of the last step.
