@@ -6,7 +6,7 @@ import subprocess
 import unittest
 
 from mutations import explore, require_whole
-from scenes import ONE_BODY
+from scenes import BODY_KEYS, CONTACT_KEYS, ONE_BODY, TWO_BLOCKS
 from support import PROGRAM, OfTwoBlocks
 
 LONG = ("--set", "time.steps=1000000")
@@ -38,6 +38,12 @@ class Environment(OfTwoBlocks):
 
     def temporaries(self):
         return [name for name in self.names("out") if ".tmp-" in name or ".new-" in name]
+
+    def test_scenes_are_sound_before_they_are_changed(self):
+        for scene in (TWO_BLOCKS, CONTACT_KEYS, BODY_KEYS, ONE_BODY):
+            self.write(scene)
+            self.mortier("run", "scene.toml", "--quiet", "--out", "out")
+            require_whole(self.folder / "out")
 
     def test_mutated_scenes_and_meshes(self):
         faults, codes = explore(PROGRAM, 0, 250, patience=1)

@@ -30,8 +30,9 @@ end = 1
 steps = 4
 """
 
-EVERY_KEY = """\
-title = "every key"
+# The next two hold every key of a scene between them.
+CONTACT_KEYS = """\
+title = "expressions, interpolation, sides swapped"
 [[body]]
 name = "upper"
 mesh = "upper.mesh"
@@ -57,6 +58,7 @@ nonmortar = { body = "lower", label = 3 }
 mortar = { body = "upper", label = 1 }
 variant = "interpolation"
 swap = true
+gap = "1e-4*x^2"
 [time]
 end = 2.5
 steps = 5
@@ -67,6 +69,50 @@ max_iterations = 200
 linear = "suitesparse"
 [output]
 every = 2
+"""
+
+BODY_KEYS = """\
+title = "regions, initial stress, rollers, tables, steps by their error"
+[[body]]
+name = "upper"
+mesh = "upper.mesh"
+material = { young = 2e3, poisson = 0.3 }
+initial_stress = { s11 = 0.1, s22 = "-0.2*(1+x)", s12 = 0 }
+[[body.region]]
+label = 1
+material = { young = 1e3, poisson = 0.2, viscosity = 5, yield_stress = 2, projection = "frobenius" }
+initial_stress = { s11 = "0.1*y", s12 = 0.01 }
+[[body.boundary]]
+label = 4
+un = 0
+[[body.boundary]]
+label = 2
+pressure = "0.1*t"
+[[body.boundary]]
+label = 3
+ty = { time = [0, 0.4, 1], value = [-1, -4, -2] }
+[[body]]
+name = "lower"
+mesh = "lower.mesh"
+material = { young = 1e4, poisson = 0.3 }
+[[body.boundary]]
+label = 1
+un = 0
+ut = "1e-4*t"
+[contact]
+sides = [ { body = "upper", label = 1 }, { body = "lower", label = 3 } ]
+initial = "close"
+[time]
+end = 1
+scheme = "sdirk2"
+tolerance = 0.1
+max_steps = 200
+breaks = [0.3, 0.7]
+[solver]
+method = "newton"
+reduce = false
+[check]
+allow = ["few-steps-across-yield", "stiffness-ratio"]
 """
 
 ONE_BODY = """\
