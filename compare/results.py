@@ -28,14 +28,15 @@ FINAL = ("time", "von_mises_min", "von_mises_max", "interpenetration", "contact_
 @dataclass
 class Body:
     displacement: np.ndarray  # vertices x 2 [m]
-    stress: np.ndarray  # triangles x 3: s11, s22, s12 [Pa]
+    stress: np.ndarray  # triangles x 3: s11, s22, s12 [Pa]; x 4 in plane strain, s33
     points: np.ndarray = None  # vertices x 2, as meshed [m]; None where the code does not write it
     triangles: np.ndarray = None  # triangles x 3, vertex numbers
 
     @property
     def von_mises(self):
-        s11, s22, s12 = self.stress.T
-        return np.sqrt(s11**2 + s22**2 - s11 * s22 + 3 * s12**2)
+        s11, s22, s12, *beyond = self.stress.T
+        s33 = beyond[0] if beyond else 0.0
+        return np.sqrt(s11**2 + s22**2 - s11 * s22 + s33 * (s33 - s11 - s22) + 3 * s12**2)
 
 
 @dataclass
@@ -195,7 +196,8 @@ def read_vtu(path):
 
 
 def require_shape(folder, name, body, nodes, triangles):
-    if body.displacement.shape != (nodes, 2) or body.stress.shape != (triangles, 3):
+    if body.displacement.shape != (nodes, 2) or \
+            body.stress.shape not in ((triangles, 3), (triangles, 4)):
         raise ResultError(f"{folder}: body {name}: {len(body.displacement)} vertices and {len(body.stress)} "
                           f"triangles, expected {nodes} and {triangles}")
 

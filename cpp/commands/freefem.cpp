@@ -146,6 +146,7 @@ std::string script(const SceneDescription& scene, const Model& model) {
 
 /// \throws InputError for the first thing in the scene that the FreeFEM method does not know.
 void requireKnown(const SceneDescription& scene) {
+  if (scene.plane != Plane::stress) refuse(scene.path + ": plane = \"strain\"", "\"stress\"");
   if (scene.contacts.empty()) refuse(scene.path + ": no contact interface", "one at least");
   for (const ContactDescription& contact : scene.contacts) {
     if (contact.variant != scene.contacts.front().variant) {

@@ -51,6 +51,7 @@ RunFacts factsOf(const RunCommand& command, const SceneDescription& scene) {
   RunFacts facts;
   facts.scene = scene.path;
   facts.title = scene.title;
+  facts.plane = word(scene.plane);
   facts.settings = command.settings;
   facts.scheme = word(scene.time.scheme);
   facts.plannedSteps = scene.time.steps;
@@ -70,7 +71,10 @@ RunFacts factsOf(const RunCommand& command, const SceneDescription& scene) {
     std::vector<std::string> words;
     for (const MaterialDescription* material : materials) {
       const auto& flow = material->viscoplasticity;
-      words.push_back(flow ? "Perzyna (" + word(flow->projection) + ")" : "elastic");
+      // In plane strain all projections are one.
+      const std::string law =
+          scene.plane == Plane::strain || !flow ? "Perzyna" : "Perzyna (" + word(flow->projection) + ")";
+      words.push_back(flow ? law : "elastic");
       if (flow) {
         projections.push_back(word(flow->projection));
       }

@@ -167,17 +167,25 @@ Vector Body::load(double t) const {
 }
 
 Matrix Body::initialStress() const {
-  Matrix cartesian = Matrix::Zero(3, points());
+  const int components = material_->components();
+  // By component, those beyond the plane as far as they are given.
+  Matrix given = Matrix::Zero(components, points());
+  std::vector<char> beyond(points(), 0);
   for (const auto& [component, region, value] : conditions_.initialStresses)
     for (int i = 0; i < points(); ++i) {
       const auto t = static_cast<size_t>(i / Element::points);
       if (region && mesh_.regions[t] != *region) continue;
       const auto& [a, b, c] = mesh_.triangles[t];
       const Point centre = (mesh_.vertices[a] + mesh_.vertices[b] + mesh_.vertices[c]) / 3;
-      cartesian(component, i) = value(centre.x(), centre.y(), 0);
+      given(component, i) = value(centre.x(), centre.y(), 0);
+      if (component == 3) beyond[i] = 1;
     }
-  Matrix stress = Matrix::Zero(material_->components(), points());
-  for (int i = 0; i < points(); ++i) stress.col(i).head<3>() = fromCartesian(cartesian.col(i));
+  Matrix stress = given;
+  for (int i = 0; i < points(); ++i) {
+    const Eigen::Vector3d pqr = fromCartesian(given.col(i).head<3>());
+    stress.col(i).head<3>() = pqr;
+    if (components > 3 && beyond[i] == 0) stress(3, i) = material_->outOfPlane(pqr, i);
+  }
   return stress;
 }
 

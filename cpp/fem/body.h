@@ -30,8 +30,8 @@ struct BodyForce {
   Function value;
 };
 
-/// Stress at t = 0, one component (0: s11, 1: s22, 2: s12), in a region or everywhere [Pa]; later ones replace
-/// earlier ones.
+/// Stress at t = 0, one component (0: s11, 1: s22, 2: s12, 3: s33 in plane strain), in a region or everywhere [Pa]; later
+/// ones replace earlier ones.
 struct InitialStress {
   int component = 0;
   std::optional<int> region;
@@ -90,12 +90,12 @@ class Body {
   [[nodiscard]] bool hasInitialStress() const { return !conditions_.initialStresses.empty(); }
   /// sum |T| B' s: nodal forces (dofs) of a stress field (components x points) [N/m].
   [[nodiscard]] Vector internalForce(const Matrix& stress) const;
-  /// B u (3 x points) of a displacement (dofs) carried as u + small, in twice the working precision: a
+  /// B u (components x points) of a displacement (dofs) carried as u + small, in twice the working precision: a
   /// triangle that is still elastic next to one that flows sees tiny differences of large displacements.
   /// Fills the columns [begin, end).
   void strain(const Vector& u, const Vector& small, Matrix& strain, int begin, int end) const;
-  /// stress += moduli B d in the columns [begin, end), d by dofs.
-  void addStressOf(const Vector& d, const Matrix& moduli, Matrix& stress, int begin, int end) const;
+  /// stress += H^-1 B d in the columns [begin, end), d by dofs.
+  void addStressOf(const Vector& d, const Linearisation& law, Matrix& stress, int begin, int end) const;
 
   /// Pattern of the tangent over equations; symmetric where the material's tangent is.
   [[nodiscard]] const SparsePattern& pattern() const { return assembly_.pattern(); }

@@ -27,6 +27,7 @@ Vector Body::internalForce(const Matrix& stress) const {
 }
 
 void Body::strain(const Vector& u, const Vector& small, Matrix& strain, int begin, int end) const {
+  if (strain.rows() > 3) strain.bottomRows(strain.rows() - 3).middleCols(begin, end - begin).setZero();
   for (int first = begin; first < end; first += laneCount) {
     // The second and the third node, x and y, and the first, by lanes.
     double u1[4][laneCount];
@@ -79,8 +80,8 @@ void Body::strain(const Vector& u, const Vector& small, Matrix& strain, int begi
   }
 }
 
-void Body::addStressOf(const Vector& d, const Matrix& moduli, Matrix& stress, int begin, int end) const {
-  for (int i = begin; i < end; ++i) {
+void Body::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress, int begin, int end) const {
+  const auto strainOf = [&](int i) {
     const auto& triangle = mesh_.triangles[i];
     const double* G = &gradients_[static_cast<size_t>(4) * i];
     double xx = 0;
@@ -97,8 +98,17 @@ void Body::addStressOf(const Vector& d, const Matrix& moduli, Matrix& stress, in
       yy += gy * dy;
       xy += gy * dx + gx * dy;
     }
-    const std::array<double, 9> D = moduliAt(moduli, i);
-    for (int c = 0; c < 3; ++c) stress(c, i) += D[c] * (xx + yy) + D[3 + c] * (xx - yy) + D[6 + c] * xy;
+    return std::array<double, 3>{xx + yy, xx - yy, xy};
+  };
+  for (int i = begin; i < end; ++i) {
+    const auto [p, q, r] = strainOf(i);
+    const std::array<double, 9> D = moduliAt(law.moduli, i);
+    for (int c = 0; c < 3; ++c) stress(c, i) += D[c] * p + D[3 + c] * q + D[6 + c] * r;
+  }
+  if (stress.rows() == 3) return;
+  for (int i = begin; i < end; ++i) {
+    const auto [p, q, r] = strainOf(i);
+    stress(3, i) += law.beyond(0, i) * p + law.beyond(1, i) * q + law.beyond(2, i) * r;
   }
 }
 

@@ -13,7 +13,7 @@ namespace mortier {
 struct MaterialStep {
   double weight = 0;      ///< time step times the scheme's diagonal coefficient [s]
   const Matrix& stress0;  ///< components x points, at the start of the step [Pa]
-  const Matrix& strain;   ///< 3 x points, total strain increment minus the scheme's shift [-]
+  const Matrix& strain;   ///< components x points, total strain increment minus the scheme's shift [-]
   bool anticipate =
       false;  ///< judge yielding by the stress plus a part of what the strain still asks for: slower where
               ///< bodies flow, but it holds where triangles sit on the yield surface
@@ -25,6 +25,8 @@ struct Linearisation {
   /// The block of H^-1 that acts on the strains of the plane [Pa], column major: 9 x points, or, where the moduli are
   /// symmetric, 6 x points for the lower triangle. The caller sizes it.
   Matrix moduli;
+  /// The row of H^-1 of a fourth stress component [Pa], which is its column too: 4 x points. Empty where there are three.
+  Matrix beyond = {};
   /// Points at which the moduli are those of elasticity: the caller sets 0, linearise() adds its own, from any
   /// thread. Points of a law that does not count are taken to flow.
   int elastic = 0;
@@ -46,13 +48,29 @@ inline void storeModuli(const Eigen::Matrix3d& D, Matrix& moduli, int point) {
     moduli.col(point) = Eigen::Map<const Eigen::VectorXd>(D.data(), 9);
 }
 
+using PointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;  ///< by components
+
+/// H^-1 of a point times a strain.
+inline PointVector stressOf(const Linearisation& law, const Eigen::Ref<const Vector>& strain, int point) {
+  const std::array<double, 9> D = moduliAt(law.moduli, point);
+  PointVector stress(strain.size());
+  stress.head<3>() = Eigen::Map<const Eigen::Matrix3d>(D.data()) * strain.head<3>();
+  if (strain.size() > 3) {
+    stress.head<3>() += law.beyond.col(point).head<3>() * strain[3];
+    stress[3] = law.beyond.col(point).dot(strain);
+  }
+  return stress;
+}
+
 class InteriorPath;
 
 class Material {
  public:
   virtual ~Material() = default;
-  /// Number of stress components.
+  /// Number of stress components: those of the plane, and one beyond it (H^-1 is symmetric then).
   [[nodiscard]] virtual int components() const = 0;
+  /// The stress beyond the plane that elasticity asks for beside p, q, r, without strain beyond it [Pa].
+  [[nodiscard]] virtual double outOfPlane(const Eigen::Vector3d& stress, int point) const = 0;
   /// Whether the moduli are symmetric whatever the stress.
   [[nodiscard]] virtual bool symmetricTangent() const = 0;
   /// Whether the law is linear: its moduli depend on nothing.

@@ -51,6 +51,7 @@ class PartsPath final : public InteriorPath {
       const auto count = static_cast<int>(part.points.size());
       part.law.predictor.resize(result.predictor.rows(), count);
       part.law.moduli.resize(result.moduli.rows(), count);
+      part.law.beyond.resize(result.beyond.rows(), count);
       const Matrix own = strain(Eigen::all, part.points);
       if (part.path)
         part.path->linearise(own, target, correct, part.law);
@@ -58,6 +59,7 @@ class PartsPath final : public InteriorPath {
         part.material->linearise({weight_, part.stress0, own}, part.stress0, part.law, 0, count);
       result.predictor(Eigen::all, part.points) = part.law.predictor;
       result.moduli(Eigen::all, part.points) = part.law.moduli;
+      if (result.beyond.rows() > 0) result.beyond(Eigen::all, part.points) = part.law.beyond;
     }
   }
 
@@ -71,8 +73,7 @@ class PartsPath final : public InteriorPath {
       }
       part.next = part.law.predictor;
       for (int i = 0; i < static_cast<int>(part.points.size()); ++i) {
-        const std::array<double, 9> D = moduliAt(part.law.moduli, i);
-        part.next.col(i).head<3>() += Eigen::Map<const Eigen::Matrix3d>(D.data()) * own.col(i);
+        part.next.col(i) += stressOf(part.law, own.col(i), i);
       }
     }
     return largest;
@@ -106,6 +107,9 @@ class Parts final : public Material {
   }
 
   [[nodiscard]] int components() const override { return materials_.front()->components(); }
+  [[nodiscard]] double outOfPlane(const Eigen::Vector3d& stress, int point) const override {
+    return materials_[materialOf_[point]]->outOfPlane(stress, point);
+  }
   [[nodiscard]] bool symmetricTangent() const override {
     return std::all_of(materials_.begin(), materials_.end(),
                        [](const auto& m) { return m->symmetricTangent(); });

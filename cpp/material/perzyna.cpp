@@ -4,8 +4,8 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "base/lanes.h"
 #include "material/interior_path.h"
+#include "material/law_lanes.h"
 #include "material/perzyna_path.h"
 #include "material/stress.h"
 #include "material/yield_domain.h"
@@ -16,53 +16,14 @@ namespace {
 
 using Eigen::Array3d;
 
-void require(bool holds, const char* name, double value, const char* expected) {
-  if (holds && std::isfinite(value)) return;
-  std::ostringstream message;
-  message << name << " = " << value << ", expected " << expected;
-  throw InputError(message.str());
-}
-
-/// diag(d) - c x y' as a 3 x 3 matrix, column major.
-std::array<Lanes, 9> diagonalMinusRankOne(const LaneVector& d, const Lanes& c, const LaneVector& x,
-                                          const LaneVector& y) {
-  std::array<Lanes, 9> result;
-  for (int j = 0; j < 3; ++j) {
-    for (int i = 0; i < 3; ++i) result[3 * j + i] = -(c * x[i]) * y[j];
-    result[3 * j + j] += d[j];
-  }
-  return result;
-}
-
-/// All of the moduli, or their lower triangle.
-void store(const Batch& batch, const std::array<Lanes, 9>& D, Matrix& moduli) {
-  if (moduli.rows() == 6)
-    batch.store(std::array<Lanes, 6>{D[0], D[1], D[2], D[4], D[5], D[8]}, moduli.data());
-  else
-    batch.store(D, moduli.data());
-}
-
-/// The largest |x| so far; NaN and infinity stay, as NaN.
-class Largest {
- public:
-  void add(const LaneVector& x) {
-    for (const Lanes& entry : x) {
-      soFar_ = max(soFar_, abs(entry));
-      poison_ += entry * 0;
-    }
-  }
-  [[nodiscard]] double value() const { return hmax(soFar_) + std::experimental::reduce(poison_); }
-
- private:
-  Lanes soFar_ = 0;
-  Lanes poison_ = 0;
-};
-
 class Elastic final : public Material {
  public:
   explicit Elastic(const Elasticity& elasticity) : e_(elasticity.moduli()) {}
 
   [[nodiscard]] int components() const override { return 3; }
+  [[nodiscard]] double outOfPlane(const Eigen::Vector3d& /*stress*/, int /*point*/) const override {
+    return 0;
+  }
   [[nodiscard]] bool symmetricTangent() const override { return true; }
   [[nodiscard]] bool linear() const override { return true; }
   [[nodiscard]] double stressScale() const override { return 0; }
@@ -85,7 +46,7 @@ class Elastic final : public Material {
       }
       residual.add(change);
       batch.store(s1, result.predictor.data());
-      store(batch, moduli, result.moduli);
+      storeModuli(batch, moduli, result.moduli);
     }
     result.addElastic(end - begin);
     return residual.value();
@@ -130,6 +91,9 @@ class Perzyna final : public Material {
         lanes_(law.yieldStress, projectionNorm(law.projection)[0] / projectionNorm(law.projection)[1]) {}
 
   [[nodiscard]] int components() const override { return 3; }
+  [[nodiscard]] double outOfPlane(const Eigen::Vector3d& /*stress*/, int /*point*/) const override {
+    return 0;
+  }
   [[nodiscard]] bool symmetricTangent() const override { return law_.projection == Projection::frobenius; }
   [[nodiscard]] bool linear() const override { return false; }
   [[nodiscard]] double stressScale() const override { return law_.yieldStress; }
@@ -160,7 +124,7 @@ class Perzyna final : public Material {
       LaneVector predictor = s;
       for (int k = 0; k < 3; ++k) predictor[k] += law.increment[k];
       batch.store(predictor, result.predictor.data());
-      store(batch, law.moduli, result.moduli);
+      storeModuli(batch, law.moduli, result.moduli);
     }
     if (!flows) result.addElastic(end - begin);
     return residual.value();
@@ -295,10 +259,11 @@ class Perzyna final : public Material {
   YieldLanes lanes_;
 };
 
-void check(const Elasticity& elasticity) {
-  require(elasticity.young > 0, "young", elasticity.young, "young > 0 [Pa]");
-  require(elasticity.poisson > -1 && elasticity.poisson < 0.5, "poisson", elasticity.poisson,
-          "-1 < poisson < 0.5");
+void require(bool holds, const char* name, double value, const char* expected) {
+  if (holds && std::isfinite(value)) return;
+  std::ostringstream message;
+  message << name << " = " << value << ", expected " << expected;
+  throw InputError(message.str());
 }
 
 }  // namespace
@@ -307,17 +272,27 @@ Eigen::Array3d Elasticity::moduli() const {
   return {young / (1 - poisson), young / (1 + poisson), young / (1 + poisson)};
 }
 
+void requireValid(const Elasticity& elasticity) {
+  require(elasticity.young > 0, "young", elasticity.young, "young > 0 [Pa]");
+  require(elasticity.poisson > -1 && elasticity.poisson < 0.5, "poisson", elasticity.poisson,
+          "-1 < poisson < 0.5");
+}
+
+void requireValid(const Viscoplasticity& viscoplasticity) {
+  require(viscoplasticity.viscosity > 0, "viscosity", viscoplasticity.viscosity, "viscosity > 0 [Pa s]");
+  require(viscoplasticity.yieldStress > 0, "yield_stress", viscoplasticity.yieldStress,
+          "yield_stress > 0 [Pa]");
+}
+
 std::shared_ptr<const Material> elasticMaterial(const Elasticity& elasticity) {
-  check(elasticity);
+  requireValid(elasticity);
   return std::make_shared<Elastic>(elasticity);
 }
 
 std::shared_ptr<const Material> perzynaMaterial(const Elasticity& elasticity,
                                                 const Viscoplasticity& viscoplasticity) {
-  check(elasticity);
-  require(viscoplasticity.viscosity > 0, "viscosity", viscoplasticity.viscosity, "viscosity > 0 [Pa s]");
-  require(viscoplasticity.yieldStress > 0, "yield_stress", viscoplasticity.yieldStress,
-          "yield_stress > 0 [Pa]");
+  requireValid(elasticity);
+  requireValid(viscoplasticity);
   return std::make_shared<Perzyna>(elasticity, viscoplasticity);
 }
 

@@ -31,6 +31,10 @@ struct Viscoplasticity {
   Projection projection = Projection::frobenius;
 };
 
+/// \throws InputError unless young > 0 and -1 < poisson < 0.5, viscosity > 0 and yieldStress > 0.
+void requireValid(const Elasticity& elasticity);
+void requireValid(const Viscoplasticity& viscoplasticity);
+
 /// \throws InputError unless young > 0 and -1 < poisson < 0.5 (and viscosity > 0, yieldStress > 0).
 std::shared_ptr<const Material> elasticMaterial(const Elasticity& elasticity);
 std::shared_ptr<const Material> perzynaMaterial(const Elasticity& elasticity,

@@ -2,15 +2,9 @@
 // depends on a . s^2 through two numbers only, those of p and of (q, r).
 #pragma once
 
-#include "base/lanes.h"
+#include "material/law_lanes.h"
 
 namespace mortier {
-
-using LaneVector = std::array<Lanes, 3>;  ///< on p, q, r
-
-inline Lanes dot(const LaneVector& x, const LaneVector& y) {
-  return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-}
 
 /// ProjectionOnYield, lane by lane; the entries of q and r where they are the same are held once.
 struct LaneProjection {

@@ -18,6 +18,24 @@ std::vector<double> distances(double L, int n, double A) {
   return result;
 }
 
+/// Where the diagonals of a cell meet; the mean of its corners where they do not.
+Point crossing(const TriangleMesh& mesh, const std::array<int, 4>& corners) {
+  constexpr double rounding = 1e-12;
+  const auto corner = [&](int i) -> const Point& { return mesh.vertices[corners[i]]; };
+  const auto middle = [&](int i, int j) -> Point { return corner(i) + (corner(j) - corner(i)) / 2; };
+  const auto cross = [](const Point& u, const Point& v) { return u.x() * v.y() - u.y() * v.x(); };
+  const Point mean = (middle(0, 2) + middle(1, 3)) / 2;
+  const Point first = corner(2) - corner(0);
+  const Point second = corner(3) - corner(1);
+  const double area = cross(first, second);
+  const double s = cross(corner(1) - corner(0), second) / area;
+  const double t = cross(corner(1) - corner(0), first) / area;
+  if (!(s > 0 && s < 1 && t > 0 && t < 1)) return mean;
+  const Point met = corner(0) + s * first;
+  // Of a parallelogram it is the mean, whose bits are kept.
+  return (met - mean).norm() <= rounding * (first.norm() + second.norm()) ? mean : met;
+}
+
 }  // namespace
 
 void checkCells(const std::string& name, double cells1, double cells2, Cut cut) {
@@ -35,12 +53,8 @@ void addCell(TriangleMesh& mesh, const std::array<int, 4>& corners, Cut cut) {
     mesh.triangles.push_back({a, b, d});
     mesh.triangles.push_back({b, c, d});
   } else {
-    const auto middle = [&](int p, int q) -> Point {
-      return mesh.vertices[p] + (mesh.vertices[q] - mesh.vertices[p]) / 2;
-    };
     const int centre = static_cast<int>(mesh.vertices.size());
-    const Point mean = (middle(a, c) + middle(b, d)) / 2;
-    mesh.vertices.push_back(mean);
+    mesh.vertices.push_back(crossing(mesh, corners));
     for (const auto& [p, q] : {std::pair(a, b), {b, c}, {c, d}, {d, a}})
       mesh.triangles.push_back({p, q, centre});
   }

@@ -22,6 +22,8 @@ class Planner {
     for (size_t b = 0; b < model_.bodies.size(); ++b) planBody(b);
     planContact();
     planTime();
+    if (scene_.plane == Plane::strain)
+      add("scene", true, "plane strain", "plane = \"strain\": nothing moves across the plane, s33 is found");
     add("scene", false, "inertia, friction, finite strains and slips",
         "quasistatic, small strains, frictionless");
     return std::move(plan_);
@@ -48,8 +50,10 @@ class Planner {
       projection = word(material->viscoplasticity->projection);
       yieldStress = std::min(yieldStress, material->viscoplasticity->yieldStress);
     }
-    const std::string law = "projection " + projection + " makes its tangent " +
-                            (symmetric ? "symmetric" : "unsymmetric where it flows");
+    const std::string law = scene_.plane == Plane::strain
+                                ? "its tangent is symmetric in plane strain"
+                                : "projection " + projection + " makes its tangent " +
+                                      (symmetric ? "symmetric" : "unsymmetric where it flows");
     add(part, true, factor + " in every iteration in which it flows", law);
     add(part, false, "a new factor while nothing in it flows", "its tangent is that of elasticity");
     const std::string loads = "loads of the order of " + shortest(rounded(largest_)) + " Pa, yield_stress " +

@@ -126,9 +126,15 @@ void writeCells(VtuFile& file, const TriangleMesh& mesh) {
 void writeCellData(VtuFile& file, const Body& body, const BodyState& state) {
   const CellFields fields = cellFields(body, state);
   file.open("CellData", "Scalars=\"von_mises\"");
-  file.array("stress", flat(fields.stress), 3, {"s11", "s22", "s12"});
+  const auto components = static_cast<int>(fields.stress.rows());
+  const auto named = [&](std::vector<std::string> names) {
+    names.resize(components);
+    return names;
+  };
+  file.array("stress", flat(fields.stress), components, named({"s11", "s22", "s12", "s33"}));
   file.array("von_mises", flat(fields.vonMises), 1);
-  file.array("viscoplastic_strain", flat(fields.viscoplasticStrain), 3, {"e11", "e22", "e12"});
+  file.array("viscoplastic_strain", flat(fields.viscoplasticStrain), components,
+             named({"e11", "e22", "e12", "e33"}));
   file.integers("Int32", "viscoplastic", fields.viscoplastic);
   file.integers("Int32", "region", body.mesh().regions);
   const ErrorEstimate estimate = estimateError(body, state.stress);
@@ -137,21 +143,25 @@ void writeCellData(VtuFile& file, const Body& body, const BodyState& state) {
   file.shut("CellData");
 }
 
+/// (p, q, r) or (p, q, r, s33) by the axes.
+PointVector allCartesian(PointVector s) {
+  s.head<3>() = toCartesian(s.head<3>());
+  return s;
+}
+
 }  // namespace
 
 CellFields cellFields(const Body& body, const BodyState& state) {
   const auto cells = static_cast<Eigen::Index>(body.mesh().triangles.size());
   const Eigen::Index pointsPerCell = state.stress.cols() / cells;
-  CellFields fields{Matrix::Zero(3, cells), Vector::Zero(cells), Matrix::Zero(3, cells),
-                    std::vector<int>(cells, 0)};
+  CellFields fields{Matrix::Zero(state.stress.rows(), cells), Vector::Zero(cells),
+                    Matrix::Zero(state.stress.rows(), cells), std::vector<int>(cells, 0)};
   const double weight = 1.0 / static_cast<double>(pointsPerCell);
   for (Eigen::Index point = 0; point < state.stress.cols(); ++point) {
     const Eigen::Index cell = point / pointsPerCell;
-    const Eigen::Vector3d pqr = state.stress.col(point).head<3>();
-    fields.stress.col(cell) += weight * toCartesian(pqr);
-    fields.vonMises[cell] += weight * vonMises(pqr);
-    fields.viscoplasticStrain.col(cell) +=
-        weight * toCartesian(state.viscoplasticStrain.col(point).head<3>());
+    fields.stress.col(cell) += weight * allCartesian(state.stress.col(point));
+    fields.vonMises[cell] += weight * vonMises(state.stress.col(point));
+    fields.viscoplasticStrain.col(cell) += weight * allCartesian(state.viscoplasticStrain.col(point));
     if (body.material().flows(state.stress, static_cast<int>(point))) fields.viscoplastic[cell] = 1;
   }
   return fields;

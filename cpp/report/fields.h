@@ -48,9 +48,9 @@ class Fields {
 
 /// What is shown of one body's cells; one column (or entry) a triangle.
 struct CellFields {
-  Matrix stress;              ///< s11, s22, s12 [Pa]
+  Matrix stress;              ///< s11, s22, s12, in plane strain s33 [Pa]
   Vector vonMises;            ///< [Pa]
-  Matrix viscoplasticStrain;  ///< e11, e22, e12 [-]
+  Matrix viscoplasticStrain;  ///< e11, e22, e12, in plane strain e33 [-]
   std::vector<int> viscoplastic;
 };
 CellFields cellFields(const Body& body, const BodyState& state);

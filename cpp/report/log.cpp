@@ -39,7 +39,7 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
     text += (b == 0 ? "bodies     " : ", ") + body.name() + " " + std::to_string(body.dofs()) + " dofs, " +
             facts.materials[b];
   }
-  text += "; plane stress\n";
+  text += "; plane " + facts.plane + "\n";
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
     const std::string chosen = k < facts.choices.size() ? facts.choices[k] : "";

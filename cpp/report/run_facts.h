@@ -10,6 +10,7 @@ namespace mortier {
 struct RunFacts {
   std::string scene;  ///< path of the scene
   std::string title;
+  std::string plane = "stress";        ///< "stress" or "strain"
   std::vector<std::string> settings;   ///< --set, as given
   std::vector<std::string> materials;  ///< per body: "elastic" or "Perzyna (frobenius)"
   std::vector<std::string> variants;   ///< per interface: "mortar" or "interpolation"

@@ -111,6 +111,7 @@ void writeSummary(const std::string& folder, const RunFacts& facts, const Model&
   Json json;
   json["scene"] = facts.scene;
   json["title"] = facts.title;
+  json["plane"] = facts.plane;
   json["settings"] = facts.settings;
   json["status"] = word(report.status);
   if (report.status != Status::converged) {

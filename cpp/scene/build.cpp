@@ -20,7 +20,7 @@ Model buildModel(const SceneDescription& scene, std::vector<std::string>& warnin
   const std::vector<double> times = sampleTimes(scene.time);
   model.bodies.reserve(scene.bodies.size());
   for (const BodyDescription& body : scene.bodies) {
-    model.bodies.push_back(buildBody(body, times, warnings));
+    model.bodies.push_back(buildBody(body, scene.plane, times, warnings));
   }
   for (const ContactDescription& contact : scene.contacts) {
     addContact(scene, contact, model, warnings);

@@ -12,19 +12,24 @@ namespace mortier {
 
 namespace {
 
-std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description) {
+std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description, Plane plane) {
   const auto& [elasticity, viscoplasticity] = description;
+  if (plane == Plane::strain) {
+    return viscoplasticity ? planeStrainPerzynaMaterial(elasticity, *viscoplasticity)
+                           : planeStrainElasticMaterial(elasticity);
+  }
   return viscoplasticity ? perzynaMaterial(elasticity, *viscoplasticity) : elasticMaterial(elasticity);
 }
 
 /// One material, or as many as regions ask for.
-std::shared_ptr<const Material> buildMaterial(const BodyDescription& body, const TriangleMesh& mesh) {
-  std::vector<std::shared_ptr<const Material>> materials{buildMaterial(body.material)};
+std::shared_ptr<const Material> buildMaterial(const BodyDescription& body, const TriangleMesh& mesh,
+                                              Plane plane) {
+  std::vector<std::shared_ptr<const Material>> materials{buildMaterial(body.material, plane)};
   std::map<int, int> number;
   for (const RegionDescription& region : body.regions) {
     if (region.material) {
       number[region.label] = static_cast<int>(materials.size());
-      materials.push_back(buildMaterial(*region.material));
+      materials.push_back(buildMaterial(*region.material, plane));
     }
   }
   if (materials.size() == 1) {
@@ -71,7 +76,8 @@ void warnOfThinTriangles(const BodyDescription& body, const TriangleMesh& mesh,
 
 }  // namespace
 
-Body buildBody(BodyDescription body, const std::vector<double>& times, std::vector<std::string>& warnings) {
+Body buildBody(BodyDescription body, Plane plane, const std::vector<double>& times,
+               std::vector<std::string>& warnings) {
   TriangleMesh mesh = readMesh(body.mesh);
   warnOfThinTriangles(body, mesh, warnings);
   const auto place = [&](const std::string& where) { return where + ": body " + body.name; };
@@ -102,7 +108,7 @@ Body buildBody(BodyDescription body, const std::vector<double>& times, std::vect
   for (const RegionDescription& region : body.regions) {
     addInitialStress(region.initialStress, region.label, conditions);
   }
-  const std::shared_ptr<const Material> material = buildMaterial(body, mesh);
+  const std::shared_ptr<const Material> material = buildMaterial(body, mesh, plane);
   return {body.name, std::move(mesh), material, std::move(conditions)};
 }
 

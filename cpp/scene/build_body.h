@@ -12,6 +12,7 @@ namespace mortier {
 
 /// Data are tried at `times` [s]. Doubtful but legal input is added to `warnings`, one line each.
 /// \throws InputError with one line that names the scene's file and line, or the mesh's.
-Body buildBody(BodyDescription body, const std::vector<double>& times, std::vector<std::string>& warnings);
+Body buildBody(BodyDescription body, Plane plane, const std::vector<double>& times,
+               std::vector<std::string>& warnings);
 
 }  // namespace mortier

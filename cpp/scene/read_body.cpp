@@ -71,8 +71,8 @@ StressDescription readInitialStress(const TableReader& owner, const std::string&
   StressDescription stress;
   if (const Node* node = owner.find("initial_stress")) {
     const TableReader table(*node, path, subject);
-    const std::string keys[] = {"s11", "s22", "s12"};
-    for (size_t c = 0; c < 3; ++c) {
+    const std::string keys[] = {"s11", "s22", "s12", "s33"};
+    for (size_t c = 0; c < stress.size(); ++c) {
       if (table.find(keys[c]) != nullptr) {
         stress[c] = table.expression(keys[c]);
       }

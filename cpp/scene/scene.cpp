@@ -15,6 +15,20 @@ namespace mortier {
 
 namespace {
 
+/// In plane stress there is no s33.
+void requireInPlane(const BodyDescription& body, Plane plane) {
+  const auto require = [&](const StressDescription& stress) {
+    if (plane == Plane::stress && stress[3]) {
+      throw InputError(stress[3]->where +
+                       ", expected plane = \"strain\" beside it: s33 is 0 in plane stress");
+    }
+  };
+  require(body.initialStress);
+  for (const RegionDescription& region : body.regions) {
+    require(region.initialStress);
+  }
+}
+
 void readOptions(const TableReader& root, SceneDescription& scene) {
   scene.time = readTime(root.require("time", "a table [time] with end, steps"));
   if (const Node* node = root.find("solver")) {
@@ -47,6 +61,7 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   SceneDescription scene;
   scene.path = path;
   scene.title = root.string("title", "");
+  scene.plane = static_cast<Plane>(root.oneOf("plane", planeWords, 0));
   readOptions(root, scene);
   const std::vector<const Node*> bodies = root.tables("body");
   if (bodies.empty()) {
@@ -58,6 +73,7 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
       throw InputError(body.where + ": body " + body.name + ": name = \"" + body.name +
                        "\", expected a name of its own, there is one at " + scene.bodies[other].where);
     }
+    requireInPlane(body, scene.plane);
     scene.bodies.push_back(std::move(body));
   }
   for (const Node* contact : root.tables("contact")) {
@@ -66,6 +82,9 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   return scene;
 }
 
+std::string word(Plane plane) {
+  return planeWords[static_cast<size_t>(plane)];
+}
 std::string word(CouplingKind kind) {
   return couplingWords[static_cast<size_t>(kind)];
 }

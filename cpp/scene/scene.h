@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "contact/interface.h"
-#include "material/perzyna.h"
+#include "material/plane_strain.h"
 #include "scene/expression.h"
 #include "time/march.h"
 
@@ -29,8 +29,8 @@ struct ConditionDescription {
   std::string where;  ///< file and line of the label, or the --set that gave it
 };
 
-/// s11, s22, s12 at t = 0 [Pa].
-using StressDescription = std::array<std::optional<Expression>, 3>;
+/// s11, s22, s12, s33 at t = 0 [Pa].
+using StressDescription = std::array<std::optional<Expression>, 4>;
 
 /// What is different in the triangles of one region.
 struct RegionDescription {
@@ -73,6 +73,7 @@ struct ContactDescription {
 struct SceneDescription {
   std::string path;   ///< the file
   std::string title;  ///< may be empty
+  Plane plane = Plane::stress;
   std::vector<BodyDescription> bodies;
   std::vector<ContactDescription> contacts;
   TimePlan time;
@@ -87,6 +88,7 @@ struct SceneDescription {
 SceneDescription readScene(const std::string& path, const std::vector<std::string>& settings = {});
 
 /// Words of the scene for what a scene can choose.
+std::string word(Plane plane);
 std::string word(CouplingKind kind);
 std::string word(Projection projection);
 std::string word(Scheme scheme);

@@ -8,12 +8,12 @@ namespace mortier {
 
 const Keys& keysOf(const std::string& path) {
   static const std::map<std::string, Keys> tables = {
-      {"", {"title", "body", "contact", "time", "solver", "output", "check"}},
+      {"", {"title", "plane", "body", "contact", "time", "solver", "output", "check"}},
       {"body", {"name", "mesh", "material", "force", "boundary", "region", "initial_stress"}},
-      {"body.initial_stress", {"s11", "s22", "s12"}},
+      {"body.initial_stress", {"s11", "s22", "s12", "s33"}},
       {"body.region", {"label", "material", "initial_stress"}},
       {"body.region.material", {"young", "poisson", "viscosity", "yield_stress", "projection"}},
-      {"body.region.initial_stress", {"s11", "s22", "s12"}},
+      {"body.region.initial_stress", {"s11", "s22", "s12", "s33"}},
       {"body.material", {"young", "poisson", "viscosity", "yield_stress", "projection"}},
       {"body.force", {"x", "y"}},
       {"body.boundary", {"label", "ux", "uy", "un", "ut", "tx", "ty", "pressure"}},

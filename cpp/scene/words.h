@@ -5,6 +5,7 @@
 
 namespace mortier {
 
+inline const Keys planeWords{"stress", "strain"};                             // Plane
 inline const Keys couplingWords{"interpolation", "mortar"};                   // CouplingKind
 inline const Keys initialWords{"as-meshed", "close", "reject"};               // InitialGap
 inline const Keys projectionWords{"elasticity", "frobenius", "compliance"};   // Projection

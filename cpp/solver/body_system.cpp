@@ -50,6 +50,7 @@ BodySystem::BodySystem(const Model& model, int body, const std::vector<int>& fir
                                                   : suiteSparseSolver(body_.pattern(), kept_);
   law_.predictor.resize(body_.material().components(), body_.points());
   law_.moduli.resize(body_.material().symmetricTangent() ? 6 : 9, body_.points());
+  if (body_.material().components() > 3) law_.beyond.resize(4, body_.points());
 }
 
 void BodySystem::findContactDofs(const Model& model, int body, const std::vector<int>& firstRow) {
@@ -108,7 +109,7 @@ void BodySystem::forEachBlock(const Work& work) {
 
 template <class Law>
 double BodySystem::evaluate(const Matrix* shift, BodyIterate& iterate, const Law& law) {
-  iterate.strain.resize(3, body_.points());
+  iterate.strain.resizeLike(iterate.stress);
   law_.elastic = 0;
   std::atomic<bool> finite = true;
   std::atomic<double> largest = 0;
@@ -220,11 +221,8 @@ Vector BodySystem::displacementOf(const Vector& forceChange, const Vector& z) {
 }
 
 Matrix BodySystem::stressOf(const Matrix& strain) const {
-  Matrix stress = Matrix::Zero(body_.material().components(), strain.cols());
-  for (int i = 0; i < strain.cols(); ++i) {
-    const std::array<double, 9> moduli = moduliAt(law_.moduli, i);
-    stress.col(i).head<3>() = Eigen::Map<const Eigen::Matrix3d>(moduli.data()) * strain.col(i).head<3>();
-  }
+  Matrix stress(strain.rows(), strain.cols());
+  for (int i = 0; i < strain.cols(); ++i) stress.col(i) = mortier::stressOf(law_, strain.col(i), i);
   return stress;
 }
 
@@ -238,7 +236,7 @@ void BodySystem::expand(const Vector& forceChange, const Vector& z, BodyIterate&
   iterate.stress.resizeLike(law_.predictor);
   forEachBlock([&](int begin, int end) {
     iterate.stress.middleCols(begin, end - begin) = law_.predictor.middleCols(begin, end - begin);
-    body_.addStressOf(d, law_.moduli, iterate.stress, begin, end);
+    body_.addStressOf(d, law_, iterate.stress, begin, end);
   });
 }
 

@@ -19,7 +19,7 @@ struct BodyIterate {
   Vector increment;  ///< du (dofs) [m], carried as increment + small
   Vector small;
   Matrix stress;  ///< s
-  Matrix strain;  ///< B du - shift, 3 x points, as of the last linearisation
+  Matrix strain;  ///< B du - shift, components x points, as of the last linearisation
 
   /// Moves the displacement by a part of its distance to another one.
   void moveTowards(const BodyIterate& other, double part);
@@ -66,10 +66,11 @@ class BodySystem {
   void expand(const Vector& forceChange, const Vector& z, BodyIterate& iterate);
   /// The same, \returns the displacement (dofs) without taking it over.
   Vector displacementOf(const Vector& forceChange, const Vector& z);
-  /// H^-1 of the last linearisation times a strain in the plane (3 x points).
+  /// H^-1 of the last linearisation times a strain (components x points).
   [[nodiscard]] Matrix stressOf(const Matrix& strain) const;
 
-  [[nodiscard]] const Matrix& moduli() const { return law_.moduli; }  ///< H^-1 of the last linearisation
+  [[nodiscard]] const Linearisation& law() const { return law_; }  ///< as last linearised
+  [[nodiscard]] const Matrix& moduli() const { return law_.moduli; }
   [[nodiscard]] const Matrix& predictor() const { return law_.predictor; }
   [[nodiscard]] bool inContact() const { return !kept_.empty(); }
   [[nodiscard]] const Matrix& C() const { return C_; }                    ///< contact rows x contact dofs

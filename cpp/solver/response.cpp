@@ -70,7 +70,7 @@ std::vector<Response> StepSolver::respond(const std::vector<Matrix>& error, cons
   forEachBody([&](int b) {
     responses[b].displacement = systems_[b].displacementOf(
         contact.change, contact.rigid.segment(firstMotion_[b], systems_[b].R().cols()));
-    model_.bodies[b].addStressOf(responses[b].displacement, systems_[b].moduli(), responses[b].stress, 0,
+    model_.bodies[b].addStressOf(responses[b].displacement, systems_[b].law(), responses[b].stress, 0,
                                  model_.bodies[b].points());
   });
   return responses;

@@ -100,7 +100,7 @@ std::vector<Vector> StepSolver::displacements(const State& state0, const Iterate
 
 void StepSolver::strain(const StepData& step, int body, BodyIterate& iterate) const {
   const Body& system = model_.bodies[body];
-  iterate.strain.resize(3, system.points());
+  iterate.strain.resizeLike(iterate.stress);
   system.strain(iterate.increment, iterate.small, iterate.strain, 0, system.points());
   if (!step.shift.empty()) iterate.strain -= step.shift[body];
 }

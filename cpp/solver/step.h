@@ -41,7 +41,7 @@ struct Iterate {
 struct StepData {
   double time = 0;            ///< t1: loads and prescribed displacements are taken here [s]
   double weight = 0;          ///< time step times the scheme's diagonal coefficient [s]
-  std::vector<Matrix> shift;  ///< per body, 3 x points; empty for none
+  std::vector<Matrix> shift;  ///< per body, components x points; empty for none
   bool settled = false;       ///< the start of the step is the solution of the one before
 };
 
@@ -74,7 +74,7 @@ class StepSolver {
 
   /// With the tangent and the factors of the last solve, its active contacts kept closed and the others open:
   ///   s = H^-1 (B d - error),   sum |T| B' s + C_A' p = 0,   C_A d = 0.
-  /// \param error  per body, a strain added in every triangle (3 x points).
+  /// \param error  per body, a strain added in every triangle (components x points).
   [[nodiscard]] std::vector<Response> respond(const std::vector<Matrix>& error, const ActiveSets& active);
 
   /// What was met among the contact conditions so far.

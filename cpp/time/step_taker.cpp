@@ -66,9 +66,8 @@ StepOutcome StepTaker::solveStages(double t1) {
 void StepTaker::shiftOf(const Stage& stage, double k) {
   shift_.clear();
   for (size_t b = 0; b < model_.bodies.size() && !stage.before.empty(); ++b) {
-    shift_.push_back(Matrix::Zero(3, model_.bodies[b].points()));
-    for (size_t j = 0; j < stage.before.size(); ++j)
-      shift_[b] += stage.before[j] * k * rates_[j][b].topRows<3>();
+    shift_.push_back(Matrix::Zero(model_.bodies[b].material().components(), model_.bodies[b].points()));
+    for (size_t j = 0; j < stage.before.size(); ++j) shift_[b] += stage.before[j] * k * rates_[j][b];
   }
 }
 
@@ -107,15 +106,15 @@ void StepTaker::judgeOnset(const Matrix& rate0, const Matrix& rate1, const Matri
   for (Eigen::Index i = 0; i < error.cols(); ++i) {
     if (!rate0.col(i).isZero(0)) continue;
     if (rate1.col(i).isZero(0)) {
-      error.col(i) = last * rate2.col(i).head<3>();
+      error.col(i) = last * rate2.col(i);
       continue;
     }
-    const Eigen::Vector3d d = change * (rate2.col(i) - rate1.col(i)).head<3>();
+    const auto d = change * (rate2.col(i) - rate1.col(i));
     if (d.squaredNorm() > error.col(i).squaredNorm()) error.col(i) = d;
   }
 }
 
-/// k sum_j w_j G_j, 3 x points.
+/// k sum_j w_j G_j, components x points.
 std::vector<Matrix> StepTaker::strainError() {
   const double k = t1_ - state_.time;
   const std::vector<double>& weights = tableau_.errorWeights;
@@ -124,8 +123,8 @@ std::vector<Matrix> StepTaker::strainError() {
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     Matrix rate;
     model_.bodies[b].material().viscoplasticRate(state_.bodies[b].stress, rate);
-    Matrix e = k * weights[0] * rate.topRows<3>();
-    for (size_t j = 0; j < rates_.size(); ++j) e += k * weights[j + 1] * rates_[j][b].topRows<3>();
+    Matrix e = k * weights[0] * rate;
+    for (size_t j = 0; j < rates_.size(); ++j) e += k * weights[j + 1] * rates_[j][b];
     if (rates_.size() > 1) judgeOnset(rate, rates_[0][b], rates_[1][b], k, e);
     error.push_back(std::move(e));
   }
@@ -143,7 +142,7 @@ std::vector<Response> StepTaker::error(bool lasting) {
     Matrix elastic;
     model_.bodies[b].strain(error[b].displacement, none, strain[b], 0, model_.bodies[b].points());
     model_.bodies[b].material().elasticStrain(error[b].stress, elastic);
-    strain[b] -= elastic.topRows<3>();
+    strain[b] -= elastic;
   }
   return solver_.respond(strain, active);
 }
@@ -179,8 +178,8 @@ void StepTaker::commit() {
         Matrix elastic;
         model_.bodies[b].material().elasticStrain(step.stress, elastic);
         body.viscoplasticStrain -= elastic;
-        body.viscoplasticStrain.topRows<3>() += step.strain;
-        if (!shift_.empty()) body.viscoplasticStrain.topRows<3>() += shift_[b];
+        body.viscoplasticStrain += step.strain;
+        if (!shift_.empty()) body.viscoplasticStrain += shift_[b];
       }
       increments.push_back({std::move(step.increment), std::move(step.small), std::move(step.stress)});
     }

@@ -27,6 +27,8 @@ CASES = [
     (["contact.variant=interpolation", "time.scheme=sdirk2", "time.tolerance=1e-4"], 1),
     (["body.material.yield_stress=100"], 1),  # nothing flows: one factor
     (["body.material.yield_stress=100", 'body.upper.boundary.ty="-10*min(t,0.2)"'], 2),  # most steps at rest
+    (["plane=strain", "contact.variant=interpolation", "time.scheme=sdirk2", ELASTIC], 1),
+    (["plane=strain", "contact.variant=mortar", "time.scheme=sdirk2", "time.tolerance=1e-6"], 2),
 ]
 KILLS = 20
 

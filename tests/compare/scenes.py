@@ -72,12 +72,13 @@ every = 2
 """
 
 BODY_KEYS = """\
-title = "regions, initial stress, rollers, tables, steps by their error"
+title = "plane strain, regions, initial stress, rollers, tables, steps by their error"
+plane = "strain"
 [[body]]
 name = "upper"
 mesh = "upper.mesh"
 material = { young = 2e3, poisson = 0.3 }
-initial_stress = { s11 = 0.1, s22 = "-0.2*(1+x)", s12 = 0 }
+initial_stress = { s11 = 0.1, s22 = "-0.2*(1+x)", s12 = 0, s33 = -0.1 }
 [[body.region]]
 label = 1
 material = { young = 1e3, poisson = 0.2, viscosity = 5, yield_stress = 2, projection = "frobenius" }

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <numbers>
 
+#include "material/plane_strain.h"
 #include "theory/scenes.h"
 
 namespace mortier {
@@ -19,23 +20,25 @@ struct Measured {
   double width = 0;  ///< half of the width of contact
 };
 
-// ---- Hertz: the lower half of a disc on a block, plane stress, N and mm
+// ---- Hertz: the lower half of a disc on a block, N and mm
 
 constexpr double radius = 50;
 constexpr double discYoung = 210000;
 constexpr double blockYoung = 70000;
 constexpr double nu = 0.3;
 
-/// b = sqrt(4 F R / (pi E*)), p0 = 2 F / (pi b), 1/E* = 1/E1 + 1/E2 in plane stress.
-Measured hertz(double force) {
-  const double modulus = 1 / (1 / discYoung + 1 / blockYoung);
+/// b = sqrt(4 F R / (pi E*)), p0 = 2 F / (pi b), 1/E* = 1/E1 + 1/E2, in plane strain over 1 - nu^2.
+Measured hertz(double force, Plane plane) {
+  const double modulus = 1 / (1 / discYoung + 1 / blockYoung) / (plane == Plane::strain ? 1 - nu * nu : 1);
   const double b = std::sqrt(4 * force * radius / (pi * modulus));
   return {2 * force / (pi * b), b};
 }
 
-/// The flat side of the disc is moved down. \returns pressure and width over those of Hertz for the same
-/// force.
-Measured solveHertz(int cells, CouplingKind coupling, bool discNonmortar) {
+/// The flat side of the disc is moved down. \returns pressure and width over those of Hertz for the same force.
+Measured solveHertz(int cells, CouplingKind coupling, bool discNonmortar, Plane plane = Plane::stress) {
+  const auto material = [&](double young) {
+    return plane == Plane::strain ? planeStrainElasticMaterial({young, nu}) : elasticMaterial({young, nu});
+  };
   constexpr int arc = 1;
   constexpr int flat = 2;
   constexpr double core = 10;
@@ -52,10 +55,10 @@ Measured solveHertz(int cells, CouplingKind coupling, bool discNonmortar) {
                                      Cut::both);
   Model model;
   model.bodies.emplace_back(
-      "disc", std::move(disc), elasticMaterial({discYoung, nu}),
+      "disc", std::move(disc), material(discYoung),
       Conditions{
           {{flat, 0, constant(0)}, {flat, 1, [](double, double, double t) { return -depth * t; }}}, {}, {}});
-  model.bodies.emplace_back("block", std::move(block), elasticMaterial({blockYoung, nu}),
+  model.bodies.emplace_back("block", std::move(block), material(blockYoung),
                             Conditions{{{bottom, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}});
   const ContactSide above{0, arc};
   const ContactSide below{1, top};
@@ -75,15 +78,15 @@ Measured solveHertz(int cells, CouplingKind coupling, bool discNonmortar) {
     second += p[i] * x * x;
   }
   for (Eigen::Index dof = 1; dof < f1.size(); dof += 2) force += f1[dof];
-  const Measured exact = hertz(std::abs(force));
+  const Measured exact = hertz(std::abs(force), plane);
   return {interface.contactPressure(p).maxCoeff() / exact.peak,
           2 * std::sqrt(second / p.sum()) / exact.width};
 }
 
 TEST(Hertz, discOnABlock) {
   constexpr double tolerance = 0.02;  // b/R = 0.13: small strain and the parabola are off by about one
-  EXPECT_NEAR(hertz(35000).peak, 3420.22, 0.01);
-  EXPECT_NEAR(hertz(35000).width, 6.514700, 1e-6);
+  EXPECT_NEAR(hertz(35000, Plane::stress).peak, 3420.22, 0.01);
+  EXPECT_NEAR(hertz(35000, Plane::stress).width, 6.514700, 1e-6);
   for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::interpolation})
     for (const bool discNonmortar : {true, false}) {
       std::cout << scenes::nameOf(coupling) << ", nonmortar " << (discNonmortar ? "disc " : "block")
@@ -105,6 +108,19 @@ TEST(Hertz, discOnABlock) {
       EXPECT_NEAR(found.back().peak, 1, tolerance);
       EXPECT_NEAR(found.back().width, 1, tolerance);
     }
+}
+
+TEST(Hertz, discOnABlockInPlaneStrain) {
+  constexpr double tolerance = 0.02;
+  EXPECT_NEAR(hertz(35000, Plane::strain).peak, 3585.36, 0.01);
+  EXPECT_NEAR(hertz(35000, Plane::strain).width, 6.214628, 1e-6);
+  for (const auto& [discNonmortar, cells] : {std::pair(true, 48), std::pair(false, 24)}) {
+    const Measured found = solveHertz(cells, CouplingKind::mortar, discNonmortar, Plane::strain);
+    std::cout << "plane strain, nonmortar " << (discNonmortar ? "disc " : "block")
+              << ": peak and width over Hertz's  " << found.peak << ", " << found.width << "\n";
+    EXPECT_NEAR(found.peak, 1, tolerance);
+    EXPECT_NEAR(found.width, 1, tolerance);
+  }
 }
 
 // ---- Receding contact: a layer of thickness 1 on a half plane under a line load, one half of it

@@ -3,27 +3,33 @@
 
 #include <complex>
 
+#include "material/plane_strain.h"
 #include "theory/scenes.h"
 
 namespace mortier::scenes {
 
-/// s : E^-1 s
-inline double complementaryEnergy(const Eigen::Vector3d& s, const Elasticity& elasticity) {
-  return (s.array().square() / elasticity.moduli()).sum();
+/// s : E^-1 s. In plane strain of an elastic body, where s33 = nu (s11 + s22), p counts E/((1+nu)(1-2 nu)).
+inline double complementaryEnergy(const Eigen::Vector3d& s, const Elasticity& elasticity,
+                                  Plane plane = Plane::stress) {
+  Eigen::Array3d moduli = elasticity.moduli();
+  if (plane == Plane::strain) moduli[0] = moduli[1] / (1 - 2 * elasticity.poisson);
+  return (s.array().square() / moduli).sum();
 }
 
 /// A half plane y > 0 in contact with its mirror image for x > 0 under the pressure A sqrt(x), open for x <
-/// 0: with z = x + i y, Z = -A sqrt(z), Zh = -(2 A/3) z^(3/2), kappa = (3 - nu)/(1 + nu) in plane stress,
+/// 0: with z = x + i y, Z = -A sqrt(z), Zh = -(2 A/3) z^(3/2), kappa = (3 - nu)/(1 + nu) in plane stress
+/// and 3 - 4 nu in plane strain,
 ///   2 mu u_x = (kappa - 1)/2 Re Zh - y Im Z,   2 mu u_y = (kappa + 1)/2 Im Zh - y Re Z,
 ///   s_xx = Re Z - y Im Z',   s_yy = Re Z + y Im Z',   s_xy = -y Re Z'.
 class HalfOpenContact {
  public:
-  HalfOpenContact(const Elasticity& elasticity, bool mirrored)
-      : elasticity_(elasticity), mirrored_(mirrored) {}
+  HalfOpenContact(const Elasticity& elasticity, bool mirrored, Plane plane = Plane::stress)
+      : elasticity_(elasticity), mirrored_(mirrored), plane_(plane) {}
 
   [[nodiscard]] Point displacement(double x, double y) const {
     const double mu = elasticity_.young / (2 * (1 + elasticity_.poisson));
-    const double kappa = (3 - elasticity_.poisson) / (1 + elasticity_.poisson);
+    const double nu = elasticity_.poisson;
+    const double kappa = plane_ == Plane::strain ? 3 - 4 * nu : (3 - nu) / (1 + nu);
     const double above = mirrored_ ? -y : y;
     const Complex z(x, above);
     const Complex Z = -std::sqrt(z);
@@ -61,7 +67,7 @@ class HalfOpenContact {
         mirrored_ ? "lower" : "upper",
         crissCrossMesh(
             {.lower = {-0.9, lower}, .upper = {1.1, lower + 1}, .cellsX = cells, .cellsY = (cells + 1) / 2}),
-        elasticMaterial(elasticity_),
+        plane_ == Plane::strain ? planeStrainElasticMaterial(elasticity_) : elasticMaterial(elasticity_),
         {{{held, 0, displacement(0)}, {held, 1, displacement(1)}},
          {{right, 0, traction(0, 1)},
           {right, 1, traction(2, 1)},
@@ -83,8 +89,8 @@ class HalfOpenContact {
       const auto add = [&](double s, double r) {
         const Point x = a + s * u + r * v;
         const Eigen::Vector3d exact = fromCartesian(this->stress(x.x(), x.y()));
-        error += weight * complementaryEnergy(stress.col(i) - exact, elasticity_);
-        norm += weight * complementaryEnergy(exact, elasticity_);
+        error += weight * complementaryEnergy(stress.col(i).head<3>() - exact, elasticity_, plane_);
+        norm += weight * complementaryEnergy(exact, elasticity_, plane_);
       };
       // Centroids of the pieces.
       for (int j = 0; j < cuts; ++j)
@@ -99,6 +105,7 @@ class HalfOpenContact {
   using Complex = std::complex<double>;
   Elasticity elasticity_;
   bool mirrored_;
+  Plane plane_;
 };
 
 }  // namespace mortier::scenes

@@ -123,13 +123,13 @@ TEST(Body, tangentMatchesFiniteDifferenceOfInternalForce) {
         for (int i = 0; i < 6; ++i) EXPECT_TRUE(half.moduli.row(i) == all.moduli.row(rows[i]));
         Matrix fromHalf = stress0;
         Matrix fromAll = stress0;
-        plate.addStressOf(d, half.moduli, fromHalf, 0, plate.points());
-        plate.addStressOf(d, all.moduli, fromAll, 0, plate.points());
+        plate.addStressOf(d, half, fromHalf, 0, plate.points());
+        plate.addStressOf(d, all, fromAll, 0, plate.points());
         EXPECT_LE((fromHalf - fromAll).cwiseAbs().maxCoeff(), 16 * epsilon * fromAll.cwiseAbs().maxCoeff());
       }
       // And the stress that Newton's method adds for d.
       Matrix added = stress0;
-      plate.addStressOf(d, law.moduli, added, 0, plate.points());
+      plate.addStressOf(d, law, added, 0, plate.points());
       const Vector f = plate.internalForce(added);
       for (int dof = 0; dof < plate.dofs(); ++dof) {
         if (plate.equations()[dof] < 0) continue;

@@ -157,7 +157,7 @@ TEST(Supports, tangentOfTurnedNodesIsThatOfTheBodyTurned) {
         if (symmetric && pattern.rows[k] != j) Kx[j] += values[k] * x[pattern.rows[k]];
       }
     Matrix stress = Matrix::Zero(3, plate.points());
-    plate.addStressOf(plate.spread(x), moduli, stress, 0, plate.points());
+    plate.addStressOf(plate.spread(x), {{}, moduli}, stress, 0, plate.points());
     const Vector expected = plate.gather(plate.internalForce(stress));
     EXPECT_LE((Kx - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.cwiseAbs().maxCoeff());
     const Vector f = vector(plate.dofs());

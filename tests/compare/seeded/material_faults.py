@@ -5,6 +5,7 @@ from seeded.case import ELASTIC, Mesh, fault
 @fault("poisson-limit", "poisson = 0.4999")
 def _(case):
     case.replace("poisson = 0.3", "poisson = 0.4999")
+    case.scene = "plane = \"strain\"\n" + case.scene
 
 
 @fault("poisson-negative", "poisson = -0.3")

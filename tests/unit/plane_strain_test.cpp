@@ -1,0 +1,456 @@
+#include "material/plane_strain.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <iostream>
+#include <random>
+
+#include "base/error.h"
+#include "material/interior_path.h"
+#include "material/stress.h"
+#include "unit/one_point.h"
+
+namespace mortier {
+namespace {
+
+using Eigen::Vector4d;
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+struct PointLaw {
+  Vector4d predictor;
+  Eigen::Matrix4d moduli;  ///< what is not handed out is the symmetric rest
+};
+
+PointLaw take(const Linearisation& law, int point) {
+  PointLaw result{law.predictor.col(point), {}};
+  result.moduli.topLeftCorner<3, 3>() = Eigen::Map<const Eigen::Matrix3d>(moduliAt(law.moduli, point).data());
+  result.moduli.row(3) = law.beyond.col(point).transpose();
+  result.moduli.col(3) = law.beyond.col(point);
+  return result;
+}
+
+Linearisation roomFor(Eigen::Index points) {
+  return {Matrix(4, points), Matrix(6, points), Matrix(4, points)};
+}
+
+PointLaw lineariseAt(const Material& material, double weight, const Vector4d& s0, const Vector4d& strain,
+                     const Vector4d& s, bool anticipate = false) {
+  Linearisation result = roomFor(1);
+  const Matrix stress0 = s0;
+  const Matrix strains = strain;
+  material.linearise({weight, stress0, strains, anticipate}, Matrix(s), result, 0, 1);
+  return take(result, 0);
+}
+
+Vector4d solveAt(const Material& material, double weight, const Vector4d& s0, const Vector4d& strain,
+                 Vector4d s, bool anticipate = false, int iterations = 60) {
+  for (int k = 0; k < iterations; ++k) s = lineariseAt(material, weight, s0, strain, s, anticipate).predictor;
+  return s;
+}
+
+Vector4d randomStress4(std::mt19937& random, double misesStress, double pressure) {
+  std::normal_distribution<double> normal;
+  Vector4d s(normal(random), normal(random), normal(random), normal(random));
+  s *= misesStress / vonMises(s);
+  return s + pressure * Vector4d(std::numbers::sqrt2, 0, 0, 1);
+}
+
+/// Three-dimensional tensors, in extended precision: the law as textbooks have it, step by step radial return.
+struct Tensors {
+  using Tensor = Eigen::Matrix<Long, 3, 3>;
+  Elasticity elasticity;
+  Viscoplasticity flow;
+  double weight = 0;
+
+  static Tensor tensor(const Vector4d& s) {
+    const Long h = std::sqrt(0.5L);
+    Tensor t = Tensor::Zero();
+    t(0, 0) = h * (Long(s[0]) + Long(s[1]));
+    t(1, 1) = h * (Long(s[0]) - Long(s[1]));
+    t(0, 1) = t(1, 0) = h * Long(s[2]);
+    t(2, 2) = s[3];
+    return t;
+  }
+  static Vector4d vector(const Tensor& t) {
+    const Long h = std::sqrt(0.5L);
+    return Vector4d(static_cast<double>(h * (t(0, 0) + t(1, 1))),
+                    static_cast<double>(h * (t(0, 0) - t(1, 1))), static_cast<double>(2 * h * t(0, 1)),
+                    static_cast<double>(t(2, 2)));
+  }
+  static Tensor deviator(const Tensor& t) { return t - t.trace() / 3 * Tensor::Identity(); }
+  static Long mises(const Tensor& t) { return std::sqrt(1.5L) * deviator(t).norm(); }
+
+  [[nodiscard]] Tensor stressOf(const Tensor& strain) const {
+    const Long mu = elasticity.young / (2 * (1 + Long(elasticity.poisson)));
+    const Long lame = 2 * mu * elasticity.poisson / (1 - 2 * Long(elasticity.poisson));
+    return 2 * mu * strain + lame * strain.trace() * Tensor::Identity();
+  }
+  /// Trial s0 + E strain; vM + 3 mu theta (2/3 vM) (1 - sigma_Y/vM) = vM of the trial.
+  [[nodiscard]] Tensor stress(const Tensor& trial) const {
+    const Long mises0 = mises(trial);
+    if (mises0 <= flow.yieldStress) return trial;
+    const Long z = elasticity.young / (1 + Long(elasticity.poisson)) * weight / (2 * Long(flow.viscosity));
+    const Long mises1 = (mises0 + z * flow.yieldStress) / (1 + z);
+    return mises1 / mises0 * deviator(trial) + trial.trace() / 3 * Tensor::Identity();
+  }
+};
+
+TEST(PlaneStrain, elasticityIsThatOfThreeDimensions) {
+  const Elasticity elasticity{200, 0.3};
+  const Tensors exact{elasticity, {}, 0};
+  std::mt19937 random(1);
+  for (const auto& material :
+       {planeStrainElasticMaterial(elasticity), planeStrainPerzynaMaterial(elasticity, {10, 1e6})}) {
+    EXPECT_EQ(material->components(), 4);
+    const Vector4d zero = Vector4d::Zero();
+    Vector4d strain = 0.01 * randomStress4(random, 1, 0.3);
+    strain[3] = 0;  // plane strain
+    const Vector4d s = lineariseAt(*material, 0.1, zero, strain, zero).predictor;
+    EXPECT_LE((s - Tensors::vector(exact.stressOf(Tensors::tensor(strain)))).norm(), 16 * epsilon * s.norm());
+    EXPECT_NEAR(s[3], 0.3 * std::numbers::sqrt2 * s[0], 16 * epsilon * s.norm());
+    EXPECT_NEAR(material->outOfPlane(s.head<3>(), 0), s[3], 16 * epsilon * s.norm());
+    Matrix back;
+    material->elasticStrain(s, back);
+    EXPECT_LE((back - strain).norm(), 16 * epsilon * strain.norm());
+    EXPECT_NEAR(vonMises(s), static_cast<double>(Tensors::mises(Tensors::tensor(s))), 8 * epsilon * s.norm());
+  }
+}
+
+// H^-1 is the derivative of the step's stress, solved in three-dimensional tensors, with respect to the strain. On the
+// yield surface it is that of its outer side: one-sided differences of third order.
+TEST(PlaneStrain, tangentMatchesFiniteDifference) {
+  constexpr Long h = 1e-5L;
+  constexpr double differences = 1e-10;
+  constexpr double rounding = 8 * epsilon;
+  double worst = 0;
+  std::mt19937 random(7);
+  for (const double nu : {0.3, -0.4, 0.49})
+    for (const double thetaE : {1e-6, 1e-3, 1.0, 1e3, 1e8, 1e12})
+      for (const double beyond : {-0.5, 1e-6, 1e-2, 0.5, 10.0, 1e6}) {
+        const Elasticity elasticity{3e11, nu};
+        const double weight = 2 * 10 * thetaE * (1 + nu) / 3e11;
+        const Tensors law{elasticity, {10, 1}, weight};
+        const auto material = planeStrainPerzynaMaterial(elasticity, {10, 1});
+        const Vector4d s0 = randomStress4(random, 0.5, 0.1);
+        // A trial beyond yield such that the stress is beyond it by `beyond`; a strain with a part across the plane, as
+        // schemes of several stages have.
+        const Vector4d trial = randomStress4(random, 1 + beyond * (beyond > 0 ? 1 + thetaE : 1), 0.7);
+        Matrix strain;
+        material->elasticStrain(trial - s0, strain);
+        const Tensors::Tensor exact =
+            law.stress(Tensors::tensor(s0) + law.stressOf(Tensors::tensor(strain.col(0))));
+        const Vector4d s = Tensors::vector(exact);
+        for (const bool anticipate : {false, true}) {
+          const PointLaw found = lineariseAt(*material, weight, s0, strain.col(0), s, anticipate);
+          for (int j = 0; j < 4; ++j) {
+            const Vector4d direction = Vector4d::Unit(j);
+            // Outwards, so that a difference never leaves the branch.
+            const Long sign = (Tensors::deviator(exact).cwiseProduct(
+                                   Tensors::deviator(law.stressOf(Tensors::tensor(direction)))))
+                                          .sum() < 0
+                                  ? -1
+                                  : 1;
+            const Long step = h * sign * strain.norm();
+            const auto at = [&](int k) {
+              return law.stress(Tensors::tensor(s0) + law.stressOf(Tensors::tensor(strain.col(0)) +
+                                                                   k * step * Tensors::tensor(direction)));
+            };
+            const Tensors::Tensor derivative =
+                (-11 * at(0) + 18 * at(1) - 9 * at(2) + 2 * at(3)) / (6 * step);
+            const double error = (Tensors::vector(derivative) - found.moduli.col(j)).cwiseAbs().maxCoeff() /
+                                 found.moduli.cwiseAbs().maxCoeff();
+            const double tolerance = differences + rounding * (beyond > 0 ? 1 / beyond : 1);
+            ASSERT_LE(error, tolerance) << "nu " << nu << ", theta e " << thetaE << ", beyond by " << beyond
+                                        << ", column " << j << (anticipate ? ", anticipated" : "");
+            worst = std::max(worst, error / tolerance);
+          }
+        }
+      }
+  std::cout << "tangent against differences: at most " << worst << " of the tolerance\n";
+}
+
+// On the surface itself, where the first rounded stress is not inside, the tangent is that of the outer side.
+TEST(PlaneStrain, onTheYieldSurfaceItFlows) {
+  std::mt19937 random(5);
+  const auto material = planeStrainPerzynaMaterial({100, 0.3}, {10, 1});
+  const double weight = 1e6;  // theta e = 4e6
+  for (int k = 0; k < 50; ++k) {
+    const Vector4d s = randomStress4(random, 1, 2);
+    EXPECT_TRUE(material->flows(s, 0));
+    Vector4d n = s;
+    const double mean = (std::numbers::sqrt2 * s[0] + s[3]) / 3;
+    n -= mean * Vector4d(std::numbers::sqrt2, 0, 0, 1);
+    n.normalize();
+    const PointLaw law = lineariseAt(*material, weight, s, Vector4d::Zero(), s);
+    EXPECT_LE((law.moduli * n).norm(), 1e-4);  // soft along the normal
+    EXPECT_GE(law.moduli.norm(), 100 / 1.3);   // elastic across it
+    EXPECT_LE((law.predictor - s).norm(), 4 * epsilon * s.norm());
+    EXPECT_FALSE(material->flows((1 - 1e-9) * s, 0));
+  }
+}
+
+// Newton's method at a point ends at the radial return, whatever theta e; yielding anticipated in a few iterations.
+TEST(PlaneStrain, newtonEndsAtTheRadialReturn) {
+  constexpr double tolerance = 1e-12;
+  std::mt19937 random(3);
+  for (const double thetaE : {1e-6, 1.0, 1e3, 1e8, 1e12})
+    for (const double size : {0.02, 1.0, 100.0})
+      for (int k = 0; k < 100; ++k) {
+        const Elasticity elasticity{100, 0.3};
+        const double weight = 2 * 10 * thetaE * 1.3 / 100;
+        const Tensors law{elasticity, {10, 1}, weight};
+        const auto material = planeStrainPerzynaMaterial(elasticity, {10, 1});
+        const Vector4d s0 = randomStress4(random, k % 2 == 0 ? 0.5 : 1.2, 0.1);
+        const Vector4d strain = randomStress4(random, size, 0.1 * size);
+        const Vector4d exact =
+            Tensors::vector(law.stress(Tensors::tensor(s0) + law.stressOf(Tensors::tensor(strain))));
+        const Vector4d anticipated = solveAt(*material, weight, s0, strain, s0, true, 8);
+        ASSERT_LE((anticipated - exact).norm(), tolerance * exact.norm())
+            << "theta e " << thetaE << ", size " << size;
+        if (thetaE > 1e8) continue;
+        const Vector4d plain = solveAt(*material, weight, s0, strain, s0, false, 20);
+        ASSERT_LE((plain - exact).norm(), tolerance * exact.norm())
+            << "theta e " << thetaE << ", size " << size;
+      }
+}
+
+// The projections of all three norms are one: what the key says changes no bit.
+TEST(PlaneStrain, theProjectionHasNoMeaning) {
+  std::mt19937 random(9);
+  const Vector4d s = randomStress4(random, 3, 1);
+  const Vector4d strain = randomStress4(random, 1e-11, 0);
+  const auto of = [&](Projection projection) {
+    return lineariseAt(*planeStrainPerzynaMaterial({3e11, 0.3}, {10, 1, projection}), 0.01, s, strain, s);
+  };
+  for (const Projection projection : projections) {
+    EXPECT_EQ(of(projection).predictor, of(Projection::frobenius).predictor);
+    EXPECT_EQ(of(projection).moduli, of(Projection::frobenius).moduli);
+  }
+  // In tensors: the nearest point of the cylinder in the norm (E x, x), by moving along it and across it.
+  const Tensors law{{3e11, 0.3}, {10, 1}, 0};
+  const Tensors::Tensor t = Tensors::tensor(s);
+  const Tensors::Tensor nearest =
+      Tensors::deviator(t) / Tensors::mises(t) + t.trace() / 3 * Tensors::Tensor::Identity();
+  for (int k = 0; k < 200; ++k) {
+    const Tensors::Tensor other =
+        Tensors::tensor(randomStress4(random, 1, static_cast<double>(t.trace() / 3)));
+    const auto distance = [&](const Tensors::Tensor& to) {
+      return law.stressOf(t - to).cwiseProduct(t - to).sum();
+    };
+    EXPECT_GE(distance(other), distance(nearest));
+  }
+}
+
+// Relaxation of a deviator of twice the yield stress, its strain held: sigma_Y + (1 + z)^-N by backward Euler with
+// z = k E/(2 lambda (1 + nu)); the pressure stays.
+TEST(PlaneStrain, relaxationFollowsItsClosedForm) {
+  const double nu = 0.3;
+  const auto material = planeStrainPerzynaMaterial({2 * 2 * 10 * (1 + nu), nu}, {10, 1});
+  const double errors[][2] = {{10, 2.617e-2}, {40, 6.710e-3}, {160, 1.688e-3}};
+  std::mt19937 random(2);
+  const Vector4d start = randomStress4(random, 2, 5);
+  for (const auto& [steps, error] : errors) {
+    Vector4d s = start;
+    for (int n = 0; n < static_cast<int>(steps); ++n)
+      s = solveAt(*material, 1 / steps, s, Vector4d::Zero(), s);
+    EXPECT_NEAR(vonMises(s), 1 + std::pow(1 + 2 / steps, -steps), 1e-13);
+    EXPECT_NEAR(vonMises(s) - (1 + std::exp(-2.0)), error, 5e-4 * error);
+    EXPECT_NEAR(std::numbers::sqrt2 * s[0] + s[3], std::numbers::sqrt2 * start[0] + start[3], 1e-13);
+  }
+}
+
+TEST(PlaneStrain, pressureNeverFlowsAndRatesAreDeviators) {
+  std::mt19937 random(4);
+  const auto material = planeStrainPerzynaMaterial({100, 0.3}, {10, 1});
+  const Vector4d pressure = 1e6 * Vector4d(std::numbers::sqrt2, 0, 0, 1);
+  EXPECT_FALSE(material->flows(pressure, 0));
+  const Vector4d s = randomStress4(random, 3, 7);
+  Matrix rate;
+  material->viscoplasticRate(s, rate);
+  EXPECT_NEAR(std::numbers::sqrt2 * rate(0, 0) + rate(3, 0), 0, 4 * epsilon);
+  EXPECT_NEAR(rate.norm(), (3 - 1) * std::sqrt(2.0 / 3) / 20, 8 * epsilon);
+  material->viscoplasticRate(s / 4, rate);
+  EXPECT_EQ(rate.norm(), 0);
+}
+
+// What regularise() leaves is nothing where the law holds, and its fixed point is the law.
+TEST(PlaneStrain, regularisedLawEndsAtTheLaw) {
+  std::mt19937 random(6);
+  const Elasticity elasticity{100, 0.3};
+  const double weight = 3;
+  const Tensors law{elasticity, {10, 1}, weight};
+  for (const bool flowing : {false, true}) {
+    const auto material =
+        flowing ? planeStrainPerzynaMaterial(elasticity, {10, 1}) : planeStrainElasticMaterial(elasticity);
+    const Matrix stress0 = randomStress4(random, 0.5, 0.2);
+    const Matrix strain = randomStress4(random, 0.05, 0.01);
+    Matrix stress = stress0;
+    Vector penalty;
+    material->choosePenalty(2 * stress0.normalized() * 2, penalty);
+    Linearisation result = roomFor(1);
+    const MaterialStep step{weight, stress0, strain};
+    // With D B d = 0 the stress goes to the law under the strain that is given.
+    double change = 0;
+    for (int k = 0; k < 400; ++k) {
+      change = material->regularise(step, stress, penalty, 1.5, result, 0, 1);
+      stress = result.predictor;
+    }
+    const Vector4d trial = Tensors::vector(Tensors::tensor(stress0) + law.stressOf(Tensors::tensor(strain)));
+    const Vector4d exact = flowing ? Tensors::vector(law.stress(Tensors::tensor(trial))) : trial;
+    EXPECT_LE(change, 1e-13 * exact.norm());
+    EXPECT_LE((stress - exact).norm(), 1e-12 * exact.norm());
+    // Its moduli are D: symmetric, positive, E where nothing flows.
+    const PointLaw D = take(result, 0);
+    EXPECT_EQ(Eigen::LLT<Eigen::Matrix4d>(D.moduli).info(), Eigen::Success);
+    if (!flowing) {
+      EXPECT_LE((D.moduli * strain - (trial - stress0)).norm(), 1e-13 * trial.norm());
+    }
+  }
+}
+
+// The path ends at the radial return, however stiff the law.
+TEST(PlaneStrain, pathEndsAtTheRadialReturn) {
+  constexpr int points = 20;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> decades(-3, 3);
+  for (const double thetaE : {1e-6, 1.0, 1e3, 1e8, 1e12}) {
+    const Elasticity elasticity{3e11, 0.3};
+    const double weight = 2 * 10 * thetaE * 1.3 / 3e11;
+    const Tensors law{elasticity, {10, 1}, weight};
+    const auto material = planeStrainPerzynaMaterial(elasticity, {10, 1});
+    Matrix stress0(4, points);
+    Matrix trial(4, points);
+    for (int i = 0; i < points; ++i) {
+      stress0.col(i) = randomStress4(random, 0.5, 0.3);
+      trial.col(i) = randomStress4(random, std::pow(10, decades(random)), 0.5);
+    }
+    Matrix strain;
+    material->elasticStrain(trial - stress0, strain);
+    const auto path = material->interiorPath(weight, stress0);
+    path->begin(100 * path->flowAtTwiceYield());
+    const Matrix still = Matrix::Zero(4, points);
+    Matrix stress = stress0;
+    Linearisation found = roomFor(points);
+    for (int k = 0; k < 60; ++k) {
+      path->linearise(strain, 0, false, found);
+      const double open = std::min(1.0, path->direct(still));
+      const double centering = std::max(1e-6, std::pow(1 - open, 3));
+      path->linearise(strain, centering * path->complementarity() / path->points(), true, found);
+      path->advance(std::min(1.0, 0.99 * path->direct(still)), stress);
+    }
+    for (int i = 0; i < points; ++i) {
+      const Vector4d exact = Tensors::vector(
+          law.stress(Tensors::tensor(stress0.col(i)) + law.stressOf(Tensors::tensor(strain.col(i)))));
+      EXPECT_LE((stress.col(i) - exact).norm(), 1e-10 * exact.norm()) << "theta e " << thetaE;
+    }
+  }
+}
+
+// predictor + H^-1 de is where a short step of the path for the strain de leads, s33 included.
+TEST(PlaneStrain, pathModuliAreTheDerivativeOfItsSteps) {
+  constexpr double h = 1e-6;
+  std::mt19937 random(5);
+  for (const double thetaE : {1e-3, 1.0, 1e8}) {
+    const double weight = 2 * 10 * thetaE * 1.3 / 3e11;
+    const auto material = planeStrainPerzynaMaterial({3e11, 0.3}, {10, 1});
+    const Matrix stress0 = randomStress4(random, 0.5, 0.2);
+    Matrix strain;
+    material->elasticStrain(randomStress4(random, 3, 1), strain);
+    const auto path = material->interiorPath(weight, stress0);
+    path->begin(100 * path->flowAtTwiceYield());
+    Matrix stress = stress0;
+    Linearisation law = roomFor(1);
+    for (int k = 0; k < 4; ++k) {
+      path->linearise(strain, 0, false, law);
+      path->advance(std::min(1.0, 0.9 * path->direct(Matrix::Zero(4, 1))), stress);
+    }
+    path->linearise(strain, 0.1, false, law);
+    Matrix change = strain.norm() * randomStress4(random, 1, 0.5);
+    const Vector4d reached = law.predictor.col(0) + stressOf(law, change.col(0), 0);
+    const Vector4d before = stress.col(0);
+    path->direct(change);
+    path->advance(h, stress);
+    EXPECT_LT(((stress.col(0) - before) / h - (reached - before)).norm(), 1e-4 * (reached - before).norm())
+        << "theta e " << thetaE;
+  }
+}
+
+// Points are computed in batches; none may see its neighbours, the last batch is not full, and NaN is told.
+TEST(PlaneStrain, pointsOfABatchAreIndependent) {
+  constexpr int points = 43;
+  std::mt19937 random(3);
+  const Elasticity elasticity{3e11, 0.3};
+  for (const auto& material :
+       {planeStrainPerzynaMaterial(elasticity, {10, 1}), planeStrainElasticMaterial(elasticity)}) {
+    Matrix stress0(4, points);
+    Matrix stress(4, points);
+    for (int i = 0; i < points; ++i) {
+      stress0.col(i) = randomStress4(random, 0.3, 0.1);
+      stress.col(i) = randomStress4(random, i % 3 == 0 ? 0.4 : std::pow(10, i % 7), 1);
+    }
+    Matrix strain;
+    material->elasticStrain(stress, strain);
+    Vector penalty;
+    material->choosePenalty(stress, penalty);
+    for (const bool anticipate : {false, true}) {
+      Linearisation all = roomFor(points);
+      Linearisation parts = roomFor(points);
+      Linearisation regular = roomFor(points);
+      Linearisation regularParts = roomFor(points);
+      const MaterialStep step{1e-3, stress0, strain, anticipate};
+      const double residual = material->linearise(step, stress, all, 0, points);
+      material->regularise(step, stress, penalty, 1.5, regular, 0, points);
+      double largest = 0;
+      for (const auto& [begin, end] : {std::pair{0, 5}, std::pair{5, 21}, std::pair{21, points}}) {
+        largest = std::max(largest, material->linearise(step, stress, parts, begin, end));
+        material->regularise(step, stress, penalty, 1.5, regularParts, begin, end);
+      }
+      EXPECT_TRUE(all.predictor == parts.predictor && all.moduli == parts.moduli &&
+                  all.beyond == parts.beyond);
+      EXPECT_TRUE(regular.predictor == regularParts.predictor && regular.moduli == regularParts.moduli &&
+                  regular.beyond == regularParts.beyond);
+      EXPECT_EQ(residual, largest);
+      EXPECT_LE(std::abs(residual - (all.predictor - stress).cwiseAbs().maxCoeff()), 4 * epsilon * residual);
+    }
+    for (const double undefined : {std::nan(""), std::numeric_limits<double>::infinity()})
+      for (int component = 0; component < 4; ++component) {
+        Matrix broken = stress;
+        broken(component, points - 1) = undefined;
+        Linearisation result = roomFor(points);
+        EXPECT_FALSE(std::isfinite(material->linearise({0.1, stress0, strain}, broken, result, 0, points)));
+      }
+  }
+}
+
+TEST(PlaneStrain, unitsOfPowersOfTwoChangeNoBit) {
+  std::mt19937 random(13);
+  for (const double stress : {0x1p-37, 0x1p+20})
+    for (const double time : {0x1p-11, 0x1p+17}) {
+      const auto material = planeStrainPerzynaMaterial({3e11, 0.3}, {10, 1});
+      const auto scaled = planeStrainPerzynaMaterial({stress * 3e11, 0.3}, {stress * time * 10, stress});
+      const Vector4d s0 = randomStress4(random, 1.5, 2);
+      const Vector4d strain = randomStress4(random, 1e-3, 1e-4);
+      for (const double size : {0.5, 1.0 + 1e-9, 7.0})
+        for (const bool anticipate : {false, true}) {
+          const Vector4d s = randomStress4(random, size, 3);
+          const PointLaw answer = lineariseAt(*material, 0.01, s0, strain, s, anticipate);
+          const PointLaw other =
+              lineariseAt(*scaled, time * 0.01, stress * s0, strain, stress * s, anticipate);
+          EXPECT_EQ(other.predictor, stress * answer.predictor);
+          EXPECT_EQ(other.moduli, stress * answer.moduli);
+        }
+    }
+}
+
+TEST(PlaneStrain, wrongConstantsAreNamed) {
+  EXPECT_THROW(planeStrainElasticMaterial({0, 0.3}), InputError);
+  EXPECT_THROW(planeStrainElasticMaterial({1, 0.5}), InputError);
+  EXPECT_THROW(planeStrainPerzynaMaterial({1, 0.3}, {0, 1}), InputError);
+  EXPECT_THROW(planeStrainPerzynaMaterial({1, 0.3}, {1, -2}), InputError);
+}
+
+}  // namespace
+}  // namespace mortier
