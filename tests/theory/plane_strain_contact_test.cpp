@@ -188,6 +188,15 @@ TEST(PlaneStrainContact, penaltyDualityGivesNewtonsAnswer) {
     EXPECT_LE((newton.state.bodies[b].stress - other.state.bodies[b].stress).cwiseAbs().maxCoeff(), 1e-8);
 }
 
+// While nothing flows the factor of elasticity serves every step.
+TEST(PlaneStrainContact, oneFactorServesWhileNothingFlows) {
+  const Model model = compression(3, 5, planeStrainPerzynaMaterial({100, 0.3}, {1, 1000}),
+                                  CouplingKind::interpolation, upperBody);
+  const Result result = run(model, 1, 6);
+  ASSERT_EQ(result.report.status, Status::converged) << result.report.reason;
+  EXPECT_EQ(result.report.factorisations, 2);
+}
+
 // Few steps that pass yield, the coarse side nonmortar: no step is cut.
 TEST(PlaneStrainContact, hardStepsAreFollowedAlongThePath) {
   const Model model = compression(6, 16, planeStrainPerzynaMaterial(noteElasticity, {10, 1}),
