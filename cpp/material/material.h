@@ -70,7 +70,9 @@ class Material {
   /// Number of stress components: those of the plane, and one beyond it (H^-1 is symmetric then).
   [[nodiscard]] virtual int components() const = 0;
   /// The stress beyond the plane that elasticity asks for beside p, q, r, without strain beyond it [Pa].
-  [[nodiscard]] virtual double outOfPlane(const Eigen::Vector3d& stress, int point) const = 0;
+  [[nodiscard]] virtual double outOfPlane(const Eigen::Vector3d& /*stress*/, int /*point*/) const {
+    return 0;
+  }
   /// Whether the moduli are symmetric whatever the stress.
   [[nodiscard]] virtual bool symmetricTangent() const = 0;
   /// Whether the law is linear: its moduli depend on nothing.

@@ -21,9 +21,6 @@ class Elastic final : public Material {
   explicit Elastic(const Elasticity& elasticity) : e_(elasticity.moduli()) {}
 
   [[nodiscard]] int components() const override { return 3; }
-  [[nodiscard]] double outOfPlane(const Eigen::Vector3d& /*stress*/, int /*point*/) const override {
-    return 0;
-  }
   [[nodiscard]] bool symmetricTangent() const override { return true; }
   [[nodiscard]] bool linear() const override { return true; }
   [[nodiscard]] double stressScale() const override { return 0; }
@@ -91,9 +88,6 @@ class Perzyna final : public Material {
         lanes_(law.yieldStress, projectionNorm(law.projection)[0] / projectionNorm(law.projection)[1]) {}
 
   [[nodiscard]] int components() const override { return 3; }
-  [[nodiscard]] double outOfPlane(const Eigen::Vector3d& /*stress*/, int /*point*/) const override {
-    return 0;
-  }
   [[nodiscard]] bool symmetricTangent() const override { return law_.projection == Projection::frobenius; }
   [[nodiscard]] bool linear() const override { return false; }
   [[nodiscard]] double stressScale() const override { return law_.yieldStress; }
