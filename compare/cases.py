@@ -81,11 +81,11 @@ class SceneCase:
 # The scenes that FreeFEM solves as they stand, or with these settings.
 SCENES = {
     "sloped": (), "broken-line": (), "stack": (), "exact-contact": (), "punch": (), "eccentric-punch": (), "receding": (),
-    "turned": (), "cut-ring": (), "hertz": (), "ring": (),
+    "turned": (), "cut-ring": (), "hertz": (), "ring": (), "thick-cylinder": (),
     "open-close": ("time.scheme=backward-euler",),
 }
 # Those that it does not, and why (the beginning of what mortier freefem says behind the scene's name).
-UNKNOWN_TO_FREEFEM = {"cook": "no contact interface", "thick-cylinder": "plane = "}
+UNKNOWN_TO_FREEFEM = {"cook": "no contact interface"}
 HELD = ("body.top.boundary.4.uy=-1e-4*t", "body.middle.boundary.4.uy=-1e-4*t*(1+y)", "body.bottom.boundary.4.uy=0")
 SOFT = "body.material={young=100, poisson=0.3, viscosity=1, yield_stress=1}"  # Newton's method is at ease
 
@@ -98,6 +98,9 @@ def scene_cases():
         SceneCase("punch", "mortar", "sides swapped: overlap in part", ("contact.swap=true",)),
         SceneCase("punch", "mortar", "a round punch", ("contact.gap=2e-3*x^2",)),
         SceneCase("ring", "mortar", "sides swapped", ("contact.swap=true",)),
+        SceneCase("sloped", "interpolation", "plane strain", ('plane="strain"',)),
+        SceneCase("turned", "interpolation", "plane strain, nearly incompressible",
+                  ('plane="strain"', SOFT.replace("0.3", "0.49"), 'body.material.projection="elasticity"')),
         SceneCase("stack", "mortar", "held on the left up to the contact lines", HELD),
         SceneCase("stack", "interpolation", "held on the left, but for the bottom", HELD[:2]),
         SceneCase("turned", "mortar", "sheared by a tangential motion",

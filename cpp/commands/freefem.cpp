@@ -115,8 +115,8 @@ std::string script(const SceneDescription& scene, const Model& model) {
   const int bodies = static_cast<int>(scene.bodies.size());
   std::ostringstream out;
   out << "// " << (scene.title.empty() ? scene.path : scene.title) << "\n// Written by mortier freefem "
-      << scene.path
-      << "; run from the folder in which that was called.\n\nstring plane = \"stress\";\n\n// Bodies\n"
+      << scene.path << "; run from the folder in which that was called.\n\nstring plane = \""
+      << word(scene.plane) << "\";\n\n// Bodies\n"
       << "macro eachBody(what)";
   for (int b = 0; b < bodies; ++b) out << " what(" << b + 1 << ')';
   out << " //\n";
@@ -146,7 +146,6 @@ std::string script(const SceneDescription& scene, const Model& model) {
 
 /// \throws InputError for the first thing in the scene that the FreeFEM method does not know.
 void requireKnown(const SceneDescription& scene) {
-  if (scene.plane != Plane::stress) refuse(scene.path + ": plane = \"strain\"", "\"stress\"");
   if (scene.contacts.empty()) refuse(scene.path + ": no contact interface", "one at least");
   for (const ContactDescription& contact : scene.contacts) {
     if (contact.variant != scene.contacts.front().variant) {
