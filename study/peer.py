@@ -66,6 +66,8 @@ class Problem:
         with open(path) as file:
             document = json.load(file)
         self.bodies = {each["name"]: Body(each) for each in document["body"]}
+        if document.get("plane", "stress") != "stress":
+            raise RunFailure("plane strain, expected plane stress (all that this driver knows)")
         if len(self.bodies) != 2 or len(document["contact"]) != 1:
             raise RunFailure("expected two bodies and one interface (all that this driver knows)")
         contact = document["contact"][0]

@@ -50,6 +50,10 @@ class Drivers(InFolder):
         self.write(json.dumps(document), "problem.json")
         return peer.Problem(str(self.folder / "problem.json"))
 
+    def test_plane_strain_is_refused(self):
+        with self.assertRaisesRegex(peer.RunFailure, "plane stress"):
+            self.problem("plane=strain")
+
     def test_settings_reach_the_scene(self):
         problem = self.problem("contact.swap=true", "time.steps=7", "body.upper.material.poisson=0.2",
                                "body.upper.boundary.3.ty=-5", "body.lower.material={young=1, poisson=0.1}")

@@ -41,6 +41,16 @@ class Norms(unittest.TestCase):
         error = measure.field_error("energy", square(4), self.exact(s11="x", s22="1", s12="0"), self.MATERIALS)
         self.assertAlmostEqual(error, np.sqrt(1 / 16 / 18 / (1 / 3 + 1 - 0.25)), places=12)
 
+    def test_energy_norm_in_plane_strain(self):
+        # The same with s33 = nu (s11 + s22), which the exact field is given: s11 and s22 count 1 - nu^2, their product
+        # -2 nu (1 + nu).
+        run, nu = square(4), 0.25
+        body = run.bodies["b"]
+        body.stress = np.column_stack([body.stress, nu * (body.stress[:, 0] + body.stress[:, 1])])
+        error = measure.field_error("energy", run, self.exact(s11="x", s22="1", s12="0"), self.MATERIALS)
+        size = (1 - nu**2) * (1 / 3 + 1) - nu * (1 + nu)
+        self.assertAlmostEqual(error, np.sqrt((1 - nu**2) / 16 / 18 / size), places=12)
+
     def test_against_a_finer_run(self):
         coarse, fine = square(2), square(8)
         self.assertLess(measure.field_error("displacement", coarse, fine, self.MATERIALS), 1e-14)
