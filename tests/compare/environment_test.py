@@ -1,4 +1,5 @@
 """Faults of the environment and of the input: no room, no reader, folders that vanish, kill -9, a thousand broken scenes."""
+import re
 import resource
 import shutil
 import signal
@@ -7,7 +8,7 @@ import unittest
 
 from mutations import explore, require_whole
 from scenes import BODY_KEYS, CONTACT_KEYS, ONE_BODY, TWO_BLOCKS
-from support import PROGRAM, OfTwoBlocks
+from support import PROGRAM, ROOT, OfTwoBlocks
 
 LONG = ("--set", "time.steps=1000000")
 
@@ -44,6 +45,13 @@ class Environment(OfTwoBlocks):
             self.write(scene)
             self.mortier("run", "scene.toml", "--quiet", "--out", "out")
             require_whole(self.folder / "out")
+
+    def test_scenes_hold_every_key(self):
+        tables = re.search(r"tables = \{(.*?)\n  \};", (ROOT / "cpp/scene/schema.cpp").read_text(), re.S)[1]
+        keys = {key for inner in re.findall(r"\{\"[\w.]*\", \{(.*?)\}\}", tables, re.S) for key in re.findall(r"\w+", inner)}
+        self.assertGreater(len(keys), 40)
+        written = set(re.findall(r"\w+(?= = )|(?<=\[)\w+|(?<=\.)\w+(?=\])", CONTACT_KEYS + BODY_KEYS))
+        self.assertEqual(keys - written, set())
 
     def test_mutated_scenes_and_meshes(self):
         faults, codes = explore(PROGRAM, 0, 250, patience=1)

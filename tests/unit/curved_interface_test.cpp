@@ -6,9 +6,9 @@
 #include <numbers>
 #include <random>
 
-#include "base/error.h"
 #include "contact/interface.h"
 #include "mesh/generate.h"
+#include "unit/messages.h"
 
 namespace mortier {
 namespace {
@@ -242,13 +242,8 @@ TEST(CurvedInterface, distanceAlongTheNormal) {
 TEST(CurvedInterface, initialGap) {
   std::mt19937 random(6);
   const Pair pair = pairOf(random, 12, 17, bow(2));
-  const auto message = [&](const InterfaceOptions& options) -> std::string {
-    try {
-      static_cast<void>(pair.meet(CouplingKind::mortar, true, options));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
+  const auto message = [&](const InterfaceOptions& options) {
+    return messageOf([&] { return pair.meet(CouplingKind::mortar, true, options); });
   };
   const ContactInterface asMeshed = pair.meet(CouplingKind::mortar, true);
   EXPECT_LT(asMeshed.initialDistance().minCoeff(), 0);

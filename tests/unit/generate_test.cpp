@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -36,6 +37,48 @@ bool closedByLabels(const TriangleMesh& mesh) {
   size_t single = 0;
   for (const auto& [edge, triangles] : count) single += triangles == 1 ? 1 : 0;
   return single == mesh.boundaryEdges.size();
+}
+
+TEST(CrissCross, hasTheNotesCounts) {
+  const TriangleMesh upper = crissCrossMesh({{0, 0}, {1, 1}, 6, 6});
+  const TriangleMesh lower = crissCrossMesh({{0, -1}, {1, 0}, 16, 16});
+  EXPECT_EQ(upper.triangles.size() + lower.triangles.size(), 1168u);
+  EXPECT_EQ(upper.vertices.size() + lower.vertices.size(), 630u);
+}
+
+TEST(CrissCross, numbersGridNodesThenCentres) {
+  const TriangleMesh mesh = crissCrossMesh({{0, 0}, {3, 2}, 3, 2});
+  EXPECT_EQ(mesh.vertices[3], Point(3, 0));
+  EXPECT_EQ(mesh.vertices[4], Point(0, 1));
+  EXPECT_EQ(mesh.vertices[12], Point(0.5, 0.5));
+  EXPECT_EQ(mesh.vertices[17], Point(2.5, 1.5));
+  EXPECT_EQ(mesh.triangles[0], (std::array<int, 3>{0, 1, 12}));
+}
+
+TEST(Rectangle, meetsItsSidesExactly) {
+  const Point lower(-0.1, 0.7), upper(0.3, 1.1);
+  for (const TriangleMesh& mesh :
+       {rectangleMesh({lower, upper, 49, 10}), crissCrossMesh({lower, upper, 49, 10})}) {
+    for (const Point& p : boundaryLine(mesh, 1).points) EXPECT_EQ(p.y(), lower.y());
+    for (const Point& p : boundaryLine(mesh, 2).points) EXPECT_EQ(p.x(), upper.x());
+    for (const Point& p : boundaryLine(mesh, 3).points) EXPECT_EQ(p.y(), upper.y());
+    for (const Point& p : boundaryLine(mesh, 4).points) EXPECT_EQ(p.x(), lower.x());
+    double area = 0;
+    for (int t = 0; t < int(mesh.triangles.size()); ++t) area += doubleArea(mesh, t) / 2;
+    EXPECT_NEAR(area, 0.16, 1e-14);
+  }
+}
+
+TEST(Rectangle, refusesWhatIsNoRectangle) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Rectangle wrong[] = {{{0, 0}, {1, 1}, 0, 1},         {{0, 0}, {1, 1}, 1, -2},
+                             {{0, 0}, {0, 1}, 1, 1},         {{0, 1}, {1, 0}, 1, 1},
+                             {{0, nan}, {1, 1}, 1, 1},       {{0, 0}, {HUGE_VAL, 1}, 1, 1},
+                             {{1, 1}, {1 + 1e-15, 2}, 9, 1}, {{0, 0}, {1, 1}, 2147483647, 2147483647}};
+  for (const Rectangle& r : wrong) {
+    EXPECT_THROW(rectangleMesh(r), InputError);
+    EXPECT_THROW(crissCrossMesh(r), InputError);
+  }
 }
 
 TEST(GradedRectangle, cellsGrowGeometricallyFromTheFocus) {

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
-#include "base/error.h"
 #include "mesh/generate.h"
+#include "unit/messages.h"
 
 namespace mortier {
 namespace {
@@ -54,16 +54,6 @@ Vector field(const TriangleMesh& mesh, F u) {
 
 Vector still(const TriangleMesh& mesh) {
   return Vector::Zero(2 * mesh.vertices.size());
-}
-
-template <class F>
-std::string messageOf(F f) {
-  try {
-    f();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(Interface, gapIsPositiveWhereBodiesOverlap) {

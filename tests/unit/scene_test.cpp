@@ -14,6 +14,7 @@
 #include "scene/load_breaks.h"
 #include "scene/overrides.h"
 #include "scene/schema.h"
+#include "unit/messages.h"
 
 namespace mortier {
 namespace {
@@ -59,17 +60,14 @@ class SceneFiles : public testing::Test {
 
   /// The message of a scene that is wrong, without the folder.
   [[nodiscard]] std::string fault(const std::vector<std::string>& settings) const {
-    try {
+    std::string text = messageOf([&] {
       std::vector<std::string> warnings;
-      buildModel(readScene(path(), settings), warnings);
-    } catch (const InputError& error) {
-      std::string text = error.what();
-      for (size_t at = text.find(folder + "/"); at != std::string::npos; at = text.find(folder + "/")) {
-        text.erase(at, folder.size() + 1);
-      }
-      return text;
+      return buildModel(readScene(path(), settings), warnings);
+    });
+    for (size_t at = text.find(folder + "/"); at != std::string::npos; at = text.find(folder + "/")) {
+      text.erase(at, folder.size() + 1);
     }
-    return "accepted";
+    return text;
   }
 
   std::string folder;
@@ -130,14 +128,7 @@ TEST_F(SceneFiles, sidesInAnyOrderAndInitialDistances) {
   const ContactInterface given = model(both + "gap = \"0.25*x^2\"").interfaces[0];
   EXPECT_LE((given.initialDistance() - Vector{{0, 0.0625, 0.25}}).cwiseAbs().maxCoeff(), 1e-16);
   EXPECT_EQ(model(both + "initial = \"close\"").interfaces[0].initialDistance().cwiseAbs().maxCoeff(), 0);
-  const auto refused = [&](const std::string& contact) -> std::string {
-    try {
-      static_cast<void>(model(contact));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
-  };
+  const auto refused = [&](const std::string& contact) { return messageOf([&] { return model(contact); }); };
   EXPECT_NE(refused(both + "sides = [" + upper + ", " + lower + "]").find("beside sides"), std::string::npos);
   EXPECT_NE(refused("sides = [" + upper + "]").find("expected two tables"), std::string::npos);
   EXPECT_NE(refused(both + "gap = 1\ninitial = \"close\"").find("gap beside initial"), std::string::npos);
