@@ -185,11 +185,11 @@ ContactSolution solveRegular(const ContactProblem& problem, const std::vector<ch
 
 /// Conditions that say the same twice leave the forces undetermined and W singular: a proximal term on dp
 /// makes it regular, repeated until it no longer acts.
+/// \param weight  of the term. The smaller, the fewer repetitions, and the more rounding in the signs of forces.
 ContactSolution solveRedundant(const ContactProblem& problem, const std::vector<char>& idle,
                                const Vector& slack, const Vector& p0, const Vector& balance,
-                               const std::vector<char>& active) {
-  constexpr int repetitions = 12;
-  constexpr double weight = 1e-9;
+                               const std::vector<char>& active, double weight) {
+  constexpr int repetitions = 40;
   constexpr double done = 1e-15;
   ContactProblem regular = problem;
   const Vector term = weight * problem.W.diagonal();
@@ -247,7 +247,11 @@ ContactSolution solveContact(const ContactProblem& problem, const Vector& slack,
   ContactProblem regular = problem;
   for (size_t i = 0; i < idle.size(); ++i)
     if (idle[i] != 0) regular.W(i, i) = problem.W.diagonal().maxCoeff();
-  ContactSolution solution = solveRedundant(regular, idle, slack, p0, balance, active);
+  ContactSolution solution;
+  for (const double weight : {1e-9, 1e-8, 1e-7}) {
+    solution = solveRedundant(regular, idle, slack, p0, balance, active, weight);
+    if (solution.outcome != ContactSolution::Outcome::cycled) break;
+  }
   solution.idle = idles;
   solution.dependent = dependent;
   return solution;
