@@ -1,9 +1,9 @@
 #include "report/fields.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <filesystem>
-#include <ranges>
 #include <sstream>
 
 #include "base/error.h"
@@ -53,7 +53,7 @@ class VtuFile {
       file_ << descriptions_[i] << " format=\"appended\" offset=\"" << offset << "\"/>\n";
     }
     file_ << xml_.str() << "</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
-    for (const std::string& array : std::views::reverse(arrays_)) file_ << array;
+    std::for_each(arrays_.rbegin(), arrays_.rend(), [&](const std::string& array) { file_ << array; });
     file_ << "\n</AppendedData>\n</VTKFile>\n";
     file_.close();
   }
