@@ -17,8 +17,8 @@ FAULTS = [
     ("title", "a." * 100000 + "title", "scene.toml:1: a key of more than 32 names, expected a key of a scene"),
     ("[time]", "[time.'a.b'." + "a." * 100000 + "a]", "scene.toml:24: a key of more than 32 names, expected a key of a scene"),
     # keys
-    ("title", "\"\\u001b[31m\"", "scene.toml:1: unknown key ?[31m, expected one of title, body"),
-    ("title", "titel", "scene.toml:1: unknown key titel, did you mean title? Expected one of title, body, contact"),
+    ("title", "\"\\u001b[31m\"", "scene.toml:1: unknown key ?[31m, expected one of title, plane, body"),
+    ("title", "titel", "scene.toml:1: unknown key titel, did you mean title? Expected one of title, plane, body, contact"),
     ("mesh = \"upper", "msh = \"upper", "scene.toml:5: body upper: unknown key msh, did you mean mesh? Expected"),
     ("poisson = 0.3, v", "nu = 0.3, v", "scene.toml:6: body upper: unknown key nu, expected one of young, poisson"),
     ("ux = 0\n", "vx = 0\n", "scene.toml:9: body upper: unknown key vx, did you mean ux?"),
