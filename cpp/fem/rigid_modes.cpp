@@ -57,8 +57,8 @@ Matrix rigidModes(const Body& body) {
 std::string describeRigidMotion(const Body& body, const Vector& motion) {
   // Least squares on the three motions gives translation and rotation.
   const Matrix modes = allModes(body);
-  const Eigen::Vector3d a = (modes.transpose() * modes).ldlt().solve(modes.transpose() * motion);
-  const auto shown = [&](double value) { return std::abs(value) < 1e-9 * a.norm() ? 0.0 : value; };
+  const Eigen::Vector3d a = (modes.transpose() * modes).ldlt().solve(modes.transpose() * motion).normalized();
+  const auto shown = [](double value) { return std::abs(value) < 1e-9 ? 0.0 : value; };
   std::ostringstream text;
   text.precision(4);
   if (shown(a[2]) == 0) {

@@ -61,6 +61,7 @@ class Factorisation {
   virtual ~Factorisation() = default;
   virtual bool factorise(Block& K) = 0;
   virtual void solve(const Block& K, Vector& x) const = 0;
+  [[nodiscard]] virtual int determinantSign() const = 0;
 };
 
 class Cholmod final : public Factorisation {
@@ -96,6 +97,8 @@ class Cholmod final : public Factorisation {
     std::copy_n(static_cast<const double*>(solution->x), x.size(), x.data());
     cholmod_free_dense(&solution, &common_);
   }
+
+  [[nodiscard]] int determinantSign() const override { return 1; }
 
  private:
   static cholmod_sparse view(Block& K) {
@@ -146,6 +149,13 @@ class Umfpack final : public Factorisation {
                      control_, nullptr);
   }
 
+  [[nodiscard]] int determinantSign() const override {
+    double mantissa = 0;
+    double exponent = 0;
+    umfpack_di_get_determinant(&mantissa, &exponent, numeric_, nullptr);
+    return mantissa < 0 ? -1 : 1;
+  }
+
  private:
   int size_;
   double control_[UMFPACK_CONTROL]{};
@@ -194,6 +204,9 @@ class SuiteSparse final : public CondensingSolver {
   }
 
   [[nodiscard]] const Matrix& schurComplement() const override { return schur_; }
+  [[nodiscard]] int determinantSign() const override {
+    return factorisation_ ? factorisation_->determinantSign() : 1;
+  }
 
   // f_b becomes K_bb^-1 f_b.
   void condense(Vector& f) const override {

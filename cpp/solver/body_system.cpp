@@ -41,6 +41,12 @@ void forEachEntryOfC(const ContactInterface& interface, int body, Visit visit) {
 
 }  // namespace
 
+int determinantSign(const Eigen::PartialPivLU<Matrix>& lu) {
+  const bool negative =
+      ((lu.matrixLU().diagonal().array() < 0).count() % 2 == 1) != (lu.permutationP().determinant() < 0);
+  return negative ? -1 : 1;
+}
+
 BodySystem::BodySystem(const Model& model, int body, const std::vector<int>& firstRow,
                        const SolverOptions& options)
     : body_(model.bodies[body]), engine_(options.linear), reduce_(options.reduce) {
@@ -187,6 +193,11 @@ std::string BodySystem::factorise() {
   return {};
 }
 
+int BodySystem::determinantSign() const {
+  const int interior = solver_->determinantSign();
+  return inContact() && !body_.pattern().symmetric ? interior * mortier::determinantSign(lu_) : interior;
+}
+
 void BodySystem::use(Threads& threads) {
   threads_ = &threads;
   solver_->use(threads);
@@ -223,6 +234,23 @@ Vector BodySystem::displacementOf(const Vector& forceChange, const Vector& z) {
 Matrix BodySystem::stressOf(const Matrix& strain) const {
   Matrix stress(strain.rows(), strain.cols());
   for (int i = 0; i < strain.cols(); ++i) stress.col(i) = mortier::stressOf(law_, strain.col(i), i);
+  return stress;
+}
+
+void BodySystem::damp(const Matrix& moduli, double delta, const Matrix& strain) {
+  if (body_.material().linear()) return;
+  law_.moduli += moduli / delta;
+  law_.elastic = 0;
+  law_.predictor += dampingStress(moduli, delta, strain);
+}
+
+Matrix BodySystem::dampingStress(const Matrix& moduli, double delta, const Matrix& strain) const {
+  Matrix stress = Matrix::Zero(body_.material().components(), strain.cols());
+  if (body_.material().linear()) return stress;
+  for (int i = 0; i < strain.cols(); ++i) {
+    const std::array<double, 9> D = moduliAt(moduli, i);
+    stress.col(i).head<3>() = Eigen::Map<const Eigen::Matrix3d>(D.data()) * strain.col(i).head<3>() / delta;
+  }
   return stress;
 }
 

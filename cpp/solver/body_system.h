@@ -25,6 +25,9 @@ struct BodyIterate {
   void moveTowards(const BodyIterate& other, double part);
 };
 
+/// 1 or -1, the sign of the determinant of a factorised matrix.
+int determinantSign(const Eigen::PartialPivLU<Matrix>& lu);
+
 class BodySystem {
  public:
   /// \param firstRow  of each interface among all contact conditions, and their number at the end.
@@ -51,6 +54,8 @@ class BodySystem {
   [[nodiscard]] bool elasticFactors() const { return elasticFactors_; }
   /// Goes on with a run in which these have been made and counted before.
   void resumeElastic() { counted_ = true; }
+  /// 1 or -1, the sign of the determinant of the tangent as factorised.
+  [[nodiscard]] int determinantSign() const;
   /// Whether the last factorise() did any work that counts.
   [[nodiscard]] bool refactorised() const { return refactorised_; }
   /// Works on these threads from now on; they must outlive the system.
@@ -68,6 +73,11 @@ class BodySystem {
   Vector displacementOf(const Vector& forceChange, const Vector& z);
   /// H^-1 of the last linearisation times a strain (components x points).
   [[nodiscard]] Matrix stressOf(const Matrix& strain) const;
+  /// Puts a stress moduli strain/delta beside that of the last linearisation (solver/damping.cpp); a linear material is
+  /// left alone.
+  void damp(const Matrix& moduli, double delta, const Matrix& strain);
+  /// That stress, in the plane.
+  [[nodiscard]] Matrix dampingStress(const Matrix& moduli, double delta, const Matrix& strain) const;
 
   [[nodiscard]] const Linearisation& law() const { return law_; }  ///< as last linearised
   [[nodiscard]] const Matrix& moduli() const { return law_.moduli; }

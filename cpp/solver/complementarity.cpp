@@ -12,6 +12,10 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
+/// How a proximal term is weakened from one repetition to the next, and down to which weight.
+constexpr double softer = 1e-2;
+constexpr double softest = 1e-13;
+
 std::vector<int> indices(const std::vector<char>& set) {
   std::vector<int> result;
   for (size_t i = 0; i < set.size(); ++i)
@@ -26,12 +30,15 @@ class Pivoting {
            const Vector& p0, const Vector& balance)
       : problem_(problem), idle_(idle), slack_(slack), p0_(p0), balance_(balance) {
     // The proximal weight against the stiffness that all nodes together give to rigid motions.
-    constexpr double proximal = 1e-9;
     if (problem.G.cols() > 0) {
       const Matrix stiffness = problem.G.transpose() * solve(problem.W, problem.G);
-      proximal_ = proximal * stiffness.diagonal().maxCoeff();
+      proximal_ = problem.proximal * stiffness.diagonal().maxCoeff();
+      softest_ = softest * stiffness.diagonal().maxCoeff();
     }
   }
+
+  /// Weakens the proximal term: repetitions converge faster than at any fixed weight (Rockafellar 1976).
+  void soften() { proximal_ = std::max(softer * proximal_, std::min(proximal_, softest_)); }
 
   /// Ends at the active set of the proximal problem around z0. \returns false after too many pivots.
   bool run(const Vector& z0, ContactSolution& solution) const {
@@ -140,6 +147,7 @@ class Pivoting {
   const Vector& p0_;
   const Vector& balance_;
   double proximal_ = 0;
+  double softest_ = 0;
   mutable bool redundant_ = false;
 };
 
@@ -161,18 +169,21 @@ ContactSolution solveRegular(const ContactProblem& problem, const std::vector<ch
                              const std::vector<char>& active, bool& redundant) {
   constexpr int repetitions = 12;
   constexpr double balanced = 1e-14;
+  constexpr double slow = 1e-12;  // three repetitions leave no more than that, unless the term is too strong
 
   ContactSolution solution;
   solution.active = active;
   solution.rigid = Vector::Zero(problem.G.cols());
-  const Pivoting pivoting(problem, idle, slack, p0, balance);
+  Pivoting pivoting(problem, idle, slack, p0, balance);
   Vector z0 = solution.rigid;
   for (int repetition = 0; repetition < repetitions; ++repetition) {
     const bool ended = pivoting.run(z0, solution);
     redundant = pivoting.redundant();
     if (!ended) return solution;
-    if (problem.G.cols() == 0 || pivoting.imbalance(solution) <= balanced) break;
+    const double imbalance = problem.G.cols() == 0 ? 0 : pivoting.imbalance(solution);
+    if (imbalance <= balanced) break;
     z0 = solution.rigid;
+    if (repetition > 1 && imbalance > slow) pivoting.soften();
   }
   constexpr double hopeless = 1e-6;
   if (problem.G.cols() > 0 && pivoting.imbalance(solution, problem.force) > hopeless)
@@ -185,21 +196,22 @@ ContactSolution solveRegular(const ContactProblem& problem, const std::vector<ch
 
 /// Conditions that say the same twice leave the forces undetermined and W singular: a proximal term on dp
 /// makes it regular, repeated until it no longer acts.
-/// \param weight  of the term. The smaller, the fewer repetitions, and the more rounding in the signs of forces.
+/// \param weakest  weight of the term. The smaller, the fewer repetitions, and the more rounding in the signs of forces.
 ContactSolution solveRedundant(const ContactProblem& problem, const std::vector<char>& idle,
                                const Vector& slack, const Vector& p0, const Vector& balance,
-                               const std::vector<char>& active, double weight) {
+                               const std::vector<char>& active, double weakest) {
   constexpr int repetitions = 40;
   constexpr double done = 1e-15;
   ContactProblem regular = problem;
-  const Vector term = weight * problem.W.diagonal();
-  regular.W.diagonal() += term;
+  double weight = std::max(problem.proximal, weakest);
   ContactSolution solution;
   solution.active = active;
   Vector before = Vector::Zero(slack.size());
   int pivots = 0;
   for (int repetition = 0; repetition < repetitions; ++repetition) {
     bool redundant = false;
+    const Vector term = weight * problem.W.diagonal();
+    regular.W.diagonal() = problem.W.diagonal() + term;
     solution = solveRegular(regular, idle, slack - term.cwiseProduct(before), p0, balance, solution.active,
                             redundant);
     pivots += solution.pivots;
@@ -210,6 +222,7 @@ ContactSolution solveRedundant(const ContactProblem& problem, const std::vector<
         problem.W.diagonal().cwiseProduct(p0.cwiseAbs() + solution.change.cwiseAbs()).maxCoeff();
     if (left <= done * scale) break;
     before = solution.change;
+    weight = std::max(softer * weight, weakest);
   }
   return solution;
 }

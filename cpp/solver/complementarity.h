@@ -17,6 +17,8 @@ struct ContactProblem {
   bool symmetric = true;  ///< whether W is
   Matrix G;               ///< rows x rigid motions, none where all bodies are supported
   double force = 0;       ///< a contact force beside which an imbalance is nothing but rounding
+  double proximal =
+      1e-9;  ///< weight of the proximal terms to begin with, relative to the stiffness or compliance [-]
 };
 
 struct ContactSolution {

@@ -12,8 +12,6 @@ namespace mortier {
 // method finishes.
 StepOutcome StepSolver::interiorPoint(const State& state0, const StepData& step, int maxIterations,
                                       Iterate& solution) {
-  constexpr double firstOverstress =
-      100;  // in yield stresses, far beyond any: the path is well centred there
   constexpr double toBoundary = 0.99;
   constexpr double blocked = 1e-6;
   constexpr double leastCentering = 1e-6;
@@ -45,7 +43,7 @@ StepOutcome StepSolver::interiorPoint(const State& state0, const StepData& step,
     yieldStrain = std::min(yieldStrain, paths[b]->flowAtTwiceYield() / (1 + material.stiffness(step.weight)));
   }
   for (const auto& path : paths)
-    if (path) path->begin(firstOverstress * flow);
+    if (path) path->begin(options_.firstOverstress * flow);
   const auto complementarity = [&] {
     double sum = 0;
     for (const auto& path : paths) sum += path ? path->complementarity() : 0;

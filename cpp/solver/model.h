@@ -29,7 +29,7 @@ enum class Method {
 
 /// An iteration of the second costs a fraction of one of the first.
 constexpr int defaultIterations(Method method) {
-  return method == Method::newton ? 300 : 5000;
+  return method == Method::newton ? 4000 : 5000;
 }
 
 struct SolverOptions {
@@ -40,6 +40,9 @@ struct SolverOptions {
   int threads = 1;
   /// Leave out what changes nothing: factors of bodies in which nothing flows, steps in which nothing happens.
   bool reduce = true;
+  // Where two methods begin; what they end in does not depend on it.
+  double proximalWeight = 1e-9;  ///< solver/complementarity.h [-]
+  double firstOverstress = 100;  ///< of the interior point method, in yield stresses, far beyond any [-]
 };
 
 }  // namespace mortier

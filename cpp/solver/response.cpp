@@ -8,16 +8,8 @@ namespace {
 
 /// The linear problem that is left of (contact) when the active set is given: s = 0 on it, dp = 0 off it, the
 /// balance G' dp = r. A little compliance keeps it regular where conditions or motions are redundant.
-ContactSolution holdClosed(const ContactProblem& problem, const Vector& slack, const Vector& balance,
-                           const std::vector<char>& active) {
+Matrix closedSystem(const ContactProblem& problem, const std::vector<int>& closed) {
   constexpr double little = 1e-12;
-  ContactSolution solution;
-  solution.change = Vector::Zero(slack.size());
-  solution.rigid = Vector::Zero(problem.G.cols());
-  std::vector<int> closed;
-  for (size_t i = 0; i < active.size(); ++i)
-    if (active[i] != 0) closed.push_back(static_cast<int>(i));
-  if (closed.empty()) return solution;
   const auto n = static_cast<Eigen::Index>(closed.size());
   const Eigen::Index motions = problem.G.cols();
   const Matrix G = problem.G(closed, Eigen::all);
@@ -28,9 +20,28 @@ ContactSolution holdClosed(const ContactProblem& problem, const Vector& slack, c
   system.topRightCorner(n, motions) = -G;
   system.bottomLeftCorner(motions, n) = G.transpose();
   system.bottomRightCorner(motions, motions).diagonal().array() += little / compliance;
+  return system;
+}
+
+std::vector<int> closedConditions(const std::vector<char>& active) {
+  std::vector<int> closed;
+  for (size_t i = 0; i < active.size(); ++i)
+    if (active[i] != 0) closed.push_back(static_cast<int>(i));
+  return closed;
+}
+
+ContactSolution holdClosed(const ContactProblem& problem, const Vector& slack, const Vector& balance,
+                           const std::vector<char>& active) {
+  ContactSolution solution;
+  solution.change = Vector::Zero(slack.size());
+  solution.rigid = Vector::Zero(problem.G.cols());
+  const std::vector<int> closed = closedConditions(active);
+  if (closed.empty()) return solution;
+  const auto n = static_cast<Eigen::Index>(closed.size());
+  const Eigen::Index motions = problem.G.cols();
   Vector right(n + motions);
   right << -slack(closed), balance;
-  const Vector x = system.partialPivLu().solve(right);
+  const Vector x = closedSystem(problem, closed).partialPivLu().solve(right);
   solution.change(closed) = x.head(n);
   solution.rigid = x.tail(motions);
   return solution;
@@ -74,6 +85,14 @@ std::vector<Response> StepSolver::respond(const std::vector<Matrix>& error, cons
                                  model_.bodies[b].points());
   });
   return responses;
+}
+
+int StepSolver::determinantSign(const ActiveSets& active) const {
+  int sign = 1;
+  for (const BodySystem& system : systems_) sign *= system.determinantSign();
+  const std::vector<int> closed = closedConditions(joined(active));
+  return closed.empty() ? sign
+                        : sign * mortier::determinantSign(closedSystem(contact_, closed).partialPivLu());
 }
 
 SolverMemory StepSolver::memory() const {

@@ -49,7 +49,7 @@ struct StepReport {
   double timeStep = 0;  ///< [s]
   Status status = Status::converged;
   std::string reason;           ///< one line when the status is not converged
-  std::string rung = "newton";  ///< what it took: newton, continuation, interior-point, cut
+  std::string rung = "newton";  ///< what it took: newton, continuation, interior-point, path, damping, cut
   bool guarded = false;         ///< done again as two half steps of backward Euler
   int rejections = 0;           ///< attempts that were not good enough or could not be solved
   double estimate = 0;          ///< of the local error, relative; 0 with equal steps

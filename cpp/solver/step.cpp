@@ -51,6 +51,7 @@ StepSolver::StepSolver(const Model& model, const SolverOptions& options)
 }
 
 void StepSolver::requireHeld() {
+  contact_.proximal = options_.proximalWeight;
   contact_.G = Matrix::Zero(rows(), firstMotion_.back());
   for (size_t b = 0; b < systems_.size(); ++b)
     contact_.G.middleCols(firstMotion_[b], systems_[b].R().cols()) = systems_[b].C() * systems_[b].R();
@@ -284,34 +285,6 @@ StepOutcome StepSolver::newton(const State& state0, const StepData& step, const 
     if (!outcome.reason.empty()) return outcome;
     for (Vector& p : iterate.contactForce) p = p.cwiseMax(0);
   }
-}
-
-StepOutcome StepSolver::solve(const State& state0, const StepData& step, Iterate& guess) {
-  if (options_.reduce && step.settled) {
-    Iterate resting;
-    if (StepOutcome outcome = rest(state0, step, resting); outcome.converged) {
-      guess = std::move(resting);
-      return outcome;
-    }
-  }
-  if (options_.method == Method::penaltyDuality) return penaltyDuality(state0, step, guess);
-  constexpr int plainIterations = 7;
-  constexpr int continuationIterations = 60;
-  StepOutcome plain = newton(state0, step, {plainIterations, options_.tolerance, false}, guess);
-  if (plain.converged || plain.unheld) return plain;
-  StepOutcome total = std::move(plain);
-  const auto climb = [&](const std::string& rung, StepOutcome next) {
-    next.rung = rung;
-    next.iterations += total.iterations;
-    next.factorisations += total.factorisations;
-    total = std::move(next);
-  };
-  const auto left = [&] { return options_.maxIterations - total.iterations; };
-  if (!uniqueSolutions_)
-    climb("continuation", continuation(state0, step, std::min(continuationIterations, left()), guess));
-  if (!total.converged && !total.unheld) climb("interior-point", interiorPoint(state0, step, left(), guess));
-  if (!total.converged && !total.unheld) climb("continuation", continuation(state0, step, left(), guess));
-  return total;
 }
 
 }  // namespace mortier

@@ -61,6 +61,12 @@ struct Response {
   Matrix stress;        ///< components x points [Pa]
 };
 
+/// How much is done before a step is given up.
+enum class Effort {
+  usual,  ///< for a step that may as well be cut
+  all     ///< also the methods that take thousands of linear solves
+};
+
 class StepSolver {
  public:
   /// \throws UnheldBodyError when neither supports nor contact hold a body.
@@ -70,7 +76,7 @@ class StepSolver {
   [[nodiscard]] Iterate start(const State& state0) const;
 
   /// Solves from `guess`, falling back to a start from `state0`; the solution is left in `guess`.
-  StepOutcome solve(const State& state0, const StepData& step, Iterate& guess);
+  StepOutcome solve(const State& state0, const StepData& step, Iterate& guess, Effort effort = Effort::usual);
 
   /// With the tangent and the factors of the last solve, its active contacts kept closed and the others open:
   ///   s = H^-1 (B d - error),   sum |T| B' s + C_A' p = 0,   C_A d = 0.
@@ -85,6 +91,8 @@ class StepSolver {
   void resume(const SolverMemory& memory);
 
  private:
+  friend class ViscosityPath;
+
   void requireHeld();
   void forEachBody(const Threads::Work& work) { threads_->forEach(static_cast<int>(systems_.size()), work); }
   /// Force balance asked of a converged step; far above rounding, far below what any result shows.
@@ -119,6 +127,9 @@ class StepSolver {
   StepOutcome penaltyDuality(const State& state0, const StepData& step, Iterate& iterate);
   StepOutcome interiorPoint(const State& state0, const StepData& step, int maxIterations, Iterate& solution);
   StepOutcome continuation(const State& state0, const StepData& step, int maxIterations, Iterate& solution);
+  StepOutcome damped(const State& state0, const StepData& step, int maxIterations, Iterate& solution);
+  /// 1 or -1, the sign of the determinant of the last linearised step, these contacts closed.
+  [[nodiscard]] int determinantSign(const ActiveSets& active) const;
   [[nodiscard]] Certificate certify(const State& state0, const std::vector<Vector>& loads,
                                     const Iterate& iterate, double materialResidual) const;
   void prescribe(const State& state0, double time, Iterate& iterate) const;

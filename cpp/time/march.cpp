@@ -21,7 +21,7 @@ void advance(StepTaker& taker, const State& state, double t1, StepReport& report
   int done = 0;
   while (done < parts) {
     const double time = done + 1 == parts ? t1 : begin + (t1 - begin) * (done + 1) / parts;
-    const StepOutcome outcome = taker.attempt(time);
+    const StepOutcome outcome = taker.attempt(time, parts == 1 ? Effort::all : Effort::usual);
     report.iterations += outcome.iterations;
     report.factorisations += outcome.factorisations;
     if (outcome.rung != "newton" && report.rung == "newton") report.rung = outcome.rung;

@@ -17,16 +17,16 @@ StepTaker::StepTaker(const Model& model, State& state, MarchMemory& memory, Sche
 // back. When the flow turns round between the stages in more than a small share of the bodies, the step is
 // redone with backward Euler, which cannot. Two half steps of it are never worse than the one of a run with
 // backward Euler: an overstress is divided by (1 + z/2)^2 instead of 1 + z.
-StepOutcome StepTaker::attempt(double t1, Scheme scheme) {
+StepOutcome StepTaker::attempt(double t1, Scheme scheme, Effort effort) {
   constexpr double turned = 0.05;
   t1_ = t1;
   tableau_ = tableau(scheme);
   guarded_ = false;
-  StepOutcome outcome = solveStages(t1);
+  StepOutcome outcome = solveStages(t1, effort);
   if (scheme == Scheme::sdirk2 && outcome.converged && turnedShare() > turned) {
     tableau_ = twoHalfSteps();
     guarded_ = true;
-    StepOutcome again = solveStages(t1);
+    StepOutcome again = solveStages(t1, effort);
     again.iterations += outcome.iterations;
     again.factorisations += outcome.factorisations;
     outcome = std::move(again);
@@ -36,7 +36,7 @@ StepOutcome StepTaker::attempt(double t1, Scheme scheme) {
   return outcome;
 }
 
-StepOutcome StepTaker::solveStages(double t1) {
+StepOutcome StepTaker::solveStages(double t1, Effort effort) {
   const double k = t1 - state_.time;
   rates_.clear();
   solutions_.clear();
@@ -48,7 +48,7 @@ StepOutcome StepTaker::solveStages(double t1) {
     const double time = stage.time == 1 ? t1 : state_.time + stage.time * k;
     const StepData data{time, stage.diagonal * k, shift_, memory_.run.steps > 0};
     Iterate iterate = guess(i, k);
-    StepOutcome outcome = solver_.solve(state_, data, iterate);
+    StepOutcome outcome = solver_.solve(state_, data, iterate, effort);
     outcome.iterations += total.iterations;
     outcome.factorisations += total.factorisations;
     outcome.certificate = worse(outcome.certificate, total.certificate);

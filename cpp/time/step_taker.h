@@ -18,9 +18,9 @@ class StepTaker {
             const SolverOptions& options);
 
   /// Solves the step from the state to `t1`. The state is not changed before commit().
-  StepOutcome attempt(double t1) { return attempt(t1, scheme_); }
+  StepOutcome attempt(double t1, Effort effort = Effort::usual) { return attempt(t1, scheme_, effort); }
   /// The same with another scheme.
-  StepOutcome attempt(double t1, Scheme scheme);
+  StepOutcome attempt(double t1, Scheme scheme, Effort effort = Effort::usual);
   /// Whether the last attempt was done again as two half steps of backward Euler.
   [[nodiscard]] bool guarded() const { return guarded_; }
   /// Estimate of the local error of the last attempt, per body: the embedded estimate of the viscoplastic strain,
@@ -38,7 +38,7 @@ class StepTaker {
   [[nodiscard]] const ActiveSets& active() const { return active_; }
 
  private:
-  StepOutcome solveStages(double t1);
+  StepOutcome solveStages(double t1, Effort effort);
   [[nodiscard]] Iterate guess(size_t stage, double k) const;
   void shiftOf(const Stage& stage, double k);
   template <class Stresses>

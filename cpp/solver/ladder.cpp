@@ -1,0 +1,48 @@
+#include <algorithm>
+#include <utility>
+
+#include "solver/step.h"
+#include "solver/viscosity_path.h"
+
+namespace mortier {
+
+// What is tried in turn. The methods that take thousands of linear solves come last, and are for projections that are
+// not associated: with a symmetric tangent the interior point method leads to the one solution.
+StepOutcome StepSolver::solve(const State& state0, const StepData& step, Iterate& guess, Effort effort) {
+  if (options_.reduce && step.settled) {
+    Iterate resting;
+    if (StepOutcome outcome = rest(state0, step, resting); outcome.converged) {
+      guess = std::move(resting);
+      return outcome;
+    }
+  }
+  if (options_.method == Method::penaltyDuality) return penaltyDuality(state0, step, guess);
+  constexpr int plainIterations = 7;
+  constexpr int continuationIterations = 60;
+  constexpr int usualIterations = 300;
+  constexpr int pathIterations = 1500;
+  StepOutcome plain = newton(state0, step, {plainIterations, options_.tolerance, false}, guess);
+  if (plain.converged || plain.unheld) return plain;
+  StepOutcome total = std::move(plain);
+  const auto open = [&] { return !total.converged && !total.unheld; };
+  const auto climb = [&](const std::string& rung, StepOutcome next) {
+    next.rung = rung;
+    next.iterations += total.iterations;
+    next.factorisations += total.factorisations;
+    total = std::move(next);
+  };
+  const auto left = [&](int most) { return std::min(most, options_.maxIterations) - total.iterations; };
+  if (!uniqueSolutions_)
+    climb("continuation",
+          continuation(state0, step, std::min(continuationIterations, left(usualIterations)), guess));
+  if (open()) climb("interior-point", interiorPoint(state0, step, left(usualIterations), guess));
+  if (open()) climb("continuation", continuation(state0, step, left(usualIterations), guess));
+  if (effort == Effort::usual || uniqueSolutions_) return total;
+  const auto more = [&] { return options_.maxIterations - total.iterations; };
+  if (open() && more() > 0)
+    climb("path", ViscosityPath(*this, state0, step).follow(std::min(pathIterations, more()), guess));
+  if (open() && more() > 0) climb("damping", damped(state0, step, more(), guess));
+  return total;
+}
+
+}  // namespace mortier
