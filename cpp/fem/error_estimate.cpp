@@ -38,14 +38,15 @@ Point centre(const TriangleMesh& mesh, int triangle) {
 }
 
 /// The fits of one region.
-class Recovery {
+class Fits {
  public:
-  Recovery(const TriangleMesh& mesh, const Neighbours& neighbours, int region, const Matrix& stress)
-      : mesh_(mesh), neighbours_(neighbours), region_(region), stress_(stress) {}
+  Fits(const TriangleMesh& mesh, const Neighbours& neighbours, int region)
+      : mesh_(mesh), neighbours_(neighbours), region_(region) {}
 
-  /// The stress at a vertex: that of the fit to the centres around it. Where they lie to one side, those of the next
-  /// ring count too.
-  Vector at(int vertex) {
+  /// Calls visit(triangle, weight) for what makes the stress at a vertex: the value there of the fit to the centres around
+  /// it. Where they lie to one side, those of the next ring count too.
+  template <class Visit>
+  void at(int vertex, Visit visit) {
     patch_.clear();
     addAround(vertex);
     if (!closed()) {
@@ -55,7 +56,8 @@ class Recovery {
       std::sort(patch_.begin(), patch_.end());
       patch_.erase(std::unique(patch_.begin(), patch_.end()), patch_.end());
     }
-    return fit(mesh_.vertices[vertex]);
+    const std::vector<double>& weights = fit(mesh_.vertices[vertex]);
+    for (size_t i = 0; i < patch_.size(); ++i) visit(patch_[i], weights[i]);
   }
 
  private:
@@ -75,58 +77,36 @@ class Recovery {
     return end - corners_.begin() == static_cast<std::ptrdiff_t>(patch_.size()) + 1;
   }
 
-  /// a of a + b . (x - vertex), by least squares; the mean where the centres do not determine it.
-  [[nodiscard]] Vector fit(const Point& vertex) const {
+  /// Of a in a + b . (x - vertex), by least squares; of the mean where the centres do not determine it.
+  const std::vector<double>& fit(const Point& vertex) {
     constexpr double degenerate = 1e-10;
+    const auto n = static_cast<double>(patch_.size());
     double size = 0;
     for (const int t : patch_) size = std::max(size, (centre(mesh_, t) - vertex).squaredNorm());
     size = std::sqrt(size);
+    basis_.clear();
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-    Eigen::Matrix<double, 3, Eigen::Dynamic> values = Eigen::MatrixXd::Zero(3, stress_.rows());
     for (const int t : patch_) {
-      Eigen::Vector3d basis;
-      basis << 1, (centre(mesh_, t) - vertex) / size;
-      normal += basis * basis.transpose();
-      values += basis * stress_.col(t).transpose();
+      const Point x = (centre(mesh_, t) - vertex) / size;
+      basis_.emplace_back(1, x.x(), x.y());
+      normal += basis_.back() * basis_.back().transpose();
     }
     const Eigen::LDLT<Eigen::Matrix3d> factor(normal);
-    const auto n = static_cast<double>(patch_.size());
-    if (factor.vectorD().minCoeff() < degenerate * n) return values.row(0).transpose() / n;
-    return factor.solve(values).row(0).transpose();
+    weights_.assign(patch_.size(), 1 / n);
+    if (factor.vectorD().minCoeff() < degenerate * n) return weights_;
+    const Eigen::Vector3d value = factor.solve(Eigen::Vector3d::UnitX());
+    for (size_t i = 0; i < patch_.size(); ++i) weights_[i] = value.dot(basis_[i]);
+    return weights_;
   }
 
   const TriangleMesh& mesh_;
   const Neighbours& neighbours_;
   int region_;
-  const Matrix& stress_;
   std::vector<int> patch_;
   std::vector<int> corners_;
+  std::vector<Eigen::Vector3d> basis_;
+  std::vector<double> weights_;
 };
-
-/// The recovered stress at the three corners of every triangle.
-std::array<Matrix, 3> recover(const TriangleMesh& mesh, const Matrix& stress) {
-  const Neighbours neighbours(mesh);
-  std::array<Matrix, 3> corners;
-  for (Matrix& corner : corners) corner.resizeLike(stress);
-  std::vector<int> regions = mesh.regions;
-  std::sort(regions.begin(), regions.end());
-  regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
-  Matrix values(stress.rows(), static_cast<Eigen::Index>(mesh.vertices.size()));
-  for (const int region : regions) {
-    Recovery recovery(mesh, neighbours, region, stress);
-    std::vector<char> known(mesh.vertices.size(), 0);
-    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-      if (mesh.regions[t] != region) continue;
-      for (int i = 0; i < 3; ++i) {
-        const int vertex = mesh.triangles[t][i];
-        if (known[vertex] == 0) values.col(vertex) = recovery.at(vertex);
-        known[vertex] = 1;
-        corners[i].col(static_cast<Eigen::Index>(t)) = values.col(vertex);
-      }
-    }
-  }
-  return corners;
-}
 
 }  // namespace
 
@@ -134,22 +114,51 @@ double ErrorEstimate::relative() const {
   return energy > 0 ? std::sqrt(error.sum() / energy) : 0;
 }
 
-ErrorEstimate estimateError(const Body& body, const Matrix& stress) {
-  const std::array<Matrix, 3> corners = recover(body.mesh(), stress);
+ErrorEstimator::ErrorEstimator(const Body& body) : body_(body), corners_(body.mesh().triangles.size()) {
+  const TriangleMesh& mesh = body.mesh();
+  const Neighbours neighbours(mesh);
+  std::vector<int> regions = mesh.regions;
+  std::sort(regions.begin(), regions.end());
+  regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
+  for (const int region : regions) {
+    Fits fits(mesh, neighbours, region);
+    std::vector<int> known(mesh.vertices.size(), -1);
+    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (mesh.regions[t] != region) continue;
+      for (int i = 0; i < 3; ++i) {
+        int& place = known[mesh.triangles[t][i]];
+        if (place < 0) {
+          place = static_cast<int>(first_.size()) - 1;
+          fits.at(mesh.triangles[t][i], [&](int triangle, double weight) {
+            parts_.push_back({triangle, weight});
+          });
+          first_.push_back(parts_.size());
+        }
+        corners_[t][i] = place;
+      }
+    }
+  }
+}
+
+ErrorEstimate ErrorEstimator::operator()(const Matrix& stress) const {
+  Matrix recovered = Matrix::Zero(stress.rows(), static_cast<Eigen::Index>(first_.size()) - 1);
+  for (Eigen::Index i = 0; i < recovered.cols(); ++i)
+    for (size_t k = first_[i]; k < first_[i + 1]; ++k)
+      recovered.col(i) += parts_[k].weight * stress.col(parts_[k].triangle);
   ErrorEstimate estimate{Vector::Zero(stress.cols()), 0};
+  Matrix middle(stress.rows(), stress.cols());
+  Matrix strain;
   // The midpoints of the edges integrate the square of a linear field exactly.
   for (int i = 0; i < 3; ++i) {
-    const Matrix recovered = 0.5 * (corners[i] + corners[(i + 1) % 3]);
-    const Matrix error = recovered - stress;
-    Matrix strain;
-    Matrix errorStrain;
-    body.material().elasticStrain(recovered, strain);
-    body.material().elasticStrain(error, errorStrain);
-    for (Eigen::Index t = 0; t < stress.cols(); ++t) {
-      const double weight = body.weights()[t] / 3;
-      estimate.energy += weight * recovered.col(t).dot(strain.col(t));
-      estimate.error[t] += weight * error.col(t).dot(errorStrain.col(t));
-    }
+    for (Eigen::Index t = 0; t < stress.cols(); ++t)
+      middle.col(t) = 0.5 * (recovered.col(corners_[t][i]) + recovered.col(corners_[t][(i + 1) % 3]));
+    body_.material().elasticStrain(middle, strain);
+    for (Eigen::Index t = 0; t < stress.cols(); ++t)
+      estimate.energy += body_.weights()[t] / 3 * middle.col(t).dot(strain.col(t));
+    middle -= stress;
+    body_.material().elasticStrain(middle, strain);
+    for (Eigen::Index t = 0; t < stress.cols(); ++t)
+      estimate.error[t] += body_.weights()[t] / 3 * middle.col(t).dot(strain.col(t));
   }
   return estimate;
 }

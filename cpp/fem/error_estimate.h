@@ -4,6 +4,7 @@
 // estimate. It knows the error of the mesh, not that of the steps in time.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "fem/body.h"
@@ -17,8 +18,23 @@ struct ErrorEstimate {
   [[nodiscard]] double relative() const;
 };
 
-/// \param stress  components x points [Pa]. Regions of the mesh are recovered one by one: stresses jump between
+/// Estimates for one body, which must outlive it. Regions of the mesh are recovered one by one: stresses jump between
 /// materials.
-ErrorEstimate estimateError(const Body& body, const Matrix& stress);
+class ErrorEstimator {
+ public:
+  explicit ErrorEstimator(const Body& body);
+  /// \param stress  components x points [Pa].
+  [[nodiscard]] ErrorEstimate operator()(const Matrix& stress) const;
+
+ private:
+  struct Part {
+    int triangle = 0;
+    double weight = 0;
+  };
+  const Body& body_;
+  std::vector<std::array<int, 3>> corners_;  ///< of each triangle, among the recovered stresses
+  std::vector<size_t> first_{0};             ///< part of each recovered stress
+  std::vector<Part> parts_;                  ///< it is the sum of weight times stress
+};
 
 }  // namespace mortier

@@ -12,7 +12,7 @@ Accuracy accuracyOf(const Model& model, const State& state) {
   double energy = 0;
   double largest = 0;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
-    const ErrorEstimate estimate = estimateError(model.bodies[b], state.bodies[b].stress);
+    const ErrorEstimate estimate = ErrorEstimator(model.bodies[b])(state.bodies[b].stress);
     result.bodies.push_back(estimate.relative());
     error += estimate.error.sum();
     energy += estimate.energy;

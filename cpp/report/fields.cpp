@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "fem/error_estimate.h"
 #include "material/stress.h"
 #include "report/output_file.h"
 
@@ -123,7 +122,7 @@ void writeCells(VtuFile& file, const TriangleMesh& mesh) {
   file.shut("Cells");
 }
 
-void writeCellData(VtuFile& file, const Body& body, const BodyState& state) {
+void writeCellData(VtuFile& file, const Body& body, const BodyState& state, const ErrorEstimate& estimate) {
   const CellFields fields = cellFields(body, state);
   file.open("CellData", "Scalars=\"von_mises\"");
   const auto components = static_cast<int>(fields.stress.rows());
@@ -137,7 +136,6 @@ void writeCellData(VtuFile& file, const Body& body, const BodyState& state) {
              named({"e11", "e22", "e12", "e33"}));
   file.integers("Int32", "viscoplastic", fields.viscoplastic);
   file.integers("Int32", "region", body.mesh().regions);
-  const ErrorEstimate estimate = estimateError(body, state.stress);
   const double energy = estimate.energy > 0 ? estimate.energy : 1;
   file.array("error", flat((estimate.error / energy).cwiseSqrt()), 1);
   file.shut("CellData");
@@ -173,7 +171,9 @@ std::string Fields::nameOf(size_t body, int step) const {
   return model_.bodies[body].name() + "_" + number + ".vtu";
 }
 
-void Fields::write(const std::vector<BodyState>& bodies, int step) const {
+void Fields::write(const std::vector<BodyState>& bodies, int step) {
+  for (size_t b = estimators_.size(); b < model_.bodies.size(); ++b)
+    estimators_.emplace_back(model_.bodies[b]);
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
     const TriangleMesh& mesh = body.mesh();
@@ -182,7 +182,7 @@ void Fields::write(const std::vector<BodyState>& bodies, int step) const {
                            std::to_string(mesh.triangles.size()) + "\"");
     writePoints(file, mesh, bodies[b].displacement);
     writeCells(file, mesh);
-    writeCellData(file, body, bodies[b]);
+    writeCellData(file, body, bodies[b], estimators_[b](bodies[b].stress));
     file.shut("Piece");
     file.close();
   }

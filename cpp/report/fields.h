@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/error_estimate.h"
 #include "time/march.h"
 
 namespace mortier {
@@ -35,7 +36,7 @@ class Fields {
 
  private:
   [[nodiscard]] std::string nameOf(size_t body, int step) const;
-  void write(const std::vector<BodyState>& bodies, int step) const;
+  void write(const std::vector<BodyState>& bodies, int step);
   /// Until the last step is written.
   void wait();
 
@@ -43,6 +44,7 @@ class Fields {
   const Model& model_;
   std::vector<KeptFields> kept_;
   size_t synced_;
+  std::vector<ErrorEstimator> estimators_;  ///< from the first step that is written
   std::future<void> writing_;
 };
 
