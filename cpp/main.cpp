@@ -64,7 +64,7 @@ int dispatch(int argc, char** argv) {
   CLI::App* checkApp = app.add_subcommand(
       "check", "say what a run would model and leave out, and what is wrong or doubtful (docs/check.md)");
   checkApp->add_option("SCENE", checkCommand.scene, "scene, a TOML file");
-  checkApp->add_option("--set", checkCommand.settings, settingsHelp)->type_name("KEY=VALUE ...");
+  checkApp->add_option("--set", checkCommand.settings, settingsHelp)->type_name("KEY=VALUE");
   checkApp->add_flag("--json", checkCommand.json, "machine-readable");
   checkApp->add_flag("--list", checkCommand.list, "all faults that it knows, and their remedies; no scene");
 

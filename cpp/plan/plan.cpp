@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "scene/document.h"
 
@@ -56,7 +57,7 @@ class Planner {
                                       (symmetric ? "symmetric" : "unsymmetric where it flows");
     add(part, true, factor + " in every iteration in which it flows", law);
     add(part, false, "a new factor while nothing in it flows", "its tangent is that of elasticity");
-    const std::string loads = "loads of the order of " + shortest(rounded(largest_)) + " Pa, yield_stress " +
+    const std::string loads = "loads of the order of " + twoDigits(largest_) + " Pa, yield_stress " +
                               shortest(yieldStress) + " Pa";
     if (largest_ < yieldStress)
       add(part, false, "flow, unless some point yields after all", loads);
@@ -100,10 +101,10 @@ class Planner {
         changes ? "loads change" : "bodies flow");
   }
 
-  static double rounded(double x) {
-    if (!(x > 0)) return 0;
-    const double unit = std::pow(10, std::floor(std::log10(x)) - 1);
-    return std::round(x / unit) * unit;
+  static std::string twoDigits(double x) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g", x);
+    return text;
   }
 
   const SceneDescription& scene_;
