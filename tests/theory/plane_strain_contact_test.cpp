@@ -213,42 +213,6 @@ TEST(PlaneStrainContact, hardStepsAreFollowedAlongThePath) {
   std::cout << hard << " steps were followed along the path\n";
 }
 
-// Columns side by side, bonded, of different laws: the elastic and the viscoplastic one each as alone.
-TEST(PlaneStrainContact, regionsAreAsAlone) {
-  const std::vector<std::shared_ptr<const Material>> materials{
-      planeStrainElasticMaterial({100, 0.2}), planeStrainPerzynaMaterial({100, 0.3}, {1, 1}),
-      planeStrainPerzynaMaterial({300, 0.1}, {5, 2})};
-  const auto pressed = [] {
-    return Conditions{{{left, 0, constant(0)},
-                       {bottom, 1, constant(0)},
-                       {top, 1, [](double, double, double t) { return -0.06 * std::min(t, 1.0); }}},
-                      {},
-                      {}};
-  };
-  TriangleMesh mesh = crissCrossMesh({.lower = {0, 0}, .upper = {3, 1}, .cellsX = 9, .cellsY = 4});
-  std::vector<int> of;
-  for (const auto& [a, b, c] : mesh.triangles)
-    of.push_back(static_cast<int>((mesh.vertices[a].x() + mesh.vertices[b].x() + mesh.vertices[c].x()) / 3));
-  Model together;
-  together.bodies.emplace_back("columns", std::move(mesh), materialOfParts(materials, of), pressed());
-  const Result result = run(together, 2, 10);
-  ASSERT_EQ(result.report.status, Status::converged) << result.report.reason;
-  for (int k = 0; k < 3; ++k) {
-    Model alone;
-    alone.bodies.emplace_back("column", square(0, 2), materials[k], pressed());
-    const Result expected = run(alone, 2, 10);
-    ASSERT_EQ(expected.report.status, Status::converged);
-    const BodyState& column = expected.state.bodies[0];
-    for (size_t i = 0; i < of.size(); ++i) {
-      if (of[i] != k) continue;
-      EXPECT_LE((result.state.bodies[0].stress.col(i) - column.stress.col(0)).norm(), 1e-9);
-      EXPECT_LE((result.state.bodies[0].viscoplasticStrain.col(i) - column.viscoplasticStrain.col(0)).norm(),
-                1e-9);
-    }
-    EXPECT_EQ(column.viscoplasticStrain.norm() > 0, k > 0);
-  }
-}
-
 // An initial stress: s33 is what is given, elsewhere nu (s11 + s22); in equilibrium nothing moves.
 TEST(PlaneStrainContact, initialStressAcrossThePlaneIsGivenOrElastic) {
   Conditions conditions{{{left, 0, constant(0)}, {bottom, 1, constant(0)}}, {{top, 1, constant(-2)}}, {}};

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "material/parts.h"
+#include "material/plane_strain.h"
 #include "theory/scenes.h"
 #include "time/initial_balance.h"
 
@@ -22,12 +23,9 @@ Conditions pressed() {
           {}};
 }
 
-// Columns side by side, bonded: each is under uniaxial stress, as it would be alone.
-TEST(Regions, columnsOfDifferentMaterialsAreAsAlone) {
+// Columns side by side, bonded: the elastic one and the two that flow are as they would be alone.
+void expectColumnsAsAlone(const std::vector<std::shared_ptr<const Material>>& materials) {
   constexpr double rounding = 1e-9;
-  const std::vector<std::shared_ptr<const Material>> materials{
-      elasticMaterial({100, 0.2}), perzynaMaterial({100, 0.3}, {1, 1, Projection::elasticity}),
-      perzynaMaterial({300, 0.1}, {5, 2, Projection::frobenius})};
   TriangleMesh mesh = crissCrossMesh({.lower = {0, 0}, .upper = {3, 1}, .cellsX = 9, .cellsY = 4});
   std::vector<int> of;
   for (const auto& [a, b, c] : mesh.triangles)
@@ -50,6 +48,18 @@ TEST(Regions, columnsOfDifferentMaterialsAreAsAlone) {
     }
     EXPECT_EQ(column.viscoplasticStrain.norm() > 0, k > 0);
   }
+}
+
+TEST(Regions, columnsOfDifferentMaterialsAreAsAlone) {
+  expectColumnsAsAlone({elasticMaterial({100, 0.2}),
+                        perzynaMaterial({100, 0.3}, {1, 1, Projection::elasticity}),
+                        perzynaMaterial({300, 0.1}, {5, 2, Projection::frobenius})});
+}
+
+TEST(Regions, columnsAreAsAloneInPlaneStrain) {
+  expectColumnsAsAlone({planeStrainElasticMaterial({100, 0.2}),
+                        planeStrainPerzynaMaterial({100, 0.3}, {1, 1}),
+                        planeStrainPerzynaMaterial({300, 0.1}, {5, 2})});
 }
 
 /// Both squares of the compression test with a stress from the start and a constant load.
