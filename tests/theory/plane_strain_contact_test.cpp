@@ -7,7 +7,6 @@
 #include <numbers>
 #include <string>
 
-#include "material/parts.h"
 #include "material/plane_strain.h"
 #include "theory/scenes.h"
 #include "time/initial_balance.h"
