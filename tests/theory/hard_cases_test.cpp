@@ -80,26 +80,33 @@ TEST(HardCases, dampingEndsWhereThePathIsAMaze) {
 // ---- where methods begin
 
 TEST(HardCases, proximalWeightAndStartOfTheInteriorPathDoNotMatter) {
-  constexpr double tolerance = 1e-9;
+  constexpr double tolerance = 1e-10;
   const Model model = eccentric(Projection::frobenius, true);
-  const auto displacement = [&](const SolverOptions& options) {
-    const scenes::Result result = scenes::run(model, 1, 20, options);
+  const auto solved = [&](const SolverOptions& options) {
+    scenes::Result result = scenes::run(model, 1, 20, options);
     EXPECT_EQ(result.report.status, Status::converged) << result.report.reason;
-    return result.state.bodies[0].displacement;
+    return result;
   };
   const SolverOptions usual;
-  const Vector u = displacement(usual);
+  const scenes::Result expected = solved(usual);
+  const auto compare = [&](const std::string& what, const SolverOptions& options) {
+    const scenes::Result result = solved(options);
+    const Vector& u = expected.state.bodies[0].displacement;
+    const double change =
+        (result.state.bodies[0].displacement - u).cwiseAbs().maxCoeff() / u.cwiseAbs().maxCoeff();
+    std::cout << what << ": changed by " << change << ", " << result.report.iterations
+              << " linear solves (usual " << expected.report.iterations << ")\n";
+    EXPECT_LE(change, tolerance) << what;
+  };
   for (const double factor : {1e-4, 1e-2, 1e2, 1e3, 1e4}) {
-    SCOPED_TRACE("proximal weight times " + number(factor));
     SolverOptions options;
     options.proximalWeight *= factor;
-    EXPECT_LE((displacement(options) - u).cwiseAbs().maxCoeff(), tolerance * u.cwiseAbs().maxCoeff());
+    compare("proximal weight times " + number(factor), options);
   }
   for (const double overstress : {10.0, 1e3, 1e4}) {
-    SCOPED_TRACE("interior path from " + number(overstress) + " yield stresses");
     SolverOptions options;
     options.firstOverstress = overstress;
-    EXPECT_LE((displacement(options) - u).cwiseAbs().maxCoeff(), tolerance * u.cwiseAbs().maxCoeff());
+    compare("interior path from " + number(overstress) + " yield stresses", options);
   }
 }
 
