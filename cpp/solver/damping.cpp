@@ -24,8 +24,7 @@ StepOutcome StepSolver::damped(const State& state0, const StepData& step, int ma
   constexpr int finishing = 7;
 
   StepOutcome total;
-  std::vector<Vector> loads;
-  for (const Body& body : model_.bodies) loads.push_back(body.load(step.time));
+  const std::vector<Vector>& loads = loadsAt(step.time);
   Iterate rest = start(state0);
   prescribe(state0, step.time, rest);
   StepData elastic = step;

@@ -20,10 +20,9 @@ constexpr double tiniest = 1e-9;  // length of a step
 }  // namespace
 
 ViscosityPath::ViscosityPath(StepSolver& solver, const State& state0, const StepData& step)
-    : solver_(solver), state0_(state0), step_(step), eased_(step) {
+    : solver_(solver), state0_(state0), step_(step), eased_(step), loads_(solver.loadsAt(step.time)) {
   double largest = 0;
   for (const Body& body : solver.model_.bodies) {
-    loads_.push_back(body.load(step.time));
     unit_.push_back(body.material().stressScale());
     largest = std::max(largest, unit_.back());
     stiffness_ = std::max(stiffness_, body.material().stiffness(step.weight));
