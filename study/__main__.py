@@ -13,7 +13,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import plan as plans  # noqa: E402
-from problems import RunFailure, StudyError  # noqa: E402
+from problems import RunFailure, StudyError, shown  # noqa: E402
 
 
 def arguments():
@@ -84,16 +84,20 @@ def main():
     given = arguments()
     signal.signal(signal.SIGTERM, interrupt)
     try:
-        return study(given, (lambda line: None) if given.quiet else lambda line: print(line, flush=True))
+        return study(given, (lambda line: None) if given.quiet else lambda line: print(shown(line), flush=True))
     except StudyError as error:
-        print(f"mortier: {error}", file=sys.stderr)
-        return 2
+        return complain(error, 2)
     except (RunFailure, OSError) as error:
-        print(f"mortier: {given.study}: {error}", file=sys.stderr)
-        return 1
+        return complain(f"{given.study}: {error}", 1)
     except KeyboardInterrupt:
-        print(f"mortier: {given.study}: interrupted; finished runs are kept", file=sys.stderr)
-        return 1
+        return complain(f"{given.study}: interrupted; finished runs are kept", 1)
+    except Exception as error:  # a fault of this program
+        return complain(f"{given.study}: {type(error).__name__}: {error}; please report this", 1)
+
+
+def complain(text, code):
+    print(f"mortier: {shown(text)}", file=sys.stderr)
+    return code
 
 
 if __name__ == "__main__":

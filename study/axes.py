@@ -2,7 +2,7 @@
 import difflib
 
 from problems import StudyError
-from study_file import is_count, is_number, is_text
+from study_file import is_count, is_number, is_shown, is_text
 
 # axis of a sweep: key of the scene that it sets, and what it takes
 AXES = {
@@ -19,7 +19,7 @@ def check_axis(table, axis, values, levels):
     expected = AXES.get(axis, (axis, "values"))[1]
     tests = {"integers >= 1": is_count(1), "integers >= 0": is_count(0), "numbers > 0": lambda v: is_number(v) and v > 0,
              "strings": is_text, "booleans": lambda v: isinstance(v, bool),
-             "values": lambda v: is_number(v) or isinstance(v, (bool, str))}
+             "values": lambda v: is_number(v) or isinstance(v, bool) or is_shown(v)}
     for value in values:
         if not tests[expected](value):
             raise table.fault(axis, value, expected)
@@ -47,6 +47,8 @@ def read_axes(table, levels, single):
             raise StudyError(f"{table.lines.place(f'{table.path}.{axis}')}: {table.words}: unknown axis {axis}, "
                              + (f"did you mean {near[0]}? Expected" if near else "expected")
                              + f" one of {', '.join(AXES)}, or a dotted key of the scene")
+        if not is_shown(axis):
+            raise table.fault(axis, value, "a key of the scene")
         values = value if isinstance(value, list) else [value]
         if not values or (single and isinstance(value, list)):
             raise table.fault(axis, value, "one value" if single else "one value or more")

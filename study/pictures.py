@@ -16,19 +16,27 @@ STYLE = {"font.family": "DejaVu Sans", "font.size": 9, "axes.linewidth": 0.7, "l
          "legend.fontsize": 8, "svg.hashsalt": "mortier", "svg.fonttype": "path", "savefig.dpi": 160}
 
 
-def name_of(error, cost):
-    safe = "".join(c if c.isalnum() else "-" for c in error)
-    return f"{safe}-{cost.replace('_', '-')}"
+def stems(names):
+    """A name for files from each name, no two alike, also where small and capital letters are one."""
+    result = []
+    for name in names:
+        safe = "".join(c if c.isalnum() and c.isascii() else "-" for c in name)[:60]
+        stem, again = safe, 1
+        while stem.lower() in (each.lower() for each in result):
+            again += 1
+            stem = f"{safe}-{again}"
+        result.append(stem)
+    return result
 
 
 def draw(plan, series, folder):
     """Writes NAME.svg and NAME.png of every plot that shows something; (title, name) of each."""
     made = []
     with plt.rc_context(STYLE):
-        for error in plan.errors:
+        for error, stem in zip(plan.errors, stems([each.name for each in plan.errors])):
             for cost in AXES:
                 if figure := work_precision(series, error.name, cost):
-                    name = name_of(error.name, cost)
+                    name = f"{stem}-{cost.replace('_', '-')}"
                     for kind in ("svg", "png"):
                         figure.savefig(folder / f"{name}.{kind}", metadata={"Date": None} if kind == "svg" else None)
                     plt.close(figure)
@@ -56,7 +64,8 @@ def work_precision(series, error, cost):
         if found := slope(x, y):
             label += f", slope {found[0]:.2f}"
         axes.plot(x[by_cost], y[by_cost], color=COLOURS[i % len(COLOURS)], marker=MARKERS[(i // 2) % len(MARKERS)],
-                  ls="-" if i < len(COLOURS) else "--", lw=1.2, ms=5, mfc="white", label=label)
+                  ls="-" if i < len(COLOURS) else "--", lw=1.2, ms=5, mfc="white",
+                  label=f" {label}" if label.startswith("_") else label)  # else the legend leaves it out
     points = np.array([point for _, x, y in data for point in zip(x, y)])
     best = points[front([tuple(point) for point in points])]
     axes.plot(*best.T, color="#999999", lw=5, alpha=0.35, zorder=0, solid_capstyle="round")
@@ -64,6 +73,8 @@ def work_precision(series, error, cost):
     axes.set(xscale="log", yscale="log", xlabel=AXES[cost], ylabel=f"relative error: {error}")
     axes.grid(color="#dddddd", lw=0.5, which="major")
     axes.set_axisbelow(True)
-    axes.legend(loc="upper left", bbox_to_anchor=(0, -0.14), borderaxespad=0)
+    legend = axes.legend(loc="upper left", bbox_to_anchor=(0, -0.14), borderaxespad=0)
+    for each in (axes.yaxis.label, *legend.get_texts()):
+        each.set_parse_math(False)  # names are shown as they are
     figure.set_size_inches(7.2, 4.6 + 0.17 * (len(data) + 1))
     return figure

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from axes import flattened, read_axes
 from errors import read_errors, read_let
-from problems import StudyError
-from study_file import Lines, Table, is_count, is_number, is_text, text
+from problems import StudyError, shown
+from study_file import Lines, Table, is_count, is_number, is_shown, is_text, text
 
 KINDS = ("rectangle", "crisscross")
 KEYS = ("title", "scene", "mesh", "let", "error", "reference", "sweep", "compare", "repeat", "timeout")
@@ -94,7 +94,7 @@ def read(path):
     lines = Lines(path, source)
     top = Table(document, lines)
     top.finish(KEYS)
-    title = top.take("title", "a text", lambda v: isinstance(v, str), path.stem)
+    title = top.take("title", "a text of one line", is_shown, shown(path.stem))
     scene = path.parent / top.take("scene", "the file of a scene", is_text)
     bodies = bodies_of(scene, lines)
     meshes, levels = read_meshes(top.table("mesh"), bodies, path.parent)

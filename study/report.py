@@ -6,6 +6,7 @@ import platform
 
 import analysis
 import table
+from problems import shown
 
 STYLE = """body{font:15px/1.5 system-ui,sans-serif;color:#222;max-width:62em;margin:2em auto;padding:0 1em}
 h1{font-size:1.5em}h2{font-size:1.15em;margin-top:2em}img{max-width:100%;height:auto}
@@ -16,7 +17,7 @@ pre{background:#f7f7f7;padding:.8em;overflow-x:auto;font-size:12.5px}small{color
 
 
 def cells(values, tag="td", kind=""):
-    return f"<tr{f' class={kind}' if kind else ''}>" + "".join(f"<{tag}>{html.escape(str(v))}</{tag}>" for v in values) \
+    return f"<tr{f' class={kind}' if kind else ''}>" + "".join(f"<{tag}>{html.escape(shown(v))}</{tag}>" for v in values) \
         + "</tr>"
 
 
@@ -48,10 +49,10 @@ def write(path, plan, rows, series, levels, pictures):
     folder = path.parent
     failed = [row for row in rows if row["status"] != table.DONE]
     parts = [f"<!DOCTYPE html><html lang=en><meta charset=utf-8><title>{html.escape(plan.title)}</title>"
-             f"<style>{STYLE}</style><h1>{html.escape(plan.title)}</h1><p><small>{html.escape(str(plan.path.name))}, scene "
-             f"{html.escape(plan.scene.name)}; {len(rows)} runs, {len(failed)} without a result; {html.escape(machine())}, up to "
-             f"{max((str(row.get('at_once', 1)) for row in rows), default=1)} runs at once, each figure the median of "
-             f"{plan.repeat}.</small></p>"]
+             f"<style>{STYLE}</style><h1>{html.escape(plan.title)}</h1><p><small>{html.escape(shown(plan.path.name))}, scene "
+             f"{html.escape(shown(plan.scene.name))}; {len(rows)} runs, {len(failed)} without a result; "
+             f"{html.escape(machine())}, up to {html.escape(shown(max((str(row.get('at_once', 1)) for row in rows), default=1)))} runs at once, "
+             f"each figure the median of {plan.repeat}.</small></p>"]
     if plan.comparisons:
         lines = [line for found in analysis.comparisons(plan, series) for line in analysis.comparison_text(*found)]
         parts.append("<h2>Cost at equal error</h2><pre>" + html.escape("\n".join(lines)) + "</pre>")
@@ -69,5 +70,5 @@ def write(path, plan, rows, series, levels, pictures):
                            kind="failed" if row["status"] != table.DONE else ""))
     parts.append("</table></html>\n")
     temporary = path.with_suffix(".tmp")
-    temporary.write_text("".join(parts))
+    temporary.write_text("".join(parts), encoding="utf-8")
     os.replace(temporary, path)

@@ -89,8 +89,13 @@ def text(value):
     return json.dumps(value, default=str) if not isinstance(value, float) else f"{value:g}"
 
 
+def is_shown(value):
+    """A text that can stand on one line of a page, a plot and a command line."""
+    return isinstance(value, str) and value.isprintable() and len(value) <= 300
+
+
 def is_text(value):
-    return isinstance(value, str) and value.strip() != ""
+    return is_shown(value) and value.strip() != ""
 
 
 def is_number(value):

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "base/printable.h"
 #include "commands/exit_code.h"
 #include "lint/lint.h"
 #include "plan/plan.h"
@@ -73,7 +74,7 @@ int check(const CheckCommand& command) {
   } else {
     std::fputs(planText(plan).c_str(), stdout);
     for (const Fault& fault : faults.all()) {
-      std::puts(oneLine(fault).c_str());
+      std::puts(printable(oneLine(fault)).c_str());
     }
     std::printf("%s, %s\n", counted(wrong + unheld, "error").c_str(),
                 counted(faults.count(Severity::warning), "warning").c_str());

@@ -1,26 +1,14 @@
 #include "commands/complain.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <iostream>
 
 #include "base/error.h"
+#include "base/printable.h"
 
 namespace mortier {
-
-namespace {
-
-std::string printable(std::string text) {
-  constexpr char escape = 127;
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) < ' ') || c == escape; },
-      '?');
-  return text;
-}
-
-}  // namespace
 
 void complain(const std::string& text) {
   std::fflush(stdout);

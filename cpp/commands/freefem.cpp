@@ -9,6 +9,7 @@
 #include "base/whole_file.h"
 #include "commands/exit_code.h"
 #include "commands/freefem_expression.h"
+#include "commands/freefem_text.h"
 #include "commands/shipped.h"
 #include "contact/smooth_part.h"
 #include "mesh/gmsh.h"
@@ -35,7 +36,8 @@ std::string methodFolder(const std::string& scene) {
 void writeBody(std::ostream& out, const BodyDescription& body, int number) {
   const auto& [elasticity, flow] = body.material;
   out << "string name" << number << " = \"" << body.name << "\";\n"
-      << "string meshFile" << number << " = \"" << body.mesh << "\";\n"
+      << "string meshFile" << number << " = "
+      << freefemString(body.mesh, body.meshWhere + ": body " + body.name + ": mesh") << ";\n"
       << "string projection" << number << " = \"" << word(flow ? flow->projection : Projection::frobenius)
       << "\";\n"
       << "real E" << number << " = " << shortest(elasticity.young) << ", nu" << number << " = "
@@ -114,9 +116,10 @@ std::string script(const SceneDescription& scene, const Model& model) {
   const std::string method = methodFolder(scene.path);
   const int bodies = static_cast<int>(scene.bodies.size());
   std::ostringstream out;
-  out << "// " << (scene.title.empty() ? scene.path : scene.title) << "\n// Written by mortier freefem "
-      << scene.path << "; run from the folder in which that was called.\n\nstring plane = \""
-      << word(scene.plane) << "\";\n\n// Bodies\n"
+  out << freefemComment(scene.title.empty() ? scene.path : scene.title)
+      << freefemComment("Written by mortier freefem " + scene.path +
+                        "; run from the folder in which that was called.")
+      << "\nstring plane = \"" << word(scene.plane) << "\";\n\n// Bodies\n"
       << "macro eachBody(what)";
   for (int b = 0; b < bodies; ++b) out << " what(" << b + 1 << ')';
   out << " //\n";
@@ -135,7 +138,8 @@ std::string script(const SceneDescription& scene, const Model& model) {
       << "\";\nreal endTime = " << shortest(scene.time.end) << ";  // [s]\nint steps = " << scene.time.steps
       << ";  // backward Euler, equal steps\n\n";
   for (const char* part : {"bodies", "supports", "coupling", "contact", "loop"}) {
-    out << "include \"" << method << '/' << part << ".idp\"\n";
+    out << "include " << freefemString(method + '/' + part + ".idp", scene.path + ": the FreeFEM method")
+        << '\n';
   }
   return out.str();
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <string_view>
 
 #include "base/error.h"
 
@@ -97,7 +98,10 @@ std::string freefemExpression(const Expression& expression) {
       }
       result += text.substr(begin, i - begin) + (real ? "" : ".");
     } else {
-      const char c = text[i++];
+      const char c = std::isspace(static_cast<unsigned char>(text[i])) != 0 ? ' ' : text[i];
+      if (std::string_view(" +-*/^(),?:<>=!&|").find(c) == std::string_view::npos)
+        throw InputError(expression.where + ": " + c + " is not known to FreeFEM");
+      ++i;
       if (c == ':') result.erase(result.find_last_not_of(' ') + 1);
       result += choices.translated(c);
       if (c == '?' || c == ':') i = std::min(text.find_first_not_of(' ', i), text.size());

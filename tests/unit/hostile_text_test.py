@@ -1,0 +1,83 @@
+"""Text of others in scripts, pages and messages: shown, never run."""
+import shutil
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "compare"))
+import support  # noqa: E402
+from scenes import TWO_BLOCKS  # noqa: E402
+
+RUN = 'exec("touch ran");//'
+BREAKS = ["\\n", "\\r", "\\r\\n", "\\u2028", "\\u0085", "\\u0000", "\\u000b", "\\\\\\n", "*/\\n", "\\u001b[2J\\n"]
+TITLES = [f"a{each}{RUN}" for each in BREAKS] + ['"' + RUN, "\\\\", "日本\\n" + RUN, "-quiet\\n" + RUN]
+
+
+def toml(text):
+    return '"' + text.replace('"', '\\"') + '"'
+
+
+class HostileText(support.OfTwoBlocks):
+    def solve(self, script):
+        """FreeFEM reads all of a script; it has no time to solve anything."""
+        if shutil.which("FreeFem++-nw") is None:
+            return
+        text = (self.folder / script).read_bytes()
+        head = text.split(b"// Boundary conditions")[0]
+        self.assertIn(b"real E2", head)
+        (self.folder / "head.edp").write_bytes(head)
+        done = subprocess.run(["FreeFem++-nw", "-nw", "-ne", "-v", "0", "head.edp"], cwd=self.folder, capture_output=True)
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+    def test_titles(self):
+        for title in TITLES:
+            with self.subTest(title):
+                self.write(TWO_BLOCKS.replace('"two blocks"', toml(title)))
+                self.mortier("freefem", "scene.toml", "scene.edp")
+                lines = self.read("scene.edp").splitlines()
+                self.assertEqual([line[:2] for line in lines[:4]], ["//", "//", "", "st"])
+                self.solve("scene.edp")
+                self.assertFalse((self.folder / "ran").exists())
+
+    def test_titles_that_are_set(self):
+        self.mortier("freefem", "scene.toml", "scene.edp", "--set", f"title=a\n{RUN}")
+        self.solve("scene.edp")
+        self.assertFalse((self.folder / "ran").exists())
+
+    def test_names_of_files(self):
+        for name in ('u"; exec("touch ran"); string zz="u.mesh', "u\n.mesh", "u\\.mesh", "ü.mesh", "u" * 247 + ".mesh"):
+            with self.subTest(name):
+                shutil.copy(self.folder / "upper.mesh", self.folder / name)
+                written = name.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
+                self.write(TWO_BLOCKS.replace("upper.mesh", written))
+                shown = name.replace("\n", "?")
+                self.reject(f'scene.toml:5: body upper: mesh = "{shown}", expected at most 250 printable ASCII characters '
+                            'without " and \\ (all that a FreeFEM string can hold)', "freefem", "scene.toml")
+        self.write(TWO_BLOCKS)
+        for name in (f"a\n{RUN}.toml", f"a\r{RUN}.toml", "é.toml"):
+            name = name.replace("/", ":")
+            shutil.copy(self.folder / "scene.toml", self.folder / name)
+            self.mortier("freefem", name, "scene.edp")
+            self.assertTrue(self.read("scene.edp").splitlines()[2] == "", name)
+
+    def test_expressions_hold_nothing_but_arithmetic(self):
+        self.write(TWO_BLOCKS.replace('"-10*t"', '"-10*\\n\\tt"'))
+        self.mortier("freefem", "scene.toml", "scene.edp")
+        self.assertIn("-10.*  t", self.read("scene.edp"))
+
+    def test_messages_are_one_short_line(self):
+        for name in ("a\nb.toml", "x\x1b[31m.toml", "\u202etxt.toml", "a" * 100000, b"\xff\xfe.toml".decode(errors="surrogateescape")):
+            for command in ("run", "check", "freefem", "study"):
+                with self.subTest(name=name[:20], command=command):
+                    done = subprocess.run([support.PROGRAM, command, name], cwd=self.folder, capture_output=True)
+                    self.assertEqual(done.returncode, 2)
+                    text = (done.stderr or done.stdout).decode()  # strictly UTF-8
+                    self.assertLess(len(text), 5000)
+                    shown = [line for line in text.split("\n") if line]
+                    self.assertEqual(len(shown), 1 if command != "check" else 2, text)
+                    self.assertTrue(shown[0].isprintable(), text)
+
+
+if __name__ == "__main__":
+    unittest.main()
