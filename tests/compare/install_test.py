@@ -42,7 +42,10 @@ class Install(InSharedFolder):
         self.prefix.rename(package)
         self.addCleanup(package.rename, self.prefix)
         build = self.folder / "examples"
-        output("cmake", "-S", ROOT / "examples", "-B", build, f"-DCMAKE_PREFIX_PATH={package}", "-DCMAKE_BUILD_TYPE=Release")
+        # The generator of this build: CMake's default one need not be installed.
+        generator = re.search(r"^CMAKE_GENERATOR:INTERNAL=(.+)$", (BUILD / "CMakeCache.txt").read_text(), re.M).group(1)
+        output("cmake", "-S", ROOT / "examples", "-B", build, "-G", generator, f"-DCMAKE_PREFIX_PATH={package}",
+               "-DCMAKE_BUILD_TYPE=Release")
         output("cmake", "--build", build)
         commands = (build / "CMakeFiles/press.dir/flags.make", build / "build.ninja")
         text = "".join(path.read_text() for path in commands if path.exists())
