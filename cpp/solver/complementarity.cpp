@@ -1,172 +1,28 @@
 #include "solver/complementarity.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <optional>
+
+#include "solver/pivoting.h"
 
 namespace mortier {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-/// How a proximal term is weakened from one repetition to the next, and down to which weight.
+/// How a proximal term is weakened from one repetition to the next.
 constexpr double softer = 1e-2;
-constexpr double softest = 1e-13;
-
-std::vector<int> indices(const std::vector<char>& set) {
-  std::vector<int> result;
-  for (size_t i = 0; i < set.size(); ++i)
-    if (set[i] != 0) result.push_back(static_cast<int>(i));
-  return result;
-}
-
-class Pivoting {
- public:
-  /// \param idle  conditions that stay inactive.
-  Pivoting(const ContactProblem& problem, const std::vector<char>& idle, const Vector& slack,
-           const Vector& p0, const Vector& balance)
-      : problem_(problem), idle_(idle), slack_(slack), p0_(p0), balance_(balance) {
-    // The proximal weight against the stiffness that all nodes together give to rigid motions.
-    if (problem.G.cols() > 0) {
-      const Matrix stiffness = problem.G.transpose() * solve(problem.W, problem.G);
-      proximal_ = problem.proximal * stiffness.diagonal().maxCoeff();
-      softest_ = softest * stiffness.diagonal().maxCoeff();
-    }
-  }
-
-  /// Weakens the proximal term: repetitions converge faster than at any fixed weight (Rockafellar 1976).
-  void soften() { proximal_ = std::max(softer * proximal_, std::min(proximal_, softest_)); }
-
-  /// Ends at the active set of the proximal problem around z0. \returns false after too many pivots.
-  bool run(const Vector& z0, ContactSolution& solution) const {
-    constexpr int patience = 8;
-    const auto n = static_cast<int>(slack_.size());
-    const int limit = solution.pivots + 20 * n + 100;
-    int fewestWrong = n + 1;
-    int tries = 0;
-    while (solution.pivots < limit) {
-      ++solution.pivots;
-      solveOn(indices(solution.active), z0, solution);
-      if (redundant_) return false;
-      std::vector<int> wrong = wrongSigns(solution);
-      if (wrong.empty()) return true;
-      const auto count = static_cast<int>(wrong.size());
-      tries = count < fewestWrong ? 0 : tries + 1;
-      fewestWrong = std::min(fewestWrong, count);
-      if (tries > patience) wrong.resize(1);
-      for (const int i : wrong) solution.active[i] = solution.active[i] != 0 ? 0 : 1;
-    }
-    return false;
-  }
-
-  /// Whether a matrix that was to be solved with is singular but for rounding.
-  [[nodiscard]] bool redundant() const { return redundant_; }
-
-  /// What the proximal term still carries of the balance, against all forces in it, or those that are usual.
-  [[nodiscard]] double imbalance(const ContactSolution& solution, double usual = 0) const {
-    const Vector rest = balance_ - problem_.G.transpose() * solution.change;
-    const Vector forces = ((p0_.cwiseAbs() + (p0_ + solution.change).cwiseAbs()).array() + usual).matrix();
-    const double scale =
-        balance_.cwiseAbs().maxCoeff() + (problem_.G.cwiseAbs().transpose() * forces).maxCoeff();
-    return scale > 0 ? rest.cwiseAbs().maxCoeff() / scale : 0;
-  }
-
-  /// Whether the load drives the bodies along a motion that opens contact or slides along it.
-  [[nodiscard]] bool leaves(const ContactSolution& solution) const {
-    constexpr double negligible = 1e-6;
-    const Vector closing = problem_.G * solution.rigid;
-    const double work = (balance_ + problem_.G.transpose() * p0_).dot(solution.rigid);
-    return closing.maxCoeff() <= negligible * closing.cwiseAbs().maxCoeff() && work > 0;
-  }
-
- private:
-  [[nodiscard]] Matrix solve(const Matrix& block, const Matrix& right) const {
-    constexpr double singular = 1e-12;
-    if (problem_.symmetric) {
-      const Eigen::LLT<Matrix> factor(block);
-      const auto pivots = factor.matrixLLT().diagonal().array().square();
-      redundant_ = redundant_ || factor.info() != Eigen::Success ||
-                   !((pivots / block.diagonal().array()).minCoeff() > singular);
-      return factor.solve(right);
-    }
-    const Eigen::PartialPivLU<Matrix> factor(block);
-    const auto pivots = factor.matrixLU().diagonal().cwiseAbs();
-    const Vector sizes = block.colwise().lpNorm<Eigen::Infinity>();
-    redundant_ = redundant_ || !((pivots.array() / sizes.array()).minCoeff() > singular);
-    return factor.solve(right);
-  }
-
-  /// p = 0 off the active set, s = 0 on it.
-  void solveOn(const std::vector<int>& active, const Vector& z0, ContactSolution& solution) const {
-    const Matrix& G = problem_.G;
-    Vector& dp = solution.change;
-    dp = -p0_;
-    for (const int i : active) dp[i] = 0;
-    Matrix right(active.size(), 1 + G.cols());
-    right.col(0) = -(slack_ + problem_.W * dp)(active);
-    right.rightCols(G.cols()) = G(active, Eigen::all);
-    const Matrix solved = active.empty() ? right : solve(problem_.W(active, active), right);
-    if (G.cols() > 0) {
-      const Matrix Ga = G(active, Eigen::all);
-      Matrix stiffness = Ga.transpose() * solved.rightCols(G.cols());
-      stiffness.diagonal().array() += proximal_;
-      const Vector force = balance_ - G.transpose() * dp - Ga.transpose() * solved.col(0) + proximal_ * z0;
-      solution.rigid = stiffness.partialPivLu().solve(force);
-    }
-    if (active.empty()) return;
-    dp(active) = solved.col(0);
-    if (G.cols() > 0) dp(active) += solved.rightCols(G.cols()) * solution.rigid;
-  }
-
-  /// Signs are judged against rounding, slacks as the forces that would close them.
-  [[nodiscard]] std::vector<int> wrongSigns(const ContactSolution& solution) const {
-    constexpr double rounding = 64 * epsilon;
-    Vector s = slack_ + problem_.W * solution.change;
-    if (problem_.G.cols() > 0) s -= problem_.G * solution.rigid;
-    const Vector p = p0_ + solution.change;
-    double largest = 0;
-    for (Eigen::Index i = 0; i < s.size(); ++i)
-      if (idle_[i] == 0)
-        largest =
-            std::max({largest, std::abs(p[i]), std::abs(p0_[i]), std::abs(slack_[i]) / problem_.W(i, i)});
-    std::vector<int> wrong;
-    for (Eigen::Index i = 0; i < s.size(); ++i) {
-      if (idle_[i] != 0) continue;
-      const double value = solution.active[i] != 0 ? p[i] : s[i] / problem_.W(i, i);
-      if (!(value >= -rounding * largest)) wrong.push_back(static_cast<int>(i));
-    }
-    return wrong;
-  }
-
-  const ContactProblem& problem_;
-  const std::vector<char>& idle_;
-  const Vector& slack_;
-  const Vector& p0_;
-  const Vector& balance_;
-  double proximal_ = 0;
-  double softest_ = 0;
-  mutable bool redundant_ = false;
-};
 
 /// Conditions that no free motion can change: both sides are held there.
 std::vector<char> idleConditions(const Matrix& W) {
-  constexpr double rounding = 1e-24;  // W is quadratic in the rows of C
+  constexpr double negligible = 1e-24;  // W is quadratic in the rows of C
   std::vector<char> idle(W.rows(), 0);
   const double largest = W.rows() > 0 ? W.diagonal().cwiseAbs().maxCoeff() : 0;
-  for (Eigen::Index i = 0; i < W.rows(); ++i) idle[i] = std::abs(W(i, i)) <= rounding * largest ? 1 : 0;
+  for (Eigen::Index i = 0; i < W.rows(); ++i) idle[i] = std::abs(W(i, i)) <= negligible * largest ? 1 : 0;
   return idle;
 }
 
-}  // namespace
-
-namespace {
-
-ContactSolution solveRegular(const ContactProblem& problem, const std::vector<char>& idle,
-                             const Vector& slack, const Vector& p0, const Vector& balance,
-                             const std::vector<char>& active, bool& redundant) {
+ContactSolution solveRegular(Pivoting& pivoting, const ContactProblem& problem,
+                             const std::vector<char>& active) {
   constexpr int repetitions = 12;
   constexpr double balanced = 1e-14;
   constexpr double slow = 1e-12;  // three repetitions leave no more than that, unless the term is too strong
@@ -174,12 +30,12 @@ ContactSolution solveRegular(const ContactProblem& problem, const std::vector<ch
   ContactSolution solution;
   solution.active = active;
   solution.rigid = Vector::Zero(problem.G.cols());
-  Pivoting pivoting(problem, idle, slack, p0, balance);
   Vector z0 = solution.rigid;
   for (int repetition = 0; repetition < repetitions; ++repetition) {
-    const bool ended = pivoting.run(z0, solution);
-    redundant = pivoting.redundant();
-    if (!ended) return solution;
+    if (!pivoting.run(z0, solution)) {
+      if (pivoting.capped()) solution.outcome = ContactSolution::Outcome::capped;
+      return solution;
+    }
     const double imbalance = problem.G.cols() == 0 ? 0 : pivoting.imbalance(solution);
     if (imbalance <= balanced) break;
     z0 = solution.rigid;
@@ -199,7 +55,7 @@ ContactSolution solveRegular(const ContactProblem& problem, const std::vector<ch
 /// \param weakest  weight of the term. The smaller, the fewer repetitions, and the more rounding in the signs of forces.
 ContactSolution solveRedundant(const ContactProblem& problem, const std::vector<char>& idle,
                                const Vector& slack, const Vector& p0, const Vector& balance,
-                               const std::vector<char>& active, double weakest) {
+                               const std::vector<char>& active, double weakest, Work& work) {
   constexpr int repetitions = 40;
   constexpr double done = 1e-15;
   ContactProblem regular = problem;
@@ -207,13 +63,19 @@ ContactSolution solveRedundant(const ContactProblem& problem, const std::vector<
   ContactSolution solution;
   solution.active = active;
   Vector before = Vector::Zero(slack.size());
+  Vector term;
+  std::optional<Pivoting> pivoting;
+  double weightOfFactor = 0;
   int pivots = 0;
   for (int repetition = 0; repetition < repetitions; ++repetition) {
-    bool redundant = false;
-    const Vector term = weight * problem.W.diagonal();
-    regular.W.diagonal() = problem.W.diagonal() + term;
-    solution = solveRegular(regular, idle, slack - term.cwiseProduct(before), p0, balance, solution.active,
-                            redundant);
+    if (weight != weightOfFactor) {
+      term = weight * problem.W.diagonal();
+      regular.W.diagonal() = problem.W.diagonal() + term;
+      pivoting.emplace(regular, idle, slack, p0, balance, work);
+      weightOfFactor = weight;
+    }
+    pivoting->restart(slack - term.cwiseProduct(before));
+    solution = solveRegular(*pivoting, regular, solution.active);
     pivots += solution.pivots;
     solution.pivots = pivots;
     if (solution.outcome != ContactSolution::Outcome::solved) break;
@@ -230,7 +92,7 @@ ContactSolution solveRedundant(const ContactProblem& problem, const std::vector<
 }  // namespace
 
 int dependentConditions(const Matrix& W) {
-  constexpr double singular = 1e-12;  // as in Pivoting::solve
+  constexpr double singular = 1e-12;  // as in ActiveFactor
   const std::vector<char> idle = idleConditions(W);
   const auto idles = static_cast<Eigen::Index>(std::count(idle.begin(), idle.end(), 1));
   Eigen::ColPivHouseholderQR<Matrix> factor(W);
@@ -247,26 +109,30 @@ ContactSolution solveContact(const ContactProblem& problem, const Vector& slack,
     solution.outcome = ContactSolution::Outcome::solved;
     return solution;
   }
+  Work work(problem);
   const std::vector<char> idle = idleConditions(problem.W);
   for (size_t i = 0; i < idle.size(); ++i)
     if (idle[i] != 0) active[i] = 0;
   const auto idles = static_cast<int>(std::count(idle.begin(), idle.end(), 1));
+  ContactSolution solution;
   bool dependent = false;
   if (idles == 0 || problem.G.cols() == 0) {
-    ContactSolution solution = solveRegular(problem, idle, slack, p0, balance, active, dependent);
-    solution.idle = idles;
-    if (!dependent) return solution;
+    Pivoting pivoting(problem, idle, slack, p0, balance, work);
+    solution = solveRegular(pivoting, problem, active);
+    dependent = pivoting.redundant();
   }
-  ContactProblem regular = problem;
-  for (size_t i = 0; i < idle.size(); ++i)
-    if (idle[i] != 0) regular.W(i, i) = problem.W.diagonal().maxCoeff();
-  ContactSolution solution;
-  for (const double weight : {1e-9, 1e-8, 1e-7}) {
-    solution = solveRedundant(regular, idle, slack, p0, balance, active, weight);
-    if (solution.outcome != ContactSolution::Outcome::cycled) break;
+  if (dependent || (idles > 0 && problem.G.cols() > 0)) {
+    ContactProblem regular = problem;
+    for (size_t i = 0; i < idle.size(); ++i)
+      if (idle[i] != 0) regular.W(i, i) = problem.W.diagonal().maxCoeff();
+    for (const double weight : {1e-9, 1e-8, 1e-7}) {
+      solution = solveRedundant(regular, idle, slack, p0, balance, active, weight, work);
+      if (solution.outcome != ContactSolution::Outcome::cycled) break;
+    }
   }
   solution.idle = idles;
   solution.dependent = dependent;
+  solution.work = work.done / work.factorisation;
   return solution;
 }
 

@@ -25,13 +25,15 @@ struct ContactSolution {
   enum class Outcome {
     solved,
     unbalanced,  ///< contact cannot balance r: `rigid` is the motion along which the bodies leave
-    cycled       ///< only where W is not a P-matrix (an indefinite tangent), or nearly so
+    cycled,      ///< only where W is not a P-matrix (an indefinite tangent), or nearly so
+    capped       ///< all the work that is allowed was done: `workLimit` factorisations of W
   };
   Outcome outcome = Outcome::cycled;
   Vector change;             ///< dp
   Vector rigid;              ///< z
   std::vector<char> active;  ///< the set on which s = 0 was asked
   int pivots = 0;            ///< dense solves
+  double work = 0;           ///< operations, over those of a factorisation of W [-]
   int idle = 0;              ///< conditions that no free motion changes: W_ii = 0
   bool dependent = false;    ///< conditions depend on each other: the forces are one choice of many
 };
@@ -39,11 +41,17 @@ struct ContactSolution {
 /// How many conditions depend on others: those that change, less the rank of W.
 int dependentConditions(const Matrix& W);
 
-/// Principal pivoting: all wrong signs change sides at once; when that stops helping, one at a time by the
-/// least index, which ends after finitely many steps for every P-matrix, symmetric or not (Murty 1974; Judice
-/// and Pires 1994). The balance is held by a proximal term on z, small enough that one or two repetitions
-/// make it exact (Rockafellar 1976). Conditions with W_ii = 0 stay inactive; where conditions depend on each other
-/// the same kind of term on dp picks one of the solutions. \param active  the set to begin with.
+/// More work than that of so many factorisations of W is not done for one contact problem.
+constexpr double workLimit = 20;
+
+/// Principal pivoting. Forces that pull are dropped, all at once, until none is left; then the deepest condition of each
+/// run of neighbours that overlap is closed. Where that stops lowering the number of overlaps, one of them is closed
+/// without opening up any other condition: its force grows until its gap is closed, and conditions on the way that reach
+/// the end of their force or gap change sides. That ends for every P-matrix, symmetric or not (Cottle and Dantzig 1968).
+/// Factors are updated while the set changes little (active_factor.h).
+/// The balance is held by a proximal term on z, small enough that one or two repetitions make it exact (Rockafellar 1976).
+/// Conditions with W_ii = 0 stay inactive; where conditions depend on each other the same kind of term on dp picks one
+/// of the solutions. \param active  the set to begin with.
 ContactSolution solveContact(const ContactProblem& problem, const Vector& slack, const Vector& p0,
                              const Vector& balance, std::vector<char> active);
 

@@ -175,6 +175,11 @@ void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>&
     outcome.reason = "the contact problem of the linearised step has no solution";
     return;
   }
+  if (contact.outcome == ContactSolution::Outcome::capped) {
+    outcome.reason = "the contact problem of the linearised step was given up after the work of " +
+                     std::to_string(static_cast<int>(workLimit)) + " factorisations";
+    return;
+  }
   if (contact.outcome == ContactSolution::Outcome::unbalanced) {
     outcome.unheld = true;
     outcome.reason = "contact cannot hold " + describeRigid(contact.rigid);

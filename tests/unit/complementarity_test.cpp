@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "unit/enumerated_contact.h"
+#include "unit/load_patterns.h"
 
 namespace mortier {
 namespace {
@@ -226,6 +227,46 @@ TEST(Complementarity, dependentConditionsAreSolved) {
         EXPECT_LE(std::abs(p[i] * s[i]), tolerance * size * (1 + p.maxCoeff())) << trial;
       }
     }
+}
+
+// Lines with many nodes under loads of all wave lengths, where changing all wrong signs at once goes round. Of thousands of
+// patterns the worst takes 9 factorisations (bench/contact_pivoting.cpp).
+TEST(Complementarity, anyLoadOnManyNodesTakesTheWorkOfAFewFactorisations) {
+  constexpr int n = 160;
+  constexpr int patternsOfALine = 60;
+  constexpr double tolerance = 1e-9;
+  std::mt19937 random(12);
+  for (const patterns::Line line : patterns::allLines)
+    for (const int motions : {0, 1}) {
+      const ContactProblem problem{patterns::compliance(line, n), line != patterns::Line::unsymmetric,
+                                   Matrix::Ones(n, motions)};
+      for (int trial = 0; trial < patternsOfALine; ++trial) {
+        const patterns::Pattern pattern = patterns::pattern(random, problem);
+        const ContactSolution solution =
+            solveContact(problem, pattern.slack, Vector::Zero(n), pattern.balance, pattern.active);
+        SCOPED_TRACE(testing::Message() << "line " << static_cast<int>(line) << " trial " << trial);
+        ASSERT_EQ(solution.outcome, Outcome::solved);
+        EXPECT_LE(solution.work, 10);
+        const Vector& p = solution.change;
+        const Vector s = pattern.slack + problem.W * p - problem.G * solution.rigid;
+        const double force = p.cwiseAbs().maxCoeff();
+        const double length = problem.W.diagonal().maxCoeff() * force + pattern.slack.cwiseAbs().maxCoeff();
+        EXPECT_GE(p.minCoeff(), -tolerance * force);
+        EXPECT_GE(s.minCoeff(), -tolerance * length);
+        EXPECT_LE(p.cwiseProduct(s).cwiseAbs().maxCoeff(), tolerance * force * length);
+      }
+    }
+}
+
+// Not a P-matrix: pivoting goes round, and says that it was stopped and not that there is no solution.
+TEST(Complementarity, workThatHasNoEndIsCutOff) {
+  constexpr int n = 300;
+  Randoms random(13);
+  const Case c{{random.matrix(n, n), false, Matrix(n, 0)}, random.vector(n), Vector::Zero(n), Vector(0)};
+  const ContactSolution solution = solve(c, std::vector<char>(n, 1));
+  EXPECT_EQ(solution.outcome, Outcome::capped);
+  EXPECT_GT(solution.work, workLimit);
+  EXPECT_LE(solution.work, 1.5 * workLimit);
 }
 
 TEST(Complementarity, nothingToSolveIsSolved) {

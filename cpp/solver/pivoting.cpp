@@ -1,0 +1,220 @@
+#include "solver/pivoting.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mortier {
+namespace {
+
+/// Values below this part of the largest are rounding.
+constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+
+/// How a proximal term is weakened from one repetition to the next, and down to which weight.
+constexpr double softer = 1e-2;
+constexpr double softest = 1e-13;
+
+}  // namespace
+
+Work::Work(const ContactProblem& problem) {
+  constexpr double alwaysAllowed = 1e8;  // small problems end by the number of their pivots
+  const auto n = static_cast<double>(problem.W.rows());
+  factorisation = n * n * n / (problem.symmetric ? 3 : 1.5);
+  limit = workLimit * factorisation + alwaysAllowed;
+}
+
+Pivoting::Pivoting(const ContactProblem& problem, const std::vector<char>& idle, const Vector& slack,
+                   const Vector& p0, const Vector& balance, Work& work)
+    : problem_(problem),
+      idle_(idle),
+      slack_(slack),
+      p0_(p0),
+      balance_(balance),
+      work_(work),
+      factor_(problem.W, problem.symmetric, work.done) {
+  // The proximal weight against the stiffness that all nodes together give to rigid motions.
+  if (problem.G.cols() == 0) return;
+  redundant_ = !factor_.take(std::vector<char>(slack.size(), 1));
+  if (redundant_) return;
+  Matrix solved = problem.G;
+  factor_.solve(solved);
+  stiffness_ = (problem.G.transpose() * solved).diagonal().maxCoeff();
+  restart(slack);
+}
+
+void Pivoting::restart(const Vector& slack) {
+  slack_ = slack;
+  proximal_ = problem_.proximal * stiffness_;
+}
+
+void Pivoting::soften() {
+  proximal_ = std::max(softer * proximal_, std::min(proximal_, softest * stiffness_));
+}
+
+bool Pivoting::run(const Vector& z0, ContactSolution& solution) {
+  int patience = 8;
+  const auto n = static_cast<int>(slack_.size());
+  const int limit = solution.pivots + 20 * n + 100;
+  int fewest = n + 1;
+  int tries = 0;
+  std::vector<char> best;
+  while (!redundant_ && solution.pivots < limit && !capped()) {
+    if (!solveOn(z0, solution)) return false;
+    const WrongSigns wrong = wrongSigns(solution);
+    if (wrong.none() && factor_.fresh()) return true;
+    if (wrong.none()) {
+      redundant_ = !factor_.refactor(solution.active);
+      continue;
+    }
+    if (!wrong.pulls.empty()) {
+      for (const int i : wrong.pulls) solution.active[i] = 0;
+      continue;
+    }
+    const auto count = static_cast<int>(wrong.overlaps.size());
+    if (count < fewest) {
+      fewest = count;
+      tries = 0;
+      best = solution.active;
+    } else if (++tries > patience) {
+      patience = 1;
+      tries = 0;
+      solution.active = best;
+      closeOne(z0, limit, solution);
+      continue;
+    }
+    for (const int i : deepest(wrong.overlaps)) solution.active[i] = 1;
+  }
+  return false;
+}
+
+double Pivoting::imbalance(const ContactSolution& solution, double usual) const {
+  const Vector rest = balance_ - problem_.G.transpose() * solution.change;
+  const Vector forces = ((p0_.cwiseAbs() + (p0_ + solution.change).cwiseAbs()).array() + usual).matrix();
+  const double scale =
+      balance_.cwiseAbs().maxCoeff() + (problem_.G.cwiseAbs().transpose() * forces).maxCoeff();
+  return scale > 0 ? rest.cwiseAbs().maxCoeff() / scale : 0;
+}
+
+bool Pivoting::leaves(const ContactSolution& solution) const {
+  constexpr double negligible = 1e-6;
+  const Vector closing = problem_.G * solution.rigid;
+  const double work = (balance_ + problem_.G.transpose() * p0_).dot(solution.rigid);
+  return closing.maxCoeff() <= negligible * closing.cwiseAbs().maxCoeff() && work > 0;
+}
+
+Vector Pivoting::compliance(const Vector& p) {
+  if (p.isZero(0)) return p;
+  work_.done += 2 * static_cast<double>(problem_.W.size());
+  return problem_.W * p;
+}
+
+/// x_A and z of  W_AA x_A - G_A z = f_A,  G_A' x_A + proximal z = h.  \param f  becomes x, zero off A.
+Vector Pivoting::solveBordered(const std::vector<char>& active, const Vector& h, Vector& f) {
+  const Matrix& G = problem_.G;
+  redundant_ = redundant_ || !factor_.take(active);
+  Matrix solved(f.size(), 1 + G.cols());
+  solved << f, G;
+  factor_.solve(solved);
+  f = solved.col(0);
+  if (G.cols() == 0) return Vector(0);
+  // Rows off A are zero in what is solved.
+  Matrix stiffness = G.transpose() * solved.rightCols(G.cols());
+  stiffness.diagonal().array() += proximal_;
+  const Vector z = stiffness.partialPivLu().solve(h - G.transpose() * f);
+  f += solved.rightCols(G.cols()) * z;
+  return z;
+}
+
+/// p = 0 off the active set, s = 0 on it. \returns false where that is redundant.
+bool Pivoting::solveOn(const Vector& z0, ContactSolution& solution) {
+  ++solution.pivots;
+  Vector off = -p0_;
+  for (Eigen::Index i = 0; i < off.size(); ++i)
+    if (solution.active[i] != 0) off[i] = 0;
+  solution.change = -slack_ - compliance(off);
+  solution.rigid = solveBordered(solution.active, balance_ - problem_.G.transpose() * off + proximal_ * z0,
+                                 solution.change);
+  solution.change += off;
+  return !redundant_;
+}
+
+Vector Pivoting::slackOf(const ContactSolution& solution) {
+  Vector s = slack_ + compliance(solution.change);
+  if (problem_.G.cols() > 0) s -= problem_.G * solution.rigid;
+  return s;
+}
+
+/// Signs are judged against rounding, slacks as the forces that would close them.
+Pivoting::WrongSigns Pivoting::wrongSigns(const ContactSolution& solution) {
+  const Vector s = slackOf(solution);
+  const Vector p = p0_ + solution.change;
+  double largest = 0;
+  for (Eigen::Index i = 0; i < s.size(); ++i)
+    if (idle_[i] == 0)
+      largest = std::max({largest, std::abs(p[i]), std::abs(p0_[i]), std::abs(slack_[i]) / problem_.W(i, i)});
+  depth_ = s.cwiseQuotient(problem_.W.diagonal());
+  WrongSigns wrong;
+  for (Eigen::Index i = 0; i < s.size(); ++i) {
+    if (idle_[i] != 0) continue;
+    const bool active = solution.active[i] != 0;
+    if (!((active ? p[i] : depth_[i]) >= -rounding * largest))
+      (active ? wrong.pulls : wrong.overlaps).push_back(static_cast<int>(i));
+  }
+  return wrong;
+}
+
+/// Of each run of neighbours the deepest. Closing all would make most of them pull.
+std::vector<int> Pivoting::deepest(const std::vector<int>& overlaps) const {
+  std::vector<int> result;
+  for (size_t k = 0; k < overlaps.size(); ++k) {
+    const int i = overlaps[k];
+    if (k == 0 || i != overlaps[k - 1] + 1)
+      result.push_back(i);
+    else if (depth_[i] < depth_[result.back()])
+      result.back() = i;
+  }
+  return result;
+}
+
+/// Closes the deepest overlap of a set whose forces all push; no sign that is right becomes wrong.
+void Pivoting::closeOne(const Vector& z0, int limit, ContactSolution& solution) {
+  if (!solveOn(z0, solution)) return;
+  const std::vector<int> overlaps = wrongSigns(solution).overlaps;
+  if (overlaps.empty()) return;
+  const int chosen = *std::min_element(overlaps.begin(), overlaps.end(),
+                                       [&](int a, int b) { return depth_[a] < depth_[b]; });
+  Vector p = p0_ + solution.change;
+  Vector s = slackOf(solution);
+  const auto diagonal = problem_.W.diagonal();
+  while (solution.pivots < limit && !capped()) {
+    ++solution.pivots;
+    Vector rate = -problem_.W.col(chosen);
+    const Vector motion = solveBordered(solution.active, -problem_.G.row(chosen).transpose(), rate);
+    if (redundant_) return;
+    rate[chosen] = 1;
+    Vector opening = compliance(rate);
+    if (motion.size() > 0) opening -= problem_.G * motion;
+    const double least = rounding * std::max(rate.cwiseAbs().maxCoeff(),
+                                             opening.cwiseQuotient(diagonal).cwiseAbs().maxCoeff());
+    double length = opening[chosen] > 0 ? -s[chosen] / opening[chosen] : INFINITY;
+    int next = chosen;
+    for (int i = 0; i < p.size(); ++i) {
+      if (i == chosen || idle_[i] != 0) continue;
+      const bool active = solution.active[i] != 0;
+      const double fall = active ? -rate[i] : -opening[i] / diagonal[i];
+      const double value = active ? p[i] : s[i] / diagonal[i];
+      if (!(fall > least) || (!active && value < 0) || !(std::max(value, 0.0) < length * fall)) continue;
+      length = std::max(value, 0.0) / fall;
+      next = i;
+    }
+    if (!std::isfinite(length)) return;
+    p += length * rate;
+    s += length * opening;
+    solution.active[next] = solution.active[next] != 0 ? 0 : 1;
+    if (next == chosen) return;
+    (solution.active[next] != 0 ? s : p)[next] = 0;
+  }
+}
+
+}  // namespace mortier
