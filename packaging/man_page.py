@@ -11,7 +11,7 @@ ENDING = """\
 .SH FILES
 .TP
 .B out/NAME
-result of the scene NAME.toml: fields.pvd and .vtu files (ParaView), contact.csv, history.csv, summary.json
+result of the scene NAME.toml: fields.pvd and .vtu files (ParaView), contact.csv, history.csv, summary.json, manifest.json
 .TP
 .B DIR.failed
 last good state of a run that stopped at a step that cannot be solved

@@ -171,7 +171,11 @@ int run(RunCommand command) {
   // 1. The scene, and the model it describes.
   std::optional<StoppedRun> stopped;
   if (!command.restart.empty()) {
-    stopped.emplace(findStoppedRun(command.restart));
+    stopped = findStoppedRun(command.restart);
+    if (!stopped) {
+      warn(command.restart + ": the run was complete, its result is now in place");
+      return exitDone;
+    }
     if (command.scene.empty()) askAgain(stopped->checkpoint.identity, command);
     command.out = command.restart;
   }
@@ -239,16 +243,12 @@ int run(RunCommand command) {
   log.finish();
 
   // 4. The result, in place of an older one only when the run is complete.
-  files->close(state, last.step);
-  const Accuracy accuracy = accuracyOf(model, state);
-  writeSummary(folder->temporary(), facts, model, state, last, report, accuracy);
   const bool complete = report.status == Status::converged;
-  std::string where = path;
-  if (complete) {
-    folder->commit();
-  } else {
-    where = folder->commitAsFailed();
-  }
+  Manifest manifest{!complete, files->close(state, last.step)};
+  const Accuracy accuracy = accuracyOf(model, state);
+  manifest.files["summary.json"] =
+      writeSummary(folder->temporary(), facts, model, state, last, report, accuracy);
+  const std::string where = folder->commit(manifest);
 
   // 5. How well it holds.
   log.print(logStatus(report, where));

@@ -10,19 +10,22 @@ namespace mortier {
 
 namespace fs = std::filesystem;
 
-StoppedRun findStoppedRun(const std::string& path) {
-  std::string fault;
-  for (const std::string& folder : stoppedRuns(path)) {
-    FolderLock lock(folder);
-    if (!lock.held()) {
-      fault.assign(path).append(": the run in " + folder + " still goes on, expected one that was stopped");
-      continue;
+std::optional<StoppedRun> findStoppedRun(const std::string& path) {
+  try {
+    const ResultPlace place(path);
+    const PlaceLock alone(place.parent().string());
+    const LeftBehind left = clearUp(place);
+    if (!left.stopped.empty()) {
+      const std::string folder = left.stopped.front().string();
+      return StoppedRun{folder, FolderLock(folder), readCheckpoint(folder)};
     }
-    return {folder, std::move(lock), readCheckpoint(folder)};
+    if (left.placed == place.of(true))
+      throw OutputError(place.shown(left.placed) + ": the run had stopped at a step that cannot be solved");
+    if (!left.placed.empty()) return {};
+  } catch (const fs::filesystem_error& error) {
+    throw OutputError(path + ": " + error.code().message());
   }
-  throw InputError(fault.empty() ? path + ": no stopped run, expected a folder " + path +
-                                       ".tmp-... with a checkpoint in it"
-                                 : fault);
+  throw InputError(path + ": no stopped run, expected a folder " + path + ".tmp-... with a checkpoint in it");
 }
 
 void askAgain(const RunIdentity& stored, RunCommand& command) {

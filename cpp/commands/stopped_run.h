@@ -1,6 +1,7 @@
 // `mortier run --restart DIR`: the stopped run that goes on.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "commands/run.h"
@@ -15,9 +16,9 @@ struct StoppedRun {
   Checkpoint checkpoint;
 };
 
-/// The latest stopped run whose result was to be `path`. \throws InputError when there is none that can go
-/// on.
-StoppedRun findStoppedRun(const std::string& path);
+/// The latest stopped run whose result was to be `path`; none when the run was complete: its result has been put in place.
+/// \throws InputError when there is none that can go on.
+std::optional<StoppedRun> findStoppedRun(const std::string& path);
 
 /// Goes to the folder in which the run was begun, and asks for what it was asked for.
 void askAgain(const RunIdentity& stored, RunCommand& command);

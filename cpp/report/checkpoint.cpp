@@ -8,9 +8,10 @@
 #include <iterator>
 #include <string_view>
 
+#include "base/archive.h"
+#include "base/checksum.h"
 #include "base/error.h"
 #include "base/whole_file.h"
-#include "report/archive.h"
 #include "report/checkpoint_files.h"
 #include "report/checkpoint_members.h"
 
@@ -21,16 +22,17 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Names the layout (checkpoint_members.h); it changes with any member.
-constexpr std::string_view magic = "mortier checkpoint 4\n";
+constexpr std::string_view magic = "mortier checkpoint 5\n";
 
-uint64_t fnv1a(std::string_view bytes, uint64_t hash = 14695981039346656037U) {
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211U;
-  return hash;
+uint64_t sumOf(std::string_view bytes) {
+  Checksum sum;
+  sum.add(bytes);
+  return sum.value;
 }
 
 template <class T>
-uint64_t fnv1a(const std::vector<T>& values, uint64_t hash) {
-  return fnv1a({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)}, hash);
+void add(Checksum& sum, const std::vector<T>& values) {
+  sum.add({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
 }
 
 Checkpoint decode(const std::string& path) {
@@ -42,7 +44,7 @@ Checkpoint decode(const std::string& path) {
   if (bytes.compare(0, magic.size(), magic) != 0) throw InputError("not of this version of mortier");
   const std::string_view content(bytes.data(), bytes.size() - sizeof sum);
   std::memcpy(&sum, bytes.data() + content.size(), sizeof sum);
-  if (sum != fnv1a(content)) throw InputError("damaged");
+  if (sum != sumOf(content)) throw InputError("damaged");
   ArchiveReader reader(content.substr(magic.size()));
   Checkpoint checkpoint;
   reader(checkpoint);
@@ -50,23 +52,28 @@ Checkpoint decode(const std::string& path) {
   return checkpoint;
 }
 
-void requireFile(const std::string& path, uint64_t size) {
-  std::error_code error;
-  const uint64_t is = fs::file_size(path, error);
-  if (error || is < size)
-    throw InputError("its " + fs::path(path).filename().string() + " is shorter than it was");
+/// \param whole  false: a file that has grown since
+void requireFile(const std::string& folder, const std::string& name, const FileRecord& record, bool whole) {
+  const std::string path = std::string(folder).append("/").append(name);
+  if (matches(path, record, whole)) return;
+  const bool isThere = fs::exists(path);
+  const bool isShorter = isThere && fs::file_size(path) < record.bytes;
+  throw InputError("its " + name +
+                   (isShorter ? " is shorter than it was"
+                    : isThere ? " is damaged"
+                              : " is gone"));
 }
 
 }  // namespace
 
 uint64_t hashOf(const TriangleMesh& mesh) {
-  uint64_t hash = fnv1a("");
-  for (const Point& p : mesh.vertices)
-    hash = fnv1a({reinterpret_cast<const char*>(p.data()), 2 * sizeof(double)}, hash);
-  hash = fnv1a(mesh.triangles, hash);
-  hash = fnv1a(mesh.regions, hash);
-  hash = fnv1a(mesh.boundaryEdges, hash);
-  return fnv1a(mesh.boundaryLabels, hash);
+  Checksum sum;
+  for (const Point& p : mesh.vertices) sum.add({reinterpret_cast<const char*>(p.data()), 2 * sizeof(double)});
+  add(sum, mesh.triangles);
+  add(sum, mesh.regions);
+  add(sum, mesh.boundaryEdges);
+  add(sum, mesh.boundaryLabels);
+  return sum.value;
 }
 
 void writeCheckpoint(const std::string& folder, const Checkpoint& checkpoint) {
@@ -74,7 +81,7 @@ void writeCheckpoint(const std::string& folder, const Checkpoint& checkpoint) {
   ArchiveWriter writer;
   writer.bytes = magic;
   writer(const_cast<Checkpoint&>(checkpoint));  // one list of members serves reading and writing
-  const uint64_t sum = fnv1a(writer.bytes);
+  const uint64_t sum = sumOf(writer.bytes);
   writer.bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
   const std::string path = folder + "/" + checkpointName;
   std::error_code none;
@@ -89,8 +96,10 @@ Checkpoint readCheckpoint(const std::string& folder) {
     if (!fs::exists(path)) continue;
     try {
       Checkpoint checkpoint = decode(path);
-      requireFile(folder + "/history.csv", checkpoint.files.history);
-      requireFile(folder + "/contact.csv", checkpoint.files.contact);
+      requireFile(folder, "history.csv", checkpoint.files.history, false);
+      requireFile(folder, "contact.csv", checkpoint.files.contact, false);
+      for (const KeptFields& kept : checkpoint.files.fields)
+        for (const auto& [file, record] : kept.files) requireFile(folder, file, record, true);
       return checkpoint;
     } catch (const InputError& error) {
       fault += (fault.empty() ? "" : "; ") + path + ": " + error.what();

@@ -9,14 +9,10 @@ namespace mortier {
 constexpr const char* checkpointName = "checkpoint";
 constexpr const char* previousCheckpointName = "checkpoint.previous";
 
-inline bool isCheckpointFile(const std::string& name) {
-  return name.compare(0, std::string(checkpointName).size(), checkpointName) == 0;
-}
-
+/// \throws std::filesystem::filesystem_error  nobody can say.
 inline bool hasCheckpoint(const std::string& folder) {
-  std::error_code none;
-  return std::filesystem::exists(folder + "/" + checkpointName, none) ||
-         std::filesystem::exists(folder + "/" + previousCheckpointName, none);
+  return std::filesystem::is_regular_file(folder + "/" + checkpointName) ||
+         std::filesystem::is_regular_file(folder + "/" + previousCheckpointName);
 }
 
 }  // namespace mortier

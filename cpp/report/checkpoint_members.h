@@ -12,9 +12,14 @@ void visitMembers(Archive& archive, RunIdentity& identity) {
   archive(workingFolder, scene, text, settings, meshes, meshHashes);
 }
 template <class Archive>
+void visitMembers(Archive& archive, FileRecord& file) {
+  auto& [bytes, checksum] = file;
+  archive(bytes, checksum);
+}
+template <class Archive>
 void visitMembers(Archive& archive, KeptFields& fields) {
-  auto& [step, time] = fields;
-  archive(step, time);
+  auto& [step, time, files] = fields;
+  archive(step, time, files);
 }
 template <class Archive>
 void visitMembers(Archive& archive, FilesSoFar& files) {

@@ -10,13 +10,13 @@ namespace mortier {
 class ContactTable {
  public:
   ContactTable(const std::string& folder, const Model& model);
-  /// Goes on after the first `keep` bytes.
-  ContactTable(const std::string& folder, const Model& model, uint64_t keep)
+  /// Goes on after what `keep` records.
+  ContactTable(const std::string& folder, const Model& model, const FileRecord& keep)
       : model_(model), file_(folder + "/contact.csv", keep) {}
   void add(const State& state, int step);
-  /// Brings everything to the disk. \returns the bytes so far.
-  uint64_t sync() { return file_.sync(); }
-  void close() { file_.close(); }
+  /// Brings everything to the disk. \returns what is written so far.
+  FileRecord sync() { return file_.sync(); }
+  FileRecord close() { return file_.close(); }
 
  private:
   const Model& model_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <filesystem>
 #include <sstream>
 
 #include "base/error.h"
@@ -44,7 +43,7 @@ class VtuFile {
     append(values.data(), values.size() * sizeof(Integer));
   }
 
-  void close() {
+  FileRecord close() {
     uint64_t offset = 0;
     for (const std::string& array : arrays_) offset += array.size();
     for (size_t i = 0; i < arrays_.size(); ++i) {
@@ -54,7 +53,7 @@ class VtuFile {
     file_ << xml_.str() << "</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
     std::for_each(arrays_.rbegin(), arrays_.rend(), [&](const std::string& array) { file_ << array; });
     file_ << "\n</AppendedData>\n</VTKFile>\n";
-    file_.close();
+    return file_.close();
   }
 
  private:
@@ -165,26 +164,27 @@ CellFields cellFields(const Body& body, const BodyState& state) {
   return fields;
 }
 
-std::string Fields::nameOf(size_t body, int step) const {
+std::string fieldName(const std::string& body, int step) {
   std::string number = std::to_string(step);
   number.insert(0, number.size() < 6 ? 6 - number.size() : 0, '0');
-  return model_.bodies[body].name() + "_" + number + ".vtu";
+  return body + "_" + number + ".vtu";
 }
 
-void Fields::write(const std::vector<BodyState>& bodies, int step) {
+void Fields::write(const std::vector<BodyState>& bodies, KeptFields& kept) {
   for (size_t b = estimators_.size(); b < model_.bodies.size(); ++b)
     estimators_.emplace_back(model_.bodies[b]);
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
     const TriangleMesh& mesh = body.mesh();
-    VtuFile file(folder_ + "/" + nameOf(b, step));
+    const std::string name = fieldName(body.name(), kept.step);
+    VtuFile file(folder_ + "/" + name);
     file.open("Piece", "NumberOfPoints=\"" + std::to_string(mesh.vertices.size()) + "\" NumberOfCells=\"" +
                            std::to_string(mesh.triangles.size()) + "\"");
     writePoints(file, mesh, bodies[b].displacement);
     writeCells(file, mesh);
     writeCellData(file, body, bodies[b], estimators_[b](bodies[b].stress));
     file.shut("Piece");
-    file.close();
+    kept.files[name] = file.close();
   }
 }
 
@@ -197,25 +197,24 @@ void Fields::add(const State& state, int step) {
   size_t triangles = 0;
   for (const Body& body : model_.bodies) triangles += body.mesh().triangles.size();
   wait();
+  kept_.push_back({step, state.time, {}});  // the next one waits until this one is written
   if (triangles < trianglesWorthAThread)
-    write(state.bodies, step);
+    write(state.bodies, kept_.back());
   else
-    writing_ = std::async(std::launch::async, [this, bodies = state.bodies, step] { write(bodies, step); });
-  kept_.push_back({step, state.time});
+    writing_ = std::async(std::launch::async, [this, bodies = state.bodies] { write(bodies, kept_.back()); });
 }
 
 const std::vector<KeptFields>& Fields::sync() {
   wait();
   for (; synced_ < kept_.size(); ++synced_)
-    for (size_t b = 0; b < model_.bodies.size(); ++b) {
-      const std::string path = folder_ + "/" + nameOf(b, kept_[synced_].step);
-      OutputFile(path, std::filesystem::file_size(path)).sync();
-    }
+    for (const auto& [name, record] : kept_[synced_].files)
+      OutputFile(std::string(folder_).append("/").append(name), record).sync();
   return kept_;
 }
 
-void Fields::close() {
+std::map<std::string, FileRecord> Fields::close() {
   wait();
+  std::map<std::string, FileRecord> written;
   OutputFile file(folder_ + "/fields.pvd");
   file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
           "byte_order=\"LittleEndian\">\n"
@@ -225,10 +224,13 @@ void Fields::close() {
       char time[32];
       std::snprintf(time, sizeof time, "%.17g", kept.time);
       file << "<DataSet timestep=\"" << std::string(time) << "\" group=\"\" part=\"" << b << "\" name=\""
-           << model_.bodies[b].name() << "\" file=\"" << nameOf(b, kept.step) << "\"/>\n";
+           << model_.bodies[b].name() << "\" file=\"" << fieldName(model_.bodies[b].name(), kept.step)
+           << "\"/>\n";
     }
   file << "</Collection>\n</VTKFile>\n";
-  file.close();
+  for (const KeptFields& kept : kept_) written.insert(kept.files.begin(), kept.files.end());
+  written["fields.pvd"] = file.close();
+  return written;
 }
 
 }  // namespace mortier

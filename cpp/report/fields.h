@@ -7,18 +7,24 @@
 #pragma once
 
 #include <future>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "fem/error_estimate.h"
+#include "report/manifest.h"
 #include "time/march.h"
 
 namespace mortier {
 
+/// <body>_<step>.vtu
+std::string fieldName(const std::string& body, int step);
+
 /// A step whose fields are written.
 struct KeptFields {
   int step = 0;
-  double time = 0;  ///< [s]
+  double time = 0;                          ///< [s]
+  std::map<std::string, FileRecord> files;  ///< one a body, by name
 };
 
 class Fields {
@@ -31,12 +37,11 @@ class Fields {
   void add(const State& state, int step);
   /// Brings everything to the disk. \returns what is written so far. \throws OutputError
   const std::vector<KeptFields>& sync();
-  /// Writes fields.pvd.
-  void close();
+  /// Writes fields.pvd. \returns all that was written, by name.
+  std::map<std::string, FileRecord> close();
 
  private:
-  [[nodiscard]] std::string nameOf(size_t body, int step) const;
-  void write(const std::vector<BodyState>& bodies, int step);
+  void write(const std::vector<BodyState>& bodies, KeptFields& kept);
   /// Until the last step is written.
   void wait();
 

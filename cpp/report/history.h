@@ -9,12 +9,12 @@ namespace mortier {
 class History {
  public:
   explicit History(const std::string& folder);
-  /// Goes on after the first `keep` bytes.
-  History(const std::string& folder, uint64_t keep) : file_(folder + "/history.csv", keep) {}
+  /// Goes on after what `keep` records.
+  History(const std::string& folder, const FileRecord& keep) : file_(folder + "/history.csv", keep) {}
   void add(const StepReport& report);
-  /// Brings everything to the disk. \returns the bytes so far.
-  uint64_t sync() { return file_.sync(); }
-  void close() { file_.close(); }
+  /// Brings everything to the disk. \returns what is written so far.
+  FileRecord sync() { return file_.sync(); }
+  FileRecord close() { return file_.close(); }
 
  private:
   OutputFile file_;

@@ -27,9 +27,12 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)), file_(std::fo
   buffer_.reserve(bufferSize);
 }
 
-OutputFile::OutputFile(std::string path, uint64_t keep)
-    : path_(std::move(path)), written_(keep), file_(std::fopen(path_.c_str(), "r+b")) {
-  const auto size = static_cast<off_t>(keep);
+OutputFile::OutputFile(std::string path, const FileRecord& keep)
+    : path_(std::move(path)),
+      written_(keep.bytes),
+      sum_{keep.checksum},
+      file_(std::fopen(path_.c_str(), "r+b")) {
+  const auto size = static_cast<off_t>(keep.bytes);
   if (!file_ || ftruncate(fileno(file_.get()), size) != 0 || fseeko(file_.get(), size, SEEK_SET) != 0) {
     fail(path_);
   }
@@ -52,6 +55,7 @@ OutputFile& OutputFile::operator<<(double value) {
 
 void OutputFile::write(const void* data, size_t size) {
   written_ += size;
+  sum_.add({static_cast<const char*>(data), size});
   if (buffer_.size() + size > bufferSize) {
     flush();
   }
@@ -71,19 +75,20 @@ void OutputFile::flush() {
   buffer_.clear();
 }
 
-uint64_t OutputFile::sync() {
+FileRecord OutputFile::sync() {
   flush();
   if (fsync(fileno(file_.get())) != 0 && errno != EINVAL) {
     fail(path_);
   }
-  return written_;
+  return {written_, sum_.value};
 }
 
-void OutputFile::close() {
+FileRecord OutputFile::close() {
   flush();
   if (std::fclose(file_.release()) != 0) {
     fail(path_);
   }
+  return {written_, sum_.value};
 }
 
 }  // namespace mortier

@@ -9,14 +9,17 @@
 #include <string>
 #include <string_view>
 
+#include "base/checksum.h"
+#include "report/manifest.h"
+
 namespace mortier {
 
 class OutputFile {
  public:
   /// \throws OutputError when the file cannot be created.
   explicit OutputFile(std::string path);
-  /// Goes on after the first `keep` bytes of a file that is there. \throws OutputError
-  OutputFile(std::string path, uint64_t keep);
+  /// Goes on after what `keep` records of a file that is there. \throws OutputError
+  OutputFile(std::string path, const FileRecord& keep);
 
   OutputFile& operator<<(std::string_view text);
   OutputFile& operator<<(char c) { return *this << std::string_view(&c, 1); }
@@ -28,10 +31,10 @@ class OutputFile {
 
   /// Raw bytes.
   void write(const void* data, size_t size);
-  /// Brings everything to the disk. \returns the bytes written so far. \throws OutputError
-  uint64_t sync();
-  /// \throws OutputError when anything could not be written (a full disk shows here).
-  void close();
+  /// Brings everything to the disk. \returns what is written so far. \throws OutputError
+  FileRecord sync();
+  /// \returns what was written. \throws OutputError when anything could not be (a full disk shows here).
+  FileRecord close();
 
  private:
   struct Close {
@@ -42,6 +45,7 @@ class OutputFile {
   std::string path_;
   std::string buffer_;
   uint64_t written_ = 0;
+  Checksum sum_;
   std::unique_ptr<std::FILE, Close> file_;
 };
 

@@ -27,11 +27,12 @@ FilesSoFar ResultFiles::sync() {
   return {history_.sync(), contact_.sync(), fields_.sync()};
 }
 
-void ResultFiles::close(const State& state, int lastStep) {
+std::map<std::string, FileRecord> ResultFiles::close(const State& state, int lastStep) {
   if (lastKept_ != lastStep) keep(state, lastStep);
-  history_.close();
-  contact_.close();
-  fields_.close();
+  std::map<std::string, FileRecord> written = fields_.close();
+  written["history.csv"] = history_.close();
+  written["contact.csv"] = contact_.close();
+  return written;
 }
 
 }  // namespace mortier

@@ -12,8 +12,8 @@ namespace mortier {
 
 /// How far the files had come at a checkpoint.
 struct FilesSoFar {
-  uint64_t history = 0;  ///< bytes of history.csv
-  uint64_t contact = 0;  ///< bytes of contact.csv
+  FileRecord history;
+  FileRecord contact;
   std::vector<KeptFields> fields;
 };
 
@@ -29,8 +29,8 @@ class ResultFiles {
   void add(const State& state, const StepReport& report);
   /// Brings everything to the disk.
   FilesSoFar sync();
-  /// Keeps the last step and closes the files.
-  void close(const State& state, int lastStep);
+  /// Keeps the last step and closes the files. \returns what was written, by name.
+  std::map<std::string, FileRecord> close(const State& state, int lastStep);
 
  private:
   void keep(const State& state, int step);

@@ -96,8 +96,9 @@ Extremes extremes(const Model& model, const State& state) {
   return e;
 }
 
-void writeSummary(const std::string& folder, const RunFacts& facts, const Model& model, const State& state,
-                  const StepReport& last, const RunReport& report, const Accuracy& accuracy) {
+FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const Model& model,
+                        const State& state, const StepReport& last, const RunReport& report,
+                        const Accuracy& accuracy) {
   size_t triangles = 0;
   int nodes = 0;
   int dofs = 0;
@@ -158,7 +159,7 @@ void writeSummary(const std::string& folder, const RunFacts& facts, const Model&
   requireFiniteNumbers(json, folder + "/summary.json");
   OutputFile file(folder + "/summary.json");
   file << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
-  file.close();
+  return file.close();
 }
 
 std::string word(Status status) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "report/accuracy.h"
+#include "report/manifest.h"
 #include "report/run_facts.h"
 #include "time/march.h"
 
@@ -18,10 +19,11 @@ struct Extremes {
 };
 Extremes extremes(const Model& model, const State& state);
 
-/// Writes `folder`/summary.json; `last` is the report of the step that led to `state`.
+/// Writes `folder`/summary.json; `last` is the report of the step that led to `state`. \returns what was written.
 /// \throws OutputError when it cannot be written or a number is not finite.
-void writeSummary(const std::string& folder, const RunFacts& facts, const Model& model, const State& state,
-                  const StepReport& last, const RunReport& report, const Accuracy& accuracy);
+FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const Model& model,
+                        const State& state, const StepReport& last, const RunReport& report,
+                        const Accuracy& accuracy);
 
 /// "converged", "failed", "unheld".
 std::string word(Status status);

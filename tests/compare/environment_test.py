@@ -1,4 +1,5 @@
 """Faults of the environment and of the input: no room, no reader, folders that vanish, kill -9, a thousand broken scenes."""
+import os
 import re
 import resource
 import shutil
@@ -38,7 +39,7 @@ class Environment(OfTwoBlocks):
         return process
 
     def temporaries(self):
-        return [name for name in self.names("out") if ".tmp-" in name or ".new-" in name]
+        return [name for name in self.names("out") if ".tmp-" in name or ".mortier-" in name]
 
     def test_scenes_are_sound_before_they_are_changed(self):
         for scene in (TWO_BLOCKS, CONTACT_KEYS, BODY_KEYS, ONE_BODY):
@@ -115,6 +116,45 @@ class Environment(OfTwoBlocks):
         self.mortier("mesh", "crisscross", "--cells", "2", "none/new.mesh", code=1)
         self.assertEqual(self.names(), ["file", "lower.mesh", "scene.toml", "upper.mesh"])
 
+    def test_places_that_cannot_be_replaced_are_found_before_the_run(self):
+        for name in ("shared", "shared/theirs", "closed", "closed/out"):
+            (self.folder / name).mkdir()
+        (self.folder / "dangling").symlink_to("nothing")
+        (self.folder / "mine.failed").symlink_to("nothing")
+        self.write("{}", "closed/out/summary.json")
+        run = [PROGRAM, "run", "scene.toml", "--quiet", "--set", "time.steps=100000000", "--out"]
+        user = {}
+        if os.geteuid() == 0:  # as a user who owns nothing of it
+            for path in (self.folder, self.folder / "shared"):
+                path.chmod(0o1777)
+            user = {"user": 65534}
+        else:
+            (self.folder / "shared/theirs").chmod(0o555)
+            (self.folder / "closed").chmod(0o555)
+        for out, reason in (("dangling", "a link to nothing"), ("mine", "mine.failed: exists and is no result"),
+                            (".", "the current folder"), ("..", "the current folder"), (str(self.folder), "the current folder"),
+                            ("shared/theirs", "shared/theirs: cannot be replaced"), ("closed/new", "Permission denied")):
+            with self.subTest(out=out):
+                done = subprocess.run([*run, out], cwd=self.folder, capture_output=True, text=True, timeout=60, **user)
+                self.assertIn(done.returncode, (1, 2), done.stderr)
+                self.assertIn(reason, done.stderr)
+                self.assertEqual(done.stderr.count("\n"), 1)
+        (self.folder / "closed").chmod(0o755)
+        (self.folder / "shared/theirs").chmod(0o755)
+        self.assertEqual(self.names("closed"), ["out"])
+        self.assertEqual(self.names("shared"), ["theirs"])
+
+    def test_two_processes_at_once(self):
+        for _ in range(10):
+            runs = [subprocess.Popen([PROGRAM, "run", "scene.toml", "--quiet", "--set", f"time.steps={steps}"], text=True,
+                                     cwd=self.folder, stderr=subprocess.PIPE) for steps in (1, 2, 3, 4)]
+            for process in runs:
+                errors = process.communicate(timeout=60)[1]
+                self.assertTrue(process.returncode == 0 or (process.returncode == 2 and ": in use, " in errors), errors)
+            self.assertIn(0, [process.returncode for process in runs])
+            require_whole(self.folder / "out/scene")
+            self.assertEqual(self.names("out"), ["scene"])
+
     def test_folder_that_vanishes(self):
         for what in ("out", "out/scene.tmp-*"):
             with self.subTest(what=what):
@@ -135,9 +175,6 @@ class Environment(OfTwoBlocks):
         left, = self.temporaries()
         self.write("mine", f"out/{left}/picture.png")
         self.mortier("run", "scene.toml", "--quiet")
-        self.assertEqual(self.names("out"), ["scene", left])
-        self.assertEqual(self.names("out/" + left), ["picture.png"])
-        self.mortier("run", "scene.toml", "--quiet")
         self.assertEqual(self.names("out"), ["scene"])
         self.assertEqual(self.read("out/scene/picture.png"), "mine")
         require_whole(self.folder / "out/scene")
@@ -145,13 +182,16 @@ class Environment(OfTwoBlocks):
     def test_the_folder_of_a_living_run_is_left_alone(self):
         living = self.begin()
         left, = self.temporaries()
-        self.mortier("run", "scene.toml", "--quiet")
+        done = self.mortier("run", "scene.toml", "--quiet", code=2)
+        self.assertEqual(done.stderr, f"mortier: out/scene: in use, the run in out/{left} still goes on\n")
         self.assertEqual(self.temporaries(), [left])
         self.assertIn("history.csv", self.names("out/" + left))
         living.send_signal(signal.SIGINT)
         living.wait(timeout=60)
         living.stderr.close()
+        self.mortier("run", "scene.toml", "--quiet")
         require_whole(self.folder / "out/scene")
+        self.assertEqual(self.temporaries(), [])
 
     def test_no_memory(self):
         self.mortier("mesh", "crisscross", "--cells", "300", "upper.mesh")

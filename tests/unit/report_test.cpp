@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -40,6 +41,19 @@ class Folder : public testing::Test {
   void put(const std::string& name, const std::string& text) const {
     fs::create_directories(fs::path(path + "/" + name).parent_path());
     std::ofstream(path + "/" + name) << text;
+  }
+  /// Writes files into a folder as a run does.
+  using Texts = std::map<std::string, std::string>;
+  static Manifest fill(const std::string& folder, const Texts& texts) {
+    Manifest manifest;
+    for (const auto& [name, text] : texts)
+      manifest.files[name] = (OutputFile(folder + "/" + name) << text).close();
+    return manifest;
+  }
+  /// A result that was complete.
+  void result(const std::string& name, const Texts& texts) const {
+    fs::create_directories(path + "/" + name);
+    writeManifest(path + "/" + name, fill(path + "/" + name, texts));
   }
   /// Names in the folder, so that nothing temporary is left behind.
   [[nodiscard]] std::set<std::string> names() const {
@@ -87,46 +101,121 @@ TEST_F(Output, fullDiskIsAnError) {
 }
 
 TEST_F(Output, commitReplacesTheOldResultAndKeepsOtherFiles) {
-  put("out/summary.json", "old");
-  put("out/upper_000007.vtu", "old");
-  put("out/picture.png", "mine");
-  put("out.failed/summary.json", "older");
+  result("out", {{"summary.json", "old"}, {"upper_000007.vtu", "old"}});
+  result("out.failed", {{"summary.json", "older"}});
+  const std::map<std::string, std::string> mine{
+      {"picture.png", "mine"}, {"upper_000007.vtu.bak", "mine"}, {"other_000001.vtu", "mine"},
+      {"checkpoint", "mine"},  {"checkpoint.txt", "mine"},       {"folder/a", "mine"}};
+  for (const auto& [name, text] : mine) put("out/" + name, text);
+  put("out/run.lock", "mine");
   {
     OutputFolder folder(path + "/out/");
-    std::ofstream(folder.temporary() + "/summary.json") << "new";
+    const Manifest manifest = fill(folder.temporary(), {{"summary.json", "new"}});
     EXPECT_EQ(contentOf(path + "/out/summary.json"), "old");
-    folder.commit();
+    EXPECT_EQ(folder.commit(manifest), path + "/out");
   }
   EXPECT_EQ(contentOf(path + "/out/summary.json"), "new");
-  EXPECT_EQ(contentOf(path + "/out/picture.png"), "mine");
+  for (const auto& [name, text] : mine) EXPECT_EQ(contentOf(path + "/out/" + name), text) << name;
+  EXPECT_EQ(contentOf(path + "/out/run.lock.kept"), "mine");
   EXPECT_FALSE(fs::exists(path + "/out/upper_000007.vtu"));
   EXPECT_EQ(names(), std::set<std::string>{"out"});
 }
 
-TEST_F(Output, failedRunLeavesTheOldResult) {
-  put("out/summary.json", "old");
+TEST_F(Output, filesOfAResultThatWereChangedAreKept) {
+  result("out", {{"summary.json", "old"}, {"contact.csv", "old"}, {"history.csv", "old"}});
+  put("out/contact.csv", "mine");
+  put("out/history.csv", "oLd");
   {
     OutputFolder folder(path + "/out");
-    std::ofstream(folder.temporary() + "/summary.json") << "new";
-    EXPECT_EQ(folder.commitAsFailed(), path + "/out.failed");
+    folder.commit(fill(folder.temporary(), {{"summary.json", "new"}, {"contact.csv", "new"}}));
+  }
+  EXPECT_EQ(contentOf(path + "/out/contact.csv"), "new");
+  EXPECT_EQ(contentOf(path + "/out/contact.csv.kept"), "mine");
+  EXPECT_EQ(contentOf(path + "/out/history.csv"), "oLd");
+}
+
+TEST_F(Output, failedRunLeavesTheOldResult) {
+  result("out", {{"summary.json", "old"}});
+  {
+    OutputFolder folder(path + "/out");
+    Manifest manifest = fill(folder.temporary(), {{"summary.json", "new"}});
+    manifest.failed = true;
+    EXPECT_EQ(folder.commit(manifest), path + "/out.failed");
   }
   EXPECT_EQ(contentOf(path + "/out/summary.json"), "old");
   EXPECT_EQ(contentOf(path + "/out.failed/summary.json"), "new");
   EXPECT_EQ(names(), (std::set<std::string>{"out", "out.failed"}));
 }
 
+TEST_F(Output, failedResultsThatSomebodyAddedToStay) {
+  result("out.failed", {{"summary.json", "failed"}});
+  put("out.failed/notes", "mine");
+  {
+    OutputFolder folder(path + "/out");
+    folder.commit(fill(folder.temporary(), {{"summary.json", "new"}}));
+  }
+  EXPECT_EQ(contentOf(path + "/out.failed/summary.json"), "failed");
+  EXPECT_EQ(contentOf(path + "/out.failed/notes"), "mine");
+}
+
 TEST_F(Output, exceptionLeavesNothing) {
-  put("out/summary.json", "old");
+  result("out", {{"summary.json", "old"}});
   { const OutputFolder folder(path + "/out"); }
   EXPECT_EQ(names(), std::set<std::string>{"out"});
 }
 
-TEST_F(Output, foldersOfOthersAreNotReplaced) {
+TEST_F(Output, foldersOfOthersAreNeverEntered) {
   put("thesis/chapter.tex", "years of work");
-  put("file", "");
-  EXPECT_THROW(OutputFolder(path + "/thesis"), InputError);
-  EXPECT_THROW(OutputFolder(path + "/file"), InputError);
-  EXPECT_EQ(names(), (std::set<std::string>{"file", "thesis"}));
+  put("of-another-program/summary.json", "{}");
+  put("of-another-program/manifest.json", "{\"files\": {}}");
+  put("a/manifest.json", R"({"format": "mortier result 1", "status": "complete",
+      "files": {"../file": {"bytes": 4, "fnv1a": "0"}}})");
+  put("file", "mine");
+  for (const char* name : {"thesis", "of-another-program", "a", "file"})
+    EXPECT_THROW(OutputFolder(path + "/" + name), InputError) << name;
+  put("new.failed/summary.json", "{}");
+  EXPECT_THROW(OutputFolder(path + "/new"), InputError);
+  EXPECT_EQ(names(), (std::set<std::string>{"a", "file", "new.failed", "of-another-program", "thesis"}));
+}
+
+TEST_F(Output, foldersNamedLikeOursAreNotEntered) {
+  for (const char* name : {"out.tmp-2024/summary.json", "out.tmp-7/checkpoint", "out.mortier-5/history.csv",
+                           "out.tmp-9/run.lock", "out.replaced/history.csv"})
+    put(name, "mine");
+  {
+    OutputFolder folder(path + "/out");
+    folder.commit(fill(folder.temporary(), {{"summary.json", "new"}}));
+  }
+  EXPECT_EQ(names(), (std::set<std::string>{"out", "out.mortier-5", "out.replaced", "out.tmp-2024",
+                                            "out.tmp-7", "out.tmp-9"}));
+  for (const char* name : {"out.tmp-2024/summary.json", "out.tmp-7/checkpoint", "out.mortier-5/history.csv",
+                           "out.tmp-9/run.lock", "out.replaced/history.csv"})
+    EXPECT_EQ(contentOf(path + "/" + name), "mine") << name;
+}
+
+TEST_F(Output, twoRunsForOneFolderAreNotPossible) {
+  const OutputFolder living(path + "/out");
+  EXPECT_THROW(OutputFolder(path + "/out"), InputError);
+  EXPECT_TRUE(fs::exists(living.temporary()));
+}
+
+TEST_F(Output, placesThatCannotBeReplacedAreRefusedAtOnce) {
+  fs::create_directory_symlink(path + "/nothing", path + "/link");
+  EXPECT_THROW(OutputFolder(path + "/link"), InputError);
+  EXPECT_THROW(OutputFolder("."), InputError);
+  EXPECT_THROW(OutputFolder("/proc"), std::runtime_error);
+  EXPECT_EQ(names(), std::set<std::string>{"link"});
+}
+
+TEST_F(Output, linksToAResultAreFollowed) {
+  result("far/out", {{"summary.json", "old"}});
+  fs::create_directory_symlink(path + "/far/out", path + "/link");
+  {
+    OutputFolder folder(path + "/link");
+    folder.commit(fill(folder.temporary(), {{"summary.json", "new"}}));
+  }
+  EXPECT_TRUE(fs::is_symlink(path + "/link"));
+  EXPECT_EQ(contentOf(path + "/far/out/summary.json"), "new");
 }
 
 /// Two unit squares of one cell each, stressed by (0, -2, 0), the lower one elastic.

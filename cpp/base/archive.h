@@ -2,6 +2,7 @@
 // members of what is no number, text, matrix, list or map of those. Bytes are those of this machine.
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstdint>
 #include <cstring>
@@ -46,11 +47,12 @@ class ArchiveWriter {
     size(m.cols());
     raw(m.data(), m.size() * sizeof(double));
   }
-  void put(std::map<std::string, int>& counts) {
-    size(counts.size());
-    for (auto& [key, count] : counts) {
+  template <class T>
+  void put(std::map<std::string, T>& values) {
+    size(values.size());
+    for (auto& [key, value] : values) {
       std::string name = key;
-      (*this)(name, count);
+      (*this)(name, value);
     }
   }
   template <class T>
@@ -91,6 +93,12 @@ class ArchiveReader {
   void get(T& value) {
     raw(&value, sizeof value);
   }
+  void get(bool& value) {
+    char byte = 0;
+    raw(&byte, sizeof byte);
+    if (byte != 0 && byte != 1) throw InputError("neither true nor false");
+    value = byte == 1;
+  }
   void get(std::string& text) {
     text.resize(size());
     raw(text.data(), text.size());
@@ -99,21 +107,25 @@ class ArchiveReader {
   void get(Eigen::Matrix<double, Eigen::Dynamic, Columns>& m) {
     uint64_t shape[2];
     raw(shape, sizeof shape);
-    if (shape[0] != 0 && shape[1] > bytes_.size() / sizeof(double) / shape[0]) throw InputError("too short");
+    const uint64_t most = bytes_.size() / sizeof(double);
+    const bool fits = Columns == Eigen::Dynamic || shape[1] == static_cast<uint64_t>(Columns);
+    if (!fits || std::max(shape[0], shape[1]) > most + 4 || (shape[0] != 0 && shape[1] > most / shape[0]))
+      throw InputError("too short");
     m.resize(static_cast<Eigen::Index>(shape[0]), static_cast<Eigen::Index>(shape[1]));
     raw(m.data(), m.size() * sizeof(double));
   }
-  void get(std::map<std::string, int>& counts) {
+  template <class T>
+  void get(std::map<std::string, T>& values) {
     for (uint64_t n = size(); n > 0; --n) {
       std::string key;
       (*this)(key);
-      (*this)(counts[key]);
+      (*this)(values[key]);
     }
   }
   template <class T>
   void get(std::vector<T>& values) {
-    values.resize(size());
-    for (T& value : values) get(value);
+    values.clear();
+    for (uint64_t n = size(); n > 0; --n) get(values.emplace_back());
   }
   template <class T>
   void get(T& value) {

@@ -1,0 +1,122 @@
+#include "report/folder_lock.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "base/error.h"
+
+namespace mortier {
+
+namespace {
+
+constexpr std::string_view mark = "mortier run in ";
+
+/// Whether `path` still names the open file.
+bool isStill(int file, const std::string& path) {
+  struct stat one {};
+  struct stat other {};
+  return fstat(file, &one) == 0 && lstat(path.c_str(), &other) == 0 && one.st_ino == other.st_ino &&
+         one.st_dev == other.st_dev;
+}
+
+[[noreturn]] void fail(const std::string& path, const char* what, int reason) {
+  throw OutputError(path + ": cannot be " + what + ": " + std::strerror(reason));
+}
+
+/// The name in a lock; empty where it is not one of ours.
+std::string nameIn(int file, const std::string& path) {
+  std::array<char, 4096> text{};
+  const ssize_t size = pread(file, text.data(), text.size(), 0);
+  if (size < 0) fail(path, "read", errno);
+  const std::string_view line(text.data(), size > 0 ? static_cast<size_t>(size) : 0);
+  if (line.substr(0, mark.size()) != mark || line.back() != '\n') return "";
+  return std::string(line.substr(mark.size(), line.size() - mark.size() - 1));
+}
+
+}  // namespace
+
+bool makerLives(const std::string& name) {
+  const size_t dash = name.rfind('-');
+  pid_t pid = 0;
+  if (dash != std::string::npos) std::from_chars(name.data() + dash + 1, name.data() + name.size(), pid);
+  return pid > 0 && pid != getpid() && (kill(pid, 0) == 0 || errno == EPERM);
+}
+
+FolderLock::FolderLock(const std::string& folder) {
+  const std::string path = folder + "/" + lockName;
+  struct stat facts {};
+  if (lstat(path.c_str(), &facts) != 0) {
+    if (errno == ENOENT || errno == ENOTDIR) return;
+    fail(path, "read", errno);
+  }
+  if (!S_ISREG(facts.st_mode)) return;
+  file_ = open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file_ < 0 && (errno == ENOENT || errno == EACCES)) return;  // gone in between, or not of this user
+  if (file_ < 0) fail(path, "read", errno);
+  name_ = nameIn(file_, path);
+  if (name_.empty()) return;
+  const bool locked = flock(file_, LOCK_EX | LOCK_NB) == 0;
+  // On a file system without locks the number of the process must do.
+  const bool living = !locked && (errno == EWOULDBLOCK || makerLives(name_));
+  state_ = living ? State::inUse : isStill(file_, path) ? State::held : State::none;
+}
+
+FolderLock::FolderLock(const std::string& folder, const std::string& name) : name_(name) {
+  const std::string path = folder + "/" + lockName;
+  file_ = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  const std::string line = std::string(mark) + name + "\n";
+  ssize_t written = file_ < 0 ? -1 : 0;
+  for (size_t all = 0; written >= 0 && all < line.size(); all += static_cast<size_t>(written))
+    written = write(file_, line.data() + all, line.size() - all);
+  if (written < 0) {
+    const int reason = errno;
+    if (file_ >= 0) close(file_);
+    fail(path, "written", reason);
+  }
+  flock(file_, LOCK_EX | LOCK_NB);  // nobody else knows of it
+  state_ = State::held;
+}
+
+FolderLock::~FolderLock() {
+  if (file_ >= 0) close(file_);
+}
+
+FolderLock::FolderLock(FolderLock&& other) noexcept
+    : file_(std::exchange(other.file_, -1)),
+      state_(std::exchange(other.state_, State::none)),
+      name_(std::move(other.name_)) {}
+
+FolderLock& FolderLock::operator=(FolderLock&& other) noexcept {
+  std::swap(file_, other.file_);
+  std::swap(state_, other.state_);
+  std::swap(name_, other.name_);
+  return *this;
+}
+
+PlaceLock::PlaceLock(const std::string& folder)
+    : file_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  constexpr auto patience = std::chrono::seconds(10);
+  constexpr auto pause = std::chrono::milliseconds(2);
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK &&
+         std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(pause);
+}
+
+PlaceLock::~PlaceLock() {
+  if (file_ >= 0) close(file_);
+}
+
+}  // namespace mortier
