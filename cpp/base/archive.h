@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <concepts>
 #include <cstdint>
 #include <cstring>
@@ -40,6 +41,11 @@ class ArchiveWriter {
   void put(std::string& text) {
     size(text.size());
     raw(text.data(), text.size());
+  }
+  void put(Point& p) { raw(p.data(), 2 * sizeof(double)); }
+  template <class T, size_t n>
+  void put(std::array<T, n>& values) {
+    for (T& value : values) put(value);
   }
   template <int Columns>
   void put(Eigen::Matrix<double, Eigen::Dynamic, Columns>& m) {
@@ -102,6 +108,11 @@ class ArchiveReader {
   void get(std::string& text) {
     text.resize(size());
     raw(text.data(), text.size());
+  }
+  void get(Point& p) { raw(p.data(), 2 * sizeof(double)); }
+  template <class T, size_t n>
+  void get(std::array<T, n>& values) {
+    for (T& value : values) get(value);
   }
   template <int Columns>
   void get(Eigen::Matrix<double, Eigen::Dynamic, Columns>& m) {

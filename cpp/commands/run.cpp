@@ -190,7 +190,10 @@ int run(RunCommand command) {
 
   warnOfRinging(scene, model);
   addMeshes(model, identity);
-  if (stopped) requireSame(stopped->checkpoint.identity, identity, stopped->folder);
+  if (stopped) {
+    requireSame(stopped->checkpoint.identity, identity, stopped->folder);
+    requireFits(stopped->checkpoint, model, stopped->folder);
+  }
   if (scene.time.tolerance > 0) scene.time.breaks = loadBreaks(scene, model);
 
   // 2. Where the result goes, and what is reported.

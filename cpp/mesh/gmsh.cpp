@@ -1,4 +1,5 @@
-// The library is opened when a file needs it: linked, its own libraries would start with every run.
+// The library is opened when a file needs it (linked, its own libraries would start with every run), in a process of its
+// own: it crashes on some files, and a geometry is a program that could start others and write files.
 #include "mesh/gmsh.h"
 
 #include <algorithm>
@@ -9,6 +10,8 @@
 #include <set>
 #include <type_traits>
 
+#include "base/archive.h"
+#include "base/child_process.h"
 #include "base/error.h"
 
 #ifdef MORTIER_GMSH
@@ -37,6 +40,13 @@ TriangleMesh readGmsh(const std::string& path) {
 }
 
 #else
+
+/// For the way between the processes.
+template <class Archive>
+void visitMembers(Archive& archive, TriangleMesh& mesh) {
+  auto& [name, vertices, triangles, regions, boundaryEdges, boundaryLabels, labelNames, regionNames] = mesh;
+  archive(name, vertices, triangles, regions, boundaryEdges, boundaryLabels, labelNames, regionNames);
+}
 
 namespace {
 
@@ -180,13 +190,9 @@ std::map<size_t, Point> planeNodes(const Gmsh& gmsh) {
   return result;
 }
 
-}  // namespace
-
-TriangleMesh readGmsh(const std::string& path) {
+TriangleMesh readHere(const std::string& path) {
   constexpr int line = 1;
   constexpr int triangle = 2;
-  if (std::error_code ignored; !std::filesystem::is_regular_file(path, ignored))
-    throw InputError(path + ": not a file, expected a mesh or a geometry for Gmsh");
   const Gmsh gmsh(path);
   gmsh.call<decltype(gmshOpen)>("gmshOpen", path.c_str());
   if (elementTypes(gmsh, 2).empty()) gmsh.call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", 2);
@@ -200,7 +206,12 @@ TriangleMesh readGmsh(const std::string& path) {
   std::map<size_t, int> vertexOf;
   const auto vertex = [&](size_t tag) {
     const auto [found, isNew] = vertexOf.try_emplace(tag, static_cast<int>(mesh.vertices.size()));
-    if (isNew) mesh.vertices.push_back(nodes.at(tag));
+    if (isNew) {
+      const auto node = nodes.find(tag);
+      if (node == nodes.end())
+        throw InputError(path + ": an element has node " + std::to_string(tag) + ", which is not there");
+      mesh.vertices.push_back(node->second);
+    }
     return found->second;
   };
   for (const Group& group : groups(gmsh, 2)) {
@@ -237,6 +248,24 @@ TriangleMesh readGmsh(const std::string& path) {
   }
   mesh.name = path;
   validate(mesh);
+  return mesh;
+}
+
+}  // namespace
+
+TriangleMesh readGmsh(const std::string& path) {
+  if (std::error_code ignored; !std::filesystem::is_regular_file(path, ignored))
+    throw InputError(path + ": not a file, expected a mesh or a geometry for Gmsh");
+  const auto work = [&] {
+    TriangleMesh mesh = readHere(path);
+    ArchiveWriter writer;
+    writer(mesh);
+    return writer.bytes;
+  };
+  const std::string bytes = inChildProcess(work, path + ": Gmsh");
+  TriangleMesh mesh;
+  ArchiveReader reader(bytes);
+  reader(mesh);
   return mesh;
 }
 

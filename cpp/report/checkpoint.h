@@ -42,4 +42,7 @@ Checkpoint readCheckpoint(const std::string& folder);
 /// \throws InputError `folder` holds a checkpoint of another scene: what differs.
 void requireSame(const RunIdentity& stored, const RunIdentity& given, const std::string& folder);
 
+/// \throws InputError  the state or the memory is not one of this model: what is wrong with it.
+void requireFits(const Checkpoint& checkpoint, const Model& model, const std::string& folder);
+
 }  // namespace mortier

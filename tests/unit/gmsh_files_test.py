@@ -145,6 +145,22 @@ class GmshFiles(OfTwoBlocks):
                 self.reject("x.msh: " + message, "mesh", "info", "x.msh")
         self.reject("none.msh: not a file", "mesh", "info", "none.msh")
 
+    def test_files_that_are_damaged_or_do_more_than_meshes(self):
+        for name, text in (("gone-2.msh", format_2().replace("\n6 2 1 0\n", "\n")),
+                           ("gone-4.msh", format_4().replace("1 6 1 6\n2 1 0 6\n1\n", "1 6 1 6\n2 1 0 6\n77\n")),
+                           ("call.geo", 'SystemCall "touch ran";\n' + geometry()), ("cut.msh", format_4()[:420]),
+                           ("bytes.msh", "$MeshFormat\n4.1 1 8\n\x01\x00\x00\x00" + "\xff" * 300)):
+            self.write(text, name)
+            with self.subTest(name):
+                done = mortier("mesh", "info", name, cwd=self.folder, errors="strict")
+                self.assertEqual(done.returncode, 2)
+                self.assertTrue(done.stderr.startswith(f"mortier: {name}: ") and done.stderr.count("\n") == 1, done.stderr)
+        self.write("mine", "mine.txt")
+        self.write(geometry() + 'Printf("x") > "mine.txt";\nMesh 2; Save "saved.msh"; Save "mine.txt";\n', "writes.geo")
+        mortier("mesh", "info", "writes.geo", cwd=self.folder)
+        self.assertEqual(self.read("mine.txt"), "mine")
+        self.assertEqual({"saved.msh", "ran"} & set(self.names()), set())
+
 
 if __name__ == "__main__":
     unittest.main()

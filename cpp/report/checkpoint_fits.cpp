@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "report/checkpoint.h"
+#include "report/checkpoint_files.h"
+
+namespace mortier {
+
+namespace {
+
+/// Of the same shape, and finite.
+template <class Values>
+bool isLike(const Values& values, const Values& model) {
+  return values.rows() == model.rows() && values.cols() == model.cols() && values.allFinite();
+}
+
+template <class Values>
+bool areLike(const std::vector<Values>& values, const std::vector<Values>& model) {
+  return std::equal(values.begin(), values.end(), model.begin(), model.end(), isLike<Values>);
+}
+
+bool isLike(const BodyState& body, const BodyState& model) {
+  return isLike(body.displacement, model.displacement) && isLike(body.stress, model.stress) &&
+         isLike(body.viscoplasticStrain, model.viscoplasticStrain);
+}
+
+bool isLike(const BodyIncrement& increment, const BodyState& model) {
+  return isLike(increment.displacement, model.displacement) && isLike(increment.small, model.displacement) &&
+         isLike(increment.stress, model.stress);
+}
+
+template <class Parts>
+bool oneABody(const Parts& parts, const std::vector<BodyState>& model) {
+  return std::equal(parts.begin(), parts.end(), model.begin(), model.end(),
+                    [](const auto& part, const BodyState& body) { return isLike(part, body); });
+}
+
+bool isTime(double time) {
+  return std::isfinite(time) && time >= 0;
+}
+
+bool isStatus(Status status) {
+  return status == Status::converged || status == Status::failed || status == Status::unheld;
+}
+
+}  // namespace
+
+void requireFits(const Checkpoint& checkpoint, const Model& model, const std::string& folder) {
+  const auto require = [&](bool fits, const char* what) {
+    if (!fits)
+      throw InputError(folder + "/" + checkpointName + ": its " + what +
+                       " is not one of this scene, expected a checkpoint that this program wrote");
+  };
+  const State begin = initialState(model);
+  const auto& [identity, files, last, state, memory] = checkpoint;
+  require(isTime(state.time) && isTime(last.time) && last.step >= 0 && last.step == memory.run.steps, "time");
+  require(oneABody(state.bodies, begin.bodies), "state");
+  require(areLike(state.contactForce, begin.contactForce), "contact force");
+  require(std::all_of(memory.increments.begin(), memory.increments.end(),
+                      [&](const auto& stage) { return oneABody(stage, begin.bodies); }),
+          "increment");
+  const auto isPerBody = [&](const std::vector<char>& flags) {
+    return flags.empty() || flags.size() == begin.bodies.size();
+  };
+  require(isPerBody(memory.solver.libraries) && isPerBody(memory.solver.elasticFactors), "solver memory");
+  require(isTime(memory.begin) && isTime(memory.timeStep) && isTime(memory.controller.timeStep) &&
+              isTime(memory.controller.stress) && isTime(memory.controller.displacement),
+          "step length");
+  require(isStatus(last.status) && isStatus(memory.run.status), "status");
+}
+
+}  // namespace mortier

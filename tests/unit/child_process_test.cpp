@@ -1,0 +1,82 @@
+// Foreign code in a process of its own: its crash is a message, and it changes nothing.
+#include "base/child_process.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <new>
+
+#include "base/error.h"
+
+namespace mortier {
+namespace {
+
+std::string errorOf(const std::function<std::string()>& work) {
+  try {
+    inChildProcess(work, "a.msh: Gmsh");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(ChildProcess, givesBackWhatTheWorkGives) {
+  EXPECT_EQ(inChildProcess([] { return std::string(); }, ""), "");
+  std::string all(5000000, 'x');
+  all[77] = '\0';
+  EXPECT_EQ(inChildProcess([&] { return all; }, ""), all);
+  const pid_t self = getpid();
+  EXPECT_EQ(inChildProcess([&] { return std::string(getpid() == self ? "same" : "other"); }, ""), "other");
+}
+
+TEST(ChildProcess, crashesAreMessages) {
+  EXPECT_EQ(errorOf([]() -> std::string {
+              std::raise(SIGSEGV);
+              return "";
+            }),
+            "a.msh: Gmsh crashed on it (Segmentation fault)");
+  EXPECT_EQ(errorOf([]() -> std::string { std::abort(); }), "a.msh: Gmsh crashed on it (Aborted)");
+  EXPECT_EQ(errorOf([]() -> std::string { _exit(0); }), "a.msh: Gmsh gave up on it");
+  EXPECT_EQ(errorOf([]() -> std::string { throw InputError("a.msh: no"); }), "a.msh: no");
+  EXPECT_THROW(inChildProcess([]() -> std::string { throw std::bad_alloc(); }, ""), std::bad_alloc);
+}
+
+TEST(ChildProcess, startsNothingAndChangesNoFile) {
+  namespace fs = std::filesystem;
+  const fs::path folder = testing::TempDir() + "child_process_test_" + std::to_string(getpid());
+  fs::create_directories(folder);
+  std::ofstream(folder / "mine") << "mine";
+  const std::string mine = folder / "mine";
+  const std::string done = inChildProcess(
+      [&] {
+        std::string result;
+        const auto count = [&](bool worked) { result += worked ? 'x' : '.'; };
+        count(std::system(("touch " + (folder / "new").string()).c_str()) == 0);
+        count(std::fopen(mine.c_str(), "w") != nullptr);
+        count(std::fopen(mine.c_str(), "a") != nullptr);
+        count(std::fopen((folder / "new").c_str(), "w") != nullptr);
+        count(open(mine.c_str(), O_RDONLY | O_TRUNC) >= 0);
+        count(unlink(mine.c_str()) == 0);
+        count(truncate(mine.c_str(), 0) == 0);
+        count(rename(mine.c_str(), (folder / "new").c_str()) == 0);
+        std::error_code error;
+        count(fs::create_directory(folder / "new", error));
+        std::ifstream in(mine);
+        std::string text;
+        in >> text;
+        return result + text;
+      },
+      "");
+  EXPECT_EQ(done, ".........mine");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
+  fs::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace mortier
