@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "commands/complain.h"
 #include "commands/exit_code.h"
 #include "commands/stopped_run.h"
@@ -29,11 +30,9 @@ namespace mortier {
 
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
-
-/// The first Ctrl-C ends the run after its step, with a checkpoint; a second one kills.
+/// The first Ctrl-C ends the run with a checkpoint of its last step; a second one kills.
 void onInterrupt(int signal) {
-  interrupted = 1;
+  requestInterrupt();
   std::signal(signal, SIG_DFL);
 }
 
@@ -204,6 +203,7 @@ int run(RunCommand command) {
   State state = initialState(model);
   if (!stopped) checkInitialState(scene, model, state);
   MarchMemory memory;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, onInterrupt);
   if (stopped) {
     folder.emplace(path, stopped->folder, std::move(stopped->lock));
     files.emplace(folder->temporary(), model, scene.every, stopped->checkpoint.files);
@@ -219,21 +219,18 @@ int run(RunCommand command) {
   Log log(command.quiet, scene.time.end);
   log.print(logHeader(facts, model));
 
-  // 3. The march in time. Whatever stops it leaves the last good step in `state`.
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, onInterrupt);
+  // 3. The march in time. A failure leaves the last good step in `state`, an interruption in what is kept here.
+  State keptState = state;
+  MarchMemory keptMemory = memory;
   const Observer observe = [&](const State&, const StepReport& report) {
     files->add(state, report);
     if (report.step > 0) log.step(report);
     last = report;
-    const bool stops = interrupted != 0 && state.time < scene.time.end;
-    if (report.step > 0 && state.time < scene.time.end && (stops || checkpoints.due())) {
+    if (report.step > 0 && state.time < scene.time.end && checkpoints.due()) {
       checkpoints.write(*files, last, state, memory);
     }
-    if (!stops) return;
-    log.finish();
-    throw InterruptedError(
-        scene.path + ": interrupted after step " + std::to_string(report.step) +
-        (report.step == 0 ? "; nothing was written" : "; mortier run --restart " + path + " goes on"));
+    keptState = state;
+    keptMemory = memory;
   };
   RunReport report;
   try {
@@ -242,6 +239,12 @@ int run(RunCommand command) {
     log.finish();
     if (!hasCheckpoint(folder->temporary())) throw;
     throw OutputError(error.what() + ("; mortier run --restart " + path + " goes on"));
+  } catch (const Interrupted&) {
+    log.finish();
+    if (last.step > 0) checkpoints.write(*files, last, keptState, keptMemory);
+    throw InterruptedError(
+        scene.path + ": interrupted after step " + std::to_string(last.step) +
+        (last.step == 0 ? "; nothing was written" : "; mortier run --restart " + path + " goes on"));
   }
   log.finish();
 

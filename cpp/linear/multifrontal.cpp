@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "base/interrupt.h"
 #include "linear/condensing_solver.h"
 #include "linear/dense_kernels.h"
 #include "linear/elimination.h"
@@ -111,6 +112,7 @@ class Multifrontal final : public CondensingSolver {
     stacks_[p] = std::make_unique_for_overwrite<double[]>(piece.stack);
     double* top = stacks_[p].get();
     for (int s = piece.first; s <= piece.last; ++s) {
+      stopIfInterrupted();
       const Front& front = plan_.fronts[s];
       const size_t m = front.updates();
       double* update = top;

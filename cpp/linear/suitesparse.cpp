@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "base/interrupt.h"
 #include "linear/cholmod_common.h"
 #include "linear/condensing_solver.h"
 
@@ -188,12 +189,14 @@ class SuiteSparse final : public CondensingSolver {
   }
 
   bool factorise(const std::vector<double>& values) override {
+    stopIfInterrupted();
     for (Block* block : {&Kbb_, &Kbk_, &Kkb_, &Kkk_}) block->take(values);
     if (factorisation_ && !factorisation_->factorise(Kbb_)) return false;
     const auto kept = static_cast<Eigen::Index>(keptEquations_.size());
     schur_.setZero(kept, kept);
     Vector column(static_cast<Eigen::Index>(interiorEquations_.size()));
     for (Eigen::Index j = 0; j < kept; ++j) {
+      stopIfInterrupted();
       for (int k = Kkk_.start[j]; k < Kkk_.start[j + 1]; ++k) schur_(Kkk_.rows[k], j) = Kkk_.values[k];
       column.setZero();
       for (int k = Kbk_.start[j]; k < Kbk_.start[j + 1]; ++k) column[Kbk_.rows[k]] = Kbk_.values[k];

@@ -8,6 +8,7 @@
 
 #include "base/double_double.h"
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "fem/rigid_modes.h"
 
 namespace mortier {
@@ -120,6 +121,7 @@ double BodySystem::evaluate(const Matrix* shift, BodyIterate& iterate, const Law
   std::atomic<bool> finite = true;
   std::atomic<double> largest = 0;
   forEachBlock([&](int begin, int end) {
+    stopIfInterrupted();
     body_.strain(iterate.increment, iterate.small, iterate.strain, begin, end);
     if (shift != nullptr)
       iterate.strain.middleCols(begin, end - begin) -= shift->middleCols(begin, end - begin);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/interrupt.h"
+
 namespace mortier {
 namespace {
 
@@ -60,6 +62,7 @@ bool Pivoting::run(const Vector& z0, ContactSolution& solution) {
   int tries = 0;
   std::vector<char> best;
   while (!redundant_ && solution.pivots < limit && !capped()) {
+    stopIfInterrupted();
     if (!solveOn(z0, solution)) return false;
     const WrongSigns wrong = wrongSigns(solution);
     if (wrong.none() && factor_.fresh()) return true;
@@ -188,6 +191,7 @@ void Pivoting::closeOne(const Vector& z0, int limit, ContactSolution& solution) 
   Vector s = slackOf(solution);
   const auto diagonal = problem_.W.diagonal();
   while (solution.pivots < limit && !capped()) {
+    stopIfInterrupted();
     ++solution.pivots;
     Vector rate = -problem_.W.col(chosen);
     const Vector motion = solveBordered(solution.active, -problem_.G.row(chosen).transpose(), rate);

@@ -72,6 +72,29 @@ class Cli(OfTwoBlocks):
         self.assertTrue(left.startswith("scene.tmp-"))
         self.assertIn("checkpoint", self.names("out/" + left))
 
+    def interrupt(self, *arguments):
+        """Sends SIGTERM when the run works on its first long step. Returns the seconds until it ended, and its message."""
+        process = subprocess.Popen([PROGRAM, "run", *arguments], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        time.sleep(1)
+        self.assertIsNone(process.poll())
+        begin = time.monotonic()
+        process.send_signal(signal.SIGTERM)
+        errors = process.communicate(timeout=20)[1]
+        self.assertEqual(process.returncode, 1)
+        return time.monotonic() - begin, errors
+
+    def test_interrupted_in_the_middle_of_a_step(self):
+        endless = ["solver.method=penalty-duality", "solver.max_iterations=1000000000", "solver.tolerance=1e-30",
+                   "body.upper.boundary.3.ty=t<=0.5 ? 0 : -1", "time.steps=2"]
+        first = ("scene.toml", "--quiet", "--set", *endless)
+        again = ("--quiet", "--restart", "out/scene")
+        for arguments in (first, again):  # step 1 is done at once, step 2 has no end
+            seconds, errors = self.interrupt(*arguments)
+            self.assertLess(seconds, 1)
+            self.assertRegex(errors, r"scene.toml: interrupted after step 1; mortier run --restart \S*out/scene goes on\n$")
+            left, = self.names("out")
+            self.assertIn("checkpoint", self.names("out/" + left))
+
     def test_steps_chosen_by_their_error_end_at_kinks(self):
         # The table is a ramp but for a pulse that is too short to be found by trying.
         kinks = {0.2001: "body.upper.boundary.3.ty={time=[0, 0.2001, 0.2002, 0.2003, 1], value=[0, -0.4002, -3, -0.4006, -2]}",
