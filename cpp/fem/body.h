@@ -90,10 +90,14 @@ class Body {
   [[nodiscard]] bool hasInitialStress() const { return !conditions_.initialStresses.empty(); }
   /// sum |T| B' s: nodal forces (dofs) of a stress field (components x points) [N/m].
   [[nodiscard]] Vector internalForce(const Matrix& stress) const;
-  /// B u (components x points) of a displacement (dofs) carried as u + small, in twice the working precision: a
-  /// triangle that is still elastic next to one that flows sees tiny differences of large displacements.
-  /// Fills the columns [begin, end).
-  void strain(const Vector& u, const Vector& small, Matrix& strain, int begin, int end) const;
+  /// The largest nodal force of any one triangle [N/m]: what their sum is rounded against, also where stresses balance
+  /// each other.
+  [[nodiscard]] double largestForce(const Matrix& stress) const;
+  /// B u - shift (components x points; no shift where null) of a displacement (dofs) carried as u + small, in twice the
+  /// working precision: a triangle that is still elastic next to one that flows sees tiny differences of large
+  /// displacements, and where stress relaxes almost all of B u is shift. Fills the columns [begin, end).
+  void strain(const Vector& u, const Vector& small, const Matrix* shift, Matrix& strain, int begin,
+              int end) const;
   /// stress += H^-1 B d in the columns [begin, end), d by dofs.
   void addStressOf(const Vector& d, const Linearisation& law, Matrix& stress, int begin, int end) const;
 

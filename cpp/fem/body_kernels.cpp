@@ -26,8 +26,24 @@ Vector Body::internalForce(const Matrix& stress) const {
   return f;
 }
 
-void Body::strain(const Vector& u, const Vector& small, Matrix& strain, int begin, int end) const {
-  if (strain.rows() > 3) strain.bottomRows(strain.rows() - 3).middleCols(begin, end - begin).setZero();
+double Body::largestForce(const Matrix& stress) const {
+  const TriangleData triangles = triangleData();
+  double largest = 0;
+  for (int i = 0; i < points(); ++i) {
+    const auto s = stress.col(i).head<3>().cwiseAbs();
+    for (const double gradient : triangles.gradientsOf(i))
+      largest = std::max(largest, weights_[i] * std::abs(gradient) * s.maxCoeff());
+  }
+  return largest;
+}
+
+void Body::strain(const Vector& u, const Vector& small, const Matrix* shift, Matrix& strain, int begin,
+                  int end) const {
+  if (strain.rows() > 3 && shift == nullptr)
+    strain.bottomRows(strain.rows() - 3).middleCols(begin, end - begin).setZero();
+  if (strain.rows() > 3 && shift != nullptr)
+    strain.bottomRows(strain.rows() - 3).middleCols(begin, end - begin) =
+        -shift->bottomRows(strain.rows() - 3).middleCols(begin, end - begin);
   for (int first = begin; first < end; first += laneCount) {
     // The second and the third node, x and y, and the first, by lanes.
     double u1[4][laneCount];
@@ -71,6 +87,11 @@ void Body::strain(const Vector& u, const Vector& small, Matrix& strain, int begi
       DoubleDouble q = xx;
       p += yy;
       q += DoubleDouble{-yy.high, -yy.low};
+      if (shift != nullptr && lane < count) {
+        p += {-(*shift)(0, first + lane), 0};
+        q += {-(*shift)(1, first + lane), 0};
+        xy += {-(*shift)(2, first + lane), 0};
+      }
       result[0][lane] = p.value();
       result[1][lane] = q.value();
       result[2][lane] = xy.value();

@@ -115,44 +115,46 @@ void BodySystem::forEachBlock(const Work& work) {
 }
 
 template <class Law>
-double BodySystem::evaluate(const Matrix* shift, BodyIterate& iterate, const Law& law) {
+double BodySystem::evaluate(const MaterialStep& step, const Matrix* shift, BodyIterate& iterate,
+                            const Law& law) {
   iterate.strain.resizeLike(iterate.stress);
   law_.elastic = 0;
   std::atomic<bool> finite = true;
   std::atomic<double> largest = 0;
   forEachBlock([&](int begin, int end) {
     stopIfInterrupted();
-    body_.strain(iterate.increment, iterate.small, iterate.strain, begin, end);
-    if (shift != nullptr)
-      iterate.strain.middleCols(begin, end - begin) -= shift->middleCols(begin, end - begin);
+    body_.strain(iterate.increment, iterate.small, shift, iterate.strain, begin, end);
     const double value = law(begin, end);
     if (!std::isfinite(value)) finite = false;
     for (double known = largest; known < value && !largest.compare_exchange_weak(known, value);) {
     }
   });
   const double residual = finite ? largest.load() : std::nan("");
-  return residual == 0 ? 0 : residual / residualScale(iterate);
+  return residual == 0 ? 0 : residual / residualScale(step.stress0, iterate);
 }
 
 double BodySystem::linearise(const MaterialStep& step, const Matrix* shift, BodyIterate& iterate) {
-  return evaluate(shift, iterate, [&](int begin, int end) {
+  return evaluate(step, shift, iterate, [&](int begin, int end) {
     return body_.material().linearise(step, iterate.stress, law_, begin, end);
   });
 }
 
-double BodySystem::residualScale(const BodyIterate& iterate) const {
-  if (body_.material().stressScale() > 0) return body_.material().stressScale();
-  // An elastic body has no stress of its own to measure with. The largest in it serves, but not below what the rounding
-  // of its displacement makes of a rigid motion: tolerances of 1e-10 times this part are 1e-14 of E |du|/L.
+double BodySystem::residualScale(const Matrix& stress0, const BodyIterate& iterate) const {
+  // The rounding of the law is a part of the stresses that are there, which may be far beyond yield.
+  const double before = stress0.cwiseAbs().maxCoeff();
+  if (!body_.material().linear())
+    return std::max({body_.material().stressScale(), before, iterate.stress.cwiseAbs().maxCoeff()});
+  // What rounding of the displacement makes of a rigid motion: tolerances of 1e-10 times this part are 1e-14 of
+  // E |du|/L.
   constexpr double rigidPart = 1e-4;
   const double rigid =
       law_.moduli.cwiseAbs().maxCoeff() * iterate.increment.cwiseAbs().maxCoeff() / extent(body_.mesh());
-  return std::max(law_.predictor.cwiseAbs().maxCoeff(), rigidPart * rigid);
+  return std::max({before, law_.predictor.cwiseAbs().maxCoeff(), rigidPart * rigid});
 }
 
 double BodySystem::regularise(const MaterialStep& step, const Matrix* shift, double relaxation,
                               BodyIterate& iterate) {
-  return evaluate(shift, iterate, [&](int begin, int end) {
+  return evaluate(step, shift, iterate, [&](int begin, int end) {
     return body_.material().regularise(step, iterate.stress, penalty_, relaxation, law_, begin, end);
   });
 }

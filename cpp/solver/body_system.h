@@ -96,11 +96,11 @@ class BodySystem {
   void forEachBlock(const Work& work);
   /// Strain at the iterate, then the law's law(begin, end) for all points. \returns the largest value, scaled.
   template <class Law>
-  double evaluate(const Matrix* shift, BodyIterate& iterate, const Law& law);
+  double evaluate(const MaterialStep& step, const Matrix* shift, BodyIterate& iterate, const Law& law);
   void findContactDofs(const Model& model, int body, const std::vector<int>& firstRow);
   void findRigidMotions();
   /// What stresses are measured against.
-  [[nodiscard]] double residualScale(const BodyIterate& iterate) const;
+  [[nodiscard]] double residualScale(const Matrix& stress0, const BodyIterate& iterate) const;
   [[nodiscard]] Matrix solveSchur(const Matrix& f) const;
 
   const Body& body_;

@@ -100,8 +100,16 @@ int dependentConditions(const Matrix& W) {
   return static_cast<int>(W.rows() - idles - factor.rank());
 }
 
-ContactSolution solveContact(const ContactProblem& problem, const Vector& slack, const Vector& p0,
+ContactSolution solveContact(const ContactProblem& problem, const Vector& fullSlack, const Vector& p0,
                              const Vector& balance, std::vector<char> active) {
+  // A gap or an overlap that rigid motions take away is taken first: beside stiff bodies it is so many forces that those
+  // of the load would be lost in its rounding.
+  Vector slack = fullSlack;
+  Vector moved = Vector::Zero(problem.G.cols());
+  if (moved.size() > 0 && slack.size() > 0) {
+    moved = problem.G.colPivHouseholderQr().solve(slack);
+    slack -= problem.G * moved;
+  }
   if (slack.size() == 0) {
     ContactSolution solution;
     solution.change = p0;
@@ -130,6 +138,7 @@ ContactSolution solveContact(const ContactProblem& problem, const Vector& slack,
       if (solution.outcome != ContactSolution::Outcome::cycled) break;
     }
   }
+  solution.rigid += moved;
   solution.idle = idles;
   solution.dependent = dependent;
   solution.work = work.done / work.factorisation;

@@ -56,6 +56,10 @@ StepOutcome StepSolver::continuation(const State& state0, const StepData& step, 
     for (int i = 0; i < stagesBack && path.size() > 1; ++i) path.pop_back();
   }
   total.converged = total.converged && path.back().decadesLeft == 0;
+  if (!total.converged && !total.unheld)
+    total.reason = "the viscosity could not be lowered to that of the step in " +
+                   std::to_string(total.iterations) + " iterations" +
+                   (total.reason.empty() ? "" : ", " + total.reason);
   solution = std::move(path.back().iterate);
   return total;
 }

@@ -104,7 +104,9 @@ StepOutcome StepSolver::interiorPoint(const State& state0, const StepData& step,
       iterate.active = next.active;
     }
     solution = iterate;
-    const StepOutcome last = newton(state0, step, {finishing, options_.tolerance, true}, solution);
+    const int left = maxIterations - total.iterations;
+    const StepOutcome last =
+        newton(state0, step, {std::min(finishing, left), options_.tolerance, true}, solution);
     add(last);
     if (last.converged) {
       total.converged = true;

@@ -21,10 +21,10 @@ StepOutcome StepSolver::solve(const State& state0, const StepData& step, Iterate
   constexpr int continuationIterations = 60;
   constexpr int usualIterations = 300;
   constexpr int pathIterations = 1500;
-  StepOutcome plain = newton(state0, step, {plainIterations, options_.tolerance, false}, guess);
+  StepOutcome plain = newton(
+      state0, step, {std::min(plainIterations, options_.maxIterations), options_.tolerance, false}, guess);
   if (plain.converged || plain.unheld) return plain;
   StepOutcome total = std::move(plain);
-  const auto open = [&] { return !total.converged && !total.unheld; };
   const auto climb = [&](const std::string& rung, StepOutcome next) {
     next.rung = rung;
     next.iterations += total.iterations;
@@ -32,16 +32,19 @@ StepOutcome StepSolver::solve(const State& state0, const StepData& step, Iterate
     total = std::move(next);
   };
   const auto left = [&](int most) { return std::min(most, options_.maxIterations) - total.iterations; };
-  if (!uniqueSolutions_)
+  const auto open = [&](int most) { return !total.converged && !total.unheld && left(most) > 0; };
+  if (!uniqueSolutions_ && open(usualIterations))
     climb("continuation",
           continuation(state0, step, std::min(continuationIterations, left(usualIterations)), guess));
-  if (open()) climb("interior-point", interiorPoint(state0, step, left(usualIterations), guess));
-  if (open()) climb("continuation", continuation(state0, step, left(usualIterations), guess));
+  if (open(usualIterations))
+    climb("interior-point", interiorPoint(state0, step, left(usualIterations), guess));
+  if (open(usualIterations)) climb("continuation", continuation(state0, step, left(usualIterations), guess));
   if (effort == Effort::usual || uniqueSolutions_) return total;
-  const auto more = [&] { return options_.maxIterations - total.iterations; };
-  if (open() && more() > 0)
-    climb("path", ViscosityPath(*this, state0, step).follow(std::min(pathIterations, more()), guess));
-  if (open() && more() > 0) climb("damping", damped(state0, step, more(), guess));
+  if (open(options_.maxIterations))
+    climb("path", ViscosityPath(*this, state0, step)
+                      .follow(std::min(pathIterations, left(options_.maxIterations)), guess));
+  if (open(options_.maxIterations))
+    climb("damping", damped(state0, step, left(options_.maxIterations), guess));
   return total;
 }
 

@@ -28,11 +28,13 @@ struct SolverMemory {
 
 /// Residuals of a converged step, all free of units.
 struct Certificate {
-  double forceBalance = 0;      ///< |F - sum |T| B' s - C' p|_inf over the largest nodal force
-  double materialResidual = 0;  ///< |H^-1 r| over the yield stress (largest stress in an elastic body)
-  double gapOnActive = 0;       ///< |g| on active nodes over the extent of the bodies, or the largest |u|
-  double sign = 0;              ///< largest negative contact force over the largest
-  double complementarity = 0;   ///< max |p g| over (largest force times that length)
+  double forceBalance =
+      0;  ///< |F - sum |T| B' s - C' p|_inf over the largest nodal force, of the load or of a triangle
+  double materialResidual =
+      0;                   ///< |H^-1 r| over the yield stress or the largest stress of the body, if larger
+  double gapOnActive = 0;  ///< |g| on active nodes over the extent of the bodies, or the largest |u|
+  double sign = 0;         ///< largest negative contact force over the largest
+  double complementarity = 0;  ///< max |p g| over (largest force times that length)
 };
 
 /// Contact conditions without a force of their own.

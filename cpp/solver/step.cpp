@@ -102,8 +102,8 @@ std::vector<Vector> StepSolver::displacements(const State& state0, const Iterate
 void StepSolver::strain(const StepData& step, int body, BodyIterate& iterate) const {
   const Body& system = model_.bodies[body];
   iterate.strain.resizeLike(iterate.stress);
-  system.strain(iterate.increment, iterate.small, iterate.strain, 0, system.points());
-  if (!step.shift.empty()) iterate.strain -= step.shift[body];
+  system.strain(iterate.increment, iterate.small, step.shift.empty() ? nullptr : &step.shift[body],
+                iterate.strain, 0, system.points());
 }
 
 /// \returns the material residual, scaled; NaN when any stress is.
@@ -221,7 +221,8 @@ Certificate StepSolver::certify(const State& state0, const std::vector<Vector>& 
   std::vector<Vector> residual;
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Vector internal = model_.bodies[b].internalForce(iterate.bodies[b].stress);
-    force = std::max({force, internal.cwiseAbs().maxCoeff(), loads[b].cwiseAbs().maxCoeff()});
+    force = std::max(
+        {force, model_.bodies[b].largestForce(iterate.bodies[b].stress), loads[b].cwiseAbs().maxCoeff()});
     residual.push_back(loads[b] - internal);
     // An elastic body that moves without any load has forces that are nothing but rounding.
     if (model_.bodies[b].material().linear())
@@ -257,7 +258,7 @@ Certificate StepSolver::certify(const State& state0, const std::vector<Vector>& 
 
 StepOutcome StepSolver::newton(const State& state0, const StepData& step, const NewtonLimits& limits,
                                Iterate& iterate) {
-  // Beyond this many yield stresses an iterate does not come back.
+  // Beyond this many times the stresses that are there, or the yield stress, an iterate does not come back.
   constexpr double hopeless = 1e3;
   constexpr int patience = 2;
   int outOfBalance = 0;

@@ -140,7 +140,7 @@ std::vector<Response> StepTaker::error(bool lasting) {
   for (size_t b = 0; b < strain.size(); ++b) {
     const Vector none = Vector::Zero(error[b].displacement.size());
     Matrix elastic;
-    model_.bodies[b].strain(error[b].displacement, none, strain[b], 0, model_.bodies[b].points());
+    model_.bodies[b].strain(error[b].displacement, none, nullptr, strain[b], 0, model_.bodies[b].points());
     model_.bodies[b].material().elasticStrain(error[b].stress, elastic);
     strain[b] -= elastic;
   }

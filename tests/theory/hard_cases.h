@@ -137,6 +137,11 @@ inline void addData(std::vector<HardCase>& cases) {
   Compression upperSoft;
   upperSoft.upperLaw.yieldStress = 0.01;
   add("upper yields at 1e-3 of the load", upperSoft);
+  for (const double yieldStress : {1e-4, 1e-8, 1e-11}) {
+    Compression flowing;
+    flowing.upperLaw.yieldStress = flowing.lowerLaw.yieldStress = yieldStress;
+    add("yield stress " + number(yieldStress), flowing);
+  }
   Compression lowerSoft;
   lowerSoft.lowerLaw.yieldStress = 0.01;
   add("lower yields at 1e-3 of the load", lowerSoft);

@@ -77,6 +77,29 @@ TEST(HardCases, dampingEndsWhereThePathIsAMaze) {
   EXPECT_EQ(result.report.rungs.at("damping"), 1);
 }
 
+// ---- steps that are given up
+
+TEST(HardCases, whatIsGivenUpHasAReasonAndKeepsToItsLimit) {
+  int givenUp = 0;
+  for (const Projection projection : projections)
+    for (const int most : {1, 2, 3, 5, 8, 12, 30, 70, 110}) {
+      Compression scene;
+      scene.coupling = CouplingKind::interpolation;
+      scene.upperLaw.projection = scene.lowerLaw.projection = projection;
+      SolverOptions options;
+      options.maxIterations = most;
+      const Model model = scene.model();
+      StepSolver solver(model, options);
+      const State state0 = initialState(model);
+      Iterate iterate = solver.start(state0);
+      const StepOutcome outcome = solver.solve(state0, {0.2, 0.2, {}}, iterate, Effort::all);
+      EXPECT_LE(outcome.iterations, most);
+      EXPECT_EQ(outcome.converged, outcome.reason.empty()) << most << " " << nameOf(projection);
+      givenUp += outcome.converged ? 0 : 1;
+    }
+  EXPECT_GE(givenUp, 6);
+}
+
 // ---- where methods begin
 
 TEST(HardCases, proximalWeightAndStartOfTheInteriorPathDoNotMatter) {
