@@ -135,7 +135,7 @@ Pivots contactPivots(const Model& model) {
     slack -= system.C() * system.condense(body.load(1));
     problem.W += system.C() * system.compliance();
     normalMotions.emplace_back(system.C() * system.R());
-    rigidForces.push_back(system.rigidForce());
+    rigidForces.push_back(system.rigidForce(body.load(1)));
   }
   problem.G.resize(rows, normalMotions[0].cols() + normalMotions[1].cols());
   problem.G << normalMotions[0], normalMotions[1];

@@ -46,7 +46,7 @@ class Entry:
 def end_of_contact(run, side):
     """Where the bodies part, on the left (-1) or the right (1). Beyond it the gap grows with the power 3/2 of the
     distance, so its power 2/3 is continued back by a line from the second and third node off contact."""
-    x, gap = side * run.contact.position[:, 0], -run.contact.gap
+    x, gap = side * run.contact.position[:, 0], run.contact.gap
     order = np.argsort(x)
     beyond = [i for i in order if x[i] > x[run.contact.force > 0].max()]
     (x1, x2), (d1, d2) = x[beyond[1:3]], gap[beyond[1:3]] ** (2 / 3)
@@ -72,7 +72,7 @@ def cook_deflection(run):
 def gap_at_three(run):
     """Of the open blocks at t = 3 s, from the rows of contact.csv that the last step does not hold."""
     rows = results.read_csv(run.folder / "contact.csv")
-    return -np.mean([float(row["gap"]) for row in rows if abs(float(row["time"]) - 3) < 1e-9])
+    return np.mean([float(row["gap"]) for row in rows if abs(float(row["time"]) - 3) < 1e-9])
 
 
 def punch_pressure(run):

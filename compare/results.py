@@ -43,7 +43,7 @@ class Body:
 class Contact:
     vertex: np.ndarray  # of the nonmortar mesh, from 0
     position: np.ndarray  # nodes x 2, as meshed [m]
-    gap: np.ndarray  # negative: open [m]
+    gap: np.ndarray  # positive: apart [m]
     force: np.ndarray  # nodal [N/m]
     pressure: np.ndarray = None  # [Pa]; None where the code does not write it
 

@@ -54,10 +54,6 @@ Json asJson(const std::string& scene, const Plan& plan, const Faults& faults) {
   return json;
 }
 
-std::string counted(int n, const std::string& what) {
-  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-}
-
 }  // namespace
 
 int check(const CheckCommand& command) {

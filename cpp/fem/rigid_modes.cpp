@@ -2,62 +2,168 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <map>
+#include <set>
 #include <sstream>
+
+#include "base/disjoint_sets.h"
+#include "base/error.h"
+#include "mesh/components.h"
 
 namespace mortier {
 namespace {
 
-/// A motion that moves supports by less than this part of itself is free.
+/// A motion that moves supports and opens hinges by less than this part of itself is free.
 constexpr double heldFraction = 1e-12;
 
-Point centre(const TriangleMesh& mesh) {
+/// Translations along x and y and the rotation about the centre, entries of order one on the vertices.
+struct Frame {
+  Point centre{0, 0};
+  double radius = 1;
+  [[nodiscard]] Eigen::Matrix<double, 2, 3> motionsAt(const Point& vertex) const {
+    const Point x = (vertex - centre) / radius;
+    Eigen::Matrix<double, 2, 3> motions;
+    motions << 1, 0, -x.y(), 0, 1, x.x();
+    return motions;
+  }
+};
+
+Frame frameOf(const TriangleMesh& mesh, const std::vector<int>& vertices) {
+  Point lower = mesh.vertices[vertices.front()];
+  Point upper = lower;
   Point sum = Point::Zero();
-  for (const Point& x : mesh.vertices) sum += x;
-  return sum / static_cast<double>(mesh.vertices.size());
+  for (const int v : vertices) {
+    sum += mesh.vertices[v];
+    lower = lower.cwiseMin(mesh.vertices[v]);
+    upper = upper.cwiseMax(mesh.vertices[v]);
+  }
+  return {sum / static_cast<double>(vertices.size()), (upper - lower).maxCoeff() / 2};
 }
 
-/// Translations along x and y and the rotation about the centre, rows are dofs, entries of order one.
-Matrix allModes(const Body& body) {
-  const Point c = centre(body.mesh());
-  const double radius = extent(body.mesh()) / 2;
-  Matrix modes(body.dofs(), 3);
-  for (int v = 0; v < body.nodes(); ++v) {
-    const Point x = (body.mesh().vertices[v] - c) / radius;
-    modes.row(2 * v) << 1, 0, -x.y();
-    modes.row(2 * v + 1) << 0, 1, x.x();
+/// The components of a mesh that are rigid in themselves (mesh/components.h).
+struct RigidComponents {
+  explicit RigidComponents(const TriangleMesh& mesh) : home(mesh.vertices.size(), -1) {
+    const EdgeComponents components = edgeComponents(mesh);
+    vertices.resize(components.count);
+    DisjointSets joined(vertices.size());
+    std::set<std::pair<int, int>> hinges;
+    for (size_t t = 0; t < mesh.triangles.size(); ++t)
+      for (const int v : mesh.triangles[t]) {
+        const int component = components.of[t];
+        if (home[v] == component) continue;
+        if (home[v] < 0)
+          home[v] = component;
+        else if (!hinges.insert({v, component}).second)
+          continue;
+        joined.join(home[v], component);
+        vertices[component].push_back(v);
+      }
+    for (const std::vector<int>& each : vertices) frames.push_back(frameOf(mesh, each));
+    std::map<int, std::vector<int>> sets;
+    for (int c = 0; c < static_cast<int>(vertices.size()); ++c) sets[joined.of(c)].push_back(c);
+    for (auto& [first, group] : sets) groups.push_back(std::move(group));
   }
-  return modes;
+
+  std::vector<int> home;  ///< of each vertex, its first component; in the others it is a hinge
+  std::vector<std::vector<int>> vertices;  ///< of each component
+  std::vector<Frame> frames;
+  std::vector<std::vector<int>> groups;  ///< components that hang together at hinges
+};
+
+/// The free motions of a group: three numbers a component in each column.
+Matrix freeMotions(const Body& body, const RigidComponents& components, const std::vector<int>& group,
+                   const std::vector<const NodeSupport*>& supportAt) {
+  const auto& points = body.mesh().vertices;
+  const auto size = static_cast<Eigen::Index>(3 * group.size());
+  std::map<int, Eigen::Index> place;
+  for (const int component : group) place.emplace(component, 3 * static_cast<Eigen::Index>(place.size()));
+  Matrix held = Matrix::Zero(size, size);
+  for (const int component : group) {
+    const Eigen::Index at = place[component];
+    Eigen::Matrix3d ofSupports = Eigen::Matrix3d::Zero();
+    int prescribed = 0;
+    for (const int v : components.vertices[component]) {
+      const auto motions = components.frames[component].motionsAt(points[v]);
+      if (const int home = components.home[v]; home != component) {
+        Matrix opening = Matrix::Zero(2, size);
+        opening.middleCols<3>(at) = motions;
+        opening.middleCols<3>(place[home]) = -components.frames[home].motionsAt(points[v]);
+        held += opening.transpose() * opening;
+      } else if (const NodeSupport* support = supportAt[v]; support != nullptr) {
+        for (int k = 0; k < support->count; ++k, ++prescribed) {
+          const Eigen::RowVector3d along = support->directions[k].transpose() * motions;
+          ofSupports += along.transpose() * along;
+        }
+      }
+    }
+    if (prescribed > 0) held.block<3, 3>(at, at) += ofSupports / prescribed;
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(held);
+  return eigen.eigenvectors().leftCols((eigen.eigenvalues().array() <= heldFraction).count());
+}
+
+/// The rigid motion nearest to that of a component.
+Eigen::Vector3d motionOf(const Body& body, const RigidComponents& components, int component,
+                         const Vector& motion) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (const int v : components.vertices[component]) {
+    const auto motions = components.frames[component].motionsAt(body.mesh().vertices[v]);
+    normal += motions.transpose() * motions;
+    right += motions.transpose() * motion.segment<2>(2 * v);
+  }
+  return normal.ldlt().solve(right);
 }
 
 }  // namespace
 
 Matrix rigidModes(const Body& body) {
-  const Matrix modes = allModes(body);
-  Eigen::Matrix3d held = Eigen::Matrix3d::Zero();
-  int prescribed = 0;
-  for (const NodeSupport& support : body.supports().nodes())
-    for (int i = 0; i < support.count; ++i, ++prescribed) {
-      const Eigen::RowVector3d along =
-          support.directions[i].transpose() * modes.middleRows<2>(2 * support.node);
-      held += along.transpose() * along;
+  constexpr size_t most = 300;  // they are dense
+  const RigidComponents components(body.mesh());
+  std::vector<const NodeSupport*> supportAt(body.nodes(), nullptr);
+  for (const NodeSupport& support : body.supports().nodes()) supportAt[support.node] = &support;
+  std::vector<Vector> free;
+  for (const std::vector<int>& group : components.groups) {
+    if (group.size() > most)
+      throw InputError("mesh " + body.mesh().name + ": " + std::to_string(group.size()) +
+                       " parts hang together at single vertices, expected at most " + std::to_string(most));
+    const Matrix motions = freeMotions(body, components, group, supportAt);
+    for (Eigen::Index i = 0; i < motions.cols(); ++i) {
+      Vector mode(Vector::Zero(body.dofs()));
+      for (size_t k = 0; k < group.size(); ++k)
+        for (const int v : components.vertices[group[k]])
+          mode.segment<2>(2 * v) = components.frames[group[k]].motionsAt(body.mesh().vertices[v]) *
+                                   motions.col(i).segment<3>(3 * static_cast<Eigen::Index>(k));
+      free.push_back(body.spread(body.gather(mode)));  // what is left along prescribed motions is rounding
     }
-  if (prescribed > 0) held /= prescribed;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(held);
-  Matrix free(body.dofs(), 0);
-  for (int i = 0; i < 3; ++i)
-    if (eigen.eigenvalues()[i] <= heldFraction) {
-      free.conservativeResize(Eigen::NoChange, free.cols() + 1);
-      free.rightCols(1) = modes * eigen.eigenvectors().col(i);
-    }
-  // What is left along prescribed motions is rounding.
-  for (Eigen::Index i = 0; i < free.cols(); ++i) free.col(i) = body.spread(body.gather(free.col(i)));
-  return free;
+    if (free.size() > most)
+      throw UnheldBodyError("body " + body.name() + ": nothing holds its " +
+                            describeRigidMotion(body, free.front()) + ", and hundreds of other parts");
+  }
+  Matrix modes(body.dofs(), static_cast<Eigen::Index>(free.size()));
+  for (size_t i = 0; i < free.size(); ++i) modes.col(static_cast<Eigen::Index>(i)) = free[i];
+  return modes;
 }
 
 std::string describeRigidMotion(const Body& body, const Vector& motion) {
-  // Least squares on the three motions gives translation and rotation.
-  const Matrix modes = allModes(body);
-  const Eigen::Vector3d a = (modes.transpose() * modes).ldlt().solve(modes.transpose() * motion).normalized();
+  constexpr double negligible = 1e-6;
+  const RigidComponents components(body.mesh());
+  // What moves most is named, and where it is unless the whole body moves with it.
+  int mover = 0;
+  double largest = 0;
+  for (size_t c = 0; c < components.vertices.size(); ++c)
+    for (const int v : components.vertices[c])
+      if (const double size = motion.segment<2>(2 * v).norm(); size > largest) {
+        largest = size;
+        mover = static_cast<int>(c);
+      }
+  const Frame& frame = components.frames[mover];
+  const Eigen::Vector3d fitted = motionOf(body, components, mover, motion);
+  bool whole = true;
+  for (int v = 0; v < body.nodes(); ++v)
+    whole = whole && (motion.segment<2>(2 * v) - frame.motionsAt(body.mesh().vertices[v]) * fitted).norm() <=
+                         negligible * largest;
+  const Eigen::Vector3d a = fitted.normalized();
   const auto shown = [](double value) { return std::abs(value) < 1e-9 ? 0.0 : value; };
   std::ostringstream text;
   text.precision(4);
@@ -65,11 +171,11 @@ std::string describeRigidMotion(const Body& body, const Vector& motion) {
     const Point direction = Point(a[0], a[1]).normalized();
     text << "translation along (" << shown(direction.x()) << ", " << shown(direction.y()) << ")";
   } else {
-    const double radius = extent(body.mesh()) / 2;
-    const Point c = centre(body.mesh());
-    text << "rotation about (" << c.x() - shown(a[1]) / a[2] * radius << ", "
-         << c.y() + shown(a[0]) / a[2] * radius << ")";
+    text << "rotation about (" << frame.centre.x() - shown(a[1]) / a[2] * frame.radius << ", "
+         << frame.centre.y() + shown(a[0]) / a[2] * frame.radius << ")";
   }
+  if (components.vertices.size() > 1 && !whole)
+    text << ", of its part around (" << frame.centre.x() << ", " << frame.centre.y() << ")";
   return text.str();
 }
 

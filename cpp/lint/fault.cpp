@@ -24,6 +24,11 @@ int Faults::count(Severity severity) const {
       faults_.begin(), faults_.end(), [&](const Fault& fault) { return fault.kind->severity == severity; }));
 }
 
+std::string counted(size_t n, const std::string& what) {
+  if (n == 1) return "1 " + what;
+  return std::to_string(n) + " " + (what == "vertex" ? "vertices" : what + "s");
+}
+
 std::string oneLine(const Fault& fault) {
   return fault.place + ": " + word(fault.kind->severity) + ": " + fault.message + "; " + fault.kind->remedy +
          " [" + fault.kind->id + "]";

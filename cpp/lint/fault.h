@@ -47,6 +47,9 @@ class Faults {
   std::vector<Fault> faults_;
 };
 
+/// "1 vertex", "2 vertices".
+std::string counted(size_t n, const std::string& what);
+
 /// `place: warning: message; remedy [id]`
 std::string oneLine(const Fault& fault);
 

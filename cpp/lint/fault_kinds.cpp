@@ -31,6 +31,8 @@ const std::vector<FaultKind>& faultKinds() {
       // Meshes that are doubtful.
       {"mesh-parts", warning, "a mesh falls into parts that share no vertex",
        "merge the nodes where the parts should hold together, or make each part a body"},
+      {"hinge", warning, "parts of a mesh hang together at single vertices and can turn about them",
+       "share an edge where the parts should hold together, or hold each of them"},
       {"duplicate-node", warning, "two vertices lie in one place", "merge them into one vertex"},
       {"crack", warning, "double nodes along edges inside a body, as a crack has",
        "merge the nodes along it; a real crack opens without contact of its faces here"},

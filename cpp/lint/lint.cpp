@@ -73,12 +73,33 @@ void runChecks(const LintInput& input, Faults& faults) {
   lintTime(input, faults);
 }
 
+/// Where contact alone holds bodies, whether it does: as the first step begins, and elastically at some times of the run.
+/// What contact can balance depends on no material.
+void requireHeld(const SceneDescription& scene, const Model& model) {
+  StepSolver solver(model, scene.solver);
+  if (!solver.contactHolds()) return;
+  constexpr int count = 16;
+  const TimePlan& plan = scene.time;
+  const State begin = initialState(model);
+  const double first = plan.end / std::max(plan.steps, 1);
+  for (int i = 0; i <= count; ++i) {
+    const double time = i == 0 ? first : plan.end * i / count;
+    Iterate iterate = solver.start(begin);
+    const StepOutcome outcome = solver.solve(begin, {time, 0, {}}, iterate);
+    const std::string loose = outcome.converged && i == 0 ? solver.looseMotion(begin, iterate) : "";
+    const std::string reason = outcome.unheld  ? outcome.reason
+                               : loose.empty() ? ""
+                                               : "no contact is closed that would hold " + loose;
+    if (!reason.empty()) throw UnheldBodyError("t = " + shortest(time) + " s: " + reason);
+  }
+}
+
 /// What only the model can say: data where they are used, and whether everything is held.
 void build(const SceneDescription& scene, LintReport& report) {
   try {
     std::vector<std::string> doubts;  // named above, each with its remedy
     Model model = buildModel(scene, doubts);
-    const StepSolver held(model, scene.solver);
+    requireHeld(scene, model);
     report.model = std::move(model);
   } catch (const InputError& error) {
     addError(error, "data", report.faults);

@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
+#include "base/disjoint_sets.h"
 #include "lint/lint.h"
+#include "mesh/components.h"
 
 namespace mortier {
 namespace {
@@ -15,10 +16,6 @@ std::string at(const Point& p) {
   return "(" + shortest(p.x()) + ", " + shortest(p.y()) + ")";
 }
 
-std::string count(size_t n, const std::string& what) {
-  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-}
-
 std::string triangle(const TriangleMesh& mesh, int t) {
   return mesh.name + ": triangle " + std::to_string(t + 1);
 }
@@ -27,38 +24,44 @@ std::string vertex(const TriangleMesh& mesh, int v) {
   return mesh.name + ": vertex " + std::to_string(v + 1);
 }
 
-class Parts {
- public:
-  explicit Parts(const TriangleMesh& mesh) : parent_(mesh.vertices.size()) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-    for (const auto& t : mesh.triangles) {
-      join(t[0], t[1]);
-      join(t[0], t[2]);
+/// Parts that share no vertex, and parts that share single vertices only, about which they turn.
+void findParts(const TriangleMesh& mesh, Faults& faults) {
+  const EdgeComponents rigid = edgeComponents(mesh);
+  if (rigid.count == 1) return;
+  std::vector<int> home(mesh.vertices.size(), -1);
+  std::vector<int> size(rigid.count, 0);
+  std::vector<int> first(rigid.count, -1);
+  DisjointSets joined(rigid.count);
+  std::vector<int> hinges;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    const int part = rigid.of[t];
+    if (size[part]++ == 0) first[part] = t;
+    for (const int v : mesh.triangles[t]) {
+      if (home[v] >= 0 && home[v] != part) {
+        joined.join(home[v], part);
+        hinges.push_back(v);
+      }
+      if (home[v] < 0) home[v] = part;
     }
   }
-  int of(int v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
+  std::map<int, int> triangles;
+  for (int part = 0; part < rigid.count; ++part) triangles[joined.of(part)] += size[part];
+  if (triangles.size() > 1) {
+    const auto smallest = std::min_element(triangles.begin(), triangles.end(),
+                                           [](const auto& a, const auto& b) { return a.second < b.second; });
+    const int t = first[smallest->first];
+    faults.add("mesh-parts", triangle(mesh, t),
+               counted(triangles.size(), "part") + " that share no vertex, the smallest has " +
+                   counted(smallest->second, "triangle") + ", one of them at " +
+                   at(mesh.vertices[mesh.triangles[t][0]]));
   }
-
- private:
-  void join(int a, int b) { parent_[of(a)] = of(b); }
-  std::vector<int> parent_;
-};
-
-void findParts(const TriangleMesh& mesh, Faults& faults) {
-  Parts parts(mesh);
-  std::map<int, std::vector<int>> triangles;
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
-    triangles[parts.of(mesh.triangles[t][0])].push_back(t);
-  if (triangles.size() == 1) return;
-  const auto smallest =
-      std::min_element(triangles.begin(), triangles.end(),
-                       [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
-  faults.add("mesh-parts", triangle(mesh, smallest->second.front()),
-             count(triangles.size(), "part") + " that share no vertex, the smallest has " +
-                 count(smallest->second.size(), "triangle") + ", one of them at " +
-                 at(mesh.vertices[mesh.triangles[smallest->second.front()][0]]));
+  if (hinges.empty()) return;
+  const int v = hinges.front();
+  std::sort(hinges.begin(), hinges.end());
+  const auto end = std::unique(hinges.begin(), hinges.end());
+  faults.add("hinge", vertex(mesh, v),
+             counted(end - hinges.begin(), "vertex") +
+                 " at which parts hang together by nothing else, this one at " + at(mesh.vertices[v]));
 }
 
 /// Boundary vertices that lie where another one does, and boundary edges that do.
@@ -90,14 +93,14 @@ void findDoubles(const TriangleMesh& mesh, const Topology& topology, Faults& fau
   }
   if (!cracks.empty()) {
     faults.add("crack", vertex(mesh, cracks.front()->from),
-               count(cracks.size(), "edge") + " with double nodes, as a crack has, one at " +
+               counted(cracks.size(), "edge") + " with double nodes, as a crack has, one at " +
                    at(mesh.vertices[cracks.front()->from]));
     return;
   }
   const auto first =
       std::find_if(twin.begin(), twin.end(), [](const auto& v) { return v.first != v.second; });
   faults.add("duplicate-node", vertex(mesh, first->first),
-             count(twin.size(), "vertex") + " lie in one place with another, this one with vertex " +
+             counted(twin.size(), "vertex") + " lie in one place with another, this one with vertex " +
                  std::to_string(first->second + 1) + " at " + at(mesh.vertices[first->first]));
 }
 
@@ -117,7 +120,7 @@ void findHangingNodes(const TriangleMesh& mesh, const Topology& topology, Faults
   }
   if (hanging.empty()) return;
   faults.add("hanging-node", vertex(mesh, hanging.front()),
-             count(hanging.size(), "vertex") + " on an edge without being one of its ends, this one at " +
+             counted(hanging.size(), "vertex") + " on an edge without being one of its ends, this one at " +
                  at(mesh.vertices[hanging.front()]));
 }
 
@@ -168,7 +171,7 @@ void findBadTriangles(const TriangleMesh& mesh, const Topology& topology, Faults
   }
   if (slivers > 0)
     faults.add("sliver", triangle(mesh, where),
-               count(slivers, "triangle") + " with an aspect ratio above " + shortest(flat) +
+               counted(slivers, "triangle") + " with an aspect ratio above " + shortest(flat) +
                    " (equilateral: 1), this one has " + shortest(std::round(worst)));
   size_t jumps = 0;
   worst = jump;
@@ -181,10 +184,10 @@ void findBadTriangles(const TriangleMesh& mesh, const Topology& topology, Faults
   }
   if (jumps > 0)
     faults.add("size-jump", triangle(mesh, where),
-               count(jumps, "pair") + " of neighbours whose areas differ by more than " + shortest(jump) +
+               counted(jumps, "pair") + " of neighbours whose areas differ by more than " + shortest(jump) +
                    " times, this one by " + shortest(std::round(worst)));
   if (mesh.triangles.size() < few)
-    faults.add("mesh-coarse", mesh.name, count(mesh.triangles.size(), "triangle") + " in all");
+    faults.add("mesh-coarse", mesh.name, counted(mesh.triangles.size(), "triangle") + " in all");
 }
 
 void findLostDigits(const TriangleMesh& mesh, Faults& faults) {

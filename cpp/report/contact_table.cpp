@@ -20,7 +20,7 @@ void ContactTable::add(const State& state, int step) {
     for (size_t i = 0; i < nodes.size(); ++i) {
       const Point& p = mesh.vertices[nodes[i]];
       file_ << step << ',' << state.time << ',' << k << ',' << nodes[i] << ',' << p[0] << ',' << p[1] << ','
-            << gap[i] << ',' << force[i] << ',' << pressure[i] << ',' << (force[i] > 0 ? 1 : 0) << '\n';
+            << 0 - gap[i] << ',' << force[i] << ',' << pressure[i] << ',' << (force[i] > 0 ? 1 : 0) << '\n';
     }
   }
 }

@@ -225,6 +225,15 @@ Vector BodySystem::condense(const Vector& force) {
   return inContact() ? Vector(solveSchur(contactForce_)) : contactForce_;
 }
 
+Vector BodySystem::rigidForce(const Vector& load) const {
+  constexpr double roundingOfSums = 1e-14;
+  Vector force = motions_.transpose() * load;
+  const Vector size = motions_.cwiseAbs().transpose() * load.cwiseAbs();
+  for (Eigen::Index i = 0; i < force.size(); ++i)
+    if (std::abs(force[i]) <= roundingOfSums * size[i]) force[i] = 0;
+  return force;
+}
+
 Vector BodySystem::displacementOf(const Vector& forceChange, const Vector& z) {
   if (inContact()) {
     Vector x = solveSchur(contactForce_ - C_.transpose() * forceChange);

@@ -87,8 +87,9 @@ class BodySystem {
   [[nodiscard]] const Matrix& compliance() const { return compliance_; }  ///< S^-1 C'
   [[nodiscard]] const Matrix& R() const { return R_; }  ///< rigid motions on the contact dofs, orthonormal
   [[nodiscard]] const Matrix& motions() const { return motions_; }  ///< and by dofs
-  /// R' f of what condense() left on the contact dofs: the force that only contact can balance.
-  [[nodiscard]] Vector rigidForce() const { return R_.transpose() * contactForce_; }
+  /// Work of nodal forces (dofs) on the rigid motions: what only contact can balance. Stresses do none. Forces that
+  /// balance each other but for rounding give zero.
+  [[nodiscard]] Vector rigidForce(const Vector& load) const;
 
  private:
   /// Calls work(begin, end) for all points, some thousands at a time.

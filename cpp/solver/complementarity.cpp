@@ -36,13 +36,14 @@ ContactSolution solveRegular(Pivoting& pivoting, const ContactProblem& problem,
       if (pivoting.capped()) solution.outcome = ContactSolution::Outcome::capped;
       return solution;
     }
-    const double imbalance = problem.G.cols() == 0 ? 0 : pivoting.imbalance(solution);
+    const double imbalance =
+        problem.G.cols() == 0 ? 0 : pivoting.imbalance(solution, Vector::Zero(solution.change.size()));
     if (imbalance <= balanced) break;
     z0 = solution.rigid;
     if (repetition > 1 && imbalance > slow) pivoting.soften();
   }
   constexpr double hopeless = 1e-6;
-  if (problem.G.cols() > 0 && pivoting.imbalance(solution, problem.force) > hopeless)
+  if (problem.G.cols() > 0 && pivoting.imbalance(solution, pivoting.usualForces(solution)) > hopeless)
     solution.outcome =
         pivoting.leaves(solution) ? ContactSolution::Outcome::unbalanced : ContactSolution::Outcome::cycled;
   else

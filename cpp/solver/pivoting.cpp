@@ -1,5 +1,6 @@
 #include "solver/pivoting.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -48,6 +49,11 @@ Pivoting::Pivoting(const ContactProblem& problem, const std::vector<char>& idle,
 void Pivoting::restart(const Vector& slack) {
   slack_ = slack;
   proximal_ = problem_.proximal * stiffness_;
+  // Where a body has to travel until contact closes, weak enough that the load takes it there.
+  constexpr double farther = 10;
+  const double open = slack.size() > 0 ? slack.maxCoeff() : 0;
+  const double load = (balance_ + problem_.G.transpose() * p0_).lpNorm<Eigen::Infinity>();
+  if (open > 0 && load > 0) proximal_ = std::min(proximal_, load / (farther * open));
 }
 
 void Pivoting::soften() {
@@ -91,9 +97,19 @@ bool Pivoting::run(const Vector& z0, ContactSolution& solution) {
   return false;
 }
 
-double Pivoting::imbalance(const ContactSolution& solution, double usual) const {
+Vector Pivoting::usualForces(const ContactSolution& solution) const {
+  constexpr double roundingOfGaps = 1e-8;  // an imbalance of 1e-6 of that is rounding
+  Vector usual = Vector::Constant(slack_.size(), problem_.force);
+  const double largest = slack_.cwiseAbs().maxCoeff();
+  for (Eigen::Index i = 0; i < usual.size(); ++i)
+    if (solution.active[i] != 0 && idle_[i] == 0)
+      usual[i] = std::max(usual[i], roundingOfGaps * largest / problem_.W(i, i));
+  return usual;
+}
+
+double Pivoting::imbalance(const ContactSolution& solution, const Vector& usual) const {
   const Vector rest = balance_ - problem_.G.transpose() * solution.change;
-  const Vector forces = ((p0_.cwiseAbs() + (p0_ + solution.change).cwiseAbs()).array() + usual).matrix();
+  const Vector forces = p0_.cwiseAbs() + (p0_ + solution.change).cwiseAbs() + usual;
   const double scale =
       balance_.cwiseAbs().maxCoeff() + (problem_.G.cwiseAbs().transpose() * forces).maxCoeff();
   return scale > 0 ? rest.cwiseAbs().maxCoeff() / scale : 0;
@@ -121,12 +137,22 @@ Vector Pivoting::solveBordered(const std::vector<char>& active, const Vector& h,
   factor_.solve(solved);
   f = solved.col(0);
   if (G.cols() == 0) return Vector(0);
+  // Motions that move no condition of A have the proximal term alone, however weak it is beside the rounding of the others.
+  constexpr double heldFraction = 1e-14;
+  Matrix closed = G;
+  for (Eigen::Index i = 0; i < closed.rows(); ++i)
+    if (active[i] == 0) closed.row(i).setZero();
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(closed.transpose() * closed);
+  const auto loose = (eigen.eigenvalues().array() <= heldFraction * G.squaredNorm()).count();
+  const Matrix free = eigen.eigenvectors().leftCols(loose);
+  const Matrix held = eigen.eigenvectors().rightCols(G.cols() - loose);
   // Rows off A are zero in what is solved.
-  Matrix stiffness = G.transpose() * solved.rightCols(G.cols());
+  const Matrix forces = solved.rightCols(G.cols()) * held;
+  Matrix stiffness = held.transpose() * G.transpose() * forces;
   stiffness.diagonal().array() += proximal_;
-  const Vector z = stiffness.partialPivLu().solve(h - G.transpose() * f);
-  f += solved.rightCols(G.cols()) * z;
-  return z;
+  const Vector z = stiffness.partialPivLu().solve(held.transpose() * (h - G.transpose() * f));
+  f += forces * z;
+  return held * z + free * (free.transpose() * h / proximal_);
 }
 
 /// p = 0 off the active set, s = 0 on it. \returns false where that is redundant.

@@ -37,7 +37,9 @@ class Pivoting {
   [[nodiscard]] bool redundant() const { return redundant_; }
   [[nodiscard]] bool capped() const { return work_.done > work_.limit; }
   /// What the proximal term still carries of the balance, against all forces in it, or those that are usual.
-  [[nodiscard]] double imbalance(const ContactSolution& solution, double usual = 0) const;
+  [[nodiscard]] double imbalance(const ContactSolution& solution, const Vector& usual) const;
+  /// Contact forces of the step before, and on closed conditions those that the rounding of gaps makes.
+  [[nodiscard]] Vector usualForces(const ContactSolution& solution) const;
   /// Whether the load drives the bodies along a motion that opens contact or slides along it.
   [[nodiscard]] bool leaves(const ContactSolution& solution) const;
 

@@ -71,11 +71,10 @@ std::vector<Response> StepSolver::respond(const std::vector<Matrix>& error, cons
     motion[b] = systems_[b].condense(-model_.bodies[b].internalForce(responses[b].stress));
   });
   Vector slack = Vector::Zero(rows());
-  Vector balance = Vector::Zero(contact_.G.cols());
+  const Vector balance = Vector::Zero(contact_.G.cols());  // stresses do no work on rigid motions
   for (size_t b = 0; b < systems_.size(); ++b) {
     if (!systems_[b].inContact()) continue;
     slack -= systems_[b].C() * motion[b];
-    balance.segment(firstMotion_[b], systems_[b].R().cols()) = systems_[b].rigidForce();
   }
   const ContactSolution contact = holdClosed(contact_, slack, balance, joined(active));
   forEachBody([&](int b) {

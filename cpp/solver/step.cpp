@@ -16,6 +16,12 @@ namespace {
 /// Starting threads costs more than it gains below this many triangles.
 constexpr int trianglesWorthThreads = 30000;
 
+/// A motion that moves the contact nodes by less than this part of what motions do there is not held by contact.
+constexpr double heldFraction = 1e-14;
+
+/// A body that moves by less than this part of a motion has none in it.
+constexpr double negligibleMotion = 1e-6;
+
 std::vector<int> numberRows(const Model& model) {
   std::vector<int> first{0};
   for (const ContactInterface& interface : model.interfaces) first.push_back(first.back() + interface.rows());
@@ -56,20 +62,41 @@ void StepSolver::requireHeld() {
   for (size_t b = 0; b < systems_.size(); ++b)
     contact_.G.middleCols(firstMotion_[b], systems_[b].R().cols()) = systems_[b].C() * systems_[b].R();
   if (contact_.G.cols() == 0) return;
-  constexpr double tolerance = 1e-14;
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(contact_.G.transpose() * contact_.G);
-  if (eigen.eigenvalues()[0] <= tolerance * eigen.eigenvalues().maxCoeff())
+  if (eigen.eigenvalues()[0] <= heldFraction * contact_.G.squaredNorm())
     throw UnheldBodyError("nothing holds " + describeRigid(eigen.eigenvectors().col(0)) +
                           "; a support (ux, uy) or a contact would");
 }
 
+std::string StepSolver::looseMotion(const State& state0, const Iterate& iterate) const {
+  if (contact_.G.cols() == 0) return "";
+  constexpr double touching = 1e-14;
+  const std::vector<Vector> u = displacements(state0, iterate);
+  Matrix closed = contact_.G;
+  for (size_t k = 0; k < model_.interfaces.size(); ++k) {
+    const ContactPair& pair = model_.interfaces[k].pair();
+    const Vector gap = model_.interfaces[k].gap(u[pair.nonmortar.body], u[pair.mortar.body]);
+    const double size = extent(model_.bodies[pair.nonmortar.body].mesh());
+    for (Eigen::Index i = 0; i < gap.size(); ++i)
+      if (iterate.active[k][i] == 0 && gap[i] < -touching * size) closed.row(firstRow_[k] + i).setZero();
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(closed.transpose() * closed);
+  if (eigen.eigenvalues()[0] > heldFraction * contact_.G.squaredNorm()) return "";
+  const Vector z = eigen.eigenvectors().col(0);
+  bool untouched = true;
+  for (size_t b = 0; b < systems_.size(); ++b) {
+    const Vector part = z.segment(firstMotion_[b], systems_[b].motions().cols());
+    untouched = untouched && (part.norm() <= negligibleMotion || u[b].isZero(0));
+  }
+  return untouched ? "" : describeRigid(z);
+}
+
 std::string StepSolver::describeRigid(const Vector& z) const {
-  constexpr double negligible = 1e-6;
   std::string text;
   for (size_t b = 0; b < systems_.size(); ++b) {
     const Matrix& motions = systems_[b].motions();
     const Vector part = z.segment(firstMotion_[b], motions.cols());
-    if (!(part.norm() > negligible * z.norm())) continue;
+    if (!(part.norm() > negligibleMotion * z.norm())) continue;
     if (!text.empty()) text += ", ";
     text += "body " + model_.bodies[b].name() + ": " + describeRigidMotion(model_.bodies[b], motions * part);
   }
@@ -168,8 +195,9 @@ void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>&
   for (size_t b = 0; b < systems_.size(); ++b) {
     if (!systems_[b].inContact()) continue;
     slack -= systems_[b].C() * motion[b];
-    balance.segment(firstMotion_[b], systems_[b].R().cols()) = systems_[b].rigidForce();
+    balance.segment(firstMotion_[b], systems_[b].R().cols()) = systems_[b].rigidForce(loads[b]);
   }
+  balance -= contact_.G.transpose() * p;
   const ContactSolution contact = contactSolve(slack, p, balance, joined(iterate.active));
   if (contact.outcome == ContactSolution::Outcome::cycled) {
     outcome.reason = "the contact problem of the linearised step has no solution";
@@ -221,8 +249,9 @@ Certificate StepSolver::certify(const State& state0, const std::vector<Vector>& 
   std::vector<Vector> residual;
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Vector internal = model_.bodies[b].internalForce(iterate.bodies[b].stress);
-    force = std::max(
-        {force, model_.bodies[b].largestForce(iterate.bodies[b].stress), loads[b].cwiseAbs().maxCoeff()});
+    // The forces of the stress before leave their rounding too.
+    force = std::max({force, model_.bodies[b].largestForce(iterate.bodies[b].stress),
+                      model_.bodies[b].largestForce(state0.bodies[b].stress), loads[b].cwiseAbs().maxCoeff()});
     residual.push_back(loads[b] - internal);
     // An elastic body that moves without any load has forces that are nothing but rounding.
     if (model_.bodies[b].material().linear())

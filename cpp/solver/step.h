@@ -83,6 +83,13 @@ class StepSolver {
   /// \param error  per body, a strain added in every triangle (components x points).
   [[nodiscard]] std::vector<Response> respond(const std::vector<Matrix>& error, const ActiveSets& active);
 
+  /// The rigid motion, in words, that no closed contact of a solution of a step holds, though no load drives it: the
+  /// bodies could be anywhere along it. Empty where there is none, or only of bodies that nothing has moved so far.
+  [[nodiscard]] std::string looseMotion(const State& state0, const Iterate& solution) const;
+
+  /// Whether there are bodies that contact alone holds.
+  [[nodiscard]] bool contactHolds() const { return contact_.G.cols() > 0; }
+
   /// What was met among the contact conditions so far.
   [[nodiscard]] const SpecialConditions& special() const { return special_; }
 

@@ -144,7 +144,8 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
       // The end of equilibrium is approached as closely as the tolerance asks.
       if (outcome.unheld && k <= plan_.tolerance * (plan_.end - memory_.begin))
         return giveUp(Status::unheld, t1, outcome.reason);
-      if (++failures == patience) return giveUp(Status::failed, t1, outcome.reason);
+      if (++failures == patience)
+        return giveUp(outcome.unheld ? Status::unheld : Status::failed, t1, outcome.reason);
       proposal = failureFactor * k;
       continue;
     }

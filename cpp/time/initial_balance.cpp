@@ -11,6 +11,7 @@ double balanceInitialStress(const Model& model, State& state, const SolverOption
   StepSolver solver(model, options);
   Iterate iterate = solver.start(state);
   const StepOutcome outcome = solver.solve(state, {state.time, 0, {}}, iterate);
+  if (outcome.unheld) throw UnheldBodyError("at t = 0: " + outcome.reason);
   if (!outcome.converged)
     throw InputError("the initial stress cannot be brought into equilibrium at t = 0: " + outcome.reason);
   double change = 0;

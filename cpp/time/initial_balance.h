@@ -9,7 +9,7 @@ namespace mortier {
 /// Lets the bodies settle elastically: with the loads and supports of the state's time,
 ///   E^-1 (s - s0) = B u,   sum |T| B' s + C'p = F,   g <= 0, p >= 0, p g = 0,
 /// which changes nothing where s0 is in equilibrium already. \returns by how much the stress changed, over
-/// the largest stress. \throws InputError when there is no such state, UnheldBodyError as march().
+/// the largest stress. \throws InputError when there is no such state, UnheldBodyError where contact cannot hold a body.
 double balanceInitialStress(const Model& model, State& state, const SolverOptions& options);
 
 /// The largest depth to which bodies overlap, over their extent: u0 of the state is not in K where it is

@@ -31,6 +31,12 @@ StepOutcome StepTaker::attempt(double t1, Scheme scheme, Effort effort) {
     again.factorisations += outcome.factorisations;
     outcome = std::move(again);
   }
+  if (const std::string motion = outcome.converged ? solver_.looseMotion(state_, solutions_.back()) : "";
+      !motion.empty()) {
+    outcome.converged = false;
+    outcome.unheld = true;
+    outcome.reason = "no contact is closed that would hold " + motion;
+  }
   if (!outcome.converged) memory_.increments.clear();
   memory_.solver = solver_.memory();
   return outcome;

@@ -68,7 +68,7 @@ class Drivers(InFolder):
         lift = {"upper": 0.25, "lower": 0.0}
         displacements = {name: body.mesh.points * 0 + [0, lift[name]] for name, body in problem.bodies.items()}
         nodes, position, gap, force = problem.contact_of(displacements, stresses)
-        np.testing.assert_allclose(gap, -0.25, atol=1e-15)  # open
+        np.testing.assert_allclose(gap, 0.25, atol=1e-15)  # apart
         np.testing.assert_allclose(force, 10 / 6 * np.array([0.5, 1, 1, 1, 1, 1, 0.5]), rtol=1e-12)
         np.testing.assert_array_equal(position[:, 1], 0)
 

@@ -113,7 +113,7 @@ TEST(InitialStress, thatNothingBalancesIsRefused) {
   // Pulled up: contact cannot hold it.
   const Model model = stressed(3, 3, -3, elasticMaterial({100, 0.3}));
   State state = initialState(model);
-  EXPECT_THROW(balanceInitialStress(model, state, {}), InputError);
+  EXPECT_THROW(balanceInitialStress(model, state, {}), UnheldBodyError);
 }
 
 }  // namespace

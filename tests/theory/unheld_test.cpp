@@ -91,5 +91,58 @@ TEST(Unheld, pullOffEndsAtTheLastEquilibrium) {
       }
 }
 
+/// A block with rollers on its left above one that is held, `distance` apart.
+Model apart(double distance, const std::shared_ptr<const Material>& material, const Function& load,
+            CouplingKind coupling = CouplingKind::mortar) {
+  Body upper("upper", square(distance, 3), material, {{{left, 0, constant(0)}}, {{top, 1, load}}, {}});
+  return contactModel(std::move(upper), heldBelow(square(-1, 5)), coupling, upperBody);
+}
+
+// A body that contact holds only once it has closed travels there, however small its load is beside its stiffness; the
+// stress is then uniform. What a stress can be told by is the rounding of E times the distance over the size.
+TEST(Unheld, bodiesTravelUntilContactCloses) {
+  constexpr double distance = 0.1;
+  for (const CouplingKind coupling : {CouplingKind::mortar})
+    for (const bool elastic : {true, false})
+      for (const double pressure : {1e-6, 1e-3, 1.0, 1e3}) {
+        const auto material = elastic ? elasticMaterial(noteElasticity)
+                                      : perzynaMaterial(noteElasticity, noteLaw(Projection::frobenius));
+        const Model model = apart(
+            distance, material, [pressure](double, double, double t) { return -pressure * t; }, coupling);
+        const auto [state, report] = run(model, 1, 10);
+        ASSERT_EQ(report.status, Status::converged) << report.reason;
+        EXPECT_NEAR(state.contactForce[0].sum(), pressure, 1e-9 * pressure + 1e-15 * noteElasticity.young);
+        EXPECT_NEAR(state.bodies[upperBody].displacement[1], -distance,
+                    1e-9 * distance + 3 * pressure / noteElasticity.young + (elastic ? 0 : 10 * pressure));
+      }
+}
+
+TEST(Unheld, pullingABodyOffAnOpenGapNamesIt) {
+  for (const double pull : {1e-12, 1.0}) {
+    const auto [state, report] = run(apart(0.1, elasticMaterial(noteElasticity), constant(pull)), 1, 1);
+    EXPECT_EQ(report.status, Status::unheld);
+    expectNames(report.reason, "upper", "translation along (0, 1)");
+  }
+}
+
+// Above a gap that stays open nothing drives the wedge sideways, and nothing holds it: it could be anywhere.
+TEST(Unheld, motionsThatNoClosedContactHoldsAreNamed) {
+  TriangleMesh mesh = square(0.1, 4);
+  for (Point& x : mesh.vertices) x.y() -= 0.2 * (0.5 - std::abs(x.x() - 0.5));  // a V below
+  const auto model = [&](double down) {
+    Body upper("wedge", mesh, elasticMaterial(noteElasticity),
+               {{{top, 1, [down](double, double, double t) { return -down * t; }}}, {}, {}});
+    TriangleMesh below = square(-1.1, 4);
+    for (Point& x : below.vertices) x.y() -= 0.2 * (0.5 - std::abs(x.x() - 0.5));
+    return contactModel(std::move(upper), heldBelow(std::move(below)), CouplingKind::mortar, upperBody);
+  };
+  const Model open = model(0.05);
+  const auto [state, report] = run(open, 1, 1);
+  EXPECT_EQ(report.status, Status::unheld);
+  EXPECT_EQ(report.rejected, 0);
+  expectNames(report.reason, "wedge", "translation along (1, 0)");
+  EXPECT_EQ(run(model(0.3), 1, 1).report.status, Status::converged);  // both flanks hold it
+}
+
 }  // namespace
 }  // namespace mortier

@@ -291,6 +291,17 @@ TEST_F(Output, contactTableHasARowPerNonmortarNode) {
   EXPECT_FALSE(std::getline(text, line));
 }
 
+TEST_F(Output, gapIsPositiveApart) {
+  Blocks blocks;
+  for (BodyState& body : blocks.state.bodies) body.displacement.setZero();
+  for (int v = 0; v < blocks.model.bodies[0].nodes(); ++v)
+    blocks.state.bodies[0].displacement[2 * v + 1] = 0.5;
+  ContactTable table(path, blocks.model);
+  table.add(blocks.state, 3);
+  table.close();
+  EXPECT_NE(contentOf(path + "/contact.csv").find(",1,0,0.5,"), std::string::npos);  // x, y, gap
+}
+
 TEST_F(Output, historyHasAsManyColumnsAsItsHeader) {
   History history(path);
   StepReport report;

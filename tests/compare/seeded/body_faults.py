@@ -1,5 +1,5 @@
 """Bodies that do not fit together, or that nothing holds."""
-from seeded.case import THIRD, fault
+from seeded.case import THIRD, Mesh, fault
 
 
 @fault("extent-ratio", "mesh = \"upper.mesh\"")
@@ -44,3 +44,26 @@ def _(case):
 @fault("unheld-body", "scene.toml")
 def _(case):
     case.replace("uy = 0", "tx = 0")
+
+
+@fault("unheld-body", "scene.toml")
+def _(case):
+    """A part of its own that nothing holds."""
+    part = Mesh(2, 0, 3, 1, 2, 2)
+    part.relabel(lambda x, y, label: 9)
+    case.upper.add(part)
+
+
+@fault("unheld-body", "scene.toml")
+def _(case):
+    """Pulled off later in the run, over a gap that is open."""
+    case.upper.move(lambda x, y: (x, y + 0.1))
+    case.replace("-10*t", "20*t*(t - 0.5)")
+
+
+@fault("unheld-body", "scene.toml")
+def _(case):
+    """Held by no contact that is closed: the upper block moves, and stays apart."""
+    case.upper.move(lambda x, y: (x, y + 0.1 + 0.2 * abs(x - 0.5)))
+    case.replace("label = 4\nux = 0", "label = 3\nuy = \"-0.01*t\"")
+    case.replace("label = 3\nty = \"-10*t\"", "label = 4\nty = 0")

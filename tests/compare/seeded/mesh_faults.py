@@ -55,6 +55,13 @@ def _(case):
     case.upper.relabel(lambda x, y, label: label if x <= 1 else 7)
 
 
+@fault("hinge", "upper.mesh: vertex")
+def _(case):
+    corner = case.upper.triangles[0][0]
+    x, y = case.upper.vertices[corner - 1]
+    case.upper.triangles.append([corner, case.upper.vertex(x - 0.2, y + 0.3), case.upper.vertex(x - 0.2, y), 1])
+
+
 @fault("duplicate-node", "upper.mesh: vertex")
 def _(case):
     other = Mesh(1, 1, 1.5, 1.5, 3, 3)
