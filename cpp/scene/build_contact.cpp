@@ -22,22 +22,6 @@ void warnOfConditionsOn(const SideDescription& side, bool nonmortar, const Scene
   }
 }
 
-/// Whether the mortar side has the finer mesh along the contact and should be nonmortar. Measured by
-/// bench_nonmortar_side; stiffness does not matter.
-bool mortarIsFiner(const Model& model, const ContactPair& pair) {
-  const auto meanLength = [&](const ContactSide& side) {
-    const TriangleMesh& mesh = model.bodies[side.body].mesh();
-    const auto edges = edgesOn(mesh, side.label);
-    double length = 0;
-    for (const auto& [a, b] : edges) {
-      length += (mesh.vertices[b] - mesh.vertices[a]).norm();
-    }
-    return length / static_cast<double>(edges.size());
-  };
-  constexpr double equal = 1e-9;  // then the side named first
-  return meanLength(pair.mortar) < (1 - equal) * meanLength(pair.nonmortar);
-}
-
 }  // namespace
 
 void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model,
@@ -50,12 +34,8 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
     target->label = boundaryLabel(model.bodies[target->body].mesh(), side->label, side->labelName,
                                   side->where + ": body " + side->body);
   }
-  const bool exchanged = !contact.sidesGiven && mortarIsFiner(model, pair);
-  if (exchanged) {
-    std::swap(pair.nonmortar, pair.mortar);
-  }
-  warnOfConditionsOn(contact.nonmortar, !exchanged, scene, warnings);
-  warnOfConditionsOn(contact.mortar, exchanged, scene, warnings);
+  warnOfConditionsOn(contact.nonmortar, true, scene, warnings);
+  warnOfConditionsOn(contact.mortar, false, scene, warnings);
   InterfaceOptions options;
   options.initial = contact.initial;
   if (contact.gap) {
