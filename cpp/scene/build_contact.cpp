@@ -1,5 +1,7 @@
 #include "scene/build_contact.h"
 
+#include <iomanip>
+#include <sstream>
 #include <utility>
 
 #include "base/error.h"
@@ -22,7 +24,22 @@ void warnOfConditionsOn(const SideDescription& side, bool nonmortar, const Scene
   }
 }
 
+std::string twoDigits(double x) {
+  std::ostringstream text;
+  text << std::setprecision(2) << x;
+  return text.str();
+}
+
 }  // namespace
+
+std::string doubtOfPolygons(const ContactInterface& interface) {
+  constexpr double noticeable = 0.02;  // of the pressure, where that is in proportion to the distance
+  const double distance = interface.initialDistance().cwiseAbs().mean();
+  if (!(interface.sagitta() > noticeable * distance)) return "";
+  return "no circle fits the nodes to 1e-6, so the distance is that of the polygons, " + twoDigits(distance) +
+         " m in the mean; they are off the curves behind them by up to " + twoDigits(interface.sagitta()) +
+         " m, and pressures are wrong in that ratio";
+}
 
 void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model,
                 std::vector<std::string>& warnings) {
@@ -49,6 +66,8 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
   }
   try {
     addInterface(model, pair, options);
+    if (const std::string doubt = doubtOfPolygons(model.interfaces.back()); !doubt.empty())
+      warnings.push_back(contact.where + ": contact: " + doubt);
   } catch (const InputError& error) {
     throw InputError(contact.where + ": contact: " + error.what());
   }

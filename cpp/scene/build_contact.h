@@ -16,4 +16,8 @@ namespace mortier {
 void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model,
                 std::vector<std::string>& warnings);
 
+/// In words, with what it does: distances that are not larger than what polygons are off the curves behind them.
+/// Empty where there is nothing to say.
+std::string doubtOfPolygons(const ContactInterface& interface);
+
 }  // namespace mortier
