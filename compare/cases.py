@@ -98,6 +98,8 @@ def scene_cases():
         SceneCase("punch", "mortar", "sides swapped: overlap in part", ("contact.swap=true",)),
         SceneCase("punch", "mortar", "a round punch", ("contact.gap=2e-3*x^2",)),
         SceneCase("ring", "mortar", "sides swapped", ("contact.swap=true",)),
+        SceneCase("ring", "mortar", "distances of the circles", ('contact.initial="as-meshed"',)),
+        SceneCase("hertz", "mortar", "sides swapped", ("contact.swap=true",)),
         SceneCase("sloped", "interpolation", "plane strain", ('plane="strain"',)),
         SceneCase("turned", "interpolation", "plane strain, nearly incompressible",
                   ('plane="strain"', SOFT.replace("0.3", "0.49"), 'body.material.projection="elasticity"')),

@@ -132,7 +132,7 @@ GALLERY = [
     Entry("exact-contact", [Number("contact force", lambda run: run.scalars["contact_force"], 0.769126488659, 1e-3,
                                    "the force converges with order 2 at least; 32 cells on 49")], 0.05),
     Entry("hertz", [Number("peak pressure over sqrt(F E*/(pi R))", hertz_peak, 1, 2e-2,
-                           "half-width 0.13 R, where Hertz takes parabolas, and polygons for arcs")], 1,
+                           "half-width 0.13 R, where Hertz takes parabolas; the mesh")], 1,
           ((-25, 25), (-25, 18))),
     Entry("receding", [Number("half-width of contact", lambda run: end_of_contact(run, 1), 1.324165, 1e-2,
                               "the mesh: an element at the end of contact is 0.08"),

@@ -41,11 +41,13 @@ class Body:
 
 @dataclass
 class Contact:
+    """Nodes in the order of the contact line."""
     vertex: np.ndarray  # of the nonmortar mesh, from 0
     position: np.ndarray  # nodes x 2, as meshed [m]
     gap: np.ndarray  # positive: apart [m]
     force: np.ndarray  # nodal [N/m]
     pressure: np.ndarray = None  # [Pa]; None where the code does not write it
+    interface: np.ndarray = None  # from 0; None where the code does not write it
 
 
 @dataclass
@@ -82,7 +84,7 @@ def read_mortier(folder):
     column = lambda name: np.array([float(row[name]) for row in rows])
     position = np.column_stack([column("x"), column("y")])
     contact = Contact(column("vertex").astype(int), position, column("gap"), column("force"),
-                      column("pressure"))
+                      column("pressure"), column("interface").astype(int))
     return finished(Run("mortier", folder, bodies, contact, summary))
 
 

@@ -127,9 +127,12 @@ def run_peer(program, case, scene, settings, folder, timeout):
     """A code that reads the scene itself; it writes its fields into arrays and says what its solver alone cost."""
     if case["tolerance"] or case["scheme"] not in (None, "backward-euler"):
         raise RunFailure("takes equal steps of backward Euler only")
-    measured([MORTIER, "freefem", scene, folder / "checked.edp", *set_option(settings)], timeout)  # the scene is sound
+    checked = folder / "checked.edp"
+    measured([MORTIER, "freefem", scene, checked, *set_option(settings)], timeout)  # the scene is sound
+    document = scenes.load(scene, settings)
+    scenes.take_sides(document, checked.read_text())
     problem = folder / "problem.json"
-    problem.write_text(json.dumps(scenes.load(scene, settings), default=str))
+    problem.write_text(json.dumps(document, default=str))
     cost, _ = measured([PYTHON, HERE / program, problem, folder / "result.npz"], timeout, cwd=folder,
                        environment=ONE_THREAD)
     return read_peer(folder, cost)

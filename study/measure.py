@@ -157,9 +157,14 @@ def pressure_line(run):
     """Arc length, pressure and position of the nonmortar nodes in order; M^-1 p where a code gives forces only."""
     if run.contact is None:
         raise RunFailure("no contact pressure in this result")
-    order = np.lexsort((run.contact.position[:, 1], run.contact.position[:, 0]))
-    position = run.contact.position[order]
-    s = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(position, axis=0).T))])
+    position = run.contact.position  # the nodes stand in the order of the line, the one body to its left
+    across = position[-1] - position[0]
+    order = slice(None, None, -1 if across[np.abs(across).argmax()] < 0 else 1)  # the same whichever body that is
+    position = position[order]
+    steps = np.hypot(*np.diff(position, axis=0).T)
+    if run.contact.interface is not None:  # several lines have nothing between them
+        steps[np.diff(run.contact.interface[order]) != 0] = 0
+    s = np.concatenate([[0], np.cumsum(steps)])
     if run.contact.pressure is not None:
         return s, run.contact.pressure[order], position
     h = np.diff(s)

@@ -25,9 +25,19 @@ def load(path, settings=()):
     contacts = document.get("contact", [])
     document["contact"] = [contacts] if isinstance(contacts, dict) else contacts
     for contact in document["contact"]:
-        if contact.get("swap"):
+        if contact.get("swap") and "sides" not in contact:
             contact["nonmortar"], contact["mortar"] = contact["mortar"], contact["nonmortar"]
     return document
+
+
+def take_sides(document, script):
+    """The sides of every contact as the program decided them: it names them in the script that it wrote for FreeFEM."""
+    rows = re.search(r"^int\[int, int\] contact = \[(.*)\];$", script, re.MULTILINE)
+    for contact, row in zip(document["contact"], re.findall(r"\[([^\[\]]+)\]", rows[1])):
+        first, first_label, second, second_label = map(int, row.split(","))
+        contact.pop("sides", None)
+        contact["nonmortar"] = {"body": document["body"][first - 1]["name"], "label": first_label}
+        contact["mortar"] = {"body": document["body"][second - 1]["name"], "label": second_label}
 
 
 def value_of(text):
@@ -89,9 +99,18 @@ class Mesh:
         return np.unique(self.edges_of(label))
 
     def line(self, label):
-        """Nodes of a straight boundary part, in the order of x, then y."""
-        nodes = self.nodes_of(label)
-        return nodes[np.lexsort((self.points[nodes, 1], self.points[nodes, 0]))]
+        """Nodes of a boundary line in its order; an open one from the end that is first in x, then y."""
+        beside = {}
+        for a, b in self.edges_of(label).tolist():
+            beside.setdefault(a, []).append(b)
+            beside.setdefault(b, []).append(a)
+        ends = [node for node, next_ones in beside.items() if len(next_ones) == 1] or list(beside)
+        line = [min(ends, key=lambda node: tuple(self.points[node]))]
+        seen = set(line)
+        while onward := [node for node in beside[line[-1]] if node not in seen]:
+            line.append(onward[0])
+            seen.add(onward[0])
+        return np.array(line)
 
     def areas(self):
         a, b, c = (self.points[self.triangles[:, i]] for i in range(3))

@@ -174,16 +174,33 @@ void requireKnown(const SceneDescription& scene) {
   }
 }
 
-/// \throws InputError where a nonmortar line has corners or is closed.
+/// Whether the elements stand for one circle, or for nothing that is known.
+bool isOneCurve(const SmoothPart& part) {
+  const Arc& first = part.arcs.front();
+  return std::all_of(part.arcs.begin(), part.arcs.end(), [&](const Arc& arc) {
+    return arc.known == first.known && (!arc.known || arc.curvature == first.curvature);
+  });
+}
+
+/// \throws InputError where a line of contact has corners that count, is closed or is made of several curves.
 void requireSmooth(const SceneDescription& scene, const Model& model) {
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
-    const ContactSide& side = model.interfaces[k].pair().nonmortar;
-    const std::vector<SmoothPart> parts =
-        smoothParts(boundaryLine(model.bodies[side.body].mesh(), side.label));
-    if (parts.size() > 1 || parts.front().closed) {
+    const ContactPair& pair = model.interfaces[k].pair();
+    const auto partsOf = [&](const ContactSide& side) {
+      return smoothParts(boundaryLine(model.bodies[side.body].mesh(), side.label));
+    };
+    const std::vector<SmoothPart> parts = partsOf(pair.nonmortar);
+    const std::vector<SmoothPart> across = partsOf(pair.mortar);
+    const auto straight = [](const SmoothPart& part) { return part.straight; };
+    const bool cornersCount =
+        parts.size() > 1 || (across.size() > 1 && !(parts.front().straight &&
+                                                    std::all_of(across.begin(), across.end(), straight)));
+    if (cornersCount || parts.front().closed || across.front().closed)
       refuse(scene.contacts[k].where + ": contact: a closed line, or one with corners",
-             "an open line without corners");
-    }
+             "open lines without corners");
+    if (!isOneCurve(parts.front()) || !std::all_of(across.begin(), across.end(), isOneCurve))
+      refuse(scene.contacts[k].where + ": contact: a line of several curves",
+             "one circle, one straight line, or a polygon");
   }
 }
 

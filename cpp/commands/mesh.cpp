@@ -64,7 +64,10 @@ struct Made {
 
 Made make(const MeshCommand& command) {
   const auto [cells1, cells2] = parsePair<int>("--cells", command.cells, true);
-  const Cut cut = parseWord<Cut>("--cut", command.cut,
+  const std::string word = !command.cut.empty()           ? command.cut
+                           : command.family == "halfdisc" ? "both"
+                                                          : "rising";
+  const Cut cut = parseWord<Cut>("--cut", word,
                                  {{"rising", Cut::rising}, {"falling", Cut::falling}, {"both", Cut::both}});
   if (command.family == "quadrilateral") {
     Quadrilateral shape{{}, cells1, cells2};

@@ -15,7 +15,9 @@ CLI::App* addFamily(CLI::App& mesh, MeshCommand& command, const std::string& nam
   CLI::App* family = mesh.add_subcommand(name, what);
   family->add_option("--cells", command.cells, cellsHelp)->required()->type_name("N[,N2]");
   if (name != "crisscross")
-    family->add_option("--cut", command.cut, "diagonals of the cells: rising (default), falling, both");
+    family->add_option("--cut", command.cut,
+                       std::string("diagonals of the cells: rising, falling, both (default ") +
+                           (name == "halfdisc" ? "both)" : "rising)"));
   family->add_option("FILE", command.file, "Medit .mesh file to write")->required();
   family->footer("Boundary labels: " + labels + ".");
   family->callback([&command, name] { command.family = name; });

@@ -23,6 +23,7 @@
 #include "report/summary.h"
 #include "scene/build.h"
 #include "scene/load_breaks.h"
+#include "scene/sides.h"
 #include "scene/versions.h"
 #include "time/initial_balance.h"
 
@@ -83,7 +84,7 @@ RunFacts factsOf(const RunCommand& command, const SceneDescription& scene) {
   std::vector<std::string> nonmortars;
   for (const ContactDescription& contact : scene.contacts) {
     facts.variants.push_back(word(contact.variant));
-    facts.choices.push_back(contact.sidesGiven ? "" : "nonmortar is the finer mesh");
+    facts.choices.push_back(contact.choice);
     nonmortars.push_back(contact.nonmortar.body);
   }
   facts.contact = joinedOnce(facts.variants);
@@ -183,6 +184,7 @@ int run(RunCommand command) {
   scene.solver.threads = command.threads;
   std::vector<std::string> warnings;
   const Model model = buildModel(scene, warnings);
+  decideSides(scene, meshesOf(model));
   for (const std::string& warning : warnings) {
     warn(warning);
   }

@@ -66,27 +66,68 @@ Matrix timesNormal(const Matrix& weights, const Point& n) {
   return C;
 }
 
+/// Gauss's rule of four points on every segment: calls at(segment, rows, s, values of the row functions, the same
+/// times the weight).
+template <class At>
+void atGaussPoints(const SmoothPart& part, const FacingLine& mortar, const Rows& rows, At at) {
+  constexpr std::array<double, 4> places{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                                         0.8611363115940526};
+  constexpr std::array<double, 4> weights{0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
+                                          0.3478548451374538};
+  for (const Segment& segment : commonRefinement(part.s, mortar.s)) {
+    const Eigen::Vector2i row = rows.at(segment.nonmortar);
+    if (row.maxCoeff() < 0) continue;
+    const double half = (segment.end - segment.begin) / 2;
+    for (size_t k = 0; k < places.size(); ++k) {
+      const double s = segment.begin + (1 + places[k]) * half;
+      const Eigen::Vector2d chi = rowFunctions(part.s, segment.nonmortar, row, s);
+      at(segment, row, s, chi, weights[k] * half * chi);
+    }
+  }
+}
+
+/// What the rows see of the bulges.
+Vector bulgeOf(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar, const Rows& rows,
+               const Eigen::SparseMatrix<double>& mass) {
+  Vector bulge = Vector::Zero(rows.count());
+  const auto flat = [](const Arc& arc) { return !arc.known || arc.curvature == 0; };
+  if (rows.count() == 0 || (std::all_of(part.arcs.begin(), part.arcs.end(), flat) &&
+                            std::all_of(mortar.elements.begin(), mortar.elements.end(),
+                                        [&](const FacingElement& element) { return flat(element.arc); })))
+    return bulge;
+  if (kind == CouplingKind::interpolation) {
+    for (size_t i = 0; i < rows.nodes.size(); ++i) {
+      const int node = rows.nodes[i];
+      bulge[static_cast<Eigen::Index>(i)] =
+          see(part, mortar, placeOf(part, mortar, node), part.s[node]).bulge;
+    }
+    return bulge;
+  }
+  atGaussPoints(part, mortar, rows,
+                [&](const Segment& segment, const Eigen::Vector2i& row, double s, const Eigen::Vector2d&,
+                    const Eigen::Vector2d& weighted) {
+                  const Sight sight = see(part, mortar, segment, s);
+                  for (int i = 0; i < 2; ++i)
+                    if (row[i] >= 0) bulge[row[i]] += weighted[i] * sight.bulge;
+                });
+  return Factor(mass).solve(bulge);
+}
+
 /// A row at each node: its own motion against that of the mortar point which it sees.
 void interpolate(const SmoothPart& part, const FacingLine& mortar, PartCoupling& result) {
   for (size_t i = 0; i < result.nodes.size(); ++i) {
     const int node = result.nodes[i];
-    const double s = std::clamp(part.s[node], mortar.s.front(), mortar.s.back());
-    const Segment place{std::min(node, part.elements() - 1), elementAt(mortar.s, s), s, s};
-    const Eigen::Vector2d psi = mortarHats(part, mortar, place, part.s[node]);
+    const Segment place = placeOf(part, mortar, node);
+    const Sight sight = see(part, mortar, place, part.s[node]);
     const auto row = static_cast<Eigen::Index>(i);
-    result.C1.block<1, 2>(row, 2 * node) = part.normals[node].transpose();
+    result.C1.block<1, 2>(row, 2 * node) = sight.normal.transpose();
     for (int j = 0; j < 2; ++j)
-      result.C2.block<1, 2>(row, 2 * (place.mortar + j)) -= psi[j] * part.normals[node].transpose();
+      result.C2.block<1, 2>(row, 2 * (place.mortar + j)) -= sight.psi[j] * sight.normal.transpose();
   }
 }
 
 PartCoupling coupleCurved(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
                           const std::vector<char>& merged) {
-  // Gauss's rule of four points on [-1, 1].
-  constexpr std::array<double, 4> places{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
-                                         0.8611363115940526};
-  constexpr std::array<double, 4> weights{0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
-                                          0.3478548451374538};
   const Rows rows(part.s, mortar.s, merged, part.closed);
   PartCoupling result;
   result.nodes = rows.nodes;
@@ -95,26 +136,19 @@ PartCoupling coupleCurved(CouplingKind kind, const SmoothPart& part, const Facin
   Triplets mass;
   Matrix C1 = result.C1;
   Matrix C2 = result.C2;
-  for (const Segment& segment : commonRefinement(part.s, mortar.s)) {
-    const Eigen::Vector2i row = rows.at(segment.nonmortar);
-    if (row.maxCoeff() < 0) continue;
-    Eigen::Matrix2d M = Eigen::Matrix2d::Zero();
-    for (size_t k = 0; k < places.size(); ++k) {
-      const double half = (segment.end - segment.begin) / 2;
-      const double s = segment.begin + (1 + places[k]) * half;
-      const Eigen::Vector2d chi = weights[k] * half * rowFunctions(part.s, segment.nonmortar, row, s);
-      const Eigen::Vector2d phi = hats(part.s, segment.nonmortar, s);
-      const Eigen::Vector2d psi = mortarHats(part, mortar, segment, s);
-      const Point n = part.normalAt(segment.nonmortar, s);
-      M += chi * rowFunctions(part.s, segment.nonmortar, row, s).transpose();
-      for (int i = 0; i < 2; ++i)
-        for (int j = 0; row[i] >= 0 && j < 2; ++j) {
-          C1.block<1, 2>(row[i], 2 * (segment.nonmortar + j)) += chi[i] * phi[j] * n.transpose();
-          C2.block<1, 2>(row[i], 2 * (segment.mortar + j)) -= chi[i] * psi[j] * n.transpose();
-        }
-    }
-    scatter(M, row, row, mass);
-  }
+  atGaussPoints(part, mortar, rows,
+                [&](const Segment& segment, const Eigen::Vector2i& row, double s, const Eigen::Vector2d& chi,
+                    const Eigen::Vector2d& weighted) {
+                  const Sight sight = see(part, mortar, segment, s);
+                  scatter(weighted * chi.transpose(), row, row, mass);
+                  for (int i = 0; i < 2; ++i)
+                    for (int j = 0; row[i] >= 0 && j < 2; ++j) {
+                      C1.block<1, 2>(row[i], 2 * (segment.nonmortar + j)) +=
+                          weighted[i] * sight.phi[j] * sight.normal.transpose();
+                      C2.block<1, 2>(row[i], 2 * (segment.mortar + j)) -=
+                          weighted[i] * sight.psi[j] * sight.normal.transpose();
+                    }
+                });
   result.M = assembled(rows.count(), rows.count(), mass);
   if (rows.count() == 0) return result;
   if (kind == CouplingKind::interpolation) {
@@ -183,10 +217,17 @@ Coupling couple(CouplingKind kind, const Trace& nonmortar, const Trace& mortar,
 
 PartCoupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
                     const std::vector<char>& merged) {
-  if (!part.straight) return coupleCurved(kind, part, mortar, merged);
-  Coupling scalar = couple(kind, part.s, mortar.s, merged);
-  const Point& n = part.normals.front();
-  return {std::move(scalar.nodes), scalar.M, timesNormal(scalar.B, n), timesNormal(-scalar.A, n)};
+  PartCoupling result;
+  if (part.straight) {
+    Coupling scalar = couple(kind, part.s, mortar.s, merged);
+    const Point& n = part.normals.front();
+    result = {std::move(scalar.nodes), scalar.M, timesNormal(scalar.B, n), timesNormal(-scalar.A, n), {}};
+  } else {
+    result = coupleCurved(kind, part, mortar, merged);
+  }
+  const Rows rows(part.s, mortar.s, merged, part.closed);
+  result.bulge = bulgeOf(kind, part, mortar, rows, result.M);
+  return result;
 }
 
 }  // namespace mortier

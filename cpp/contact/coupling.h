@@ -12,9 +12,9 @@
 // merged into it), the one's chi goes on as 1: constants are still reproduced, and M stays well conditioned
 // however small the piece.
 //
-// On a curve, with x1(s) seeing the mortar point x2(s) along n(s),
+// On a curve, with x1(s) seeing the mortar point x2(s) along the direction n(s) (facing_line.h),
 //
-//   interpolation  (C u)_i = n_i . (u1(x_i) - u2(x2(s_i)))
+//   interpolation  (C u)_i = n(s_i) . (u1(x_i) - u2(x2(s_i)))
 //   mortar         C u = M^-1 int chi n . (u1(x1(s)) - u2(x2(s))) ds
 //
 // with Gauss points. Whatever the rule, each term is a pair of opposite forces along the line through x1 and
@@ -56,6 +56,7 @@ struct PartCoupling {
   Eigen::SparseMatrix<double> M;  ///< mass of the row functions, rows x rows [m]
   Matrix C1;                      ///< rows x 2 (nodes of the part): columns 2 node + component
   Matrix C2;                      ///< rows x 2 (nodes of the facing line)
+  Vector bulge;  ///< by which the curves are nearer to each other than the polygons, per row [m]
 };
 
 /// The same for a part of the nonmortar line and what it faces: C1 and C2 take displacements by components.

@@ -1,35 +1,71 @@
-// The mortar line as a part of the nonmortar line sees it along its normals: each mortar node gets the
-// abscissa s of the point x1(s) from which it lies in the direction of the normal,
+// The mortar line as a part of the nonmortar line sees it. A point x1(s) of the part sees the point x2 of the mortar
+// line along the direction of contact n,
 //
-//   (x1(s) - x2) x n(s) = 0,
+//   (x1(s) - x2) x n = 0,      n ~ R1 n1(s) - R2 n2(x2),
 //
-// a quadratic equation on each element of a curve, a scalar product on a straight part. Past the ends of the
-// part the first and last element go on straight with the normal of the end. With these abscissae the common
-// refinement of two curves is that of two traces (segments.h).
+// n1, n2 the outward normals of both bodies and R1, R2 the radii of curvature of the lines there. Where a curve meets
+// a straight line that is the straight one's normal, where two curves meet the normal of the tangent plane of Hertz's
+// theory, to second order in the width of contact over the radius; and it does not depend on which side is nonmortar.
+// A straight part sees along its own normal, everything by the normals of the part where its partner has a corner
+// (a corner has the radius 0).
+//
+// The abscissae s of the mortar nodes make the common refinement of two curves that of two traces (segments.h).
+// Past the ends of the part the first and last element go on straight with the normal of the end.
 #pragma once
 
+#include <array>
+#include <unordered_map>
 #include <vector>
 
 #include "contact/smooth_part.h"
 
 namespace mortier {
 
+/// Geometry of an element of the mortar line, at its two ends.
+struct FacingElement {
+  std::array<Point, 2> normals;        ///< outward of the mortar body
+  std::array<double, 2> curvatures{};  ///< without sign [1/m]
+  std::array<double, 2> smooth{1, 1};  ///< 0 at a corner
+  Arc arc;
+};
+
+/// The mortar line with the normals and curvatures of its smooth parts.
+struct MortarLine {
+  explicit MortarLine(BoundaryLine boundary);
+
+  BoundaryLine line;
+  std::unordered_map<int, FacingElement> elements;  ///< as the mesh runs, by their first vertex
+};
+
 struct FacingLine {
   std::vector<int> nodes;     ///< vertex numbers, in the direction of the part; a node may come twice
   std::vector<Point> points;  ///< [m]
-  Trace s;                    ///< abscissae on the part, strictly ascending [m]
+  std::vector<FacingElement> elements;  ///< between them, in the same direction
+  Trace s;                              ///< abscissae on the part, strictly ascending [m]
 
   [[nodiscard]] bool empty() const { return nodes.size() < 2; }
 };
 
-/// The stretch of the mortar line (as its mesh runs) that faces the part: the abscissae ascend and the
-/// normals make an angle of 120 degrees at least. Of several the nearest one. Empty when nothing faces it.
-FacingLine facingLine(const SmoothPart& part, const BoundaryLine& mortar);
+/// The stretch of the mortar line that faces the part: the abscissae ascend and the normals make an angle of 120
+/// degrees at least. Of several the nearest one. Empty when nothing faces it.
+FacingLine facingLine(const SmoothPart& part, const MortarLine& mortar);
 
-/// Values of the two hat functions of a mortar element at the point that x1(s) sees along the normal: linear
-/// in s where the part is straight. They reproduce that point, so that a pair of opposite forces along the
-/// normal has no moment.
-Eigen::Vector2d mortarHats(const SmoothPart& part, const FacingLine& mortar, const Segment& segment,
-                           double s);
+/// What x1(s) sees: a pair of points, and the direction of the line through both, so that opposite forces along it
+/// have no moment.
+struct Sight {
+  Eigen::Vector2d phi;  ///< hat functions of the nonmortar element at x1
+  Eigen::Vector2d psi;  ///< of the mortar element at x2; linear in s where the part is straight
+  Point normal;         ///< direction n, of length one
+  double distance = 0;  ///< of the two polygons along n [m]
+  double bulge = 0;     ///< what the curves that they stand for (arcs.h) take from it [m]
+};
+
+Sight see(const SmoothPart& part, const FacingLine& mortar, const Segment& segment, double s);
+
+/// The direction of contact at a node of the part; its normal where it sees nothing.
+Point directionAt(const SmoothPart& part, const FacingLine& mortar, int node);
+
+/// A node of the part with the elements that it lies in.
+Segment placeOf(const SmoothPart& part, const FacingLine& mortar, int node);
 
 }  // namespace mortier

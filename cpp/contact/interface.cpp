@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "contact/element_tree.h"
 
 namespace mortier {
 namespace {
@@ -30,28 +31,25 @@ double lengthOf(const BoundaryLine& line) {
 std::vector<SmoothPart> partsFacing(const BoundaryLine& line, const BoundaryLine& mortar) {
   std::vector<SmoothPart> parts = smoothParts(line);
   if (!parts.front().closed || mortar.closed) return parts;
-  size_t farthest = 0;
-  double distance = -1;
-  for (size_t i = 0; i + 1 < line.points.size(); ++i) {
-    double nearest = INFINITY;
-    for (const Point& x : mortar.points) nearest = std::min(nearest, (x - line.points[i]).squaredNorm());
-    if (nearest > distance) {
-      distance = nearest;
-      farthest = i;
-    }
-  }
-  return smoothParts(begunAt(line, static_cast<int>(farthest)));
+  return smoothParts(begunAt(line, farthestNode(line.points, mortar.points)));
 }
 
-/// The smallest angle between outward normals of two lines, in degrees, for a message.
+/// The widest angle between outward normals of two lines, in degrees, for a message.
 double angleBetween(const std::vector<SmoothPart>& parts, const BoundaryLine& mortar) {
+  const auto angleOf = [](const Point& d) { return std::atan2(d.y(), d.x()); };
+  std::vector<double> across;
+  for (size_t j = 1; j < mortar.points.size(); ++j)
+    across.push_back(angleOf(mortar.points[j] - mortar.points[j - 1]));
+  std::sort(across.begin(), across.end());
   double widest = 0;
   for (const SmoothPart& part : parts)
-    for (int e = 0; e < part.elements(); ++e)
-      for (size_t j = 1; j < mortar.points.size(); ++j) {
-        const Point d = (mortar.points[j] - mortar.points[j - 1]).normalized();
-        widest = std::max(widest, std::acos(std::clamp(part.direction(e).dot(d), -1.0, 1.0)));
-      }
+    for (int e = 0; e < part.elements(); ++e) {
+      const double opposite = std::remainder(angleOf(part.direction(e)) + M_PI, 2 * M_PI);
+      const auto above = std::lower_bound(across.begin(), across.end(), opposite);
+      for (const double each : {above == across.end() ? across.front() : *above,
+                                above == across.begin() ? across.back() : *(above - 1)})
+        widest = std::max(widest, M_PI - std::abs(std::remainder(each - opposite, 2 * M_PI)));
+    }
   return widest * 180 / M_PI;
 }
 
@@ -60,7 +58,8 @@ std::vector<char> mergedNodes(const SmoothPart& part, const FacingLine& mortar, 
                               const InterfaceOptions& options) {
   std::vector<char> merged(part.nodes.size(), 0);
   if (!options.nonmortarHeld || part.closed) return merged;
-  const auto held = [&](size_t i) { return options.nonmortarHeld(part.nodes[i], part.normals[i]); };
+  const auto direction = [&](size_t i) { return directionAt(part, mortar, static_cast<int>(i)); };
+  const auto held = [&](size_t i) { return options.nonmortarHeld(part.nodes[i], direction(i)); };
   const auto facingHeld = [&](double s, const Point& normal) {
     const auto above = std::lower_bound(mortar.s.begin(), mortar.s.end(), s);
     const auto j = std::min<size_t>(above - mortar.s.begin(), mortar.s.size() - 1);
@@ -71,8 +70,23 @@ std::vector<char> mergedNodes(const SmoothPart& part, const FacingLine& mortar, 
   const size_t last = part.nodes.size() - 1;
   for (const auto& [end, neighbour] : {std::pair<size_t, size_t>{0, 1}, {last, last - 1}})
     if (held(end) && !held(neighbour))
-      merged[end] = kind == CouplingKind::mortar || facingHeld(part.s[end], part.normals[end]) ? 1 : 0;
+      merged[end] = kind == CouplingKind::mortar || facingHeld(part.s[end], direction(end)) ? 1 : 0;
   return merged;
+}
+
+/// The largest sagitta of the elements that face each other and whose curve is not known [m].
+double unknownSagitta(const SmoothPart& part, const FacingLine& mortar) {
+  double largest = 0;
+  for (const Segment& segment : commonRefinement(part.s, mortar.s)) {
+    const auto consider = [&](const Arc& arc, const Point& a, const Point& b) {
+      if (!arc.known) largest = std::max(largest, sagitta((b - a).norm(), arc.curvature));
+    };
+    const int i = segment.nonmortar;
+    const int j = segment.mortar;
+    consider(part.arcs[i], part.points[i], part.points[i + 1]);
+    consider(mortar.elements[j].arc, mortar.points[j], mortar.points[j + 1]);
+  }
+  return largest;
 }
 
 /// Columns 2 node + component to dofs of the mesh.
@@ -133,7 +147,8 @@ ContactInterface::ContactInterface(const ContactPair& pair, const TriangleMesh& 
   const std::vector<SmoothPart> parts = partsFacing(nonmortar, mortar);
   std::vector<FacingLine> facing;
   facing.reserve(parts.size());
-  for (const SmoothPart& part : parts) facing.push_back(facingLine(part, mortar));
+  const MortarLine across(mortar);
+  for (const SmoothPart& part : parts) facing.push_back(facingLine(part, across));
   if (std::all_of(facing.begin(), facing.end(), [](const FacingLine& line) { return line.empty(); })) {
     if (const double angle = angleBetween(parts, mortar); angle < 120) {
       std::ostringstream message;
@@ -164,6 +179,7 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
   Triplets rows2;
   Triplets mass;
   std::vector<double> given;  // distances, where the user gives them
+  std::vector<double> bulge;
   for (size_t k = 0; k < parts.size(); ++k) {
     if (facing[k].empty()) continue;
     const SmoothPart& part = parts[k];
@@ -178,16 +194,19 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
         mass.emplace_back(firstRow + static_cast<int>(entry.row()), firstRow + j, entry.value());
     for (const int node : coupling.nodes) {
       nonmortarNodes_.push_back(part.nodes[node]);
-      normals_.push_back(part.normals[node]);
+      normals_.push_back(directionAt(part, facing[k], node));
       if (options.gap) given.push_back(options.gap(part.points[node]));
     }
     overlap_ += std::max(0.0, overlapOf(part.s, facing[k].s).length());
-    penetration_.add(part, facing[k], [&](int element, double s, const Point& across, const Point& normal) {
+    bulge.insert(bulge.end(), coupling.bulge.begin(), coupling.bulge.end());
+    if (!options.gap && options.initial != InitialGap::close)
+      sagitta_ = std::max(sagitta_, unknownSagitta(part, facing[k]));
+    penetration_.add(part, facing[k], [&](int element, double s, const Sight& sight) {
       if (options.gap) {
         const Eigen::Vector2d phi = hats(part.s, element, s);
         return phi[0] * options.gap(part.points[element]) + phi[1] * options.gap(part.points[element + 1]);
       }
-      return options.initial == InitialGap::close ? 0.0 : across.dot(normal);
+      return options.initial == InitialGap::close ? 0.0 : sight.distance - sight.bulge;
     });
   }
   const auto n = static_cast<Eigen::Index>(nonmortarNodes_.size());
@@ -198,7 +217,8 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
     distance_ = Eigen::Map<const Vector>(given.data(), n);
   } else {
     const Point& origin = parts.front().points.front();
-    distance_ = -(C1_ * placesOf(nonmortarMesh, origin) + C2_ * placesOf(mortarMesh, origin));
+    distance_ = -(C1_ * placesOf(nonmortarMesh, origin) + C2_ * placesOf(mortarMesh, origin)) -
+                Eigen::Map<const Vector>(bulge.data(), n);
   }
 }
 

@@ -3,9 +3,10 @@
 //
 //   C u = C1 u1 + C2 u2,      g = C u - g0 <= 0,   p >= 0,   p g = 0
 //
-// One row per nonmortar node that faces the mortar side (one per adjacent part at a corner), along the normal
-// of the nonmortar side: coupling.h. g0 is the distance of the bodies along the normal. The solver sees the
-// two sparse matrices and g0, nothing of geometry.
+// One row per nonmortar node that faces the mortar side (one per adjacent part at a corner), along the direction of
+// contact there: coupling.h, facing_line.h. g0 is the distance along it of the curves that the two lines stand for
+// (arcs.h), of the lines as meshed where these are not known. The solver sees the two sparse matrices and g0, nothing
+// of geometry.
 //
 // A nonmortar node at an end of Gamma_C whose normal motion is prescribed, while its neighbour's is not, has
 // no row of its own with the mortar coupling: its hat function goes to the neighbour, so that Dirichlet
@@ -67,7 +68,7 @@ class ContactInterface {
   [[nodiscard]] const std::vector<int>& nonmortarNodes() const { return nonmortarNodes_; }
   /// Vertex numbers of the nodes of the mortar line.
   [[nodiscard]] const std::vector<int>& mortarNodes() const { return mortarNodes_; }
-  /// Outward normal of the nonmortar body at the node of each row.
+  /// Direction of contact at the node of each row, out of the nonmortar body.
   [[nodiscard]] const std::vector<Point>& normals() const { return normals_; }
   [[nodiscard]] const ConstraintRows& C1() const { return C1_; }             ///< on the nonmortar body
   [[nodiscard]] const ConstraintRows& C2() const { return C2_; }             ///< on the mortar body
@@ -76,6 +77,9 @@ class ContactInterface {
   [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
   /// Held end nodes of the nonmortar line that have no condition: merged into their neighbours, or left out.
   [[nodiscard]] int heldEnds() const { return heldEnds_; }
+  /// By how much the lines may be off the curves behind them where these are not known and the distance is that as
+  /// meshed: the largest sagitta [m].
+  [[nodiscard]] double sagitta() const { return sagitta_; }
   /// Share of the shorter line that faces the other.
   [[nodiscard]] double overlap() const { return overlap_; }
   [[nodiscard]] int rows() const { return static_cast<int>(distance_.size()); }
@@ -89,6 +93,10 @@ class ContactInterface {
   /// Integral over Gamma_C of ((u1 - u2).n - distance)_+, exact where the nonmortar line is straight [m^2].
   [[nodiscard]] double interpenetration(const Vector& uNonmortar, const Vector& uMortar) const {
     return penetration_.of(uNonmortar, uMortar);
+  }
+  /// The largest depth to which the bodies overlap at a point [m]. The rows see means.
+  [[nodiscard]] double deepestOverlap(const Vector& uNonmortar, const Vector& uMortar) const {
+    return penetration_.deepest(uNonmortar, uMortar);
   }
 
  private:
@@ -105,6 +113,7 @@ class ContactInterface {
   Eigen::SparseMatrix<double> mass_;
   Vector distance_;
   double overlap_ = 0;
+  double sagitta_ = 0;
   int heldEnds_ = 0;
   PenetrationIntegral penetration_;
 };

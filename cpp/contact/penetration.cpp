@@ -10,15 +10,13 @@ void PenetrationIntegral::add(const SmoothPart& part, const FacingLine& mortar, 
     const int i = segment.nonmortar;
     const int j = segment.mortar;
     const auto place = [&](double s) {
-      Place result{{part.nodes[i], part.nodes[i + 1]},
+      const Sight sight = see(part, mortar, segment, s);
+      return Place{{part.nodes[i], part.nodes[i + 1]},
                    {mortar.nodes[j], mortar.nodes[j + 1]},
-                   hats(part.s, i, s),
-                   mortarHats(part, mortar, segment, s),
-                   part.normalAt(i, s)};
-      const Point across =
-          result.psi[0] * mortar.points[j] + result.psi[1] * mortar.points[j + 1] - part.at(i, s);
-      result.distance = distance(i, s, across, result.normal);
-      return result;
+                   sight.phi,
+                   sight.psi,
+                   sight.normal,
+                   distance(i, s, sight)};
     };
     stretches_.push_back({place(segment.begin), place(segment.end), segment.end - segment.begin});
   }
@@ -42,6 +40,14 @@ double PenetrationIntegral::of(const Vector& uNonmortar, const Vector& uMortar) 
       integral += stretch.length * std::max(a, b) * std::max(a, b) / (2 * std::abs(a - b));
   }
   return integral;
+}
+
+double PenetrationIntegral::deepest(const Vector& uNonmortar, const Vector& uMortar) const {
+  double depth = 0;
+  for (const Stretch& stretch : stretches_)
+    for (const Place* place : {&stretch.begin, &stretch.end})
+      depth = std::max(depth, place->jump(uNonmortar, uMortar));
+  return depth;
 }
 
 }  // namespace mortier

@@ -11,8 +11,8 @@
 
 namespace mortier {
 
-/// Distance g0 at the nonmortar and the mortar point of one place [m].
-using DistanceAt = std::function<double(int element, double s, const Point& gapVector, const Point& normal)>;
+/// Distance g0 at a place of a nonmortar element [m].
+using DistanceAt = std::function<double(int element, double s, const Sight& sight)>;
 
 class PenetrationIntegral {
  public:
@@ -20,6 +20,8 @@ class PenetrationIntegral {
   void add(const SmoothPart& part, const FacingLine& mortar, const DistanceAt& distance);
   /// Displacements by dofs of the two bodies [m]. \returns [m^2]
   [[nodiscard]] double of(const Vector& uNonmortar, const Vector& uMortar) const;
+  /// The largest jump at a point of the common refinement, 0 where all are negative [m].
+  [[nodiscard]] double deepest(const Vector& uNonmortar, const Vector& uMortar) const;
 
  private:
   /// A point of the common refinement, seen from one of its segments.

@@ -102,11 +102,19 @@ SmoothPart partOf(const BoundaryLine& line, int begin, int end) {
     const Point t = (part.points.back() - part.points.front()).normalized();
     for (const Point& point : part.points) part.s.push_back((point - part.points.front()).dot(t));
     part.normals.assign(part.points.size(), outward(t));
+    part.curvatures.assign(part.points.size(), 0);
+    part.arcs.assign(part.points.size() - 1, {0, true});
   } else {
     part.s.push_back(0);
     for (size_t i = 1; i < part.points.size(); ++i)
       part.s.push_back(part.s.back() + (part.points[i] - part.points[i - 1]).norm());
     setCurvedNormals(part);
+    part.curvatures = nodalCurvatures(part.points, part.closed);
+    part.arcs = arcsOf(part.points, part.closed,
+                       line.middles.empty()
+                           ? std::vector<Point>{}
+                           : std::vector<Point>(line.middles.begin() + begin, line.middles.begin() + end));
+    for (double& curvature : part.curvatures) curvature = std::abs(curvature);
   }
   return part;
 }
@@ -124,6 +132,11 @@ Point SmoothPart::normalAt(int element, double abscissa) const {
   return (phi[0] * normals[element] + phi[1] * normals[element + 1]).normalized();
 }
 
+double SmoothPart::curvatureAt(int element, double abscissa) const {
+  const Eigen::Vector2d phi = hats(s, element, abscissa).cwiseMax(0);
+  return phi[0] * curvatures[element] + phi[1] * curvatures[element + 1];
+}
+
 Point SmoothPart::direction(int element) const {
   return (points[element + 1] - points[element]).normalized();
 }
@@ -136,6 +149,8 @@ BoundaryLine begunAt(const BoundaryLine& line, int first) {
   std::rotate(result.points.begin(), result.points.begin() + first, result.points.end());
   result.nodes.push_back(result.nodes.front());
   result.points.push_back(result.points.front());
+  if (!result.middles.empty())
+    std::rotate(result.middles.begin(), result.middles.begin() + first, result.middles.end());
   return result;
 }
 

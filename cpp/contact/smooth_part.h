@@ -17,16 +17,19 @@
 
 #include <vector>
 
+#include "contact/arcs.h"
 #include "contact/segments.h"
 #include "mesh/boundary_line.h"
 
 namespace mortier {
 
 struct SmoothPart {
-  std::vector<int> nodes;      ///< vertex numbers along the line; first and last agree where it is closed
-  std::vector<Point> points;   ///< [m]
-  std::vector<Point> normals;  ///< at the nodes, outward, of length one
-  Trace s;                     ///< arc length from the first node [m]
+  std::vector<int> nodes;          ///< vertex numbers along the line; first and last agree where it is closed
+  std::vector<Point> points;       ///< [m]
+  std::vector<Point> normals;      ///< at the nodes, outward, of length one
+  Trace s;                         ///< arc length from the first node [m]
+  std::vector<double> curvatures;  ///< at the nodes, without sign [1/m]; 0 where the part is straight
+  std::vector<Arc> arcs;           ///< what the elements stand for
   bool straight = false;
   bool closed = false;
 
@@ -35,6 +38,7 @@ struct SmoothPart {
   /// x1(s) and n(s) at an abscissa s [m] on an element, or beyond its ends.
   [[nodiscard]] Point at(int element, double abscissa) const;
   [[nodiscard]] Point normalAt(int element, double abscissa) const;
+  [[nodiscard]] double curvatureAt(int element, double abscissa) const;
   /// Direction of an element, of length one.
   [[nodiscard]] Point direction(int element) const;
 };

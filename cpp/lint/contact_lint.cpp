@@ -6,6 +6,7 @@
 #include "lint/held_dofs.h"
 #include "lint/lint.h"
 #include "mesh/boundary_line.h"
+#include "scene/build_contact.h"
 
 namespace mortier {
 namespace {
@@ -217,6 +218,9 @@ void checkInterface(const ContactDescription& contact, const Side& one, const Si
     faults.add("contact-overlap", contact.where,
                name(one) + " and " + name(two) + " face each other over " +
                    shortest(std::round(1000 * interface.overlap()) / 1000) + " of the shorter one");
+  if (const std::string doubt = doubtOfPolygons(interface);
+      !doubt.empty() && !contact.gap && contact.initial != InitialGap::close)
+    faults.add("contact-polygon", contact.where, doubt);
   if (gap > large * smallerExtent)
     faults.add("gap-large", contact.where,
                "the bodies are at least " + shortest(gap) + " m apart, the smaller one is " +

@@ -91,6 +91,10 @@ const std::vector<FaultKind>& faultKinds() {
        "move one of the meshes, or mesh both sides from the same line"},
       {"contact-overlap", warning, "the sides face each other over a small part only",
        "check the position of the meshes and the labels"},
+      {"contact-polygon", warning,
+       "the distance is no larger than what polygons are off the curves behind them",
+       "give the distance (contact.gap), or initial = \"close\" where both are one curve, or refine both "
+       "sides"},
       {"gap-large", warning, "the sides are further apart than half the smaller body",
        "move the meshes together, or check their units"},
       {"contact-side-twice", warning, "a label is a side of two contacts",

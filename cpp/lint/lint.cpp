@@ -7,6 +7,7 @@
 #include "mesh/read.h"
 #include "scene/build.h"
 #include "scene/overrides.h"
+#include "scene/sides.h"
 #include "solver/step.h"
 
 namespace mortier {
@@ -156,6 +157,7 @@ LintReport lint(const std::string& path, const std::vector<std::string>& setting
     }
   }
   numberLabels(scene, input.meshes);
+  decideSides(scene, input.meshes);
   runChecks(input, report.faults);
   if (report.faults.count(Severity::error) == 0) build(scene, report);
   return report;

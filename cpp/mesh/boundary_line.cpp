@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <unordered_map>
 
 #include "base/error.h"
 
@@ -86,6 +87,11 @@ BoundaryLine boundaryLine(const TriangleMesh& mesh, int label) {
              " are in separate pieces, expected one line");
   }
   for (int v : line.nodes) line.points.push_back(mesh.vertices[v]);
+  if (mesh.edgeMiddles.empty()) return line;
+  std::unordered_map<int, Point> middleFrom;
+  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
+    if (mesh.boundaryLabels[e] == label) middleFrom[mesh.boundaryEdges[e][0]] = mesh.edgeMiddles[e];
+  for (size_t i = 0; i + 1 < line.nodes.size(); ++i) line.middles.push_back(middleFrom.at(line.nodes[i]));
   return line;
 }
 

@@ -14,6 +14,8 @@ struct BoundaryLine {
   std::vector<int> nodes;     ///< vertex numbers; the first and last agree on a closed line
   std::vector<Point> points;  ///< their coordinates [m]
   bool closed = false;
+  std::vector<Point> middles =
+      {};  ///< TriangleMesh::edgeMiddles of the elements; empty where none is known [m]
 };
 
 /// \throws InputError when the label is missing, or when its edges do not form one connected line.

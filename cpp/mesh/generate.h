@@ -60,7 +60,8 @@ struct HalfDisc {
 };
 
 /// Labels: 1 the arc within 45 degrees of the lowest point, 2 the flat side on top, 3 the rest of the arc.
-/// Symmetric to the last bit about the vertical axis but for the diagonals. \throws InputError
-TriangleMesh halfDiscMesh(const HalfDisc& disc, Cut cut = Cut::rising);
+/// Symmetric to the last bit about the vertical axis where cells are cut by both diagonals; inside the arc
+/// every node has as many triangles as its neighbours, whatever the cut. \throws InputError
+TriangleMesh halfDiscMesh(const HalfDisc& disc, Cut cut = Cut::both);
 
 }  // namespace mortier

@@ -3,8 +3,10 @@
 #include "mesh/gmsh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -44,8 +46,10 @@ TriangleMesh readGmsh(const std::string& path) {
 /// For the way between the processes.
 template <class Archive>
 void visitMembers(Archive& archive, TriangleMesh& mesh) {
-  auto& [name, vertices, triangles, regions, boundaryEdges, boundaryLabels, labelNames, regionNames] = mesh;
-  archive(name, vertices, triangles, regions, boundaryEdges, boundaryLabels, labelNames, regionNames);
+  auto& [name, vertices, triangles, regions, boundaryEdges, boundaryLabels, labelNames, regionNames,
+         edgeMiddles] = mesh;
+  archive(name, vertices, triangles, regions, boundaryEdges, boundaryLabels, labelNames, regionNames,
+          edgeMiddles);
 }
 
 namespace {
@@ -169,7 +173,12 @@ std::vector<int> elementTypes(const Gmsh& gmsh, int dimension) {
   return gmsh.take(types);
 }
 
-std::map<size_t, Point> planeNodes(const Gmsh& gmsh) {
+struct PlaneNodes {
+  std::map<size_t, Point> at;  ///< by tag
+  double z = 0;
+};
+
+PlaneNodes planeNodes(const Gmsh& gmsh) {
   Gmsh::Array<size_t> tags;
   Gmsh::Array<double> coordinates;
   Gmsh::Array<double> parameters;
@@ -179,15 +188,41 @@ std::map<size_t, Point> planeNodes(const Gmsh& gmsh) {
   const std::vector<size_t> tag = gmsh.take(tags);
   const std::vector<double> x = gmsh.take(coordinates);
   gmsh.take(parameters);
-  std::map<size_t, Point> result;
+  PlaneNodes result{{}, x.size() > 2 ? x[2] : 0};
   for (size_t i = 0; i < tag.size(); ++i) {
     if (x[3 * i + 2] != x[2])
       throw InputError(gmsh.path() + ": node " + std::to_string(tag[i]) +
                        " is at z = " + std::to_string(x[3 * i + 2]) +
                        ", expected all nodes in one plane z = " + std::to_string(x[2]));
-    result[tag[i]] = {x[3 * i], x[3 * i + 1]};
+    result.at[tag[i]] = {x[3 * i], x[3 * i + 1]};
   }
   return result;
+}
+
+/// Whether the curve has a shape that is not the line of its mesh: it comes from a geometry.
+bool hasShape(const Gmsh& gmsh, int curve) {
+  char* type = nullptr;
+  gmsh.call<decltype(gmshModelGetType)>("gmshModelGetType", 1, curve, &type);
+  const std::string word = type == nullptr ? "" : type;
+  if (type != nullptr) gmsh.take(Gmsh::Array<char>{type, 0});
+  return !word.empty() && word != "Line" && word.find("Discrete") == std::string::npos;
+}
+
+/// The point of a curve nearest to the middle of one of its edges; none where Gmsh finds none near it.
+Point middleOn(const Gmsh& gmsh, int curve, double z, const Point& a, const Point& b) {
+  const Point half = (b - a) / 2;
+  std::array<double, 3> middle{a.x() + half.x(), a.y() + half.y(), z};
+  Gmsh::Array<double> found;
+  Gmsh::Array<double> parameter;
+  gmsh.call<decltype(gmshModelGetClosestPoint)>("gmshModelGetClosestPoint", 1, curve, middle.data(),
+                                                middle.size(), &found.data, &found.size, &parameter.data,
+                                                &parameter.size);
+  const std::vector<double> x = gmsh.take(found);
+  gmsh.take(parameter);
+  const Point none = Point::Constant(std::numeric_limits<double>::quiet_NaN());
+  if (x.size() < 3) return none;
+  const Point point(x[0], x[1]);
+  return (point - a - half).norm() < half.norm() ? point : none;
 }
 
 TriangleMesh readHere(const std::string& path) {
@@ -201,14 +236,14 @@ TriangleMesh readHere(const std::string& path) {
       throw InputError(path + ": elements of Gmsh's type " + std::to_string(type) +
                        ", expected linear triangles (type 2) only");
 
-  const std::map<size_t, Point> nodes = planeNodes(gmsh);
+  const PlaneNodes nodes = planeNodes(gmsh);
   TriangleMesh mesh;
   std::map<size_t, int> vertexOf;
   const auto vertex = [&](size_t tag) {
     const auto [found, isNew] = vertexOf.try_emplace(tag, static_cast<int>(mesh.vertices.size()));
     if (isNew) {
-      const auto node = nodes.find(tag);
-      if (node == nodes.end())
+      const auto node = nodes.at.find(tag);
+      if (node == nodes.at.end())
         throw InputError(path + ": an element has node " + std::to_string(tag) + ", which is not there");
       mesh.vertices.push_back(node->second);
     }
@@ -235,6 +270,7 @@ TriangleMesh readHere(const std::string& path) {
     if (!group.name.empty()) mesh.labelNames[group.name] = group.number;
     for (const int entity : group.entities) {
       const std::vector<size_t> ends = elements(gmsh, line, entity);
+      const bool shaped = hasShape(gmsh, entity);
       for (size_t i = 0; i + 1 < ends.size(); i += 2) {
         const int a = vertex(ends[i]);
         const int b = vertex(ends[i + 1]);
@@ -243,9 +279,15 @@ TriangleMesh readHere(const std::string& path) {
           continue;
         mesh.boundaryEdges.push_back({a, b});
         mesh.boundaryLabels.push_back(group.number);
+        mesh.edgeMiddles.push_back(shaped
+                                       ? middleOn(gmsh, entity, nodes.z, mesh.vertices[a], mesh.vertices[b])
+                                       : Point::Constant(std::numeric_limits<double>::quiet_NaN()));
       }
     }
   }
+  if (std::none_of(mesh.edgeMiddles.begin(), mesh.edgeMiddles.end(),
+                   [](const Point& p) { return p.allFinite(); }))
+    mesh.edgeMiddles.clear();
   mesh.name = path;
   validate(mesh);
   return mesh;

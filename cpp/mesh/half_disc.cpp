@@ -109,18 +109,15 @@ TriangleMesh halfDiscMesh(const HalfDisc& disc, Cut cut) {
   for (int r = 1; r <= rings; ++r) addEdge(ringNode(r - 1, 4 * m), ringNode(r, 4 * m), onRing(r));
   for (int k = 4 * m; k > 0; --k) addEdge(ringNode(rings, k), ringNode(rings, k - 1), 2);
 
-  // 3. Cells, the diagonals mirrored about the vertical axis.
-  const auto mirrored = [cut](bool left) {
-    return cut == Cut::both || !left ? cut : cut == Cut::rising ? Cut::falling : Cut::rising;
-  };
+  // 3. Cells. A single diagonal runs through the core one way and through the rings the other, so that every node of the
+  // arc has three triangles. Were it mirrored about the vertical axis, the lowest point would have four, and a wrong pressure.
+  const Cut around = cut == Cut::both ? cut : cut == Cut::rising ? Cut::falling : Cut::rising;
   for (int j = 0; j < m; ++j)
     for (int i = -m; i < m; ++i)
-      addCell(mesh, {coreNode(i, j), coreNode(i + 1, j), coreNode(i + 1, j + 1), coreNode(i, j + 1)},
-              mirrored(i < 0));
+      addCell(mesh, {coreNode(i, j), coreNode(i + 1, j), coreNode(i + 1, j + 1), coreNode(i, j + 1)}, cut);
   for (int r = 0; r < rings; ++r)
     for (int k = 0; k < 4 * m; ++k)
-      addCell(mesh, {ringNode(r, k), ringNode(r, k + 1), ringNode(r + 1, k + 1), ringNode(r + 1, k)},
-              mirrored(k < 2 * m));
+      addCell(mesh, {ringNode(r, k), ringNode(r, k + 1), ringNode(r + 1, k + 1), ringNode(r + 1, k)}, around);
   return finished(std::move(mesh), name.str());
 }
 

@@ -93,8 +93,14 @@ std::string logAccuracy(const Model& model, const Accuracy& accuracy) {
   text += format("%.2g %%", 100 * accuracy.all);
   for (size_t b = 0; b < model.bodies.size(); ++b)
     text += (b == 0 ? " (" : ", ") + model.bodies[b].name() + format(" %.2g %%", 100 * accuracy.bodies[b]);
-  return text + "), largest in " + accuracy.worstBody +
-         format(" at (%.4g, %.4g)\n", accuracy.worst[0], accuracy.worst[1]);
+  text += "), largest in " + accuracy.worstBody +
+          format(" at (%.4g, %.4g)", accuracy.worst[0], accuracy.worst[1]);
+  double sagitta = 0;
+  for (const ContactInterface& interface : model.interfaces) sagitta = std::max(sagitta, interface.sagitta());
+  if (sagitta > 0)
+    text +=
+        format("; not in it: contact between polygons that are off their curves by up to %.2g m", sagitta);
+  return text + "\n";
 }
 
 std::string logSpecial(const SpecialConditions& special) {

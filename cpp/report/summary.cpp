@@ -52,6 +52,7 @@ Json interfaces(const RunFacts& facts, const Model& model) {
                     {"nonmortar_nodes", interface.nonmortarNodes().size()},
                     {"mortar_nodes", interface.mortarNodes().size()},
                     {"overlap", interface.overlap()},
+                    {"sagitta", interface.sagitta()},
                     {"held_ends", interface.heldEnds()}});
   }
   return list;

@@ -2,6 +2,7 @@
 
 #include "scene/build_body.h"
 #include "scene/build_contact.h"
+#include "scene/sides.h"
 
 namespace mortier {
 
@@ -15,13 +16,21 @@ std::vector<double> sampleTimes(const TimePlan& plan) {
 
 }  // namespace
 
-Model buildModel(const SceneDescription& scene, std::vector<std::string>& warnings) {
+std::vector<const TriangleMesh*> meshesOf(const Model& model) {
+  std::vector<const TriangleMesh*> meshes;
+  for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
+  return meshes;
+}
+
+Model buildModel(const SceneDescription& description, std::vector<std::string>& warnings) {
   Model model;
-  const std::vector<double> times = sampleTimes(scene.time);
-  model.bodies.reserve(scene.bodies.size());
-  for (const BodyDescription& body : scene.bodies) {
-    model.bodies.push_back(buildBody(body, scene.plane, times, warnings));
+  const std::vector<double> times = sampleTimes(description.time);
+  model.bodies.reserve(description.bodies.size());
+  for (const BodyDescription& body : description.bodies) {
+    model.bodies.push_back(buildBody(body, description.plane, times, warnings));
   }
+  SceneDescription scene = description;
+  decideSides(scene, meshesOf(model));
   for (const ContactDescription& contact : scene.contacts) {
     addContact(scene, contact, model, warnings);
   }

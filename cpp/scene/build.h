@@ -14,4 +14,7 @@ namespace mortier {
 /// bodies that do not face each other. Doubtful but legal input is added to `warnings`, one line each.
 Model buildModel(const SceneDescription& scene, std::vector<std::string>& warnings);
 
+/// Of the bodies.
+std::vector<const TriangleMesh*> meshesOf(const Model& model);
+
 }  // namespace mortier

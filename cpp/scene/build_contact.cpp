@@ -1,5 +1,7 @@
 #include "scene/build_contact.h"
 
+#include <iomanip>
+#include <sstream>
 #include <utility>
 
 #include "base/error.h"
@@ -22,23 +24,22 @@ void warnOfConditionsOn(const SideDescription& side, bool nonmortar, const Scene
   }
 }
 
-/// Whether the mortar side has the finer mesh along the contact and should be nonmortar. Measured by
-/// bench_nonmortar_side; stiffness does not matter.
-bool mortarIsFiner(const Model& model, const ContactPair& pair) {
-  const auto meanLength = [&](const ContactSide& side) {
-    const TriangleMesh& mesh = model.bodies[side.body].mesh();
-    const auto edges = edgesOn(mesh, side.label);
-    double length = 0;
-    for (const auto& [a, b] : edges) {
-      length += (mesh.vertices[b] - mesh.vertices[a]).norm();
-    }
-    return length / static_cast<double>(edges.size());
-  };
-  constexpr double equal = 1e-9;  // then the side named first
-  return meanLength(pair.mortar) < (1 - equal) * meanLength(pair.nonmortar);
+std::string twoDigits(double x) {
+  std::ostringstream text;
+  text << std::setprecision(2) << x;
+  return text.str();
 }
 
 }  // namespace
+
+std::string doubtOfPolygons(const ContactInterface& interface) {
+  constexpr double noticeable = 0.02;  // of the pressure, where that is in proportion to the distance
+  const double distance = interface.initialDistance().cwiseAbs().mean();
+  if (!(interface.sagitta() > noticeable * distance)) return "";
+  return "no circle fits the nodes to 1e-6, so the distance is that of the polygons, " + twoDigits(distance) +
+         " m in the mean; they are off the curves behind them by up to " + twoDigits(interface.sagitta()) +
+         " m, and pressures are wrong in that ratio";
+}
 
 void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model,
                 std::vector<std::string>& warnings) {
@@ -50,12 +51,8 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
     target->label = boundaryLabel(model.bodies[target->body].mesh(), side->label, side->labelName,
                                   side->where + ": body " + side->body);
   }
-  const bool exchanged = !contact.sidesGiven && mortarIsFiner(model, pair);
-  if (exchanged) {
-    std::swap(pair.nonmortar, pair.mortar);
-  }
-  warnOfConditionsOn(contact.nonmortar, !exchanged, scene, warnings);
-  warnOfConditionsOn(contact.mortar, exchanged, scene, warnings);
+  warnOfConditionsOn(contact.nonmortar, true, scene, warnings);
+  warnOfConditionsOn(contact.mortar, false, scene, warnings);
   InterfaceOptions options;
   options.initial = contact.initial;
   if (contact.gap) {
@@ -69,6 +66,8 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
   }
   try {
     addInterface(model, pair, options);
+    if (const std::string doubt = doubtOfPolygons(model.interfaces.back()); !doubt.empty())
+      warnings.push_back(contact.where + ": contact: " + doubt);
   } catch (const InputError& error) {
     throw InputError(contact.where + ": contact: " + error.what());
   }

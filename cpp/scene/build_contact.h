@@ -9,11 +9,15 @@
 
 namespace mortier {
 
-/// Adds the interface to the model, which has its bodies; where the scene leaves it open, the side with the
-/// finer mesh is nonmortar. Doubtful but legal input is added to `warnings`, one line each.
+/// Adds the interface to the model, which has its bodies; which side is nonmortar is decided (scene/sides.h).
+/// Doubtful but legal input is added to `warnings`, one line each.
 /// \throws InputError with file and line: a label that the mesh does not have, a gap [m] that is not finite,
 /// sides that do not face each other.
 void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model,
                 std::vector<std::string>& warnings);
+
+/// In words, with what it does: distances that are not larger than what polygons are off the curves behind them.
+/// Empty where there is nothing to say.
+std::string doubtOfPolygons(const ContactInterface& interface);
 
 }  // namespace mortier

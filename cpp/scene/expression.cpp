@@ -34,6 +34,7 @@ class Compiled {
   }
 
   [[nodiscard]] bool constant() const { return work_->parser.GetUsedVar().empty(); }
+  [[nodiscard]] bool inTime() const { return work_->parser.GetUsedVar().count("t") > 0; }
   /// Evaluates once; how many values the text holds ("1, 2" are two).
   [[nodiscard]] int values() const {
     work_->parser.Eval();
@@ -102,7 +103,7 @@ Expression tableExpression(const std::vector<double>& times, const std::vector<d
     const double part = (t - times[i - 1]) / (times[i] - times[i - 1]);
     return (1 - part) * values[i - 1] + part * values[i];
   };
-  return {std::move(text), std::move(where), false, value, times};
+  return {std::move(text), std::move(where), false, value, times, true};
 }
 
 Expression negated(Expression expression) {
@@ -132,7 +133,8 @@ Expression parseExpression(const std::string& text, std::string where) {
       requireFinite(result, {Point::Zero()}, {0.0});
       return result;
     }
-    return {text, std::move(where), false, Function(std::move(compiled)), {}};
+    const bool inTime = compiled.inTime();
+    return {text, std::move(where), false, Function(std::move(compiled)), {}, inTime};
   } catch (const mu::Parser::exception_type& error) {
     std::string reason = error.GetMsg();
     reason = reason.substr(0, reason.find_first_of("\r\n"));

@@ -15,6 +15,7 @@ struct Expression {
   bool constant = false;  ///< depends on none of x, y, t
   Function value;         ///< copies are independent: a thread takes its own
   std::vector<double> breaks = {};  ///< times at which it has kinks, ascending [s]; known of tables only
+  bool inTime = false;              ///< depends on t
 };
 
 Expression constantExpression(double value, std::string where);

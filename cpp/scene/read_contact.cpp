@@ -59,12 +59,18 @@ ContactDescription readContact(const Node& node, const SceneDescription& scene) 
   contact.initial = static_cast<InitialGap>(table.oneOf("initial", initialWords, 0));
   if (const Node* gap = table.find("gap")) {
     contact.gap = table.expression("gap");
+    if (contact.gap->inTime) {
+      table.reject("gap", "a distance in x and y, the same at all times");
+    }
     if (table.find("initial") != nullptr) {
       throw InputError(table.message(gap->where, "gap beside initial, expected one of them"));
     }
   }
   if (table.boolean("swap", false)) {
-    std::swap(contact.nonmortar, contact.mortar);
+    contact.otherSide = !contact.sidesGiven;
+    if (contact.sidesGiven) {
+      std::swap(contact.nonmortar, contact.mortar);
+    }
   }
   if (contact.nonmortar.body == contact.mortar.body) {
     throw FaultError(table.message(contact.mortar.where,

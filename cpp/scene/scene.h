@@ -63,7 +63,9 @@ struct SideDescription {
 struct ContactDescription {
   SideDescription nonmortar;
   SideDescription mortar;
-  bool sidesGiven = true;  ///< otherwise which one is nonmortar is left to the program
+  bool sidesGiven = true;  ///< otherwise which one is nonmortar is left to the program (scene/sides.h)
+  bool otherSide = false;  ///< where it is left to the program: the one that it would not choose
+  std::string choice;      ///< why the nonmortar side is that one, where the program has chosen
   CouplingKind variant = CouplingKind::mortar;
   InitialGap initial = InitialGap::asMeshed;
   std::optional<Expression> gap;  ///< in x, y [m]

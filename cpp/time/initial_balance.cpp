@@ -32,11 +32,10 @@ double initialPenetration(const Model& model, const State& state) {
   double deepest = 0;
   double size = 0;
   for (const Body& body : model.bodies) size = std::max(size, extent(body.mesh()));
-  for (const ContactInterface& interface : model.interfaces) {
-    const Vector gap = interface.gap(state.bodies[interface.pair().nonmortar.body].displacement,
-                                     state.bodies[interface.pair().mortar.body].displacement);
-    if (gap.size() > 0) deepest = std::max(deepest, gap.maxCoeff());
-  }
+  for (const ContactInterface& interface : model.interfaces)
+    deepest =
+        std::max(deepest, interface.deepestOverlap(state.bodies[interface.pair().nonmortar.body].displacement,
+                                                   state.bodies[interface.pair().mortar.body].displacement));
   return deepest / size;
 }
 

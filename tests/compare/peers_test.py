@@ -62,6 +62,29 @@ class Drivers(InFolder):
         self.assertEqual([value.text for _, _, value in problem.bodies["upper"].tractions], ["-5"])
         self.assertIsNone(problem.bodies["lower"].viscosity)
 
+    def test_sides_are_those_that_the_program_chose(self):
+        text = (ROOT / "scenes" / "compression.toml").read_text()
+        begin, end = text.index("nonmortar ="), text.index("\n", text.index("\nmortar =") + 1)
+        sides = 'sides = [ { body = "upper", label = 1 }, { body = "lower", label = 3 } ]'
+        self.write((text[:begin] + sides + text[end:]).replace("../shared-meshes", str(ROOT / "shared-meshes")), "sides.toml")
+        for swap, nonmortar in (("false", ("lower", 3)), ("true", ("upper", 1))):
+            settings = [f"contact.swap={swap}"]
+            script = subprocess.run([PROGRAM, "freefem", "sides.toml", "--set", *settings], capture_output=True, text=True,
+                                    cwd=self.folder, env={**os.environ, "PWD": str(self.folder)})
+            self.assertEqual(script.returncode, 0, script.stderr)
+            document = scene.load(self.folder / "sides.toml", settings)
+            scene.take_sides(document, script.stdout)
+            self.write(json.dumps(document), "problem.json")
+            problem = peer.Problem(str(self.folder / "problem.json"))
+            self.assertEqual((problem.nonmortar, problem.nonmortar_label), nonmortar)
+
+    def test_contact_lines_in_their_order(self):
+        annulus = subprocess.run([PROGRAM, "mesh", "annulus", "--cells", "24,2", "--span", "half", "arc.mesh"], cwd=self.folder)
+        self.assertEqual(annulus.returncode, 0)
+        mesh = scene.Mesh(self.folder / "arc.mesh")
+        x, y = mesh.points[mesh.line(2)].T
+        np.testing.assert_allclose(np.unwrap(np.arctan2(y, x)), np.linspace(np.pi, 0, 25), atol=1e-12)
+
     def test_contact_forces_come_from_equilibrium(self):
         problem = self.problem()
         stresses = {name: np.tile([3.0, -10.0, 0.0], (len(body.mesh.triangles), 1)) for name, body in problem.bodies.items()}

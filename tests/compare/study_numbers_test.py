@@ -66,6 +66,23 @@ class Norms(unittest.TestCase):
                                                                  mass @ (1 + s)), {})
         self.assertLess(measure.pressure_error(run, self.exact(p="1 + x")), 1e-14)
 
+    def test_pressure_on_an_arc(self):
+        # Over the top of a circle x is no order. Any run of it, whichever body has it to its left, has the same line.
+        angle = np.linspace(0.1, np.pi - 0.1, 40)
+        position = 3 * np.column_stack([np.cos(angle), np.sin(angle)])
+        for position in (position, position[::-1], position @ [[0, 1], [-1, 0]]):
+            run = results.Run("test", Path("."), {}, results.Contact(np.arange(40), position, 0 * angle, 0 * angle,
+                                                                     1 + position[:, 1]), {})
+            s, p, there = measure.pressure_line(run)
+            np.testing.assert_allclose(np.diff(s), 6 * np.sin((angle[1] - angle[0]) / 2), rtol=1e-12)
+            np.testing.assert_allclose(p, 1 + there[:, 1])
+            self.assertLess(measure.pressure_error(run, self.exact(p="1 + y")), 1e-14)
+        finer = np.linspace(0.1, np.pi - 0.1, 79)
+        position = 3 * np.column_stack([np.cos(finer), np.sin(finer)]) @ [[0, 1], [-1, 0]]
+        truth = results.Run("test", Path("."), {}, results.Contact(np.arange(79), position, 0 * finer, 0 * finer,
+                                                                   1 + position[:, 1]), {})
+        self.assertLess(measure.pressure_error(run, truth), 1e-3)
+
     def test_expressions(self):
         x = np.array([-1.0, 0.5])
         for text, value in (("2^3^0.5", 2**3**0.5), ("-2^2", -4), ("x < 0 ? -1 : x > 0.4 && x < 1 ? 2 : 3", [-1, 2]),

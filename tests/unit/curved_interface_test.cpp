@@ -16,6 +16,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr int bottom = 1;
 constexpr int top = 3;
+constexpr double circleRounding = 1e-13;  // of a radius of one
 constexpr CouplingKind kinds[] = {CouplingKind::mortar, CouplingKind::interpolation};
 
 /// Cells of random width over [0, 1] x [lower, upper], mapped.
@@ -159,7 +160,7 @@ TEST(CurvedInterface, closedLines) {
       const ContactInterface interface = pair.meet(kind, upperNonmortar);
       EXPECT_EQ(interface.rows(), upperNonmortar ? 48 : 37);
       EXPECT_NEAR(interface.overlap(), upperNonmortar ? 1.05 : 1.0, 0.01);
-      EXPECT_LE((interface.initialDistance().array() - distance).abs().maxCoeff(), 0.1 * distance);
+      EXPECT_LE((interface.initialDistance().array() - distance).abs().maxCoeff(), circleRounding);
       EXPECT_LE(imbalance(interface, upperNonmortar ? pair.upper : pair.lower,
                           upperNonmortar ? pair.lower : pair.upper, random),
                 balance);
@@ -218,7 +219,7 @@ TEST(CurvedInterface, cornersCutTheLine) {
   EXPECT_EQ(cornersOf(wave(0.05), 40), 0u);
 }
 
-// Two arcs about one centre: the distance is the difference of the radii, to the sag of the elements.
+// Two arcs about one centre: the distance is the difference of the radii, not that of the polygons.
 TEST(CurvedInterface, distanceAlongTheNormal) {
   std::mt19937 random(5);
   const double distance = 0.125;
@@ -227,7 +228,8 @@ TEST(CurvedInterface, distanceAlongTheNormal) {
   for (const CouplingKind kind : kinds)
     for (const bool upperNonmortar : {true, false}) {
       const ContactInterface interface = Pair{upper, lower}.meet(kind, upperNonmortar);
-      EXPECT_LE((interface.initialDistance().array() - distance).abs().maxCoeff(), 1e-3);
+      EXPECT_LE((interface.initialDistance().array() - distance).abs().maxCoeff(), circleRounding);
+      EXPECT_EQ(interface.sagitta(), 0);
       // The lower body grows by as much.
       Vector u = Vector::Zero(2 * lower.vertices.size());
       for (size_t v = 0; v < lower.vertices.size(); ++v)
@@ -238,15 +240,85 @@ TEST(CurvedInterface, distanceAlongTheNormal) {
     }
 }
 
-// Meshes of one curve overlap and part by the sag of their elements.
+// Arcs of two circles with other centres: along every direction the distance of the circles, at the nodes for
+// interpolation and in the mean for mortar.
+TEST(CurvedInterface, distanceOfTwoCircles) {
+  std::mt19937 random(8);
+  const double moved = 0.01;
+  Pair pair = pairOf(random, 60, 47, bow(1));
+  for (Point& x : pair.lower.vertices) x.y() -= moved;
+  for (const bool upperNonmortar : {true, false}) {
+    const ContactInterface interface = pair.meet(CouplingKind::interpolation, upperNonmortar);
+    const TriangleMesh& mesh = upperNonmortar ? pair.upper : pair.lower;
+    for (int i = 0; i < interface.rows(); ++i) {
+      const Point& x = mesh.vertices[interface.nonmortarNodes()[i]];
+      const Point seen = x + interface.initialDistance()[i] * interface.normals()[i];
+      EXPECT_NEAR((seen - Point(0, upperNonmortar ? -moved : 0)).norm(), 1, circleRounding);
+    }
+    const ContactInterface mortar = pair.meet(CouplingKind::mortar, upperNonmortar);
+    const double shared = std::min(interface.rows(), mortar.rows());
+    EXPECT_NEAR(mortar.initialDistance().sum() / shared, interface.initialDistance().sum() / shared,
+                1e-4 * moved);
+  }
+}
+
+/// A half disc on a wall, or on another half disc that is mirrored below it.
+Pair discOn(double wall, double otherRadius) {
+  TriangleMesh disc = halfDiscMesh({.lowest = {0, 0}, .radius = 1, .core = 0.3, .cells = 7});
+  TriangleMesh below = crissCrossMesh({.lower = {-1, -1}, .upper = {1, 0}, .cellsX = 23, .cellsY = 4});
+  if (otherRadius > 0) {
+    below = halfDiscMesh({.lowest = {0, 0}, .radius = otherRadius, .core = 0.3 * otherRadius, .cells = 5});
+    for (Point& x : below.vertices) x = -x;
+    for (int& label : below.boundaryLabels) label = label == bottom ? top : label == top ? bottom : label;
+  }
+  for (Point& x : below.vertices) x.y() -= wall;
+  return {disc, below};
+}
+
+// The direction is that of Hertz's theory whichever side is nonmortar: exact against a wall, to second order in the
+// distance from the centre against another circle.
+TEST(CurvedInterface, directionDoesNotDependOnTheSide) {
+  std::mt19937 random(9);
+  for (const double radius : {0.0, 1.0, 3.0})
+    for (const CouplingKind kind : kinds)
+      for (const bool upperNonmortar : {true, false})
+        for (const double wall : {0.0, 0.01}) {
+          const Pair pair = discOn(wall, radius);
+          const ContactInterface interface = pair.meet(kind, upperNonmortar);
+          EXPECT_LE(imbalance(interface, upperNonmortar ? pair.upper : pair.lower,
+                              upperNonmortar ? pair.lower : pair.upper, random),
+                    1e-12);
+          for (int i = 0; i < interface.rows(); ++i) {
+            const Point& x =
+                (upperNonmortar ? pair.upper : pair.lower).vertices[interface.nonmortarNodes()[i]];
+            if (std::abs(x.x()) > 0.3) continue;
+            const double tilt = interface.normals()[i].x();
+            if (radius == 0)
+              EXPECT_LE(std::abs(tilt), 1e-15);
+            else  // along one normal alone it would be x over the radius; gaps tilt it too
+              EXPECT_LE(std::abs(tilt), 2 * std::pow(std::abs(x.x()), 3) + 2 * wall * std::abs(x.x()) + 1e-15)
+                  << x.x();
+          }
+        }
+}
+
+// Meshes of one curve overlap and part by the sag of their elements; those of one circle touch.
 TEST(CurvedInterface, initialGap) {
   std::mt19937 random(6);
-  const Pair pair = pairOf(random, 12, 17, bow(2));
+  const Pair circle = pairOf(random, 12, 17, bow(2));
+  EXPECT_EQ(circle.meet(CouplingKind::mortar, true, {.initial = InitialGap::reject})
+                .initialDistance()
+                .cwiseAbs()
+                .maxCoeff(),
+            0);
+  const Pair pair = pairOf(random, 12, 17, wave(0.05));
   const auto message = [&](const InterfaceOptions& options) {
     return messageOf([&] { return pair.meet(CouplingKind::mortar, true, options); });
   };
   const ContactInterface asMeshed = pair.meet(CouplingKind::mortar, true);
   EXPECT_LT(asMeshed.initialDistance().minCoeff(), 0);
+  EXPECT_LT(-asMeshed.initialDistance().minCoeff(), 2 * asMeshed.sagitta());
+  EXPECT_EQ(pair.meet(CouplingKind::mortar, true, {.initial = InitialGap::close}).sagitta(), 0);
   EXPECT_EQ(pair.meet(CouplingKind::mortar, true, {.initial = InitialGap::close})
                 .initialDistance()
                 .cwiseAbs()

@@ -181,6 +181,12 @@ TEST(HalfDisc, isRoundSymmetricAndFineAtItsLowestPoint) {
       const TriangleMesh mesh = halfDiscMesh({lowest, R, 10, cells}, cut);
       EXPECT_TRUE(closedByLabels(mesh));
       EXPECT_LE(worstAspect(mesh), cut == Cut::both ? 4.2 : 7);
+      // No odd node on the arc: each has as many triangles as its neighbours.
+      std::vector<int> triangles(mesh.vertices.size(), 0);
+      for (const auto& corners : mesh.triangles)
+        for (const int v : corners) ++triangles[v];
+      const std::vector<int> arc = boundaryLine(mesh, 1).nodes;
+      for (const int v : arc) EXPECT_EQ(triangles[v], cut == Cut::both ? 4 : 3) << mesh.vertices[v];
       for (const Point& p : mesh.vertices) {
         const Point mirrored(2 * lowest.x() - p.x(), p.y());
         EXPECT_TRUE(std::any_of(mesh.vertices.begin(), mesh.vertices.end(), [&](const Point& other) {

@@ -50,6 +50,19 @@ Physical Curve("left", 4) = {6}; Physical Surface(1) = {1}; Physical Surface("ri
 """
 
 
+def beside_an_ellipse(outside, size):
+    """What lies in the first quadrant inside an ellipse with axes 2 and 1, or between it and a rectangle; curve 1 is the arc."""
+    corners = [(0, 0), (2, 0), (0, 1)] + ([(3, 0), (3, 2), (0, 2)] if outside else [])
+    points = [f"Point({i + 1}) = {{{x}, {y}, 0, {size}}};\n" for i, (x, y) in enumerate(corners)]
+    sides = [(2, 4), (4, 5), (5, 6), (6, 3)] if outside else [(1, 2), (3, 1)]
+    lines = [f"Line({i + 2}) = {{{a}, {b}}};\n" for i, (a, b) in enumerate(sides)]
+    return "".join(points + ["Ellipse(1) = {2, 1, 2, 3};\n"] + lines) + (
+        "Curve Loop(1) = {2, 3, 4, 5, -1};" if outside else "Curve Loop(1) = {2, 1, 3};") + """
+Plane Surface(1) = {1};
+Physical Curve("arc", 1) = {1}; Physical Curve("held", 2) = {2}; Physical Surface(1) = {1};
+"""
+
+
 FILES = {"a.msh": format_2, "b.msh": format_4, "c.geo": geometry}
 SCENE = """
 [[body]]
@@ -88,6 +101,36 @@ class GmshFiles(OfTwoBlocks):
         self.check_read()
         self.check_linted()
         self.check_wrong()
+
+    def test_curves_of_a_geometry(self):
+        # The two meshes of an ellipse, which no circle fits, touch as the curves do, not as the polygons.
+        for name, outside, size in (("in.geo", False, 0.11), ("out.geo", True, 0.15)):
+            self.write(beside_an_ellipse(outside, size), name)
+        if "this build is without" in mortier("mesh", "info", "in.geo", cwd=self.folder).stderr:
+            return
+        self.write("".join(f"""[[body]]
+name = "{name}"
+mesh = "{name}.geo"
+material = {{ young = 100, poisson = 0.3 }}
+boundary = [ {{ label = "held", ux = 0, uy = 0 }} ]
+""" for name in ("in", "out")) + """[contact]
+nonmortar = { body = "in", label = "arc" }
+mortar = { body = "out", label = "arc" }
+[time]
+end = 1
+steps = 1
+[output]
+every = 1
+""")
+        run = self.mortier("run", "scene.toml", "--quiet", "--out", "ellipse")
+        interface = json.loads(self.read("ellipse/summary.json"))["interfaces"][0]
+        self.assertEqual(interface["sagitta"], 0)
+        self.assertNotIn("no circle", run.stderr)
+        sagitta = 0.15**2 / 8 * 2  # where the ellipse is sharpest; the polygons are off each other by about that
+        gaps = [abs(float(row["gap"])) for row in csv.DictReader(self.read("ellipse/contact.csv").splitlines())
+                if row["step"] == "0"]
+        self.assertGreater(len(gaps), 10)
+        self.assertLess(max(gaps), 0.02 * sagitta)
 
     def check_refused(self):
         for name in FILES:

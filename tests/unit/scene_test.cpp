@@ -14,6 +14,7 @@
 #include "scene/load_breaks.h"
 #include "scene/overrides.h"
 #include "scene/schema.h"
+#include "scene/sides.h"
 #include "unit/messages.h"
 
 namespace mortier {
@@ -110,6 +111,32 @@ TEST_F(SceneFiles, buildsTheModel) {
   EXPECT_TRUE(warnings.empty());
 }
 
+// Decided once: the model and the description that reports read name the same side, swapped or not.
+TEST_F(SceneFiles, sidesAreDecidedInOnePlace) {
+  std::vector<std::string> warnings;
+  const std::string text = twoBlocks;
+  const size_t begin = text.find("nonmortar");
+  const size_t end = text.find("[time]");
+  const std::string upper = "{ body = \"upper\", label = 1 }";
+  const std::string lower = "{ body = \"lower\", label = 3 }";
+  for (const std::string& sides : {upper + ", " + lower, lower + ", " + upper})
+    for (const bool swapped : {false, true}) {
+      write(text.substr(0, begin) + "sides = [" + sides + "]\nswap = " + (swapped ? "true" : "false") + "\n" +
+            text.substr(end));
+      SceneDescription scene = readScene(path());
+      const Model model = buildModel(scene, warnings);
+      const int nonmortar = swapped ? 0 : 1;
+      EXPECT_EQ(model.interfaces[0].pair().nonmortar.body, nonmortar);
+      decideSides(scene, meshesOf(model));
+      EXPECT_EQ(scene.contacts[0].nonmortar.body, nonmortar == 0 ? "upper" : "lower");
+      EXPECT_EQ(scene.contacts[0].choice,
+                swapped ? "nonmortar is the coarser mesh (swap)" : "nonmortar is the finer mesh");
+      decideSides(scene, meshesOf(model));
+      EXPECT_EQ(scene.contacts[0].nonmortar.body, nonmortar == 0 ? "upper" : "lower");
+      EXPECT_EQ(buildModel(scene, warnings).interfaces[0].pair().nonmortar.body, nonmortar);
+    }
+}
+
 // The upper mesh is the coarser one.
 TEST_F(SceneFiles, sidesInAnyOrderAndInitialDistances) {
   std::vector<std::string> warnings;
@@ -133,6 +160,8 @@ TEST_F(SceneFiles, sidesInAnyOrderAndInitialDistances) {
   EXPECT_NE(refused("sides = [" + upper + "]").find("expected two tables"), std::string::npos);
   EXPECT_NE(refused(both + "gap = 1\ninitial = \"close\"").find("gap beside initial"), std::string::npos);
   EXPECT_NE(refused(both + "gap = \"1/x\"").find("gap = "), std::string::npos);
+  for (const std::string inTime : {"\"-0.05*t\"", "\"x + 0*t\"", "{ time = [0, 1], value = [0, 1] }"})
+    EXPECT_NE(refused(both + "gap = " + inTime).find("expected a distance in x and y"), std::string::npos);
   EXPECT_NE(refused(both + "initial = \"open\"").find("as-meshed, close, reject"), std::string::npos);
 }
 

@@ -1,4 +1,6 @@
 """Contact: sides that do not face each other, and conditions that contradict it."""
+import math
+
 from seeded.case import THIRD, Mesh, fault
 
 
@@ -36,6 +38,13 @@ def _(case):
 @fault("contact-overlap", "[contact]")
 def _(case):
     case.lower.move(lambda x, y: (x + 0.8, y))
+
+
+# Meshes of one cosine: no circle.
+@fault("contact-polygon", "[contact]")
+def _(case):
+    for mesh in (case.upper, case.lower):
+        mesh.move(lambda x, y: (x, y + 0.2 * math.cos(3 * x)))
 
 
 @fault("gap-large", "[contact]")

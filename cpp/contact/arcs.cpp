@@ -1,0 +1,140 @@
+#include "contact/arcs.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mortier {
+namespace {
+
+constexpr double fit = 1e-6;
+/// Nodes of the shortest run that tells more than that three points lie on a circle.
+constexpr int fewest = 4;
+
+double cross(const Point& a, const Point& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Of the circle through three points, in their order.
+double curvatureThrough(const Point& a, const Point& b, const Point& c) {
+  const double product = (b - a).norm() * (c - b).norm() * (c - a).norm();
+  return product > 0 ? 2 * cross(b - a, c - b) / product : 0;
+}
+
+/// The arc on which the nodes begin .. end lie, if there is one.
+Arc arcThrough(const std::vector<Point>& x, int begin, int end, bool closed) {
+  const int step = closed ? (end - begin) / 3 : (end - begin) / 2;
+  const Point& a = x[begin];
+  const Point& b = x[begin + step];
+  const Point& c = closed ? x[begin + 2 * step] : x[end];
+  double extent = 0;
+  for (int i = begin; i <= end; ++i) extent = std::max(extent, (x[i] - a).norm());
+  const double curvature = curvatureThrough(a, b, c);
+  if (std::abs(curvature) * extent < fit) {
+    const Point along = (c - a).normalized();
+    for (int i = begin; i <= end; ++i)
+      if (!(std::abs(cross(along, x[i] - a)) <= fit * extent)) return {};
+    return {0, true};
+  }
+  const double radius = 1 / std::abs(curvature);
+  const Point half = (c - a) / 2;
+  const Point left = Point(-half.y(), half.x()).normalized();
+  // The centre is on the left of the chord where the arc turns left and is less than half the circle.
+  const double height = std::sqrt(std::max(0.0, radius * radius - half.squaredNorm()));
+  const double side = (b - a).dot(b - c) > 0 ? -1 : 1;
+  const Point centre = a + half + (curvature > 0 ? side : -side) * height * left;
+  for (int i = begin; i <= end; ++i)
+    if (!(std::abs((x[i] - centre).norm() - radius) <= fit * std::min(extent, radius))) return {};
+  return {curvature, true};
+}
+
+/// The last node of the longest run from `begin` that is found by doubling and halving.
+int endOfRun(const std::vector<Point>& x, int begin, int last) {
+  const auto fits = [&](int end) { return arcThrough(x, begin, end, false).known; };
+  int good = begin + fewest - 1;
+  if (good > last || !fits(good)) return begin;
+  int bad = last + 1;
+  for (int step = fewest; good < last; step *= 2) {
+    const int next = std::min(last, good + step);
+    if (!fits(next)) {
+      bad = next;
+      break;
+    }
+    good = next;
+  }
+  while (bad - good > 1) {
+    const int middle = (good + bad) / 2;
+    (fits(middle) ? good : bad) = middle;
+  }
+  return good;
+}
+
+}  // namespace
+
+std::vector<double> nodalCurvatures(const std::vector<Point>& points, bool closed) {
+  const size_t n = points.size();
+  std::vector<double> curvatures(n, 0);
+  for (size_t i = 1; i + 1 < n; ++i)
+    curvatures[i] = curvatureThrough(points[i - 1], points[i], points[i + 1]);
+  if (n < 3) return curvatures;
+  curvatures.front() = closed ? curvatureThrough(points[n - 2], points[0], points[1]) : curvatures[1];
+  curvatures.back() = closed ? curvatures.front() : curvatures[n - 2];
+  return curvatures;
+}
+
+namespace {
+
+std::vector<Arc> fittedArcs(const std::vector<Point>& points, bool closed) {
+  const auto last = static_cast<int>(points.size()) - 1;
+  std::vector<Arc> arcs(last);
+  const std::vector<double> nodal = nodalCurvatures(points, closed);
+  for (int e = 0; e < last; ++e) arcs[e].curvature = (nodal[e] + nodal[e + 1]) / 2;
+  const auto set = [&](int begin, int end, const Arc& arc) {
+    for (int e = begin; e < end; ++e)
+      if (!arcs[e].known) arcs[e] = arc;
+  };
+  if (closed && last < fewest) return arcs;
+  if (closed)
+    if (const Arc arc = arcThrough(points, 0, last, true); arc.known) {
+      set(0, last, arc);
+      return arcs;
+    }
+  for (int begin = 0; begin < last;) {
+    int end = endOfRun(points, begin, last);
+    if (end > begin) {
+      set(begin, end, arcThrough(points, begin, end, false));
+    } else {
+      // What is left of a run that ends here, where it is too short to begin one.
+      const int first = std::max(0, begin + 1 - (fewest - 1));
+      if (const Arc arc =
+              begin + 1 - first == fewest - 1 ? arcThrough(points, first, begin + 1, false) : Arc{};
+          arc.known)
+        set(begin, begin + 1, arc);
+      end = begin + 1;
+    }
+    begin = end;
+  }
+  return arcs;
+}
+
+}  // namespace
+
+std::vector<Arc> arcsOf(const std::vector<Point>& points, bool closed, const std::vector<Point>& middles) {
+  std::vector<Arc> arcs = fittedArcs(points, closed);
+  for (size_t e = 0; e < middles.size(); ++e)
+    if (!arcs[e].known && middles[e].allFinite())
+      arcs[e] = {curvatureThrough(points[e], middles[e], points[e + 1]), true};
+  return arcs;
+}
+
+double distanceToArc(const Point& a, const Point& b, double curvature, const Point& x, const Point& n) {
+  const Point chord = b - a;
+  const double h = chord.norm();
+  // With the power -P of x in the circle and v = (x - centre) . n: the smaller root of t^2 + 2 v t - P = 0.
+  const double power = std::max(0.0, (x - a).dot(chord) * (b - x).dot(chord) / (h * h));
+  const double half = curvature * h / 2;
+  const double q = curvature * (x - a - chord / 2).dot(n) +
+                   Point(chord.y(), -chord.x()).dot(n) / h * std::sqrt(std::max(0.0, 1 - half * half));
+  return curvature * power / (q + std::sqrt(q * q + curvature * curvature * power));
+}
+
+}  // namespace mortier

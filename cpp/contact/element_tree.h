@@ -1,0 +1,57 @@
+// Boxes around the elements of a polygonal line in a binary tree: what is near a point is found in logarithmic time.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "base/types.h"
+
+namespace mortier {
+
+class ElementTree {
+ public:
+  /// Of the elements between each point and the next.
+  explicit ElementTree(const std::vector<Point>& points);
+
+  /// Calls visit(element) for all elements that may be closer to x than `bound`, nearer boxes first. A visit may
+  /// lower the bound [m].
+  template <class Visit>
+  void near(const Point& x, const double& bound, Visit visit) const {
+    if (elements_ > 0) descend(0, 0, elements_, x, bound, visit);
+  }
+
+ private:
+  static constexpr int leaf = 8;  ///< elements in a box that is not divided
+  struct Box {
+    Point low, high;
+    [[nodiscard]] double distance(const Point& x) const {
+      return (low - x).cwiseMax(x - high).cwiseMax(0).norm();
+    }
+  };
+
+  void build(size_t box, int begin, int end, const std::vector<Point>& points);
+
+  template <class Visit>
+  void descend(size_t box, int begin, int end, const Point& x, const double& bound, Visit& visit) const {
+    constexpr double rounding = 1 - 1e-12;
+    if (rounding * boxes_[box].distance(x) > bound) return;
+    if (end - begin <= leaf) {
+      for (int e = begin; e < end; ++e) visit(e);
+      return;
+    }
+    const int middle = (begin + end) / 2;
+    const size_t first = 2 * box + 1;
+    const bool secondIsNearer = boxes_[first + 1].distance(x) < boxes_[first].distance(x);
+    if (secondIsNearer) descend(first + 1, middle, end, x, bound, visit);
+    descend(first, begin, middle, x, bound, visit);
+    if (!secondIsNearer) descend(first + 1, middle, end, x, bound, visit);
+  }
+
+  int elements_ = 0;
+  std::vector<Box> boxes_;
+};
+
+/// The point of the first line, closed, that is farthest from the nodes of the second one: its index.
+int farthestNode(const std::vector<Point>& line, const std::vector<Point>& other);
+
+}  // namespace mortier
