@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   using namespace mortier;
   const int nodes = argc > 1 ? std::atoi(argv[1]) : 400;
   const int count = argc > 2 ? std::atoi(argv[2]) : 1000;
-  const char* names[] = {"half plane", "two half planes", "beam", "unsymmetric"};
+  const char* names[] = {"half plane", "two half planes", "beam", "thin beam", "unsymmetric"};
   bench::timeOf = bench::TimeOf::processor;
   std::printf("%d nodes, %d loads each; work and time in factorisations of W\n", nodes, count);
   std::printf("%-16s %7s %8s %8s %8s %8s %8s %8s\n", "line", "motions", "mean", "worst", "time", "worst",

@@ -165,7 +165,14 @@ bool Pivoting::solveOn(const Vector& z0, ContactSolution& solution) {
   solution.rigid = solveBordered(solution.active, balance_ - problem_.G.transpose() * off + proximal_ * z0,
                                  solution.change);
   solution.change += off;
-  return !redundant_;
+  if (redundant_ || factor_.fresh()) return !redundant_;
+  // Updated factors have more rounding; once is enough to take it out.
+  Vector rest = -slackOf(solution);
+  const Vector unbalanced =
+      balance_ - problem_.G.transpose() * solution.change - proximal_ * (solution.rigid - z0);
+  solution.rigid += solveBordered(solution.active, unbalanced, rest);
+  solution.change += rest;
+  return true;
 }
 
 Vector Pivoting::slackOf(const ContactSolution& solution) {
@@ -183,12 +190,14 @@ Pivoting::WrongSigns Pivoting::wrongSigns(const ContactSolution& solution) {
     if (idle_[i] == 0)
       largest = std::max({largest, std::abs(p[i]), std::abs(p0_[i]), std::abs(slack_[i]) / problem_.W(i, i)});
   depth_ = s.cwiseQuotient(problem_.W.diagonal());
+  double noise = rounding * largest;  // the depth of closed conditions is nothing else
+  for (Eigen::Index i = 0; i < s.size(); ++i)
+    if (idle_[i] == 0 && solution.active[i] != 0) noise = std::max(noise, 2 * std::abs(depth_[i]));
   WrongSigns wrong;
   for (Eigen::Index i = 0; i < s.size(); ++i) {
     if (idle_[i] != 0) continue;
-    const bool active = solution.active[i] != 0;
-    if (!((active ? p[i] : depth_[i]) >= -rounding * largest))
-      (active ? wrong.pulls : wrong.overlaps).push_back(static_cast<int>(i));
+    if (solution.active[i] != 0 && !(p[i] >= -rounding * largest)) wrong.pulls.push_back(static_cast<int>(i));
+    if (solution.active[i] == 0 && !(depth_[i] >= -noise)) wrong.overlaps.push_back(static_cast<int>(i));
   }
   return wrong;
 }

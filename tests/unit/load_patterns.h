@@ -14,9 +14,11 @@ enum class Line {
   halfPlane,      ///< compliance 1/k in the wave number
   twoHalfPlanes,  ///< two of them, on nodes that do not match
   beam,           ///< mostly 1/k^3, as thin bodies have it
+  thinBeam,       ///< 1/k^4: condition numbers of 1e9 and more
   unsymmetric     ///< of a half plane, with a skew part of the same size
 };
-constexpr Line allLines[] = {Line::halfPlane, Line::twoHalfPlanes, Line::beam, Line::unsymmetric};
+constexpr Line allLines[] = {Line::halfPlane, Line::twoHalfPlanes, Line::beam, Line::thinBeam,
+                             Line::unsymmetric};
 
 /// Cosine waves, orthonormal.
 inline Matrix waves(int n) {
@@ -51,6 +53,7 @@ inline Matrix interpolation(int n, int m) {
 inline Matrix compliance(Line line, int n) {
   const Matrix Q = waves(n);
   if (line == Line::halfPlane) return Q * compliances(n, 1).asDiagonal() * Q.transpose();
+  if (line == Line::thinBeam) return Q * compliances(n, 4).asDiagonal() * Q.transpose();
   if (line == Line::beam)
     return Q * (compliances(n, 3) + 1e-3 * compliances(n, 1)).asDiagonal() * Q.transpose();
   if (line == Line::twoHalfPlanes) {
