@@ -1,7 +1,9 @@
 // mortier: contact of elastic and viscoplastic bodies with incompatible meshes.
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <functional>
 #include <new>
@@ -50,7 +52,10 @@ int dispatch(int argc, char** argv) {
   runApp
       ->add_option("--checkpoint", runCommand.checkpoint,
                    "wall time between checkpoints [s] (default 30; 0: after every step)")
-      ->check(CLI::NonNegativeNumber)
+      ->check([](const std::string& text) {
+        const double seconds = std::strtod(text.c_str(), nullptr);
+        return std::isfinite(seconds) && seconds >= 0 ? std::string() : text + ", expected a number >= 0";
+      })
       ->type_name("SECONDS");
   runApp->add_option("--set", runCommand.settings, settingsHelp)->type_name("KEY=VALUE");
   runApp->add_option("--threads", runCommand.threads, "threads (default 1)")

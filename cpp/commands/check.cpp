@@ -47,8 +47,8 @@ Json asJson(const std::string& scene, const Plan& plan, const Faults& faults) {
   for (const Fault& fault : faults.all()) {
     json["faults"].push_back({{"id", fault.kind->id},
                               {"severity", word(fault.kind->severity)},
-                              {"place", fault.place},
-                              {"message", fault.message},
+                              {"place", printable(fault.place)},
+                              {"message", printable(fault.message)},
                               {"remedy", fault.kind->remedy}});
   }
   return json;

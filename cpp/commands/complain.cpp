@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 #include <iostream>
+#include <set>
 
 #include "base/error.h"
 #include "base/printable.h"
@@ -16,7 +17,8 @@ void complain(const std::string& text) {
 }
 
 void warn(const std::string& text) {
-  complain("warning: " + text);
+  static std::set<std::string> told;
+  if (told.insert(text).second) complain("warning: " + text);
 }
 
 void finishStandardOutput() {

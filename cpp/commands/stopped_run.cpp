@@ -1,10 +1,9 @@
 #include "commands/stopped_run.h"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "base/error.h"
+#include "scene/document.h"
 
 namespace mortier {
 
@@ -45,8 +44,7 @@ RunIdentity identityOf(const RunCommand& command) {
   identity.workingFolder = fs::current_path().string();
   identity.scene = command.scene;
   identity.settings = command.settings;
-  std::ifstream file(command.scene, std::ios::binary);
-  identity.text.assign(std::istreambuf_iterator<char>(file), {});
+  identity.text = readSceneText(command.scene);
   return identity;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/printable.h"
 #include "lint/held_dofs.h"
 #include "lint/lint.h"
 #include "mesh/boundary_line.h"
@@ -85,23 +86,37 @@ std::vector<double> kinks(const std::string& text) {
   return result;
 }
 
+/// The first of some times, and how many there are beside it.
+std::string firstOf(const std::vector<double>& times) {
+  return shortest(times.front()) +
+         (times.size() > 1 ? " and at " + std::to_string(times.size() - 1) + " more times" : "");
+}
+
+/// A message for all kinks of a datum: a table may have any number of them.
 void checkKinks(const LintInput& input, const SampledDatum& datum, Faults& faults) {
   constexpr double onStep = 1e-6;
+  constexpr size_t longest = 120;
   const TimePlan& time = input.scene.time;
   const double step = time.end / time.steps;
-  std::vector<double> times = kinks(datum.value->text);
-  times.insert(times.end(), datum.value->breaks.begin(), datum.value->breaks.end());
-  for (const double kink : times) {
+  const std::vector<double>& breaks = datum.value->breaks;
+  const std::string subject =
+      (breaks.empty() ? "\"" + printable(datum.value->text, longest) + "\"" : std::string("the table")) +
+      " changes at t = ";
+  std::vector<double> late;
+  std::vector<double> between;
+  for (const double kink : breaks.empty() ? kinks(datum.value->text) : breaks) {
     if (kink <= 0) continue;
     if (kink > time.end * (1 + onStep))
-      faults.add("kink-after-end", placeOf(*datum.value),
-                 "\"" + datum.value->text + "\" changes at t = " + shortest(kink) + ", the run ends at " +
-                     shortest(time.end));
+      late.push_back(kink);
     else if (std::abs(kink / step - std::round(kink / step)) > onStep)
-      faults.add("kink-between-steps", placeOf(*datum.value),
-                 "\"" + datum.value->text + "\" changes at t = " + shortest(kink) +
-                     ", within a step: steps are " + shortest(step) + " s long");
+      between.push_back(kink);
   }
+  if (!late.empty())
+    faults.add("kink-after-end", placeOf(*datum.value),
+               subject + firstOf(late) + ", the run ends at " + shortest(time.end));
+  if (!between.empty())
+    faults.add("kink-between-steps", placeOf(*datum.value),
+               subject + firstOf(between) + ", within a step: steps are " + shortest(step) + " s long");
 }
 
 }  // namespace

@@ -101,7 +101,7 @@ Checkpoint readCheckpoint(const std::string& folder) {
       for (const KeptFields& kept : checkpoint.files.fields)
         for (const auto& [file, record] : kept.files) requireFile(folder, file, record, true);
       return checkpoint;
-    } catch (const InputError& error) {
+    } catch (const std::exception& error) {
       fault += (fault.empty() ? "" : "; ") + path + ": " + error.what();
     }
   }

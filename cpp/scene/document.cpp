@@ -65,15 +65,6 @@ Node convert(const toml::node& source, const Places& places) {
   return node;
 }
 
-std::string readText(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file || file.bad()) {
-    throw InputError(path + ": cannot be read, expected a scene (TOML file)");
-  }
-  return text;
-}
-
 /// toml++ quotes its input; a message stays on one line.
 std::string oneLine(std::string_view text) {
   std::string line(text);
@@ -144,9 +135,19 @@ std::string Node::quoted() const {
   }
 }
 
+std::string readSceneText(const std::string& path) {
+  try {
+    std::ifstream file(path, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (file && !file.bad()) return text;
+  } catch (const std::ios_base::failure&) {  // a folder
+  }
+  throw InputError(path + ": cannot be read, expected a scene (TOML file)");
+}
+
 Node readDocument(const std::string& path) {
   try {
-    const std::string text = readText(path);
+    const std::string text = readSceneText(path);
     requireShortKeys(text, path);
     const toml::table table = toml::parse(text, path);
     return convert(table, {path, false});

@@ -32,6 +32,9 @@ struct Node {
   [[nodiscard]] std::string quoted() const;
 };
 
+/// The text of a scene. \throws InputError when it cannot be read.
+std::string readSceneText(const std::string& path);
+
 /// Reads a TOML file. \throws InputError `file:line: ...` when it cannot be read or is not TOML.
 Node readDocument(const std::string& path);
 

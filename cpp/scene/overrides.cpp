@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "scene/schema.h"
 
 namespace mortier {
@@ -17,7 +18,8 @@ struct Setting {
 };
 
 Setting parse(const std::string& text) {
-  const std::string where = "--set " + text;
+  constexpr size_t longest = 200;  // it stands in every value of the setting
+  const std::string where = "--set " + printable(text, longest);
   const size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {
     throw InputError(where + ": expected key=value, e.g. time.steps=20");

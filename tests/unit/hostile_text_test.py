@@ -1,4 +1,5 @@
 """Text of others in scripts, pages and messages: shown, never run."""
+import resource
 import shutil
 import subprocess
 import sys
@@ -77,6 +78,26 @@ class HostileText(support.OfTwoBlocks):
                     shown = [line for line in text.split("\n") if line]
                     self.assertEqual(len(shown), 1 if command != "check" else 2, text)
                     self.assertTrue(shown[0].isprintable(), text)
+
+    def test_long_settings_and_tables(self):
+        table = "{time=[" + ",".join(str(i / 7) for i in range(5000)) + "], value=[" + ",".join(["1"] * 5000) + "]}"
+        setting = f"body.upper.boundary.3.ty={table}"
+        for command in ("check", "run"):
+            done = support.mortier(command, "scene.toml", "--set", setting[:-1] + ", x=1}", cwd=self.folder,
+                                   preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30)))
+            self.assertEqual(done.returncode, 2)
+            self.assertLess(len(done.stdout + done.stderr), 5000)
+        done = support.mortier("check", "scene.toml", "--set", setting, cwd=self.folder)
+        self.assertIn("changes at t = 0.14285714285714285 and at 5 more times, within a step", done.stdout)
+        self.assertIn("and at 4991 more times, the run ends at 1", done.stdout)
+        self.assertLess(len(done.stdout), 5000)
+
+    def test_what_is_no_scene_and_no_number(self):
+        (self.folder / "folder.toml").mkdir()
+        for command in ("run", "freefem"):
+            self.reject("folder.toml: cannot be read, expected a scene (TOML file)", command, "folder.toml")
+        for seconds in ("nan", "inf", "-1"):
+            self.reject("--checkpoint: ", "run", "scene.toml", "--checkpoint", seconds)
 
 
 if __name__ == "__main__":
