@@ -47,33 +47,30 @@ def study(given, say):
     import pictures
     import report
     import table
+    from folder import Folder
     from sweep import Runner
 
-    folder = given.out or Path("out") / plan.path.stem
-    for path in (folder, folder / "study.csv"):
-        if path.exists() and path.is_dir() != (path == folder):
-            raise StudyError(f"--out {folder}: {path} is in the way, expected a folder of a study or a new one")
-    if folder.exists() and any(folder.iterdir()) and not (folder / "study.csv").exists():
-        raise StudyError(f"--out {folder}: holds other files, expected a folder of a study or a new one")
-    folder.mkdir(parents=True, exist_ok=True)
+    out = given.out or Path("out") / plan.path.stem
+    with Folder(out) as folder:
+        # 2. The runs that are not done yet.
+        runner = Runner(plan, folder, given.jobs, say)
+        measurements = runner.run()
+        rows = table.rows(plan, measurements)
 
-    # 2. The runs that are not done yet.
-    runner = Runner(plan, folder, given.jobs, say)
-    measurements = runner.run()
-    rows = table.rows(plan, measurements)
-
-    # 3. What they say.
-    series, levels = analysis.series_of(plan, rows), analysis.along_levels(plan, rows)
-    made = pictures.draw(plan, series, folder)
-    report.write(folder / "report.html", plan, rows, series, levels, made)
-    for label, error, order, step, runs in report.order_rows(plan, [*series, *levels]):
-        say(f"order {order} in {step:<9} {error}: {label} ({runs} runs)")
-    for found in analysis.comparisons(plan, series):
-        for line in analysis.comparison_text(*found):
-            say(line)
-    failed = sum(row["status"] != table.DONE for row in rows)
-    say(f"{folder}/report.html: {len(rows)} runs" + (f", {failed} without a result (reasons in study.csv)" if failed else ""))
-    return 0 if failed < len(rows) else 1
+        # 3. What they say.
+        series, levels = analysis.series_of(plan, rows), analysis.along_levels(plan, rows)
+        made, files = pictures.draw(plan, series)
+        folder.put_own({**files, "report.html": report.page(plan, rows, series, levels, made, files).encode()})
+        for label, error, order, step, runs in report.order_rows(plan, [*series, *levels]):
+            say(f"order {order} in {step:<9} {error}: {label} ({runs} runs)")
+        for found in analysis.comparisons(plan, series):
+            for line in analysis.comparison_text(*found):
+                say(line)
+        failed = sum(row["status"] != table.DONE for row in rows)
+        say(f"{out}/report.html: {len(rows)} runs" + (f", {failed} without a result (reasons in study.csv)" if failed else ""))
+        if failed == len(rows):
+            raise RunFailure(f"no run has a result (reasons in {out}/study.csv)")
+        return 0
 
 
 def interrupt(*_):
@@ -89,6 +86,8 @@ def main():
         return complain(error, 2)
     except (RunFailure, OSError) as error:
         return complain(f"{given.study}: {error}", 1)
+    except RecursionError:
+        return complain(f"{given.study}: nested too deeply, expected a study (docs/study.md)", 2)
     except KeyboardInterrupt:
         return complain(f"{given.study}: interrupted; finished runs are kept", 1)
     except Exception as error:  # a fault of this program

@@ -23,10 +23,12 @@ class Expression:
         if isinstance(value, bool) or not isinstance(value, (int, float, str)):
             raise ValueError("expected a number or an expression in x, y, t")
         self.text = str(value)
+        if not self.text.isprintable():
+            raise ValueError("expected visible characters")
         text = self.text.replace("^", "**").replace("&&", " and ").replace("||", " or ")
         try:
             self.tree = ast.parse(conditional(text).strip(), mode="eval").body
-        except (SyntaxError, RecursionError) as error:
+        except (SyntaxError, RecursionError, MemoryError) as error:
             raise ValueError("expected an expression in x, y, t") from error
         allowed = {"x", "y", "t", "pi", *names}
         for node in ast.walk(self.tree):
@@ -43,6 +45,10 @@ class Expression:
             elif not isinstance(node, (ast.BinOp, ast.UnaryOp, ast.Compare, ast.BoolOp, ast.expr_context, ast.operator,
                                        ast.unaryop, ast.cmpop, ast.boolop)):
                 raise ValueError(f"unexpected {type(node).__name__.lower()}")
+        try:  # functions know how many values they take
+            self(np.zeros(1), np.zeros(1), 0.0, **{name: np.zeros(1) for name in names})
+        except (TypeError, ArithmeticError, RecursionError, AttributeError) as error:
+            raise ValueError(f"cannot be evaluated: {error}") from error
 
     def __call__(self, x, y, t, **values):
         names = {"x": x, "y": y, "t": t, "pi": np.pi, **values}

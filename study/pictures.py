@@ -1,4 +1,6 @@
 """Work-precision plots: error against wall time, memory and degrees of freedom, the Pareto front marked."""
+import io
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -29,19 +31,21 @@ def stems(names):
     return result
 
 
-def draw(plan, series, folder):
-    """Writes NAME.svg and NAME.png of every plot that shows something; (title, name) of each."""
-    made = []
+def draw(plan, series):
+    """Every plot that shows something: (title, name) of each, and NAME.svg and NAME.png as name -> bytes."""
+    made, files = [], {}
     with plt.rc_context(STYLE):
         for error, stem in zip(plan.errors, stems([each.name for each in plan.errors])):
             for cost in AXES:
                 if figure := work_precision(series, error.name, cost):
                     name = f"{stem}-{cost.replace('_', '-')}"
                     for kind in ("svg", "png"):
-                        figure.savefig(folder / f"{name}.{kind}", metadata={"Date": None} if kind == "svg" else None)
+                        picture = io.BytesIO()
+                        figure.savefig(picture, format=kind, metadata={"Date": None} if kind == "svg" else None)
+                        files[f"{name}.{kind}"] = picture.getvalue()
                     plt.close(figure)
                     made.append((f"{error.name} against {AXES[cost]}", name))
-    return made
+    return made, files
 
 
 def work_precision(series, error, cost):

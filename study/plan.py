@@ -82,7 +82,7 @@ def read(path):
     """The plan of a study. StudyError names what is wrong."""
     path = Path(path)
     try:
-        source = path.read_text()
+        source = path.read_text(encoding="utf-8")
         document = tomllib.loads(source)
     except OSError as error:
         raise StudyError(f"{path}: {error.strerror}, expected a study (TOML, docs/study.md)") from error
@@ -98,7 +98,7 @@ def read(path):
     scene = path.parent / top.take("scene", "the file of a scene", is_text)
     bodies = bodies_of(scene, lines)
     meshes, levels = read_meshes(top.table("mesh"), bodies, path.parent)
-    timeout = top.take("timeout", "seconds > 0", lambda v: is_number(v) and v > 0, None)
+    timeout = top.take("timeout", "seconds > 0, 1e9 at most", lambda v: is_number(v) and 0 < v <= 1e9, None)
     repeat = top.take("repeat", "an integer >= 1", is_count(1), 1)
     let = read_let(top.table("let"))
     errors = read_errors(top, bodies, [name for name, _ in let])
@@ -116,7 +116,7 @@ def read(path):
     comparisons = [read_comparison(each, errors, names) for each in top.tables("compare")]
     plan = Plan(path, title, scene, meshes, sweeps, errors, reference, comparisons, let, timeout, repeat)
     decides = {key: document.get(key) for key in ("mesh", "error", "reference", "let", "repeat", "timeout")}
-    files = [scene, *(scene.parent / str(body.get("mesh", "")) for body in tomllib.loads(scene.read_text())["body"]),
+    files = [scene, *(scene.parent / str(body.get("mesh", "")) for body in tomllib.loads(scene.read_text(encoding="utf-8"))["body"]),
              *(file for each in meshes.values() for file in each if isinstance(file, Path))]
     digest = hashlib.sha256(json.dumps(decides, sort_keys=True, default=str).encode())
     for file in files:
@@ -127,12 +127,14 @@ def read(path):
 
 def bodies_of(scene, lines):
     try:
-        document = tomllib.loads(scene.read_text())
+        document = tomllib.loads(scene.read_text(encoding="utf-8"))
+        if not all(is_text(body["name"]) and isinstance(body.get("mesh", ""), str) for body in document["body"]):
+            raise ValueError
         return [body["name"] for body in document["body"]]
     except OSError as error:
         raise StudyError(f"{lines.place('scene')}: scene = \"{scene}\", expected the file of a scene "
                          f"({error.strerror})") from error
-    except (ValueError, KeyError, TypeError) as error:
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise StudyError(f"{lines.place('scene')}: scene = \"{scene}\", expected a scene (docs/scene.md)") from error
 
 

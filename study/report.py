@@ -45,8 +45,8 @@ def order_rows(plan, series):
                 yield each.label(shown), error.name, f"{found[0]:.3f}", found[2], found[1]
 
 
-def write(path, plan, rows, series, levels, pictures):
-    folder = path.parent
+def page(plan, rows, series, levels, pictures, files):
+    """pictures: (title, name); files: their bytes by name."""
     failed = [row for row in rows if row["status"] != table.DONE]
     parts = [f"<!DOCTYPE html><html lang=en><meta charset=utf-8><title>{html.escape(plan.title)}</title>"
              f"<style>{STYLE}</style><h1>{html.escape(plan.title)}</h1><p><small>{html.escape(shown(plan.path.name))}, scene "
@@ -57,7 +57,7 @@ def write(path, plan, rows, series, levels, pictures):
         lines = [line for found in analysis.comparisons(plan, series) for line in analysis.comparison_text(*found)]
         parts.append("<h2>Cost at equal error</h2><pre>" + html.escape("\n".join(lines)) + "</pre>")
     for title, name in pictures:
-        picture = base64.b64encode((folder / f"{name}.svg").read_bytes()).decode()
+        picture = base64.b64encode(files[f"{name}.svg"]).decode()
         parts.append(f"<h2>{html.escape(title)}</h2><img alt=\"{html.escape(title)}\" "
                      f"src=\"data:image/svg+xml;base64,{picture}\">")
     parts.append("<h2>Fitted orders</h2><table>" + cells(("series", "error", "order", "in", "runs"), "th"))
@@ -69,6 +69,4 @@ def write(path, plan, rows, series, levels, pictures):
         parts.append(cells((short(c, row.get(c, "")) for c in columns),
                            kind="failed" if row["status"] != table.DONE else ""))
     parts.append("</table></html>\n")
-    temporary = path.with_suffix(".tmp")
-    temporary.write_text("".join(parts), encoding="utf-8")
-    os.replace(temporary, path)
+    return "".join(parts)

@@ -16,6 +16,7 @@ class Lines:
         self.found = {}
         table, counts = "", {}
         for number, line in enumerate(source.splitlines(), 1):
+            line = line[:500]
             if header := re.match(r"\s*\[\[\s*([^\]]+?)\s*\]\]", line):
                 index = counts[header[1]] = counts.get(header[1], -1) + 1
                 self.found.setdefault(header[1], number)
@@ -99,8 +100,8 @@ def is_text(value):
 
 
 def is_number(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < float("inf")
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < 1e300
 
 
 def is_count(least):
-    return lambda value: isinstance(value, int) and not isinstance(value, bool) and value >= least
+    return lambda value: isinstance(value, int) and not isinstance(value, bool) and least <= value <= 10**9

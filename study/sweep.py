@@ -14,35 +14,28 @@ from problems import RunFailure
 class Runner:
     def __init__(self, plan, folder, jobs, say):
         self.plan, self.folder, self.jobs, self.say = plan, folder, jobs, say
-        self.csv = folder / "study.csv"
         self.lock = threading.Lock()
         self.references = {}  # case -> results.Run, or the reason why there is none
 
     def run(self):
         """key -> row of every case."""
-        known = table.read(self.csv)
+        known = table.read(self.folder.path / "study.csv")
         cases = self.plan.cases()
         self.rows = {key: known[key] for case in cases if (key := self.plan.key(case)) in known}
         open_cases = [case for case in cases if self.plan.key(case) not in self.rows]
         self.say(f"{len(cases)} runs, {len(self.rows)} of them done before; {self.jobs} at once")
-        table.write(self.csv, self.plan, self.rows)
+        self.write()
         if not open_cases:
             return self.rows
-        self.meshes = codes.make_meshes(self.plan, self.made("meshes"))
+        self.meshes = codes.make_meshes(self.plan, self.folder.passing("meshes"))
         needed = list(dict.fromkeys(self.reference_of(case) for case in open_cases)) if self.plan.reference is not None \
             else []
-        try:
-            self.each(needed, self.solve_reference)
-            self.each(open_cases, self.solve)
-        finally:
-            shutil.rmtree(self.folder / "runs", ignore_errors=True)
-            shutil.rmtree(self.folder / "meshes", ignore_errors=True)
+        self.each(needed, self.solve_reference)
+        self.each(open_cases, self.solve)
         return self.rows
 
-    def made(self, name):
-        folder = self.folder / name
-        folder.mkdir(parents=True, exist_ok=True)
-        return folder
+    def write(self):
+        self.folder.put("study.csv", table.text(self.plan, self.rows).encode())
 
     def each(self, cases, work):
         with futures.ThreadPoolExecutor(self.jobs) as pool:
@@ -62,7 +55,7 @@ class Runner:
 
     def solve_reference(self, case):
         try:
-            outcome = codes.run(case, self.plan.scene, self.meshes, self.made("runs") / f"reference-{self.plan.key(case)}")
+            outcome = codes.run(case, self.plan.scene, self.meshes, self.folder.passing("runs") / f"reference-{self.plan.key(case)}")
             self.references[case] = outcome.run
             self.say(f"reference  {case}: {outcome.cost.wall_time:.2f} s")
         except RunFailure as error:
@@ -72,7 +65,7 @@ class Runner:
     def solve(self, case):
         key = self.plan.key(case)
         row = {"key": key, **dict(case.values), "at_once": self.jobs}
-        folder = self.made("runs") / key
+        folder = self.folder.passing("runs") / key
         try:
             outcome = codes.run(case, self.plan.scene, self.meshes, folder, self.plan.timeout, self.plan.repeat)
             row |= {"triangles": outcome.triangles, "dofs": outcome.dofs, "time_steps": outcome.steps,
@@ -85,7 +78,7 @@ class Runner:
         shutil.rmtree(folder, ignore_errors=True)
         with self.lock:
             self.rows[key] = row
-            table.write(self.csv, self.plan, self.rows)
+            self.write()
             done = sum(1 for each in self.plan.cases() if self.plan.key(each) in self.rows)
         words = ", ".join(f"{name.removeprefix('error ')} {float(value):.2e}" for name, value in row.items()
                           if name.startswith("error "))

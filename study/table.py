@@ -1,7 +1,9 @@
 """study.csv: a row a run, kept from study to study by its key."""
 import csv
-import os
+import io
 from pathlib import Path
+
+from problems import StudyError
 
 COSTS = {"wall_time": "wall_time[s]", "processor_time": "processor_time[s]", "memory": "memory[MiB]", "dofs": "dofs",
          "iterations": "iterations"}
@@ -16,13 +18,29 @@ def columns(plan):
     return ["key", "sweep", *axes, *AFTER, *(f"error {each.name}" for each in plan.errors)]
 
 
+def is_study(path):
+    """Whether a file begins as those of studies do."""
+    with open(path, "rb") as file:
+        head = file.readline(100000).decode(errors="replace").strip().split(",")
+    return head[:2] == ["key", "sweep"] and all(column in head for column in AFTER)
+
+
 def read(path):
-    """key -> row of an older study; nothing where there is none."""
+    """key -> row of an older study; nothing where there is none. Rows that are not whole are left out."""
     path = Path(path)
     if not path.exists():
         return {}
-    with open(path, newline="") as file:
-        return {row["key"]: row for row in csv.DictReader(file) if row.get("key") and row.get("status") == DONE}
+    with open(path, newline="", encoding="utf-8", errors="replace") as file:
+        try:
+            return {row["key"]: row for row in csv.DictReader(file) if row.get("key") and is_done(row)}
+        except csv.Error as error:
+            raise StudyError(f"{path}: {error}, expected a table of mortier study") from error
+
+
+def is_done(row):
+    values = [column for column in row if column in COSTS.values() or str(column).startswith("error ")]
+    return row.get("status") == DONE and None not in row and all(row[each] == "" or number(row, each) is not None
+                                                                  for each in values)
 
 
 def rows(plan, measurements):
@@ -35,15 +53,12 @@ def rows(plan, measurements):
     return result
 
 
-def write(path, plan, measurements):
-    """In place of the older file in one go."""
-    path = Path(path)
-    temporary = path.with_suffix(".csv.tmp")
-    with open(temporary, "w", newline="") as file:
-        writer = csv.DictWriter(file, columns(plan), restval="", extrasaction="ignore", lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows(plan, measurements))
-    os.replace(temporary, path)
+def text(plan, measurements):
+    file = io.StringIO()
+    writer = csv.DictWriter(file, columns(plan), restval="", extrasaction="ignore", lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows(plan, measurements))
+    return file.getvalue()
 
 
 def number(row, column):

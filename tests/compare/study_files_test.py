@@ -1,11 +1,14 @@
-"""mortier study and what others wrote: names in its page and pictures."""
+"""mortier study and what others wrote: names in its page and pictures, files in its folder."""
 import html
+import os
 import re
+import signal
+import subprocess
 import unittest
 import xml.etree.ElementTree as xml
 
 from study_support import SPACE, StudyTest
-from support import told
+from support import PROGRAM, told
 
 HEAD = SPACE[:SPACE.index("[[error]]")]
 NAMES = [r"a $\\frac{1}$ b", "a b", "A-b", "<script>alert(1)</script>", "_x" + 298 * "y"]
@@ -13,6 +16,9 @@ NAMES = [r"a $\\frac{1}$ b", "a b", "A-b", "<script>alert(1)</script>", "_x" + 2
 
 def errors(names):
     return "".join(f"[[error]]\nname = \"{name}\"\nquantity = \"von_mises_max\"\nexact = 10\n" for name in names)
+
+
+ONE_RUN = SPACE[:SPACE.index("[mesh]")] + errors(["a"]) + '[[sweep]]\nname = "s"\ntime.steps = 1\n'
 
 
 class StudyFiles(StudyTest):
@@ -48,6 +54,74 @@ class StudyFiles(StudyTest):
                     self.refused(sound.replace(old, f'name = "{bad}"'), f"{self.path}:")
         self.refused(sound + '"time.scheme" = ["a\\u0000b"]\n', f"{self.path}:")
         self.refused('title = "a\\nb"\n' + sound, f"{self.path}:1: title")
+
+    def test_files_of_others_stay(self):
+        self.path.write_text(ONE_RUN)
+        self.study()
+        mine = {"meshes/a": "1", "runs/b": "2", "notes": "3", "mortier-work-7/c": "4", "report.tmp": "5", "study.csv.tmp": "6",
+                "report.html": "7", "mortier-work-8": "8"}
+        for name, text in mine.items():
+            (self.out / name).parent.mkdir(exist_ok=True)
+            (self.out / name).write_text(text)
+        self.study()
+        mine["report.html.kept"] = mine.pop("report.html")
+        for name, text in mine.items():
+            self.assertEqual((self.out / name).read_text(), text, name)
+        self.assertIn("<h2>Runs</h2>", (self.out / "report.html").read_text())
+        self.assertEqual({path.name for path in self.out.iterdir()} - {name.split("/")[0] for name in mine},
+                         {"study.csv", "report.html", "manifest.json"})
+
+    def test_tables_of_others_and_damaged_ones(self):
+        self.path.write_text(ONE_RUN)
+        self.study()
+        sound = (self.out / "study.csv").read_bytes()
+        row = sound.splitlines()[1]
+        for damaged in (sound.replace(row, row[:40]), sound.replace(row, bytes(range(128, 256)) + b"\0" + row[5:]),
+                        sound.replace(row, row.replace(b",done,", b",dOne,")), sound + b"\xff\xfe\0,,\n" * 3,
+                        sound.replace(row, re.sub(rb"[0-9.e-]+$", b"ten", row))):
+            (self.out / "study.csv").write_bytes(damaged)
+            self.study()
+            self.assertEqual([each["status"] for each in self.rows()], ["done"])
+        for foreign in (b"", b"\x7fELF\0\0", b"key,sweep\n", b"name,age\n", b"x" * 10**6):
+            (self.out / "study.csv").write_bytes(foreign)
+            self.assertIn("study.csv is not one of mortier study", self.one_line(2))
+            self.assertEqual((self.out / "study.csv").read_bytes(), foreign)
+
+    def one_line(self, code):
+        line, = told(self.study("--quiet", code=code).stderr)
+        return line
+
+    def test_places_that_cannot_be_used(self):
+        self.path.write_text(ONE_RUN)
+        self.out.symlink_to("nothing")
+        self.assertIn("a link to nothing", self.one_line(2))
+
+    def test_no_result_is_said_also_when_quiet(self):
+        self.path.write_text(ONE_RUN.replace("time.steps = 1", "body.material.poisson = 0.7"))
+        self.assertIn("no run has a result", self.one_line(1))
+
+    def test_what_cannot_be_evaluated_is_refused(self):
+        for bad in ("sin()", "sin(1, 2)", "min()", "1 +", "x.y", "(" * 5000, "a" * 9, "()", "'a'", "9" * 9000, "1 if x else 2"):
+            with self.subTest(bad[:20]):
+                self.refused(SPACE.replace('s11 = "0"', f's11 = "{bad}"'), f"{self.path}:")
+        for bad in ("a = " + "[" * 5000, "a" + ".a" * 5000 + " = 1", "timeout = 1e300", "repeat = 99999999999", "[[" + " " * 100000):
+            with self.subTest(bad[:20]):
+                self.refused(bad + "\n" + ONE_RUN, "")
+
+    def test_killed_and_two_at_once(self):
+        self.path.write_text(ONE_RUN.replace("time.steps = 1", "time.steps = 100000000"))
+        process = subprocess.Popen([PROGRAM, "study", self.path, "--out", self.out, "--quiet"], start_new_session=True)
+        while not list(self.out.glob("mortier-work-*/runs/*/*")):
+            self.assertIsNone(process.poll())
+        self.assertIn("in use, a study in it still goes on", self.one_line(2))
+        process.kill()
+        process.wait()
+        for line in subprocess.run(["ps", "ax", "-o", "pid,args"], capture_output=True, text=True).stdout.splitlines():
+            if f"{self.out}/mortier-work-" in line:  # its runs
+                os.kill(int(line.split()[0]), signal.SIGKILL)
+        self.path.write_text(ONE_RUN)
+        self.study()
+        self.assertEqual(self.names("out"), ["manifest.json", "report.html", "study.csv"])
 
 
 if __name__ == "__main__":

@@ -153,7 +153,7 @@ class Studies(StudyTest):
         for cost in ("wall-time", "memory", "dofs"):
             for kind in ("svg", "png"):
                 self.assertIn(f"energy-{cost}.{kind}", names)
-        self.assertEqual(len(names), 8)  # no run folder, no temporary file is left
+        self.assertEqual(len(names), 9)  # no run folder, no temporary file is left
         report = (self.out / "report.html").read_text()
         self.assertEqual(report.count("data:image/svg+xml;base64,"), 3)
         self.assertEqual(re.findall(r"(?:src|href)=\"?(?!\"?data:).{20}", report), [])
