@@ -21,9 +21,9 @@ StepOutcome StepSolver::solve(const State& state0, const StepData& step, Iterate
   constexpr int continuationIterations = 60;
   constexpr int usualIterations = 300;
   constexpr int pathIterations = 1500;
-  StepOutcome plain = newton(state0, step, {plainIterations, options_.tolerance, false}, guess);
-  if (plain.converged || plain.unheld) return plain;
-  StepOutcome total = std::move(plain);
+  NewtonLimits plain{plainIterations, options_.tolerance};
+  plain.turning = true;
+  StepOutcome total = newton(state0, step, plain, guess);
   const auto open = [&] { return !total.converged && !total.unheld; };
   const auto climb = [&](const std::string& rung, StepOutcome next) {
     next.rung = rung;
@@ -32,7 +32,15 @@ StepOutcome StepSolver::solve(const State& state0, const StepData& step, Iterate
     total = std::move(next);
   };
   const auto left = [&](int most) { return std::min(most, options_.maxIterations) - total.iterations; };
-  if (!uniqueSolutions_)
+  // What flowed may unload.
+  if (open() && flows(state0)) {
+    plain.turning = false;
+    plain.elasticFirst = true;
+    Iterate unloaded = start(state0);
+    climb("newton", newton(state0, step, plain, unloaded));
+    if (total.converged) guess = std::move(unloaded);
+  }
+  if (open() && !uniqueSolutions_)
     climb("continuation",
           continuation(state0, step, std::min(continuationIterations, left(usualIterations)), guess));
   if (open()) climb("interior-point", interiorPoint(state0, step, left(usualIterations), guess));

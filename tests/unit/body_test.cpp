@@ -195,7 +195,7 @@ TEST(Body, strainResolvesSmallDifferencesOfLargeDisplacements) {
   const Vector small = 1e-17 * randomVector(plate.dofs(), random);
   Matrix strain;
   strain.resize(3, plate.points());
-  plate.strain(u, small, strain, 0, plate.points());
+  plate.strain({u, small}, strain, 0, plate.points());
   double worst = 0;
   double effect = 0;
   const Matrix plain = strainOf(plate, u);
