@@ -223,7 +223,7 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
 }
 
 Vector ContactInterface::gap(const Vector& uNonmortar, const Vector& uMortar) const {
-  return C1_ * uNonmortar + C2_ * uMortar - distance_;
+  return jump(uNonmortar, uMortar) - distance_;
 }
 
 void ContactInterface::subtractForces(const Vector& p, Vector& fNonmortar, Vector& fMortar) const {

@@ -84,7 +84,11 @@ class ContactInterface {
   [[nodiscard]] double overlap() const { return overlap_; }
   [[nodiscard]] int rows() const { return static_cast<int>(distance_.size()); }
 
-  /// g = C u - g0; displacements by dofs of the two bodies [m].
+  /// C u; displacements by dofs of the two bodies [m].
+  [[nodiscard]] Vector jump(const Vector& uNonmortar, const Vector& uMortar) const {
+    return C1_ * uNonmortar + C2_ * uMortar;
+  }
+  /// g = C u - g0 [m].
   [[nodiscard]] Vector gap(const Vector& uNonmortar, const Vector& uMortar) const;
   /// f -= C' p on both bodies' nodal forces [N/m].
   void subtractForces(const Vector& p, Vector& fNonmortar, Vector& fMortar) const;

@@ -43,6 +43,7 @@ Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> 
     const auto table = Element::tabulate(
         {mesh_.vertices[triangle[0]], mesh_.vertices[triangle[1]], mesh_.vertices[triangle[2]]});
     weights_.push_back(table.weight);
+    largestGradient_ = std::max(largestGradient_, table.gradients.lpNorm<Eigen::Infinity>());
     for (int a = 1; a < Element::nodes; ++a)
       for (int c = 0; c < 2; ++c) gradients_.push_back(table.gradients(c, a) * (std::numbers::sqrt2 / 2));
   }
@@ -97,35 +98,38 @@ Vector Body::spread(const Vector& x) const {
   return nodal;
 }
 
-Point Body::prescribedAt(const NodeSupport& support, double t, const Point& u) const {
+std::array<double, 2> Body::prescribedAt(const NodeSupport& support, double t) const {
   const Point& x = mesh_.vertices[support.node];
   std::array<double, 2> values{0, 0};
   for (int i = 0; i < support.count; ++i)
     values[i] = conditions_.displacements[support.conditions[i]].value(x.x(), x.y(), t);
-  return prescribed(support, values, u);
+  return values;
 }
 
 void Body::prescribe(double t, Vector& u) const {
   for (const NodeSupport& support : supports_.nodes())
-    u.segment<2>(2 * support.node) = prescribedAt(support, t, u.segment<2>(2 * support.node));
+    u.segment<2>(2 * support.node) =
+        prescribed(support, prescribedAt(support, t), u.segment<2>(2 * support.node));
 }
 
-void Body::prescribeIncrement(double t, const Vector& u0, Vector& increment, Vector& small) const {
+void Body::prescribeIncrement(double t0, double t1, TwoPartVector& increment) const {
+  auto& [high, low] = increment;
   for (const NodeSupport& support : supports_.nodes()) {
     const int dof = 2 * support.node;
-    const Point before = u0.segment<2>(dof);
-    const Point change = prescribedAt(support, t, before) - before;
+    const auto [a0, b0] = prescribedAt(support, t0);
+    const auto [a1, b1] = prescribedAt(support, t1);
+    const Point change = prescribed(support, {a1 - a0, b1 - b0}, Point::Zero());
     if (support.count == 2) {
-      increment.segment<2>(dof) = change;
-      small.segment<2>(dof).setZero();
+      high.segment<2>(dof) = change;
+      low.segment<2>(dof).setZero();
     } else if (!support.turned()) {
       const int c = support.directions[0].x() == 0 ? 1 : 0;
-      increment[dof + c] = change[c];
-      small[dof + c] = 0;
+      high[dof + c] = change[c];
+      low[dof + c] = 0;
     } else {
       const Point& n = support.directions[0];
-      increment.segment<2>(dof) += n.dot(change - increment.segment<2>(dof)) * n;
-      small.segment<2>(dof) -= n.dot(small.segment<2>(dof)) * n;
+      high.segment<2>(dof) += n.dot(change - high.segment<2>(dof)) * n;
+      low.segment<2>(dof) -= n.dot(low.segment<2>(dof)) * n;
     }
   }
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/two_part_vector.h"
 #include "base/types.h"
 #include "fem/supports.h"
 #include "fem/tangent_assembly.h"
@@ -80,10 +81,14 @@ class Body {
   [[nodiscard]] const Supports& supports() const { return supports_; }
   /// Writes the prescribed displacements at time t into `u` (dofs).
   void prescribe(double t, Vector& u) const;
-  /// Changes an increment (dofs, increment + small) so that u0 + increment has what is prescribed at time t.
-  void prescribeIncrement(double t, const Vector& u0, Vector& increment, Vector& small) const;
+  /// Gives an increment (dofs) what prescribed displacements change by from t0 to t1: taken from the displacements
+  /// themselves, their rounding would strain the body.
+  void prescribeIncrement(double t0, double t1, TwoPartVector& increment) const;
   /// Nodal forces (dofs) of tractions and body forces at time t [N/m].
   [[nodiscard]] Vector load(double t) const;
+
+  /// Of a shape function, the largest component in any triangle [1/m].
+  [[nodiscard]] double largestGradient() const { return largestGradient_; }
 
   /// Stress at t = 0, at the centres of the triangles (components x points) [Pa].
   [[nodiscard]] Matrix initialStress() const;
@@ -93,11 +98,10 @@ class Body {
   /// The largest nodal force of any one triangle [N/m]: what their sum is rounded against, also where stresses balance
   /// each other.
   [[nodiscard]] double largestForce(const Matrix& stress) const;
-  /// B u - shift (components x points; no shift where null) of a displacement (dofs) carried as u + small, in twice the
+  /// B u - shift (components x points; no shift where null) of a displacement (dofs) in two parts, in twice the
   /// working precision: a triangle that is still elastic next to one that flows sees tiny differences of large
   /// displacements, and where stress relaxes almost all of B u is shift. Fills the columns [begin, end).
-  void strain(const Vector& u, const Vector& small, const Matrix* shift, Matrix& strain, int begin,
-              int end) const;
+  void strain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
   /// stress += H^-1 B d in the columns [begin, end), d by dofs.
   void addStressOf(const Vector& d, const Linearisation& law, Matrix& stress, int begin, int end) const;
 
@@ -108,7 +112,8 @@ class Body {
 
  private:
   void numberEquations();
-  [[nodiscard]] Point prescribedAt(const NodeSupport& support, double t, const Point& u) const;
+  /// By the directions of a support [m].
+  [[nodiscard]] std::array<double, 2> prescribedAt(const NodeSupport& support, double t) const;
   [[nodiscard]] TriangleData triangleData() const {
     return {mesh_.triangles, equations_, weights_, gradients_};
   }
@@ -124,6 +129,7 @@ class Body {
   std::vector<int> frameOf_;             ///< per node; -1 for the axes. Empty when all are
   std::vector<double> weights_;
   std::vector<double> gradients_;  ///< 4 per point: of the second and third node's shape function, over sqrt2
+  double largestGradient_ = 0;
   TangentAssembly assembly_;
 };
 

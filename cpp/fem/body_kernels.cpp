@@ -37,8 +37,7 @@ double Body::largestForce(const Matrix& stress) const {
   return largest;
 }
 
-void Body::strain(const Vector& u, const Vector& small, const Matrix* shift, Matrix& strain, int begin,
-                  int end) const {
+void Body::strain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const {
   if (strain.rows() > 3 && shift == nullptr)
     strain.bottomRows(strain.rows() - 3).middleCols(begin, end - begin).setZero();
   if (strain.rows() > 3 && shift != nullptr)
@@ -57,9 +56,9 @@ void Body::strain(const Vector& u, const Vector& small, const Matrix* shift, Mat
       for (int k = 0; k < 4; ++k) {
         const int dof = 2 * triangle[1 + k / 2] + k % 2;
         const int dof0 = 2 * triangle[0] + k % 2;
-        u1[k][lane] = u[dof];
-        u0[k][lane] = u[dof0];
-        smallChange[k][lane] = small[dof] - small[dof0];
+        u1[k][lane] = u.high[dof];
+        u0[k][lane] = u.high[dof0];
+        smallChange[k][lane] = u.low[dof] - u.low[dof0];
         G[k][lane] = gradients_[static_cast<size_t>(4) * i + k];
       }
     }

@@ -1,9 +1,9 @@
 #include "material/parts.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
+#include "base/worst.h"
 #include "material/interior_path.h"
 
 namespace mortier {
@@ -185,16 +185,15 @@ class Parts final : public Material {
   /// Calls residual(material, first, last) for neighbours of one material; \returns the largest, scaled.
   template <class Residual>
   [[nodiscard]] double worstOf(int begin, int end, Residual residual) const {
-    double worst = 0;
+    Worst worst;
     for (int first = begin; first < end;) {
       int last = first + 1;
       while (last < end && materialOf_[last] == materialOf_[first]) ++last;
       const Material& material = *materials_[materialOf_[first]];
-      const double value = residual(material, first, last) * weightOf(material);
-      if (!(value <= worst)) worst = std::isnan(worst) ? worst : value;  // NaN stays
+      worst.add(residual(material, first, last) * weightOf(material));
       first = last;
     }
-    return worst;
+    return worst.value();
   }
 
   /// What makes a residual of this material one over stressScale_. It must not depend on the range of points.

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/worst.h"
 #include "material/interior_path.h"
 #include "material/law_lanes.h"
 #include "material/perzyna_path.h"
@@ -130,7 +131,7 @@ class Perzyna final : public Material {
                     Linearisation& result, int begin, int end) const override {
     const double theta = step.weight / (2 * law_.viscosity);
     const Array3d norm = projectionNorm(law_.projection);
-    double change = 0;
+    Worst change;
     for (int i = begin; i < end; ++i) {
       const Array3d s = stress.col(i).array();
       const Array3d v = step.strain.col(i).array() - (s - step.stress0.col(i).array()) / e_;
@@ -142,12 +143,11 @@ class Perzyna final : public Material {
         difference =
             (v - theta * kappa * yieldDomain(law_.yieldStress, norm * kappa).project(x).overstress) / A;
       }
-      const double size = difference.abs().maxCoeff<Eigen::PropagateNaN>();
-      if (!(size <= change) && !std::isnan(change)) change = size;
+      change.add(difference.abs().maxCoeff<Eigen::PropagateNaN>());
       result.predictor.col(i) = s + relaxation * difference;
       storeModuli((1 / (1 / e_ + penalty[i] * theta)).matrix().asDiagonal(), result.moduli, i);
     }
-    return change;
+    return change.value();
   }
 
   // The flow stiffens by 1 along the normal of the yield surface and by `softening` at least along it.

@@ -26,8 +26,8 @@ bool isLike(const BodyState& body, const BodyState& model) {
 }
 
 bool isLike(const BodyIncrement& increment, const BodyState& model) {
-  return isLike(increment.displacement, model.displacement) && isLike(increment.small, model.displacement) &&
-         isLike(increment.stress, model.stress);
+  return isLike(increment.displacement.high, model.displacement) &&
+         isLike(increment.displacement.low, model.displacement) && isLike(increment.stress, model.stress);
 }
 
 template <class Parts>
@@ -57,6 +57,7 @@ void requireFits(const Checkpoint& checkpoint, const Model& model, const std::st
   require(isTime(state.time) && isTime(last.time) && last.step >= 0 && last.step == memory.run.steps, "time");
   require(oneABody(state.bodies, begin.bodies), "state");
   require(areLike(state.contactForce, begin.contactForce), "contact force");
+  require(areLike(state.gap, begin.gap), "gap");
   require(std::all_of(memory.increments.begin(), memory.increments.end(),
                       [&](const auto& stage) { return oneABody(stage, begin.bodies); }),
           "increment");

@@ -28,8 +28,9 @@ void visitMembers(Archive& archive, FilesSoFar& files) {
 }
 template <class Archive>
 void visitMembers(Archive& archive, Certificate& certificate) {
-  auto& [forceBalance, materialResidual, gapOnActive, sign, complementarity] = certificate;
-  archive(forceBalance, materialResidual, gapOnActive, sign, complementarity);
+  auto& [forceBalance, materialResidual, gapOnActive, openPenetration, sign, complementarity, rounding] =
+      certificate;
+  archive(forceBalance, materialResidual, gapOnActive, openPenetration, sign, complementarity, rounding);
 }
 template <class Archive>
 void visitMembers(Archive& archive, SpecialConditions& special) {
@@ -59,13 +60,13 @@ void visitMembers(Archive& archive, BodyState& body) {
 }
 template <class Archive>
 void visitMembers(Archive& archive, State& state) {
-  auto& [time, bodies, contactForce] = state;
-  archive(time, bodies, contactForce);
+  auto& [time, bodies, contactForce, gap] = state;
+  archive(time, bodies, contactForce, gap);
 }
 template <class Archive>
 void visitMembers(Archive& archive, BodyIncrement& increment) {
-  auto& [displacement, small, stress] = increment;
-  archive(displacement, small, stress);
+  auto& [displacement, stress] = increment;
+  archive(displacement.high, displacement.low, stress);
 }
 template <class Archive>
 void visitMembers(Archive& archive, ControllerMemory& controller) {

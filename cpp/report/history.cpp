@@ -7,7 +7,7 @@ History::History(const std::string& folder) : file_(folder + "/history.csv") {
            "joined,left,penetration[m^2],"
            "max_pressure[Pa],contact_force[N/"
            "m],viscoplastic_fraction,force_balance,material_residual,gap_on_active,"
-           "sign,complementarity\n";
+           "sign,complementarity,open_penetration,rounding\n";
 }
 
 void History::add(const StepReport& r) {
@@ -16,7 +16,8 @@ void History::add(const StepReport& r) {
         << (r.guarded ? 1 : 0) << ',' << r.rung << ',' << r.iterations << ',' << r.factorisations << ','
         << r.active << ',' << r.joined << ',' << r.left << ',' << r.penetration << ',' << r.maxPressure << ','
         << r.contactForce << ',' << r.viscoplasticFraction << ',' << c.forceBalance << ','
-        << c.materialResidual << ',' << c.gapOnActive << ',' << c.sign << ',' << c.complementarity << '\n';
+        << c.materialResidual << ',' << c.gapOnActive << ',' << c.sign << ',' << c.complementarity << ','
+        << c.openPenetration << ',' << c.rounding << '\n';
 }
 
 }  // namespace mortier

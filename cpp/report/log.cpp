@@ -82,8 +82,9 @@ std::string logStatus(const RunReport& report, const std::string& folder) {
 std::string logVerification(const Certificate& w) {
   return format(
       "verification (worst step)  |force balance| %.1e   material residual %.1e   |gap| on active %.1e   "
-      "complementarity %.1e   sign %.1e\n",
-      w.forceBalance, w.materialResidual, w.gapOnActive, w.complementarity, w.sign);
+      "penetration of open %.1e   complementarity %.1e   sign %.1e   rounding %.1e\n",
+      w.forceBalance, w.materialResidual, w.gapOnActive, w.openPenetration, w.complementarity, w.sign,
+      w.rounding);
 }
 
 std::string logAccuracy(const Model& model, const Accuracy& accuracy) {

@@ -150,8 +150,10 @@ FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const 
   json["verification"] = {{"force_balance", report.worst.forceBalance},
                           {"material_residual", report.worst.materialResidual},
                           {"gap_on_active", report.worst.gapOnActive},
+                          {"open_penetration", report.worst.openPenetration},
                           {"sign", report.worst.sign},
-                          {"complementarity", report.worst.complementarity}};
+                          {"complementarity", report.worst.complementarity},
+                          {"rounding", report.worst.rounding}};
   json["accuracy"] = jsonOf(model, accuracy);
   json["peak_memory_mib"] = peakMemory();
   json["wall_time_s"] = processSeconds();

@@ -2,13 +2,13 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <limits>
 #include <utility>
 
-#include "base/double_double.h"
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/worst.h"
 #include "fem/rigid_modes.h"
 
 namespace mortier {
@@ -18,7 +18,7 @@ namespace {
 constexpr double motionTolerance = 1e-14;
 
 /// A support along the contact normal leaves no more than this part of a row.
-constexpr double rounding = 1e-14;
+constexpr double negligible = 1e-14;
 
 /// Entries of C of one body as (row, node, vector).
 template <class Visit>
@@ -66,7 +66,7 @@ void BodySystem::findContactDofs(const Model& model, int body, const std::vector
     for (size_t k = 0; k < model.interfaces.size(); ++k)
       forEachEntryOfC(model.interfaces[k], body, [&](int row, int node, const Point& vector) {
         for (const auto& [equation, value] : body_.parts(node, vector))
-          if (equation >= 0 && std::abs(value) > rounding * vector.norm())
+          if (equation >= 0 && std::abs(value) > negligible * vector.norm())
             visit(firstRow[k] + row, equation, value);
       });
   };
@@ -96,22 +96,9 @@ void BodySystem::findRigidMotions() {
   R_ *= T;
 }
 
-void BodyIterate::moveTowards(const BodyIterate& other, double part) {
-  const Vector d = (other.increment - increment) + (other.small - small);
-  for (Eigen::Index i = 0; i < d.size(); ++i) {
-    const DoubleDouble u = DoubleDouble::sum(increment[i], part * d[i]);
-    increment[i] = u.high;
-    small[i] += u.low;
-  }
-}
-
 template <class Work>
 void BodySystem::forEachBlock(const Work& work) {
-  constexpr int block =
-      2048;  // stays in the cache from one loop over it to the next; a multiple of the lanes
-  const int points = body_.points();
-  threads_->forEach((points + block - 1) / block,
-                    [&](int i) { work(block * i, std::min(block * (i + 1), points)); });
+  threads_->forEach(blocks(), [&](int i) { work(block * i, std::min(block * (i + 1), body_.points())); });
 }
 
 template <class Law>
@@ -119,18 +106,15 @@ double BodySystem::evaluate(const MaterialStep& step, const Matrix* shift, BodyI
                             const Law& law) {
   iterate.strain.resizeLike(iterate.stress);
   law_.elastic = 0;
-  std::atomic<bool> finite = true;
-  std::atomic<double> largest = 0;
+  std::vector<double> largest(blocks());
   forEachBlock([&](int begin, int end) {
     stopIfInterrupted();
-    body_.strain(iterate.increment, iterate.small, shift, iterate.strain, begin, end);
-    const double value = law(begin, end);
-    if (!std::isfinite(value)) finite = false;
-    for (double known = largest; known < value && !largest.compare_exchange_weak(known, value);) {
-    }
+    body_.strain(iterate.increment, shift, iterate.strain, begin, end);
+    largest[begin / block] = law(begin, end);
   });
-  const double residual = finite ? largest.load() : std::nan("");
-  return residual == 0 ? 0 : residual / residualScale(step.stress0, iterate);
+  Worst residual;
+  for (const double value : largest) residual.add(value);
+  return residual.value() == 0 ? 0 : residual.value() / residualScale(step.stress0, iterate);
 }
 
 double BodySystem::linearise(const MaterialStep& step, const Matrix* shift, BodyIterate& iterate) {
@@ -148,8 +132,15 @@ double BodySystem::residualScale(const Matrix& stress0, const BodyIterate& itera
   // E |du|/L.
   constexpr double rigidPart = 1e-4;
   const double rigid =
-      law_.moduli.cwiseAbs().maxCoeff() * iterate.increment.cwiseAbs().maxCoeff() / extent(body_.mesh());
+      law_.moduli.cwiseAbs().maxCoeff() * iterate.increment.high.cwiseAbs().maxCoeff() / extent(body_.mesh());
   return std::max({before, law_.predictor.cwiseAbs().maxCoeff(), rigidPart * rigid});
+}
+
+double BodySystem::rounding(const Matrix& stress0, const BodyIterate& iterate,
+                            const Vector& displacement) const {
+  const double strain = std::numeric_limits<double>::epsilon() * body_.largestGradient() *
+                        displacement.lpNorm<Eigen::Infinity>();
+  return strain == 0 ? 0 : strain * law_.moduli.lpNorm<Eigen::Infinity>() / residualScale(stress0, iterate);
 }
 
 double BodySystem::regularise(const MaterialStep& step, const Matrix* shift, double relaxation,
@@ -269,11 +260,7 @@ Matrix BodySystem::dampingStress(const Matrix& moduli, double delta, const Matri
 
 void BodySystem::expand(const Vector& forceChange, const Vector& z, BodyIterate& iterate) {
   const Vector d = displacementOf(forceChange, z);
-  for (int dof = 0; dof < body_.dofs(); ++dof) {
-    const DoubleDouble u = DoubleDouble::sum(iterate.increment[dof], d[dof]);
-    iterate.increment[dof] = u.high;
-    iterate.small[dof] += u.low;
-  }
+  iterate.increment += d;
   iterate.stress.resizeLike(law_.predictor);
   forEachBlock([&](int begin, int end) {
     iterate.stress.middleCols(begin, end - begin) = law_.predictor.middleCols(begin, end - begin);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/two_part_vector.h"
 #include "linear/condensing_solver.h"
 #include "material/interior_path.h"
 #include "solver/model.h"
@@ -16,13 +17,9 @@ namespace mortier {
 
 /// The unknowns of a body in a step.
 struct BodyIterate {
-  Vector increment;  ///< du (dofs) [m], carried as increment + small
-  Vector small;
-  Matrix stress;  ///< s
-  Matrix strain;  ///< B du - shift, components x points, as of the last linearisation
-
-  /// Moves the displacement by a part of its distance to another one.
-  void moveTowards(const BodyIterate& other, double part);
+  TwoPartVector increment;  ///< du (dofs) [m]
+  Matrix stress;            ///< s
+  Matrix strain;            ///< B du - shift, components x points, as of the last linearisation
 };
 
 /// 1 or -1, the sign of the determinant of a factorised matrix.
@@ -46,6 +43,10 @@ class BodySystem {
     law_.elastic = 0;
     path.linearise(strain, target, correct, law_);
   }
+  /// What the rounding of the mesh and of its displacements makes of stresses, by the moduli of the last linearisation,
+  /// over what residuals are measured against [-].
+  [[nodiscard]] double rounding(const Matrix& stress0, const BodyIterate& iterate,
+                                const Vector& displacement) const;
   /// Factorises the tangent of the last linearisation, unless that and the last one are both of a body in which
   /// nothing flows.
   /// \returns why that is impossible, or nothing.
@@ -92,7 +93,10 @@ class BodySystem {
   [[nodiscard]] Vector rigidForce(const Vector& load) const;
 
  private:
-  /// Calls work(begin, end) for all points, some thousands at a time.
+  /// Points that stay in the cache from one loop over them to the next; a multiple of the lanes.
+  static constexpr int block = 2048;
+  [[nodiscard]] int blocks() const { return (body_.points() + block - 1) / block; }
+  /// Calls work(begin, end) for all points, a block at a time.
   template <class Work>
   void forEachBlock(const Work& work);
   /// Strain at the iterate, then the law's law(begin, end) for all points. \returns the largest value, scaled.

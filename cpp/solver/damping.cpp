@@ -51,7 +51,6 @@ StepOutcome StepSolver::damped(const State& state0, const StepData& step, int ma
       if (!factorise(total)) return unsolved;
       solveLinearised(state0, loads, next, total);
       if (!total.reason.empty()) return unsolved;
-      for (Vector& p : next.contactForce) p = p.cwiseMax(0);
       forEachBody([&](int b) {
         BodyIterate& body = next.bodies[b];
         strain(step, b, body);

@@ -93,7 +93,7 @@ StepOutcome StepSolver::interiorPoint(const State& state0, const StepData& step,
       }
       for (size_t b = 0; b < paths.size(); ++b) {
         BodyIterate& body = iterate.bodies[b];
-        body.moveTowards(next.bodies[b], length);
+        body.increment += length * next.bodies[b].increment.minus(body.increment);
         if (paths[b])
           paths[b]->advance(length, body.stress);
         else

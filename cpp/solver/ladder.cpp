@@ -21,10 +21,9 @@ StepOutcome StepSolver::solve(const State& state0, const StepData& step, Iterate
   constexpr int continuationIterations = 60;
   constexpr int usualIterations = 300;
   constexpr int pathIterations = 1500;
-  StepOutcome plain = newton(
-      state0, step, {std::min(plainIterations, options_.maxIterations), options_.tolerance, false}, guess);
-  if (plain.converged || plain.unheld) return plain;
-  StepOutcome total = std::move(plain);
+  NewtonLimits plain{std::min(plainIterations, options_.maxIterations), options_.tolerance};
+  plain.turning = true;
+  StepOutcome total = newton(state0, step, plain, guess);
   const auto climb = [&](const std::string& rung, StepOutcome next) {
     next.rung = rung;
     next.iterations += total.iterations;
@@ -33,7 +32,16 @@ StepOutcome StepSolver::solve(const State& state0, const StepData& step, Iterate
   };
   const auto left = [&](int most) { return std::min(most, options_.maxIterations) - total.iterations; };
   const auto open = [&](int most) { return !total.converged && !total.unheld && left(most) > 0; };
-  if (!uniqueSolutions_ && open(usualIterations))
+  // What flowed may unload.
+  if (open(usualIterations) && flows(state0)) {
+    plain.iterations = std::min(plainIterations, left(options_.maxIterations));
+    plain.turning = false;
+    plain.elasticFirst = true;
+    Iterate unloaded = start(state0);
+    climb("newton", newton(state0, step, plain, unloaded));
+    if (total.converged) guess = std::move(unloaded);
+  }
+  if (open(usualIterations) && !uniqueSolutions_)
     climb("continuation",
           continuation(state0, step, std::min(continuationIterations, left(usualIterations)), guess));
   if (open(usualIterations))

@@ -20,6 +20,7 @@
 #include <optional>
 #include <sstream>
 
+#include "base/worst.h"
 #include "solver/step.h"
 
 namespace mortier {
@@ -118,10 +119,9 @@ double StepSolver::regularise(const State& state0, const StepData& step, Iterate
     change[b] = systems_[b].regularise({step.weight, state0.bodies[b].stress, body.strain},
                                        step.shift.empty() ? nullptr : &step.shift[b], 2 * relaxation, body);
   });
-  double worst = 0;
-  for (const double value : change)
-    if (!(value <= worst)) worst = value;
-  return worst;
+  Worst worst;
+  for (const double value : change) worst.add(value);
+  return worst.value();
 }
 
 StepOutcome StepSolver::penaltyDuality(const State& state0, const StepData& step, Iterate& iterate) {
@@ -145,14 +145,12 @@ StepOutcome StepSolver::penaltyDuality(const State& state0, const StepData& step
       system.emplace(contact_);
     }
 
-    const std::vector<Vector> u = displacements(state0, iterate);
+    const std::vector<Vector> gap = gaps(model_, state0, iterate);
     Vector g(rows());
     Vector p(rows());
     for (size_t k = 0; k < model_.interfaces.size(); ++k) {
-      const ContactInterface& interface = model_.interfaces[k];
-      g.segment(firstRow_[k], interface.rows()) =
-          interface.gap(u[interface.pair().nonmortar.body], u[interface.pair().mortar.body]);
-      p.segment(firstRow_[k], interface.rows()) = iterate.contactForce[k];
+      g.segment(firstRow_[k], gap[k].size()) = gap[k];
+      p.segment(firstRow_[k], gap[k].size()) = iterate.contactForce[k];
     }
     const Vector q = (p + system->omega() * g).cwiseMax(0);
     const double scale = q.size() > 0 ? std::max(largestLoad, q.maxCoeff()) : 0;
@@ -165,6 +163,7 @@ StepOutcome StepSolver::penaltyDuality(const State& state0, const StepData& step
           solution.contactForce[k][i] = q[firstRow_[k] + i];
           solution.active[k][i] = q[firstRow_[k] + i] > 0 ? 1 : 0;
         }
+      solution.wrongForce = p.size() > 0 ? std::max(0.0, -p.minCoeff()) : 0;
       const double residual = linearise(state0, step, solution, false);
       outcome.certificate = certify(state0, loads, solution, residual);
       if (residual <= options_.tolerance && outcome.certificate.forceBalance <= balanceTolerance) {

@@ -49,12 +49,9 @@ StepOutcome StepSolver::rest(const State& state0, const StepData& step, Iterate&
     return outcome;
   solution = start(state0);
   const double residual = linearise(state0, step, solution, false);
-  const std::vector<Vector> u = displacements(state0, solution);
   for (size_t k = 0; k < model_.interfaces.size(); ++k) {
-    const ContactInterface& interface = model_.interfaces[k];
-    const ContactPair& pair = interface.pair();
-    const Vector gap = interface.gap(u[pair.nonmortar.body], u[pair.mortar.body]);
-    const double size = extent(model_.bodies[pair.nonmortar.body].mesh());
+    const Vector& gap = state0.gap[k];
+    const double size = extent(model_.bodies[model_.interfaces[k].pair().nonmortar.body].mesh());
     for (Eigen::Index i = 0; i < gap.size(); ++i)
       if (gap[i] < -touching * size) solution.active[k][i] = 0;
   }

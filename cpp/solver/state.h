@@ -18,6 +18,9 @@ struct State {
   double time = 0;  ///< [s]
   std::vector<BodyState> bodies;
   std::vector<Vector> contactForce;  ///< per interface and nonmortar node, p >= 0 [N/m]
+  /// g per interface and nonmortar node [m], the sum of its changes: taken from the displacements anew, their rounding
+  /// would open and close what is in contact.
+  std::vector<Vector> gap;
 };
 
 /// What of the solver itself a run must know to go on, per body; empty before the first step.
@@ -33,8 +36,12 @@ struct Certificate {
   double materialResidual =
       0;                   ///< |H^-1 r| over the yield stress or the largest stress of the body, if larger
   double gapOnActive = 0;  ///< |g| on active nodes over the extent of the bodies, or the largest |u|
-  double sign = 0;         ///< largest negative contact force over the largest
-  double complementarity = 0;  ///< max |p g| over (largest force times that length)
+  double openPenetration = 0;  ///< largest g of a node that is not active, over the same
+  double sign = 0;             ///< largest negative contact force over the largest nodal force
+  double complementarity = 0;  ///< max |p g| over (largest contact force times that length)
+  /// What the rounding of meshes and displacements makes of stresses, over the same as materialResidual: epsilon
+  /// |H^-1| |u|/h. No residual shows it.
+  double rounding = 0;
 };
 
 /// Contact conditions without a force of their own.

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/worst.h"
 #include "fem/rigid_modes.h"
 
 namespace mortier {
@@ -29,6 +30,26 @@ std::vector<int> numberRows(const Model& model) {
 }
 
 }  // namespace
+
+std::vector<Vector> gaps(const Model& model, const State& state0, const Iterate& iterate) {
+  std::vector<Vector> result;
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    const ContactInterface& interface = model.interfaces[k];
+    const TwoPartVector& u1 = iterate.bodies[interface.pair().nonmortar.body].increment;
+    const TwoPartVector& u2 = iterate.bodies[interface.pair().mortar.body].increment;
+    // The parts apart: the first no longer changes where the iteration ends.
+    result.emplace_back((state0.gap[k] + interface.jump(u1.high, u2.high)) + interface.jump(u1.low, u2.low));
+  }
+  return result;
+}
+
+std::vector<Vector> solvedGaps(const Model& model, const State& state0, const Iterate& solution) {
+  std::vector<Vector> result = gaps(model, state0, solution);
+  for (size_t k = 0; k < result.size(); ++k)
+    for (Eigen::Index i = 0; i < result[k].size(); ++i)
+      if (solution.active[k][i] != 0) result[k][i] = 0;
+  return result;
+}
 
 ActiveSets startingSets(const State& state0) {
   ActiveSets sets;
@@ -106,8 +127,7 @@ std::string StepSolver::describeRigid(const Vector& z) const {
 Iterate StepSolver::start(const State& state0) const {
   Iterate iterate;
   for (const BodyState& body : state0.bodies)
-    iterate.bodies.push_back(
-        {Vector::Zero(body.displacement.size()), Vector::Zero(body.displacement.size()), body.stress, {}});
+    iterate.bodies.push_back({TwoPartVector::zero(body.displacement.size()), body.stress, {}});
   iterate.contactForce = state0.contactForce;
   iterate.active = startingSets(state0);
   return iterate;
@@ -115,22 +135,21 @@ Iterate StepSolver::start(const State& state0) const {
 
 void StepSolver::prescribe(const State& state0, double time, Iterate& iterate) const {
   for (size_t b = 0; b < model_.bodies.size(); ++b)
-    model_.bodies[b].prescribeIncrement(time, state0.bodies[b].displacement, iterate.bodies[b].increment,
-                                        iterate.bodies[b].small);
+    model_.bodies[b].prescribeIncrement(state0.time, time, iterate.bodies[b].increment);
 }
 
 std::vector<Vector> StepSolver::displacements(const State& state0, const Iterate& iterate) const {
   std::vector<Vector> u;
   for (size_t b = 0; b < model_.bodies.size(); ++b)
-    u.push_back(state0.bodies[b].displacement + (iterate.bodies[b].increment + iterate.bodies[b].small));
+    u.push_back(state0.bodies[b].displacement + iterate.bodies[b].increment.value());
   return u;
 }
 
 void StepSolver::strain(const StepData& step, int body, BodyIterate& iterate) const {
   const Body& system = model_.bodies[body];
   iterate.strain.resizeLike(iterate.stress);
-  system.strain(iterate.increment, iterate.small, step.shift.empty() ? nullptr : &step.shift[body],
-                iterate.strain, 0, system.points());
+  system.strain(iterate.increment, step.shift.empty() ? nullptr : &step.shift[body], iterate.strain, 0,
+                system.points());
 }
 
 /// \returns the material residual, scaled; NaN when any stress is.
@@ -141,10 +160,9 @@ double StepSolver::linearise(const State& state0, const StepData& step, Iterate&
     residual[b] = systems_[b].linearise({step.weight, state0.bodies[b].stress, body.strain, anticipate},
                                         step.shift.empty() ? nullptr : &step.shift[b], body);
   });
-  double worst = 0;
-  for (const double value : residual)
-    if (!(value <= worst)) worst = value;
-  return worst;
+  Worst worst;
+  for (const double value : residual) worst.add(value);
+  return worst.value();
 }
 
 bool StepSolver::factorise(StepOutcome& outcome) {
@@ -173,7 +191,7 @@ void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>&
   // What is out of balance, and the slack as it is.
   std::vector<Vector> force(systems_.size());
   forEachBody([&](int b) { force[b] = loads[b] - model_.bodies[b].internalForce(systems_[b].predictor()); });
-  const std::vector<Vector> u = displacements(state0, iterate);
+  const std::vector<Vector> gap = gaps(model_, state0, iterate);
   contact_.force = 0;
   for (const Vector& before : state0.contactForce)
     if (before.size() > 0) contact_.force = std::max(contact_.force, before.maxCoeff());
@@ -184,7 +202,7 @@ void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>&
     const int b1 = interface.pair().nonmortar.body;
     const int b2 = interface.pair().mortar.body;
     interface.subtractForces(iterate.contactForce[k], force[b1], force[b2]);
-    slack.segment(firstRow_[k], interface.rows()) = -interface.gap(u[b1], u[b2]);
+    slack.segment(firstRow_[k], interface.rows()) = -gap[k];
     p.segment(firstRow_[k], interface.rows()) = iterate.contactForce[k];
   }
 
@@ -237,51 +255,66 @@ void StepSolver::solveLinearised(const State& state0, const std::vector<Vector>&
     return solution;
   };
   solveLinearised(state0, loads, pivoting, iterate, outcome);
+  iterate.wrongForce = 0;
+  for (Vector& p : iterate.contactForce) {
+    if (p.size() > 0) iterate.wrongForce = std::max(iterate.wrongForce, -p.minCoeff());
+    p = p.cwiseMax(0);
+  }
 }
 
 Certificate StepSolver::certify(const State& state0, const std::vector<Vector>& loads, const Iterate& iterate,
                                 double materialResidual) const {
   constexpr double roundingOfMotion = 1e-15;
-  Certificate result;
-  result.materialResidual = materialResidual;
-  double force = 0;
-  double length = 0;  // gaps are differences of displacements
+  Worst force;
+  Worst length;  // gaps are differences of displacements
+  Worst rounding;
   std::vector<Vector> residual;
+  const std::vector<Vector> u = displacements(state0, iterate);
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Vector internal = model_.bodies[b].internalForce(iterate.bodies[b].stress);
-    // The forces of the stress before leave their rounding too.
-    force = std::max({force, model_.bodies[b].largestForce(iterate.bodies[b].stress),
-                      model_.bodies[b].largestForce(state0.bodies[b].stress), loads[b].cwiseAbs().maxCoeff()});
+    force.add(model_.bodies[b].largestForce(iterate.bodies[b].stress));
+    force.add(model_.bodies[b].largestForce(state0.bodies[b].stress));  // of which rounding is left
+    force.add(loads[b]);
     residual.push_back(loads[b] - internal);
     // An elastic body that moves without any load has forces that are nothing but rounding.
     if (model_.bodies[b].material().linear())
-      force = std::max(force, roundingOfMotion * systems_[b].moduli().lpNorm<Eigen::Infinity>() *
-                                  iterate.bodies[b].increment.lpNorm<Eigen::Infinity>());
-    length = std::max(length, extent(model_.bodies[b].mesh()));
+      force.add(roundingOfMotion * systems_[b].moduli().lpNorm<Eigen::Infinity>() *
+                iterate.bodies[b].increment.high.lpNorm<Eigen::Infinity>());
+    length.add(extent(model_.bodies[b].mesh()));
+    length.add(u[b]);
+    rounding.add(systems_[b].rounding(state0.bodies[b].stress, iterate.bodies[b], u[b]));
   }
-  const std::vector<Vector> u = displacements(state0, iterate);
-  for (const Vector& each : u) length = std::max(length, each.lpNorm<Eigen::Infinity>());
-  double largestContact = 0;
-  for (const Vector& p : iterate.contactForce)
-    if (p.size() > 0) largestContact = std::max(largestContact, p.cwiseAbs().maxCoeff());
+  Worst contactForce;
+  for (const Vector& p : iterate.contactForce) contactForce.add(p);
+  Worst gapOnActive;
+  Worst openPenetration;
+  Worst complementarity;
   for (size_t k = 0; k < model_.interfaces.size(); ++k) {
     const ContactInterface& interface = model_.interfaces[k];
     const int b1 = interface.pair().nonmortar.body;
     const int b2 = interface.pair().mortar.body;
     const Vector& p = iterate.contactForce[k];
     interface.subtractForces(p, residual[b1], residual[b2]);
-    const Vector g = interface.gap(u[b1], u[b2]) / length;
+    const Vector g = interface.gap(u[b1], u[b2]) / length.value();
     for (Eigen::Index i = 0; i < g.size(); ++i) {
-      if (iterate.active[k][i] != 0) result.gapOnActive = std::max(result.gapOnActive, std::abs(g[i]));
-      if (largestContact == 0) continue;
-      result.sign = std::max({result.sign, -p[i] / largestContact, 0.0});
-      result.complementarity = std::max(result.complementarity, std::abs(p[i] / largestContact * g[i]));
+      if (iterate.active[k][i] != 0)
+        gapOnActive.add(std::abs(g[i]));
+      else
+        openPenetration.add(g[i]);
+      if (contactForce.value() != 0) complementarity.add(std::abs(p[i] / contactForce.value() * g[i]));
     }
   }
-  if (force > 0)
-    for (size_t b = 0; b < model_.bodies.size(); ++b)
-      result.forceBalance = std::max(result.forceBalance,
-                                     model_.bodies[b].gather(residual[b]).lpNorm<Eigen::Infinity>() / force);
+  Worst balance;
+  for (size_t b = 0; b < model_.bodies.size(); ++b) balance.add(model_.bodies[b].gather(residual[b]));
+  const auto overForce = [&](double value) { return value == 0 ? 0 : value / force.value(); };
+  Certificate result;
+  result.forceBalance = overForce(balance.value());
+  result.materialResidual = materialResidual;
+  result.gapOnActive = gapOnActive.value();
+  result.openPenetration = openPenetration.value();
+  result.sign = overForce(iterate.wrongForce);
+  result.complementarity = complementarity.value();
+  result.rounding = rounding.value();
   return result;
 }
 
@@ -294,8 +327,11 @@ StepOutcome StepSolver::newton(const State& state0, const StepData& step, const 
   StepOutcome outcome;
   prescribe(state0, step.time, iterate);
   const std::vector<Vector>& loads = loadsAt(step.time);
+  StepData elastic = step;
+  elastic.weight = 0;
   for (int iteration = 0;; ++iteration) {
-    const double residual = linearise(state0, step, iterate, limits.anticipate);
+    const bool asElastic = limits.elasticFirst && iteration == 0;
+    const double residual = linearise(state0, asElastic ? elastic : step, iterate, limits.anticipate);
     if (iteration > 0 && residual <= limits.tolerance) {
       outcome.certificate = certify(state0, loads, iterate, residual);
       if (outcome.certificate.forceBalance <= std::max(balanceTolerance, limits.tolerance * 1e-2)) {
@@ -306,8 +342,9 @@ StepOutcome StepSolver::newton(const State& state0, const StepData& step, const 
       if (++outOfBalance == patience)
         for (BodySystem& system : systems_) system.useLibraries();
     }
+    const auto turns = [&] { return limits.turning && iteration == 1 && flows(state0); };
     if (iteration == limits.iterations || !std::isfinite(residual) ||
-        (iteration >= 2 && residual > hopeless)) {
+        (residual > hopeless && (iteration >= 2 || turns()))) {
       std::ostringstream reason;
       reason << "Newton's method did not converge in " << iteration << " iterations, material residual "
              << residual;
@@ -318,7 +355,6 @@ StepOutcome StepSolver::newton(const State& state0, const StepData& step, const 
     if (!factorise(outcome)) return outcome;
     solveLinearised(state0, loads, iterate, outcome);
     if (!outcome.reason.empty()) return outcome;
-    for (Vector& p : iterate.contactForce) p = p.cwiseMax(0);
   }
 }
 

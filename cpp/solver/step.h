@@ -35,7 +35,13 @@ struct Iterate {
   std::vector<BodyIterate> bodies;
   std::vector<Vector> contactForce;  ///< p per interface
   ActiveSets active;
+  double wrongForce = 0;  ///< the largest negative p of the last linear solve, before it was set to 0 [N/m]
 };
+
+/// g = C (u0 + du) - g0 per interface: the gap of the state and what the increments add.
+std::vector<Vector> gaps(const Model& model, const State& state0, const Iterate& iterate);
+/// Those of a solution: 0 where it is active, whatever rounding left there.
+std::vector<Vector> solvedGaps(const Model& model, const State& state0, const Iterate& solution);
 
 /// What is asked of a step.
 struct StepData {
@@ -83,6 +89,10 @@ class StepSolver {
   /// \param error  per body, a strain added in every triangle (components x points).
   [[nodiscard]] std::vector<Response> respond(const std::vector<Matrix>& error, const ActiveSets& active);
 
+  /// The residuals of an iterate under nodal forces per body; the law as it was linearised last.
+  [[nodiscard]] Certificate certify(const State& state0, const std::vector<Vector>& loads,
+                                    const Iterate& iterate, double materialResidual) const;
+
   /// The rigid motion, in words, that no closed contact of a solution of a step holds, though no load drives it: the
   /// bodies could be anywhere along it. Empty where there is none, or only of bodies that nothing has moved so far.
   [[nodiscard]] std::string looseMotion(const State& state0, const Iterate& solution) const;
@@ -122,7 +132,10 @@ class StepSolver {
   struct NewtonLimits {
     int iterations = 0;
     double tolerance = 0;
-    bool anticipate = false;  ///< material/material.h
+    bool anticipate = false;    ///< material/material.h
+    bool elasticFirst = false;  ///< the first iteration takes the bodies as elastic
+    bool turning =
+        false;  ///< given up at once where a body that flowed is thrown far off, as where it unloads
   };
   /// Nodal forces of all bodies at a time; good until another time is asked for.
   const std::vector<Vector>& loadsAt(double time);
@@ -137,8 +150,6 @@ class StepSolver {
   StepOutcome damped(const State& state0, const StepData& step, int maxIterations, Iterate& solution);
   /// 1 or -1, the sign of the determinant of the last linearised step, these contacts closed.
   [[nodiscard]] int determinantSign(const ActiveSets& active) const;
-  [[nodiscard]] Certificate certify(const State& state0, const std::vector<Vector>& loads,
-                                    const Iterate& iterate, double materialResidual) const;
   void prescribe(const State& state0, double time, Iterate& iterate) const;
   [[nodiscard]] std::vector<char> joined(const ActiveSets& active) const;
 

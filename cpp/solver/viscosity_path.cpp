@@ -5,8 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include "base/double_double.h"
-
 namespace mortier {
 namespace {
 
@@ -44,11 +42,7 @@ void ViscosityPath::move(const Direction& along, double length, Place& place) {
     const auto& [displacement, stress] = along.response[b];
     BodyIterate& body = place.iterate.bodies[b];
     body.stress += length * stress;
-    for (Eigen::Index i = 0; i < displacement.size(); ++i) {
-      const DoubleDouble u = DoubleDouble::sum(body.increment[i], length * displacement[i]);
-      body.increment[i] = u.high;
-      body.small[i] += u.low;
-    }
+    body.increment += length * displacement;
   }
 }
 
@@ -97,7 +91,6 @@ ViscosityPath::Correction ViscosityPath::correct(const Direction& along, Place& 
     Place before = place;
     solver_.solveLinearised(state0_, loads_, place.iterate, total_);
     if (!total_.reason.empty()) return result;
-    for (Vector& p : place.iterate.contactForce) p = p.cwiseMax(0);
     before.iterate.active = place.iterate.active;
     result.direction = directionAt(before);
     // Back into the plane across `along`, no more than a decade at once.

@@ -14,6 +14,7 @@ double balanceInitialStress(const Model& model, State& state, const SolverOption
   if (outcome.unheld) throw UnheldBodyError("at t = 0: " + outcome.reason);
   if (!outcome.converged)
     throw InputError("the initial stress cannot be brought into equilibrium at t = 0: " + outcome.reason);
+  state.gap = solvedGaps(model, state, iterate);
   double change = 0;
   double largest = 0;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
@@ -21,7 +22,7 @@ double balanceInitialStress(const Model& model, State& state, const SolverOption
     const BodyIterate& settled = iterate.bodies[b];
     change = std::max(change, (settled.stress - body.stress).cwiseAbs().maxCoeff());
     largest = std::max(largest, settled.stress.cwiseAbs().maxCoeff());
-    body.displacement += settled.increment + settled.small;
+    body.displacement += settled.increment.value();
     body.stress = settled.stress;
   }
   state.contactForce = iterate.contactForce;

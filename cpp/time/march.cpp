@@ -72,8 +72,12 @@ State initialState(const Model& model) {
     body.prescribe(0, initial.displacement);
     state.bodies.push_back(std::move(initial));
   }
-  for (const ContactInterface& interface : model.interfaces)
+  for (const ContactInterface& interface : model.interfaces) {
+    const ContactPair& pair = interface.pair();
     state.contactForce.push_back(Vector::Zero(interface.rows()));
+    state.gap.push_back(interface.gap(state.bodies[pair.nonmortar.body].displacement,
+                                      state.bodies[pair.mortar.body].displacement));
+  }
   return state;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/worst.h"
+
 namespace mortier {
 
 void compareActive(const ActiveSets& before, const ActiveSets& after, StepReport& report) {
@@ -36,9 +38,13 @@ void measure(const Model& model, const State& state, StepReport& report) {
 }
 
 Certificate worse(const Certificate& a, const Certificate& b) {
-  return {std::max(a.forceBalance, b.forceBalance), std::max(a.materialResidual, b.materialResidual),
-          std::max(a.gapOnActive, b.gapOnActive), std::max(a.sign, b.sign),
-          std::max(a.complementarity, b.complementarity)};
+  return {worse(a.forceBalance, b.forceBalance),
+          worse(a.materialResidual, b.materialResidual),
+          worse(a.gapOnActive, b.gapOnActive),
+          worse(a.openPenetration, b.openPenetration),
+          worse(a.sign, b.sign),
+          worse(a.complementarity, b.complementarity),
+          worse(a.rounding, b.rounding)};
 }
 
 }  // namespace mortier

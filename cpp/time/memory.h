@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "base/types.h"
+#include "base/two_part_vector.h"
 #include "solver/state.h"
 #include "time/report.h"
 
@@ -12,9 +12,8 @@ namespace mortier {
 
 /// What a body moved and took up between the start of a step and one of its stages.
 struct BodyIncrement {
-  Vector displacement;  ///< by dofs [m], carried as displacement + small
-  Vector small;
-  Matrix stress;  ///< components x points [Pa]
+  TwoPartVector displacement;  ///< by dofs [m]
+  Matrix stress;               ///< components x points [Pa]
 };
 
 /// Of steps chosen by their error.

@@ -46,7 +46,7 @@ StepOutcome StepTaker::solveStages(double t1, Effort effort) {
   const double k = t1 - state_.time;
   rates_.clear();
   solutions_.clear();
-  if (tableau_.explicitFirst) rates_.push_back(ratesOf(state_.bodies));
+  if (tableau_.explicitFirst) rates_.push_back(startingRates());
   StepOutcome total;
   for (size_t i = 0; i < tableau_.stages.size(); ++i) {
     const Stage& stage = tableau_.stages[i];
@@ -62,7 +62,7 @@ StepOutcome StepTaker::solveStages(double t1, Effort effort) {
       outcome.rung = total.rung;
     total = std::move(outcome);
     if (!total.converged) return total;
-    if (tableau_.stages.size() > 1) rates_.push_back(ratesOf(iterate.bodies));
+    if (tableau_.stages.size() > 1) rates_.push_back(ratesOf(iterate, data.weight));
     solutions_.push_back(std::move(iterate));
   }
   return total;
@@ -89,17 +89,32 @@ Iterate StepTaker::guess(size_t stage, double k) const {
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyIncrement& last = memory_.increments[stage][b];
     iterate.bodies[b].increment = ratio * last.displacement;
-    iterate.bodies[b].small = ratio * last.small;
     iterate.bodies[b].stress += ratio * last.stress;
   }
   return iterate;
 }
 
-template <class Stresses>
-std::vector<Matrix> StepTaker::ratesOf(const Stresses& bodies) const {
-  std::vector<Matrix> rates(bodies.size());
-  for (size_t b = 0; b < bodies.size(); ++b)
-    model_.bodies[b].material().viscoplasticRate(bodies[b].stress, rates[b]);
+std::vector<Matrix> StepTaker::startingRates() const {
+  std::vector<Matrix> rates(model_.bodies.size());
+  for (size_t b = 0; b < rates.size(); ++b)
+    model_.bodies[b].material().viscoplasticRate(state_.bodies[b].stress, rates[b]);
+  return rates;
+}
+
+/// From the strain that elasticity leaves: from the stress, its rounding times theta would strain the next stage
+/// (Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.8).
+std::vector<Matrix> StepTaker::ratesOf(const Iterate& stage, double weight) const {
+  std::vector<Matrix> rates(model_.bodies.size());
+  for (size_t b = 0; b < rates.size(); ++b) {
+    const Material& material = model_.bodies[b].material();
+    const auto& [increment, stress, strain] = stage.bodies[b];
+    rates[b].setZero(stress.rows(), stress.cols());
+    if (material.linear()) continue;
+    Matrix elastic;
+    material.elasticStrain(stress - state_.bodies[b].stress, elastic);
+    for (int i = 0; i < stress.cols(); ++i)
+      if (material.flows(stress, i)) rates[b].col(i) = (strain.col(i) - elastic.col(i)) / weight;
+  }
   return rates;
 }
 
@@ -124,7 +139,7 @@ void StepTaker::judgeOnset(const Matrix& rate0, const Matrix& rate1, const Matri
 std::vector<Matrix> StepTaker::strainError() {
   const double k = t1_ - state_.time;
   const std::vector<double>& weights = tableau_.errorWeights;
-  if (rates_.empty()) rates_.push_back(ratesOf(solutions_.back().bodies));
+  if (rates_.empty()) rates_.push_back(ratesOf(solutions_.back(), k));
   std::vector<Matrix> error;
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     Matrix rate;
@@ -144,9 +159,9 @@ std::vector<Response> StepTaker::error(bool lasting) {
   if (!lasting) return error;
   // What of the strain is still viscoplastic: B d - E^-1 s.
   for (size_t b = 0; b < strain.size(); ++b) {
-    const Vector none = Vector::Zero(error[b].displacement.size());
     Matrix elastic;
-    model_.bodies[b].strain(error[b].displacement, none, nullptr, strain[b], 0, model_.bodies[b].points());
+    const Vector none = Vector::Zero(error[b].displacement.size());
+    model_.bodies[b].strain({error[b].displacement, none}, nullptr, strain[b], 0, model_.bodies[b].points());
     model_.bodies[b].material().elasticStrain(error[b].stress, elastic);
     strain[b] -= elastic;
   }
@@ -167,6 +182,7 @@ double StepTaker::turnedShare() const {
 }
 
 void StepTaker::commit() {
+  state_.gap = solvedGaps(model_, state_, solutions_.back());
   memory_.increments.clear();
   memory_.timeStep = t1_ - state_.time;
   for (size_t i = 0; i < solutions_.size(); ++i) {
@@ -175,7 +191,10 @@ void StepTaker::commit() {
     for (size_t b = 0; b < model_.bodies.size(); ++b) {
       BodyState& body = state_.bodies[b];
       BodyIterate& step = solutions_[i].bodies[b];
-      if (last) body.displacement += step.increment + step.small;
+      if (last) {
+        body.displacement += step.increment.value();
+        model_.bodies[b].prescribe(t1_, body.displacement);  // sums of increments would drift
+      }
       // The state takes the stress of the last stage, the memory the increments.
       if (last) step.stress.swap(body.stress);
       step.stress = last ? body.stress - step.stress : step.stress - body.stress;
@@ -187,7 +206,7 @@ void StepTaker::commit() {
         body.viscoplasticStrain += step.strain;
         if (!shift_.empty()) body.viscoplasticStrain += shift_[b];
       }
-      increments.push_back({std::move(step.increment), std::move(step.small), std::move(step.stress)});
+      increments.push_back({std::move(step.increment), std::move(step.stress)});
     }
     if (!guarded_) memory_.increments.push_back(std::move(increments));
   }

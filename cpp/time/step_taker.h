@@ -41,8 +41,10 @@ class StepTaker {
   StepOutcome solveStages(double t1, Effort effort);
   [[nodiscard]] Iterate guess(size_t stage, double k) const;
   void shiftOf(const Stage& stage, double k);
-  template <class Stresses>
-  [[nodiscard]] std::vector<Matrix> ratesOf(const Stresses& bodies) const;
+  /// G at the start of the step.
+  [[nodiscard]] std::vector<Matrix> startingRates() const;
+  /// G of a solved stage, `weight` its time step times its diagonal coefficient [s].
+  [[nodiscard]] std::vector<Matrix> ratesOf(const Iterate& stage, double weight) const;
   [[nodiscard]] std::vector<Matrix> strainError();
   void judgeOnset(const Matrix& rate0, const Matrix& rate1, const Matrix& rate2, double k,
                   Matrix& error) const;

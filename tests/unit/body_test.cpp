@@ -210,7 +210,7 @@ TEST(Body, strainResolvesSmallDifferencesOfLargeDisplacements) {
   const Vector small = 1e-17 * randomVector(plate.dofs(), random);
   Matrix strain;
   strain.resize(3, plate.points());
-  plate.strain(u, small, nullptr, strain, 0, plate.points());
+  plate.strain({u, small}, nullptr, strain, 0, plate.points());
   double worst = 0;
   double effect = 0;
   const Matrix plain = strainOf(plate, u);
@@ -237,7 +237,7 @@ TEST(Body, strainBesideAShiftKeepsItsDigits) {
   const Vector small = 1e-17 * randomVector(plate.dofs(), random);
   const Matrix shift = strainOf(plate, u);
   Matrix strain(3, plate.points());
-  plate.strain(u, small, &shift, strain, 0, plate.points());
+  plate.strain({u, small}, &shift, strain, 0, plate.points());
   double worst = 0;
   for (int i = 0; i < plate.points(); ++i) {
     const auto exact = exactStrain(plate, u, small, i);

@@ -44,7 +44,7 @@ Vector field(const TriangleMesh& mesh, F u) {
 inline Matrix strainOf(const Body& plate, const Vector& u) {
   Matrix strain;
   strain.resize(3, plate.points());
-  plate.strain(u, Vector::Zero(u.size()), nullptr, strain, 0, plate.points());
+  plate.strain({u, Vector::Zero(u.size())}, nullptr, strain, 0, plate.points());
   return strain;
 }
 

@@ -335,7 +335,8 @@ TEST_F(Output, summaryHasItsKeys) {
     EXPECT_TRUE(json["final"].contains(key)) << key;
   }
   EXPECT_EQ(json["accuracy"]["bodies"].size(), 2);
-  for (const char* key : {"force_balance", "material_residual", "gap_on_active", "complementarity"}) {
+  for (const char* key : {"force_balance", "material_residual", "gap_on_active", "open_penetration", "sign",
+                          "complementarity", "rounding"}) {
     EXPECT_TRUE(json["verification"].contains(key)) << key;
   }
   EXPECT_EQ(json["final"]["displacement_max"][1], 1.0);
