@@ -38,8 +38,9 @@ Measured hertz(double force, Plane plane, double block = blockYoung) {
 /// The flat side of the disc is moved down. \returns pressure and width over those of Hertz for the same force.
 Measured solveHertz(int cells, CouplingKind coupling, bool discNonmortar, Plane plane = Plane::stress,
                     double young = blockYoung) {
-  const auto material = [&](double young) {
-    return plane == Plane::strain ? planeStrainElasticMaterial({young, nu}) : elasticMaterial({young, nu});
+  const auto material = [&](double stiffness) {
+    return plane == Plane::strain ? planeStrainElasticMaterial({stiffness, nu})
+                                  : elasticMaterial({stiffness, nu});
   };
   constexpr int arc = 1;
   constexpr int flat = 2;
