@@ -72,7 +72,7 @@ class Script(support.OfTwoBlocks):
         edges, triangles = edges.split("Triangles")
         edges = edges.replace(" 2\n", " 1\n")  # label 1 below and on the right
         self.write(head + "Edges\n" + edges + "Triangles" + triangles, "upper.mesh")
-        self.reject(f"scene.toml:20: contact: a closed line, or one with corners, expected an open line without corners {ALL}",
+        self.reject(f"scene.toml:20: contact: a closed line, or one with corners, expected open lines without corners {ALL}",
                     "freefem", "scene.toml")
 
     def test_no_interface(self):
