@@ -76,8 +76,11 @@ class Sweep:
         environment = {**os.environ, **{key: str(value) for key, value in faults.items()},
                        "ASAN_OPTIONS": "verify_asan_link_order=0:detect_leaks=0"}
         environment["LD_PRELOAD"] = self.calls
-        return subprocess.run([self.program, *command], cwd=folder, env=environment, capture_output=True, text=True,
-                              errors="replace", timeout=120)
+        try:
+            return subprocess.run([self.program, *command], cwd=folder, env=environment, capture_output=True, text=True,
+                                  errors="replace", timeout=120)
+        except subprocess.TimeoutExpired:
+            return subprocess.CompletedProcess(command, 124, "", "does not end")
 
     def count(self, folder, command):
         return int(self.run(folder, command, FAULT_COUNT=2).stderr.split()[-1])
@@ -112,7 +115,8 @@ class Sweep:
         faults += [f"after the next command: {each}" for each in
                    [*self.lost(folder), *self.not_whole(folder / "out/r"), *self.not_new(folder), *self.left(folder)]]
         if faults:
-            self.findings.append((place, f"{done.returncode} {done.stderr.strip()}", faults))
+            self.findings.append(f"{place}: {done.returncode} {done.stderr.strip()}\n  " + "\n  ".join(faults))
+            print(self.findings[-1], flush=True)
 
     @staticmethod
     def ended(done):
@@ -181,8 +185,6 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         sweep = Sweep(folder, given.mortier, given.calls)
         tried = sweep.explore(part, of)
-    for place, done, faults in sweep.findings:
-        print(f"{place}: {done}\n  " + "\n  ".join(faults))
     print(f"{tried} faults, {len(sweep.findings)} findings")
     return 1 if sweep.findings else 0
 
