@@ -139,7 +139,8 @@ ContactSolution solveContact(const ContactProblem& problem, const Vector& fullSl
       if (solution.outcome != ContactSolution::Outcome::cycled) break;
     }
   }
-  solution.rigid += moved;
+  // The motion along which bodies leave is told without it.
+  if (solution.outcome != ContactSolution::Outcome::unbalanced) solution.rigid += moved;
   solution.idle = idles;
   solution.dependent = dependent;
   solution.work = work.done / work.factorisation;
