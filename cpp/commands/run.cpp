@@ -22,7 +22,7 @@
 #include "report/result_files.h"
 #include "report/summary.h"
 #include "scene/build.h"
-#include "scene/load_breaks.h"
+#include "scene/load_courses.h"
 #include "scene/sides.h"
 #include "scene/versions.h"
 #include "time/initial_balance.h"
@@ -195,7 +195,14 @@ int run(RunCommand command) {
     requireSame(stopped->checkpoint.identity, identity, stopped->folder);
     requireFits(stopped->checkpoint, model, stopped->folder);
   }
-  if (scene.time.tolerance > 0) scene.time.breaks = loadBreaks(scene, model);
+  if (scene.time.tolerance > 0) {
+    LoadCourses loads = loadCourses(scene, model);
+    scene.time.breaks = std::move(loads.breaks);
+    scene.time.data = std::move(loads.data);
+    scene.time.interrupted = [] { return interrupted != 0; };
+  } else {
+    for (const std::string& warning : loadsBetweenSteps(scene, model)) warn(warning);
+  }
 
   // 2. Where the result goes, and what is reported.
   const std::string path = command.out.empty() ? defaultFolder(command.scene) : command.out;
@@ -263,6 +270,7 @@ int run(RunCommand command) {
   log.print(logVerification(report.worst));
   log.print(logSpecial(report.special));
   log.print(logAccuracy(model, accuracy));
+  log.print(logTimeError(facts, report));
   if (!complete) {
     complain(scene.path + ": " + report.reason + "; the state after step " + std::to_string(last.step) +
              " is in " + where);

@@ -66,8 +66,14 @@ void requireFits(const Checkpoint& checkpoint, const Model& model, const std::st
   };
   require(isPerBody(memory.solver.libraries) && isPerBody(memory.solver.elasticFactors), "solver memory");
   require(isTime(memory.begin) && isTime(memory.timeStep) && isTime(memory.controller.timeStep) &&
-              isTime(memory.controller.stress) && isTime(memory.controller.displacement),
+              isTime(memory.controller.local),
           "step length");
+  const std::vector<Matrix>& strain = memory.controller.strain;
+  require(strain.empty() || std::equal(strain.begin(), strain.end(), begin.bodies.begin(), begin.bodies.end(),
+                                       [](const Matrix& a, const BodyState& b) {
+                                         return a.rows() == b.stress.rows() && a.cols() == b.stress.cols();
+                                       }),
+          "error in time");
   require(isStatus(last.status) && isStatus(memory.run.status), "status");
 }
 

@@ -49,9 +49,9 @@ void visitMembers(Archive& archive, StepReport& report) {
 template <class Archive>
 void visitMembers(Archive& archive, RunReport& report) {
   auto& [status, reason, steps, iterations, maxIterationsInAStep, factorisations, pilotIterations, rejected,
-         guarded, solveSeconds, special, worst, rungs] = report;
+         timeError, guarded, solveSeconds, special, worst, rungs] = report;
   archive(status, reason, steps, iterations, maxIterationsInAStep, factorisations, pilotIterations, rejected,
-          guarded, solveSeconds, special, worst, rungs);
+          timeError, guarded, solveSeconds, special, worst, rungs);
 }
 template <class Archive>
 void visitMembers(Archive& archive, BodyState& body) {
@@ -69,9 +69,14 @@ void visitMembers(Archive& archive, BodyIncrement& increment) {
   archive(displacement.high, displacement.low, stress);
 }
 template <class Archive>
+void visitMembers(Archive& archive, ErrorNorms& norms) {
+  auto& [stress, displacement] = norms;
+  archive(stress, displacement);
+}
+template <class Archive>
 void visitMembers(Archive& archive, ControllerMemory& controller) {
-  auto& [timeStep, stress, displacement] = controller;
-  archive(timeStep, stress, displacement);
+  auto& [timeStep, scale, largest, local, strain, error, worst] = controller;
+  archive(timeStep, scale, largest, local, strain, error, worst);
 }
 template <class Archive>
 void visitMembers(Archive& archive, SolverMemory& solver) {

@@ -104,6 +104,14 @@ std::string logAccuracy(const Model& model, const Accuracy& accuracy) {
   return text + "\n";
 }
 
+std::string logTimeError(const RunFacts& facts, const RunReport& report) {
+  if (!(facts.tolerance > 0)) return "";
+  return format(
+      "accuracy   estimated error in time of displacement and stress, worst step: %.2g (tolerance %.2g%s)\n",
+      report.timeError, facts.tolerance,
+      report.timeError > facts.tolerance ? ", which could not be met" : "");
+}
+
 std::string logSpecial(const SpecialConditions& special) {
   if (special.idle == 0 && special.dependent == 0) return "";
   std::string text = "conditions ";

@@ -18,6 +18,8 @@ std::string logRow(const StepReport& report);
 std::string logStatus(const RunReport& report, const std::string& folder);
 /// How well the equations hold in the worst step.
 std::string logVerification(const Certificate& worst);
+/// How far the steps of a run in which they are chosen are from the exact ones, and whether the tolerance is met.
+std::string logTimeError(const RunFacts& facts, const RunReport& report);
 /// How far the stress of the last step is from the exact one, by its own estimate.
 std::string logAccuracy(const Model& model, const Accuracy& accuracy);
 /// A line where contact conditions have no force of their own, otherwise nothing.

@@ -155,6 +155,7 @@ FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const 
                           {"complementarity", report.worst.complementarity},
                           {"rounding", report.worst.rounding}};
   json["accuracy"] = jsonOf(model, accuracy);
+  if (facts.tolerance > 0) json["accuracy"]["time"] = report.timeError;
   json["peak_memory_mib"] = peakMemory();
   json["wall_time_s"] = processSeconds();
   json["versions"] = Json::object();

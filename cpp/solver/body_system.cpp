@@ -158,6 +158,7 @@ void BodySystem::choosePenalty(const Matrix& stress) {
 
 std::string BodySystem::factorise() {
   refactorised_ = false;
+  factorisedElastic_ = law_.elastic;
   const bool elastic = law_.elastic == body_.points();
   if (reduce_ && factorised_ && elastic && elasticFactors_) return {};
   refactorised_ = !(std::exchange(counted_, false) && elastic);

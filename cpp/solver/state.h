@@ -61,7 +61,7 @@ struct StepReport {
   std::string rung = "newton";  ///< what it took: newton, continuation, interior-point, path, damping, cut
   bool guarded = false;         ///< done again as two half steps of backward Euler
   int rejections = 0;           ///< attempts that were not good enough or could not be solved
-  double estimate = 0;          ///< of the local error, relative; 0 with equal steps
+  double estimate = 0;          ///< of the error in time so far, relative; 0 with equal steps
   int iterations = 0;           ///< linear solves with a new tangent
   int factorisations = 0;       ///< matrices factorised, all bodies
   int active = 0;               ///< active contact nodes, and how many joined and left in this step

@@ -17,6 +17,7 @@ struct RunReport {
   int factorisations = 0;
   int pilotIterations = 0;           ///< part of `iterations` that went into scales of the error
   int rejected = 0;                  ///< attempts
+  double timeError = 0;              ///< estimate of the largest error in time of any step, relative
   int guarded = 0;                   ///< steps done again as two half steps of backward Euler
   double solveSeconds = 0;           ///< wall time of the march without its observer
   SpecialConditions special;         ///< of contact
