@@ -123,6 +123,7 @@ RunReport march(const Model& model, State& state, MarchMemory& memory, const Tim
     if (report.status != Status::converged) break;
     compareActive(before, taker->active(), report);
     measure(model, state, report);
+    raise(run.peaks, report);
     observer(state, report);
   }
   return run;
