@@ -38,15 +38,4 @@ double balanceInitialStress(const Model& model, State& state, const SolverOption
   return largest > 0 ? change / largest : 0;
 }
 
-double initialPenetration(const Model& model, const State& state) {
-  double deepest = 0;
-  double size = 0;
-  for (const Body& body : model.bodies) size = std::max(size, extent(body.mesh()));
-  for (const ContactInterface& interface : model.interfaces)
-    deepest =
-        std::max(deepest, interface.deepestOverlap(state.bodies[interface.pair().nonmortar.body].displacement,
-                                                   state.bodies[interface.pair().mortar.body].displacement));
-  return deepest / size;
-}
-
 }  // namespace mortier

@@ -16,8 +16,4 @@ StepOutcome settle(const Model& model, State& state, const SolverOptions& option
 /// \throws InputError when there is no such state, UnheldBodyError where contact cannot hold a body.
 double balanceInitialStress(const Model& model, State& state, const SolverOptions& options);
 
-/// The largest depth to which bodies overlap, over their extent: u0 of the state is not in K where it is
-/// above rounding.
-double initialPenetration(const Model& model, const State& state);
-
 }  // namespace mortier

@@ -92,6 +92,7 @@ void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& p
     if (report.status != Status::converged) break;
     compareActive(before, taker.active(), report);
     measure(model, state, report);
+    raise(run.peaks, report);
     observer(state, report);
   }
 }
