@@ -174,7 +174,6 @@ int run(RunCommand command) {
     LoadCourses loads = loadCourses(scene, model);
     scene.time.breaks = std::move(loads.breaks);
     scene.time.data = std::move(loads.data);
-    scene.time.interrupted = [] { return interrupted != 0; };
   } else {
     for (const std::string& warning : loadsBetweenSteps(scene, model)) warn(warning);
   }

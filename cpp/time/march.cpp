@@ -141,23 +141,15 @@ RunReport trials(const Model& model, State& state, MarchMemory& memory, const Ti
     controller.pilot(taker, state);
     memory.run.solveSeconds += secondsSince(begin);
   }
-  const auto interrupted = [&] { return plan.interrupted && plan.interrupted(); };
   bool done = false;
-  for (int trial = 1; !done && !interrupted(); ++trial) {
+  for (int trial = 1; !done; ++trial) {
     Recording recording;
     state = before;
     controller.begin(state);
     recording.add(state, memory, {});
-    struct Interruption {};
-    try {
-      StepTaker taker(model, state, memory, plan.scheme, options);
-      go(model, state, memory, plan, taker, controller, [&](const State& now, const StepReport& report) {
-        recording.add(now, memory, report);
-        if (interrupted()) throw Interruption();
-      });
-    } catch (const Interruption&) {
-      break;
-    }
+    StepTaker taker(model, state, memory, plan.scheme, options);
+    go(model, state, memory, plan, taker, controller,
+       [&](const State& now, const StepReport& report) { recording.add(now, memory, report); });
     // What cannot be solved, or met, is shown as it is.
     done = controller.adapt() || memory.run.status != Status::converged || trial == most;
     if (!done || !recording.complete()) continue;

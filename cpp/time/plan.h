@@ -1,7 +1,6 @@
 // When a march makes its steps.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "time/breaks.h"
@@ -19,8 +18,6 @@ struct TimePlan {
   std::vector<double> breaks = {};
   /// Data in time: no step chosen by its error jumps over a part of one.
   std::vector<Course> data = {};
-  /// Whether the run is to be interrupted: it then comes to its observer soon.
-  std::function<bool()> interrupted = {};
 };
 
 }  // namespace mortier

@@ -78,7 +78,9 @@ TEST(ErrorControl, theErrorOfTheNotesTestFollowsTheTolerance) {
     EXPECT_GT(result.run.timeError, 0.9 * error);
     EXPECT_LT(result.spread, 1e-9);
     EXPECT_LE(result.run.iterations, bound.solves);
-    if (bound.tolerance == 1e-4) EXPECT_LE(result.run.steps, 11);
+    if (bound.tolerance == 1e-4) {
+      EXPECT_LE(result.run.steps, 11);
+    }
   }
 }
 
