@@ -61,21 +61,25 @@ class BreakFinder {
     search(a + (0.5 - overlap) * (b - a), b);
   }
 
-  /// Whether the cubic through every other of seven points meets those between.
+  /// Whether the cubic through every other of seven points meets those between. They are samples then, or where no interval is narrower.
   [[nodiscard]] bool smooth(double a, double b) {
     constexpr double close = 1e-4;      // of the variation
     constexpr double rounding = 1e-13;  // of the values
     std::array<double, 7> f{};
+    std::array<double, 7> t{};
     for (int i = 0; i < 7; ++i) {
-      const double t = a + (b - a) * i / 6;
-      f[i] = course_.value(t);
-      if (std::isfinite(f[i])) samples_.emplace_back(t, f[i]);
+      t[i] = a + (b - a) * i / 6;
+      f[i] = course_.value(t[i]);
     }
     const double error = std::max({std::abs(f[1] - (5 * f[0] + 15 * f[2] - 5 * f[4] + f[6]) / 16),
                                    std::abs(f[3] - (-f[0] + 9 * f[2] + 9 * f[4] - f[6]) / 16),
                                    std::abs(f[5] - (f[0] - 5 * f[2] + 15 * f[4] + 5 * f[6]) / 16)});
     const auto [least, largest] = std::minmax_element(f.begin(), f.end());
-    return !(error > close * (*largest - *least) && error > rounding * size_);
+    const bool isSmooth = !(error > close * (*largest - *least) && error > rounding * size_);
+    if (isSmooth || b - a <= narrow * (end_ - begin_))
+      for (int i = 0; i < 7; ++i)
+        if (std::isfinite(f[i])) samples_.emplace_back(t[i], f[i]);
+    return isSmooth;
   }
 
   void locate(double a, double b) {
