@@ -87,7 +87,8 @@ std::vector<Matrix> StepTaker::throughStages(const std::vector<std::vector<Matri
     std::vector<Matrix> shift = strains[i];
     for (size_t j = 0; j < stage.before.size(); ++j)
       for (size_t b = 0; b < shift.size(); ++b) shift[b] += stage.before[j] * flows[j][b];
-    error = flowOf(shift, response(shift));
+    reached_ = response(shift);
+    error = flowOf(shift, reached_);
     if (i + 1 == tableau_.stages.size()) break;
     std::vector<Matrix> flow = error;
     for (size_t b = 0; b < flow.size(); ++b) {

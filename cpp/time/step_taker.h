@@ -26,6 +26,8 @@ class StepTaker {
   /// Error of the viscoplastic strain (exact less computed, per body) that the last attempt makes on its way from the
   /// state (step_error.cpp).
   std::vector<Matrix> localError();
+  /// Displacement and stress of it at the end of the attempt, the overstress included that later steps forget.
+  [[nodiscard]] const std::vector<Response>& errorAtEnd() const { return reached_; }
   /// What an error of the viscoplastic strain at the start of the attempt has become at its end.
   std::vector<Matrix> carried(const std::vector<Matrix>& strain);
   /// What displacement and stress make of an error of the viscoplastic strain at the end of the attempt.
@@ -73,6 +75,7 @@ class StepTaker {
   std::vector<Iterate> solutions_;          ///< by stage
   std::vector<std::vector<Matrix>> rates_;  ///< G by stage and body
   std::vector<Matrix> shift_;               ///< of the last stage
+  std::vector<Response> reached_;           ///< of the error last taken through the stages
   double t1_ = 0;
   bool guarded_ = false;
   ActiveSets active_;
