@@ -23,6 +23,7 @@
 #include "report/summary.h"
 #include "scene/build.h"
 #include "scene/load_breaks.h"
+#include "scene/memory_need.h"
 #include "scene/sides.h"
 #include "scene/versions.h"
 #include "time/initial_balance.h"
@@ -219,6 +220,7 @@ int run(RunCommand command) {
   Checkpoints checkpoints(folder->temporary(), command.checkpoint, std::move(identity));
   const RunFacts facts = factsOf(command, scene);
   Log log(command.quiet, scene.time.end);
+  log.print("memory     " + aboutMemory(memoryNeed(model)) + "\n");
   log.print(logHeader(facts, model));
 
   // 3. The march in time. A failure leaves the last good step in `state`, an interruption in what is kept here.
