@@ -140,7 +140,7 @@ std::string inChildProcess(const std::function<std::string()>& work, const std::
   }
   if (WIFSIGNALED(status)) throw InputError(subject + " crashed on it (" + strsignal(WTERMSIG(status)) + ")");
   if (answer.empty() || WEXITSTATUS(status) != 0) throw InputError(subject + " gave up on it");
-  const std::string bytes = answer.substr(1);
+  std::string bytes = answer.substr(1);
   if (answer.front() == isMemory) throw std::bad_alloc();
   if (answer.front() == isError) throw InputError(bytes.front() == ':' ? subject + bytes : bytes);
   return bytes;

@@ -13,6 +13,7 @@
 #include "commands/stopped_run.h"
 #include "commands/version.h"
 #include "linear/versions.h"
+#include "plan/estimate_doubts.h"
 #include "report/accuracy.h"
 #include "report/checkpoint.h"
 #include "report/checkpoint_files.h"
@@ -22,11 +23,11 @@
 #include "report/result_files.h"
 #include "report/summary.h"
 #include "scene/build.h"
-#include "scene/load_breaks.h"
+#include "scene/load_courses.h"
 #include "scene/memory_need.h"
+#include "scene/settle.h"
 #include "scene/sides.h"
 #include "scene/versions.h"
-#include "time/initial_balance.h"
 
 namespace mortier {
 
@@ -112,32 +113,6 @@ void warnOfRinging(const SceneDescription& scene, const Model& model) {
        "); sdirk2 is of second order too and does not");
 }
 
-/// Initial stresses are brought into equilibrium; what the data lack at t = 0 is told.
-void checkInitialState(const SceneDescription& scene, const Model& model, State& state) {
-  constexpr double noticeable = 1e-6;
-  const auto told = [](double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.2g", value);
-    return std::string(text);
-  };
-  if (const double depth = initialPenetration(model, state); depth > noticeable)
-    warn(scene.path + ": the bodies overlap at t = 0, by up to " + told(depth) +
-         " of their size; contact parts them in the first step");
-  const auto stressed = [](const Body& body) { return body.hasInitialStress(); };
-  if (std::none_of(model.bodies.begin(), model.bodies.end(), stressed)) return;
-  double change = 0;
-  try {
-    change = balanceInitialStress(model, state, scene.solver);
-  } catch (const InputError& error) {
-    throw InputError(scene.path + ": " + error.what());
-  }
-  if (change > noticeable)
-    warn(scene.path +
-         ": the initial stress is not in equilibrium with the loads at t = 0; the bodies settled "
-         "elastically, which changed it by up to " +
-         told(change) + " of the largest stress");
-}
-
 /// Writes checkpoints at intervals of wall time, and never so often that a tenth of the time goes into them.
 class Checkpoints {
  public:
@@ -151,9 +126,10 @@ class Checkpoints {
     constexpr double rarely = 10;
     return processSeconds() - last_ >= (interval_ > 0 ? std::max(interval_, rarely * cost_) : 0);
   }
-  void write(ResultFiles& files, const StepReport& last, const State& state, const MarchMemory& memory) {
+  void write(ResultFiles& files, const StepReport& last, const State& state, const MarchMemory& memory,
+             const AccuracyMemory& accuracy) {
     const double begin = processSeconds();
-    writeCheckpoint(folder_, {identity_, files.sync(), last, state, memory});
+    writeCheckpoint(folder_, {identity_, files.sync(), last, state, memory, accuracy});
     last_ = processSeconds();
     cost_ = last_ - begin;
   }
@@ -186,9 +162,8 @@ int run(RunCommand command) {
   std::vector<std::string> warnings;
   const Model model = buildModel(scene, warnings);
   decideSides(scene, meshesOf(model));
-  for (const std::string& warning : warnings) {
-    warn(warning);
-  }
+  for (auto warning = warnings.begin(); warning != warnings.end(); ++warning)  // of several components once
+    if (std::find(warnings.begin(), warning, *warning) == warning) warn(*warning);
 
   warnOfRinging(scene, model);
   addMeshes(model, identity);
@@ -196,7 +171,13 @@ int run(RunCommand command) {
     requireSame(stopped->checkpoint.identity, identity, stopped->folder);
     requireFits(stopped->checkpoint, model, stopped->folder);
   }
-  if (scene.time.tolerance > 0) scene.time.breaks = loadBreaks(scene, model);
+  if (scene.time.tolerance > 0) {
+    LoadCourses loads = loadCourses(scene, model);
+    scene.time.breaks = std::move(loads.breaks);
+    scene.time.data = std::move(loads.data);
+  } else {
+    for (const std::string& warning : loadsBetweenSteps(scene, model)) warn(warning);
+  }
 
   // 2. Where the result goes, and what is reported.
   const std::string path = command.out.empty() ? defaultFolder(command.scene) : command.out;
@@ -204,8 +185,11 @@ int run(RunCommand command) {
   std::optional<ResultFiles> files;
   StepReport last;
   State state = initialState(model);
-  if (!stopped) checkInitialState(scene, model, state);
+  if (!stopped)
+    if (const std::string doubt = settle(scene, model, state); !doubt.empty())
+      warn(scene.path + ": " + doubt);
   MarchMemory memory;
+  AccuracyMemory accuracySoFar;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, onInterrupt);
   if (stopped) {
     folder.emplace(path, stopped->folder, std::move(stopped->lock));
@@ -213,12 +197,15 @@ int run(RunCommand command) {
     last = stopped->checkpoint.last;
     state = std::move(stopped->checkpoint.state);
     memory = std::move(stopped->checkpoint.memory);
+    accuracySoFar = stopped->checkpoint.accuracy;
   } else {
     folder.emplace(path);
     files.emplace(folder->temporary(), model, scene.every);
   }
   Checkpoints checkpoints(folder->temporary(), command.checkpoint, std::move(identity));
-  const RunFacts facts = factsOf(command, scene);
+  RunFacts facts = factsOf(command, scene);
+  facts.doubts = estimateDoubts(scene, model);
+  AccuracyRecord accuracies(model, accuracySoFar);
   Log log(command.quiet, scene.time.end);
   log.print("memory     " + aboutMemory(memoryNeed(model)) + "\n");
   log.print(logHeader(facts, model));
@@ -228,10 +215,11 @@ int run(RunCommand command) {
   MarchMemory keptMemory = memory;
   const Observer observe = [&](const State&, const StepReport& report) {
     files->add(state, report);
+    accuracies.add(state, report, scene.every > 0 && report.step % scene.every == 0);
     if (report.step > 0) log.step(report);
     last = report;
     if (report.step > 0 && state.time < scene.time.end && checkpoints.due()) {
-      checkpoints.write(*files, last, state, memory);
+      checkpoints.write(*files, last, state, memory, accuracySoFar);
     }
     keptState = state;
     keptMemory = memory;
@@ -245,7 +233,7 @@ int run(RunCommand command) {
     throw OutputError(error.what() + ("; mortier run --restart " + path + " goes on"));
   } catch (const Interrupted&) {
     log.finish();
-    if (last.step > 0) checkpoints.write(*files, last, keptState, keptMemory);
+    if (last.step > 0) checkpoints.write(*files, last, keptState, keptMemory, accuracySoFar);
     throw InterruptedError(
         scene.path + ": interrupted after step " + std::to_string(last.step) +
         (last.step == 0 ? "; nothing was written" : "; mortier run --restart " + path + " goes on"));
@@ -255,7 +243,7 @@ int run(RunCommand command) {
   // 4. The result, in place of an older one only when the run is complete.
   const bool complete = report.status == Status::converged;
   Manifest manifest{!complete, files->close(state, last.step)};
-  const Accuracy accuracy = accuracyOf(model, state);
+  const Accuracy accuracy = accuracies.atEnd(state, report.peaks);
   manifest.files["summary.json"] =
       writeSummary(folder->temporary(), facts, model, state, last, report, accuracy);
   const std::string where = folder->commit(manifest);
@@ -264,7 +252,9 @@ int run(RunCommand command) {
   log.print(logStatus(report, where));
   log.print(logVerification(report.worst));
   log.print(logSpecial(report.special));
-  log.print(logAccuracy(model, accuracy));
+  log.print(logAccuracy(facts, model, accuracy));
+  log.print(logTimeError(facts, report));
+  log.print(logPeaks(report.peaks, last));
   if (!complete) {
     complain(scene.path + ": " + report.reason + "; the state after step " + std::to_string(last.step) +
              " is in " + where);

@@ -4,6 +4,12 @@
 #include <cmath>
 
 namespace mortier {
+namespace {
+
+/// A distance that is off its chord by less than this part of the length is linear.
+constexpr double straight = 1e-12;
+
+}  // namespace
 
 void PenetrationIntegral::add(const SmoothPart& part, const FacingLine& mortar, const DistanceAt& distance) {
   for (const Segment& segment : commonRefinement(part.s, mortar.s)) {
@@ -18,7 +24,17 @@ void PenetrationIntegral::add(const SmoothPart& part, const FacingLine& mortar, 
                    sight.normal,
                    distance(i, s, sight)};
     };
-    stretches_.push_back({place(segment.begin), place(segment.end), segment.end - segment.begin});
+    // Between its ends the distance of two curves is not linear: the chord of a curve hides what is below it.
+    const double length = segment.end - segment.begin;
+    const Place begin = place(segment.begin);
+    const Place middle = place(segment.begin + length / 2);
+    const Place end = place(segment.end);
+    if (std::abs(middle.distance - (begin.distance + end.distance) / 2) <= straight * length) {
+      stretches_.push_back({begin, end, length});
+    } else {
+      stretches_.push_back({begin, middle, length / 2});
+      stretches_.push_back({middle, end, length / 2});
+    }
   }
 }
 

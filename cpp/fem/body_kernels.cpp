@@ -43,12 +43,16 @@ void Body::strain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, i
   if (strain.rows() > 3 && shift != nullptr)
     strain.bottomRows(strain.rows() - 3).middleCols(begin, end - begin) =
         -shift->bottomRows(strain.rows() - 3).middleCols(begin, end - begin);
+  const double* high = u.high.data();
+  const double* low = u.low.data();
   for (int first = begin; first < end; first += laneCount) {
     // The second and the third node, x and y, and the first, by lanes.
     double u1[4][laneCount];
     double u0[4][laneCount];
     double smallChange[4][laneCount];
     double G[4][laneCount];
+    double taken[3][laneCount] =
+        {};  // the shift; no branch in the loop over lanes, or it is not made of vectors
     const int count = std::min(laneCount, end - first);
     for (int lane = 0; lane < laneCount; ++lane) {
       const int i = first + std::min(lane, count - 1);
@@ -56,11 +60,12 @@ void Body::strain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, i
       for (int k = 0; k < 4; ++k) {
         const int dof = 2 * triangle[1 + k / 2] + k % 2;
         const int dof0 = 2 * triangle[0] + k % 2;
-        u1[k][lane] = u.high[dof];
-        u0[k][lane] = u.high[dof0];
-        smallChange[k][lane] = u.low[dof] - u.low[dof0];
+        u1[k][lane] = high[dof];
+        u0[k][lane] = high[dof0];
+        smallChange[k][lane] = low[dof] - low[dof0];
         G[k][lane] = gradients_[static_cast<size_t>(4) * i + k];
       }
+      for (int c = 0; c < 3 && shift != nullptr; ++c) taken[c][lane] = (*shift)(c, i);
     }
     double result[3][laneCount];
     for (int lane = 0; lane < laneCount; ++lane) {
@@ -86,11 +91,9 @@ void Body::strain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, i
       DoubleDouble q = xx;
       p += yy;
       q += DoubleDouble{-yy.high, -yy.low};
-      if (shift != nullptr && lane < count) {
-        p += {-(*shift)(0, first + lane), 0};
-        q += {-(*shift)(1, first + lane), 0};
-        xy += {-(*shift)(2, first + lane), 0};
-      }
+      p += DoubleDouble{-taken[0][lane], 0};
+      q += DoubleDouble{-taken[1][lane], 0};
+      xy += DoubleDouble{-taken[2][lane], 0};
       result[0][lane] = p.value();
       result[1][lane] = q.value();
       result[2][lane] = xy.value();

@@ -38,15 +38,18 @@ struct Meeting {
   int where = -1;    ///< one of them
 };
 
+/// \param meant  depth of an interference of the two, no more than which is no fault [m].
 Meeting meet(const TriangleMesh& a, const Topology& boundaryOfA, const TriangleMesh& b,
-             const Topology& boundaryOfB) {
+             const Topology& boundaryOfB, double meant) {
   constexpr double touching = 1e-6;  // of the extent
   constexpr double deep = 0.25;      // of the edges: curved sides that touch overlap by less
   Meeting result;
   const auto [lower, upper] = boundingBox(b);
   const SegmentGrid grid = boundaryGrid(b, boundaryOfB);
   const double edge = meanEdge(b, boundaryOfB);
-  const Point margin = Point::Constant(deep * edge);
+  constexpr double polygons = 1.5;  // what is seen at other vertices than those of the contact may be deeper
+  const double depth = std::max(deep * edge, polygons * meant);
+  const Point margin = Point::Constant(depth);
   for (const BoundaryEdge& each : boundaryOfA.boundary) {
     const Point& p = a.vertices[each.from];
     if ((p.array() < (lower - margin).array()).any() || (p.array() > (upper + margin).array()).any())
@@ -57,7 +60,7 @@ Meeting meet(const TriangleMesh& a, const Topology& boundaryOfA, const TriangleM
     if (distance <= touching * extent(b)) {
       ++result.touching;
       result.where = each.from;
-    } else if (result.inside < 0 && distance > deep * edge && inside(p, b, boundaryOfB)) {
+    } else if (result.inside < 0 && distance > depth && inside(p, b, boundaryOfB)) {
       result.inside = each.from;
     }
   }
@@ -85,8 +88,14 @@ void comparePair(const LintInput& input, size_t i, size_t j, Faults& faults) {
     return;
   }
   if (input.topologies[i].boundary.empty() || input.topologies[j].boundary.empty()) return;
-  const Meeting m1 = meet(a, input.topologies[i], b, input.topologies[j]);
-  const Meeting m2 = meet(b, input.topologies[j], a, input.topologies[i]);
+  double meant = 0;
+  for (size_t k = 0; k < input.interference.size(); ++k)
+    if (const ContactDescription& c = input.scene.contacts[k];
+        (c.nonmortar.body == one.name && c.mortar.body == two.name) ||
+        (c.nonmortar.body == two.name && c.mortar.body == one.name))
+      meant = std::max(meant, input.interference[k]);
+  const Meeting m1 = meet(a, input.topologies[i], b, input.topologies[j], meant);
+  const Meeting m2 = meet(b, input.topologies[j], a, input.topologies[i], meant);
   if (m1.inside >= 0 || m2.inside >= 0) {
     const TriangleMesh& mesh = m1.inside >= 0 ? a : b;
     const int v = m1.inside >= 0 ? m1.inside : m2.inside;

@@ -6,6 +6,7 @@
 #include "lint/held_dofs.h"
 #include "lint/lint.h"
 #include "mesh/boundary_line.h"
+#include "plan/estimate_doubts.h"
 #include "scene/build_contact.h"
 #include "scene/memory_need.h"
 
@@ -198,18 +199,6 @@ void checkConditions(const LintInput& input, const ContactDescription& contact,
   }
 }
 
-/// Whether every nonmortar node lies on a mortar node.
-bool matching(const ContactInterface& interface) {
-  std::vector<int> vertex(interface.rows(), -1);
-  for (int dof = 0; dof < interface.C2().outerSize(); ++dof)
-    for (ConstraintRows::InnerIterator entry(interface.C2(), dof); entry; ++entry) {
-      int& seen = vertex[entry.row()];
-      if (seen >= 0 && seen != dof / 2) return false;
-      seen = dof / 2;
-    }
-  return true;
-}
-
 void checkInterface(const ContactDescription& contact, const Side& one, const Side& two,
                     const ContactInterface& interface, double smallerExtent, Faults& faults) {
   constexpr double tiny = 0.25;
@@ -226,7 +215,7 @@ void checkInterface(const ContactDescription& contact, const Side& one, const Si
     faults.add("gap-large", contact.where,
                "the bodies are at least " + shortest(gap) + " m apart, the smaller one is " +
                    shortest(smallerExtent) + " m wide");
-  if (contact.variant == CouplingKind::interpolation && !matching(interface))
+  if (contact.variant == CouplingKind::interpolation && !meshesMatch(interface))
     faults.add("interpolation-unmatched", contact.where,
                "interpolation on meshes that do not match has an error of order one along the contact line");
 }

@@ -16,7 +16,11 @@ const FaultKind& faultKind(const std::string& id) {
 void Faults::add(const std::string& id, const std::string& place, const std::string& message) {
   const FaultKind& kind = faultKind(id);
   if (kind.severity == Severity::warning && allowed_.count(id) != 0) return;
-  faults_.push_back({&kind, place, message});
+  // Said once of what several components of a condition or several bodies of a mesh share.
+  const auto known = [&](const Fault& fault) {
+    return fault.kind == &kind && fault.place == place && fault.message == message;
+  };
+  if (std::none_of(faults_.begin(), faults_.end(), known)) faults_.push_back({&kind, place, message});
 }
 
 int Faults::count(Severity severity) const {

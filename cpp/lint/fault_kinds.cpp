@@ -142,6 +142,8 @@ const std::vector<FaultKind>& faultKinds() {
        "take scheme = \"sdirk2\", which is of second order too"},
       // Loads.
       {"no-load", warning, "nothing loads the scene", "add a traction, a body force or a displacement"},
+      {"initial-stress", warning, "the initial stress is not in equilibrium with the loads at t = 0",
+       "correct it or the loads, unless the bodies are meant to settle"},
       {"large-displacement", warning, "a large displacement is prescribed",
        "check its units; displacements are taken as small here"},
       {"initial-displacement", warning, "a displacement is prescribed at t = 0",

@@ -4,9 +4,11 @@
 #include <deque>
 
 #include "base/fault_error.h"
+#include "contact/interface.h"
 #include "mesh/read.h"
 #include "scene/build.h"
 #include "scene/overrides.h"
+#include "scene/settle.h"
 #include "scene/sides.h"
 #include "solver/step.h"
 
@@ -64,6 +66,26 @@ void numberLabels(SceneDescription& scene, const std::vector<const TriangleMesh*
       number(static_cast<size_t>(bodyIndex(scene, side->body)), side->labelName, side->label);
 }
 
+/// How deep the bodies of a contact overlap, as meshed or as its gap says: what is pressed together is no accident.
+double interferenceOf(const ContactDescription& contact, const LintInput& input) {
+  const auto side = [&](const SideDescription& description) {
+    return ContactSide{bodyIndex(input.scene, description.body), description.label};
+  };
+  const ContactPair pair{side(contact.nonmortar), side(contact.mortar), contact.variant};
+  const TriangleMesh* one = input.meshes[pair.nonmortar.body];
+  const TriangleMesh* two = input.meshes[pair.mortar.body];
+  if (one == nullptr || two == nullptr) return 0;
+  InterfaceOptions options;
+  options.initial = contact.initial;
+  if (contact.gap)
+    options.gap = [value = contact.gap->value](const Point& x) { return value(x.x(), x.y(), 0); };
+  try {
+    return std::max(0.0, -ContactInterface(pair, *one, *two, options).initialDistance().minCoeff());
+  } catch (const InputError&) {
+    return 0;  // named elsewhere
+  }
+}
+
 void runChecks(const LintInput& input, Faults& faults) {
   lintMeshes(input, faults);
   lintLabels(input, faults);
@@ -101,6 +123,9 @@ void build(const SceneDescription& scene, LintReport& report) {
     std::vector<std::string> doubts;  // named above, each with its remedy
     Model model = buildModel(scene, doubts);
     requireHeld(scene, model);
+    State state = initialState(model);
+    if (const std::string doubt = settle(scene, model, state); !doubt.empty())
+      report.faults.add("initial-stress", scene.path, doubt);
     report.model = std::move(model);
   } catch (const InputError& error) {
     addError(error, "data", report.faults);
@@ -158,6 +183,8 @@ LintReport lint(const std::string& path, const std::vector<std::string>& setting
   }
   numberLabels(scene, input.meshes);
   decideSides(scene, input.meshes);
+  for (const ContactDescription& contact : scene.contacts)
+    input.interference.push_back(interferenceOf(contact, input));
   runChecks(input, report.faults);
   if (report.faults.count(Severity::error) == 0) build(scene, report);
   return report;

@@ -19,6 +19,8 @@ namespace mortier {
 struct LintInput : MeshedScene {
   const Node& document;
   std::vector<Topology> topologies;  ///< of the meshes
+  std::vector<double> interference =
+      {};  ///< of each contact: how deep the bodies overlap in it, 0 where they do not [m]
 
   /// The table of a body; nullptr where there is none.
   [[nodiscard]] const Node* bodyNode(size_t body) const;

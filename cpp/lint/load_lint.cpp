@@ -139,9 +139,24 @@ void lintLoads(const LintInput& input, Faults& faults) {
     if (input.meshes[b] != nullptr) checkHeldLoads(input, b, faults);
   }
   if (!complete) return;
+  // What presses or stresses bodies from the start.
+  constexpr double noticeable = 1e-6;
+  for (size_t k = 0; k < input.interference.size(); ++k) {
+    const auto body = static_cast<size_t>(bodyIndex(input.scene, input.scene.contacts[k].nonmortar.body));
+    any = any || input.interference[k] > noticeable * extent(*input.meshes[body]);
+  }
+  for (const BodyDescription& body : input.scene.bodies) {
+    const auto given = [](const StressDescription& stress) {
+      return std::any_of(stress.begin(), stress.end(), [](const auto& part) { return part.has_value(); });
+    };
+    any = any || given(body.initialStress) ||
+          std::any_of(body.regions.begin(), body.regions.end(),
+                      [&](const RegionDescription& region) { return given(region.initialStress); });
+  }
   if (!any) {
-    faults.add("no-load", input.where({"body"}),
-               "no traction, body force or prescribed displacement is other than 0");
+    faults.add(
+        "no-load", input.where({"body"}),
+        "no traction, body force, prescribed displacement, interference or initial stress is other than 0");
     return;
   }
   const bool elastic = std::none_of(input.scene.bodies.begin(), input.scene.bodies.end(), flows);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "base/fault_error.h"
@@ -205,7 +206,19 @@ class Validator {
       if (end - begin > 1)
         failHere(" lies between two triangles, expected an edge of the boundary", "label-inside");
       Side& side = sides_[begin];
-      if (side.labelled) failHere(" is labelled twice, expected once", "label-twice");
+      if (side.labelled) {
+        int other = 0;
+        while (std::minmax(mesh_.boundaryEdges[other][0], mesh_.boundaryEdges[other][1]) !=
+               std::minmax(edge[0], edge[1]))
+          ++other;
+        const Point& a = mesh_.vertices[edge[0]];
+        const Point& b = mesh_.vertices[edge[1]];
+        std::ostringstream text;
+        text << " from (" << a.x() << ", " << a.y() << ") to (" << b.x() << ", " << b.y()
+             << ") is labelled twice, " << mesh_.boundaryLabels[other] << " and " << mesh_.boundaryLabels[e]
+             << ", expected once";
+        failHere(text.str(), "label-twice");
+      }
       side.labelled = true;
       edge = side.rising ? std::array<int, 2>{near, far} : std::array<int, 2>{far, near};
     }

@@ -1,23 +1,50 @@
-// How accurate a state is, by its own estimate (fem/error_estimate.h).
+// How accurate the stresses of a run are, by their own estimate (fem/error_estimate.h).
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "fem/error_estimate.h"
 #include "solver/model.h"
 #include "solver/state.h"
+#include "time/report.h"
 
 namespace mortier {
 
 /// Estimated errors of the stress, relative, in the energy norm [-]. They are those of the meshes; what the steps in
-/// time add is not in them.
+/// time add is not in them. Errors that are nothing but rounding are 0.
 struct Accuracy {
-  double all = 0;
-  std::vector<double> bodies;
-  std::string worstBody;  ///< the body of the triangle with the largest error, and its centre [m]
+  double all = 0;              ///< of the last state, over its own stress
+  std::vector<double> bodies;  ///< the same of each body
+  std::string worstBody;       ///< the body of the triangle with the largest error, and its centre [m]
   Point worst = Point::Zero();
+  double largest = 0;      ///< of any step at which it was estimated, over the largest stress of the run
+  double largestTime = 0;  ///< [s]
+  double time = 0;         ///< of the last state [s]
 };
 
-Accuracy accuracyOf(const Model& model, const State& state);
+/// What a run has estimated so far.
+struct AccuracyMemory {
+  double energy = 0;  ///< elastic energy when it was estimated last [J/m]
+  double error = 0;   ///< largest integral of e : E^-1 e [J/m]
+  double time = 0;    ///< and when [s]
+};
+
+/// Estimates the last state, those that are kept, and on the way those at which the elastic energy has doubled: so a run
+/// that ends unloaded has an estimate of its loaded states too.
+class AccuracyRecord {
+ public:
+  /// \param memory  of an earlier part of the run; kept up to date.
+  AccuracyRecord(const Model& model, AccuracyMemory& memory) : model_(model), memory_(memory) {}
+  void add(const State& state, const StepReport& report, bool kept);
+  Accuracy atEnd(const State& state, const Peaks& peaks);
+
+ private:
+  void prepare();
+
+  const Model& model_;
+  AccuracyMemory& memory_;
+  std::vector<ErrorEstimator> estimators_;  ///< from the first estimate on
+};
 
 }  // namespace mortier

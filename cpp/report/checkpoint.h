@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesh/triangle_mesh.h"
+#include "report/accuracy.h"
 #include "report/result_files.h"
 #include "time/march.h"
 
@@ -28,6 +29,7 @@ struct Checkpoint {
   StepReport last;
   State state;
   MarchMemory memory;
+  AccuracyMemory accuracy;
 };
 
 /// FNV-1a of all that a mesh holds.

@@ -53,7 +53,7 @@ void requireFits(const Checkpoint& checkpoint, const Model& model, const std::st
                        " is not one of this scene, expected a checkpoint that this program wrote");
   };
   const State begin = initialState(model);
-  const auto& [identity, files, last, state, memory] = checkpoint;
+  const auto& [identity, files, last, state, memory, accuracy] = checkpoint;
   require(isTime(state.time) && isTime(last.time) && last.step >= 0 && last.step == memory.run.steps, "time");
   require(oneABody(state.bodies, begin.bodies), "state");
   require(areLike(state.contactForce, begin.contactForce), "contact force");
@@ -66,8 +66,15 @@ void requireFits(const Checkpoint& checkpoint, const Model& model, const std::st
   };
   require(isPerBody(memory.solver.libraries) && isPerBody(memory.solver.elasticFactors), "solver memory");
   require(isTime(memory.begin) && isTime(memory.timeStep) && isTime(memory.controller.timeStep) &&
-              isTime(memory.controller.stress) && isTime(memory.controller.displacement),
+              isTime(memory.controller.local),
           "step length");
+  const std::vector<Matrix>& strain = memory.controller.strain;
+  require(strain.empty() || std::equal(strain.begin(), strain.end(), begin.bodies.begin(), begin.bodies.end(),
+                                       [](const Matrix& a, const BodyState& b) {
+                                         return a.rows() == b.stress.rows() && a.cols() == b.stress.cols();
+                                       }),
+          "error in time");
+  require(isTime(accuracy.energy) && isTime(accuracy.error) && isTime(accuracy.time), "accuracy");
   require(isStatus(last.status) && isStatus(memory.run.status), "status");
 }
 

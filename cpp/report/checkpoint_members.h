@@ -40,18 +40,33 @@ void visitMembers(Archive& archive, SpecialConditions& special) {
 template <class Archive>
 void visitMembers(Archive& archive, StepReport& report) {
   auto& [step, time, timeStep, status, reason, rung, guarded, rejections, estimate, iterations,
-         factorisations, active, joined, left, penetration, maxPressure, contactForce, viscoplasticFraction,
-         certificate] = report;
+         factorisations, active, joined, left, penetration, maxPressure, contactForce, resultantX, resultantY,
+         vonMises, displacement, motion, energy, viscoplasticFraction, certificate] = report;
   archive(step, time, timeStep, status, reason, rung, guarded, rejections, estimate, iterations,
-          factorisations, active, joined, left, penetration, maxPressure, contactForce, viscoplasticFraction,
-          certificate);
+          factorisations, active, joined, left, penetration, maxPressure, contactForce, resultantX,
+          resultantY, vonMises, displacement, motion, energy, viscoplasticFraction, certificate);
+}
+template <class Archive>
+void visitMembers(Archive& archive, Peak& peak) {
+  auto& [value, time] = peak;
+  archive(value, time);
+}
+template <class Archive>
+void visitMembers(Archive& archive, Peaks& peaks) {
+  auto& [vonMises, pressure, contactForce, displacement, motion, energy] = peaks;
+  archive(vonMises, pressure, contactForce, displacement, motion, energy);
+}
+template <class Archive>
+void visitMembers(Archive& archive, AccuracyMemory& accuracy) {
+  auto& [energy, error, time] = accuracy;
+  archive(energy, error, time);
 }
 template <class Archive>
 void visitMembers(Archive& archive, RunReport& report) {
   auto& [status, reason, steps, iterations, maxIterationsInAStep, factorisations, pilotIterations, rejected,
-         guarded, solveSeconds, special, worst, rungs] = report;
+         timeError, guarded, solveSeconds, special, worst, peaks, rungs] = report;
   archive(status, reason, steps, iterations, maxIterationsInAStep, factorisations, pilotIterations, rejected,
-          guarded, solveSeconds, special, worst, rungs);
+          timeError, guarded, solveSeconds, special, worst, peaks, rungs);
 }
 template <class Archive>
 void visitMembers(Archive& archive, BodyState& body) {
@@ -69,9 +84,14 @@ void visitMembers(Archive& archive, BodyIncrement& increment) {
   archive(displacement.high, displacement.low, stress);
 }
 template <class Archive>
+void visitMembers(Archive& archive, ErrorNorms& norms) {
+  auto& [stress, displacement] = norms;
+  archive(stress, displacement);
+}
+template <class Archive>
 void visitMembers(Archive& archive, ControllerMemory& controller) {
-  auto& [timeStep, stress, displacement] = controller;
-  archive(timeStep, stress, displacement);
+  auto& [timeStep, scale, largest, local, strain, error, worst] = controller;
+  archive(timeStep, scale, largest, local, strain, error, worst);
 }
 template <class Archive>
 void visitMembers(Archive& archive, SolverMemory& solver) {
@@ -85,8 +105,8 @@ void visitMembers(Archive& archive, MarchMemory& memory) {
 }
 template <class Archive>
 void visitMembers(Archive& archive, Checkpoint& checkpoint) {
-  auto& [identity, files, last, state, memory] = checkpoint;
-  archive(identity, files, last, state, memory);
+  auto& [identity, files, last, state, memory, accuracy] = checkpoint;
+  archive(identity, files, last, state, memory, accuracy);
 }
 
 }  // namespace mortier

@@ -42,13 +42,18 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
   text += "; plane " + facts.plane + "\n";
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
+    const double least = interface.initialDistance().size() > 0 ? interface.initialDistance().minCoeff() : 0;
+    constexpr double noticeable = 1e-6;
+    const double size = extent(model.bodies[interface.pair().nonmortar.body].mesh());
+    const std::string pressed =
+        least < -noticeable * size ? format("; interference %.3g m", -least) : std::string();
     const std::string chosen = k < facts.choices.size() ? facts.choices[k] : "";
     text +=
-        format("interface  %s, %zu nonmortar (%s) x %zu mortar (%s) nodes, overlap %.3f%s%s%s\n",
+        format("interface  %s, %zu nonmortar (%s) x %zu mortar (%s) nodes, overlap %.3f%s%s%s%s\n",
                facts.variants[k].c_str(), interface.nonmortarNodes().size(),
                model.bodies[interface.pair().nonmortar.body].name().c_str(), interface.mortarNodes().size(),
                model.bodies[interface.pair().mortar.body].name().c_str(), interface.overlap(),
-               chosen.empty() ? "" : "; ", chosen.c_str(), heldEnds(interface).c_str());
+               chosen.empty() ? "" : "; ", chosen.c_str(), heldEnds(interface).c_str(), pressed.c_str());
   }
   return text +
          "  step     time[s]  iter    active(+/-)  |residual|  penetration[m^2]   max p[Pa]  viscoplastic"
@@ -87,21 +92,61 @@ std::string logVerification(const Certificate& w) {
       w.rounding);
 }
 
-std::string logAccuracy(const Model& model, const Accuracy& accuracy) {
-  constexpr double rounding = 1e-12;
+std::string logAccuracy(const RunFacts& facts, const Model& model, const Accuracy& accuracy) {
+  constexpr double coarse = 0.3;
   std::string text = "accuracy   estimated error of the stress, meshes only: ";
-  if (accuracy.all < rounding) return text + "0 to rounding\n";
-  text += format("%.2g %%", 100 * accuracy.all);
-  for (size_t b = 0; b < model.bodies.size(); ++b)
-    text += (b == 0 ? " (" : ", ") + model.bodies[b].name() + format(" %.2g %%", 100 * accuracy.bodies[b]);
-  text += "), largest in " + accuracy.worstBody +
-          format(" at (%.4g, %.4g)", accuracy.worst[0], accuracy.worst[1]);
+  if (accuracy.all == 0) {
+    text += "0 to rounding\n";
+  } else {
+    text += format("%.2g %%", 100 * accuracy.all);
+    for (size_t b = 0; b < model.bodies.size(); ++b)
+      text += (b == 0 ? " (" : ", ") + model.bodies[b].name() + format(" %.2g %%", 100 * accuracy.bodies[b]);
+    text += "), largest in " + accuracy.worstBody +
+            format(" at (%.4g, %.4g)\n", accuracy.worst[0], accuracy.worst[1]);
+  }
   double sagitta = 0;
   for (const ContactInterface& interface : model.interfaces) sagitta = std::max(sagitta, interface.sagitta());
   if (sagitta > 0)
     text +=
-        format("; not in it: contact between polygons that are off their curves by up to %.2g m", sagitta);
-  return text + "\n";
+        format("           not in it: contact between polygons that are off their curves by up to %.2g m\n",
+               sagitta);
+  if (accuracy.largest > 0 && accuracy.largestTime < accuracy.time)
+    text += format("           largest of the run: %.2g %% of its largest stress, at t = %.5g s\n",
+                   100 * accuracy.largest, accuracy.largestTime);
+  if (accuracy.all == 0 && accuracy.largest == 0) return text;
+  for (const std::string& doubt : facts.doubts) text += "           not reliable: " + doubt + "\n";
+  if (std::max(accuracy.all, accuracy.largest) > coarse)
+    text += "           not reliable: above 30 %, on meshes this coarse, it is 0.8 to 2 times the error\n";
+  return text;
+}
+
+std::string logPeaks(const Peaks& peaks, const StepReport& last) {
+  std::string text;
+  const auto add = [&](const char* name, const Peak& peak, double end, const char* unit) {
+    constexpr double same = 1e-9;
+    if (!(peak.value > (1 + same) * end)) return;
+    text += (text.empty() ? "peaks      " : ", ") + std::string(name) +
+            format(" %.5g %s at t = %.5g s (%.5g at the end)", peak.value, unit, peak.time, end);
+  };
+  add("von Mises", peaks.vonMises, last.vonMises, "Pa");
+  add("pressure", peaks.pressure, last.maxPressure, "Pa");
+  add("contact force", peaks.contactForce, last.contactForce, "N/m");
+  add("displacement", peaks.displacement, last.displacement, "m");
+  if (!text.empty()) text += "\n";
+  if (peaks.motion.value > 1)
+    text += format(
+        "warning    displacements reach %.2g times the size of a body at t = %.5g s; they are taken as small "
+        "here\n",
+        peaks.motion.value, peaks.motion.time);
+  return text;
+}
+
+std::string logTimeError(const RunFacts& facts, const RunReport& report) {
+  if (!(facts.tolerance > 0)) return "";
+  return format(
+      "accuracy   estimated error in time of displacement and stress, worst step: %.2g (tolerance %.2g%s)\n",
+      report.timeError, facts.tolerance,
+      report.timeError > facts.tolerance ? ", which could not be met" : "");
 }
 
 std::string logSpecial(const SpecialConditions& special) {

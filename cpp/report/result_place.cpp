@@ -215,7 +215,7 @@ fs::path putInPlace(const ResultPlace& place, const fs::path& temporary) {
 
   // 2. The exchange.
   place.requireReplaceable();
-  const fs::path target = place.of(manifest->failed);
+  fs::path target = place.of(manifest->failed);
   if (!fs::exists(target)) {
     fs::rename(temporary, target);
   } else if (renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, target.c_str(), RENAME_EXCHANGE) != 0) {

@@ -23,6 +23,8 @@ struct RunFacts {
   int plannedSteps = 0;
   double tolerance = 0;  ///< of a step; 0: equal steps
   int threads = 1;
+  std::vector<std::string>
+      doubts;  ///< where the estimate of the accuracy is known to be wrong, and by how much
   std::vector<std::pair<std::string, std::string>> versions;  ///< of mortier and its libraries
 };
 

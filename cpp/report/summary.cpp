@@ -9,6 +9,7 @@
 #include "report/clock.h"
 #include "report/fields.h"
 #include "report/output_file.h"
+#include "time/measure.h"
 
 namespace mortier {
 
@@ -42,10 +43,11 @@ Json bodies(const RunFacts& facts, const Model& model) {
   return list;
 }
 
-Json interfaces(const RunFacts& facts, const Model& model) {
+Json interfaces(const RunFacts& facts, const Model& model, const State& state) {
   Json list = Json::array();
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
+    const Point force = resultant(interface, state.contactForce[k]);
     list.push_back({{"variant", facts.variants[k]},
                     {"nonmortar", model.bodies[interface.pair().nonmortar.body].name()},
                     {"mortar", model.bodies[interface.pair().mortar.body].name()},
@@ -53,6 +55,7 @@ Json interfaces(const RunFacts& facts, const Model& model) {
                     {"mortar_nodes", interface.mortarNodes().size()},
                     {"overlap", interface.overlap()},
                     {"sagitta", interface.sagitta()},
+                    {"resultant", {force[0], force[1]}},
                     {"held_ends", interface.heldEnds()}});
   }
   return list;
@@ -67,15 +70,29 @@ Json finalState(const Model& model, const State& state, const StepReport& last) 
           {"displacement_min", {e.displacementMin[0], e.displacementMin[1]}},
           {"displacement_max", {e.displacementMax[0], e.displacementMax[1]}},
           {"contact_force", last.contactForce},
+          {"contact_resultant", {last.resultantX, last.resultantY}},
+          {"elastic_energy", last.energy},
           {"max_pressure", last.maxPressure},
           {"viscoplastic_fraction", last.viscoplasticFraction},
           {"active_nodes", last.active}};
 }
 
-Json jsonOf(const Model& model, const Accuracy& accuracy) {
+Json jsonOf(const Peaks& peaks) {
+  const auto of = [](const Peak& peak) { return Json{{"value", peak.value}, {"time", peak.time}}; };
+  return {{"von_mises", of(peaks.vonMises)},
+          {"pressure", of(peaks.pressure)},
+          {"contact_force", of(peaks.contactForce)},
+          {"displacement", of(peaks.displacement)},
+          {"elastic_energy", of(peaks.energy)}};
+}
+
+Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy) {
   Json bodies = Json::object();
   for (size_t b = 0; b < model.bodies.size(); ++b) bodies[model.bodies[b].name()] = accuracy.bodies[b];
-  Json json = {{"energy_error", accuracy.all}, {"bodies", std::move(bodies)}};
+  Json json = {{"energy_error", accuracy.all},
+               {"bodies", std::move(bodies)},
+               {"largest_of_run", {{"energy_error", accuracy.largest}, {"time", accuracy.largestTime}}},
+               {"not_reliable", facts.doubts}};
   if (!accuracy.worstBody.empty())
     json["largest"] = {{"body", accuracy.worstBody}, {"at", {accuracy.worst[0], accuracy.worst[1]}}};
   return json;
@@ -128,7 +145,7 @@ FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const 
   json["dofs"] = dofs;
   json["free_dofs"] = freeDofs;
   json["bodies"] = bodies(facts, model);
-  json["interfaces"] = interfaces(facts, model);
+  json["interfaces"] = interfaces(facts, model, state);
   json["steps"] = report.steps;
   if (facts.tolerance > 0) {
     json["tolerance"] = facts.tolerance;
@@ -154,7 +171,9 @@ FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const 
                           {"sign", report.worst.sign},
                           {"complementarity", report.worst.complementarity},
                           {"rounding", report.worst.rounding}};
-  json["accuracy"] = jsonOf(model, accuracy);
+  json["peaks"] = jsonOf(report.peaks);
+  json["accuracy"] = jsonOf(facts, model, accuracy);
+  if (facts.tolerance > 0) json["accuracy"]["time"] = report.timeError;
   json["peak_memory_mib"] = peakMemory();
   json["wall_time_s"] = processSeconds();
   json["versions"] = Json::object();

@@ -143,7 +143,9 @@ double BodySystem::rounding(const Matrix& stress0, const BodyIterate& iterate,
                             const Vector& displacement) const {
   const double strain = std::numeric_limits<double>::epsilon() * body_.largestGradient() *
                         displacement.lpNorm<Eigen::Infinity>();
-  return strain == 0 ? 0 : strain * law_.moduli.lpNorm<Eigen::Infinity>() / residualScale(stress0, iterate);
+  const double scale = residualScale(stress0, iterate);
+  // A body that was moved before the step and is free of stress has none that could be wrong.
+  return strain == 0 || scale == 0 ? 0 : strain * law_.moduli.lpNorm<Eigen::Infinity>() / scale;
 }
 
 double BodySystem::regularise(const MaterialStep& step, const Matrix* shift, double relaxation,
@@ -159,6 +161,7 @@ void BodySystem::choosePenalty(const Matrix& stress) {
 
 std::string BodySystem::factorise() {
   refactorised_ = false;
+  factorisedElastic_ = law_.elastic;
   const bool elastic = law_.elastic == body_.points();
   if (reduce_ && factorised_ && elastic && elasticFactors_) return {};
   refactorised_ = !(std::exchange(counted_, false) && elastic);

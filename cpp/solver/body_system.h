@@ -58,6 +58,8 @@ class BodySystem {
   void resumeElastic() { counted_ = true; }
   /// 1 or -1, the sign of the determinant of the tangent as factorised.
   [[nodiscard]] int determinantSign() const;
+  /// Whether points began or ceased to flow in the linearisations since.
+  [[nodiscard]] bool stale() const { return factorisedElastic_ != law_.elastic; }
   /// Whether the last factorise() did any work that counts.
   [[nodiscard]] bool refactorised() const { return refactorised_; }
   /// Works on these threads from now on; they must outlive the system.
@@ -122,6 +124,7 @@ class BodySystem {
   std::vector<double> values_;
   bool factorised_ = false;
   bool refactorised_ = false;
+  int factorisedElastic_ = -1;  ///< elastic points of the tangent as factorised
   bool elasticFactors_ = false;
   bool counted_ = false;
   Linearisation law_;

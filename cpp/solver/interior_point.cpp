@@ -42,8 +42,14 @@ StepOutcome StepSolver::interiorPoint(const State& state0, const StepData& step,
     flow = std::max(flow, paths[b]->flowAtTwiceYield());
     yieldStrain = std::min(yieldStrain, paths[b]->flowAtTwiceYield() / (1 + material.stiffness(step.weight)));
   }
+  // Stresses that are there may be far beyond yield already.
+  double overstress = 1;
+  for (size_t b = 0; b < model_.bodies.size(); ++b)
+    if (paths[b])
+      overstress = std::max(overstress, state0.bodies[b].stress.cwiseAbs().maxCoeff() /
+                                            model_.bodies[b].material().stressScale());
   for (const auto& path : paths)
-    if (path) path->begin(options_.firstOverstress * flow);
+    if (path) path->begin(options_.firstOverstress * overstress * flow);
   const auto complementarity = [&] {
     double sum = 0;
     for (const auto& path : paths) sum += path ? path->complementarity() : 0;

@@ -67,6 +67,12 @@ std::vector<Response> StepSolver::respond(const std::vector<Matrix>& error, cons
                       Matrix::Zero(model_.bodies[b].material().components(), error[b].cols())};
     return responses;
   }
+  // The last iteration may have moved a point across yield after its tangent was factorised.
+  if (std::any_of(systems_.begin(), systems_.end(),
+                  [](const BodySystem& system) { return system.stale(); })) {
+    StepOutcome again;
+    factorise(again);
+  }
   std::vector<Vector> motion(systems_.size());
   forEachBody([&](int b) {
     responses[b].stress = -systems_[b].stressOf(error[b]);

@@ -61,15 +61,21 @@ struct StepReport {
   std::string rung = "newton";  ///< what it took: newton, continuation, interior-point, path, damping, cut
   bool guarded = false;         ///< done again as two half steps of backward Euler
   int rejections = 0;           ///< attempts that were not good enough or could not be solved
-  double estimate = 0;          ///< of the local error, relative; 0 with equal steps
+  double estimate = 0;          ///< of the error in time so far, relative; 0 with equal steps
   int iterations = 0;           ///< linear solves with a new tangent
   int factorisations = 0;       ///< matrices factorised, all bodies
   int active = 0;               ///< active contact nodes, and how many joined and left in this step
   int joined = 0;
   int left = 0;
-  double penetration = 0;           ///< integral of the positive part of the jump, all interfaces [m^2]
-  double maxPressure = 0;           ///< largest contact pressure M^-1 p [Pa]
-  double contactForce = 0;          ///< sum of nodal contact forces, all interfaces [N/m]
+  double penetration = 0;   ///< integral of the positive part of the jump, all interfaces [m^2]
+  double maxPressure = 0;   ///< largest contact pressure M^-1 p [Pa]
+  double contactForce = 0;  ///< sum of nodal contact forces p >= 0, all interfaces: no resultant [N/m]
+  double resultantX = 0;    ///< resultant of the contact forces on the nonmortar bodies, all interfaces [N/m]
+  double resultantY = 0;
+  double vonMises = 0;              ///< largest [Pa]
+  double displacement = 0;          ///< largest length [m]
+  double motion = 0;                ///< largest displacement of a body over its extent
+  double energy = 0;                ///< elastic, integral of s : E^-1 s / 2 [J/m]
   double viscoplasticFraction = 0;  ///< share of the area beyond yield
   Certificate certificate;
 };

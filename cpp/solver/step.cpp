@@ -327,7 +327,8 @@ StepOutcome StepSolver::newton(const State& state0, const StepData& step, const 
   StepOutcome outcome;
   prescribe(state0, step.time, iterate);
   const std::vector<Vector>& loads = loadsAt(step.time);
-  StepData elastic = step;
+  StepData elastic;
+  if (limits.elasticFirst) elastic = step;
   elastic.weight = 0;
   for (int iteration = 0;; ++iteration) {
     const bool asElastic = limits.elasticFirst && iteration == 0;

@@ -5,28 +5,41 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 
 namespace mortier {
 namespace {
 
-constexpr int firstIntervals = 97;  // no multiple of what people write
-constexpr double narrow = 1e-7;     // of the whole
-constexpr double nearby = 10;       // times that
-constexpr size_t most = 10000;      // breaks of one datum
+constexpr int firstIntervals = 499;  // a prime: no multiple of what people write
+constexpr double narrow = 1e-7;      // of the whole
+constexpr double nearby = 10;        // times that
+constexpr size_t most = 10000;       // breaks of one datum
+constexpr size_t mostSamples = 500000;
 
 class BreakFinder {
  public:
-  BreakFinder(const std::function<double(double)>& datum, double begin, double end)
-      : datum_(datum), begin_(begin), end_(end) {}
+  BreakFinder(std::function<double(double)> datum, double begin, double end) : begin_(begin), end_(end) {
+    course_.value = std::move(datum);
+  }
 
-  std::vector<double> find() {
+  Course find() {
     const double width = (end_ - begin_) / firstIntervals;
     for (int i = 0; i <= firstIntervals; ++i)
-      if (const double f = std::abs(datum_(begin_ + width * i)); std::isfinite(f)) size_ = std::max(size_, f);
+      if (const double f = std::abs(course_.value(begin_ + width * i)); std::isfinite(f))
+        size_ = std::max(size_, f);
     for (int i = 0; i < firstIntervals; ++i)
       search(begin_ + width * i, std::min(end_, begin_ + width * (i + 1 + overlap)));
     for (const auto& [a, b] : brackets_) locate(a, b);
-    return std::move(found_);
+    course_.resolved = brackets_.size() <= most && samples_.size() <= mostSamples;
+    std::sort(samples_.begin(), samples_.end());
+    samples_.erase(std::unique(samples_.begin(), samples_.end()), samples_.end());
+    for (const auto& [t, value] : samples_) {
+      course_.times.push_back(t);
+      course_.values.push_back(value);
+    }
+    const auto [least, largest] = std::minmax_element(course_.values.begin(), course_.values.end());
+    course_.range = *largest - *least;
+    return std::move(course_);
   }
 
  private:
@@ -35,7 +48,7 @@ class BreakFinder {
 
   void search(double a, double b) {
     a = std::max(a, searched_);
-    if (b <= a || brackets_.size() > most || smooth(a, b)) return;
+    if (b <= a || brackets_.size() > most || samples_.size() > mostSamples || smooth(a, b)) return;
     if (b - a <= narrow * (end_ - begin_)) {
       // What is rough close to a break is the rounding of the same break.
       if (brackets_.empty() || a > brackets_.back().second + nearby * narrow * (end_ - begin_))
@@ -48,29 +61,37 @@ class BreakFinder {
     search(a + (0.5 - overlap) * (b - a), b);
   }
 
-  /// Whether the cubic through every other of seven points meets those between.
-  [[nodiscard]] bool smooth(double a, double b) const {
+  /// Whether the cubic through every other of seven points meets those between. They are samples then, or where no interval is narrower.
+  [[nodiscard]] bool smooth(double a, double b) {
     constexpr double close = 1e-4;      // of the variation
     constexpr double rounding = 1e-13;  // of the values
     std::array<double, 7> f{};
-    for (int i = 0; i < 7; ++i) f[i] = datum_(a + (b - a) * i / 6);
+    std::array<double, 7> t{};
+    for (int i = 0; i < 7; ++i) {
+      t[i] = a + (b - a) * i / 6;
+      f[i] = course_.value(t[i]);
+    }
     const double error = std::max({std::abs(f[1] - (5 * f[0] + 15 * f[2] - 5 * f[4] + f[6]) / 16),
                                    std::abs(f[3] - (-f[0] + 9 * f[2] + 9 * f[4] - f[6]) / 16),
                                    std::abs(f[5] - (f[0] - 5 * f[2] + 15 * f[4] + 5 * f[6]) / 16)});
     const auto [least, largest] = std::minmax_element(f.begin(), f.end());
-    return !(error > close * (*largest - *least) && error > rounding * size_);
+    const bool isSmooth = !(error > close * (*largest - *least) && error > rounding * size_);
+    if (isSmooth || b - a <= narrow * (end_ - begin_))
+      for (int i = 0; i < 7; ++i)
+        if (std::isfinite(f[i])) samples_.emplace_back(t[i], f[i]);
+    return isSmooth;
   }
 
   void locate(double a, double b) {
     constexpr double jump = 1e-4;  // of the values; a kink changes by as little as it is narrow
-    double fa = datum_(a);
-    double fb = datum_(b);
+    double fa = course_.value(a);
+    double fb = course_.value(b);
     if (!(std::abs(fb - fa) > jump * size_)) {
       add(shortestBetween(a, b));
       return;
     }
     for (double middle = a + (b - a) / 2; middle > a && middle < b; middle = a + (b - a) / 2) {
-      const double f = datum_(middle);
+      const double f = course_.value(middle);
       const bool left = std::abs(f - fa) < std::abs(f - fb);
       (left ? a : b) = middle;
       (left ? fa : fb) = f;
@@ -80,7 +101,7 @@ class BreakFinder {
   }
 
   void add(double time) {
-    if (time > begin_ && time < end_) found_.push_back(time);
+    if (time > begin_ && time < end_) course_.breaks.push_back(time);
   }
 
   /// The number with the fewest digits: what the data say is rarely 0.99999999987.
@@ -94,27 +115,80 @@ class BreakFinder {
     return a + (b - a) / 2;
   }
 
-  const std::function<double(double)>& datum_;
+  Course course_;
   double begin_;
   double end_;
   double size_ = 0;              ///< of the values
   double searched_ = -INFINITY;  ///< no further search before this time
   std::vector<std::pair<double, double>> brackets_;
-  std::vector<double> found_;
+  std::vector<std::pair<double, double>> samples_;
 };
 
 }  // namespace
+
+Course resolve(std::function<double(double)> datum, double begin, double end) {
+  return BreakFinder(std::move(datum), begin, end).find();
+}
+
+Course tableCourse(std::function<double(double)> datum, const std::vector<double>& times, double begin,
+                   double end) {
+  Course course;
+  course.value = std::move(datum);
+  for (const double t : times)
+    if (t > begin && t < end) course.breaks.push_back(t);
+  course.times = course.breaks;
+  course.times.insert(course.times.begin(), begin);
+  course.times.push_back(end);
+  for (const double t : course.times) course.values.push_back(course.value(t));
+  const auto [least, largest] = std::minmax_element(course.values.begin(), course.values.end());
+  course.range = *largest - *least;
+  return course;
+}
 
 std::vector<double> findBreaks(const std::vector<std::function<double(double)>>& data, double begin,
                                double end) {
   std::vector<double> breaks;
   for (const auto& datum : data) {
-    const std::vector<double> found = BreakFinder(datum, begin, end).find();
+    const std::vector<double> found = resolve(datum, begin, end).breaks;
     breaks.insert(breaks.end(), found.begin(), found.end());
   }
   std::sort(breaks.begin(), breaks.end());
   breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
   return breaks;
+}
+
+double beyondEnds(const Course& course, double t0, double t1) {
+  if (!(course.range > 0)) return 0;
+  const double least = std::min(course.value(t0), course.value(t1));
+  const double largest = std::max(course.value(t0), course.value(t1));
+  double most = 0;
+  const auto first = std::upper_bound(course.times.begin(), course.times.end(), t0);
+  for (auto t = first; t != course.times.end() && *t < t1; ++t) {
+    const double value = course.values[t - course.times.begin()];
+    most = std::max({most, value - largest, least - value});
+  }
+  return most / course.range;
+}
+
+double unseen(const Course& course, const std::vector<double>& nodes, double t0, double t1) {
+  if (!(course.range > 0)) return 0;
+  std::vector<double> x{t0};
+  for (const double node : nodes) x.push_back(node == 1 ? t1 : t0 + node * (t1 - t0));
+  std::vector<double> f;
+  for (const double t : x) f.push_back(course.value(t));
+  double most = 0;
+  const auto first = std::upper_bound(course.times.begin(), course.times.end(), t0);
+  for (auto t = first; t != course.times.end() && *t < t1; ++t) {
+    double seen = 0;
+    for (size_t i = 0; i < x.size(); ++i) {
+      double weight = f[i];
+      for (size_t j = 0; j < x.size(); ++j)
+        if (j != i) weight *= (*t - x[j]) / (x[i] - x[j]);
+      seen += weight;
+    }
+    most = std::max(most, std::abs(course.values[t - course.times.begin()] - seen));
+  }
+  return most / course.range;
 }
 
 }  // namespace mortier

@@ -1,5 +1,5 @@
-// Kinks and jumps of data in time: steps chosen by their error end there, as no estimate sees what happens
-// inside a step.
+// Data in time, looked at before a run: kinks and jumps, where steps chosen by their error end, and samples so dense
+// that a step which would jump over a part of a datum is seen.
 #pragma once
 
 #include <functional>
@@ -7,11 +7,35 @@
 
 namespace mortier {
 
-/// Times in (begin, end) [s] at which one of the data has a kink or a jump, ascending, each once; a jump
-/// gives the two neighbouring numbers between which it lies. An interval is smooth where a cubic through four
-/// of its points meets three others; what is not is halved, down to 1e-7 of the whole, and the number with
-/// the fewest digits taken. A pulse shorter than a hundredth of the whole may be missed.
+/// A datum in time as it was found. Between neighbouring samples it is smooth, if it could be resolved.
+struct Course {
+  std::function<double(double)> value;
+  std::vector<double> times;   ///< of the samples, ascending [s]
+  std::vector<double> values;  ///< there
+  std::vector<double>
+      breaks;        ///< of kinks and jumps inside, ascending [s]; of a jump the numbers on both its sides
+  double range = 0;  ///< largest less smallest value
+  bool resolved = true;  ///< false: it varies faster than can be sampled
+};
+
+/// An interval is smooth where a cubic through four of its points meets others; what is not is halved, down to 1e-7
+/// of the whole, and the number with the fewest digits taken for a kink. The first intervals are 1/499 of the whole: a
+/// pulse shorter than 1/3000 of it may be missed.
+Course resolve(std::function<double(double)> datum, double begin, double end);
+
+/// A datum that is linear between the times of a table and constant outside.
+Course tableCourse(std::function<double(double)> datum, const std::vector<double>& times, double begin,
+                   double end);
+
+/// The breaks of all data, ascending, each once.
 std::vector<double> findBreaks(const std::vector<std::function<double(double)>>& data, double begin,
                                double end);
+
+/// By how much the datum is missed by the polynomial through its values at the start of the step [t0, t1] and at the
+/// fractions `nodes` of it, over the range of the datum: at most at the samples inside.
+double unseen(const Course& course, const std::vector<double>& nodes, double t0, double t1);
+
+/// How far the datum goes beyond its values at t0 and t1 in between, over its range.
+double beyondEnds(const Course& course, double t0, double t1);
 
 }  // namespace mortier

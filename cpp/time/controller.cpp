@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-
-#include "time/measure.h"
+#include <utility>
 
 namespace mortier {
 namespace {
@@ -13,117 +12,135 @@ constexpr double safety = 0.9;
 constexpr double leastFactor = 0.2;
 constexpr double largestFactor = 5;
 constexpr double failureFactor = 0.25;
+constexpr double aim = 0.7;         // of the tolerance
+constexpr double unseenPart = 0.2;  // of the square root of the tolerance
+
+double relative(const ErrorNorms& error, const ErrorNorms& scale) {
+  const double s = error.stress > 0 ? error.stress / scale.stress : 0;
+  const double u = error.displacement > 0 ? error.displacement / scale.displacement : 0;
+  return std::isfinite(s) && std::isfinite(u) ? std::max(s, u) : 1;
+}
+
+ErrorNorms larger(const ErrorNorms& a, const ErrorNorms& b) {
+  return {std::max(a.stress, b.stress), std::max(a.displacement, b.displacement)};
+}
 
 }  // namespace
 
 Controller::Controller(const Model& model, const TimePlan& plan, MarchMemory& memory)
-    : model_(model), plan_(plan), memory_(memory) {
-  for (const Body& body : model.bodies) {
-    for (const double weight : body.weights()) area_ += weight;
-    extent_ = std::max(extent_, extent(body.mesh()));
-  }
+    : plan_(plan), memory_(memory), measure_(model) {
   for (const double t : plan.breaks)
     if (t > memory.begin && t < plan.end) stops_.push_back(t);
   stops_.push_back(plan.end);
+  for (const Stage& stage : tableau(plan.scheme).stages) nodes_.push_back(stage.time);
+  unseen_ = unseenPart * std::sqrt(plan.tolerance);
 }
 
 double Controller::stopAfter(double t) const {
   return *std::upper_bound(stops_.begin(), stops_.end() - 1, t);
 }
 
-/// To the next stop in one step if it is near, in two if it is not far.
-double Controller::nextTime(double t) const {
+/// To the next stop in one step if it is near, in two if it is not far; never over a part of the data.
+double Controller::nextTime(double t, double k) const {
   constexpr double stretch = 1.1;
-  const double stop = stopAfter(t);
-  const double k = memory_.controller.timeStep;
-  if (stop - t <= stretch * k) return stop;
-  return stop - t <= 2 * k ? t + (stop - t) / 2 : t + k;
-}
-
-Controller::Norms Controller::normsOf(const Matrix& stress, size_t body) const {
-  Matrix strain;
-  model_.bodies[body].material().elasticStrain(stress, strain);
-  Norms norms;
-  for (Eigen::Index i = 0; i < stress.cols(); ++i) {
-    const double weight = model_.bodies[body].weights()[i];
-    norms.energy += weight * stress.col(i).dot(strain.col(i));
-    norms.strain += weight / area_ * strain.col(i).squaredNorm();
+  constexpr double shorter = 0.8;
+  const double end = stopAfter(t);
+  while (true) {
+    const double t1 = end - t <= stretch * k ? end : end - t <= 2 * k ? t + (end - t) / 2 : t + k;
+    double missed = 0;
+    for (const Course& course : plan_.data) missed = std::max(missed, unseen(course, nodes_, t, t1));
+    if (missed <= unseen_ || !(t + shorter * k > t)) return t1;
+    const double order = static_cast<double>(nodes_.size()) + 1;
+    k = std::min(k, t1 - t) * std::clamp(std::pow(missed / unseen_, -1 / order), leastFactor, shorter);
   }
-  return norms;
 }
 
-/// Over the area of all bodies, a third of each triangle at each of its vertices.
-double Controller::meanSquare(const Vector& displacement, size_t body) const {
-  const Body& in = model_.bodies[body];
-  const size_t points = in.weights().size() / in.mesh().triangles.size();
-  double sum = 0;
-  for (size_t i = 0; i < in.weights().size(); ++i)
-    for (const int vertex : in.mesh().triangles[i / points])
-      sum += in.weights()[i] / 3 / area_ * displacement.segment<2>(2 * vertex).squaredNorm();
-  return sum;
+double Controller::estimate() const {
+  return relative(memory_.controller.error, memory_.controller.largest);
 }
 
-void Controller::rescale(const State& state) {
-  double stress = 0;
-  double displacement = 0;
-  double strain = 0;
-  for (size_t b = 0; b < state.bodies.size(); ++b) {
-    const Norms norms = normsOf(state.bodies[b].stress, b);
-    stress += norms.energy;
-    strain += norms.strain;
-    displacement += meanSquare(state.bodies[b].displacement, b);
-  }
-  ControllerMemory& scales = memory_.controller;
-  scales.stress = std::max(scales.stress, std::sqrt(stress));
-  // Where everything is held no displacement is a scale: what the elastic strain makes of the extent is.
-  scales.displacement = std::max({scales.displacement, std::sqrt(displacement), extent_ * std::sqrt(strain)});
-}
-
-double Controller::measured(const std::vector<Response>& error) const {
-  double stress = 0;
-  double displacement = 0;
-  for (size_t b = 0; b < error.size(); ++b) {
-    stress += normsOf(error[b].stress, b).energy;
-    displacement += meanSquare(error[b].displacement, b);
-  }
-  const ControllerMemory& scales = memory_.controller;
-  const double s = stress > 0 ? std::sqrt(stress) / scales.stress : 0;
-  const double u = displacement > 0 ? std::sqrt(displacement) / scales.displacement : 0;
-  return std::isfinite(s) && std::isfinite(u) ? std::max(s, u) : 1 / plan_.tolerance;
+double Controller::worst() const {
+  return relative(memory_.controller.worst, memory_.controller.largest);
 }
 
 void Controller::pilot(StepTaker& taker, State& state) {
   constexpr double steps = 5;
-  constexpr double firstStep = 1.0 / 24;
-  memory_.controller.timeStep =
-      plan_.steps > 0 ? (plan_.end - state.time) / plan_.steps : firstStep * (plan_.end - state.time);
-  const State begin = state;
-  bool converged = true;
-  rescale(state);
-  for (double from = begin.time; converged && from < plan_.end; from = state.time) {
-    const double to = stopAfter(from);
-    const int parts = static_cast<int>(std::ceil(steps * (to - from) / (plan_.end - begin.time)));
-    for (int i = 1; converged && i <= parts; ++i) {
-      const StepOutcome outcome =
-          taker.attempt(i == parts ? to : from + (to - from) * i / parts, Scheme::backwardEuler);
-      converged = outcome.converged;
-      memory_.run.iterations += outcome.iterations;
-      memory_.run.pilotIterations += outcome.iterations;
-      memory_.run.factorisations += outcome.factorisations;
-      if (!converged) break;
-      taker.commit();
-      rescale(state);
-    }
+  constexpr double coarse = 0.3;
+  const State before = state;
+  ErrorNorms largest = measure_.sizeOf(state);
+  const double k = (plan_.end - state.time) / steps;
+  const double often = std::exchange(unseen_, coarse);
+  while (state.time < plan_.end) {
+    const StepOutcome outcome = taker.attempt(nextTime(state.time, k), Scheme::backwardEuler);
+    memory_.run.iterations += outcome.iterations;
+    memory_.run.factorisations += outcome.factorisations;
+    if (!outcome.converged) break;
+    taker.commit();
+    largest = larger(largest, measure_.sizeOf(state));
   }
-  state = begin;
-  memory_.increments.clear();
+  unseen_ = often;
+  state = before;
+  memory_.controller.scale = largest;
+  memory_.controller.local = aim * plan_.tolerance;
+}
+
+void Controller::begin(const State& state) {
+  constexpr double firstStep = 1.0 / 24;
+  const double whole = plan_.end - state.time;
+  RunReport run;
+  run.iterations = memory_.run.iterations;
+  run.pilotIterations = memory_.run.iterations;
+  run.factorisations = memory_.run.factorisations;
+  run.solveSeconds = memory_.run.solveSeconds;
+  ControllerMemory own;
+  own.timeStep = plan_.steps > 0 ? whole / plan_.steps : firstStep * whole;
+  own.scale = memory_.controller.scale;
+  own.local = memory_.controller.local;
+  own.largest = larger(memory_.controller.largest, measure_.sizeOf(state));
+  const double begin = memory_.begin;
+  memory_ = {};
+  memory_.begin = begin;
+  memory_.run = run;
+  memory_.controller = own;
+}
+
+bool Controller::adapt() {
+  constexpr double least = 1e-4;  // by which the error of a step changes at once
+  ControllerMemory& own = memory_.controller;
+  const double error = worst();
+  own.scale = own.largest;
+  if (error <= plan_.tolerance) return true;
+  const double order = plan_.scheme == Scheme::backwardEuler ? 1 : 2;
+  own.local *= std::max(least, std::pow(aim * plan_.tolerance / error, (order + 1) / order));
+  return false;
+}
+
+/// Adds the error of the step to what has been carried to its end. Flow does not amplify errors: where the linearised
+/// step does, points that flow and points that do not lie side by side, and the error is taken on as it was.
+void Controller::add(StepTaker& taker, std::vector<Matrix> local, double size) {
+  ControllerMemory& own = memory_.controller;
+  const std::vector<Matrix> before = std::exchange(own.strain, std::move(local));
+  std::vector<Matrix> carried;
+  if (!before.empty()) carried = taker.carried(before);
+  for (size_t b = 0; b < before.size(); ++b) own.strain[b] += carried[b];
+  const ErrorNorms error = measure_.sizeOf(taker.response(own.strain));
+  const double bound = relative(own.error, own.scale) + size;
+  if (!before.empty() && !(relative(error, own.scale) <= bound))
+    for (size_t b = 0; b < before.size(); ++b) own.strain[b] += before[b] - carried[b];
+  own.error = {std::min(error.stress, bound * own.scale.stress),
+               std::min(error.displacement, bound * own.scale.displacement)};
+  own.worst = larger(own.worst, own.error);
 }
 
 void Controller::advance(StepTaker& taker, const State& state, StepReport& report) {
   constexpr int patience = 12;      // attempts in a row that cannot be solved
-  constexpr double smallest = 0.1;  // of a step that still changes the time
+  constexpr double little = 1e-12;  // of the run: no step is shorter
+  constexpr double early = 0.05;    // parts of a step: it ends on the onset of flow between them
+  constexpr double late = 0.85;
   int failures = 0;
-  double& proposal = memory_.controller.timeStep;
+  ControllerMemory& own = memory_.controller;
+  const bool flowing = taker.flowing();
+  const double least = little * (plan_.end - memory_.begin);
   const auto giveUp = [&](Status status, double t1, const std::string& why) {
     std::ostringstream reason;
     reason << "step " << report.step << " at t = " << t1 << " s: " << why;
@@ -131,7 +148,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     report.reason = reason.str();
   };
   while (true) {
-    const double t1 = nextTime(state.time);
+    const double t1 = nextTime(state.time, own.timeStep);
     const double k = t1 - state.time;
     if (memory_.run.steps + memory_.run.rejected + report.rejections >= plan_.maxSteps)
       return giveUp(Status::failed, t1, "all of max_steps = " + std::to_string(plan_.maxSteps) + " are used");
@@ -146,34 +163,39 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
         return giveUp(Status::unheld, t1, outcome.reason);
       if (++failures == patience)
         return giveUp(outcome.unheld ? Status::unheld : Status::failed, t1, outcome.reason);
-      proposal = failureFactor * k;
+      own.timeStep = failureFactor * k;
       continue;
     }
     failures = 0;
-    // Errors of the first order add up over as many steps as it takes: they are judged by their share of the
-    // time.
-    const bool summed = plan_.scheme == Scheme::backwardEuler;
-    const double error =
-        measured(taker.error(t1 < stopAfter(state.time))) * (summed ? (plan_.end - memory_.begin) / k : 1);
+    std::vector<Matrix> local;
+    double size = 0;
+    if (outcome.rung != "rest") {
+      local = taker.localError();
+      ErrorNorms norms = measure_.sizeOf(taker.response(local));
+      norms.stress = std::min(norms.stress, measure_.sizeOf(taker.surprise()).stress);
+      size = relative(norms, own.scale);
+    }
+    const double error = size / own.local;
     const double factor =
-        std::clamp(safety * std::pow(error / plan_.tolerance, -1.0 / (taker.errorOrder() - (summed ? 1 : 0))),
-                   leastFactor, largestFactor);
-    if (error > plan_.tolerance) {
+        std::clamp(safety * std::pow(error, -1.0 / taker.errorOrder()), leastFactor, largestFactor);
+    if (error > 1 && k > least) {
       ++report.rejections;
-      proposal = factor * k;
-      if (!(state.time + smallest * proposal > state.time))
-        return giveUp(Status::failed, t1, "no step is small enough for the tolerance");
+      const double onset = flowing || report.rejections > 1 ? 1 : taker.onset();
+      own.timeStep = std::max(least, k * (onset > early && onset < late ? onset : factor));
       continue;
     }
     // A step that was only shortened to end on a stop tells nothing against a longer one.
-    const bool shortened = k < proposal && factor >= 1;
+    const bool shortened = k < own.timeStep && factor >= 1;
     const double grown = (report.rejections > 0 ? std::min(factor, 1.0) : factor) * k;
-    proposal = shortened ? std::max(grown, proposal) : grown;
+    own.timeStep = std::max(least, shortened ? std::max(grown, own.timeStep) : grown);
+    if (outcome.rung != "rest") add(taker, std::move(local), size);
     taker.commit();
-    rescale(state);
+    const ErrorNorms reached = measure_.sizeOf(state);
+    own.scale = larger(own.scale, reached);
+    own.largest = larger(own.largest, reached);
     report.time = t1;
     report.timeStep = k;
-    report.estimate = error;
+    report.estimate = estimate();
     report.guarded = taker.guarded();
     report.certificate = outcome.certificate;
     if (outcome.rung != "newton" && report.rung == "newton") report.rung = outcome.rung;

@@ -3,17 +3,17 @@
 
 #include "solver/model.h"
 #include "solver/state.h"
+#include "solver/step.h"
 
 namespace mortier {
 
 /// Lets the bodies settle elastically: with the loads and supports of the state's time,
 ///   E^-1 (s - s0) = B u,   sum |T| B' s + C'p = F,   g <= 0, p >= 0, p g = 0,
-/// which changes nothing where s0 is in equilibrium already. \returns by how much the stress changed, over
-/// the largest stress. \throws InputError when there is no such state, UnheldBodyError where contact cannot hold a body.
-double balanceInitialStress(const Model& model, State& state, const SolverOptions& options);
+/// which changes nothing where s0 is in equilibrium already. Where that is impossible the state is left alone.
+StepOutcome settle(const Model& model, State& state, const SolverOptions& options);
 
-/// The largest depth to which bodies overlap, over their extent: u0 of the state is not in K where it is
-/// above rounding.
-double initialPenetration(const Model& model, const State& state);
+/// The same for an initial stress. \returns by how much the stress changed, over the largest stress.
+/// \throws InputError when there is no such state, UnheldBodyError where contact cannot hold a body.
+double balanceInitialStress(const Model& model, State& state, const SolverOptions& options);
 
 }  // namespace mortier

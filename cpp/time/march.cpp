@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <optional>
 #include <sstream>
+#include <utility>
 
 #include "time/controller.h"
+#include "time/initial_balance.h"
 #include "time/measure.h"
 #include "time/step_taker.h"
 
@@ -61,6 +62,117 @@ void add(const StepReport& report, RunReport& run) {
   run.worst = worse(run.worst, report.certificate);
 }
 
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// Steps to the end, or to the first that cannot be taken.
+void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& plan, StepTaker& taker,
+        Controller& controller, const Observer& observer) {
+  RunReport& run = memory.run;
+  const bool controlled = plan.tolerance > 0;
+  while (run.status == Status::converged && (controlled ? state.time < plan.end : run.steps < plan.steps)) {
+    const auto begin = Clock::now();
+    StepReport report;
+    report.step = run.steps + 1;
+    const ActiveSets before = startingSets(state);
+    if (controlled) {
+      controller.advance(taker, state, report);
+      run.timeError = controller.worst();
+    } else {
+      report.time = memory.begin + (plan.end - memory.begin) * report.step / plan.steps;
+      report.timeStep = report.time - state.time;
+      advance(taker, state, report.time, report);
+    }
+    run.solveSeconds += secondsSince(begin);
+    add(report, run);
+    run.special = taker.special();
+    if (report.status != Status::converged) break;
+    compareActive(before, taker.active(), report);
+    measure(model, state, report);
+    raise(run.peaks, report);
+    observer(state, report);
+  }
+}
+
+/// The steps of a run that is not shown yet, as long as they are not too many.
+class Recording {
+ public:
+  struct Step {
+    State state;
+    MarchMemory memory;
+    StepReport report;
+  };
+
+  void add(const State& state, const MarchMemory& memory, const StepReport& report) {
+    constexpr size_t most = size_t{1} << 25;  // bytes
+    if (!complete_) return;
+    for (const BodyState& body : state.bodies)  // stress and strain, twice in the memory
+      bytes_ += sizeof(double) * static_cast<size_t>(4 * body.displacement.size() + 6 * body.stress.size());
+    complete_ = bytes_ <= most;
+    if (complete_)
+      steps.push_back({state, memory, report});
+    else
+      steps.clear();
+  }
+  [[nodiscard]] bool complete() const { return complete_; }
+
+  std::vector<Step> steps;
+
+ private:
+  bool complete_ = true;
+  size_t bytes_ = 0;
+};
+
+/// Runs without an observer until one meets the tolerance, and shows that: as it was recorded, or once more.
+RunReport trials(const Model& model, State& state, MarchMemory& memory, const TimePlan& plan,
+                 const SolverOptions& options, const Observer& observer) {
+  constexpr int most = 5;
+  const auto loaded = [&](const Body& body) { return !body.load(state.time).isZero(0); };
+  if (std::any_of(model.bodies.begin(), model.bodies.end(), loaded))
+    memory.run.iterations += settle(model, state, options).iterations;
+  Controller controller(model, plan, memory);
+  const State before = state;
+  {
+    const auto begin = Clock::now();
+    StepTaker taker(model, state, memory, Scheme::backwardEuler, options);
+    controller.pilot(taker, state);
+    memory.run.solveSeconds += secondsSince(begin);
+  }
+  bool done = false;
+  for (int trial = 1; !done; ++trial) {
+    Recording recording;
+    state = before;
+    controller.begin(state);
+    recording.add(state, memory, {});
+    StepTaker taker(model, state, memory, plan.scheme, options);
+    go(model, state, memory, plan, taker, controller,
+       [&](const State& now, const StepReport& report) { recording.add(now, memory, report); });
+    // What cannot be solved, or met, is shown as it is.
+    done = controller.adapt() || memory.run.status != Status::converged || trial == most;
+    if (!done || !recording.complete()) continue;
+    const RunReport run = memory.run;
+    const ErrorNorms largest = memory.controller.largest;
+    for (Recording::Step& step : recording.steps) {
+      state = std::move(step.state);
+      memory = std::move(step.memory);
+      memory.controller.largest = largest;
+      step.report.estimate = controller.estimate();
+      observer(state, step.report);
+    }
+    memory.run = run;
+    return run;
+  }
+  state = before;
+  controller.begin(state);
+  StepTaker taker(model, state, memory, plan.scheme, options);
+  observer(state, StepReport{});
+  go(model, state, memory, plan, taker, controller, observer);
+  return memory.run;
+}
+
 }  // namespace
 
 State initialState(const Model& model) {
@@ -89,43 +201,16 @@ RunReport march(const Model& model, State& state, const TimePlan& plan, const So
 
 RunReport march(const Model& model, State& state, MarchMemory& memory, const TimePlan& plan,
                 const SolverOptions& options, const Observer& observer) {
-  using Clock = std::chrono::steady_clock;
-  RunReport& run = memory.run;
-  const auto timed = [&](auto work) {
-    const auto begin = Clock::now();
-    work();
-    run.solveSeconds += std::chrono::duration<double>(Clock::now() - begin).count();
-  };
-
-  const bool controlled = plan.tolerance > 0;
-  if (run.steps == 0) memory.begin = state.time;
-  std::optional<StepTaker> taker;
-  std::optional<Controller> controller;
-  timed([&] {
-    taker.emplace(model, state, memory, plan.scheme, options);
-    if (!controlled) return;
-    controller.emplace(model, plan, memory);
-    if (run.steps == 0) controller->pilot(*taker, state);
-  });
-  if (run.steps == 0) observer(state, StepReport{});
-  while (run.status == Status::converged && (controlled ? state.time < plan.end : run.steps < plan.steps)) {
-    StepReport report;
-    report.step = run.steps + 1;
-    const ActiveSets before = startingSets(state);
-    timed([&] {
-      if (controlled) return controller->advance(*taker, state, report);
-      report.time = memory.begin + (plan.end - memory.begin) * report.step / plan.steps;
-      report.timeStep = report.time - state.time;
-      advance(*taker, state, report.time, report);
-    });
-    add(report, run);
-    run.special = taker->special();
-    if (report.status != Status::converged) break;
-    compareActive(before, taker->active(), report);
-    measure(model, state, report);
-    observer(state, report);
-  }
-  return run;
+  if (memory.run.steps == 0) memory.begin = state.time;
+  if (plan.tolerance > 0 && memory.run.steps == 0)
+    return trials(model, state, memory, plan, options, observer);
+  const auto begin = Clock::now();
+  StepTaker taker(model, state, memory, plan.scheme, options);
+  Controller controller(model, plan, memory);
+  memory.run.solveSeconds += secondsSince(begin);
+  if (memory.run.steps == 0) observer(state, StepReport{});
+  go(model, state, memory, plan, taker, controller, observer);
+  return memory.run;
 }
 
 }  // namespace mortier

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/worst.h"
+#include "material/stress.h"
 
 namespace mortier {
 
@@ -24,17 +25,47 @@ void measure(const Model& model, const State& state, StepReport& report) {
                                    state.bodies[interface.pair().mortar.body].displacement);
     report.maxPressure = std::max(report.maxPressure, interface.contactPressure(p).maxCoeff());
     report.contactForce += p.sum();
+    const Point force = resultant(interface, p);
+    report.resultantX += force.x();
+    report.resultantY += force.y();
   }
   double area = 0;
   double flowing = 0;
+  Matrix strain;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
+    const Matrix& stress = state.bodies[b].stress;
+    body.material().elasticStrain(stress, strain);
     for (int i = 0; i < body.points(); ++i) {
       area += body.weights()[i];
-      if (body.material().flows(state.bodies[b].stress, i)) flowing += body.weights()[i];
+      if (body.material().flows(stress, i)) flowing += body.weights()[i];
+      report.vonMises = std::max(report.vonMises, vonMises(stress.col(i)));
+      report.energy += body.weights()[i] / 2 * stress.col(i).dot(strain.col(i));
     }
+    double largest = 0;
+    for (int v = 0; v < body.nodes(); ++v)
+      largest = std::max(largest, state.bodies[b].displacement.segment<2>(2 * v).norm());
+    report.displacement = std::max(report.displacement, largest);
+    report.motion = std::max(report.motion, largest / extent(body.mesh()));
   }
   report.viscoplasticFraction = flowing / area;
+}
+
+void raise(Peaks& peaks, const StepReport& report) {
+  peaks.vonMises.raise(report.vonMises, report.time);
+  peaks.pressure.raise(report.maxPressure, report.time);
+  peaks.contactForce.raise(report.contactForce, report.time);
+  peaks.displacement.raise(report.displacement, report.time);
+  peaks.motion.raise(report.motion, report.time);
+  peaks.energy.raise(report.energy, report.time);
+}
+
+Point resultant(const ContactInterface& interface, const Vector& force) {
+  Point sum = Point::Zero();
+  for (int dof = 0; dof < interface.C1().outerSize(); ++dof)
+    for (ConstraintRows::InnerIterator entry(interface.C1(), dof); entry; ++entry)
+      sum[dof % 2] -= entry.value() * force[entry.row()];
+  return sum;
 }
 
 Certificate worse(const Certificate& a, const Certificate& b) {

@@ -4,11 +4,18 @@
 #include "solver/model.h"
 #include "solver/state.h"
 #include "solver/step.h"
+#include "time/report.h"
 
 namespace mortier {
 
-/// Fills penetration, pressure, contact force and viscoplastic share of `report`.
+/// Fills what `report` says of the state, from penetration to viscoplastic share.
 void measure(const Model& model, const State& state, StepReport& report);
+
+/// Raises the peaks of a run to those of a step.
+void raise(Peaks& peaks, const StepReport& report);
+
+/// Resultant of nodal contact forces on the nonmortar body [N/m].
+Point resultant(const ContactInterface& interface, const Vector& force);
 
 /// Fills what became of the active sets in a step.
 void compareActive(const ActiveSets& before, const ActiveSets& after, StepReport& report);

@@ -16,11 +16,21 @@ struct BodyIncrement {
   Matrix stress;               ///< components x points [Pa]
 };
 
+/// Of an error in time, or what it is measured by (error_norms.h).
+struct ErrorNorms {
+  double stress = 0;        ///< energy norm [sqrt(J/m)]
+  double displacement = 0;  ///< mean over the bodies [m]
+};
+
 /// Of steps chosen by their error.
 struct ControllerMemory {
-  double timeStep = 0;      ///< to try next [s]; 0: the march has not begun
-  double stress = 0;        ///< scale of the error of the stress: its largest energy norm so far [sqrt(J/m)]
-  double displacement = 0;  ///< scale of that of the displacement, a mean over the bodies [m]
+  double timeStep = 0;         ///< to try next [s]; 0: the march has not begun
+  ErrorNorms scale;            ///< by which errors of steps are measured
+  ErrorNorms largest;          ///< of the run, as far as it is known: by which its error is told
+  double local = 0;            ///< what the error of a step may be, relative
+  std::vector<Matrix> strain;  ///< error of the viscoplastic strain, exact less computed; empty: none
+  ErrorNorms error;            ///< what it makes of stress and displacement
+  ErrorNorms worst;            ///< the largest of any step so far
 };
 
 struct MarchMemory {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "time/breaks.h"
 #include "time/scheme.h"
 
 namespace mortier {
@@ -11,10 +12,12 @@ struct TimePlan {
   double end = 1;  ///< T [s]
   int steps = 1;   ///< N equal steps; with a tolerance the first step tried is T/N, 0: chosen
   Scheme scheme = Scheme::backwardEuler;
-  double tolerance = 0;   ///< relative local error of a step; 0: equal steps
+  double tolerance = 0;   ///< relative error of every step of the run; 0: equal steps
   int maxSteps = 100000;  ///< attempts before the run is given up; with a tolerance
   /// Times of kinks and jumps of the data, ascending [s]; steps chosen by their error end there.
   std::vector<double> breaks = {};
+  /// Data in time: no step chosen by its error jumps over a part of one.
+  std::vector<Course> data = {};
 };
 
 }  // namespace mortier

@@ -8,6 +8,22 @@
 
 namespace mortier {
 
+/// The largest value of a run, and when it came first.
+struct Peak {
+  double value = 0;
+  double time = 0;  ///< [s]
+  void raise(double other, double when) {
+    if (!(other > value)) return;
+    value = other;
+    time = when;
+  }
+};
+
+/// Of what a StepReport says of the state at its end.
+struct Peaks {
+  Peak vonMises, pressure, contactForce, displacement, motion, energy;
+};
+
 struct RunReport {
   Status status = Status::converged;
   std::string reason;  ///< one line when the status is not converged
@@ -15,12 +31,14 @@ struct RunReport {
   int iterations = 0;
   int maxIterationsInAStep = 0;
   int factorisations = 0;
-  int pilotIterations = 0;           ///< part of `iterations` that went into scales of the error
-  int rejected = 0;                  ///< attempts
-  int guarded = 0;                   ///< steps done again as two half steps of backward Euler
-  double solveSeconds = 0;           ///< wall time of the march without its observer
-  SpecialConditions special;         ///< of contact
-  Certificate worst;                 ///< the largest residuals of any step
+  int pilotIterations = 0;    ///< part of `iterations` that went into scales of the error
+  int rejected = 0;           ///< attempts
+  double timeError = 0;       ///< estimate of the largest error in time of any step, relative
+  int guarded = 0;            ///< steps done again as two half steps of backward Euler
+  double solveSeconds = 0;    ///< wall time of the march without its observer
+  SpecialConditions special;  ///< of contact
+  Certificate worst;          ///< the largest residuals of any step
+  Peaks peaks;
   std::map<std::string, int> rungs;  ///< how many steps took which (StepReport::rung)
 };
 

@@ -25,10 +25,7 @@ struct Stage {
 struct Tableau {
   bool explicitFirst = false;
   std::vector<Stage> stages;  ///< the implicit ones
-  /// Weights of the rates at the start of the step and at the stages: k times their sum estimates the local
-  /// error of the viscoplastic strain. Empty where there is no estimate.
-  std::vector<double> errorWeights;
-  int errorOrder = 0;  ///< the estimate falls as this power of k
+  int errorOrder = 0;         ///< the local error falls as this power of k
 };
 
 Tableau tableau(Scheme scheme);

@@ -118,56 +118,6 @@ std::vector<Matrix> StepTaker::ratesOf(const Iterate& stage, double weight) cons
   return rates;
 }
 
-/// Where flow begins within the step the weights may cancel by chance. Before the first stage its rate is all
-/// that is known; after it, the change between the stages does not vanish.
-void StepTaker::judgeOnset(const Matrix& rate0, const Matrix& rate1, const Matrix& rate2, double k,
-                           Matrix& error) const {
-  const double last = k * tableau_.stages.back().diagonal;
-  const double change = k * tableau_.errorWeights.back();
-  for (Eigen::Index i = 0; i < error.cols(); ++i) {
-    if (!rate0.col(i).isZero(0)) continue;
-    if (rate1.col(i).isZero(0)) {
-      error.col(i) = last * rate2.col(i);
-      continue;
-    }
-    const auto d = change * (rate2.col(i) - rate1.col(i));
-    if (d.squaredNorm() > error.col(i).squaredNorm()) error.col(i) = d;
-  }
-}
-
-/// k sum_j w_j G_j, components x points.
-std::vector<Matrix> StepTaker::strainError() {
-  const double k = t1_ - state_.time;
-  const std::vector<double>& weights = tableau_.errorWeights;
-  if (rates_.empty()) rates_.push_back(ratesOf(solutions_.back(), k));
-  std::vector<Matrix> error;
-  for (size_t b = 0; b < model_.bodies.size(); ++b) {
-    Matrix rate;
-    model_.bodies[b].material().viscoplasticRate(state_.bodies[b].stress, rate);
-    Matrix e = k * weights[0] * rate;
-    for (size_t j = 0; j < rates_.size(); ++j) e += k * weights[j + 1] * rates_[j][b];
-    if (rates_.size() > 1) judgeOnset(rate, rates_[0][b], rates_[1][b], k, e);
-    error.push_back(std::move(e));
-  }
-  return error;
-}
-
-std::vector<Response> StepTaker::error(bool lasting) {
-  std::vector<Matrix> strain = strainError();
-  const ActiveSets& active = solutions_.back().active;
-  std::vector<Response> error = solver_.respond(strain, active);
-  if (!lasting) return error;
-  // What of the strain is still viscoplastic: B d - E^-1 s.
-  for (size_t b = 0; b < strain.size(); ++b) {
-    Matrix elastic;
-    const Vector none = Vector::Zero(error[b].displacement.size());
-    model_.bodies[b].strain({error[b].displacement, none}, nullptr, strain[b], 0, model_.bodies[b].points());
-    model_.bodies[b].material().elasticStrain(error[b].stress, elastic);
-    strain[b] -= elastic;
-  }
-  return solver_.respond(strain, active);
-}
-
 /// Share of |G_1| in triangles where G_1 : G_2 <= 0.
 double StepTaker::turnedShare() const {
   double all = 0;

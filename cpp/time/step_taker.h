@@ -23,12 +23,20 @@ class StepTaker {
   StepOutcome attempt(double t1, Scheme scheme, Effort effort = Effort::usual);
   /// Whether the last attempt was done again as two half steps of backward Euler.
   [[nodiscard]] bool guarded() const { return guarded_; }
-  /// Estimate of the local error of the last attempt, per body: the embedded estimate of the viscoplastic strain,
-  /// filtered through the tangent at the end of the step with the contact kept as it is. Where steps are longer
-  /// than the relaxation time, that is the error of the overstress. What is `lasting` of it is filtered once more:
-  /// the rest is forgotten in the next steps.
-  std::vector<Response> error(bool lasting);
-  /// Power of the step with which that falls.
+  /// Error of the viscoplastic strain (exact less computed, per body) that the last attempt makes on its way from the
+  /// state (step_error.cpp).
+  std::vector<Matrix> localError();
+  /// What an error of the viscoplastic strain at the start of the attempt has become at its end.
+  std::vector<Matrix> carried(const std::vector<Matrix>& strain);
+  /// What displacement and stress make of an error of the viscoplastic strain at the end of the attempt.
+  std::vector<Response> response(const std::vector<Matrix>& strain);
+  /// By how much the stress of the attempt is not what the step before leads to expect; no displacement.
+  [[nodiscard]] std::vector<Response> surprise() const;
+  /// The fraction of the attempt at which the first point flows, where none did at its start; 1 if none does.
+  [[nodiscard]] double onset() const;
+  /// Whether any point of the state flows.
+  [[nodiscard]] bool flowing() const;
+  /// Power of the step with which the local error falls.
   [[nodiscard]] int errorOrder() const { return tableau_.errorOrder; }
   /// What was met among the contact conditions so far.
   [[nodiscard]] const SpecialConditions& special() const { return solver_.special(); }
@@ -45,9 +53,14 @@ class StepTaker {
   [[nodiscard]] std::vector<Matrix> startingRates() const;
   /// G of a solved stage, `weight` its time step times its diagonal coefficient [s].
   [[nodiscard]] std::vector<Matrix> ratesOf(const Iterate& stage, double weight) const;
-  [[nodiscard]] std::vector<Matrix> strainError();
-  void judgeOnset(const Matrix& rate0, const Matrix& rate1, const Matrix& rate2, double k,
-                  Matrix& error) const;
+  /// What the step makes of strains given at its stages.
+  std::vector<Matrix> throughStages(const std::vector<std::vector<Matrix>>& strains);
+  [[nodiscard]] std::vector<Matrix> flowOf(const std::vector<Matrix>& strain,
+                                           const std::vector<Response>& response) const;
+  [[nodiscard]] std::vector<Matrix> defects(size_t body, const std::vector<Matrix>& rates) const;
+  using Fields = std::vector<std::vector<Matrix>>;  ///< by stage and body
+  void limit(const Fields& rates, Fields& missed) const;
+  [[nodiscard]] Matrix stressWithin(size_t body, double fraction) const;
   [[nodiscard]] double turnedShare() const;
 
   const Model& model_;

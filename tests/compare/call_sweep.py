@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """Every call to the file system of a run or a restart fails once, or the process is killed there (tests/faults).
 
 call_sweep.py [--part K/N] [--mortier PROGRAM] [--calls failing_calls.so]    prints what was found, ends with 1 if anything was

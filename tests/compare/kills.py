@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """Runs and restarts that are killed at random moments, and several processes on one folder.
 
 kills.py [--kills N] [--rounds N] [--seed N]    prints what was found, ends with 1 if anything was

@@ -1,4 +1,4 @@
-// For libFuzzer (clang): fuzz-readers -max_len=4096 CORPUS tests/fuzz/corpus
+// For libFuzzer (clang): fuzz_readers -max_len=4096 CORPUS tests/fuzz/corpus
 #include "fuzz/readers.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

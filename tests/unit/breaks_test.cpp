@@ -59,5 +59,43 @@ TEST(Breaks, ofSeveralDataEachOnce) {
   EXPECT_EQ(findBreaks({a, b}, 0, 2), (Times{0.5, 1}));
 }
 
+// ---- samples
+
+constexpr double pi = std::numbers::pi;
+
+TEST(Courses, aStepThatJumpsOverWavesIsSeen) {
+  const Course waves = resolve([](double t) { return std::cos(40 * pi * t); }, 0, 1);
+  EXPECT_TRUE(waves.resolved);
+  EXPECT_NEAR(waves.range, 2, 1e-3);
+  // From crest to crest, where every stage of the step sees the same.
+  EXPECT_GT(unseen(waves, {1}, 0, 0.05), 0.99);
+  EXPECT_GT(unseen(waves, {0.5, 1}, 0, 0.2), 0.9);
+  EXPECT_LT(unseen(waves, {0.5, 1}, 0, 0.005), 0.01);
+  EXPECT_NEAR(beyondEnds(waves, 0, 0.05), 1, 1e-3);
+  EXPECT_EQ(beyondEnds(waves, 0, 0.025), 0);
+}
+
+TEST(Courses, whatAStepSeesExactlyIsNotMissed) {
+  const Course cubic = resolve([](double t) { return t * t; }, 0, 1);
+  EXPECT_LT(unseen(cubic, {0.3, 1}, 0, 1), 1e-14);
+  EXPECT_NEAR(unseen(cubic, {1}, 0, 1), 0.25, 1e-5);
+  const Course constant = resolve([](double) { return 7.0; }, 0, 1);
+  EXPECT_EQ(unseen(constant, {1}, 0, 1), 0);
+}
+
+TEST(Courses, dataThatCannotBeSampledAreTold) {
+  EXPECT_TRUE(resolve([](double t) { return std::sin(2 * pi * 1000 * t); }, 0, 1).resolved);
+  EXPECT_FALSE(resolve([](double t) { return std::sin(1e9 * t); }, 0, 1).resolved);
+  EXPECT_FALSE(resolve([](double t) { return std::sin(3e5 * t) > 0 ? 1.0 : 0.0; }, 0, 1).resolved);
+}
+
+TEST(Courses, ofATableEveryPulseIsSeen) {
+  const std::vector<double> times{0, 0.3, 0.3000001, 0.3000002, 2};
+  const auto pulse = [](double t) { return std::max(0.0, 1 - std::abs(t - 0.3000001) / 1e-7); };
+  const Course course = tableCourse(pulse, times, 0, 1);
+  EXPECT_EQ(course.breaks, (Times{0.3, 0.3000001, 0.3000002}));
+  EXPECT_NEAR(unseen(course, {1}, 0, 1), 1, 1e-6);
+}
+
 }  // namespace
 }  // namespace mortier

@@ -68,6 +68,34 @@ TEST(PerzynaClosedForms, relaxationFollowsItsClosedForm) {
 }
 
 // theta e = 1.5e8: one step lands on the yield surface.
+// Uniaxial stress: the table of docs/scene.md. Towards yield the rate over that of the overstress is 2 (b_p + b_q)/(b_p + 3 b_q),
+// lateral over axial flow (b_p - b_q)/(b_p + b_q).
+TEST(PerzynaClosedForms, uniaxialFlowIsNotThatOfThreeDimensions) {
+  struct Row {
+    Projection projection;
+    double overYield, rate, lateral;
+  };
+  const Row rows[] = {{Projection::frobenius, 1.2, 0.826, -0.445},
+                      {Projection::frobenius, 2, 0.894, -0.296},
+                      {Projection::elasticity, 1.2, 0.771, -0.643},
+                      {Projection::elasticity, 2, 0.863, -0.459},
+                      {Projection::compliance, 1.2, 0.911, -0.201},
+                      {Projection::compliance, 5, 0.979, -0.052},
+                      {Projection::frobenius, 1 + 1e-6, 0.8, -0.5},
+                      {Projection::elasticity, 1 + 1e-6, 4.6 / 6.2, -1.6 / 2.3},
+                      {Projection::compliance, 1 + 1e-6, 0.895, -0.235}};
+  constexpr double printed = 5e-4;
+  constexpr double viscosity = 10;
+  for (const auto& [projection, stress, expected, lateral] : rows) {
+    const auto material = perzynaMaterial({1e6, 0.3}, {viscosity, 1, projection});
+    Matrix rate;
+    material->viscoplasticRate(fromCartesian({stress, 0, 0}), rate);
+    const Vector3d flow = toCartesian(rate.col(0));
+    EXPECT_NEAR(flow[0] / ((stress - 1) / (2 * viscosity)), expected, printed);
+    EXPECT_NEAR(flow[1] / flow[0], lateral, printed);
+  }
+}
+
 TEST(PerzynaClosedForms, stiffStepLandsOnTheYieldSurface) {
   for (const Projection projection : projections) {
     const auto material = perzynaMaterial({3e11, 0.3}, {10, 1, projection});

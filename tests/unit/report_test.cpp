@@ -224,6 +224,11 @@ struct Blocks {
   State state;
   RunFacts facts;
 
+  [[nodiscard]] Accuracy accuracy() const {
+    AccuracyMemory none;
+    return AccuracyRecord(model, none).atEnd(state, {});
+  }
+
   Blocks() {
     const Elasticity elasticity{100, 0.3};
     model.bodies.emplace_back("upper", crissCrossMesh({{0, 0}, {1, 1}, 1, 1}),
@@ -321,8 +326,7 @@ TEST_F(Output, summaryHasItsKeys) {
   const Blocks blocks;
   StepReport last;
   last.penetration = 1e-18;
-  writeSummary(path, blocks.facts, blocks.model, blocks.state, last, {},
-               accuracyOf(blocks.model, blocks.state));
+  writeSummary(path, blocks.facts, blocks.model, blocks.state, last, {}, blocks.accuracy());
   const auto json = nlohmann::json::parse(contentOf(path + "/summary.json"));
   for (const char* key :
        {"scene", "status", "contact", "nonmortar", "projection", "triangles", "nodes", "dofs", "steps",
@@ -348,8 +352,7 @@ TEST_F(Output, summaryThatIsNotFiniteIsNotWritten) {
   const Blocks blocks;
   RunReport report;
   report.worst.forceBalance = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(writeSummary(path, blocks.facts, blocks.model, blocks.state, {}, report,
-                            accuracyOf(blocks.model, blocks.state)),
+  EXPECT_THROW(writeSummary(path, blocks.facts, blocks.model, blocks.state, {}, report, blocks.accuracy()),
                OutputError);
   EXPECT_TRUE(names().empty());
 }

@@ -11,7 +11,7 @@
 #include "mesh/medit.h"
 #include "scene/build.h"
 #include "scene/document.h"
-#include "scene/load_breaks.h"
+#include "scene/load_courses.h"
 #include "scene/overrides.h"
 #include "scene/schema.h"
 #include "scene/sides.h"
@@ -222,7 +222,7 @@ TEST_F(SceneFiles, stepsByTheirErrorNeedATolerance) {
   EXPECT_EQ(scene.time.breaks, (std::vector<double>{0.25, 1.5}));
   // The jump of the lower support's datum is found beside them.
   std::vector<std::string> warnings;
-  EXPECT_EQ(loadBreaks(scene, buildModel(scene, warnings)),
+  EXPECT_EQ(loadCourses(scene, buildModel(scene, warnings)).breaks,
             (std::vector<double>{0.25, 1, std::nextafter(1.0, 2.0), 1.5}));
   const std::vector<std::pair<std::vector<std::string>, std::string>> faults = {
       {{"time.tolerance=0"}, "--set time.tolerance=0: time: tolerance = 0, expected 0 < tolerance < 1"},
@@ -291,7 +291,7 @@ TEST_F(SceneFiles, breaksOfTablesAreAllKnown) {
                "body.lower.boundary={label=1, un={time=[-1, 1.3, 1.3000001, 3], value=[0, 0, 1e-9, 0]}}",
                "body.lower.force.x={time=[0.5, 1], value=[0, 1]}"});
   std::vector<std::string> warnings;
-  EXPECT_EQ(loadBreaks(scene, buildModel(scene, warnings)),
+  EXPECT_EQ(loadCourses(scene, buildModel(scene, warnings)).breaks,
             (std::vector<double>{0.3001, 0.3002, 0.5, 1, 1.3, 1.3000001}));
 }
 

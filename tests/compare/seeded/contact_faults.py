@@ -1,7 +1,7 @@
 """Contact: sides that do not face each other, and conditions that contradict it."""
 import math
 
-from seeded.case import THIRD, Mesh, fault
+from seeded.case import ELASTIC, THIRD, Mesh, fault
 
 
 @fault("contact-line", "scene.toml:24")
@@ -43,6 +43,7 @@ def _(case):
 # Meshes of one cosine: no circle.
 @fault("contact-polygon", "[contact]")
 def _(case):
+    case.scene = ELASTIC
     for mesh in (case.upper, case.lower):
         mesh.move(lambda x, y: (x, y + 0.2 * math.cos(3 * x)))
 

@@ -43,3 +43,8 @@ def _(case):
 @fault("constant-loads", "steps = ", ELASTIC)
 def _(case):
     case.replace("steps = 1", "steps = 50")
+
+
+@fault("initial-stress", "scene.toml", ELASTIC)
+def _(case):
+    case.replace("poisson = 0.3 }", "poisson = 0.3 }\ninitial_stress = { s11 = 1 }")

@@ -1,0 +1,58 @@
+#include "plan/estimate_doubts.h"
+
+#include <algorithm>
+
+#include "plan/loads.h"
+
+namespace mortier {
+namespace {
+
+/// Whether cells are cut by both diagonals: most triangles have a corner inside the mesh with four triangles around it.
+bool crossed(const TriangleMesh& mesh) {
+  constexpr double most = 0.9;
+  std::vector<int> around(mesh.vertices.size(), 0);
+  for (const auto& triangle : mesh.triangles)
+    for (const int v : triangle) ++around[v];
+  const auto inCell = [&](const std::array<int, 3>& triangle) {
+    return std::any_of(triangle.begin(), triangle.end(), [&](int v) { return around[v] == 4; });
+  };
+  const auto count = std::count_if(mesh.triangles.begin(), mesh.triangles.end(), inCell);
+  return static_cast<double>(count) > most * static_cast<double>(mesh.triangles.size());
+}
+
+}  // namespace
+
+bool meshesMatch(const ContactInterface& interface) {
+  std::vector<int> vertex(interface.rows(), -1);
+  for (int dof = 0; dof < interface.C2().outerSize(); ++dof)
+    for (ConstraintRows::InnerIterator entry(interface.C2(), dof); entry; ++entry) {
+      int& seen = vertex[entry.row()];
+      if (seen >= 0 && seen != dof / 2) return false;
+      seen = dof / 2;
+    }
+  return true;
+}
+
+std::vector<std::string> estimateDoubts(const SceneDescription& scene, const Model& model) {
+  constexpr double incompressible = 0.49;
+  std::vector<std::string> doubts;
+  const auto falseStresses = [](const ContactInterface& interface) {
+    return interface.pair().coupling == CouplingKind::interpolation && !meshesMatch(interface);
+  };
+  if (std::any_of(model.interfaces.begin(), model.interfaces.end(), falseStresses))
+    doubts.emplace_back(
+        "interpolation on meshes that do not match makes false stresses, of which it sees 0.34 to 0.8");
+  for (size_t b = 0; b < model.bodies.size() && scene.plane == Plane::strain; ++b) {
+    const auto materials = materialsOf(scene.bodies[b]);
+    const bool keepsVolume = std::any_of(
+        materials.begin(), materials.end(),
+        [](const MaterialDescription* material) { return material->elasticity.poisson > incompressible; });
+    if (keepsVolume && !crossed(model.bodies[b].mesh()))
+      doubts.push_back("body " + model.bodies[b].name() +
+                       " is nearly incompressible and locks on cells with one diagonal, of which it sees "
+                       "0.38 to 1.2");
+  }
+  return doubts;
+}
+
+}  // namespace mortier

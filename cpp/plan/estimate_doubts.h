@@ -1,0 +1,19 @@
+// Where the estimate of the error of the stress (fem/error_estimate.h) is known to be wrong, and by how much: docs/theory.md
+// has the measurements.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "solver/model.h"
+
+namespace mortier {
+
+/// A line each, with the range of the estimate over the error.
+std::vector<std::string> estimateDoubts(const SceneDescription& scene, const Model& model);
+
+/// Whether every nonmortar node lies on a mortar node.
+bool meshesMatch(const ContactInterface& interface);
+
+}  // namespace mortier

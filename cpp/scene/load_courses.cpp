@@ -1,0 +1,116 @@
+#include "scene/load_courses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include "base/error.h"
+#include "mesh/boundary_line.h"
+#include "scene/labels.h"
+
+namespace mortier {
+namespace {
+
+/// Vertices of a labelled boundary, or of the whole mesh, not too many.
+std::vector<Point> samplePoints(const TriangleMesh& mesh, const int* label) {
+  constexpr size_t enough = 24;
+  std::vector<Point> points;
+  if (label == nullptr) {
+    points = mesh.vertices;
+  } else {
+    for (const auto& [from, to] : edgesOn(mesh, *label)) points.push_back(mesh.vertices[from]);
+  }
+  const size_t stride = 1 + points.size() / enough;
+  std::vector<Point> sample;
+  for (size_t i = 0; i < points.size(); i += stride) sample.push_back(points[i]);
+  return sample;
+}
+
+/// One point is enough where the datum is the same everywhere.
+std::vector<Point> needed(const Expression& expression, const std::vector<Point>& points, double end) {
+  constexpr double times[] = {0, 0.1357, 0.3819, 0.6542, 0.8713, 1};
+  for (const double t : times)
+    for (const Point& p : points)
+      if (expression.value(p[0], p[1], t * end) != expression.value(points[0][0], points[0][1], t * end))
+        return points;
+  return {points[0]};
+}
+
+/// Calls work(expression, points) for every datum of the scene.
+void forEachDatum(const SceneDescription& scene, const Model& model,
+                  const std::function<void(const Expression&, const std::vector<Point>&)>& work) {
+  const auto call = [&](const Expression& expression, const std::vector<Point>& points) {
+    if (!expression.constant && !points.empty()) work(expression, needed(expression, points, scene.time.end));
+  };
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    const TriangleMesh& mesh = model.bodies[b].mesh();
+    for (const ConditionDescription& c : scene.bodies[b].conditions) {
+      const int label = boundaryLabel(mesh, c.label, c.labelName, c.where);
+      call(c.value, samplePoints(mesh, &label));
+    }
+    for (const std::optional<Expression>& force : scene.bodies[b].force)
+      if (force) call(*force, samplePoints(mesh, nullptr));
+  }
+}
+
+std::string text(const char* pattern, double a, double b) {
+  char buffer[128];
+  std::snprintf(buffer, sizeof buffer, pattern, a, b);
+  return buffer;
+}
+
+Course courseAt(const Expression& expression, const Point& p, double end) {
+  const auto datum = [value = expression.value, p](double t) { return value(p[0], p[1], t); };
+  if (!expression.breaks.empty()) return tableCourse(datum, expression.breaks, 0, end);
+  Course course = resolve(datum, 0, end);
+  if (!course.resolved)
+    throw InputError(expression.where +
+                     text(", expected a datum that can be sampled in time: at (%.6g, %.6g) it varies "
+                          "faster",
+                          p[0], p[1]));
+  return course;
+}
+
+}  // namespace
+
+LoadCourses loadCourses(const SceneDescription& scene, const Model& model) {
+  LoadCourses loads;
+  loads.breaks = scene.time.breaks;
+  forEachDatum(scene, model, [&](const Expression& expression, const std::vector<Point>& points) {
+    for (const Point& p : points) {
+      Course course = courseAt(expression, p, scene.time.end);
+      loads.breaks.insert(loads.breaks.end(), course.breaks.begin(), course.breaks.end());
+      loads.data.push_back(std::move(course));
+    }
+  });
+  std::sort(loads.breaks.begin(), loads.breaks.end());
+  loads.breaks.erase(std::unique(loads.breaks.begin(), loads.breaks.end()), loads.breaks.end());
+  return loads;
+}
+
+std::vector<std::string> loadsBetweenSteps(const SceneDescription& scene, const Model& model) {
+  constexpr double much = 0.25;
+  std::vector<std::string> warnings;
+  const double k = scene.time.end / scene.time.steps;
+  forEachDatum(scene, model, [&](const Expression& expression, const std::vector<Point>& points) {
+    double most = much;
+    std::string warning;
+    for (const Point& p : points) {
+      const Course course = courseAt(expression, p, scene.time.end);
+      for (int i = 0; i < scene.time.steps; ++i)
+        if (const double part = beyondEnds(course, k * i, k * (i + 1)); part > most) {
+          most = part;
+          warning = expression.where + text(": between t = %.6g and %.6g s", k * i, k * (i + 1)) +
+                    text(
+                        ", a step, it goes %.0f %% of its range beyond both ends; take more steps, or "
+                        "time.tolerance",
+                        100 * part, 0);
+        }
+    }
+    if (!warning.empty()) warnings.push_back(std::move(warning));
+  });
+  return warnings;
+}
+
+}  // namespace mortier

@@ -1,0 +1,15 @@
+// The state at t = 0 of a scene: initial stresses brought into equilibrium.
+#pragma once
+
+#include <string>
+
+#include "scene/scene.h"
+#include "time/march.h"
+
+namespace mortier {
+
+/// Settles the initial stresses of `state`, where there are any (time/initial_balance.h). \returns what a user may not have
+/// meant: by how much they changed; empty where they were in equilibrium. \throws InputError, UnheldBodyError
+std::string settle(const SceneDescription& scene, const Model& model, State& state);
+
+}  // namespace mortier

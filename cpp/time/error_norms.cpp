@@ -1,0 +1,61 @@
+#include "time/error_norms.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mortier {
+
+ErrorMeasure::ErrorMeasure(const Model& model) : model_(model) {
+  for (const Body& body : model.bodies) {
+    for (const double weight : body.weights()) area_ += weight;
+    extent_ = std::max(extent_, extent(body.mesh()));
+  }
+}
+
+ErrorMeasure::StressNorms ErrorMeasure::normsOf(const Matrix& stress, size_t body) const {
+  Matrix strain;
+  model_.bodies[body].material().elasticStrain(stress, strain);
+  StressNorms norms;
+  for (Eigen::Index i = 0; i < stress.cols(); ++i) {
+    const double weight = model_.bodies[body].weights()[i];
+    norms.energy += weight * stress.col(i).dot(strain.col(i));
+    norms.strain += weight / area_ * strain.col(i).squaredNorm();
+  }
+  return norms;
+}
+
+/// Over the area of all bodies, a third of each triangle at each of its vertices.
+double ErrorMeasure::meanSquare(const Vector& displacement, size_t body) const {
+  const Body& in = model_.bodies[body];
+  const size_t points = in.weights().size() / in.mesh().triangles.size();
+  double sum = 0;
+  for (size_t i = 0; i < in.weights().size(); ++i)
+    for (const int vertex : in.mesh().triangles[i / points])
+      sum += in.weights()[i] / 3 / area_ * displacement.segment<2>(2 * vertex).squaredNorm();
+  return sum;
+}
+
+ErrorNorms ErrorMeasure::sizeOf(const State& state) const {
+  double stress = 0;
+  double displacement = 0;
+  double strain = 0;
+  for (size_t b = 0; b < state.bodies.size(); ++b) {
+    const StressNorms norms = normsOf(state.bodies[b].stress, b);
+    stress += norms.energy;
+    strain += norms.strain;
+    displacement += meanSquare(state.bodies[b].displacement, b);
+  }
+  return {std::sqrt(stress), std::max(std::sqrt(displacement), extent_ * std::sqrt(strain))};
+}
+
+ErrorNorms ErrorMeasure::sizeOf(const std::vector<Response>& error) const {
+  double stress = 0;
+  double displacement = 0;
+  for (size_t b = 0; b < error.size(); ++b) {
+    stress += normsOf(error[b].stress, b).energy;
+    displacement += meanSquare(error[b].displacement, b);
+  }
+  return {std::sqrt(stress), std::sqrt(displacement)};
+}
+
+}  // namespace mortier

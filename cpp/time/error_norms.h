@@ -1,0 +1,35 @@
+// The norms in which errors in time are measured: the stress in the energy norm, which is blind where equilibrium alone
+// decides the stress, and the displacement in the mean.
+#pragma once
+
+#include <vector>
+
+#include "solver/model.h"
+#include "solver/state.h"
+#include "solver/step.h"
+#include "time/memory.h"
+
+namespace mortier {
+
+class ErrorMeasure {
+ public:
+  explicit ErrorMeasure(const Model& model);
+
+  /// Of a state. Where everything is held no displacement is a scale: what the elastic strain makes of the extent is.
+  [[nodiscard]] ErrorNorms sizeOf(const State& state) const;
+  [[nodiscard]] ErrorNorms sizeOf(const std::vector<Response>& error) const;
+
+ private:
+  struct StressNorms {
+    double energy = 0;  ///< square of the energy norm of a stress [J/m]
+    double strain = 0;  ///< mean square of its elastic strain [-]
+  };
+  [[nodiscard]] StressNorms normsOf(const Matrix& stress, size_t body) const;
+  [[nodiscard]] double meanSquare(const Vector& displacement, size_t body) const;
+
+  const Model& model_;
+  double area_ = 0;    ///< of all bodies [m^2]
+  double extent_ = 0;  ///< of the largest [m]
+};
+
+}  // namespace mortier

@@ -1,0 +1,186 @@
+// The error of a step, by what its stages miss of the flow in between.
+#include <algorithm>
+#include <cmath>
+
+#include "time/step_taker.h"
+
+namespace mortier {
+namespace {
+
+/// Gauss's rule with three points on [0, 1].
+constexpr double gaussPoints[] = {0.1127016653792583, 0.5, 0.8872983346207417};
+constexpr double gaussWeights[] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+constexpr int parts = 2;  // of the time between two stages
+
+/// Lagrange's polynomials of the nodes at x.
+std::vector<double> polynomials(const std::vector<double>& nodes, double x) {
+  std::vector<double> values(nodes.size(), 1);
+  for (size_t i = 0; i < nodes.size(); ++i)
+    for (size_t j = 0; j < nodes.size(); ++j)
+      if (j != i) values[i] *= (x - nodes[j]) / (nodes[i] - nodes[j]);
+  return values;
+}
+
+bool none(const std::vector<Matrix>& fields) {
+  for (const Matrix& field : fields)
+    if (!field.isZero(0)) return false;
+  return true;
+}
+
+}  // namespace
+
+/// The stress of a body within the step: the polynomial through its start and its stages.
+Matrix StepTaker::stressWithin(size_t body, double fraction) const {
+  std::vector<double> nodes{0};
+  for (const Stage& stage : tableau_.stages) nodes.push_back(stage.time);
+  const std::vector<double> at = polynomials(nodes, fraction);
+  Matrix stress = at[0] * state_.bodies[body].stress;
+  for (size_t i = 0; i < solutions_.size(); ++i) stress += at[i + 1] * solutions_[i].bodies[body].stress;
+  return stress;
+}
+
+/// r_i = integral of G to c_i k less k sum_j a_ij G_j, by stage; G of the stages given.
+std::vector<Matrix> StepTaker::defects(size_t body, const std::vector<Matrix>& rates) const {
+  const double k = t1_ - state_.time;
+  const Material& material = model_.bodies[body].material();
+  Matrix integral = Matrix::Zero(material.components(), model_.bodies[body].points());
+  Matrix rate;
+  std::vector<Matrix> missed;
+  double from = 0;
+  for (size_t i = 0; i < tableau_.stages.size(); ++i) {
+    const Stage& stage = tableau_.stages[i];
+    if (!material.linear()) {
+      const double h = (stage.time - from) / parts;
+      for (int part = 0; part < parts; ++part)
+        for (int g = 0; g < 3; ++g) {
+          material.viscoplasticRate(stressWithin(body, from + h * (part + gaussPoints[g])), rate);
+          integral += k * h * gaussWeights[g] * rate;
+        }
+    }
+    Matrix r = integral - k * stage.diagonal * rates[i];
+    for (size_t j = 0; j < stage.before.size(); ++j) r -= k * stage.before[j] * rates[j];
+    missed.push_back(std::move(r));
+    from = stage.time;
+  }
+  return missed;
+}
+
+/// What of a response is viscoplastic: B d - E^-1 s.
+std::vector<Matrix> StepTaker::flowOf(const std::vector<Matrix>& strain,
+                                      const std::vector<Response>& response) const {
+  std::vector<Matrix> flow = strain;
+  for (size_t b = 0; b < flow.size(); ++b) {
+    const Vector zero = Vector::Zero(response[b].displacement.size());
+    Matrix elastic;
+    model_.bodies[b].strain({response[b].displacement, zero}, nullptr, flow[b], 0, model_.bodies[b].points());
+    model_.bodies[b].material().elasticStrain(response[b].stress, elastic);
+    flow[b] -= elastic;
+  }
+  return flow;
+}
+
+std::vector<Matrix> StepTaker::throughStages(const std::vector<std::vector<Matrix>>& strains) {
+  std::vector<std::vector<Matrix>> flows;  // k J_j ds_j
+  std::vector<Matrix> error;
+  for (size_t i = 0; i < tableau_.stages.size(); ++i) {
+    const Stage& stage = tableau_.stages[i];
+    std::vector<Matrix> shift = strains[i];
+    for (size_t j = 0; j < stage.before.size(); ++j)
+      for (size_t b = 0; b < shift.size(); ++b) shift[b] += stage.before[j] * flows[j][b];
+    error = flowOf(shift, response(shift));
+    if (i + 1 == tableau_.stages.size()) break;
+    std::vector<Matrix> flow = error;
+    for (size_t b = 0; b < flow.size(); ++b) {
+      flow[b] = (flow[b] - shift[b]) / stage.diagonal;
+      for (int p = 0; p < model_.bodies[b].points(); ++p)
+        if (!model_.bodies[b].material().flows(solutions_[i].bodies[b].stress, p)) flow[b].col(p).setZero();
+    }
+    flows.push_back(std::move(flow));
+  }
+  return error;
+}
+
+/// Where some points flow and others do not, stresses turn sharply between the stages and the polynomial through them is
+/// no guide: no point misses more than a part of what it flows.
+void StepTaker::limit(const Fields& rates, Fields& missed) const {
+  constexpr double largest = 0.3;
+  const double k = t1_ - state_.time;
+  const std::vector<Matrix> start = startingRates();
+  if (none(start) && std::all_of(rates.begin(), rates.end(), none)) return;
+  for (size_t b = 0; b < start.size(); ++b)
+    for (Eigen::Index p = 0; p < start[b].cols(); ++p) {
+      double rate = start[b].col(p).norm();
+      for (const std::vector<Matrix>& stage : rates) rate = std::max(rate, stage[b].col(p).norm());
+      for (std::vector<Matrix>& stage : missed) {
+        const double norm = stage[b].col(p).norm();
+        if (norm > largest * k * rate) stage[b].col(p) *= largest * k * rate / norm;
+      }
+    }
+}
+
+std::vector<Matrix> StepTaker::localError() {
+  const size_t stages = tableau_.stages.size();
+  Fields rates(stages);
+  Fields missed(stages);
+  for (size_t b = 0; b < model_.bodies.size(); ++b) {
+    std::vector<Matrix> own(stages);
+    for (size_t i = 0; i < stages; ++i)
+      model_.bodies[b].material().viscoplasticRate(solutions_[i].bodies[b].stress, own[i]);
+    std::vector<Matrix> r = defects(b, own);
+    for (size_t i = 0; i < stages; ++i) {
+      rates[i].push_back(std::move(own[i]));
+      missed[i].push_back(std::move(r[i]));
+    }
+  }
+  limit(rates, missed);
+  return throughStages(missed);
+}
+
+std::vector<Matrix> StepTaker::carried(const std::vector<Matrix>& strain) {
+  return throughStages(std::vector<std::vector<Matrix>>(tableau_.stages.size(), strain));
+}
+
+std::vector<Response> StepTaker::response(const std::vector<Matrix>& strain) {
+  return solver_.respond(strain, solutions_.back().active);
+}
+
+std::vector<Response> StepTaker::surprise() const {
+  const double ratio = memory_.increments.empty() ? 0 : (t1_ - state_.time) / memory_.timeStep;
+  std::vector<Response> surprise;
+  for (size_t b = 0; b < model_.bodies.size(); ++b) {
+    Matrix stress = solutions_.back().bodies[b].stress - state_.bodies[b].stress;
+    if (ratio > 0) stress -= ratio * memory_.increments.back()[b].stress;
+    surprise.push_back({Vector::Zero(state_.bodies[b].displacement.size()), std::move(stress)});
+  }
+  return surprise;
+}
+
+bool StepTaker::flowing() const {
+  for (size_t b = 0; b < model_.bodies.size(); ++b)
+    for (int i = 0; i < model_.bodies[b].points(); ++i)
+      if (model_.bodies[b].material().flows(state_.bodies[b].stress, i)) return true;
+  return false;
+}
+
+double StepTaker::onset() const {
+  constexpr int halvings = 12;
+  const auto flowsAt = [&](double fraction) {
+    for (size_t b = 0; b < model_.bodies.size(); ++b) {
+      if (model_.bodies[b].material().linear()) continue;
+      const Matrix stress = stressWithin(b, fraction);
+      for (int i = 0; i < model_.bodies[b].points(); ++i)
+        if (model_.bodies[b].material().flows(stress, i)) return true;
+    }
+    return false;
+  };
+  double below = 0;
+  double above = 1;
+  if (!flowsAt(above)) return 1;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (below + above) / 2;
+    (flowsAt(middle) ? above : below) = middle;
+  }
+  return below;
+}
+
+}  // namespace mortier

@@ -1,0 +1,72 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "lint/fault.h"
+#include "lint/topology.h"
+#include "mesh/generate.h"
+
+namespace mortier {
+namespace {
+
+TEST(Faults, kindsHaveIdsOfTheirOwnAndRemedies) {
+  std::set<std::string> ids;
+  for (const FaultKind& kind : faultKinds()) {
+    EXPECT_TRUE(ids.insert(kind.id).second) << kind.id;
+    EXPECT_FALSE(kind.what.empty() || kind.remedy.empty()) << kind.id;
+  }
+  EXPECT_THROW(static_cast<void>(faultKind("none of them")), std::logic_error);
+}
+
+TEST(Faults, whatIsAllowedIsNotNamedButErrorsAre) {
+  Faults faults({"sliver", "data"});
+  faults.add("sliver", "a.mesh", "flat");
+  faults.add("data", "scene.toml:3", "not finite");
+  EXPECT_EQ(faults.count(Severity::warning), 0);
+  EXPECT_EQ(faults.count(Severity::error), 1);
+}
+
+TEST(Faults, areSaidOnce) {
+  Faults faults;
+  for (int component = 0; component < 2; ++component)
+    faults.add("load-on-contact", "scene.toml:8", "label 3 is in contact and carries a traction");
+  faults.add("load-on-contact", "scene.toml:9", "label 3 is in contact and carries a traction");
+  EXPECT_EQ(faults.all().size(), 2u);
+}
+
+TEST(Faults, aLineHasPlaceSeverityMessageRemedyAndId) {
+  Faults faults;
+  faults.add("sliver", "a.mesh: triangle 3", "one is flat");
+  EXPECT_EQ(oneLine(faults.all().front()),
+            "a.mesh: triangle 3: warning: one is flat; mesh again with a lower bound on angles [sliver]");
+  EXPECT_EQ(counted(1, "vertex"), "1 vertex");
+  EXPECT_EQ(counted(2, "vertex"), "2 vertices");
+  EXPECT_EQ(counted(0, "edge"), "0 edges");
+}
+
+// n x n cells with one diagonal: 4 n edges around, the others between two triangles.
+TEST(Topology, countsTheEdgesOfAGrid) {
+  const int n = 7;
+  const TriangleMesh mesh =
+      gridMesh({.n1 = n, .n2 = n, .at = [](int i, int j) { return Point(i, 2 * j); }}, Cut::rising, "grid");
+  const Topology topology = topologyOf(mesh);
+  EXPECT_EQ(topology.boundary.size(), 4u * n);
+  EXPECT_EQ(topology.neighbours.size(), (3u * 2 * n * n - 4 * n) / 2);
+  for (const BoundaryEdge& edge : topology.boundary) {
+    EXPECT_NE(edge.label, noLabel);
+    const Point middle = (mesh.vertices[edge.from] + mesh.vertices[edge.to]) / 2;
+    const SegmentGrid grid = boundaryGrid(mesh, topology);
+    double nearest = INFINITY;
+    grid.near(middle, middle,
+              [&](int e) { nearest = std::min(nearest, distanceToSegment(middle, grid.segments()[e])); });
+    EXPECT_EQ(nearest, 0);
+  }
+  EXPECT_EQ(distanceToSegment({3, 4}, {Point(0, 0), Point(0, 0)}), 5);
+  EXPECT_EQ(distanceToSegment({-3, 4}, {Point(0, 0), Point(7, 0)}), 5);
+}
+
+}  // namespace
+}  // namespace mortier

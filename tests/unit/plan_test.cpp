@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "mesh/generate.h"
+#include "mesh/medit.h"
+#include "plan/estimate_doubts.h"
+#include "plan/plan.h"
+#include "scene/build.h"
+
+namespace mortier {
+namespace {
+
+/// Two blocks on meshes of 3 and 2 cells, one diagonal a cell.
+class PlanFiles : public testing::Test {
+ protected:
+  PlanFiles() : folder(testing::TempDir() + "plan_test_" + std::to_string(getpid())) {
+    std::filesystem::create_directories(folder);
+    grid("upper.mesh", 0, 3, Cut::rising);
+    grid("lower.mesh", -1, 2, Cut::rising);
+  }
+  ~PlanFiles() override { std::filesystem::remove_all(folder); }
+
+  void grid(const std::string& name, double y, int n, Cut cut) const {
+    const auto at = [&](int i, int j) { return Point(double(i) / n, y + double(j) / n); };
+    writeMedit(gridMesh({.n1 = n, .n2 = n, .at = at}, cut, name), folder + "/" + name);
+  }
+  [[nodiscard]] SceneDescription scene(const std::vector<std::string>& settings = {}) const {
+    const std::string path = folder + "/scene.toml";
+    std::ofstream(path) << R"toml([[body]]
+name = "upper"
+mesh = "upper.mesh"
+material = { young = 100, poisson = 0.3 }
+boundary = [ { label = 4, ux = 0 }, { label = 3, ty = -2 } ]
+[[body]]
+name = "lower"
+mesh = "lower.mesh"
+material = { young = 100, poisson = 0.3 }
+boundary = [ { label = 4, ux = 0 }, { label = 1, uy = "0.01*t" } ]
+[contact]
+nonmortar = { body = "upper", label = 1 }
+mortar = { body = "lower", label = 3 }
+[time]
+end = 2
+steps = 4
+)toml";
+    return readScene(path, settings);
+  }
+  static Model model(const SceneDescription& description) {
+    std::vector<std::string> warnings;
+    return buildModel(description, warnings);
+  }
+
+  std::string folder;
+};
+
+std::vector<SampledDatum> dataOf(const SceneDescription& scene, const Model& model) {
+  MeshedScene meshed{scene, {}};
+  for (const Body& body : model.bodies) meshed.meshes.push_back(&body.mesh());
+  return sampledData(meshed);
+}
+
+TEST_F(PlanFiles, loadsAreSizedByTractionAndByStrain) {
+  const SceneDescription description = scene();
+  const Model blocks = model(description);
+  const std::vector<SampledDatum> data = dataOf(description, blocks);
+  ASSERT_EQ(data.size(), 4u);
+  EXPECT_EQ(nominalStress(description, data, 0), 2);  // the traction
+  EXPECT_EQ(nominalStress(description, data, 2), 2);  // 100 * 0.02 / 1, the same
+  EXPECT_EQ(nominalStress(description, data, 4), 4);
+  EXPECT_EQ(std::count_if(data.begin(), data.end(),
+                          [&](const SampledDatum& datum) { return changesInTime(datum, description.time); }),
+            1);
+}
+
+// Whatever divides the run evenly does not hide a period.
+TEST(TrialTimes, meetNoPeriod) {
+  const std::vector<double> times = trialTimes({.end = 3, .steps = 1});
+  EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
+  EXPECT_EQ(times.front(), 0);
+  EXPECT_EQ(times.back(), 3);
+  for (const int waves : {1, 2, 8, 64, 128}) {
+    double largest = 0;
+    for (const double t : times) largest = std::max(largest, std::abs(std::sin(M_PI * waves * t / 3)));
+    EXPECT_GT(largest, 0.5) << waves;
+  }
+}
+
+TEST_F(PlanFiles, stepsAtRestAndTheOnesThatAreTaken) {
+  const auto says = [](const Plan& plan, bool modelled, const std::string& what) {
+    return std::any_of(plan.begin(), plan.end(), [&](const PlanItem& item) {
+      return item.modelled == modelled && item.what.find(what) != std::string::npos && !item.why.empty();
+    });
+  };
+  const SceneDescription moving = scene();
+  EXPECT_TRUE(says(planOf(moving, model(moving)), true, "4 steps of 0.5 s"));
+  EXPECT_TRUE(says(planOf(moving, model(moving)), true, "linear: one Cholesky factor"));
+  const SceneDescription still = scene({"body.lower.boundary.1.uy=0"});
+  EXPECT_TRUE(says(planOf(still, model(still)), true, "one step"));
+  EXPECT_TRUE(says(planOf(still, model(still)), false, "the other 3 steps"));
+  const SceneDescription flowing =
+      scene({"body.upper.material={ young = 100, poisson = 0.3, viscosity = 1, yield_stress = 50 }"});
+  EXPECT_TRUE(says(planOf(flowing, model(flowing)), false, "flow, unless"));
+  EXPECT_NE(planText(planOf(flowing, model(flowing))).find("modelled   contact 0: unilateral"),
+            std::string::npos);
+}
+
+TEST_F(PlanFiles, estimatesThatAreKnownToBeWrongAreNamed) {
+  const auto doubts = [&](const std::vector<std::string>& settings) {
+    const SceneDescription description = scene(settings);
+    return estimateDoubts(description, model(description));
+  };
+  EXPECT_TRUE(doubts({}).empty());
+  ASSERT_EQ(doubts({"contact.variant=interpolation"}).size(), 1u);
+  EXPECT_NE(doubts({"contact.variant=interpolation"})[0].find("0.34 to 0.8"), std::string::npos);
+  EXPECT_TRUE(doubts({"body.material.poisson=0.4999"}).empty());  // plane stress
+  EXPECT_EQ(doubts({"body.material.poisson=0.4999", "plane=strain"}).size(), 2u);
+  grid("upper.mesh", 0, 3, Cut::both);
+  EXPECT_EQ(doubts({"body.material.poisson=0.4999", "plane=strain"}).size(), 1u);
+  grid("upper.mesh", 0, 2, Cut::rising);
+  EXPECT_TRUE(doubts({"contact.variant=interpolation"}).empty());  // meshes that match
+}
+
+}  // namespace
+}  // namespace mortier
