@@ -133,7 +133,7 @@ Pivots contactPivots(const Model& model) {
     system.linearise({0, state.bodies[b].stress, iterate.strain}, nullptr, iterate);
     result.factorisation += secondsOf([&] { system.factorise(); });
     slack -= system.C() * system.condense(body.load(1));
-    problem.W += system.C() * system.compliance();
+    system.addCompliance(problem.W);
     normalMotions.emplace_back(system.C() * system.R());
     rigidForces.push_back(system.rigidForce(body.load(1)));
   }

@@ -24,6 +24,7 @@
 #include "report/summary.h"
 #include "scene/build.h"
 #include "scene/load_courses.h"
+#include "scene/memory_need.h"
 #include "scene/settle.h"
 #include "scene/sides.h"
 #include "scene/versions.h"
@@ -206,6 +207,7 @@ int run(RunCommand command) {
   facts.doubts = estimateDoubts(scene, model);
   AccuracyRecord accuracies(model, accuracySoFar);
   Log log(command.quiet, scene.time.end);
+  log.print("memory     " + aboutMemory(memoryNeed(model)) + "\n");
   log.print(logHeader(facts, model));
 
   // 3. The march in time. A failure leaves the last good step in `state`, an interruption in what is kept here.

@@ -60,10 +60,23 @@ void scatter(const Eigen::Matrix2d& values, const Eigen::Vector2i& rows, const E
       if (rows[i] >= 0 && columns[j] >= 0) entries.emplace_back(rows[i], columns[j], values(i, j));
 }
 
-Matrix timesNormal(const Matrix& weights, const Point& n) {
-  Matrix C(weights.rows(), 2 * weights.cols());
-  for (Eigen::Index j = 0; j < weights.cols(); ++j) C.middleCols(2 * j, 2) = weights.col(j) * n.transpose();
-  return C;
+/// Entries of the inverse of a mass matrix fall by a factor of four from node to node: those below this part of the
+/// largest change no bit of what is computed with them.
+constexpr double nothing = 1e-25;
+
+Eigen::SparseMatrix<double> sparse(const Matrix& values) {
+  const double largest = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0;
+  return values.sparseView(largest, nothing);
+}
+
+/// Columns 2 node + component of weights by nodes, along a normal.
+Eigen::SparseMatrix<double> timesNormal(const Eigen::SparseMatrix<double>& weights, const Point& n) {
+  Triplets entries;
+  for (int j = 0; j < weights.outerSize(); ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(weights, j); entry; ++entry)
+      for (int c = 0; c < 2; ++c)
+        if (n[c] != 0) entries.emplace_back(static_cast<int>(entry.row()), 2 * j + c, entry.value() * n[c]);
+  return assembled(weights.rows(), 2 * weights.cols(), entries);
 }
 
 /// Gauss's rule of four points on every segment: calls at(segment, rows, s, values of the row functions, the same
@@ -114,15 +127,18 @@ Vector bulgeOf(CouplingKind kind, const SmoothPart& part, const FacingLine& mort
 }
 
 /// A row at each node: its own motion against that of the mortar point which it sees.
-void interpolate(const SmoothPart& part, const FacingLine& mortar, PartCoupling& result) {
-  for (size_t i = 0; i < result.nodes.size(); ++i) {
-    const int node = result.nodes[i];
+void interpolate(const SmoothPart& part, const FacingLine& mortar, const std::vector<int>& nodes, Matrix& C1,
+                 Matrix& C2) {
+  C1.setZero();
+  C2.setZero();
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    const int node = nodes[i];
     const Segment place = placeOf(part, mortar, node);
     const Sight sight = see(part, mortar, place, part.s[node]);
     const auto row = static_cast<Eigen::Index>(i);
-    result.C1.block<1, 2>(row, 2 * node) = sight.normal.transpose();
+    C1.block<1, 2>(row, 2 * node) = sight.normal.transpose();
     for (int j = 0; j < 2; ++j)
-      result.C2.block<1, 2>(row, 2 * (place.mortar + j)) -= sight.psi[j] * sight.normal.transpose();
+      C2.block<1, 2>(row, 2 * (place.mortar + j)) -= sight.psi[j] * sight.normal.transpose();
   }
 }
 
@@ -131,11 +147,9 @@ PartCoupling coupleCurved(CouplingKind kind, const SmoothPart& part, const Facin
   const Rows rows(part.s, mortar.s, merged, part.closed);
   PartCoupling result;
   result.nodes = rows.nodes;
-  result.C1 = Matrix::Zero(rows.count(), 2 * static_cast<Eigen::Index>(part.nodes.size()));
-  result.C2 = Matrix::Zero(rows.count(), 2 * static_cast<Eigen::Index>(mortar.nodes.size()));
   Triplets mass;
-  Matrix C1 = result.C1;
-  Matrix C2 = result.C2;
+  Matrix C1 = Matrix::Zero(rows.count(), 2 * static_cast<Eigen::Index>(part.nodes.size()));
+  Matrix C2 = Matrix::Zero(rows.count(), 2 * static_cast<Eigen::Index>(mortar.nodes.size()));
   atGaussPoints(part, mortar, rows,
                 [&](const Segment& segment, const Eigen::Vector2i& row, double s, const Eigen::Vector2d& chi,
                     const Eigen::Vector2d& weighted) {
@@ -150,14 +164,15 @@ PartCoupling coupleCurved(CouplingKind kind, const SmoothPart& part, const Facin
                     }
                 });
   result.M = assembled(rows.count(), rows.count(), mass);
-  if (rows.count() == 0) return result;
-  if (kind == CouplingKind::interpolation) {
-    interpolate(part, mortar, result);
-    return result;
+  if (rows.count() > 0 && kind == CouplingKind::interpolation) {
+    interpolate(part, mortar, result.nodes, C1, C2);
+  } else if (rows.count() > 0) {
+    const Factor factor(result.M);
+    C1 = factor.solve(C1);
+    C2 = factor.solve(C2);
   }
-  const Factor factor(result.M);
-  result.C1 = factor.solve(C1);
-  result.C2 = factor.solve(C2);
+  result.C1 = sparse(C1);
+  result.C2 = sparse(C2);
   return result;
 }
 
@@ -221,7 +236,11 @@ PartCoupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine&
   if (part.straight) {
     Coupling scalar = couple(kind, part.s, mortar.s, merged);
     const Point& n = part.normals.front();
-    result = {std::move(scalar.nodes), scalar.M, timesNormal(scalar.B, n), timesNormal(-scalar.A, n), {}};
+    result = {std::move(scalar.nodes),
+              scalar.M,
+              timesNormal(sparse(scalar.B), n),
+              timesNormal(sparse(scalar.A), -n),
+              {}};
   } else {
     result = coupleCurved(kind, part, mortar, merged);
   }

@@ -52,10 +52,10 @@ Coupling couple(CouplingKind kind, const Trace& nonmortar, const Trace& mortar,
 
 /// The rows of one part of the nonmortar line.
 struct PartCoupling {
-  std::vector<int> nodes;         ///< nodes of the part with a row, ascending
-  Eigen::SparseMatrix<double> M;  ///< mass of the row functions, rows x rows [m]
-  Matrix C1;                      ///< rows x 2 (nodes of the part): columns 2 node + component
-  Matrix C2;                      ///< rows x 2 (nodes of the facing line)
+  std::vector<int> nodes;          ///< nodes of the part with a row, ascending
+  Eigen::SparseMatrix<double> M;   ///< mass of the row functions, rows x rows [m]
+  Eigen::SparseMatrix<double> C1;  ///< rows x 2 (nodes of the part): columns 2 node + component
+  Eigen::SparseMatrix<double> C2;  ///< rows x 2 (nodes of the facing line)
   Vector bulge;  ///< by which the curves are nearer to each other than the polygons, per row [m]
 };
 

@@ -90,12 +90,10 @@ double unknownSagitta(const SmoothPart& part, const FacingLine& mortar) {
 }
 
 /// Columns 2 node + component to dofs of the mesh.
-void scatter(const Matrix& values, const std::vector<int>& nodes, int firstRow, Triplets& entries) {
-  for (size_t j = 0; j < nodes.size(); ++j)
-    for (Eigen::Index i = 0; i < values.rows(); ++i)
-      for (int c = 0; c < 2; ++c)
-        if (const double value = values(i, 2 * static_cast<Eigen::Index>(j) + c); value != 0)
-          entries.emplace_back(firstRow + static_cast<int>(i), 2 * nodes[j] + c, value);
+void scatter(const ConstraintRows& values, const std::vector<int>& nodes, int firstRow, Triplets& entries) {
+  for (int j = 0; j < values.outerSize(); ++j)
+    for (ConstraintRows::InnerIterator entry(values, j); entry; ++entry)
+      entries.emplace_back(firstRow + static_cast<int>(entry.row()), 2 * nodes[j / 2] + j % 2, entry.value());
 }
 
 Eigen::SparseMatrix<double> assembled(Eigen::Index rows, Eigen::Index columns, const Triplets& entries) {

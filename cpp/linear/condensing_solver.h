@@ -24,6 +24,8 @@ class CondensingSolver {
   virtual bool factorise(const std::vector<double>& values) = 0;
   /// S (kept x kept, in the order in which the kept equations were given), all of it also where symmetric.
   [[nodiscard]] virtual const Matrix& schurComplement() const = 0;
+  /// The same, taken over: it is gone until the next factorise().
+  [[nodiscard]] virtual Matrix takeSchurComplement() = 0;
   /// 1 or -1, the sign of det K_bb.
   [[nodiscard]] virtual int determinantSign() const = 0;
   /// f (equations) in place: its kept part becomes f_k - K_kb K_bb^-1 f_b, its interior whatever expand()

@@ -5,6 +5,7 @@
 // the pivot block only; the caller checks residuals. Threads work on the pieces of the elimination tree.
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 #include "base/interrupt.h"
 #include "linear/condensing_solver.h"
@@ -31,7 +32,6 @@ class Multifrontal final : public CondensingSolver {
       if (!symmetric_) pivotSize_ += front.pivots;
       largest_ = std::max(largest_, front.rows.size());
     }
-    schur_.resize(plan_.kept, plan_.kept);
   }
 
   bool factorise(const std::vector<double>& values) override {
@@ -47,6 +47,7 @@ class Multifrontal final : public CondensingSolver {
   }
 
   [[nodiscard]] const Matrix& schurComplement() const override { return schur_; }
+  [[nodiscard]] Matrix takeSchurComplement() override { return std::move(schur_); }
 
   [[nodiscard]] int determinantSign() const override {
     bool negative = false;
@@ -192,7 +193,8 @@ class Multifrontal final : public CondensingSolver {
   }
 
   void keepSchurComplement(const double* update) {
-    const Eigen::Index m = schur_.rows();
+    const Eigen::Index m = plan_.kept;
+    schur_.resize(m, m);
     for (Eigen::Index j = 0; j < m; ++j)
       for (Eigen::Index i = symmetric_ ? j : 0; i < m; ++i) {
         schur_(i, j) = update[m * j + i];

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "base/interrupt.h"
 #include "linear/cholmod_common.h"
@@ -207,6 +208,7 @@ class SuiteSparse final : public CondensingSolver {
   }
 
   [[nodiscard]] const Matrix& schurComplement() const override { return schur_; }
+  [[nodiscard]] Matrix takeSchurComplement() override { return std::move(schur_); }
   [[nodiscard]] int determinantSign() const override {
     return factorisation_ ? factorisation_->determinantSign() : 1;
   }

@@ -8,6 +8,7 @@
 #include "mesh/boundary_line.h"
 #include "plan/estimate_doubts.h"
 #include "scene/build_contact.h"
+#include "scene/memory_need.h"
 
 namespace mortier {
 namespace {
@@ -236,6 +237,8 @@ void lintContacts(const LintInput& input, Faults& faults) {
     if (one.edges == 0 || two.edges == 0) continue;  // named elsewhere
     compareMeshes(contact, one, two, faults);
     compareStiffness(input, contact, one, two, faults);
+    const ContactPair pair{{0, contact.nonmortar.label}, {1, contact.mortar.label}, contact.variant};
+    if (memoryNeed({one.mesh, two.mesh}, {pair}) > availableMemory()) continue;  // buildModel tells
     try {
       const ContactInterface interface = interfaceOf(contact, one, two, false);
       checkInterface(contact, one, two, interface, std::min(extent(*one.mesh), extent(*two.mesh)), faults);

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "scene/document.h"
+#include "scene/memory_need.h"
 
 namespace mortier {
 namespace {
@@ -23,6 +24,7 @@ class Planner {
     for (size_t b = 0; b < model_.bodies.size(); ++b) planBody(b);
     planContact();
     planTime();
+    planMemory();
     if (scene_.plane == Plane::strain)
       add("scene", true, "plane strain", "plane = \"strain\": nothing moves across the plane, s33 is found");
     add("scene", false, "inertia, friction, finite strains and slips",
@@ -57,8 +59,8 @@ class Planner {
                                       (symmetric ? "symmetric" : "unsymmetric where it flows");
     add(part, true, factor + " in every iteration in which it flows", law);
     add(part, false, "a new factor while nothing in it flows", "its tangent is that of elasticity");
-    const std::string loads = "loads of the order of " + twoDigits(largest_) + " Pa, yield_stress " +
-                              shortest(yieldStress) + " Pa";
+    const std::string loads =
+        "loads of the order of " + twoDigits(largest_) + " Pa, yield_stress " + shortest(yieldStress) + " Pa";
     if (largest_ < yieldStress)
       add(part, false, "flow, unless some point yields after all", loads);
     else
@@ -82,6 +84,11 @@ class Planner {
     }
     add("contact", false, "a bilateral tie where nothing opens",
         "nothing to save: contact that keeps its active set costs what a tie would, docs/check.md");
+  }
+
+  void planMemory() {
+    add("scene", true, aboutMemory(memoryNeed(model_)) + " of memory",
+        "factors of the bodies, and dense matrices over the contact nodes");
   }
 
   void planTime() {

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "mesh/boundary_line.h"
 #include "scene/labels.h"
+#include "scene/memory_need.h"
 
 namespace mortier {
 
@@ -64,7 +65,12 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
     requireFinite(*contact.gap, points, {0});
     options.gap = [value = contact.gap->value](const Point& x) { return value(x.x(), x.y(), 0); };
   }
+  std::vector<const TriangleMesh*> meshes;
+  for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
+  std::vector<ContactPair> pairs{pair};
+  for (const ContactInterface& interface : model.interfaces) pairs.push_back(interface.pair());
   try {
+    requireMemory(meshes, pairs);
     addInterface(model, pair, options);
     if (const std::string doubt = doubtOfPolygons(model.interfaces.back()); !doubt.empty())
       warnings.push_back(contact.where + ": contact: " + doubt);

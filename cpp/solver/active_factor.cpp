@@ -1,8 +1,7 @@
 #include "solver/active_factor.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace mortier {
 namespace {
@@ -42,35 +41,19 @@ bool ActiveFactor::refactor(const std::vector<char>& active) {
 
 bool ActiveFactor::factoriseBase() {
   const auto n = static_cast<Eigen::Index>(base_.size());
+  factor_.clear();
   if (n == 0) return true;
-  factor_.resize(n, n);
+  Matrix block(n, n);
   for (Eigen::Index j = 0; j < n; ++j)
-    for (Eigen::Index i = symmetric_ ? j : 0; i < n; ++i) factor_(i, j) = W_(base_[i], base_[j]);
+    for (Eigen::Index i = symmetric_ ? j : 0; i < n; ++i) block(i, j) = W_(base_[i], base_[j]);
   const double cube = static_cast<double>(n) * static_cast<double>(n) * static_cast<double>(n);
   work_ += cube / (symmetric_ ? 3 : 1.5);
-  Eigen::Ref<Matrix> inPlace(factor_);
-  if (symmetric_) {
-    const Vector before = factor_.diagonal();
-    const Eigen::LLT<Eigen::Ref<Matrix>> cholesky(inPlace);
-    return cholesky.info() == Eigen::Success &&
-           (factor_.diagonal().array().square() / before.array()).minCoeff() > singular;
-  }
-  Vector before = factor_.colwise().lpNorm<Eigen::Infinity>();
-  const Eigen::PartialPivLU<Eigen::Ref<Matrix>> lu(inPlace);
-  interchange_ = lu.permutationP().indices();
-  return (factor_.diagonal().cwiseAbs().array() / before.array()).minCoeff() > singular;
+  return factor_.factorise(std::move(block), symmetric_) && factor_.leastPivot() > singular;
 }
 
 void ActiveFactor::solveBase(Matrix& x) {
-  work_ += 2 * static_cast<double>(factor_.size()) * static_cast<double>(x.cols());
-  if (symmetric_) {
-    factor_.triangularView<Eigen::Lower>().solveInPlace(x);
-    factor_.triangularView<Eigen::Lower>().adjoint().solveInPlace(x);
-    return;
-  }
-  x = Eigen::PermutationMatrix<Eigen::Dynamic>(interchange_) * x;
-  factor_.triangularView<Eigen::UnitLower>().solveInPlace(x);
-  factor_.triangularView<Eigen::Upper>().solveInPlace(x);
+  work_ += 2 * static_cast<double>(factor_.rows() * factor_.rows()) * static_cast<double>(x.cols());
+  factor_.solve(x);
 }
 
 /// The condition's row of the bordered matrix over B.

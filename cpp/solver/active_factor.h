@@ -10,7 +10,7 @@
 #include <Eigen/LU>
 #include <vector>
 
-#include "base/types.h"
+#include "solver/dense_factor.h"
 
 namespace mortier {
 
@@ -38,11 +38,10 @@ class ActiveFactor {
 
   const Matrix& W_;
   bool symmetric_;
-  double unit_;               ///< size of W: E_R and y are scaled by it
-  std::vector<int> base_;     ///< B
-  std::vector<int> placeOf_;  ///< of each condition in B, -1 for none
-  Matrix factor_;             ///< of W_BB: L, or L and U
-  Eigen::VectorXi interchange_;
+  double unit_;                 ///< size of W: E_R and y are scaled by it
+  std::vector<int> base_;       ///< B
+  std::vector<int> placeOf_;    ///< of each condition in B, -1 for none
+  DenseFactor factor_;          ///< of W_BB
   std::vector<int> border_;     ///< J and R
   std::vector<char> bordered_;  ///< whether a condition is among them
   Matrix rows_;                 ///< by columns: W_JB, E_R'

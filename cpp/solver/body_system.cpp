@@ -75,8 +75,11 @@ void BodySystem::findContactDofs(const Model& model, int body, const std::vector
     column[equation] = static_cast<int>(kept_.size());
     kept_.push_back(equation);
   });
-  C_ = Matrix::Zero(firstRow.back(), static_cast<Eigen::Index>(kept_.size()));
-  forEachEntry([&](int row, int equation, double value) { C_(row, column[equation]) += value; });
+  std::vector<Eigen::Triplet<double>> entries;
+  forEachEntry(
+      [&](int row, int equation, double value) { entries.emplace_back(row, column[equation], value); });
+  C_.resize(firstRow.back(), static_cast<Eigen::Index>(kept_.size()));
+  C_.setFromTriplets(entries.begin(), entries.end());
 }
 
 void BodySystem::findRigidMotions() {
@@ -163,6 +166,7 @@ std::string BodySystem::factorise() {
   if (reduce_ && factorised_ && elastic && elasticFactors_) return {};
   refactorised_ = !(std::exchange(counted_, false) && elastic);
   elasticFactors_ = elastic;
+  schurFactor_.clear();
   body_.tangent(law_.moduli, values_, *threads_);
   factorised_ = solver_->factorise(values_);
   if (!factorised_ && engine_ == LinearEngine::multifrontal && !body_.pattern().symmetric) {
@@ -174,26 +178,34 @@ std::string BodySystem::factorise() {
   if (!inContact()) return {};
   // Rigid motions get a stiffness of their own; as z carries them it never acts. It is taken from the tangent: where few
   // nodes are in contact the Schur complement itself may be nothing but rounding.
-  Matrix S = solver_->schurComplement();
+  Matrix S = solver_->takeSchurComplement();
   if (R_.cols() > 0) {
     double stiffness = 0;
     for (const double value : values_) stiffness = std::max(stiffness, std::abs(value));
-    S += stiffness * R_ * R_.transpose();
+    S.noalias() += stiffness * R_ * R_.transpose();
   }
-  if (body_.pattern().symmetric) {
-    cholesky_.compute(S);
-    factorised_ = cholesky_.info() == Eigen::Success;
-    if (!factorised_) return "body " + body_.name() + ": its tangent is not positive definite";
-  } else {
-    lu_.compute(S);
-  }
-  compliance_ = solveSchur(C_.transpose());
+  const bool symmetric = body_.pattern().symmetric;
+  factorised_ = schurFactor_.factorise(std::move(S), symmetric) || !symmetric;
+  if (!factorised_) return "body " + body_.name() + ": its tangent is not positive definite";
   return {};
+}
+
+void BodySystem::addCompliance(Matrix& W) const {
+  constexpr int atOnce = 128;
+  const Eigen::SparseMatrix<double> columns = C_.transpose();  // contact dofs x contact rows
+  for (Eigen::Index begin = 0; begin < columns.cols(); begin += atOnce) {
+    stopIfInterrupted();
+    const Eigen::Index count = std::min<Eigen::Index>(atOnce, columns.cols() - begin);
+    Matrix x = columns.middleCols(begin, count);
+    if (x.isZero(0)) continue;
+    schurFactor_.solve(x);
+    W.middleCols(begin, count) += C_ * x;
+  }
 }
 
 int BodySystem::determinantSign() const {
   const int interior = solver_->determinantSign();
-  return inContact() && !body_.pattern().symmetric ? interior * mortier::determinantSign(lu_) : interior;
+  return inContact() ? interior * schurFactor_.determinantSign() : interior;
 }
 
 void BodySystem::use(Threads& threads) {
@@ -208,8 +220,10 @@ void BodySystem::useLibraries() {
   factorised_ = false;
 }
 
-Matrix BodySystem::solveSchur(const Matrix& f) const {
-  return body_.pattern().symmetric ? Matrix(cholesky_.solve(f)) : Matrix(lu_.solve(f));
+Vector BodySystem::solveSchur(const Vector& f) const {
+  Matrix x = f;
+  schurFactor_.solve(x);
+  return x;
 }
 
 Vector BodySystem::condense(const Vector& force) {

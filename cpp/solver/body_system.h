@@ -2,8 +2,8 @@
 // the rigid motions that only contact holds.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <Eigen/SparseCore>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +11,7 @@
 #include "base/two_part_vector.h"
 #include "linear/condensing_solver.h"
 #include "material/interior_path.h"
+#include "solver/dense_factor.h"
 #include "solver/model.h"
 
 namespace mortier {
@@ -86,8 +87,9 @@ class BodySystem {
   [[nodiscard]] const Matrix& moduli() const { return law_.moduli; }
   [[nodiscard]] const Matrix& predictor() const { return law_.predictor; }
   [[nodiscard]] bool inContact() const { return !kept_.empty(); }
-  [[nodiscard]] const Matrix& C() const { return C_; }                    ///< contact rows x contact dofs
-  [[nodiscard]] const Matrix& compliance() const { return compliance_; }  ///< S^-1 C'
+  [[nodiscard]] const Eigen::SparseMatrix<double>& C() const { return C_; }  ///< contact rows x contact dofs
+  /// W += C S^-1 C'.
+  void addCompliance(Matrix& W) const;
   [[nodiscard]] const Matrix& R() const { return R_; }  ///< rigid motions on the contact dofs, orthonormal
   [[nodiscard]] const Matrix& motions() const { return motions_; }  ///< and by dofs
   /// Work of nodal forces (dofs) on the rigid motions: what only contact can balance. Stresses do none. Forces that
@@ -108,11 +110,11 @@ class BodySystem {
   void findRigidMotions();
   /// What stresses are measured against.
   [[nodiscard]] double residualScale(const Matrix& stress0, const BodyIterate& iterate) const;
-  [[nodiscard]] Matrix solveSchur(const Matrix& f) const;
+  [[nodiscard]] Vector solveSchur(const Vector& f) const;
 
   const Body& body_;
   std::vector<int> kept_;  ///< equations of the contact dofs
-  Matrix C_;
+  Eigen::SparseMatrix<double> C_;
   Matrix motions_;
   Matrix R_;
   LinearEngine engine_;
@@ -127,11 +129,9 @@ class BodySystem {
   bool counted_ = false;
   Linearisation law_;
   Vector penalty_;
-  Eigen::LLT<Matrix> cholesky_;  ///< of S where the tangent is symmetric
-  Eigen::PartialPivLU<Matrix> lu_;
-  Matrix compliance_;
-  Vector residual_;      ///< right-hand side over equations, condensed in place
-  Vector contactForce_;  ///< its part on the contact dofs
+  DenseFactor schurFactor_;  ///< of S
+  Vector residual_;          ///< right-hand side over equations, condensed in place
+  Vector contactForce_;      ///< its part on the contact dofs
 };
 
 }  // namespace mortier

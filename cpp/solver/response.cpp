@@ -41,7 +41,9 @@ ContactSolution holdClosed(const ContactProblem& problem, const Vector& slack, c
   const Eigen::Index motions = problem.G.cols();
   Vector right(n + motions);
   right << -slack(closed), balance;
-  const Vector x = closedSystem(problem, closed).partialPivLu().solve(right);
+  Matrix system = closedSystem(problem, closed);
+  const Eigen::PartialPivLU<Eigen::Ref<Matrix>> factor(system);  // in place: it may be large
+  const Vector x = factor.solve(right);
   solution.change(closed) = x.head(n);
   solution.rigid = x.tail(motions);
   return solution;

@@ -176,12 +176,12 @@ bool StepSolver::factorise(StepOutcome& outcome) {
   }
   if (!outcome.reason.empty()) return false;
   if (!changed) return true;
-  contact_.W = Matrix::Zero(rows(), rows());
+  contact_.W.setZero(rows(), rows());
   contact_.symmetric = true;
   for (size_t b = 0; b < systems_.size(); ++b) {
     if (!systems_[b].inContact()) continue;
     contact_.symmetric = contact_.symmetric && model_.bodies[b].pattern().symmetric;
-    contact_.W += systems_[b].C() * systems_[b].compliance();
+    systems_[b].addCompliance(contact_.W);
   }
   return true;
 }

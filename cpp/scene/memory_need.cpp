@@ -1,0 +1,105 @@
+#include "scene/memory_need.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+
+#include "base/error.h"
+#include "mesh/boundary_line.h"
+
+namespace mortier {
+namespace {
+
+struct SideSize {
+  double nodes = 0;
+  double dofs = 0;  ///< of the nodes, that take part: one each where the line is parallel to an axis
+};
+
+SideSize sizeOf(const TriangleMesh& mesh, int label) {
+  constexpr double parallel = 1e-9;
+  const auto edges = edgesOn(mesh, label);
+  bool alongX = true;
+  bool alongY = true;
+  for (const auto& [a, b] : edges) {
+    const Point d = (mesh.vertices[b] - mesh.vertices[a]).cwiseAbs();
+    alongX = alongX && d.y() <= parallel * d.x();
+    alongY = alongY && d.x() <= parallel * d.y();
+  }
+  const auto nodes = static_cast<double>(edges.size() + 1);
+  return {nodes, (alongX || alongY ? 1 : 2) * nodes};
+}
+
+}  // namespace
+
+double memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs) {
+  double need = 0;
+  for (const TriangleMesh* mesh : meshes) {
+    const auto vertices = static_cast<double>(mesh->vertices.size());
+    need += vertices * (16 * std::log2(vertices + 1) + 150);
+  }
+  std::vector<double> dofs(meshes.size(), 0);
+  double conditions = 0;
+  double making = 0;
+  for (const ContactPair& pair : pairs) {
+    const SideSize nonmortar = sizeOf(*meshes[pair.nonmortar.body], pair.nonmortar.label);
+    const SideSize mortar = sizeOf(*meshes[pair.mortar.body], pair.mortar.label);
+    conditions += nonmortar.nodes;
+    dofs[pair.nonmortar.body] += nonmortar.dofs;
+    dofs[pair.mortar.body] += mortar.dofs;
+    making = std::max(making, nonmortar.nodes * (nonmortar.nodes + 2 * mortar.nodes));
+  }
+  double solving = conditions * conditions;
+  double largest = 0;
+  for (const double m : dofs) {
+    solving += m * m;
+    largest = std::max(largest, m * m);
+  }
+  solving += std::max(conditions * conditions, largest);
+  return sizeof(double) * (need + std::max(making, solving));
+}
+
+double memoryNeed(const Model& model) {
+  std::vector<const TriangleMesh*> meshes;
+  for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
+  std::vector<ContactPair> pairs;
+  for (const ContactInterface& interface : model.interfaces) pairs.push_back(interface.pair());
+  return memoryNeed(meshes, pairs);
+}
+
+double availableMemory() {
+  double available = std::numeric_limits<double>::infinity();
+  std::ifstream file("/proc/meminfo");
+  for (std::string word; file >> word;)
+    if (double kibibytes = 0; word == "MemAvailable:" && file >> kibibytes) available = 1024 * kibibytes;
+  std::ifstream group("/sys/fs/cgroup/memory.max");
+  if (double bytes = 0; group >> bytes) available = std::min(available, bytes);
+  for (const auto resource : {RLIMIT_AS, RLIMIT_DATA}) {
+    rlimit limit{};
+    if (getrlimit(resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+      available = std::min(available, static_cast<double>(limit.rlim_cur));
+  }
+  return available;
+}
+
+std::string aboutMemory(double bytes) {
+  const double mebibytes = bytes / (1024 * 1024);
+  char text[64];
+  std::snprintf(text, sizeof text, mebibytes < 1024 ? "about %.0f MiB" : "about %.3g GiB",
+                mebibytes < 1024 ? mebibytes : mebibytes / 1024);
+  return text;
+}
+
+void requireMemory(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs) {
+  const double need = memoryNeed(meshes, pairs);
+  const double available = availableMemory();
+  if (need <= available) return;
+  throw InputError("the run needs " + aboutMemory(need) + " of memory, expected at most the " +
+                   aboutMemory(available).substr(6) +
+                   " that are available: dense matrices over the contact nodes");
+}
+
+}  // namespace mortier

@@ -1,0 +1,30 @@
+// How much memory a run takes, told before anything of that size is allocated: in 8 bytes,
+//   contact   2 n^2 for W and its factor (n conditions), m^2 in each body for the Schur complement on its m contact dofs,
+//             two in the one that is factorised last; or n (n + 2 m) while the rows are made, where that is more
+//   bodies    about 16 log2(N) + 150 for each of N vertices: factors, tangent, mesh and states.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contact/interface.h"
+#include "mesh/triangle_mesh.h"
+#include "solver/model.h"
+
+namespace mortier {
+
+/// \param meshes  of all bodies. \returns the peak [bytes]; within a factor of two of what runs take.
+double memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs);
+
+double memoryNeed(const Model& model);
+
+/// What the machine and the limits of the process leave [bytes]; infinity where nothing tells.
+double availableMemory();
+
+/// \throws InputError with both numbers where a run needs more than there is.
+void requireMemory(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs);
+
+/// "about 130 MiB", "about 290 GiB".
+std::string aboutMemory(double bytes);
+
+}  // namespace mortier
