@@ -100,8 +100,21 @@ TEST(Unloading, everyStepEnds) {
     }
 }
 
+// Rates of stages that are taken from stresses would strain the next stage by their rounding times theta e.
+TEST(Unloading, withTwoStages) {
+  constexpr int most = 12;
+  for (const Projection projection : projections)
+    for (const double load : {1 - 1e-12, 1.0, 1 + 1e-9}) {
+      Unloading scene;
+      scene.projection = projection;
+      scene.load = [load](double, double, double t) { return t <= 0.5 ? 8 : load; };
+      const auto [result, worst] = run(scene, 2, Scheme::sdirk2);
+      EXPECT_EQ(result.report.status, Status::converged) << load << ": " << result.report.reason;
+      EXPECT_LE(worst, most) << load;
+    }
+}
+
 TEST(Unloading, onOtherMeshes) {
-  constexpr int most = 40;
   for (const auto& [upper, lower] : {std::pair{3, 5}, std::pair{6, 6}, std::pair{6, 12}})
     for (const CouplingKind coupling : couplings)
       for (const double angle : {0.0, 0.3}) {
@@ -115,7 +128,8 @@ TEST(Unloading, onOtherMeshes) {
         const std::string name = std::to_string(upper) + ":" + std::to_string(lower) + " " +
                                  nameOf(coupling) + " turned by " + std::to_string(angle);
         EXPECT_EQ(result.report.status, Status::converged) << name << ": " << result.report.reason;
-        EXPECT_LE(worst, most) << name;
+        // The stress of interpolation is not uniform: what flows and what does not is found by the usual ways.
+        EXPECT_LE(worst, coupling == CouplingKind::mortar ? 5 : 40) << name;
         std::cout << name << ": " << worst << "\n";
       }
 }
