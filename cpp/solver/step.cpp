@@ -276,8 +276,8 @@ Certificate StepSolver::certify(const State& state0, const std::vector<Vector>& 
     force.add(model_.bodies[b].largestForce(state0.bodies[b].stress));  // of which rounding is left
     force.add(loads[b]);
     residual.push_back(loads[b] - internal);
-    // An elastic body that moves without any load has forces that are nothing but rounding.
-    if (model_.bodies[b].material().linear())
+    // A body that moves without any load and does not flow has forces that are nothing but rounding.
+    if (systems_[b].law().elastic == model_.bodies[b].points())
       force.add(roundingOfMotion * systems_[b].moduli().lpNorm<Eigen::Infinity>() *
                 iterate.bodies[b].increment.high.lpNorm<Eigen::Infinity>());
     length.add(extent(model_.bodies[b].mesh()));

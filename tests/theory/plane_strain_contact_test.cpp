@@ -130,8 +130,7 @@ TEST(PlaneStrainContact, stepsChosenByTheirErrorMeetTheTolerance) {
     const double error = std::abs(topOf(model, state) / (2 * exact.eps22) - 1);
     std::cout << "tolerance " << tolerance << ": " << report.steps << " steps, error " << error << "\n";
     EXPECT_LE(error, 2 * tolerance);
-    EXPECT_GE(error, 0.01 * tolerance);
-    EXPECT_LE(report.steps, 20 + static_cast<int>(2 / std::cbrt(tolerance)));
+    EXPECT_LE(report.steps, 2 + 1 / std::cbrt(tolerance));  // no more caution than the tolerance asks
   }
 }
 
