@@ -9,9 +9,9 @@ namespace mortier {
 struct MeshCommand {
   std::string family;  ///< rectangle, crisscross, quadrilateral, annulus, halfdisc
   std::string file;
-  std::string cells = "1";     ///< N or N1,N2
-  std::string cut;             ///< rising, falling, both; empty: that of the family
-  std::string lower = "0,0";   ///< corners of a rectangle [m]
+  std::string cells = "1";    ///< N or N1,N2
+  std::string cut;            ///< rising, falling, both; empty: that of the family
+  std::string lower = "0,0";  ///< corners of a rectangle [m]
   std::string upper = "1,1";
   std::string focus;  ///< X,Y; none: equal cells
   std::string grading = "1";
