@@ -7,6 +7,7 @@
 #include "contact/interface.h"
 #include "mesh/read.h"
 #include "scene/build.h"
+#include "scene/memory_need.h"
 #include "scene/overrides.h"
 #include "scene/settle.h"
 #include "scene/sides.h"
@@ -80,6 +81,7 @@ double interferenceOf(const ContactDescription& contact, const LintInput& input)
   if (contact.gap)
     options.gap = [value = contact.gap->value](const Point& x) { return value(x.x(), x.y(), 0); };
   try {
+    requireMemory({one, two}, {{{0, pair.nonmortar.label}, {1, pair.mortar.label}, pair.coupling}});
     return std::max(0.0, -ContactInterface(pair, *one, *two, options).initialDistance().minCoeff());
   } catch (const InputError&) {
     return 0;  // named elsewhere

@@ -1,0 +1,62 @@
+"""Contact keeps dense matrices over its nodes: what a run needs is told before it, and refused where there is not so much."""
+import json
+import re
+import resource
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "compare"))
+
+from support import InFolder, mortier  # noqa: E402
+
+SCENE = """
+[[body]]
+name = "upper"
+mesh = "upper.mesh"
+material = { young = 1e3, poisson = 0.3 }
+boundary = [ { label = 4, ux = 0 }, { label = 3, ty = "-sin(2*x)*t - 0.01*t" } ]
+[[body]]
+name = "lower"
+mesh = "lower.mesh"
+material = { young = 1e3, poisson = 0.3 }
+boundary = [ { label = 1, ux = 0, uy = 0 } ]
+[contact]
+nonmortar = { body = "upper", label = 1 }
+mortar = { body = "lower", label = 3 }
+[time]
+end = 1
+steps = 1
+"""
+
+
+class MemoryNeed(InFolder):
+    def strips(self, cells):
+        self.mortier("mesh", "rectangle", "--cells", f"{cells},2", "--lower=0,0", "--upper", f"{cells},2", "upper.mesh")
+        self.mortier("mesh", "rectangle", "--cells", f"{cells * 9 // 10},2", "--lower=0,-2", "--upper", f"{cells},0", "lower.mesh")
+        self.write(SCENE)
+
+    def test_a_thousand_contact_nodes(self):
+        self.strips(1000)
+        told = self.mortier("run", "scene.toml", "--out", "out").stdout
+        peak = json.loads(self.read("out/summary.json"))["peak_memory_mib"]
+        need = float(re.search(r"^memory +about (\d+) MiB", told, re.M).group(1))
+        print(f"1,000 contact nodes: told {need:.0f} MiB, took {peak:.0f} MiB")
+        self.assertLess(peak, 60)
+        self.assertLess(abs(need - peak), peak / 2)
+
+    def test_what_cannot_fit_is_refused_with_the_number(self):
+        self.strips(100_000)
+        def limit():
+            resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))
+
+        expected = r"scene.toml:12: contact: the run needs about 286 GiB of memory, expected at most the \S+ GiB that are available"
+        self.assertRegex(self.mortier("run", "scene.toml", "--out", "out", code=2, preexec_fn=limit).stderr, expected)
+        self.assertFalse((self.folder / "out").exists())
+        check = mortier("check", "scene.toml", cwd=self.folder, preexec_fn=limit)
+        self.assertEqual(check.returncode, 2, check.stderr)
+        self.assertIn("needs about 286 GiB", check.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
