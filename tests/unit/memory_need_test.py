@@ -46,16 +46,16 @@ class MemoryNeed(InFolder):
         self.assertLess(abs(need - peak), peak / 2)
 
     def test_what_cannot_fit_is_refused_with_the_number(self):
-        self.strips(100_000)
+        self.strips(20_000)
         def limit():
             resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))
 
-        expected = r"scene.toml:12: contact: the run needs about 286 GiB of memory, expected at most the \S+ GiB that are available"
+        expected = r"scene.toml:12: contact: the run needs about 11.7 GiB of memory, expected at most the \S+ GiB that are available"
         self.assertRegex(self.mortier("run", "scene.toml", "--out", "out", code=2, preexec_fn=limit).stderr, expected)
         self.assertFalse((self.folder / "out").exists())
         check = mortier("check", "scene.toml", cwd=self.folder, preexec_fn=limit)
         self.assertEqual(check.returncode, 2, check.stderr)
-        self.assertIn("needs about 286 GiB", check.stdout)
+        self.assertIn("needs about 11.7 GiB", check.stdout)
 
 
 if __name__ == "__main__":
