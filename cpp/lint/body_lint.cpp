@@ -50,6 +50,7 @@ Meeting meet(const TriangleMesh& a, const Topology& boundaryOfA, const TriangleM
   constexpr double polygons = 1.5;  // what is seen at other vertices than those of the contact may be deeper
   const double depth = std::max(deep * edge, polygons * meant);
   const Point margin = Point::Constant(depth);
+  const double near = touching * extent(b);
   for (const BoundaryEdge& each : boundaryOfA.boundary) {
     const Point& p = a.vertices[each.from];
     if ((p.array() < (lower - margin).array()).any() || (p.array() > (upper + margin).array()).any())
@@ -57,7 +58,7 @@ Meeting meet(const TriangleMesh& a, const Topology& boundaryOfA, const TriangleM
     double distance = INFINITY;
     grid.near(p - margin, p + margin,
               [&](int e) { distance = std::min(distance, distanceToSegment(p, grid.segments()[e])); });
-    if (distance <= touching * extent(b)) {
+    if (distance <= near) {
       ++result.touching;
       result.where = each.from;
     } else if (result.inside < 0 && distance > depth && inside(p, b, boundaryOfB)) {

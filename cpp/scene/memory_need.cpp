@@ -36,7 +36,8 @@ SideSize sizeOf(const TriangleMesh& mesh, int label) {
 }  // namespace
 
 double memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs) {
-  double need = 0;
+  constexpr double program = 12 << 17;  // in 8 bytes: code and libraries, 12 MiB
+  double need = program;
   for (const TriangleMesh* mesh : meshes) {
     const auto vertices = static_cast<double>(mesh->vertices.size());
     need += vertices * (16 * std::log2(vertices + 1) + 150);

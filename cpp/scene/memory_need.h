@@ -1,7 +1,8 @@
 // How much memory a run takes, told before anything of that size is allocated: in 8 bytes,
 //   contact   2 n^2 for W and its factor (n conditions), m^2 in each body for the Schur complement on its m contact dofs,
 //             two in the one that is factorised last; or n (n + 2 m) while the rows are made, where that is more
-//   bodies    about 16 log2(N) + 150 for each of N vertices: factors, tangent, mesh and states.
+//   bodies    about 16 log2(N) + 150 for each of N vertices: factors, tangent, mesh and states;
+// and 12 MiB for the program itself.
 #pragma once
 
 #include <string>
