@@ -16,6 +16,7 @@ if [ "${1:-}" != --inside ]; then
       >/dev/null 2>&1 || impossible "debootstrap is missing and cannot be installed"
   fi
   root=$(mktemp -d)
+  chmod 755 "$root"  # it becomes /, which every user of the bare Debian passes through
   trap 'rm -rf --one-file-system "$root"' EXIT
   mirror=$(cat /etc/apt/sources.list /etc/apt/sources.list.d/*.{list,sources} 2>/dev/null |
     grep -oEm1 'https?://[^ ]*/debian/?( |$)')

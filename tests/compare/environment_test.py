@@ -122,7 +122,8 @@ class Environment(OfTwoBlocks):
         (self.folder / "dangling").symlink_to("nothing")
         (self.folder / "mine.failed").symlink_to("nothing")
         self.write("{}", "closed/out/summary.json")
-        run = [PROGRAM, "run", "scene.toml", "--quiet", "--set", "time.steps=100000000", "--out"]
+        program = shutil.copy(PROGRAM, self.folder)  # where every user reaches it, wherever the build is
+        run = [program, "run", "scene.toml", "--quiet", "--set", "time.steps=100000000", "--out"]
         user = {}
         if os.geteuid() == 0:  # as a user who owns nothing of it
             for path in (self.folder, self.folder / "shared"):
