@@ -208,9 +208,10 @@ void requireSmooth(const SceneDescription& scene, const Model& model) {
 
 int writeFreefem(const FreefemCommand& command) {
   // 1. The scene, checked as for a run of our own.
-  const SceneDescription scene = readScene(command.scene, command.settings);
+  ResolvedScene resolved = resolveScene(readScene(command.scene, command.settings));
   std::vector<std::string> warnings;
-  const Model model = buildModel(scene, warnings);
+  const Model model = buildModel(resolved, warnings);
+  const SceneDescription& scene = resolved.description;
   requireKnown(scene);
   requireSmooth(scene, model);
 
