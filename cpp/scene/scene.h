@@ -9,6 +9,7 @@
 
 #include "contact/interface.h"
 #include "material/plane_strain.h"
+#include "mesh/read.h"
 #include "scene/expression.h"
 #include "time/march.h"
 
@@ -44,7 +45,7 @@ struct RegionDescription {
 
 struct BodyDescription {
   std::string name;
-  std::string mesh;  ///< path, as the program opens it
+  MeshSource mesh;
   std::string meshWhere;
   MaterialDescription material;
   std::optional<Expression> force[2];  ///< x and y [N/m^3]

@@ -84,7 +84,7 @@ TEST_F(SceneFiles, readsEveryKey) {
   ASSERT_EQ(scene.bodies.size(), 2u);
   const BodyDescription& upper = scene.bodies[0];
   EXPECT_EQ(upper.name, "upper");
-  EXPECT_EQ(upper.mesh, folder + "/upper.mesh");
+  EXPECT_EQ(upper.mesh.path, folder + "/upper.mesh");
   EXPECT_EQ(upper.material.elasticity.young, 3e11);
   ASSERT_TRUE(upper.material.viscoplasticity);
   EXPECT_EQ(upper.material.viscoplasticity->viscosity, 10);
@@ -203,7 +203,7 @@ TEST_F(SceneFiles, overridesByNameByLabelByIndexAndForAll) {
 
 TEST_F(SceneFiles, overriddenMeshIsRelativeToTheCurrentFolder) {
   const SceneDescription scene = readScene(path(), {"body.upper.mesh=" + folder + "/lower.mesh"});
-  EXPECT_EQ(scene.bodies[0].mesh, folder + "/lower.mesh");
+  EXPECT_EQ(scene.bodies[0].mesh.path, folder + "/lower.mesh");
   EXPECT_NE(fault({"body.upper.mesh=upper.mesh"}).find("there is none at upper.mesh"), std::string::npos);
 }
 
