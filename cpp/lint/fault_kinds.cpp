@@ -105,7 +105,7 @@ const std::vector<FaultKind>& faultKinds() {
       {"nonmortar-coarser", warning, "the nonmortar side is much the coarser one",
        "exchange the sides (contact.swap), or refine it"},
       {"nonmortar-stiffer", warning, "the nonmortar body is much the stiffer one",
-       "exchange the sides (contact.swap): the pressure lives on the softer body"},
+       "exchange the sides (contact.swap): the pressure is then discretised on the softer body"},
       {"interpolation-unmatched", warning, "interpolation on meshes that do not match",
        "take variant = \"mortar\", it costs the same"},
       {"load-on-contact", warning, "a label in contact carries a traction",
