@@ -23,6 +23,7 @@
 #include "report/result_files.h"
 #include "report/summary.h"
 #include "scene/build.h"
+#include "scene/build_quantities.h"
 #include "scene/load_courses.h"
 #include "scene/memory_need.h"
 #include "scene/settle.h"
@@ -170,6 +171,8 @@ int run(RunCommand command) {
     requireSame(stopped->checkpoint.identity, identity, stopped->folder);
     requireFits(stopped->checkpoint, model, stopped->folder);
   }
+  RunFacts facts = factsOf(command, scene);
+  facts.quantities = buildQuantities(scene, model);
   if (scene.time.tolerance > 0) {
     LoadCourses loads = loadCourses(scene, model);
     scene.time.breaks = std::move(loads.breaks);
@@ -192,17 +195,16 @@ int run(RunCommand command) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, onInterrupt);
   if (stopped) {
     folder.emplace(path, stopped->folder, std::move(stopped->lock));
-    files.emplace(folder->temporary(), model, scene.every, stopped->checkpoint.files);
+    files.emplace(folder->temporary(), model, facts.quantities, scene.every, stopped->checkpoint.files);
     last = stopped->checkpoint.last;
     state = std::move(stopped->checkpoint.state);
     memory = std::move(stopped->checkpoint.memory);
     accuracySoFar = stopped->checkpoint.accuracy;
   } else {
     folder.emplace(path);
-    files.emplace(folder->temporary(), model, scene.every);
+    files.emplace(folder->temporary(), model, facts.quantities, scene.every);
   }
   Checkpoints checkpoints(folder->temporary(), command.checkpoint, std::move(identity));
-  RunFacts facts = factsOf(command, scene);
   facts.doubts = estimateDoubts(scene, model);
   AccuracyRecord accuracies(model, accuracySoFar);
   Log log(command.quiet, scene.time.end);
@@ -254,6 +256,7 @@ int run(RunCommand command) {
   log.print(logAccuracy(facts, model, accuracy));
   log.print(logTimeError(facts, report));
   log.print(logPeaks(report.peaks, last));
+  log.print(logQuantities(facts.quantities, evaluate(facts.quantities, model, state)));
   if (!complete) {
     complain(scene.path + ": " + report.reason + "; the state after step " + std::to_string(last.step) +
              " is in " + where);

@@ -78,6 +78,7 @@ class Body {
   /// The reverse: dofs, nothing along prescribed motions.
   [[nodiscard]] Vector spread(const Vector& x) const;
 
+  [[nodiscard]] const Conditions& conditions() const { return conditions_; }
   [[nodiscard]] const Supports& supports() const { return supports_; }
   /// Writes the prescribed displacements at time t into `u` (dofs).
   void prescribe(double t, Vector& u) const;

@@ -7,6 +7,7 @@
 #include "contact/interface.h"
 #include "mesh/read.h"
 #include "scene/build.h"
+#include "scene/build_quantities.h"
 #include "scene/memory_need.h"
 #include "scene/overrides.h"
 #include "scene/resolve.h"
@@ -104,6 +105,7 @@ void build(ResolvedScene resolved, LintReport& report) {
   try {
     std::vector<std::string> doubts;  // named above, each with its remedy
     Model model = buildModel(resolved, doubts);
+    static_cast<void>(buildQuantities(scene, model));
     requireHeld(scene, model);
     State state = initialState(model);
     if (const std::string doubt = settle(scene, model, state); !doubt.empty())

@@ -141,6 +141,14 @@ std::string logPeaks(const Peaks& peaks, const StepReport& last) {
   return text;
 }
 
+std::string logQuantities(const std::vector<Quantity>& quantities, const std::vector<double>& values) {
+  std::string text;
+  for (size_t i = 0; i < quantities.size(); ++i)
+    text += format("%s %.7g %s", ((i == 0 ? "quantities " : ", ") + quantities[i].name).c_str(), values[i],
+                   quantities[i].unit().c_str());
+  return text.empty() ? text : text + "\n";
+}
+
 std::string logTimeError(const RunFacts& facts, const RunReport& report) {
   if (!(facts.tolerance > 0)) return "";
   return format(

@@ -24,6 +24,8 @@ std::string logTimeError(const RunFacts& facts, const RunReport& report);
 std::string logAccuracy(const RunFacts& facts, const Model& model, const Accuracy& accuracy);
 /// The largest values of the run where the last step does not have them, and what no small strain is any more.
 std::string logPeaks(const Peaks& peaks, const StepReport& last);
+/// The quantities of the scene at the end of the run; nothing where there are none.
+std::string logQuantities(const std::vector<Quantity>& quantities, const std::vector<double>& values);
 /// A line where contact conditions have no force of their own, otherwise nothing.
 std::string logSpecial(const SpecialConditions& special);
 

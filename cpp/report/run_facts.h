@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "time/quantity.h"
+
 namespace mortier {
 
 struct RunFacts {
@@ -23,6 +25,7 @@ struct RunFacts {
   int plannedSteps = 0;
   double tolerance = 0;  ///< of a step; 0: equal steps
   int threads = 1;
+  std::vector<Quantity> quantities;  ///< that the scene asks for
   std::vector<std::string>
       doubts;  ///< where the estimate of the accuracy is known to be wrong, and by how much
   std::vector<std::pair<std::string, std::string>> versions;  ///< of mortier and its libraries

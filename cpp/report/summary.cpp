@@ -172,6 +172,10 @@ FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const 
                           {"complementarity", report.worst.complementarity},
                           {"rounding", report.worst.rounding}};
   json["peaks"] = jsonOf(report.peaks);
+  const std::vector<double> values = evaluate(facts.quantities, model, state);
+  for (size_t i = 0; i < values.size(); ++i)
+    json["quantities"][facts.quantities[i].name] = {{"value", values[i]},
+                                                    {"unit", facts.quantities[i].unit()}};
   json["accuracy"] = jsonOf(facts, model, accuracy);
   if (facts.tolerance > 0) json["accuracy"]["time"] = report.timeError;
   json["peak_memory_mib"] = peakMemory();

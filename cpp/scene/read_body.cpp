@@ -145,13 +145,6 @@ void readMeshSource(const TableReader& owner, const std::string& scenePath, Body
     owner.reject("mesh", "a Medit .mesh file, or a file for Gmsh (there is none at " + body.mesh.path + ")");
 }
 
-/// Names become file names.
-bool isName(const std::string& text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-';
-  });
-}
-
 }  // namespace
 
 BodyDescription readBody(const Node& node, const std::string& scenePath, size_t index) {

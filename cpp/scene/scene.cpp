@@ -7,6 +7,7 @@
 #include "scene/overrides.h"
 #include "scene/read_body.h"
 #include "scene/read_contact.h"
+#include "scene/read_quantity.h"
 #include "scene/read_time.h"
 #include "scene/table_reader.h"
 #include "scene/words.h"
@@ -79,6 +80,9 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   for (const Node* contact : root.tables("contact")) {
     scene.contacts.push_back(readContact(*contact, scene));
   }
+  for (const Node* quantity : root.tables("quantity")) {
+    scene.quantities.push_back(readQuantity(*quantity, scene));
+  }
   return scene;
 }
 
@@ -93,6 +97,12 @@ std::string word(Projection projection) {
 }
 std::string word(Scheme scheme) {
   return schemeWords[static_cast<size_t>(scheme)];
+}
+
+bool isName(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-';
+  });
 }
 
 int bodyIndex(const SceneDescription& scene, const std::string& name) {

@@ -12,6 +12,7 @@
 #include "mesh/read.h"
 #include "scene/expression.h"
 #include "time/march.h"
+#include "time/quantity.h"
 
 namespace mortier {
 
@@ -74,12 +75,26 @@ struct ContactDescription {
   std::string where;
 };
 
+/// A number that the run is to report (time/quantity.h).
+struct QuantityDescription {
+  std::string name;
+  Quantity::Kind kind = Quantity::Kind::reaction;
+  std::string body;
+  int label = 0;
+  std::string labelName;       ///< where the label is a name; resolveScene finds it
+  std::optional<Point> point;  ///< of a displacement, in place of a label [m]
+  Quantity::Component component = Quantity::Component::x;
+  Point about{0, 0};
+  std::string where;  ///< of the label or the point
+};
+
 struct SceneDescription {
   std::string path;   ///< the file
   std::string title;  ///< may be empty
   Plane plane = Plane::stress;
   std::vector<BodyDescription> bodies;
   std::vector<ContactDescription> contacts;
+  std::vector<QuantityDescription> quantities;
   TimePlan time;
   SolverOptions solver;
   int every =
@@ -96,6 +111,9 @@ std::string word(Plane plane);
 std::string word(CouplingKind kind);
 std::string word(Projection projection);
 std::string word(Scheme scheme);
+
+/// Whether a text is letters, digits, _ and -: names become names of files and columns.
+bool isName(const std::string& text);
 
 /// The index of the body called `name`; -1 where there is none.
 int bodyIndex(const SceneDescription& scene, const std::string& name);

@@ -8,7 +8,7 @@ namespace mortier {
 
 const Keys& keysOf(const std::string& path) {
   static const std::map<std::string, Keys> tables = {
-      {"", {"title", "plane", "body", "contact", "time", "solver", "output", "check"}},
+      {"", {"title", "plane", "body", "contact", "quantity", "time", "solver", "output", "check"}},
       {"body", {"name", "mesh", "material", "force", "boundary", "region", "initial_stress"}},
       {"body.mesh", {"file", "region", "size", "parameters"}},
       {"body.initial_stress", {"s11", "s22", "s12", "s33"}},
@@ -23,6 +23,10 @@ const Keys& keysOf(const std::string& path) {
       {"contact.sides", {"body", "label"}},
       {"contact.nonmortar", {"body", "label"}},
       {"contact.mortar", {"body", "label"}},
+      {"quantity", {"name", "reaction", "contact_force", "displacement", "component", "about"}},
+      {"quantity.reaction", {"body", "label"}},
+      {"quantity.contact_force", {"body", "label"}},
+      {"quantity.displacement", {"body", "label", "point"}},
       {"time", {"end", "steps", "scheme", "tolerance", "max_steps", "breaks"}},
       {"solver", {"method", "tolerance", "max_iterations", "linear", "reduce"}},
       {"check", {"allow"}},

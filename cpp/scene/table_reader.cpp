@@ -179,6 +179,12 @@ std::vector<double> TableReader::numbers(const std::string& key) const {
   return values;
 }
 
+Point TableReader::point(const std::string& key) const {
+  const std::vector<double> values = numbers(key);
+  if (values.size() != 2) reject(key, "two numbers, [x, y]");
+  return {values[0], values[1]};
+}
+
 Expression TableReader::expression(const std::string& key) const {
   const Node& node = require(key, "a number or an expression in x, y, t");
   if (node.isTable()) {

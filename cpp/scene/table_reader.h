@@ -56,6 +56,8 @@ class TableReader {
   [[nodiscard]] std::vector<std::string> labels(const std::string& key) const;
   /// An array of finite numbers.
   [[nodiscard]] std::vector<double> numbers(const std::string& key) const;
+  /// [x, y]
+  [[nodiscard]] Point point(const std::string& key) const;
   /// A number, an expression in x, y, t, or a table in time.
   [[nodiscard]] Expression expression(const std::string& key) const;
   /// The table or tables under `key` (an array of tables or a single one), none where it is missing.

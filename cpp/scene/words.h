@@ -12,5 +12,6 @@ inline const Keys projectionWords{"elasticity", "frobenius", "compliance"};   //
 inline const Keys schemeWords{"backward-euler", "crank-nicolson", "sdirk2"};  // Scheme
 inline const Keys methodWords{"newton", "penalty-duality"};                   // Method
 inline const Keys linearWords{"multifrontal", "suitesparse"};                 // LinearEngine
+inline const Keys componentWords{"x", "y", "moment"};                        // Quantity::Component
 
 }  // namespace mortier

@@ -103,6 +103,19 @@ ut = "1e-4*t"
 [contact]
 sides = [ { body = "upper", label = 1 }, { body = "lower", label = 3 } ]
 initial = "close"
+[[quantity]]
+name = "held"
+reaction = { body = "lower", label = 1 }
+component = "moment"
+about = [0.5, -1]
+[[quantity]]
+name = "pressed"
+contact_force = { body = "upper", label = 1 }
+component = "y"
+[[quantity]]
+name = "moves"
+displacement = { body = "upper", point = [0.5, 0.5] }
+component = "x"
 [time]
 end = 1
 scheme = "sdirk2"

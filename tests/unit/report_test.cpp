@@ -308,10 +308,10 @@ TEST_F(Output, gapIsPositiveApart) {
 }
 
 TEST_F(Output, historyHasAsManyColumnsAsItsHeader) {
-  History history(path);
+  History history(path, {});
   StepReport report;
   report.penetration = 1.25e-18;
-  history.add(report);
+  history.add(report, {});
   history.close();
   std::istringstream text(contentOf(path + "/history.csv"));
   std::string header;

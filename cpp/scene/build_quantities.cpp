@@ -1,0 +1,56 @@
+#include "scene/build_quantities.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "scene/document.h"
+
+namespace mortier {
+namespace {
+
+using Kind = Quantity::Kind;
+
+bool isSupported(const Body& body, int label) {
+  const auto& displacements = body.conditions().displacements;
+  return std::any_of(displacements.begin(), displacements.end(),
+                     [&](const auto& d) { return d.label == label; });
+}
+
+bool isInContact(const Model& model, int body, int label) {
+  return std::any_of(model.interfaces.begin(), model.interfaces.end(),
+                     [&](const ContactInterface& interface) {
+                       const auto& [nonmortar, mortar, coupling] = interface.pair();
+                       return (nonmortar.body == body && nonmortar.label == label) ||
+                              (mortar.body == body && mortar.label == label);
+                     });
+}
+
+}  // namespace
+
+std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model& model) {
+  std::vector<Quantity> quantities;
+  for (const QuantityDescription& description : scene.quantities) {
+    Quantity quantity{description.name,  description.kind,      bodyIndex(scene, description.body),
+                      description.label, description.component, description.about};
+    const Body& body = model.bodies[quantity.body];
+    const auto refuse = [&](const std::string& what) {
+      throw InputError(description.where + ": quantity " + quantity.name + ": " + what);
+    };
+    const std::string label = "label " + std::to_string(quantity.label) + " of body " + body.name();
+    if (quantity.kind == Kind::reaction && !isSupported(body, quantity.label))
+      refuse(label + " has no prescribed displacement, expected one that has: supports alone react");
+    if (quantity.kind == Kind::contactForce && !isInContact(model, quantity.body, quantity.label))
+      refuse(label + " is no side of a contact, expected one");
+    if (quantity.kind == Kind::displacement) {
+      quantity.mean =
+          description.point ? meanAt(body.mesh(), *description.point) : meanOn(body.mesh(), quantity.label);
+      if (quantity.mean.empty())
+        refuse("point = [" + shortest(description.point->x()) + ", " + shortest(description.point->y()) +
+               "], expected a point of body " + body.name());
+    }
+    quantities.push_back(std::move(quantity));
+  }
+  return quantities;
+}
+
+}  // namespace mortier

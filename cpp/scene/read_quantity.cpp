@@ -1,0 +1,65 @@
+#include "scene/read_quantity.h"
+
+#include <utility>
+
+#include "base/error.h"
+#include "scene/table_reader.h"
+#include "scene/words.h"
+
+namespace mortier {
+
+QuantityDescription readQuantity(const Node& node, const SceneDescription& scene) {
+  using Kind = Quantity::Kind;
+  const Node* name = node.find("name");
+  const TableReader table(node, "quantity",
+                          "quantity" + (name != nullptr && name->isString() ? " " + name->text : ""));
+  QuantityDescription quantity;
+  quantity.where = node.where;
+  quantity.name = table.string("name");
+  if (!isName(quantity.name)) table.reject("name", "letters, digits, _ and -");
+  for (const QuantityDescription& other : scene.quantities)
+    if (other.name == quantity.name)
+      table.reject("name", "a name of its own, there is one at " + other.where);
+
+  const std::pair<const char*, Kind> kinds[] = {{"reaction", Kind::reaction},
+                                                {"contact_force", Kind::contactForce},
+                                                {"displacement", Kind::displacement}};
+  int given = 0;
+  for (const auto& [key, kind] : kinds) {
+    const Node* what = table.find(key);
+    if (what == nullptr) continue;
+    ++given;
+    quantity.kind = kind;
+    const TableReader of(*what, std::string("quantity.") + key, "quantity " + quantity.name + ": " + key);
+    quantity.body = of.string("body");
+    if (bodyIndex(scene, quantity.body) < 0) {
+      Keys names;
+      for (const BodyDescription& body : scene.bodies) names.push_back(body.name);
+      of.reject("body", "one of " + joined(names));
+    }
+    if (kind == Kind::displacement && of.find("point") != nullptr) {
+      if (of.find("label") != nullptr) of.reject("label", "either label or point");
+      quantity.point = of.point("point");
+      quantity.where = of.find("point")->where;
+    } else {
+      std::tie(quantity.label, quantity.labelName) =
+          std::pair(of.label("label").number, of.label("label").name);
+      quantity.where = of.find("label")->where;
+    }
+  }
+  if (given != 1)
+    throw InputError(
+        table.message(node.where, std::string(given == 0 ? "none" : "more than one") +
+                                      " of reaction, contact_force and displacement, expected one"));
+  const bool isForce = quantity.kind != Kind::displacement;
+  quantity.component = static_cast<Quantity::Component>(
+      table.oneOf("component", isForce ? componentWords : Keys{componentWords[0], componentWords[1]}));
+  if (table.find("about") != nullptr) {
+    if (quantity.component != Quantity::Component::moment)
+      table.reject("about", "it only beside component = \"moment\"");
+    quantity.about = table.point("about");
+  }
+  return quantity;
+}
+
+}  // namespace mortier

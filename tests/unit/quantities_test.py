@@ -1,0 +1,80 @@
+"""Quantities of a scene: columns of the history, the log and the summary, and what cannot be asked for."""
+import csv
+import json
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "compare"))
+
+from scenes import TWO_BLOCKS  # noqa: E402
+from support import OfTwoBlocks, mortier  # noqa: E402
+
+ASKED = """
+[[quantity]]
+name = "held"
+reaction = { body = "lower", label = 1 }
+component = "y"
+[[quantity]]
+name = "pressed"
+contact_force = { body = "lower", label = 3 }
+component = "y"
+[[quantity]]
+name = "turns"
+reaction = { body = "lower", label = 1 }
+component = "moment"
+about = [0.5, 0]
+[[quantity]]
+name = "sinks"
+displacement = { body = "upper", point = [0.25, 1] }
+component = "y"
+[[quantity]]
+name = "top"
+displacement = { body = "upper", label = 3 }
+component = "y"
+"""
+
+
+class Quantities(OfTwoBlocks):
+    def test_columns_log_and_summary(self):
+        self.write(TWO_BLOCKS + ASKED)
+        run = self.mortier("run", "scene.toml", "--out", "out")
+        rows = list(csv.DictReader(self.read("out/history.csv").splitlines()))
+        self.assertEqual(len(rows), 4)
+        for i, row in enumerate(rows):
+            load = 10 * (i + 1) / 4
+            self.assertAlmostEqual(float(row["held[N/m]"]), load, delta=1e-11)
+            self.assertAlmostEqual(float(row["pressed[N/m]"]), -load, delta=1e-11)
+            self.assertAlmostEqual(float(row["turns[N]"]), 0, delta=1e-10)
+            self.assertAlmostEqual(float(row["sinks[m]"]) / float(row["top[m]"]), 1, places=12)
+        final = json.loads(self.read("out/summary.json"))["quantities"]
+        self.assertEqual(final["held"]["value"], float(rows[-1]["held[N/m]"]))
+        self.assertEqual(final["turns"]["unit"], "N")
+        self.assertRegex(run.stdout, r"\nquantities held 10 N/m, pressed -10 N/m, turns .* N, sinks -\S+ m, top -\S+ m\n")
+        self.assertIn("0 errors", self.mortier("check", "scene.toml").stdout)
+
+    def test_what_cannot_be_asked_for(self):
+        self.write(TWO_BLOCKS + ASKED)
+        for setting, message in (
+                ("quantity.held.reaction.label=2", "quantity held: label 2 of body lower has no prescribed displacement"),
+                ("quantity.held.reaction.label=9", "body lower: label = 9, expected one of 1, 2, 3, 4"),
+                ("quantity.held.reaction.body=middle", "quantity held: reaction: body = \"middle\", expected one of upper, lower"),
+                ("quantity.pressed.contact_force.label=1", "quantity pressed: label 1 of body lower is no side of a contact"),
+                ("quantity.sinks.displacement.point=[3, 3]", "quantity sinks: point = [3, 3], expected a point of body upper"),
+                ("quantity.sinks.displacement.point=[3]", "quantity sinks: displacement: point = an array, expected two numbers"),
+                ("quantity.sinks.component=moment", "quantity sinks: component = \"moment\", expected one of x, y"),
+                ("quantity.held.about=[0, 0]", "quantity held: about = an array, expected it only beside component"),
+                ("quantity.held.name=top", "quantity top: name = \"top\", expected a name of its own, there is one at"),
+                ("quantity.held.name=a,b", "quantity a,b: name = \"a,b\", expected letters, digits, _ and -"),
+                ("quantity.held.displacement={body='upper', label=3}", "quantity held: more than one of reaction, contact_force")):
+            with self.subTest(setting):
+                errors = self.mortier("run", "scene.toml", "--quiet", "--set", setting, code=2).stderr
+                self.assertIn(message, errors)
+                self.assertFalse((self.folder / "out").exists())
+                checked = mortier("check", "scene.toml", "--set", setting, cwd=self.folder)
+                self.assertEqual(checked.returncode, 2)
+                self.assertIn(": error: ", checked.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

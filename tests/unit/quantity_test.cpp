@@ -1,0 +1,132 @@
+// Forces of supports and of contact, and displacements, as a user asks for them.
+#include "time/quantity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "material/perzyna.h"
+#include "mesh/generate.h"
+#include "time/march.h"
+
+namespace mortier {
+namespace {
+
+using Kind = Quantity::Kind;
+using Component = Quantity::Component;
+
+Function constant(double value) {
+  return [value](double, double, double) { return value; };
+}
+
+/// A block of 2 by 1 on rollers along its base and its left side, under a pressure on top that grows to the right and a
+/// shear on its right side, with a body force.
+Model loadedBlock() {
+  Conditions conditions;
+  conditions.displacements = {{1, alongY, constant(0)}, {4, alongX, constant(0)}};
+  conditions.tractions = {{3, alongY, [](double x, double, double t) { return -(1 + x) * t; }},
+                          {2, alongX, constant(0.5)}};
+  conditions.forces = {{1, constant(-0.25)}};
+  Model model;
+  model.bodies.emplace_back("block", crissCrossMesh({{0, 0}, {2, 1}, 5, 3}), elasticMaterial({100, 0.3}),
+                            conditions);
+  return model;
+}
+
+State solved(const Model& model) {
+  State state = initialState(model);
+  TimePlan plan;
+  plan.end = 1;
+  plan.steps = 1;
+  march(model, state, plan, {}, [](const State&, const StepReport&) {});
+  return state;
+}
+
+// The loads sum to 0.5 along x and to -(2 + 2) - 0.25*2 along y. About the origin, those along y turn by
+// -(2 + 8/3) - 0.25*2*1 and the shear by -0.5*0.5.
+TEST(Quantity, reactionsBalanceLoads) {
+  const Model model = loadedBlock();
+  const State state = solved(model);
+  std::vector<Quantity> quantities;
+  for (const int label : {1, 4})
+    for (const Component component : {Component::x, Component::y, Component::moment})
+      quantities.push_back({"r", Kind::reaction, 0, label, component, {0, 0}});
+  const std::vector<double> r = evaluate(quantities, model, state);
+  EXPECT_EQ(r[0], 0) << "a roller along the base holds nothing along it";
+  EXPECT_EQ(r[4], 0);
+  EXPECT_NEAR(r[1], 4.5, 1e-12);
+  EXPECT_NEAR(r[3], -0.5, 1e-13);
+  EXPECT_NEAR(r[2] + r[5], 2 + 8.0 / 3 + 0.5 + 0.25, 1e-12);
+  // Seen from another point the moment changes by the force.
+  const Quantity moved{"m", Kind::reaction, 0, 1, Component::moment, {0.75, 3}};
+  EXPECT_NEAR(evaluate({moved}, model, state)[0], r[2] - 0.75 * r[1], 1e-12);
+  EXPECT_EQ(quantities[2].unit(), "N");
+  EXPECT_EQ(quantities[0].unit(), "N/m");
+}
+
+// A corner of two rollers at an angle of 60 degrees: each reacts along its own normal, and together they hold the load.
+TEST(Quantity, aCornerReactsAlongTheNormalsOfItsSides) {
+  const double c = 0.5;
+  const double s = std::sqrt(0.75);
+  Conditions conditions;
+  conditions.displacements = {{1, alongNormal, constant(0)}, {4, alongNormal, constant(0)}};
+  conditions.tractions = {{2, alongX, constant(-1)}, {3, alongY, constant(-2)}};
+  Model model;
+  Quadrilateral shape{{Point(0, 0), Point(2, 0), Point(2 + 2 * c, 2 * s), Point(2 * c, 2 * s)}, 4, 4};
+  model.bodies.emplace_back("wedge", quadrilateralMesh(shape, Cut::both), elasticMaterial({100, 0.3}),
+                            conditions);
+  const State state = solved(model);
+  const auto value = [&](int label, Component component) {
+    return evaluate({{"r", Kind::reaction, 0, label, component, {0, 0}}}, model, state)[0];
+  };
+  EXPECT_NEAR(value(1, Component::x), 0, 1e-13);
+  EXPECT_NEAR(value(4, Component::y) / value(4, Component::x), -c / s, 1e-12);
+  EXPECT_NEAR(value(1, Component::x) + value(4, Component::x), 2, 1e-12);
+  EXPECT_NEAR(value(1, Component::y) + value(4, Component::y), 4, 1e-12);
+}
+
+// Meshes that do not match: what one block gets from the other is what its supports take.
+TEST(Quantity, contactForcesPassThroughABody) {
+  Model model;
+  const auto add = [&](const char* name, Rectangle shape, Conditions conditions) {
+    model.bodies.emplace_back(name, crissCrossMesh(shape), elasticMaterial({100, 0.3}),
+                              std::move(conditions));
+  };
+  Conditions pressed;
+  pressed.displacements = {{4, alongX, constant(0)}};
+  pressed.tractions = {{3, alongY, [](double x, double, double) { return -1 - x; }}};
+  Conditions held;
+  held.displacements = {{1, alongX, constant(0)}, {1, alongY, constant(0)}};
+  add("upper", {{0, 0}, {1, 1}, 3, 3}, pressed);
+  add("lower", {{0, -1}, {1, 0}, 4, 4}, held);
+  addInterface(model, {{0, 1}, {1, 3}, CouplingKind::mortar});
+  const State state = solved(model);
+  const auto value = [&](Kind kind, int body, int label, Component component) {
+    return evaluate({{"q", kind, body, label, component, {0, 0}}}, model, state)[0];
+  };
+  EXPECT_NEAR(value(Kind::contactForce, 0, 1, Component::y), 1.5, 1e-12);
+  EXPECT_NEAR(value(Kind::contactForce, 1, 3, Component::y), -1.5, 1e-12);
+  EXPECT_NEAR(value(Kind::contactForce, 0, 1, Component::moment),
+              -value(Kind::contactForce, 1, 3, Component::moment), 1e-12);
+  EXPECT_NEAR(value(Kind::reaction, 1, 1, Component::y), 1.5, 1e-12);
+  EXPECT_NEAR(value(Kind::reaction, 1, 1, Component::moment),
+              -value(Kind::contactForce, 1, 3, Component::moment), 1e-12);
+}
+
+// Weights reproduce linear fields: at a point, and in the mean over a label with edges of any length.
+TEST(Quantity, displacementsAreThoseOfThePoint) {
+  TriangleMesh mesh = rectangleMesh({{0, 0}, {2, 1}, 5, 3, Point(0, 0), {3, 2}}, Cut::rising);
+  const auto mean = [&](const std::vector<std::pair<int, double>>& weights) {
+    Point p = Point::Zero();
+    for (const auto& [v, weight] : weights) p += weight * mesh.vertices[v];
+    return p;
+  };
+  for (const Point& p : {Point(0.3, 0.7), Point(0, 0), Point(2, 1), Point(1.1, 0), Point(2, 0.123)})
+    EXPECT_LT((mean(meanAt(mesh, p)) - p).norm(), 1e-14);
+  EXPECT_TRUE(meanAt(mesh, {2.001, 0.5}).empty());
+  EXPECT_LT((mean(meanOn(mesh, 1)) - Point(1, 0)).norm(), 1e-14);
+  EXPECT_LT((mean(meanOn(mesh, 2)) - Point(2, 0.5)).norm(), 1e-14);
+}
+
+}  // namespace
+}  // namespace mortier
