@@ -202,8 +202,9 @@ int run(RunCommand command) {
     folder.emplace(path);
     files.emplace(folder->temporary(), model, scene.every);
   }
-  Checkpoints checkpoints(folder->temporary(), command.checkpoint, std::move(identity));
   RunFacts facts = factsOf(command, scene);
+  facts.sceneText = identity.text;
+  Checkpoints checkpoints(folder->temporary(), command.checkpoint, std::move(identity));
   facts.doubts = estimateDoubts(scene, model);
   AccuracyRecord accuracies(model, accuracySoFar);
   Log log(command.quiet, scene.time.end);

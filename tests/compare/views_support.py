@@ -2,10 +2,11 @@
 import contextlib
 import importlib.util
 import io
+import os
 import sys
 from unittest import mock
 
-from support import ROOT, mortier
+from support import PROGRAM, ROOT, mortier
 
 sys.path.insert(0, str(ROOT / "views"))
 SPEC = importlib.util.spec_from_file_location("views_main", ROOT / "views" / "__main__.py")
@@ -22,7 +23,7 @@ def solve(folder, name, *settings, scene="compression", code=0):
 def view(folder, *words):
     """What mortier plot or report does, without a process of its own: exit code, standard output, standard error."""
     out, errors = io.StringIO(), io.StringIO()
-    with contextlib.chdir(folder), mock.patch.object(sys, "argv", ["views", *map(str, words)]), \
+    with contextlib.chdir(folder), mock.patch.dict(os.environ, MORTIER=PROGRAM), mock.patch.object(sys, "argv", ["views", *map(str, words)]), \
             contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
         code = MAIN.main()
     return code, out.getvalue(), errors.getvalue()
