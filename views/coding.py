@@ -1,7 +1,8 @@
 """Fields as few bytes: decimals of a fixed place, predicted, deflated. views/report.js reads them back.
 
 An array of numbers becomes integers times 10^e, with so many digits for its largest value; what is kept is what a
-prediction misses: from the number before it, or from the same place one step earlier. Signs are folded into the last bit
+prediction misses: from the number before it, from the same place one step earlier, or from two steps as if they went
+on. Signs are folded into the last bit
 (0, -1, 1, -2, ... become 0, 1, 2, 3, ...) and bytes of the same weight stand together.
 """
 import base64
@@ -9,7 +10,7 @@ import zlib
 
 import numpy as np
 
-BEFORE, EARLIER, GIVEN = 0, 1, 2  # predictions: the number before, one step earlier, what the caller knows
+BEFORE, EARLIER, GIVEN, ONWARD = range(4)  # predictions; GIVEN: by the caller
 
 
 def quantised(values, digits):
@@ -48,6 +49,8 @@ class Block:
 
     def __init__(self, earlier=None):
         self.earlier, self.integers, self.forms, self.parts = earlier, [], [], []
+        if earlier is not None and earlier.earlier is not None:
+            earlier.earlier.earlier = None  # two steps are all that is looked back at
 
     def add(self, values, digits, given=None):
         """given: (function of e that predicts integers); else the better one of the other two."""
@@ -57,17 +60,24 @@ class Block:
             tries.append((GIVEN, given(e)))
         else:
             tries.append((BEFORE, np.concatenate([[0], q[:-1]]) if len(q) else q))
-            if self.earlier is not None:
-                k = len(self.integers)
-                before, e0 = self.earlier.integers[k]
-                if abs(e0 - e) < 15:
-                    tries.append((EARLIER, requantised(before, e0, e)))
+            if (last := self.back(1, e)) is not None:
+                tries.append((EARLIER, last))
+                if (last_but_one := self.back(2, e)) is not None:
+                    tries.append((ONWARD, 2 * last - last_but_one))
         packed = [(*folded(q - prediction), how) for how, prediction in tries]
         data, weights, how = min(packed, key=lambda each: len(deflated(each[0], 1))) if len(packed) > 1 else packed[0]
         self.integers.append((q, e))
         self.forms.append([e, how, weights])
         self.parts.append(data)
         return q, e
+
+    def back(self, steps, e):
+        """The integers of the same array so many steps earlier, times 10^e here; None where they are too different."""
+        block = self.earlier if steps == 1 else self.earlier and self.earlier.earlier
+        if block is None:
+            return None
+        q, e0 = block.integers[len(self.integers)]
+        return requantised(q, e0, e) if abs(e0 - e) < 9 else None
 
     def bytes(self):
         return deflated(b"".join(self.parts))

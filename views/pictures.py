@@ -386,10 +386,12 @@ def picture(figure, kind, **options):
     return data.getvalue()
 
 
-def small(png):
-    """The same picture with 255 colours."""
+def small(png, width=None):
+    """The same picture with 255 colours, not wider than so many pixels."""
     from PIL import Image
 
-    out = io.BytesIO()
-    Image.open(io.BytesIO(png)).convert("RGB").quantize(255, dither=Image.Dither.NONE).save(out, "png", optimize=True)
+    out, image = io.BytesIO(), Image.open(io.BytesIO(png)).convert("RGB")
+    if width and image.width > width:
+        image = image.resize((width, round(image.height * width / image.width)), Image.Resampling.LANCZOS)
+    image.quantize(255, Image.Quantize.MAXCOVERAGE, kmeans=2, dither=Image.Dither.NONE).save(out, "png", optimize=True)
     return out.getvalue()

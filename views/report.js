@@ -29,8 +29,17 @@ function arrays(bytes, forms, lengths, earlier, predict) {  // [{e, q}] of a blo
     const n = lengths[k], q = new Float64Array(n), plane = n;
     let before = 0;
     for (let w = weights - 1; w >= 0; w--) for (let i = 0; i < n; i++) q[i] = q[i] * 256 + bytes[at + w * plane + i];
-    const guess = how === 1 ? Float64Array.from(earlier[k].q) : how === 2 ? predict(found, k, e) : null;
-    if (how === 1 && earlier[k].e !== e) for (let i = 0; i < n; i++) guess[i] = Math.floor(scaled(guess[i], earlier[k].e - e) + 0.5);
+    let guess = how === 2 ? predict(found, k, e) : null;
+    if (how === 1 || how === 3) {
+      guess = new Float64Array(n);
+      const add = (steps, factor) => {  // the same array of an earlier step, times 10^e
+        const {e: e0, q: old} = earlier[steps - 1][k];
+        if (e0 === e) for (let i = 0; i < n; i++) guess[i] += factor * old[i];
+        else for (let i = 0; i < n; i++) guess[i] += factor * Math.floor(scaled(old[i], e0 - e) + 0.5);
+      };
+      if (how === 1) add(1, 1);
+      else { add(1, 2); add(2, -1); }
+    }
     for (let i = 0; i < n; i++) {
       const folded = q[i], difference = folded % 2 ? -(folded + 1) / 2 : folded / 2;
       before = q[i] = (guess ? guess[i] : before) + difference;
@@ -54,11 +63,11 @@ async function loadMesh(body) {
   }
   Object.assign(body, {x: real(a[0]), y: real(a[1]), corners: t, from: a[5].q, to: a[6].q, region: a[7]});
 }
-async function loadStep(run, i) {  // body number -> field name -> {e, q}
+const loadStep = (run, i) => run.steps[i].loaded ??= readStep(run, i);
+async function readStep(run, i) {  // body number -> field name -> {e, q}
   const step = run.steps[i];
-  if (step.fields) return step.fields;
-  const earlier = step.f.some(form => form[1] === 1) ? (await loadStep(run, i - 1), run.steps[i - 1].all) : null;
-  if (step.fields) return step.fields;
+  const back = Math.max(...step.f.map(form => form[1] === 3 ? 2 : form[1] === 1 ? 1 : 0)), earlier = [];  // steps that it needs
+  for (let k = 1; k <= back; k++) { await loadStep(run, i - k); earlier.push(run.steps[i - k].all); }
   const bytes = await unpack(step.d), names = run.order, n = names.length;
   const lengths = run.bodies.flatMap(body => names.map(name => fieldOf(run, name).vertex ? body.vertices : body.triangles));
   const stresses = ["s11", "s22", "s12", "s33"].filter(name => names.includes(name));
@@ -71,7 +80,7 @@ async function loadStep(run, i) {  // body number -> field name -> {e, q}
     }
     return guess;
   });
-  return step.fields = run.bodies.map((body, b) =>
+  step.fields = run.bodies.map((body, b) =>
     ({...Object.fromEntries(names.map((name, k) => [name, step.all[b * n + k]])), region: body.region}));
 }
 const fieldOf = (run, name) => run.fields.find(field => field.name === name);
@@ -244,7 +253,7 @@ function paint(panel, range) {
     if (now.ghost) outline(v => X(body.x[v]), v => Y(body.y[v]), [4 * ratio, 4 * ratio], 0.8 * ratio, "#8a8a92");
     outline(v => px[v], v => py[v], [], 0.9 * ratio, ink);
   }
-  Object.assign(panel, {owner, offsets, px: lines.map(each => each.px), py: lines.map(each => each.py), ratio});
+  Object.assign(panel, {owner, offsets, step, px: lines.map(each => each.px), py: lines.map(each => each.py), ratio});
   const strip = panel.bar.getContext("2d"), shades = strip.createImageData(256, 1);
   new Uint32Array(shades.data.buffer).set(range.table);
   strip.putImageData(shades, 0, 0);
@@ -257,7 +266,7 @@ function hover(panel, x, y) {  // in CSS pixels of the canvas
   if (found < 0) { panel.read.textContent = "Point at a triangle for its values; drag, wheel or keys move and zoom."; delete panel.read.dataset.triangle; return; }
   let b = run.bodies.length - 1;
   while (panel.offsets[b] > found) b--;
-  const t = found - panel.offsets[b], body = run.bodies[b], fields = run.steps[stepOf(run)].fields[b], field = fieldOf(run, now.field);
+  const t = found - panel.offsets[b], body = run.bodies[b], fields = run.steps[panel.step].fields[b], field = fieldOf(run, now.field);
   const near = [0, 1, 2].map(c => body.corners[3 * t + c])
     .reduce((best, v) => Math.hypot(panel.px[b][v] - i, panel.py[b][v] - j) < Math.hypot(panel.px[b][best] - i, panel.py[b][best] - j) ? v : best);
   const value = valueOf(fields, now.field, field.vertex ? near : t);
@@ -340,7 +349,7 @@ function drawHistories() {
       const columns = run.history.columns, time = columns[Object.keys(columns).find(each => each.startsWith("time["))], y = columns[name];
       return y && time && y.length > 1 ? [{x: time, y, run: r, name: run.name, marks: y.length < 25}] : [];
     });
-    return series.some(s => s.y.some(v => v !== 0)) ? [chart({title: name.replaceAll("_", " ").replace("[", " ["), xWords: withUnit("time", runs[0].units.time), series, now: t})] : [];
+    return series.some(s => s.y.some(v => v !== s.y[0])) ? [chart({title: name.replaceAll("_", " ").replace("[", " ["), xWords: withUnit("time", runs[0].units.time), series, now: t})] : [];
   }));
 }
 
@@ -349,8 +358,10 @@ let waiting = null;
 function redraw() {  // once a frame, when the data of the step are there
   if (waiting) return waiting;
   return waiting = (async () => {
-    await Promise.all(runs.map(run => loadStep(run, stepOf(run))));
-    await new Promise(requestAnimationFrame);
+    do {  // the slider may have moved on
+      await Promise.all(runs.map(run => loadStep(run, stepOf(run))));
+      await new Promise(requestAnimationFrame);
+    } while (runs.some(run => !run.steps[stepOf(run)].fields));
     waiting = null;
     if (fit) { view = everything(); fit = false; }
     const range = colourRange();

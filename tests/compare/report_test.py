@@ -8,7 +8,7 @@ import unittest
 import numpy as np
 
 from browser import Browser
-from support import InSharedFolder, mortier
+from support import ROOT, InSharedFolder, mortier
 from views_support import solve, view
 import coding
 import results
@@ -215,6 +215,20 @@ class Pages(InSharedFolder):
         choose(self.browser, "field", "s11")
         self.check_hover("ring", 0, 2, "s11")
         self.assertEqual(self.browser.run("return document.querySelectorAll('#pressure0-0 circle').length"), 40)
+
+    def test_a_hundred_thousand_triangles(self):
+        """Five steps of Cook's membrane: smooth fields and a corner."""
+        mortier("mesh", "quadrilateral", "--cells", "224", "--corners", "0,0", "48,44", "48,60", "0,44", "fine.mesh", cwd=self.folder)
+        done = mortier("run", ROOT / "scenes/cook.toml", "--quiet", "--out", "fine", "--set", "time.steps=5", "output.every=1",
+                       "body.panel.mesh=fine.mesh", cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        path, milliseconds = self.page("fine")
+        self.assertLess(path.stat().st_size, 8e6)
+        self.assertLess(milliseconds, 20000)
+        for step, field in ((5, "s12"), (2, "von_mises"), (2, "ux")):
+            choose(self.browser, "step", step)
+            choose(self.browser, "field", field)
+            self.check_hover("fine", 0, step, field, 3)
 
     def test_phone_and_dark(self):
         self.page("mortar", "interpolation")
