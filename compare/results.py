@@ -4,7 +4,9 @@ A run folder of mortier is described in docs/scene.md, one of FreeFEM in freefem
 missing, cut short or not finite is a ResultError with the file's name.
 """
 import argparse
+import contextlib
 import csv
+import io
 import json
 import math
 import re
@@ -168,6 +170,7 @@ def finished(run):
         require_finite(run.folder, f"stress of {name}", body.stress)
     require_finite(run.folder, "contact forces", run.contact.force)
     require_finite(run.folder, "contact gaps", run.contact.gap)
+    require_finite(run.folder, "contact nodes", run.contact.position)
     try:
         final = run.summary["final"]
         for key in FINAL:
@@ -256,7 +259,8 @@ def read_vtu(path):
     if not Path(path).exists():
         raise ResultError(f"{path}: no such file")
     try:
-        mesh = meshio.read(path)
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):  # it prints as well
+            mesh = meshio.read(path)
         return Body(mesh.point_data["displacement"][:, :2], mesh.cell_data["stress"][0], mesh.points[:, :2],
                     mesh.cells_dict["triangle"], {name: values[0] for name, values in mesh.cell_data.items()})
     except (Exception, SystemExit) as error:  # meshio ends the process on some faults
