@@ -28,7 +28,7 @@ class Pictures(InFolder):
             with self.subTest(scene):
                 text, output = self.draw(f"scenes/{scene}.toml", "-steps", 2)
                 low, high = re.search(r"^von Mises +(\S+) \.\. (\S+) Pa", output, re.M).groups()
-                words = re.search(r"von Mises stress (\S+) to (\S+), pressure up to (\S+?)[,)]", text)
+                words = re.search(r"von Mises (\S+) to (\S+), p up to (\S+?)[,)]", text)
                 self.assertAlmostEqual(float(words[1]) / float(low), 1, delta=1e-4)
                 self.assertAlmostEqual(float(words[2]) / float(high), 1, delta=1e-4)
                 self.assertGreater(float(words[3]), 0)
@@ -61,7 +61,7 @@ class Pictures(InFolder):
                 mortier("mesh", "crisscross", "--cells", "12", self.folder / "fine.mesh")
                 words = [self.folder / word if word == "fine.mesh" else word for word in words]
             text, _ = self.draw("scenes/compression.toml", *words)
-            pressure = float(re.search(r"pressure up to ([\d.e+-]+)", text)[1])
+            pressure = float(re.search(r"p up to ([\d.e+-]+)", text)[1])
             if "interpolation" in words:
                 self.assertGreater(pressure, 10.5)
             else:
