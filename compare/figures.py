@@ -15,6 +15,7 @@ import numpy as np
 import results
 
 sys.path.append(str(Path(__file__).resolve().parent.parent / "views"))
+import images  # noqa: E402
 import pictures  # noqa: E402
 import runs  # noqa: E402
 from matplotlib.colors import TwoSlopeNorm  # noqa: E402
@@ -51,10 +52,10 @@ def main():
         for name, figure in figures.items():
             for kind in ("png", "svg"):
                 path = arguments.out / f"{name}.{kind}"
-                path.write_bytes(pictures.picture(figure, kind))
+                path.write_bytes(images.picture(figure, kind))
                 print(path)
         if arguments.overview:
-            arguments.overview.write_bytes(pictures.small(pictures.picture(pictures.fields(views, **style), "png", dpi=80)))
+            arguments.overview.write_bytes(images.small(images.picture(pictures.fields(views, **style), "png", dpi=80)))
             print(arguments.overview)
     return 0
 

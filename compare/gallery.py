@@ -19,6 +19,7 @@ import results
 from codes import ROOT, RunError, run_mortier
 
 sys.path.append(str(ROOT / "views"))
+import images  # noqa: E402
 import pictures  # noqa: E402
 import runs  # noqa: E402
 
@@ -163,7 +164,7 @@ def draw(entry, folder, out):
     with pictures.plt.rc_context(pictures.STYLE):
         figure = pictures.fields([view], scale=entry.scale, window=window, strips=False)
         out.mkdir(parents=True, exist_ok=True)
-        (out / f"{entry.scene}.png").write_bytes(pictures.small(pictures.picture(figure, "png", dpi=90)))
+        (out / f"{entry.scene}.png").write_bytes(images.small(images.picture(figure, "png", dpi=90)))
 
 
 def error(number, run):

@@ -63,6 +63,7 @@ def require(*modules):
 def plot(given):
     require("numpy", "matplotlib", "meshio")
     import files
+    import images
     import pictures
     import runs
 
@@ -91,7 +92,7 @@ def plot(given):
     made = {}
     with pictures.plt.rc_context(pictures.STYLE):
         if given.animate:
-            made[folder if single else folder / "animation.gif"] = pictures.animation(results, given.field, scale, given.window)
+            made[folder if single else folder / "animation.gif"] = images.animation(results, given.field, scale, given.window)
         wanted = [] if given.animate and (single or not given.only) else [given.only] if given.only else \
             ["fields"] if single else PICTURES
         for name in wanted:
@@ -103,7 +104,7 @@ def plot(given):
                                     f"{'no contact' if name == 'contact' else 'fewer than two steps'} in this run")
                 continue
             for kind in (single,) if single else ("png", "svg"):
-                made[folder if single else folder / f"{name}.{kind}"] = pictures.picture(figure, kind)
+                made[folder if single else folder / f"{name}.{kind}"] = images.picture(figure, kind)
             pictures.plt.close(figure)
     files.put(made)
     for path in made:

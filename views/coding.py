@@ -1,4 +1,4 @@
-"""Fields as few bytes: decimals of a fixed place, predicted, deflated. views/report.js reads them back.
+"""Fields as few bytes: decimals of a fixed place, predicted, deflated. views/page/data.js reads them back.
 
 An array of numbers becomes integers times 10^e, with so many digits for its largest value; what is kept is what a
 prediction misses: from the number before it, from the same place one step earlier, or from two steps as if they went

@@ -1,7 +1,5 @@
 """Pictures of runs: deformed bodies, the line of contact magnified, pressure and gap along it, histories."""
-import io
 import textwrap
-import warnings
 from dataclasses import dataclass
 
 import matplotlib
@@ -32,6 +30,9 @@ ROUNDING = 1e-9  # of the largest value: what is less apart has one colour
 HISTORY = ("contact_force", "max_pressure", "von_mises_max", "displacement_max", "elastic_energy", "penetration",
            "viscoplastic_fraction")
 OF_A_FAILED_RUN = ("iterations", "material_residual", "force_balance")
+NOT_DRAWN = {"step", "time", "time_step", "estimate", "rejections", "guarded", "rung", "iterations", "factorisations", "active",
+             "joined", "left", "contact_resultant_x", "contact_resultant_y", "force_balance", "material_residual",
+             "gap_on_active", "sign", "complementarity", "open_penetration", "rounding"}
 
 
 @dataclass
@@ -296,8 +297,10 @@ def shown_beside(name, names):
 
 
 def history(views):
-    """Columns of history.csv against time; of a failed run how hard its steps were as well."""
-    columns = list(HISTORY) + [c for c in OF_A_FAILED_RUN if any(each.result.failed for each in views)]
+    """Columns of history.csv against time, those that a scene adds too; of a failed run how hard its steps were as well."""
+    more = [name.split("[")[0] for name in views[0].result.history]
+    columns = [*HISTORY, *[c for c in more if c not in NOT_DRAWN and c not in HISTORY],
+               *[c for c in OF_A_FAILED_RUN if any(each.result.failed for each in views)]]
     shown = []
     for column in columns:
         name = next((name for name in views[0].result.history if name.split("[")[0] == column), None)
@@ -328,70 +331,3 @@ def history(views):
     for each in axes[-1]:
         each.set_xlabel(labelled("time", views[0].result.time_unit))
     return figure
-
-
-def animation(results, field_name, scale, window, every=12):
-    """A GIF of the kept steps, all with the colours, scale and window that hold for the whole run; ViewError where
-    there is one step only."""
-    steps = [[step for step, _ in result.kept] for result in results]
-    count = max(map(len, steps))
-
-    def views_at(i):
-        chosen = [of_run[round(i * (len(of_run) - 1) / max(count - 1, 1))] for of_run in steps]
-        return [view(result, step) for result, step in zip(results, chosen)]
-
-    values, scales, windows = [], [], []
-    field = None
-    for i in range(count):
-        views = views_at(i)
-        if field_name != "none":
-            field = views[0].result.fields(views[0].run)[field_name]
-            values += [v for each in views for v in each.result.values(each.run, field).values()]
-        scales.append(natural_scale(bodies_of(views)))
-    scale = scale if scale is not None else scales[-1]
-    for i in range(count):
-        windows.append(whole_window(views_at(i), scale))
-    low, high = np.min(windows, 0), np.max(windows, 0)
-    window = window or (low[0], high[1], low[2], high[3])
-    norm, colours = colours_of(field, values)[:2] if field else (None, None)
-    frames = []
-    for i in range(count):
-        figure = fields(views_at(i), field_name, scale, window, norm, colours, strips=False)
-        frames.append(picture(figure, "png", dpi=90))
-        plt.close(figure)
-    return gif(frames)
-
-
-def gif(frames):
-    """Frames, PNG each, to one GIF: 12 a second, the last one for two seconds."""
-    from PIL import Image
-
-    images = [Image.open(io.BytesIO(frame)).convert("RGB") for frame in frames]
-    size = images[0].size
-    images = [image if image.size == size else image.resize(size) for image in images]
-    palette = images[-1].quantize(255)
-    images = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
-    out = io.BytesIO()
-    images[0].save(out, "gif", save_all=True, append_images=images[1:], loop=0,
-                   duration=[max(1000 // 12, 3000 // len(images) if len(images) < 20 else 0)] * (len(images) - 1) + [2000])
-    return out.getvalue()
-
-
-def picture(figure, kind, **options):
-    """The bytes of a figure."""
-    data = io.BytesIO()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # letters that the font does not have are boxes
-        figure.savefig(data, format=kind, bbox_inches="tight", pad_inches=0.08, metadata={"Date": None} if kind == "svg" else {"Software": "mortier plot"}, **options)
-    return data.getvalue()
-
-
-def small(png, width=None):
-    """The same picture with 255 colours, not wider than so many pixels."""
-    from PIL import Image
-
-    out, image = io.BytesIO(), Image.open(io.BytesIO(png)).convert("RGB")
-    if width and image.width > width:
-        image = image.resize((width, round(image.height * width / image.width)), Image.Resampling.LANCZOS)
-    image.quantize(255, Image.Quantize.MAXCOVERAGE, kmeans=2, dither=Image.Dither.NONE).save(out, "png", optimize=True)
-    return out.getvalue()

@@ -1,7 +1,7 @@
 """mortier report: results as one HTML file that needs nothing else and no network.
 
-The file holds data, the program views/report.js and its looks, views/report.css. Text of the user's is in the data only,
-where no HTML is read; a policy in the page lets the browser run nothing but the one program.
+The file holds data, a program and its looks (views/page). Text of the user's is in the data only, where no HTML is read, and
+is shown as text; a policy in the page lets the browser run nothing but the one program.
 """
 import base64
 import hashlib
@@ -18,7 +18,8 @@ from contact_line import boundary_edges
 from problems import shown
 from runs import extent, natural_scale
 
-HERE = Path(__file__).resolve().parent
+PAGE = Path(__file__).resolve().parent / "page"
+PROGRAM = ("data.js", "controls.js", "bodies.js", "charts.js", "page.js")  # one after the other, one function
 TRIANGLES = 600_000  # of all kept steps together: beyond that steps are left out, so that the page stays small
 MANY = 200_000  # of the same: beyond that numbers have a digit less
 HISTORY_ROWS = 1500  # of a longer history some are left out
@@ -156,7 +157,8 @@ def words_of(result):
     tables = {"Run": facts, "At the end": summary.get("final", {}), "Largest of the run": summary.get("peaks", {}),
               "Verification (worst step)": summary.get("verification", {}), "Estimated accuracy": summary.get("accuracy", {})}
     scene = summary.get("scene_text")
-    return {"tables": {name: [[shown(key, 200), shown(value, 500)] for key, value in flat(table)] for name, table in tables.items()},
+    return {"tables": {name: [[shown(key, 200), shown(value, 500)] for key, value in flat(table)]
+                       for name, table in tables.items()},
             "plan": plan_of(summary), "scene": scene[:SCENE_LETTERS] if isinstance(scene, str) else None,
             "path": shown(summary.get("scene", ""), 500)}
 
@@ -184,7 +186,8 @@ def page(results):
     titles = list(dict.fromkeys(run["title"] for run in data["runs"]))
     text = json.dumps(data, separators=(",", ":"), allow_nan=False)
     text = text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")  # no HTML in it
-    program, looks = ((HERE / f"report.{kind}").read_text(encoding="utf-8") for kind in ("js", "css"))
+    parts = "".join((PAGE / name).read_text(encoding="utf-8") for name in PROGRAM)
+    program, looks = f'"use strict";\n(async () => {{\n{parts}}})();\n', (PAGE / "page.css").read_text(encoding="utf-8")
     policy = f"default-src 'none'; script-src '{digest(program)}'; style-src '{digest(looks)}'; img-src data:"
     return ("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
             f"<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n"

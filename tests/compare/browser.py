@@ -42,8 +42,8 @@ class Browser:
         self.size(width, height)
 
     def send(self, method, path, body=None):
-        request = urllib.request.Request(self.address + path, method=method, data=None if body is None else json.dumps(body).encode(),
-                                         headers={"Content-Type": "application/json"})
+        data = None if body is None else json.dumps(body).encode()
+        request = urllib.request.Request(self.address + path, data, {"Content-Type": "application/json"}, method=method)
         with urllib.request.urlopen(request, timeout=120) as answer:
             return json.loads(answer.read())["value"]
 
@@ -79,8 +79,9 @@ class Browser:
 
     def point(self, x, y):
         """Moves the mouse to a place of the window."""
+        move = {"type": "pointerMove", "duration": 0, "x": round(x), "y": round(y)}
         self.send("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"},
-                                                    "actions": [{"type": "pointerMove", "duration": 0, "x": round(x), "y": round(y)}]}]})
+                                                    "actions": [move]}]})
 
     def picture(self):
         return base64.b64decode(self.send("GET", "/screenshot"))

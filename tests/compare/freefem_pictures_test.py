@@ -20,7 +20,8 @@ class Pictures(InFolder):
         script, picture = self.folder / "scene.edp", self.folder / "a.ps"
         done = mortier("freefem", ROOT / scene, script, cwd=ROOT)
         self.assertEqual(done.returncode, 0, done.stderr)
-        output, _ = call([FREEFEM, "-nw", "-nw", "-ne", "-v", "0", script, "-quiet", "-out", self.folder / "out", "-ps", picture, *words])
+        output, _ = call([FREEFEM, "-nw", "-nw", "-ne", "-v", "0", script, "-quiet", "-out", self.folder / "out",
+                          "-ps", picture, *words])
         return picture.read_text(errors="replace"), output
 
     def test_scenes(self):

@@ -83,6 +83,10 @@ class Pictures(InSharedFolder):
             history = pictures.history([column])
             np.testing.assert_array_equal(history.axes[0].lines[0].get_ydata(), column.result.history["contact_force[N/m]"])
             self.assertIn("[N/m]", history.axes[0].get_title(loc="left"))
+            column.result.history["reaction[kN]"] = np.arange(4.0)
+            titles = [axes.get_title(loc="left") for axes in pictures.history([column]).axes]
+            self.assertIn("reaction [kN]", titles)
+            pictures.plt.close("all")
 
     def test_between_the_nodes_the_gap_is_that_of_both_meshes(self):
         for name, swapped in (("interpolation", False), ("swapped", True)):
@@ -246,7 +250,8 @@ class Refused(InFolder):
         self.assertEqual(view(self.folder, "plot", "run", "--only", "history")[0], 0)
 
     def test_whole_or_not_at_all(self):
-        done = mortier("plot", "run", cwd=self.folder, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (30000, 30000)))
+        done = mortier("plot", "run", cwd=self.folder,
+                       preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (30000, 30000)))
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("cannot be written", done.stderr)
         self.assertEqual(list((self.folder / "run.plots").iterdir()), [])

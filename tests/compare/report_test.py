@@ -50,7 +50,8 @@ def hovered(browser, run, count, places=False):
         x = area[0] + area[2] * (0.5 + 0.45 * np.sin(12.9898 * (i + 1)))
         y = area[1] + area[3] * (0.5 + 0.45 * np.sin(78.233 * (i + 1)))
         browser.point(x, y)
-        data, text = browser.run("const r = document.getElementById(arguments[0]); return [{...r.dataset}, r.textContent]", f"read{run}")
+        data, text = browser.run("const r = document.getElementById(arguments[0]); return [{...r.dataset}, r.textContent]",
+                                 f"read{run}")
         if "triangle" in data:
             found.append((data["body"], int(data["triangle"]), int(data["vertex"]), float(data["value"]), text))
             where.append((round(x), round(y)))
@@ -60,12 +61,15 @@ def hovered(browser, run, count, places=False):
 
 
 def choose(browser, name, value):
-    browser.run("const e = document.getElementById(arguments[0]); e.value = arguments[1]; e.dispatchEvent(new Event('input'))", name, value)
+    browser.run("const e = document.getElementById(arguments[0]); e.value = arguments[1]; "
+                "e.dispatchEvent(new Event('input'))", name, value)
     settled(browser)
 
 
 def settled(browser):
-    browser.run("return new Promise(done => setTimeout(() => requestAnimationFrame(() => requestAnimationFrame(() => done(1))), 50))")
+    """Waits until the page has drawn what was asked for."""
+    browser.run("return new Promise(done => setTimeout(() => requestAnimationFrame(() => requestAnimationFrame(() => done(1))), "
+                "50))")
 
 
 class Pages(InSharedFolder):
@@ -101,8 +105,9 @@ class Pages(InSharedFolder):
         for body, triangle, vertex, shown, text in seen:
             exact = values[body][vertex if known.by_vertex else triangle]
             digits = 3 if field == "error" else 4 if field == "u" else 5
-            self.assertLessEqual(abs(shown - exact), 0.51 * 10.0 ** (np.floor(np.log10(max(np.abs(values[body]).max(), 1e-300))) - digits + 1)
-                                 if largest else 0, f"{field} of {body} {triangle}: {shown}, in the file {exact}")
+            leading = np.floor(np.log10(max(np.abs(values[body]).max(), 1e-300)))
+            self.assertLessEqual(abs(shown - exact), 0.51 * 10.0 ** (leading - digits + 1) if largest else 0,
+                                 f"{field} of {body} {triangle}: {shown}, in the file {exact}")
             self.assertIn(f"{body}, ", text)
             self.assertIn(f"triangle {triangle}:", text)
             corner = found.bodies[body].triangles[triangle]
@@ -218,7 +223,8 @@ class Pages(InSharedFolder):
 
     def test_a_hundred_thousand_triangles(self):
         """Five steps of Cook's membrane: smooth fields and a corner."""
-        mortier("mesh", "quadrilateral", "--cells", "224", "--corners", "0,0", "48,44", "48,60", "0,44", "fine.mesh", cwd=self.folder)
+        mortier("mesh", "quadrilateral", "--cells", "224", "--corners", "0,0", "48,44", "48,60", "0,44", "fine.mesh",
+                cwd=self.folder)
         done = mortier("run", ROOT / "scenes/cook.toml", "--quiet", "--out", "fine", "--set", "time.steps=5", "output.every=1",
                        "body.panel.mesh=fine.mesh", cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -236,12 +242,14 @@ class Pages(InSharedFolder):
             self.browser.size(width, 740)
             settled(self.browser)
             self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), width)
-            shown = self.browser.run("return [...document.querySelectorAll('canvas[id]')].map(c => c.getBoundingClientRect().width)")
+            shown = self.browser.run("return [...document.querySelectorAll('canvas[id]')]"
+                                     ".map(c => c.getBoundingClientRect().width)")
             self.assertGreater(min(shown), 300)
         self.browser.size(1280, 900)
-        light = self.browser.run("return [getComputedStyle(document.body).color, getComputedStyle(document.body).backgroundColor]")
+        looks = "const s = getComputedStyle(document.body); return [s.color, s.backgroundColor]"
+        light = self.browser.run(looks)
         self.browser.cdp("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark"}])
-        dark = self.browser.run("return [getComputedStyle(document.body).color, getComputedStyle(document.body).backgroundColor]")
+        dark = self.browser.run(looks)
         self.browser.cdp("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "light"}])
         bright = [[sum(map(int, re.findall(r"\d+", colour)[:3])) for colour in pair] for pair in (light, dark)]
         self.assertGreater(bright[0][1] - bright[0][0], 500)
@@ -252,8 +260,9 @@ class Pages(InSharedFolder):
         path = self.folder / "hostile" / "summary.json"
         summary = json.loads(path.read_text())
         for text in HOSTILE:
-            path.write_text(json.dumps({**summary, "title": text, "scene": text, "scene_text": text, "settings": [text], "plane": text,
-                                        "status": "failed", "reason": text, "accuracy": {text: text}, "final": {**summary["final"], text: 1}}))
+            path.write_text(json.dumps({**summary, "title": text, "scene": text, "scene_text": text, "settings": [text],
+                                        "plane": text, "status": "failed", "reason": text, "accuracy": {text: text},
+                                        "final": {**summary["final"], text: 1}}))
             page, _ = self.page("hostile")
             self.assertEqual(self.browser.messages(), [], text)
             self.assertIsNone(self.browser.run("return window.hacked || null"), text)

@@ -11,7 +11,7 @@ from pathlib import Path
 from browser import Browser
 from support import ROOT
 from views_support import solve, view
-import pictures
+import images
 
 PAGES = {"report": (1180, 1010, False, 640), "report-dark": (1180, 1010, True, 640), "report-phone": (390, 1000, False, 300)}
 
@@ -45,7 +45,7 @@ def main():
 
 
 def save(path, png, width):
-    path.write_bytes(pictures.small(png, width))
+    path.write_bytes(images.small(png, width))
     print(path)
 
 

@@ -23,7 +23,8 @@ def solve(folder, name, *settings, scene="compression", code=0):
 def view(folder, *words):
     """What mortier plot or report does, without a process of its own: exit code, standard output, standard error."""
     out, errors = io.StringIO(), io.StringIO()
-    with contextlib.chdir(folder), mock.patch.dict(os.environ, MORTIER=PROGRAM), mock.patch.object(sys, "argv", ["views", *map(str, words)]), \
+    with contextlib.chdir(folder), mock.patch.dict(os.environ, MORTIER=PROGRAM), \
+            mock.patch.object(sys, "argv", ["views", *map(str, words)]), \
             contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
         code = MAIN.main()
     return code, out.getvalue(), errors.getvalue()
