@@ -1,4 +1,5 @@
 """A result folder as pictures and reports need it: kept steps, fields by name, lines of contact, units."""
+import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -27,7 +28,7 @@ class Result:
     def __init__(self, folder):
         """ResultError: it is no result of mortier run, or damaged."""
         self.folder = Path(folder)
-        if not self.folder.is_dir():
+        if not os.path.isdir(folder):  # which is false for a name that is too long as well
             raise results.ResultError(f"{folder}: no such folder, expected a result of mortier run")
         self.summary = results.read_summary(self.folder, failed=True)
         if self.summary.get("code") == "FreeFEM":
