@@ -187,7 +187,9 @@ def page(results):
     text = json.dumps(data, separators=(",", ":"), allow_nan=False)
     text = text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")  # no HTML in it
     parts = "".join((PAGE / name).read_text(encoding="utf-8") for name in PROGRAM)
-    program, looks = f'"use strict";\n(async () => {{\n{parts}}})();\n', (PAGE / "page.css").read_text(encoding="utf-8")
+    program = (f'"use strict";\n(async () => {{\n{parts}}})().catch(error => {{\n  document.getElementById("page").prepend('
+               "`This page cannot be drawn: ${error}. It needs a browser of 2023 or later.`);\n  throw error;\n});\n")
+    looks = (PAGE / "page.css").read_text(encoding="utf-8")
     policy = f"default-src 'none'; script-src '{digest(program)}'; style-src '{digest(looks)}'; img-src data:"
     return ("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
             f"<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n"

@@ -56,14 +56,14 @@ class Pictures(InSharedFolder):
         names = list(result.fields(result.at(4)))
         self.assertLessEqual({"von_mises", "s12", "u", "uy", "e22", "viscoplastic", "error", "region"}, set(names))
         made = {self.plot("mortar", "interpolation", "--only", "fields", "--field", name, "--step", 2, "--out", f"{name}.png")[0]
-                for name in ["none", "s12", "uy", "error"]}
-        self.assertEqual(len(made), 4)
+                for name in ["none", "uy"]}
+        self.assertEqual(len(made), 2)
         for name in made:
             with Image.open(self.folder / name) as picture:
                 self.assertGreater(picture.width, 800)
         for name in names:  # drawn here, without a process each
             with pictures.plt.rc_context(pictures.STYLE):
-                figure = pictures.fields([pictures.view(result)], name)
+                figure = pictures.fields([pictures.view(result)], name, strips=False)
                 self.assertIn(result.fields(result.at(4))[name].words, figure.axes[-1].get_ylabel())
                 pictures.plt.close(figure)
 
@@ -226,9 +226,9 @@ class Refused(InFolder):
         summary = json.loads(path.read_text())
         for title in ("$\\frac{", "a\nb\x1b[31m", "日本", "x" * 10000, "_", "</svg><script>"):
             path.write_text(json.dumps({**summary, "title": title}))
-            code, _, errors = view(self.folder, "plot", "run", "--only", "fields")
+            code, _, errors = view(self.folder, "plot", "run", "--only", "contact", "--out", "titled.svg")
             self.assertEqual((code, errors), (0, ""))
-            xml.parse(self.folder / "run.plots" / "fields.svg")
+            xml.parse(self.folder / "titled.svg")
 
     def test_files_of_others_stay(self):
         plots = self.folder / "run.plots"

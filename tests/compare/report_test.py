@@ -275,6 +275,14 @@ class Pages(InSharedFolder):
         self.assertIsNone(self.browser.run("return window.hacked || null"))
         self.assertIn("Content Security Policy", self.browser.messages()[0])
 
+    def test_a_page_that_cannot_be_drawn_says_so(self):
+        page, _ = self.page("hertz")
+        (self.folder / "cut.html").write_text(re.sub(r'"d":"[^"]+"', '"d":"AAAA"', page.read_text(), count=1))
+        self.browser.send("POST", "/url", {"url": (self.folder / "cut.html").as_uri()})
+        settled(self.browser)
+        self.assertIn("This page cannot be drawn", self.browser.run("return document.body.innerText"))
+        self.assertNotEqual(self.browser.messages(), [])
+
     def test_a_run_that_stopped_early(self):
         solve(self.folder, "stuck", "contact.variant=interpolation", "solver.max_iterations=2", "time.steps=20", code=1)
         self.page("stuck.failed")
