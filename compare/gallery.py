@@ -13,15 +13,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Callable
 
-import matplotlib
+import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
+import results
+from codes import ROOT, RunError, run_mortier
 
-import results  # noqa: E402
-from codes import ROOT, RunError, run_mortier  # noqa: E402
-from figures import COLOURS, MUTED, STYLE  # noqa: E402
+sys.path.append(str(ROOT / "views"))
+import images  # noqa: E402
+import pictures  # noqa: E402
+import runs  # noqa: E402
 
 PICTURES = ROOT / "docs" / "images" / "gallery"
 
@@ -157,33 +157,14 @@ def run_entry(entry, folder):
     return run_mortier(Path(folder) / entry.scene, [], f"scenes/{entry.scene}.toml")
 
 
-def draw(entry, run, folder):
+def draw(entry, folder, out):
     """Deformed bodies, coloured by von Mises stress."""
-    bodies = run.bodies.values()
-    shapes = [body.points + entry.scale * body.displacement for body in bodies]
-    (left, right), (low, high) = entry.window or [(min(s[:, k].min() for s in shapes),
-                                                   max(s[:, k].max() for s in shapes)) for k in (0, 1)]
-    size = max(right - left, high - low)
-    shown = [body.von_mises[seen(shape[body.triangles].mean(axis=1), left, right, low, high)]
-             for body, shape in zip(bodies, shapes)]
-    top = np.percentile(np.concatenate(shown), 99.5)
-    with plt.rc_context(STYLE):
-        figure, axes = plt.subplots(figsize=(4.6 * (right - left) / size + 1, 4.6 * (high - low) / size + 0.3))
-        for body, shape in zip(bodies, shapes):
-            picture = axes.tripcolor(*shape.T, body.triangles, facecolors=body.von_mises, cmap=COLOURS, vmin=0,
-                                     vmax=top, edgecolors=MUTED, linewidth=0.15)
-        axes.set_aspect("equal")
-        axes.set_xlim(left - 0.03 * size, right + 0.03 * size)
-        axes.set_ylim(low - 0.03 * size, high + 0.03 * size)
-        axes.set_axis_off()
-        figure.colorbar(picture, ax=axes, shrink=0.7, label="von Mises stress")
-        folder.mkdir(parents=True, exist_ok=True)
-        figure.savefig(folder / f"{entry.scene}.png", dpi=110, bbox_inches="tight", metadata={"Software": None})
-        plt.close(figure)
-
-
-def seen(points, left, right, low, high):
-    return (points[:, 0] > left) & (points[:, 0] < right) & (points[:, 1] > low) & (points[:, 1] < high)
+    view = pictures.view(runs.Result(folder))
+    window = entry.window and (*entry.window[0], *entry.window[1])
+    with pictures.plt.rc_context(pictures.STYLE):
+        figure = pictures.fields([view], scale=entry.scale, window=window, strips=False)
+        out.mkdir(parents=True, exist_ok=True)
+        (out / f"{entry.scene}.png").write_bytes(images.small(images.picture(figure, "png", dpi=90)))
 
 
 def error(number, run):
@@ -210,7 +191,7 @@ def main():
             except (RunError, results.ResultError) as fault:
                 print(f"gallery: {fault}", file=sys.stderr)
                 return 1
-            draw(entry, run, arguments.out)
+            draw(entry, run.folder, arguments.out)
             for number in entry.numbers:
                 miss = not error(number, run) <= number.tolerance
                 missed += miss

@@ -4,9 +4,13 @@ A run folder of mortier is described in docs/scene.md, one of FreeFEM in freefem
 missing, cut short or not finite is a ResultError with the file's name.
 """
 import argparse
+import contextlib
 import csv
+import io
 import json
 import math
+import re
+import xml.etree.ElementTree as xml
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -31,6 +35,7 @@ class Body:
     stress: np.ndarray  # triangles x 3: s11, s22, s12 [Pa]; x 4 in plane strain, s33
     points: np.ndarray = None  # vertices x 2, as meshed [m]; None where the code does not write it
     triangles: np.ndarray = None  # triangles x 3, vertex numbers
+    cells: dict = field(default_factory=dict)  # name -> all values by triangle that the code writes
 
     @property
     def von_mises(self):
@@ -69,23 +74,70 @@ def read(folder):
     return read_freefem(folder) if read_summary(folder).get("code") == "FreeFEM" else read_mortier(folder)
 
 
-def read_mortier(folder):
-    """The last kept step of a run of mortier."""
+def read_mortier(folder, step=None, failed=False):
+    """A kept step of a run of mortier, the last one where none is named; failed: of a run that stopped early as well."""
     folder = Path(folder)
-    summary = read_summary(folder)
-    step = summary["steps"]
-    bodies = {b["name"]: read_vtu(folder / f"{b['name']}_{step:06d}.vtu") for b in summary.get("bodies", [])}
-    if not bodies:
-        raise ResultError(f"{folder / 'summary.json'}: no bodies")
+    summary = read_summary(folder, failed)
+    tables = contact_tables(folder)
+    return mortier_run(folder, summary, tables, summary.get("steps", 0) if step is None else step)
+
+
+def mortier_run(folder, summary, tables, step):
+    """One step of a run; tables are contact_tables."""
+    bodies = {b["name"]: read_vtu(folder / f"{b['name']}_{step:06d}.vtu") for b in body_list(folder, summary)}
     for description in summary["bodies"]:
-        require_shape(folder, description["name"], bodies[description["name"]], description["nodes"],
-                      description["triangles"])
-    rows = [row for row in read_csv(folder / "contact.csv") if int(row["step"]) == step]
-    column = lambda name: np.array([float(row[name]) for row in rows])
-    position = np.column_stack([column("x"), column("y")])
-    contact = Contact(column("vertex").astype(int), position, column("gap"), column("force"),
-                      column("pressure"), column("interface").astype(int))
-    return finished(Run("mortier", folder, bodies, contact, summary))
+        require_shape(folder, description["name"], bodies[description["name"]], description.get("nodes"),
+                      description.get("triangles"))
+    for name, body in bodies.items():
+        require_mesh(folder, name, body)
+    return finished(Run("mortier", folder, bodies, tables.get(step, contact_of([])), summary))
+
+
+def kept_steps(folder):
+    """(step, time) of those that a run of mortier has kept, from the collection that ParaView opens."""
+    path = Path(folder) / "fields.pvd"
+    try:
+        entries = list(xml.parse(path).getroot().iter("DataSet"))
+        kept = {int(re.search(r"_(\d+)\.vtu$", entry.get("file"))[1]): float(entry.get("timestep")) for entry in entries}
+    except (OSError, xml.ParseError, TypeError, ValueError) as error:
+        raise ResultError(f"{path}: {error}") from error
+    if not kept or not np.isfinite(list(kept.values())).all():
+        raise ResultError(f"{path}: names no step of a run")
+    return sorted(kept.items())
+
+
+def contact_tables(folder):
+    """step -> Contact, of all that contact.csv holds."""
+    rows = {}
+    path = Path(folder) / "contact.csv"
+    try:
+        for row in read_csv(path):
+            rows.setdefault(int(row["step"]), []).append(row)
+        return {step: contact_of(each) for step, each in rows.items()}
+    except (KeyError, TypeError, ValueError) as error:
+        raise ResultError(f"{path}: {error!r}, expected a table of mortier run") from error
+
+
+def contact_of(rows):
+    def column(name):
+        return np.array([float(row[name]) for row in rows])
+    return Contact(column("vertex").astype(int), np.column_stack([column("x"), column("y")]), column("gap"), column("force"),
+                   column("pressure"), column("interface").astype(int))
+
+
+def read_history(folder):
+    """history.csv: column -> numbers, one a step; `rung` is text. Units stand in the names: `time[s]`."""
+    path = Path(folder) / "history.csv"
+    rows = read_csv(path)
+    try:
+        history = {name: [row[name] for row in rows] if name == "rung" else np.array([float(row[name]) for row in rows])
+                   for name in (rows[0] if rows else ())}
+    except (KeyError, TypeError, ValueError) as error:
+        raise ResultError(f"{path}: {error!r}, expected a table of mortier run") from error
+    for name, values in history.items():
+        if name != "rung":
+            require_finite(folder, f"history.csv: {name}", values)
+    return history
 
 
 def read_freefem(folder):
@@ -93,12 +145,21 @@ def read_freefem(folder):
     folder = Path(folder)
     summary = read_summary(folder)
     bodies = {b["name"]: Body(read_table(folder / f"{b['name']}.displacement.txt", 2),
-                              read_table(folder / f"{b['name']}.stress.txt", 3, 4)) for b in summary.get("bodies", [])}
-    if not bodies:
-        raise ResultError(f"{folder / 'summary.json'}: no bodies")
+                              read_table(folder / f"{b['name']}.stress.txt", 3, 4)) for b in body_list(folder, summary)}
     table = read_table(folder / "contact.txt", 5)
     contact = Contact(table[:, 0].astype(int), table[:, 1:3], table[:, 3], table[:, 4])
     return finished(Run("FreeFEM", folder, bodies, contact, summary))
+
+
+def body_list(folder, summary):
+    """The bodies of summary.json, of which names of files are made."""
+    bodies = summary.get("bodies")
+    if not isinstance(bodies, list) or not bodies:
+        raise ResultError(f"{folder / 'summary.json'}: no bodies")
+    for body in bodies:
+        if not isinstance(body, dict) or not re.fullmatch(r"[\w-]+", str(body.get("name")), re.ASCII):
+            raise ResultError(f"{folder / 'summary.json'}: a body without a name")
+    return bodies
 
 
 def finished(run):
@@ -109,8 +170,9 @@ def finished(run):
         require_finite(run.folder, f"stress of {name}", body.stress)
     require_finite(run.folder, "contact forces", run.contact.force)
     require_finite(run.folder, "contact gaps", run.contact.gap)
-    final = run.summary["final"]
+    require_finite(run.folder, "contact nodes", run.contact.position)
     try:
+        final = run.summary["final"]
         for key in FINAL:
             run.scalars[key] = float(final[key])
         for key in ("displacement_min", "displacement_max"):
@@ -150,13 +212,18 @@ def jump(run, upper="upper", lower="lower"):
     return x, np.interp(x, *sides[1]) - np.interp(x, *sides[0])
 
 
-def read_summary(folder):
+def read_summary(folder, failed=False):
+    """failed: a run that stopped early will do."""
     path = Path(folder) / "summary.json"
     try:
-        summary = json.loads(path.read_text(), parse_constant=lambda word: not_finite(path, word))
-    except (OSError, ValueError) as error:
+        summary = json.loads(path.read_text(encoding="utf-8"), parse_constant=lambda word: not_finite(path, word))
+    except OSError as error:
+        raise ResultError(f"{path}: cannot be read: {error.strerror}") from error
+    except (ValueError, RecursionError) as error:
         raise ResultError(f"{path}: {error}") from error
-    if summary.get("status") != "converged":
+    if not isinstance(summary, dict) or not isinstance(summary.get("steps", 0), int):
+        raise ResultError(f"{path}: no summary of a run")
+    if summary.get("status") != "converged" and not (failed and summary.get("status") in ("failed", "unheld")):
         raise ResultError(f"{path}: status {summary.get('status')}, expected converged")
     return summary
 
@@ -171,6 +238,8 @@ def read_csv(path):
             return list(csv.DictReader(file))
     except OSError as error:
         raise ResultError(f"{path}: {error.strerror}") from error
+    except (csv.Error, ValueError) as error:
+        raise ResultError(f"{path}: {error}") from error
 
 
 def read_table(path, *columns):
@@ -190,9 +259,10 @@ def read_vtu(path):
     if not Path(path).exists():
         raise ResultError(f"{path}: no such file")
     try:
-        mesh = meshio.read(path)
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):  # it prints as well
+            mesh = meshio.read(path)
         return Body(mesh.point_data["displacement"][:, :2], mesh.cell_data["stress"][0], mesh.points[:, :2],
-                    mesh.cells_dict["triangle"])
+                    mesh.cells_dict["triangle"], {name: values[0] for name, values in mesh.cell_data.items()})
     except (Exception, SystemExit) as error:  # meshio ends the process on some faults
         raise ResultError(f"{path}: cannot be read: {error!r}") from error
 
@@ -202,6 +272,16 @@ def require_shape(folder, name, body, nodes, triangles):
             body.stress.shape not in ((triangles, 3), (triangles, 4)):
         raise ResultError(f"{folder}: body {name}: {len(body.displacement)} vertices and {len(body.stress)} "
                           f"triangles, expected {nodes} and {triangles}")
+
+
+def require_mesh(folder, name, body):
+    require_finite(folder, f"points of {name}", body.points)
+    if body.triangles.min() < 0 or body.triangles.max() >= len(body.points):
+        raise ResultError(f"{folder}: body {name}: a triangle of vertices that there are not")
+    for each, values in body.cells.items():
+        if len(values) != len(body.triangles):
+            raise ResultError(f"{folder}: body {name}: {each} of {len(values)} triangles, expected {len(body.triangles)}")
+        require_finite(folder, f"{each} of {name}", values)
 
 
 def require_finite(folder, what, values):

@@ -18,6 +18,7 @@
 #include "commands/scene_argument.h"
 #include "commands/study.h"
 #include "commands/version.h"
+#include "commands/views.h"
 
 using namespace mortier;
 
@@ -88,6 +89,35 @@ int dispatch(int argc, char** argv) {
       ->check(CLI::Range(1, 1024));
   studyApp->add_flag("--quiet", studyCommand.quiet, "print nothing but errors");
 
+  PlotCommand plotCommand;
+  CLI::App* plotApp = app.add_subcommand("plot", "pictures of results, PNG and SVG (docs/pictures.md)");
+  plotApp
+      ->add_option("OUT", plotCommand.results,
+                   "folders of results, also OUT.failed; several are drawn side by side")
+      ->required();
+  plotApp->add_option("--out", plotCommand.out,
+                      "folder of the pictures, or one picture (default: OUT.plots beside the result)");
+  plotApp->add_option("--step", plotCommand.step, "a step that was kept (default: the last one)")
+      ->type_name("N");
+  plotApp
+      ->add_option("--field", plotCommand.field,
+                   "von_mises (default), s11, s22, s12, s33, u, ux, uy, error ...")
+      ->type_name("NAME");
+  plotApp->add_option("--scale", plotCommand.scale, "of displacements (default: such that they are seen)")
+      ->type_name("X");
+  plotApp->add_option("--window", plotCommand.window, "part of the plane (default: all)")
+      ->type_name("XMIN,XMAX,YMIN,YMAX");
+  plotApp->add_option("--only", plotCommand.only, "one of the pictures (default: all)")
+      ->type_name("fields|contact|history");
+  plotApp->add_flag("--animate", plotCommand.animate, "a GIF of all steps that were kept as well");
+
+  ReportCommand reportCommand;
+  CLI::App* reportApp =
+      app.add_subcommand("report", "results as one HTML file that can be turned over (docs/pictures.md)");
+  reportApp->add_option("OUT", reportCommand.results, "folders of results; several stand side by side")
+      ->required();
+  reportApp->add_option("--out", reportCommand.out, "the HTML file (default: OUT.html beside the result)");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -111,6 +141,12 @@ int dispatch(int argc, char** argv) {
   }
   if (*studyApp) {
     return study(studyCommand);
+  }
+  if (*plotApp) {
+    return plot(plotCommand);
+  }
+  if (*reportApp) {
+    return report(reportCommand);
   }
   if (app.got_subcommand("mesh")) {
     return meshCommand();

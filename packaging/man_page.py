@@ -16,6 +16,9 @@ result of the scene NAME.toml: fields.pvd and .vtu files (ParaView), contact.csv
 .B DIR.failed
 last good state of a run that stopped at a step that cannot be solved
 .TP
+.B DIR.plots, DIR.html
+pictures and page of a result
+.TP
 .B DIR.tmp\\-PID
 what a run has written so far, with its checkpoints
 .SH EXIT STATUS

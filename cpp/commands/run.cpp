@@ -204,6 +204,7 @@ int run(RunCommand command) {
     folder.emplace(path);
     files.emplace(folder->temporary(), model, facts.quantities, scene.every);
   }
+  facts.sceneText = identity.text;
   Checkpoints checkpoints(folder->temporary(), command.checkpoint, std::move(identity));
   facts.doubts = estimateDoubts(scene, model);
   AccuracyRecord accuracies(model, accuracySoFar);

@@ -10,7 +10,8 @@
 namespace mortier {
 
 struct RunFacts {
-  std::string scene;  ///< path of the scene
+  std::string scene;      ///< path of the scene
+  std::string sceneText;  ///< the file as it was read
   std::string title;
   std::string plane = "stress";        ///< "stress" or "strain"
   std::vector<std::string> settings;   ///< --set, as given

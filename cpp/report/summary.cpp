@@ -182,6 +182,7 @@ FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const 
   json["wall_time_s"] = processSeconds();
   json["versions"] = Json::object();
   for (const auto& [name, version] : facts.versions) json["versions"][name] = version;
+  json["scene_text"] = facts.sceneText;
   requireFiniteNumbers(json, folder + "/summary.json");
   OutputFile file(folder + "/summary.json");
   file << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';

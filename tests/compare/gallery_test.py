@@ -62,7 +62,7 @@ class Gallery(InFolder):
 
     def test_pictures_are_drawn(self):
         entry = GALLERY[0]
-        draw(entry, run_entry(entry, self.folder), self.folder / "pictures")
+        draw(entry, run_entry(entry, self.folder).folder, self.folder / "pictures")
         self.assertEqual((self.folder / "pictures" / f"{entry.scene}.png").read_bytes()[:4], b"\x89PNG")
 
 

@@ -63,6 +63,13 @@ class Install(InSharedFolder):
         for row, (_, _, force) in zip(history, rows[1:]):
             self.assertAlmostEqual(float(row["contact_force[N/m]"]), float(force), delta=1e-14 * float(force))
 
+    def test_pictures_and_reports_of_the_installed_program(self):
+        program = self.prefix / "bin/mortier"
+        output(program, "run", ROOT / "scenes/compression.toml", "--quiet", "--out", "drawn", "--set", "time.steps=2", cwd=self.folder)
+        text = output(program, "plot", "drawn", cwd=self.folder) + output(program, "report", "drawn", cwd=self.folder)
+        self.assertIn("drawn.plots/fields.svg", text)
+        self.assertGreater((self.folder / "drawn.html").stat().st_size, 20000)
+
     def test_every_layer_is_a_target_with_its_headers(self):
         targets = (next(self.prefix.rglob("mortierTargets.cmake"))).read_text()
         layers = [path.name for path in (ROOT / "cpp").iterdir() if path.is_dir() and path.name != "commands"]
@@ -113,6 +120,7 @@ class Install(InSharedFolder):
                 self.assertEqual(complete(*path, ""), below)
         self.assertEqual(complete("ru"), ["run"])
         self.assertEqual(complete("mesh", "cr"), ["crisscross"])
+        self.assertEqual(complete("plot", "scene", "--anim"), ["--animate"])
         self.assertEqual(complete("run", "scene.toml", "--che"), ["--checkpoint"])
         for name in ("a.toml", "a.mesh", "a.txt"):
             (self.folder / name).touch()

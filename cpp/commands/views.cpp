@@ -1,0 +1,40 @@
+#include "commands/views.h"
+
+#include "commands/python.h"
+
+namespace mortier {
+
+namespace {
+
+/// In one word, so that a value may begin with a minus.
+void addOption(std::vector<std::string>& words, const std::string& name, const std::string& value) {
+  if (!value.empty()) words.push_back("--" + name + '=' + value);
+}
+
+[[noreturn]] void becomeViews(std::vector<std::string> words, const std::vector<std::string>& results) {
+  words.emplace_back("--");
+  words.insert(words.end(), results.begin(), results.end());
+  becomePython("views", words);
+}
+
+}  // namespace
+
+int plot(const PlotCommand& command) {
+  std::vector<std::string> words{"plot"};
+  addOption(words, "out", command.out);
+  addOption(words, "step", command.step);
+  addOption(words, "field", command.field);
+  addOption(words, "scale", command.scale);
+  addOption(words, "window", command.window);
+  addOption(words, "only", command.only);
+  if (command.animate) words.emplace_back("--animate");
+  becomeViews(words, command.results);
+}
+
+int report(const ReportCommand& command) {
+  std::vector<std::string> words{"report"};
+  addOption(words, "out", command.out);
+  becomeViews(words, command.results);
+}
+
+}  // namespace mortier

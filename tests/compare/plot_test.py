@@ -1,0 +1,270 @@
+"""mortier plot: pictures of any run, what it refuses, and what it never overwrites."""
+import json
+import resource
+import shutil
+import unittest
+import xml.etree.ElementTree as xml
+
+import numpy as np
+from PIL import Image
+
+from support import InFolder, InSharedFolder, mortier
+from views_support import solve, view
+import files
+import pictures
+import results
+import runs
+
+NAMES = ["contact.png", "contact.svg", "fields.png", "fields.svg", "history.png", "history.svg"]
+
+
+def colours(path):
+    with Image.open(path) as picture:
+        return len(picture.convert("RGB").getcolors(1 << 24))
+
+
+class Pictures(InSharedFolder):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        solve(cls.folder, "mortar", "output.every=2")
+        solve(cls.folder, "interpolation", "output.every=1", "contact.variant=interpolation")
+        solve(cls.folder, "stuck", "contact.variant=interpolation", "solver.max_iterations=2", "time.steps=20", code=1)
+
+    def plot(self, *words, code=0):
+        found, shown, errors = view(self.folder, "plot", *words)
+        self.assertEqual(found, code, shown + errors)
+        self.assertEqual(len(errors.splitlines()), 1 if code else 0, errors)
+        return errors if code else shown.split()
+
+    def test_without_options(self):
+        shown = mortier("plot", "interpolation", cwd=self.folder).stdout.split()
+        self.assertEqual(sorted(shown), [f"interpolation.plots/{name}" for name in NAMES])
+        for name in NAMES:
+            path = self.folder / "interpolation.plots" / name
+            if path.suffix == ".png":
+                self.assertGreater(colours(path), 20, name)
+            else:
+                self.assertTrue(xml.parse(path).getroot().tag.endswith("svg"))
+        before = {name: (self.folder / "interpolation.plots" / name).read_bytes() for name in NAMES}
+        self.plot("interpolation/")
+        for name in NAMES:
+            self.assertEqual((self.folder / "interpolation.plots" / name).read_bytes(), before[name], name)
+
+    def test_every_field_of_both_runs_side_by_side(self):
+        result = runs.Result(self.folder / "mortar")
+        names = list(result.fields(result.at(4)))
+        self.assertLessEqual({"von_mises", "s12", "u", "uy", "e22", "viscoplastic", "error", "region"}, set(names))
+        made = {self.plot("mortar", "interpolation", "--only", "fields", "--field", name, "--step", 2, "--out", f"{name}.png")[0]
+                for name in ["none", "uy"]}
+        self.assertEqual(len(made), 2)
+        for name in made:
+            with Image.open(self.folder / name) as picture:
+                self.assertGreater(picture.width, 800)
+        for name in names:  # drawn here, without a process each
+            with pictures.plt.rc_context(pictures.STYLE):
+                figure = pictures.fields([pictures.view(result)], name, strips=False)
+                self.assertIn(result.fields(result.at(4))[name].words, figure.axes[-1].get_ylabel())
+                pictures.plt.close(figure)
+
+    def test_what_is_drawn_is_what_the_files_hold(self):
+        column = pictures.view(runs.Result(self.folder / "interpolation"))
+        with pictures.plt.rc_context(pictures.STYLE):
+            figure = pictures.fields([column], "von_mises", scale=3)
+            of_mesh = [c for c in figure.axes[0].collections if c.get_array() is not None]
+            for (name, body), drawn in zip(column.run.bodies.items(), of_mesh):
+                np.testing.assert_array_equal(drawn.get_array(), body.cells["von_mises"])
+                corners = np.stack([path.vertices[:3] for path in drawn.get_paths()])
+                np.testing.assert_allclose(corners, (body.points + 3 * body.displacement)[body.triangles], rtol=0, atol=1e-14)
+            contact = pictures.contact([column])
+            pressure, gap = contact.axes[0].lines[0], contact.axes[1].lines[0]
+            np.testing.assert_array_equal(pressure.get_ydata(), column.run.contact.pressure)
+            np.testing.assert_array_equal(gap.get_ydata(), column.run.contact.gap)
+            history = pictures.history([column])
+            np.testing.assert_array_equal(history.axes[0].lines[0].get_ydata(), column.result.history["contact_force[N/m]"])
+            self.assertIn("[N/m]", history.axes[0].get_title(loc="left"))
+            column.result.history["reaction[kN]"] = np.arange(4.0)
+            titles = [axes.get_title(loc="left") for axes in pictures.history([column]).axes]
+            self.assertIn("reaction [kN]", titles)
+            pictures.plt.close("all")
+
+    def test_between_the_nodes_the_gap_is_that_of_both_meshes(self):
+        for name, swapped in (("interpolation", False), ("swapped", True)):
+            if swapped:
+                solve(self.folder, name, "contact.variant=interpolation", "contact.swap=true")
+            run = results.read_mortier(self.folder / name)
+            line = runs.Result(self.folder / name).lines(run)[0]
+            x, penetration = results.jump(run)
+            np.testing.assert_allclose(line.jump[0], x, rtol=0, atol=1e-12)
+            np.testing.assert_allclose(line.jump[1], -penetration, rtol=0, atol=1e-12)
+            self.assertGreater(penetration.max(), 1e-4)
+            self.assertEqual(len(line.mortar_trace), 6 if swapped else 16)
+
+    def test_curves_are_unrolled(self):
+        solve(self.folder, "ring", scene="ring")
+        result = runs.Result(self.folder / "ring")
+        line = result.lines(result.at(result.step()))[0]
+        self.assertAlmostEqual(line.lengths[-1], np.pi / 2, delta=1e-3)
+        self.assertEqual(line.name, "length along the line")
+        self.assertLess(np.ptp(line.nonmortar_trace[:, 1]), 1e-3)
+        self.assertLess(np.ptp(line.mortar_trace[:, :, 1]), 1e-3)
+
+    def test_animation(self):
+        self.plot("interpolation", "--animate", "--out", "a.gif")
+        with Image.open(self.folder / "a.gif") as gif:
+            self.assertEqual(gif.n_frames, 5)
+            gif.seek(4)
+            self.assertGreater(len(gif.convert("RGB").getcolors(1 << 24)), 20)
+
+    def test_a_run_that_stopped_early(self):
+        self.plot("stuck.failed")
+        result = runs.Result(self.folder / "stuck.failed")
+        self.assertIn("did not converge", result.reason)
+        column = pictures.view(result)
+        body, triangle, words = result.stuck(column.run)
+        self.assertEqual(column.run.bodies[body].von_mises[triangle], max(b.von_mises.max() for b in column.run.bodies.values()))
+        with pictures.plt.rc_context(pictures.STYLE):
+            title = pictures.fields([column]).axes[0].get_title(loc="left").replace("\n", " ")
+        self.assertIn(result.reason, title)
+        self.assertIn(words, title)
+
+    def test_results_without_contact(self):
+        solve(self.folder, "cook", scene="cook")
+        self.assertEqual(sorted(self.plot("cook")), ["cook.plots/fields.png", "cook.plots/fields.svg", "cook.plots/history.png",
+                                                     "cook.plots/history.svg"])
+        self.assertIn("no contact", self.plot("cook", "--only", "contact", code=2))
+
+    def test_scale_is_free_of_units(self):
+        run = results.read_mortier(self.folder / "mortar")
+        for factor in (1e-9, 1e9):
+            for body in run.bodies.values():
+                body.points, body.displacement = body.points * factor, body.displacement * factor
+            self.assertEqual(runs.natural_scale(run.bodies.values()), 1)
+        for body in run.bodies.values():
+            body.displacement = body.displacement * 1e-4
+        self.assertEqual(runs.natural_scale(run.bodies.values()), 1000)
+
+
+class Refused(InFolder):
+    def setUp(self):
+        super().setUp()
+        solve(self.folder, "run", "output.every=1", "contact.variant=interpolation")
+
+    def refuse(self, message, *words, code=2):
+        names = self.names()
+        for command in ("plot", "report"):
+            if command == "report" and any(str(word).startswith("--") for word in words):
+                continue
+            found, _, errors = view(self.folder, command, *words)
+            self.assertEqual(found, code, errors)
+            self.assertEqual(errors.count("\n"), 1, errors)
+            self.assertTrue(errors.startswith("mortier: "), errors)
+            self.assertTrue(errors[:-1].isprintable(), errors)
+            self.assertIn(message, errors)
+            self.assertEqual(self.names(), names)
+
+    def test_options(self):
+        self.refuse("step 99 was not kept, expected one of 0, 1, 2, 3, 4", "run", "--step", 99)
+        self.refuse("expected one of von_mises, s11", "run", "--field", "s33")
+        self.refuse("expected a number", "run", "--scale", "nan")
+        for window in ("1,0,0,1", "0,1,2", "a,b,c,d"):
+            self.refuse("--window", "run", "--window", window)
+        self.refuse("a .gif is for --animate", "run", "--out", "a.gif")
+
+    def test_what_is_no_result(self):
+        (self.folder / "empty").mkdir()
+        self.refuse("empty/summary.json: cannot be read", "empty")
+        self.refuse("no such folder", "nowhere")
+        self.refuse("no such folder", "run/summary.json")
+        self.refuse("no such folder", "a\n\x1b[31mb")
+
+    def test_damaged_files(self):
+        """Every file of a result cut short, emptied, gone, or with other bytes in its middle."""
+        sound = self.folder / "sound"
+        shutil.copytree(self.folder / "run", sound)
+        for name in ("summary.json", "fields.pvd", "contact.csv", "history.csv", "upper_000004.vtu"):
+            data = (sound / name).read_bytes()
+            middle = len(data) // 2
+            for damage, changed in (("cut", data[:middle]), ("empty", b""), ("gone", None),
+                                    ("other", data[:middle] + b"\xff\x00<&" + data[middle + 4:])):
+                if name.endswith(".vtu") and damage == "other":
+                    continue  # another number is a number
+                with self.subTest(name=name, damage=damage):
+                    path = self.folder / "run" / name
+                    path.unlink() if changed is None else path.write_bytes(changed)
+                    code, _, errors = view(self.folder, "plot", "run", "--only", "fields", "--out", "x.png")
+                    if name == "history.csv" and damage == "empty":
+                        self.assertEqual(code, 0, errors)  # as before the first step
+                        (self.folder / "x.png").unlink()
+                    else:
+                        self.assertEqual(code, 2, errors)
+                        self.assertEqual(errors.count("\n"), 1, errors)
+                        self.assertFalse((self.folder / "x.png").exists())
+                    path.write_bytes(data)
+
+    def test_numbers_that_are_none(self):
+        path = self.folder / "run" / "contact.csv"
+        table = path.read_text().splitlines()
+        for row in ("4,1,0,99,0,0,0,0,0,0", "4,1,7,0,0,0,0,0,0,0", "4,1,0,0,nan,0,0,0,0,0", "4,1,0,0,0,0,0,1,inf,0", "4,1", "x"):
+            with self.subTest(row):
+                path.write_text("\n".join([*table, row]) + "\n")
+                self.refuse("", "run")
+
+    def test_summaries_that_lie(self):
+        path = self.folder / "run" / "summary.json"
+        summary = json.loads(path.read_text())
+        for change in ({"bodies": []}, {"bodies": [{"name": "../../x"}]}, {"bodies": 3}, {"interfaces": [{"nonmortar": "z"}]},
+                       {"steps": "4"}, {"status": "running"}, {"bodies": [{"name": "upper", "nodes": 1, "triangles": 1}]}):
+            with self.subTest(str(change)):
+                path.write_text(json.dumps({**summary, **change}))
+                self.refuse("", "run")
+        path.write_text("[" * 100000)
+        self.refuse("", "run")
+
+    def test_titles_are_shown_as_they_are(self):
+        path = self.folder / "run" / "summary.json"
+        summary = json.loads(path.read_text())
+        for title in ("$\\frac{", "a\nb\x1b[31m", "日本", "x" * 10000, "_", "</svg><script>"):
+            path.write_text(json.dumps({**summary, "title": title}))
+            code, _, errors = view(self.folder, "plot", "run", "--only", "contact", "--out", "titled.svg")
+            self.assertEqual((code, errors), (0, ""))
+            xml.parse(self.folder / "titled.svg")
+
+    def test_files_of_others_stay(self):
+        plots = self.folder / "run.plots"
+        view(self.folder, "plot", "run", "--only", "history")
+        (plots / "mine.txt").write_text("mine")
+        for name in ("history.svg", "history.png"):
+            own = (plots / name).read_bytes()
+            for change in (lambda path: path.write_bytes(b"mine"), lambda path: path.write_bytes(b""),
+                           lambda path: path.write_bytes(own[:40] + b"\0" + own[41:]),
+                           lambda path: (path.unlink(), path.symlink_to("mine.txt"))):
+                change(plots / name)
+                before = {each.name: each.read_bytes() for each in plots.iterdir()}
+                code, _, errors = view(self.folder, "plot", "run", "--only", "history")
+                self.assertEqual(code, 2)
+                self.assertIn(f"{name}: in the way", errors)
+                self.assertEqual({each.name: each.read_bytes() for each in plots.iterdir()}, before)
+                (plots / name).unlink()
+                (plots / name).write_bytes(own)
+        self.assertEqual(view(self.folder, "plot", "run", "--only", "history")[0], 0)
+
+    def test_whole_or_not_at_all(self):
+        done = mortier("plot", "run", cwd=self.folder,
+                       preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (30000, 30000)))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("cannot be written", done.stderr)
+        self.assertEqual(list((self.folder / "run.plots").iterdir()), [])
+
+    def test_seals(self):
+        for kind in ("png", "gif", "svg", "html"):
+            path = self.folder / f"a.{kind}"
+            data = b"x" * 100
+            path.write_bytes(files.sealed(data, kind))
+            self.assertTrue(files.is_own(path))
+            path.write_bytes(data)
+            self.assertFalse(files.is_own(path))
+
+
+if __name__ == "__main__":
+    unittest.main()

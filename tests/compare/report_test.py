@@ -1,0 +1,319 @@
+"""mortier report in headless Chromium: what one points at is what the files hold, by mouse and by keyboard, on a desk and
+on a phone, in the light and in the dark; and text of others is shown, never run."""
+import json
+import re
+import shutil
+import unittest
+
+import numpy as np
+
+from browser import Browser
+from support import ROOT, InSharedFolder, mortier
+from views_support import solve, view
+import coding
+import results
+import runs
+
+RING = """
+title = "A ring in a ring, closed"
+[[body]]
+name = "inner"
+mesh = "inner.mesh"
+material = {{ young = 100, poisson = 0.3 }}
+boundary = [ {{ label = 1, pressure = "1*t", ut = 0 }} ]
+[[body]]
+name = "outer"
+mesh = "outer.mesh"
+material = {{ young = 50, poisson = 0.2 }}
+boundary = [ {{ label = 2, un = 0, ut = 0 }} ]
+[[contact]]
+nonmortar = {{ body = "inner", label = 2 }}
+mortar = {{ body = "outer", label = 1 }}
+initial = "close"
+[time]
+end = 1
+steps = {steps}
+[output]
+every = 1
+"""
+HOSTILE = ["</script><script>window.hacked=1</script>", "<img src=x onerror=window.hacked=1>", "\"'`${window.hacked=1}\\",
+           "a\u2028b\u2029c\u0000\u001b[31m\u202e", "]]><!--<script>", "&lt;script&gt;&amp;"]
+
+
+def hovered(browser, run, count, places=False):
+    """Texts and values of the page where there is a triangle under the mouse; with places of the window, if asked for."""
+    browser.run("document.getElementById(arguments[0]).scrollIntoView({block: 'center'})", f"canvas{run}")
+    area = browser.run("const a = document.getElementById(arguments[0]).getBoundingClientRect(); "
+                       "return [a.left, a.top, a.width, a.height]", f"canvas{run}")
+    found, where = [], []
+    for i in range(count * 10):
+        x = area[0] + area[2] * (0.5 + 0.45 * np.sin(12.9898 * (i + 1)))
+        y = area[1] + area[3] * (0.5 + 0.45 * np.sin(78.233 * (i + 1)))
+        browser.point(x, y)
+        data, text = browser.run("const r = document.getElementById(arguments[0]); return [{...r.dataset}, r.textContent]",
+                                 f"read{run}")
+        if "triangle" in data:
+            found.append((data["body"], int(data["triangle"]), int(data["vertex"]), float(data["value"]), text))
+            where.append((round(x), round(y)))
+        if len(found) == count:
+            break
+    return (where, found) if places else found
+
+
+def choose(browser, name, value):
+    browser.run("const e = document.getElementById(arguments[0]); e.value = arguments[1]; "
+                "e.dispatchEvent(new Event('input'))", name, value)
+    settled(browser)
+
+
+def settled(browser):
+    """Waits until the page has drawn what was asked for."""
+    browser.run("return new Promise(done => setTimeout(() => requestAnimationFrame(() => requestAnimationFrame(() => done(1))), "
+                "50))")
+
+
+class Pages(InSharedFolder):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        for variant in ("mortar", "interpolation"):
+            solve(cls.folder, variant, "output.every=1", f"contact.variant={variant}", "time.steps=100")
+        solve(cls.folder, "hertz", "output.every=1", "time.steps=2", scene="hertz")
+        cls.browser = Browser()
+        cls.addClassCleanup(cls.browser.close)
+
+    def page(self, *names):
+        code, shown, errors = view(self.folder, "report", *names)
+        self.assertEqual((code, errors), (0, ""))
+        path = self.folder / shown.split(":")[0]
+        milliseconds = self.browser.open(path)
+        print(f"{'+'.join(names)}: {path.stat().st_size / 1e6:.2f} MB, usable after {milliseconds:.0f} ms")
+        return path, milliseconds
+
+    def tearDown(self):
+        self.assertEqual(self.browser.messages(), [])
+        self.assertIsNone(self.browser.run("return window.hacked || null"))
+
+    def check_hover(self, name, run, step, field, count=6):
+        result = runs.Result(self.folder / name)
+        found = result.at(step)
+        known = result.fields(found)[field]
+        values = result.values(found, known)
+        largest = max(np.abs(each).max() for each in values.values())
+        seen = hovered(self.browser, run, count)
+        self.assertEqual(len(seen), count)
+        for body, triangle, vertex, shown, text in seen:
+            exact = values[body][vertex if known.by_vertex else triangle]
+            digits = 3 if field == "error" else 4 if field == "u" else 5
+            leading = np.floor(np.log10(max(np.abs(values[body]).max(), 1e-300)))
+            self.assertLessEqual(abs(shown - exact), 0.51 * 10.0 ** (leading - digits + 1) if largest else 0,
+                                 f"{field} of {body} {triangle}: {shown}, in the file {exact}")
+            self.assertIn(f"{body}, ", text)
+            self.assertIn(f"triangle {triangle}:", text)
+            corner = found.bodies[body].triangles[triangle]
+            self.assertIn(vertex, corner)
+            error = found.bodies[body].cells["error"]
+            self.assertLessEqual(abs(float(re.search(r"estimated error (\S+)$", text)[1]) - error[triangle]), 0.006 * error.max())
+        return seen
+
+    def test_hovered_values_are_those_of_the_files(self):
+        path, milliseconds = self.page("mortar", "interpolation")
+        self.assertLess(path.stat().st_size, 3e6)
+        self.assertLess(milliseconds, 10000)
+        for step in (100, 37, 0):
+            choose(self.browser, "step", step)
+            for field in ("von_mises", "s12", "uy", "u", "e22", "error"):
+                choose(self.browser, "field", field)
+                with self.subTest(step=step, field=field):
+                    self.check_hover("interpolation", 1, step, field, 3)
+        choose(self.browser, "step", 100)
+        choose(self.browser, "field", "s22")
+        for _, _, _, value, text in self.check_hover("mortar", 0, 100, "s22"):
+            self.assertEqual(value, -10)
+            self.assertIn("stress s22 -10 Pa", text)
+
+    def test_the_triangle_under_the_pointer_is_the_one_that_is_there(self):
+        """The geometry of the page against that of the files, zoomed and moved, at several scales of the displacements."""
+        self.page("interpolation")
+        run = results.read_mortier(self.folder / "interpolation")
+        for index in (0, 5, 8):  # of the slider
+            choose(self.browser, "scale", index)
+            scale = float(self.browser.run("return document.querySelector('output[for=scale]').textContent"))
+            self.browser.press("#canvas0", "0++\ue014")  # closer by 0.8 twice, then a step to the right
+            settled(self.browser)
+            shapes = {name: body.points + scale * body.displacement for name, body in run.bodies.items()}
+            seen = []
+            for (x, y), (body, triangle, *_) in zip(*hovered(self.browser, 0, 6, places=True)):
+                seen.append((x, y, shapes[body][run.bodies[body].triangles[triangle]]))
+            # One map from the window to the plane puts every place into its triangle: the middles of the triangles fit it.
+            middles = np.array([corners.mean(0) for _, _, corners in seen])
+            size = max(np.ptp(corners, axis=0).max() for _, _, corners in seen)
+            for axis in (0, 1):
+                at = np.array([place[axis] for place in seen])
+                slope, constant = np.polyfit(at, middles[:, axis], 1)
+                self.assertLess(np.abs(slope * at + constant - middles[:, axis]).max(), size)
+                self.assertGreater(slope * (1 if axis == 0 else -1), 0)
+
+    def test_keyboard(self):
+        self.page("interpolation")
+        value = "return document.getElementById(arguments[0]).value"
+        output = "return document.querySelector(`output[for=${arguments[0]}]`).textContent"
+        self.assertEqual(self.browser.run(value, "step"), "100")
+        self.browser.press("#step", "\ue012\ue012")  # left, twice
+        settled(self.browser)
+        self.assertEqual(self.browser.run(output, "step"), "98, t = 0.98 s")
+        self.check_hover("interpolation", 0, 98, "von_mises", 2)
+        self.browser.press("#step", "\ue011")  # home
+        settled(self.browser)
+        self.assertEqual(self.browser.run(output, "step"), "0, t = 0 s")
+        self.browser.press("#step", "\ue010")  # end
+        before = self.browser.run(output, "scale")
+        self.browser.press("#scale", "\ue014")
+        settled(self.browser)
+        self.assertGreater(float(self.browser.run(output, "scale")), float(before))
+        self.browser.press("#canvas0", "0")
+        settled(self.browser)
+        picture = "return document.getElementById('canvas0').toDataURL()"
+        seen = [self.browser.run(picture)]
+        for key in ("+", "\ue014", "-", "0"):
+            self.browser.press("#canvas0", key)
+            settled(self.browser)
+            seen.append(self.browser.run(picture))
+        self.assertEqual(len(set(seen[:4])), 4)
+        self.assertEqual(seen[4], seen[0])
+
+    def test_charts_are_those_of_the_files(self):
+        self.page("mortar", "interpolation")
+        for name, r in (("mortar", 0), ("interpolation", 1)):
+            run = results.read_mortier(self.folder / name)
+            marks = self.browser.run("return [...document.querySelectorAll(`#pressure${arguments[0]}-0 circle`)].map(c => "
+                                     "[Number(c.getAttribute('cx')), Number(c.getAttribute('cy'))])", r)
+            x, y = np.array(marks).T
+            self.assertEqual(len(x), len(run.contact.pressure))
+            pressure = run.contact.pressure
+            if np.ptp(pressure) > 1e-6:
+                slope, constant = np.polyfit(pressure, y, 1)
+                np.testing.assert_allclose(slope * pressure + constant, y, atol=0.11)
+                self.assertLess(slope, 0)
+            slope, constant = np.polyfit(run.contact.position[:, 0], x, 1)
+            np.testing.assert_allclose(slope * run.contact.position[:, 0] + constant, x, atol=0.11)
+        titles = self.browser.run("return [...document.querySelectorAll('#histories text:first-child')].map(t => t.textContent)")
+        self.assertIn("contact force [N/m]", titles)
+        self.browser.run("document.querySelectorAll('details').forEach(d => d.open = true)")
+        text = self.browser.run("return document.body.innerText")
+        for words in ("force balance", "von Mises stress", "left out", "inertia, friction, finite strains and slips"):
+            self.assertIn(words, text)
+        scene = self.browser.run("return document.querySelector('.scene').textContent")
+        self.assertIn('projection = "elasticity"', scene)
+
+    def test_hertz_and_a_closed_ring(self):
+        self.page("hertz")
+        choose(self.browser, "step", 1)
+        self.check_hover("hertz", 0, 1, "von_mises")
+        for name, cells, inner, outer in (("inner", "40,4", 1, 1.5), ("outer", "56,4", 1.5, 2)):
+            mortier("mesh", "annulus", "--cells", cells, "--inner", inner, "--outer", outer, "--span", "full", f"{name}.mesh",
+                    cwd=self.folder)
+        (self.folder / "ring.toml").write_text(RING.format(steps=2))
+        done = mortier("run", "ring.toml", "--quiet", "--out", "ring", cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.page("ring")
+        choose(self.browser, "field", "s11")
+        self.check_hover("ring", 0, 2, "s11")
+        self.assertEqual(self.browser.run("return document.querySelectorAll('#pressure0-0 circle').length"), 40)
+
+    def test_a_hundred_thousand_triangles(self):
+        """Five steps of Cook's membrane: smooth fields and a corner."""
+        mortier("mesh", "quadrilateral", "--cells", "224", "--corners", "0,0", "48,44", "48,60", "0,44", "fine.mesh",
+                cwd=self.folder)
+        done = mortier("run", ROOT / "scenes/cook.toml", "--quiet", "--out", "fine", "--set", "time.steps=5", "output.every=1",
+                       "body.panel.mesh=fine.mesh", cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        path, milliseconds = self.page("fine")
+        self.assertLess(path.stat().st_size, 8e6)
+        self.assertLess(milliseconds, 20000)
+        for step, field in ((5, "s12"), (2, "von_mises"), (2, "ux")):
+            choose(self.browser, "step", step)
+            choose(self.browser, "field", field)
+            self.check_hover("fine", 0, step, field, 3)
+
+    def test_phone_and_dark(self):
+        self.page("mortar", "interpolation")
+        for width in (360, 412, 800):
+            self.browser.size(width, 740)
+            settled(self.browser)
+            self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), width)
+            shown = self.browser.run("return [...document.querySelectorAll('canvas[id]')]"
+                                     ".map(c => c.getBoundingClientRect().width)")
+            self.assertGreater(min(shown), 300)
+        self.browser.size(1280, 900)
+        looks = "const s = getComputedStyle(document.body); return [s.color, s.backgroundColor]"
+        light = self.browser.run(looks)
+        self.browser.cdp("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+        dark = self.browser.run(looks)
+        self.browser.cdp("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "light"}])
+        bright = [[sum(map(int, re.findall(r"\d+", colour)[:3])) for colour in pair] for pair in (light, dark)]
+        self.assertGreater(bright[0][1] - bright[0][0], 500)
+        self.assertGreater(bright[1][0] - bright[1][1], 500)
+
+    def test_text_of_others_is_shown_and_never_run(self):
+        shutil.copytree(self.folder / "hertz", self.folder / "hostile")
+        path = self.folder / "hostile" / "summary.json"
+        summary = json.loads(path.read_text())
+        for text in HOSTILE:
+            path.write_text(json.dumps({**summary, "title": text, "scene": text, "scene_text": text, "settings": [text],
+                                        "plane": text, "status": "failed", "reason": text, "accuracy": {text: text},
+                                        "final": {**summary["final"], text: 1}}))
+            page, _ = self.page("hostile")
+            self.assertEqual(self.browser.messages(), [], text)
+            self.assertIsNone(self.browser.run("return window.hacked || null"), text)
+            self.assertEqual(self.browser.run("return document.querySelector('.scene').textContent"), text)
+            self.assertEqual(self.browser.run("return document.querySelectorAll('script,img').length"), 2, text)
+            self.assertIn("default-src 'none'", page.read_text())
+        # The policy holds by itself: what gets into the page all the same does not run.
+        (self.folder / "broken.html").write_text(page.read_text().replace("<main", "<script>window.hacked=1</script><main"))
+        self.browser.open(self.folder / "broken.html")
+        self.assertIsNone(self.browser.run("return window.hacked || null"))
+        self.assertIn("Content Security Policy", self.browser.messages()[0])
+
+    def test_a_page_that_cannot_be_drawn_says_so(self):
+        page, _ = self.page("hertz")
+        (self.folder / "cut.html").write_text(re.sub(r'"d":"[^"]+"', '"d":"AAAA"', page.read_text(), count=1))
+        self.browser.send("POST", "/url", {"url": (self.folder / "cut.html").as_uri()})
+        settled(self.browser)
+        self.assertIn("This page cannot be drawn", self.browser.run("return document.body.innerText"))
+        self.assertNotEqual(self.browser.messages(), [])
+
+    def test_a_run_that_stopped_early(self):
+        solve(self.folder, "stuck", "contact.variant=interpolation", "solver.max_iterations=2", "time.steps=20", code=1)
+        self.page("stuck.failed")
+        self.assertIn("stopped early: step", self.browser.run("return document.body.innerText"))
+
+    def test_the_same_bytes_again(self):
+        first, _ = self.page("hertz")
+        before = first.read_bytes()
+        view(self.folder, "report", "hertz")
+        self.assertEqual(first.read_bytes(), before)
+
+
+class Coding(unittest.TestCase):
+    def test_large_runs_stay_small(self):
+        """1e5 triangles, 5 steps of fields that are rough by themselves: each block beside what it would be raw."""
+        rng = np.random.default_rng(1)
+        smooth = np.sin(np.linspace(0, 40, 100_000))
+        block = coding.Block()
+        block.add(smooth, 6)
+        self.assertLess(len(block.bytes()), 250_000)
+        rough = coding.Block()
+        rough.add(rng.normal(size=100_000), 6)
+        self.assertLess(len(rough.bytes()), 330_000)
+
+    def test_extremes(self):
+        for values in (np.zeros(5), np.array([]), np.array([1e-320, 0]), np.array([1e300, -1e300]), np.array([1e-280, -1])):
+            q, e = coding.quantised(values, 6)
+            self.assertTrue(np.isfinite(coding.scaled(q.astype(float), e)).all())
+            np.testing.assert_allclose(coding.scaled(q.astype(float), e), values, rtol=0,
+                                       atol=1e-5 * np.abs(values).max(initial=0) + 1e-290)
+
+
+if __name__ == "__main__":
+    unittest.main()

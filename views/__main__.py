@@ -1,0 +1,162 @@
+"""mortier plot and mortier report: pictures and a page of results (docs/pictures.md).
+
+Exit codes: 0 done, 1 output cannot be written, 2 wrong input.
+"""
+import argparse
+import importlib
+import math
+import signal
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "compare")]
+
+from problems import ViewError, shown  # noqa: E402
+
+PICTURES = ("fields", "contact", "history")
+
+
+def numbers(count):
+    def read(text):
+        try:
+            values = [float(word) for word in text.split(",")]
+        except ValueError:
+            values = []
+        if len(values) != count or not all(map(math.isfinite, values)):
+            raise argparse.ArgumentTypeError(f"{text}: expected {count} numbers" if count > 1 else f"{text}: expected a number")
+        return values
+    return read
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise ViewError(f"{message} (see mortier --help)")
+
+
+def arguments(words):
+    parser = Parser(prog="mortier")
+    commands = parser.add_subparsers(dest="command", required=True)
+    plot = commands.add_parser("plot")
+    plot.add_argument("--step", type=int)
+    plot.add_argument("--field", default="von_mises")
+    plot.add_argument("--scale", type=numbers(1))
+    plot.add_argument("--window", type=numbers(4))
+    plot.add_argument("--only", choices=PICTURES)
+    plot.add_argument("--animate", action="store_true")
+    report = commands.add_parser("report")
+    for each in (plot, report):
+        each.add_argument("--out", type=Path)
+        each.add_argument("results", nargs="+")
+    return parser.parse_args(words)
+
+
+def require(*modules):
+    """Debian's packages of Python modules; another Python may lack them."""
+    for module in modules:
+        try:
+            importlib.import_module(module)
+        except ImportError as error:
+            raise OSError(0, f"the Python module {module} is missing (Debian package python3-{module})") from error
+
+
+def plot(given):
+    require("numpy", "matplotlib", "meshio")
+    import files
+    import images
+    import pictures
+    import runs
+
+    # 1. The runs, and what is wrong with the options before anything is drawn.
+    if len(given.results) > len(pictures.OF_RUNS):
+        raise ViewError(f"{len(given.results)} results, expected {len(pictures.OF_RUNS)} at most")
+    results = [runs.Result(folder) for folder in given.results]
+    views = [pictures.view(result, given.step) for result in results]
+    known = set.intersection(*[set(each.result.fields(each.run)) for each in views])
+    if given.field != "none" and given.field not in known:
+        ordered = [name for name in views[0].result.fields(views[0].run) if name in known]
+        raise ViewError(f"--field {given.field}: expected one of {', '.join([*ordered, 'none'])}")
+    if given.window and not (given.window[0] < given.window[1] and given.window[2] < given.window[3]):
+        raise ViewError("--window: expected XMIN,XMAX,YMIN,YMAX, each minimum below its maximum")
+    if given.animate and max(len(result.kept) for result in results) < 2:
+        raise ViewError(f"{given.results[0]}: --animate: one step was kept only (mortier run --set output.every=1 keeps all)")
+    folder = given.out or files.beside(given.results, ".plots")
+    single = folder.suffix[1:] if folder.suffix in (".png", ".svg", ".gif") else None
+    if single == "gif" and not given.animate:
+        raise ViewError(f"--out {folder}: a .gif is for --animate")
+    if given.animate and single in ("png", "svg"):
+        raise ViewError(f"--out {folder}: --animate makes a .gif")
+
+    # 2. The pictures.
+    scale = given.scale[0] if given.scale else None
+    made = {}
+    with pictures.plt.rc_context(pictures.STYLE):
+        if given.animate:
+            made[folder if single else folder / "animation.gif"] = images.animation(results, given.field, scale, given.window)
+        wanted = [] if given.animate and (single or not given.only) else [given.only] if given.only else \
+            ["fields"] if single else PICTURES
+        for name in wanted:
+            figure = {"fields": lambda: pictures.fields(views, given.field, scale, given.window),
+                      "contact": lambda: pictures.contact(views), "history": lambda: pictures.history(views)}[name]()
+            if figure is None:
+                if given.only:
+                    raise ViewError(f"{given.results[0]}: nothing to draw: "
+                                    f"{'no contact' if name == 'contact' else 'fewer than two steps'} in this run")
+                continue
+            for kind in (single,) if single else ("png", "svg"):
+                made[folder if single else folder / f"{name}.{kind}"] = images.picture(figure, kind)
+            pictures.plt.close(figure)
+    files.put(made)
+    for path in made:
+        print(shown(path))
+
+
+def report(given):
+    require("numpy", "meshio")
+    import files
+    import report as reports
+    import runs
+
+    out = given.out or files.beside(given.results, ".html")
+    if out.suffix != ".html":
+        raise ViewError(f"--out {out}: expected a file NAME.html")
+    page = reports.page([runs.Result(folder) for folder in given.results])
+    files.put({out: page.encode()})
+    print(f"{shown(out)}: {len(page.encode()) / 1e6:.2f} MB")
+
+
+def interrupt(*_):
+    raise KeyboardInterrupt
+
+
+def main():
+    signal.signal(signal.SIGTERM, interrupt)
+    where = " ".join(sys.argv[1:2])
+    try:
+        given = arguments(sys.argv[1:])
+        where = f"{given.command} {given.results[0]}"
+        import results
+        try:
+            (plot if given.command == "plot" else report)(given)
+        except results.ResultError as error:
+            return complain(error, 2)
+        return 0
+    except ViewError as error:
+        return complain(error, 2)
+    except OSError as error:
+        return complain(f"{where}: {error.strerror or error}", 1)
+    except MemoryError:
+        return complain(f"{where}: out of memory", 1)
+    except KeyboardInterrupt:
+        return complain(f"{where}: interrupted; nothing was written", 1)
+    except Exception as error:  # a fault of this program
+        return complain(f"{where}: {type(error).__name__}: {error}; please report this", 1)
+
+
+def complain(text, code):
+    print(f"mortier: {shown(text)}", file=sys.stderr)
+    return code
+
+
+if __name__ == "__main__":
+    sys.exit(main())

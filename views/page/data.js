@@ -1,0 +1,91 @@
+const data = JSON.parse(document.getElementById("data").textContent), runs = data.runs;
+const $ = (tag, attributes = {}, ...children) => put(document.createElement(tag), attributes, children);
+const svg = (tag, attributes = {}, ...children) => put(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
+function put(element, attributes, children) {
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.append(...children);
+  return element;
+}
+const withUnit = (words, unit) => unit ? `${words} [${unit}]` : words;
+const of = (value, unit) => unit ? `${value} ${unit}` : String(value);
+const short = (value, digits = 4) => value === 0 ? "0" : String(Number(value.toPrecision(digits)));
+
+// ---- Data (views/coding.py): integers times 10^e, predicted, deflated ------------------------------------------------
+const powers = Array.from({length: 309}, (_, e) => Number(`1e${e}`));
+const scaled = (q, e) => e >= 0 ? q * powers[e] : q / powers[-e];
+async function unpack(text) {
+  const letters = atob(text), bytes = new Uint8Array(letters.length);
+  for (let i = 0; i < bytes.length; i++) bytes[i] = letters.charCodeAt(i);
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+function arrays(bytes, forms, lengths, earlier, predict) {  // [{e, q}] of a block
+  const found = [];
+  let at = 0;
+  forms.forEach(([e, how, weights], k) => {
+    const n = lengths[k], q = new Float64Array(n), plane = n;
+    let before = 0;
+    for (let w = weights - 1; w >= 0; w--) for (let i = 0; i < n; i++) q[i] = q[i] * 256 + bytes[at + w * plane + i];
+    let guess = how === 2 ? predict(found, k, e) : null;
+    if (how === 1 || how === 3) {
+      guess = new Float64Array(n);
+      const add = (steps, factor) => {  // the same array of an earlier step, times 10^e
+        const {e: e0, q: old} = earlier[steps - 1][k];
+        if (e0 === e) for (let i = 0; i < n; i++) guess[i] += factor * old[i];
+        else for (let i = 0; i < n; i++) guess[i] += factor * Math.floor(scaled(old[i], e0 - e) + 0.5);
+      };
+      if (how === 1) add(1, 1);
+      else { add(1, 2); add(2, -1); }
+    }
+    for (let i = 0; i < n; i++) {
+      const folded = q[i], difference = folded % 2 ? -(folded + 1) / 2 : folded / 2;
+      before = q[i] = (guess ? guess[i] : before) + difference;
+    }
+    at += n * weights;
+    found.push({e, q});
+  });
+  return found;
+}
+function real({e, q}) {
+  const values = new Float64Array(q.length);
+  for (let i = 0; i < q.length; i++) values[i] = scaled(q[i], e);
+  return values;
+}
+async function loadMesh(body) {
+  const {vertices: nv, triangles: nt, edges: ne} = body;
+  const a = arrays(await unpack(body.mesh.d), body.mesh.f, [nv, nv, nt, nt, nt, ne, ne, nt]);
+  const t = new Int32Array(3 * nt);
+  for (let i = 0; i < nt; i++) {
+    t[3 * i] = a[2].q[i]; t[3 * i + 1] = a[2].q[i] + a[3].q[i]; t[3 * i + 2] = a[2].q[i] + a[4].q[i];
+  }
+  Object.assign(body, {x: real(a[0]), y: real(a[1]), corners: t, from: a[5].q, to: a[6].q, region: a[7]});
+}
+const loadStep = (run, i) => run.steps[i].loaded ??= readStep(run, i);
+async function readStep(run, i) {  // body number -> field name -> {e, q}
+  const step = run.steps[i];
+  const back = Math.max(...step.f.map(form => form[1] === 3 ? 2 : form[1] === 1 ? 1 : 0)), earlier = [];  // steps that it needs
+  for (let k = 1; k <= back; k++) { await loadStep(run, i - k); earlier.push(run.steps[i - k].all); }
+  const bytes = await unpack(step.d), names = run.order, n = names.length;
+  const lengths = run.bodies.flatMap(body => names.map(name => fieldOf(run, name).vertex ? body.vertices : body.triangles));
+  const stresses = ["s11", "s22", "s12", "s33"].filter(name => names.includes(name));
+  step.all = arrays(bytes, step.f, lengths, earlier, (found, k, e) => {
+    const first = k - k % n, s = stresses.map(name => found[first + names.indexOf(name)]);
+    const [s11, s22, s12, s33] = s.map(real), guess = new Float64Array(s11.length);
+    for (let j = 0; j < guess.length; j++) {
+      const a = s11[j], b = s22[j], c = s12[j], d = s33 ? s33[j] : 0;
+      guess[j] = Math.floor(scaled(Math.sqrt(Math.max(a * a + b * b - a * b + d * (d - a - b) + 3 * c * c, 0)), -e) + 0.5);
+    }
+    return guess;
+  });
+  step.fields = run.bodies.map((body, b) =>
+    ({...Object.fromEntries(names.map((name, k) => [name, step.all[b * n + k]])), region: body.region}));
+}
+const fieldOf = (run, name) => run.fields.find(field => field.name === name);
+function valueOf(fields, name, i) {  // a number with the decimals that it has
+  if (name === "u") {
+    const x = fields.ux, y = fields.uy;
+    return Number(Math.hypot(scaled(x.q[i], x.e), scaled(y.q[i], y.e)).toPrecision(4));
+  }
+  const {e, q} = fields[name];
+  return Number(`${q[i]}e${e}`) || 0;
+}

@@ -1,0 +1,96 @@
+// ---- Everything together ---------------------------------------------------------------------------------------------
+let waiting = null;
+function redraw() {  // once a frame, when the data of the step are there
+  if (waiting) return waiting;
+  return waiting = (async () => {
+    do {  // the slider may have moved on
+      await Promise.all(runs.map(run => loadStep(run, stepOf(run))));
+      await new Promise(requestAnimationFrame);
+    } while (runs.some(run => !run.steps[stepOf(run)].fields));
+    waiting = null;
+    if (fit) { view = everything(); fit = false; }
+    const range = colourRange();
+    for (const panel of panels) {
+      paint(panel, range);
+      if (panel.last) hover(panel, ...panel.last); else hover(panel, -1, -1);
+    }
+  })();
+}
+async function change() {
+  Object.assign(now, {field: fieldMenu.value, step: Number(stepSlider.value), scale: scales[Number(scaleSlider.value)], wide: wideBox.checked, mesh: meshBox.checked, ghost: ghostBox.checked});
+  const step = longest.steps[now.step], words = `${step.step}, t = ${short(step.time, 6)} ${longest.units.time}`;
+  stepOutput.textContent = words;
+  stepSlider.setAttribute("aria-valuetext", words);
+  scaleOutput.textContent = String(now.scale);
+  scaleSlider.setAttribute("aria-valuetext", String(now.scale));
+  panels.forEach(drawContact);
+  drawHistories();
+  await redraw();
+}
+for (const element of [fieldMenu, stepSlider, scaleSlider, wideBox, meshBox, ghostBox]) element.addEventListener("input", change);
+whole.addEventListener("click", () => { fit = true; redraw(); });
+function zoom(factor, x = view.x, y = view.y) {
+  view = {...view, half: view.half * factor, x: x + (view.x - x) * factor, y: y + (view.y - y) * factor};
+  redraw();
+}
+for (const panel of panels) {
+  const {canvas} = panel, down = new Map();
+  const length = () => 2 * view.half / canvas.clientWidth, point = event => {
+    const area = canvas.getBoundingClientRect();
+    return [event.clientX - area.left, event.clientY - area.top];
+  };
+  const place = ([x, y]) => [view.x + (x - canvas.clientWidth / 2) * length(), view.y - (y - canvas.clientHeight / 2) * length()];
+  canvas.addEventListener("wheel", event => { event.preventDefault(); zoom(Math.exp(0.0015 * event.deltaY), ...place(point(event))); }, {passive: false});
+  canvas.addEventListener("pointerdown", event => { down.set(event.pointerId, point(event)); canvas.setPointerCapture(event.pointerId); });
+  canvas.addEventListener("pointermove", event => {
+    const to = point(event), from = down.get(event.pointerId);
+    panel.last = to;
+    if (from && down.size === 2) {
+      const other = [...down].find(([id]) => id !== event.pointerId)[1], distance = p => Math.hypot(p[0] - other[0], p[1] - other[1]);
+      if (distance(to) > 0) zoom(distance(from) / distance(to), ...place(other));
+    } else if (from) {
+      view = {...view, x: view.x - (to[0] - from[0]) * length(), y: view.y + (to[1] - from[1]) * length()};
+      redraw();
+    } else hover(panel, ...to);
+    if (from) down.set(event.pointerId, to);
+  });
+  for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, event => { down.delete(event.pointerId); hover(panel, ...(panel.last = point(event))); });
+  canvas.addEventListener("pointerleave", () => { if (!down.size) { panel.last = null; hover(panel, -1, -1); } });
+  canvas.addEventListener("dblclick", () => { fit = true; redraw(); });
+  canvas.addEventListener("keydown", event => {
+    const step = 0.1 * view.half, move = {ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step]}[event.key];
+    if (move) { view = {...view, x: view.x + move[0], y: view.y + move[1]}; redraw(); }
+    else if (event.key === "+" || event.key === "=") zoom(0.8);
+    else if (event.key === "-") zoom(1.25);
+    else if (event.key === "0") { fit = true; redraw(); }
+    else return;
+    event.preventDefault();
+  });
+}
+new ResizeObserver(() => { if (view) redraw(); }).observe(grid);
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => redraw());
+
+page.append($("h2", {}, "Histories"));
+if (runs.length > 1) page.append($("div", {class: "key"}, ...runs.map((run, r) => $("span", {}, $("i", {class: `b${r % 4}`}), run.name))));
+page.append(historyBox);
+for (const run of runs) if (run.history.every > 1) page.append($("p", {class: "soft"}, `${run.name}: every ${run.history.every}th row of history.csv is drawn.`));
+for (const title of Object.keys(runs[0].tables)) {
+  const keys = [...new Set(runs.flatMap(run => run.tables[title].map(([key]) => key)))];
+  const table = $("table", {}, $("tr", {}, $("th", {}, ""), ...runs.map(run => $("th", {}, run.name))));
+  for (const key of keys)
+    table.append($("tr", {}, $("td", {}, key.replaceAll("_", " ")), ...runs.map(run => $("td", {}, (run.tables[title].find(each => each[0] === key) || ["", ""])[1]))));
+  page.append($("h2", {}, title), $("div", {class: "wide"}, table));
+}
+page.append($("h2", {}, "What was modelled and left out"));
+for (const run of runs) {
+  if (!run.plan) { page.append($("p", {class: "soft"}, `${run.name}: not known: the scene is not where it was, or not as it was.`)); continue; }
+  const rows = run.plan.map(([modelled, part, what, why]) => $("tr", {}, $("td", {}, modelled ? "modelled" : "left out"), $("td", {}, part), $("td", {}, what), $("td", {}, why)));
+  page.append($("details", {}, $("summary", {}, run.name), $("div", {class: "wide"}, $("table", {}, ...rows))));
+}
+page.append($("h2", {}, "Scene"));
+for (const run of runs)
+  page.append($("details", {}, $("summary", {}, `${run.name}: ${run.path}`), $("pre", {class: "scene"}, run.scene === null ? "not kept in this result" : run.scene)));
+
+await Promise.all(runs.flatMap(run => run.bodies.map(loadMesh)));
+await change();
+document.documentElement.dataset.ready = String(Math.round(performance.now()));

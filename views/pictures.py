@@ -1,0 +1,333 @@
+"""Pictures of runs: deformed bodies, the line of contact magnified, pressure and gap along it, histories."""
+import textwrap
+from dataclasses import dataclass
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+from matplotlib.cm import ScalarMappable  # noqa: E402
+from matplotlib.collections import LineCollection  # noqa: E402
+from matplotlib.colors import Normalize  # noqa: E402
+
+from contact_line import boundary_edges  # noqa: E402
+from runs import natural_scale  # noqa: E402
+
+INK, MUTED, MESH, GRID = "#222222", "#777777", "#55555a", "#dddddd"
+NONMORTAR, MORTAR = "#b0128a", "#0b7a3b"
+OF_RUNS = [("#0072b2", "o", 2.6), ("#d55e00", "s", 1.4), ("#009e73", "^", 1.2), ("#cc79a7", "D", 1.0)]  # colour, marker, width
+COLOURS, SIGNED_COLOURS = "viridis", "RdBu_r"
+STYLE = {
+    "font.family": "DejaVu Sans", "font.size": 9, "axes.titlesize": 10.5, "axes.labelsize": 9,
+    "text.color": INK, "axes.labelcolor": INK, "xtick.color": INK, "ytick.color": INK,
+    "axes.edgecolor": MUTED, "axes.linewidth": 0.7, "xtick.labelsize": 8, "ytick.labelsize": 8,
+    "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True, "grid.color": GRID, "grid.linewidth": 0.6,
+    "legend.fontsize": 8, "legend.frameon": False, "savefig.dpi": 150, "svg.hashsalt": "mortier", "svg.fonttype": "path",
+    "text.parse_math": False,  # titles and names are shown as they are
+}
+ROUNDING = 1e-9  # of the largest value: what is less apart has one colour
+HISTORY = ("contact_force", "max_pressure", "von_mises_max", "displacement_max", "elastic_energy", "penetration",
+           "viscoplastic_fraction")
+OF_A_FAILED_RUN = ("iterations", "material_residual", "force_balance")
+NOT_DRAWN = {"step", "time", "time_step", "estimate", "rejections", "guarded", "rung", "iterations", "factorisations", "active",
+             "joined", "left", "contact_resultant_x", "contact_resultant_y", "force_balance", "material_residual",
+             "gap_on_active", "sign", "complementarity", "open_penetration", "rounding"}
+
+
+@dataclass
+class View:
+    """One column of a picture: a run at a step."""
+    result: object  # runs.Result
+    run: object  # results.Run
+    step: int
+
+
+def view(result, step=None):
+    step = result.step(step)
+    return View(result, result.at(step), step)
+
+
+def time_words(result, step):
+    return f"t = {result.time(step):.6g} {result.time_unit}".rstrip()
+
+
+def bodies_of(views):
+    return [body for each in views for body in each.run.bodies.values()]
+
+
+def labelled(words, unit):
+    return f"{words} [{unit}]" if unit else words
+
+
+def colours_of(field, values):
+    """Norm, colours and whether the scale ends below the largest value: a corner must not take all the colours."""
+    values = np.concatenate(values)
+    low, high = values.min(), values.max()
+    size = max(abs(low), abs(high))
+    cut = False
+    if field.signed:
+        top = np.percentile(np.abs(values), 99.5)
+        cut = top < 0.7 * size
+        low, high = (-top, top) if cut else (-size, size)
+    else:
+        top = np.percentile(values, 99.5)
+        cut = top < 0.7 * high
+        high = top if cut else high
+        low = min(0.0, low) if high - low > 0.5 * abs(high) else low
+    if high - low <= ROUNDING * size or size == 0:
+        margin = 0.1 * size or 1.0
+        low, high = low - margin, high + margin
+    colours = SIGNED_COLOURS if field.signed else COLOURS
+    return Normalize(low, high), matplotlib.colormaps[colours], cut
+
+
+def draw_bodies(axes, run, scale=1.0, values=None, norm=None, colours=None, by_vertex=False, edge=None):
+    """Deformed triangles; coloured by values, or plain meshes where there are none."""
+    for i, (name, body) in enumerate(run.bodies.items()):
+        x, y = (body.points + scale * body.displacement).T
+        width = edge if edge is not None else min(0.3, 30 / np.sqrt(len(body.triangles)) / 10)
+        if values is None:
+            paint = np.full(len(body.triangles), 0.25 if i % 2 else 0.1)
+            axes.tripcolor(x, y, body.triangles, facecolors=paint, cmap="Greys", vmin=0, vmax=1, edgecolors=MESH,
+                           linewidth=max(width, 0.15))
+        elif by_vertex:
+            axes.tripcolor(x, y, body.triangles, values[name], cmap=colours, norm=norm, shading="gouraud", rasterized=True)
+            axes.triplot(x, y, body.triangles, color=MESH, lw=width)
+        else:
+            axes.tripcolor(x, y, body.triangles, facecolors=values[name], cmap=colours, norm=norm, edgecolors=MESH,
+                           linewidth=width, rasterized=len(body.triangles) > 20000)
+
+
+def draw_as_meshed(axes, run):
+    """Outlines of the bodies as meshed, dashed."""
+    for body in run.bodies.values():
+        axes.add_collection(LineCollection(body.points[boundary_edges(body.triangles)], colors=MUTED, linewidths=0.6,
+                                           linestyles=[(0, (4, 3))], zorder=3), autolim=False)
+
+
+def draw_whole(axes, view, scale, window, field, values, norm, colours):
+    draw_bodies(axes, view.run, scale, values, norm, colours, field is not None and field.by_vertex)
+    draw_as_meshed(axes, view.run)
+    axes.set_aspect("equal")
+    axes.set_xlim(window[0], window[1])
+    axes.set_ylim(window[2], window[3])
+    unit = view.result.length_unit
+    axes.set_xlabel(labelled("x", unit))
+    axes.set_ylabel(labelled("y", unit))
+
+
+def whole_window(views, scale):
+    """What holds all bodies, deformed and as meshed, with a margin."""
+    points = np.concatenate([p for body in bodies_of(views) for p in (body.points, body.points + scale * body.displacement)])
+    low, high = points.min(0), points.max(0)
+    margin = 0.03 * (high - low).max()
+    return low[0] - margin, high[0] + margin, low[1] - margin, high[1] + margin
+
+
+def strip_window(lines):
+    """Of the magnified line in all columns: x, and y from what both sides do there."""
+    low, high = min(line.window()[0] for line in lines), max(line.window()[1] for line in lines)
+    ordinates = [each[(each[:, 0] >= low) & (each[:, 0] <= high), 1] for line in lines
+                 for each in (line.nonmortar_trace, *line.mortar_trace)]
+    ordinates = np.concatenate(ordinates)
+    if not len(ordinates):
+        ordinates = np.concatenate([line.nonmortar_trace[:, 1] for line in lines])
+    middle, half = (ordinates.min() + ordinates.max()) / 2, 0.7 * np.ptp(ordinates)
+    margin = 0.04 * (high - low)
+    return low - margin, high + margin, middle, max(half, 0.02 * (high - low))
+
+
+def draw_magnified(axes, view, line, window, field, values, norm, colours):
+    """A strip about the line of contact, stretched across it; where the bodies penetrate it is hatched."""
+    low, high, middle, half = window
+    for name in (line.nonmortar, line.mortar):
+        body = view.run.bodies[name]
+        moved = np.abs(body.displacement).max()
+        box = line.points.min(0) - half - 2 * moved, line.points.max(0) + half + 2 * moved
+        near = ((body.points >= box[0]) & (body.points <= box[1])).all(1)
+        triangles = np.flatnonzero(near[body.triangles].any(1))
+        if len(triangles) * len(line.length) > 2_000_000:
+            triangles = triangles[:0]  # too fine to be seen in the strip: the two lines do
+        if not len(triangles):
+            continue
+        vertices, corners = np.unique(body.triangles[triangles], return_inverse=True)
+        placed = line.placed(body.points[vertices], body.displacement[vertices])
+        corners = corners.reshape(-1, 3)
+        sides = np.abs(np.diff(placed[corners][:, [0, 1, 2, 0], 0], axis=1)).max(1)
+        sound = sides < 0.5 * (high - low) + 4 * np.median(sides)  # none that the unrolled line tears apart
+        if values is None:
+            continue
+        style = {"cmap": colours, "norm": norm}
+        if field.by_vertex:
+            axes.tripcolor(*placed.T, corners[sound], values[name][vertices], shading="gouraud", **style)
+        else:
+            axes.tripcolor(*placed.T, corners[sound], facecolors=values[name][triangles[sound]], edgecolors=MESH,
+                           linewidth=0.3, **style)
+    hatch_penetration(axes, line)
+    for edge in line.mortar_trace:
+        axes.plot(*edge.T, color=MORTAR, lw=1.6, zorder=5, marker="s", ms=3.2, mfc="white")
+    axes.plot(*line.nonmortar_trace.T, color=NONMORTAR, lw=1.6, zorder=6, marker="o", ms=4, mfc="white")
+    axes.set_xlim(low, high)
+    axes.set_ylim(middle - half, middle + half)
+    axes.set_xlabel(labelled(line.name, view.result.length_unit))
+
+
+def hatch_penetration(axes, line):
+    if not len(line.mortar_trace):
+        return
+    across = line.mortar_trace.reshape(-1, 2)
+    across = across[np.argsort(across[:, 0], kind="stable")]
+    x = np.union1d(line.nonmortar_trace[:, 0], across[:, 0])
+    x = x[(x >= max(line.nonmortar_trace[0, 0], across[0, 0])) & (x <= min(line.nonmortar_trace[-1, 0], across[-1, 0]))]
+    if len(x) < 2 or (np.diff(line.nonmortar_trace[:, 0]) < 0).any():
+        return
+    above, below = np.interp(x, *line.nonmortar_trace.T), np.interp(x, *across.T)
+    if np.max(below - above) > ROUNDING * np.ptp(x):
+        axes.fill_between(x, above, below, where=below > above, interpolate=True, facecolor="none", edgecolor=INK,
+                          hatch="//////", linewidth=0, zorder=4)
+
+
+def fields(views, field_name="von_mises", scale=None, window=None, norm=None, colours=None, strips=True):
+    """One column a view: the deformed bodies, under them their lines of contact magnified. norm, colours: in place of
+    those that the values suggest."""
+    field, values, cut = None, [None] * len(views), False
+    if field_name != "none":
+        field = views[0].result.fields(views[0].run)[field_name]
+        values = [each.result.values(each.run, field) for each in views]
+        natural = colours_of(field, [v for each in values for v in each.values()])
+        cut = natural[2] and norm is None
+        norm, colours = norm or natural[0], colours or natural[1]
+    scale = scale if scale is not None else natural_scale(bodies_of(views))
+    window = window or whole_window(views, scale)
+    lines = [each.result.lines(each.run, min(scale, 1.0))[:3] if strips else [] for each in views]
+    rows = max(map(len, lines))
+    aspect = (window[3] - window[2]) / (window[1] - window[0])
+    width = 4.2 if len(views) > 1 else min(5.6, max(3.6, 4.6 / aspect))
+    heights = [min(max(width * aspect, 1.2), 9), *[0.42 * width] * rows]
+    figure = plt.figure(figsize=(len(views) * width + 1.3, sum(heights) + 0.55 + 0.35 * rows), layout="constrained")
+    grid = figure.add_gridspec(1 + rows, len(views), height_ratios=heights)
+    whole = []
+    for i, (each, value) in enumerate(zip(views, values)):
+        axes = figure.add_subplot(grid[0, i])
+        whole.append(axes)
+        draw_whole(axes, each, scale, window, field, value, norm, colours)
+        axes.set_title(title_of(each, views, scale, round(13 * width)), loc="left")
+        if each.result.failed:
+            mark_failure(axes, each, scale)
+        for k, line in enumerate(lines[i]):
+            below = figure.add_subplot(grid[1 + k, i])
+            shared = strip_window([of_run[k] for of_run in lines if len(of_run) > k])
+            draw_magnified(below, each, line, shared, field, value, norm, colours)
+            below.set_ylabel("stretched")
+            below.set_title(f"contact: {line.nonmortar} (nonmortar, circles), {line.mortar} (squares)", loc="left", fontsize=8)
+    if field is not None:
+        figure.colorbar(ScalarMappable(norm, colours), ax=whole, label=labelled(field.words, field.unit), shrink=0.9,
+                        extend=("both" if field.signed else "max") if cut else "neither")
+    return figure
+
+
+def title_of(view, views, scale, letters):
+    name = view.result.title if len(views) == 1 else view.result.name
+    words = "" if scale == 1 else f", displacements times {scale:g}"
+    lines = [f"{name}, {time_words(view.result, view.step)}{words}"]
+    if view.result.failed:
+        lines += [f"stopped early: {view.result.reason}", f"circle: {view.result.stuck(view.run)[2]}"]
+    return "\n".join(textwrap.fill(line, letters) for line in lines)
+
+
+def mark_failure(axes, view, scale):
+    """A circle where the last good state is closest to what the step could not follow."""
+    name, triangle, _ = view.result.stuck(view.run)
+    body = view.run.bodies[name]
+    corners = body.triangles[triangle]
+    axes.plot(*(body.points[corners] + scale * body.displacement[corners]).mean(0), marker="o", ms=16, mfc="none",
+              mec="#d00000", mew=1.8, zorder=9, clip_on=False)
+
+
+def contact(views, exact=None):
+    """Pressure and gap along the line of every interface, all views in one. exact: a pressure to draw beside them."""
+    lines = [each.result.lines(each.run) for each in views]
+    n = max(map(len, lines))
+    if n == 0:
+        return None
+    figure, axes = plt.subplots(2, n, figsize=(1.2 + 5.2 * n, 5.6), sharex="col", squeeze=False, layout="constrained")
+    for i, (each, of_view) in enumerate(zip(views, lines)):
+        colour, marker, width = OF_RUNS[i % len(OF_RUNS)]
+        style = {"color": colour, "marker": marker, "ms": 4.5, "mfc": "white", "lw": width}
+        for (above, below), line in zip(axes.T, of_view):
+            above.plot(line.abscissa, line.pressure, label=label_of(each, views), **style)
+            below.plot(line.abscissa, line.gap, **{**style, "ls": ""})
+            x, gap = line.jump or (line.abscissa, line.gap)
+            below.plot(x, gap, color=colour, lw=width)
+            if gap.min() < -ROUNDING * np.ptp(x):
+                below.fill_between(x, 0, gap, where=gap < 0, color=colour, alpha=0.2, lw=0, interpolate=True)
+            above.set_title(f"{line.nonmortar} on {line.mortar}", loc="left")
+            below.set_xlabel(labelled(line.name, each.result.length_unit) + "; marks at the nonmortar nodes")
+    for i, (above, below) in enumerate(axes.T):
+        smallest = ROUNDING * max(of_view[i].lengths[-1] for of_view in lines if len(of_view) > i)
+        low, high = below.get_ylim()
+        if high - low < smallest:  # rounding is drawn as nothing
+            below.set_ylim(-smallest, smallest)
+        pressures = np.concatenate([of_view[i].pressure for of_view in lines if len(of_view) > i])
+        low, high = pressures.min(), pressures.max()
+        if high - low <= ROUNDING * high:
+            above.set_ylim(0, 1.2 * high)
+        if exact is not None:
+            above.axhline(exact, color=INK, lw=1.1, ls=(0, (5, 3)), label="exact")
+        below.axhline(0, color=INK, lw=0.8)
+        above.grid()
+        below.grid()
+        if len(views) > 1 or exact is not None:
+            above.legend()
+    axes[0, 0].set_ylabel(labelled("contact pressure", views[0].result.stress_unit))
+    axes[1, 0].set_ylabel(labelled("gap, marks: as the nodes see it", views[0].result.length_unit))
+    words = time_words(views[0].result, views[0].step)
+    figure.suptitle(f"{views[0].result.title}, {words}" if len(views) == 1 else words, x=0.02, ha="left", fontsize=10.5)
+    return figure
+
+
+def label_of(view, views):
+    return shown_beside(view.result.name, [each.result.name for each in views])
+
+
+def shown_beside(name, names):
+    """A label; matplotlib leaves out those that begin with a line."""
+    return (" " if name.startswith("_") else "") + name
+
+
+def history(views):
+    """Columns of history.csv against time, those that a scene adds too; of a failed run how hard its steps were as well."""
+    more = [name.split("[")[0] for name in views[0].result.history]
+    columns = [*HISTORY, *[c for c in more if c not in NOT_DRAWN and c not in HISTORY],
+               *[c for c in OF_A_FAILED_RUN if any(each.result.failed for each in views)]]
+    shown = []
+    for column in columns:
+        name = next((name for name in views[0].result.history if name.split("[")[0] == column), None)
+        if name and any(np.ptp(np.append(each.result.history.get(name, [0.0]), 0)) > 0 for each in views):
+            shown.append(name)
+    times = [each.result.history.get(f"time[{each.result.time_unit}]", np.zeros(0)) for each in views]
+    if not shown or max(map(len, times)) < 2:
+        return None
+    rows = (len(shown) + 1) // 2
+    figure, axes = plt.subplots(rows, 2, figsize=(9.2, 0.6 + 1.9 * rows), sharex=True, squeeze=False, layout="constrained")
+    for name, each in zip(shown, axes.flat):
+        for i, (view, time) in enumerate(zip(views, times)):
+            values = view.result.history.get(name)
+            if values is None or not len(values):
+                continue
+            colour, marker, width = OF_RUNS[i % len(OF_RUNS)]
+            each.plot(time, values, color=colour, lw=max(width, 1.2), marker=marker if len(time) < 60 else None, ms=3,
+                      label=label_of(view, views))
+        if name.split("[")[0] in ("material_residual", "force_balance") and all(
+                (view.result.history[name] > 0).any() for view in views if name in view.result.history):
+            each.set_yscale("log")
+        each.set_title(name.replace("_", " ").replace("[", " ["), loc="left", fontsize=9)
+        each.grid()
+    for each in list(axes.flat)[len(shown):]:
+        each.set_axis_off()
+    if len(views) > 1:
+        axes[0, 0].legend()
+    for each in axes[-1]:
+        each.set_xlabel(labelled("time", views[0].result.time_unit))
+    return figure

@@ -1,0 +1,204 @@
+"""mortier report: results as one HTML file that needs nothing else and no network.
+
+The file holds data, a program and its looks (views/page). Text of the user's is in the data only, where no HTML is read, and
+is shown as text; a policy in the page lets the browser run nothing but the one program.
+"""
+import base64
+import hashlib
+import html
+import json
+import os
+import subprocess
+from pathlib import Path
+
+import numpy as np
+
+from coding import Block, scaled
+from contact_line import boundary_edges
+from problems import shown
+from runs import extent, natural_scale
+
+PAGE = Path(__file__).resolve().parent / "page"
+PROGRAM = ("data.js", "controls.js", "bodies.js", "charts.js", "page.js")  # one after the other, one function
+TRIANGLES = 600_000  # of all kept steps together: beyond that steps are left out, so that the page stays small
+MANY = 200_000  # of the same: beyond that numbers have a digit less
+HISTORY_ROWS = 1500  # of a longer history some are left out
+SCENE_LETTERS = 200_000
+VIRIDIS = ("440154 482173 433e85 38588c 2d708e 25858e 1e9b8a 2ab07f 52c569 86d549 c2df23 fde725").split()
+RED_BLUE = ("053061 2166ac 4393c3 92c5de d1e5f0 f7f7f7 fddbc7 f4a582 d6604d b2182b 67001f").split()
+
+
+def digits_of(name, many):
+    """So many of the largest value of a field; one fewer where there are many numbers."""
+    return 3 if name == "error" else 1 if name == "viscoplastic" else (5 if name[0] == "e" else 6) - many
+
+
+def von_mises_of(integers, exponents):
+    """From the components as the page has them, in the order of operations of the page."""
+    s = [scaled(q, e) for q, e in zip(integers, exponents)]
+    s33 = s[3] if len(s) > 3 else np.zeros(len(s[0]))
+    square = s[0] * s[0] + s[1] * s[1] - s[0] * s[1] + s33 * (s33 - s[0] - s[1]) + 3 * s[2] * s[2]
+    return np.sqrt(np.maximum(square, 0))
+
+
+def mesh_block(body):
+    block = Block()
+    for c in (0, 1):
+        block.add(body.points[:, c], 7)
+    first = body.triangles[:, 0]
+    edges = boundary_edges(body.triangles)
+    for numbers in (first, body.triangles[:, 1] - first, body.triangles[:, 2] - first, edges[:, 0], edges[:, 1]):
+        add_integers(block, numbers)
+    add_integers(block, body.cells.get("region", np.zeros(len(body.triangles))))
+    return block, len(edges)
+
+
+def add_integers(block, numbers):
+    """As they are: so many digits that the exponent is 0."""
+    largest = int(np.abs(numbers).max(initial=0))
+    block.add(np.asarray(numbers, float), len(str(largest)) if largest else 1)
+
+
+def step_block(result, run, fields, earlier, many):
+    """The arrays of every body: ux, uy, the stress, von Mises stress predicted from it, and the rest by triangle."""
+    block = Block(earlier)
+    values = {name: result.values(run, fields[name]) for name in order_of(fields)}
+    for body in run.bodies:
+        stress = []
+        for name in order_of(fields):
+            given = None
+            if name == "von_mises":
+                given = lambda e, stress=stress: np.floor(
+                    scaled(von_mises_of(*zip(*stress)), -e) + 0.5).astype(np.int64)
+            found = block.add(values[name][body], digits_of(name, many), given)
+            if name in ("s11", "s22", "s12", "s33"):
+                stress.append(found)
+    ranges = {}
+    for name in [*order_of(fields), "u"]:
+        numbers = np.concatenate(list((values[name] if name in values else result.values(run, fields["u"])).values()))
+        top = np.percentile(np.abs(numbers) if fields[name].signed else numbers, 99.5)
+        ranges[name] = [float(f"{each:.6g}") for each in (numbers.min(), numbers.max(), top)]
+    return block, ranges
+
+
+def order_of(fields):
+    """Of the arrays in a step; what the page can compute from others, and regions, are not among them."""
+    names = [name for name in fields if name not in ("u", "region", "von_mises")]
+    at = max(i for i, name in enumerate(names) if name in ("s11", "s22", "s12", "s33")) + 1
+    return ["ux", "uy", *[name for name in names[:at] if name not in ("ux", "uy")], "von_mises",
+            *[name for name in names[at:] if name not in ("ux", "uy")]]
+
+
+def numbers(values, digits=6):
+    return [float(f"{value:.{digits}g}") for value in values]
+
+
+def run_data(result, share):
+    """What the page knows of a run; share: of TRIANGLES."""
+    kept = result.kept
+    first = result.at(kept[-1][0])
+    triangles = sum(len(body.triangles) for body in first.bodies.values())
+    most = max(1, int(TRIANGLES * share) // triangles)
+    if len(kept) > most:
+        kept = [kept[i] for i in sorted({round(i) for i in np.linspace(len(kept) - 1, 0, most)})]
+    fields = result.fields(first)
+    bodies = []
+    for name, body in first.bodies.items():
+        block, edges = mesh_block(body)
+        bodies.append({"name": name, "vertices": len(body.points), "triangles": len(body.triangles), "edges": edges,
+                       "mesh": block.json()})
+    steps, lines, earlier, ranges = [], [], None, []
+    for step, time in kept:
+        run = result.at(step)
+        block, of_step = step_block(result, run, fields, earlier, len(kept) * triangles > MANY)
+        earlier = block
+        steps.append({"step": step, "time": time, **block.json()})
+        ranges.append(of_step)
+        for k, line in enumerate(result.lines(run)):
+            if k == len(lines):
+                lines.append({"nonmortar": line.nonmortar, "mortar": line.mortar, "name": line.name,
+                              "x": numbers(line.abscissa, 7), "vertex": line.vertices.tolist(), "length": float(line.lengths[-1]),
+                              "steps": []})
+            jump = line.jump if line.jump is not None and len(line.jump[0]) * len(kept) < 200_000 else None
+            lines[k]["steps"].append({"pressure": numbers(line.pressure), "gap": numbers(line.gap), "force": numbers(line.force),
+                                      "jump": [numbers(each) for each in jump] if jump is not None else None})
+    listed = [{"name": name, "words": field.words, "unit": field.unit, "vertex": field.by_vertex, "signed": field.signed}
+              for name, field in fields.items()]
+    return {"name": result.name, "title": result.title, "failed": result.reason if result.failed else None,
+            "units": {"length": result.length_unit, "stress": result.stress_unit, "time": result.time_unit},
+            "keptSteps": len(result.kept), "bodies": bodies, "fields": listed, "order": order_of(fields), "steps": steps,
+            "ranges": ranges, "lines": lines, "scale": natural_scale(first.bodies.values()),
+            "extent": extent(first.bodies.values()), "history": history_of(result), **words_of(result)}
+
+
+def history_of(result):
+    rows = len(next(iter(result.history.values()), []))
+    every = max(1, -(-rows // HISTORY_ROWS))
+    chosen = sorted({*range(0, rows, every), rows - 1}) if rows else []
+    return {"every": every, "columns": {name: numbers(values[chosen]) for name, values in result.history.items()
+                                        if name != "rung" and len(values)}}
+
+
+def words_of(result):
+    """Tables and text of the page."""
+    summary = result.summary
+
+    def flat(value, name=""):
+        if isinstance(value, dict):
+            return [pair for key, each in value.items() for pair in flat(each, f"{name}, {key}" if name else str(key))]
+        if isinstance(value, list):
+            return [(name, "; ".join(str(each) for each in value) or "none")]
+        return [(name, value)]
+
+    facts = {key: summary[key] for key in ("plane", "scheme", "steps", "contact", "nonmortar", "projection", "triangles", "nodes",
+                                           "dofs", "newton_iterations", "rejected_attempts", "guarded_steps", "rungs",
+                                           "settings") if key in summary}
+    facts["materials"] = {body["name"]: body.get("material", "") for body in summary["bodies"]}
+    tables = {"Run": facts, "At the end": summary.get("final", {}), "Largest of the run": summary.get("peaks", {}),
+              "Verification (worst step)": summary.get("verification", {}), "Estimated accuracy": summary.get("accuracy", {})}
+    scene = summary.get("scene_text")
+    return {"tables": {name: [[shown(key, 200), shown(value, 500)] for key, value in flat(table)]
+                       for name, table in tables.items()},
+            "plan": plan_of(summary), "scene": scene[:SCENE_LETTERS] if isinstance(scene, str) else None,
+            "path": shown(summary.get("scene", ""), 500)}
+
+
+def plan_of(summary):
+    """What mortier check says was modelled and left out; None where the scene is no longer that of the run."""
+    path, text, settings = (summary.get(key) for key in ("scene", "scene_text", "settings"))
+    program = os.environ.get("MORTIER")
+    if not (program and isinstance(path, str) and isinstance(text, str) and isinstance(settings, list)):
+        return None
+    try:
+        if Path(path).stat().st_size > 4 * SCENE_LETTERS or Path(path).read_bytes().decode(errors="replace") != text:
+            return None
+        words = [program, "check", path, "--json", *(["--set", *map(str, settings)] if settings else [])]
+        done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, timeout=120, check=False)
+        return [[bool(each["modelled"]), *(shown(each[key], 500) for key in ("part", "what", "why"))]
+                for each in json.loads(done.stdout)["plan"]]
+    except (OSError, ValueError, KeyError, TypeError, subprocess.SubprocessError):
+        return None
+
+
+def page(results):
+    data = {"runs": [run_data(result, 1 / len(results)) for result in results],
+            "colours": {"plain": VIRIDIS, "signed": RED_BLUE}}
+    titles = list(dict.fromkeys(run["title"] for run in data["runs"]))
+    text = json.dumps(data, separators=(",", ":"), allow_nan=False)
+    text = text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")  # no HTML in it
+    parts = "".join((PAGE / name).read_text(encoding="utf-8") for name in PROGRAM)
+    program = (f'"use strict";\n(async () => {{\n{parts}}})().catch(error => {{\n  document.getElementById("page").prepend('
+               "`This page cannot be drawn: ${error}. It needs a browser of 2023 or later.`);\n  throw error;\n});\n")
+    looks = (PAGE / "page.css").read_text(encoding="utf-8")
+    policy = f"default-src 'none'; script-src '{digest(program)}'; style-src '{digest(looks)}'; img-src data:"
+    return ("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+            f"<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n"
+            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+            "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n"
+            f"<title>{html.escape(', '.join(titles))}</title>\n<style>{looks}</style>\n</head>\n<body>\n"
+            "<noscript>This page draws with JavaScript, which is switched off.</noscript>\n<main id=\"page\"></main>\n"
+            f"<script type=\"application/json\" id=\"data\">{text}</script>\n<script>{program}</script>\n</body>\n</html>\n")
+
+
+def digest(text):
+    return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()

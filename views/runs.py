@@ -1,0 +1,179 @@
+"""A result folder as pictures and reports need it: kept steps, fields by name, lines of contact, units."""
+import os
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+import results
+from contact_line import ContactLine
+from problems import ViewError, shown
+
+
+@dataclass
+class Field:
+    name: str
+    words: str
+    unit: str
+    by_vertex: bool  # else by triangle
+    signed: bool  # zero is the middle of its colours
+    values: callable  # of a results.Body
+
+
+STRESSES, STRAINS = ("s11", "s22", "s12", "s33"), ("e11", "e22", "e12", "e33")
+
+
+class Result:
+    def __init__(self, folder):
+        """ResultError: it is no result of mortier run, or damaged."""
+        self.folder = Path(folder)
+        if not os.path.isdir(folder):  # which is false for a name that is too long as well
+            raise results.ResultError(f"{folder}: no such folder, expected a result of mortier run")
+        self.summary = results.read_summary(self.folder, failed=True)
+        if self.summary.get("code") == "FreeFEM":
+            raise results.ResultError(f"{folder}: a result of FreeFEM, which holds no meshes; expected one of mortier run")
+        self.bodies = [body["name"] for body in results.body_list(self.folder, self.summary)]
+        self.interfaces = self.summary.get("interfaces")
+        if not isinstance(self.interfaces, list) or not all(isinstance(each, dict) and {each.get("nonmortar"), each.get("mortar")}
+                                                            <= set(self.bodies) for each in self.interfaces):
+            raise results.ResultError(f"{self.folder / 'summary.json'}: interfaces of bodies that there are not")
+        self.kept = results.kept_steps(self.folder)
+        self.tables = results.contact_tables(self.folder)
+        self.history = results.read_history(self.folder)
+        self.steps_read = {}
+
+    @property
+    def failed(self):
+        return self.summary["status"] != "converged"
+
+    @property
+    def reason(self):
+        """Of a run that stopped early."""
+        return shown(self.summary.get("reason", "no reason given"), 300)
+
+    @property
+    def name(self):
+        return shown(self.folder.resolve().name, 60)
+
+    @property
+    def title(self):
+        return shown(self.summary.get("title") or self.name, 120)
+
+    def unit(self, column):
+        """Of a column of history.csv, which names it: von_mises_max[Pa]."""
+        for name in self.history:
+            if found := re.fullmatch(re.escape(column) + r"\[(.*)\]", name):
+                return found[1]
+        return ""
+
+    @property
+    def stress_unit(self):
+        return self.unit("von_mises_max")
+
+    @property
+    def length_unit(self):
+        return self.unit("displacement_max")
+
+    @property
+    def time_unit(self):
+        return self.unit("time")
+
+    def step(self, given=None):
+        """The number of a kept step; the last one where none is named."""
+        steps = [step for step, _ in self.kept]
+        if given is None:
+            return steps[-1]
+        if given not in steps:
+            listed = ", ".join(map(str, steps[:8])) + (f", ... {steps[-1]}" if len(steps) > 8 else "")
+            raise ViewError(f"{self.folder}: step {given} was not kept, expected one of {listed} "
+                            "(mortier run --set output.every=1 keeps all)")
+        return given
+
+    def time(self, step):
+        return dict(self.kept)[step]
+
+    def at(self, step):
+        """The results.Run of a kept step."""
+        if step not in self.steps_read:
+            run = results.mortier_run(self.folder, self.summary, self.tables, step)
+            contact = run.contact
+            for each, vertex in zip(contact.interface, contact.vertex):
+                if not (0 <= each < len(self.interfaces) and
+                        0 <= vertex < len(run.bodies[self.interfaces[each]["nonmortar"]].points)):
+                    raise results.ResultError(f"{self.folder / 'contact.csv'}: interface {each}, vertex {vertex}: "
+                                              "there is no such node")
+            results.require_finite(self.folder, "contact pressures", contact.pressure)
+            self.steps_read = {step: run}  # the last one only: a run of many steps need not fit in memory
+        return self.steps_read[step]
+
+    def lines(self, run, scale=1.0):
+        """The ContactLine of every interface that has two nodes or more."""
+        found = []
+        for k, interface in enumerate(self.interfaces):
+            rows = np.flatnonzero(run.contact.interface == k)
+            if len(rows) > 1:
+                found.append(ContactLine(run, interface["nonmortar"], interface["mortar"], rows, scale))
+        return found
+
+    def fields(self, run):
+        """name -> Field, of those that every body has."""
+        stress, length = self.stress_unit, self.length_unit
+        made = [Field("von_mises", "von Mises stress", stress, False, False, lambda body: body.cells["von_mises"])]
+        components = min(body.stress.shape[1] for body in run.bodies.values())
+        for c in range(components):
+            made.append(Field(STRESSES[c], f"stress {STRESSES[c]}", stress, False, True, lambda body, c=c: body.stress[:, c]))
+        made += [Field("u", "displacement", length, True, False, lambda body: np.hypot(*body.displacement.T)),
+                 Field("ux", "displacement x", length, True, True, lambda body: body.displacement[:, 0]),
+                 Field("uy", "displacement y", length, True, True, lambda body: body.displacement[:, 1])]
+        for c in range(components):
+            made.append(Field(STRAINS[c], f"viscoplastic strain {STRAINS[c]}", "", False, True,
+                              lambda body, c=c: body.cells["viscoplastic_strain"].reshape(len(body.triangles), -1)[:, c]))
+        made += [Field("viscoplastic", "beyond yield", "", False, False, lambda body: body.cells["viscoplastic"].astype(float)),
+                 Field("error", "estimated error of the stress, share of the triangle", "", False, False,
+                       lambda body: body.cells["error"]),
+                 Field("region", "region", "", False, False, lambda body: body.cells["region"].astype(float))]
+        return {field.name: field for field in made}
+
+    def stuck(self, run):
+        """Body, triangle and words of the place to look at where a run stopped early: the largest stress of the last good
+        state, beyond yield where anything flows."""
+        found = []
+        for name, body in run.bodies.items():
+            flows = body.cells.get("viscoplastic", np.zeros(len(body.triangles)))
+            stress = body.von_mises
+            triangle = int(np.lexsort((stress, flows))[-1])
+            found.append((flows[triangle], stress[triangle], name, triangle))
+        flows, stress, name, triangle = max(found)
+        where = run.bodies[name].points[run.bodies[name].triangles[triangle]].mean(0)
+        return name, triangle, (f"largest stress{' beyond yield' if flows else ''}, {name}, triangle {triangle} at "
+                                f"({where[0]:.4g}, {where[1]:.4g})")
+
+    def values(self, run, field):
+        """Body name -> values; ResultError where a body has none."""
+        try:
+            found = {name: np.asarray(field.values(body), float) for name, body in run.bodies.items()}
+        except (KeyError, IndexError, ValueError, TypeError) as error:
+            raise results.ResultError(f"{self.folder}: no field {field.name} in the .vtu files: {error!r}") from error
+        for name, values in found.items():
+            body = run.bodies[name]
+            if values.shape != (len(body.points if field.by_vertex else body.triangles),):
+                raise results.ResultError(f"{self.folder}: body {name}: {field.name} has the wrong shape {values.shape}")
+        return found
+
+
+def extent(bodies):
+    """The larger side of the box about bodies as meshed."""
+    points = np.concatenate([body.points for body in bodies])
+    return max(np.ptp(points, axis=0).max(), 1e-300)
+
+
+def natural_scale(bodies):
+    """1 where displacements can be seen as they are; else the 1, 2 or 5 times a power of ten that makes the largest
+    some 5 % of the bodies."""
+    ratio = max(np.abs(body.displacement).max() for body in bodies) / extent(bodies)
+    if not 0 < ratio < 1e300 or 0.01 <= ratio <= 0.5:
+        return 1.0
+    wanted = 0.05 / ratio
+    power = 10.0 ** np.floor(np.log10(wanted))
+    return float(max(each for each in (1, 2, 5) if each * power <= wanted * (1 + 1e-9)) * power)
