@@ -44,19 +44,24 @@ class Pivoting {
   [[nodiscard]] bool leaves(const ContactSolution& solution) const;
 
  private:
-  struct WrongSigns {
+  /// Of a set that was solved on, and what is wrong with it.
+  struct Signs {
+    Vector slack;               ///< 0 on the set
+    Vector force;               ///< p, not below 0
     std::vector<int> pulls;     ///< active, p < 0
     std::vector<int> overlaps;  ///< inactive, s < 0
-    [[nodiscard]] bool none() const { return pulls.empty() && overlaps.empty(); }
   };
 
+  bool dropPulls(const Vector& z0, int limit, ContactSolution& solution, Signs& signs);
+  [[nodiscard]] bool isBetter(const Signs& next, const Signs& best) const;
   [[nodiscard]] Vector compliance(const Vector& p);
   Vector solveBordered(const std::vector<char>& active, const Vector& h, Vector& f);
   bool solveOn(const Vector& z0, ContactSolution& solution);
   [[nodiscard]] Vector slackOf(const ContactSolution& solution);
-  [[nodiscard]] WrongSigns wrongSigns(const ContactSolution& solution);
-  [[nodiscard]] std::vector<int> deepest(const std::vector<int>& overlaps) const;
-  void closeOne(const Vector& z0, int limit, ContactSolution& solution);
+  [[nodiscard]] Signs signsOf(const ContactSolution& solution);
+  [[nodiscard]] std::vector<int> deepest(const Signs& signs, size_t count) const;
+  void descend(const Vector& z0, int limit, int chosen, Vector p, ContactSolution& solution);
+  void closeOne(const Vector& z0, int limit, int chosen, ContactSolution& solution);
 
   const ContactProblem& problem_;
   const std::vector<char>& idle_;
@@ -65,7 +70,6 @@ class Pivoting {
   const Vector& balance_;
   Work& work_;
   ActiveFactor factor_;
-  Vector depth_;  ///< s over W_ii: minus the force that would close a condition alone
   double stiffness_ = 0;
   double proximal_ = 0;
   bool redundant_ = false;
