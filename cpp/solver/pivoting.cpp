@@ -64,16 +64,16 @@ bool Pivoting::run(const Vector& z0, ContactSolution& solution) {
   constexpr size_t faster = 2;
   constexpr size_t slower = 4;
   const auto n = static_cast<int>(slack_.size());
-  const int limit = solution.pivots + 20 * n + 100;
+  pivotsLeft_ = 20 * n + 100;
   Signs best;
   size_t atOnce = n;
-  if (!dropPulls(z0, limit, solution, best)) return false;
+  if (!dropPulls(z0, solution, best)) return false;
   while (!best.overlaps.empty()) {
     const std::vector<char> before = solution.active;
     const std::vector<int> chosen = deepest(best, atOnce);
     for (const int i : chosen) solution.active[i] = 1;
     Signs next;
-    if (!dropPulls(z0, limit, solution, next)) return false;
+    if (!dropPulls(z0, solution, next)) return false;
     if (isBetter(next, best)) {
       best = std::move(next);
       atOnce = faster * chosen.size();
@@ -83,17 +83,17 @@ bool Pivoting::run(const Vector& z0, ContactSolution& solution) {
     atOnce = std::max<size_t>(1, chosen.size() / slower);
     if (chosen.size() > 1) continue;
     if (problem_.symmetric)
-      descend(z0, limit, chosen.front(), best.force, solution);
+      descend(z0, chosen.front(), best.force, solution);
     else
-      closeOne(z0, limit, chosen.front(), solution);
-    if (!dropPulls(z0, limit, solution, best)) return false;
+      closeOne(z0, chosen.front(), solution);
+    if (!dropPulls(z0, solution, best)) return false;
   }
   return true;
 }
 
 /// Drops forces that pull until none is left; where no overlap is either, with factors of the set itself.
-bool Pivoting::dropPulls(const Vector& z0, int limit, ContactSolution& solution, Signs& signs) {
-  while (!redundant_ && solution.pivots < limit && !capped()) {
+bool Pivoting::dropPulls(const Vector& z0, ContactSolution& solution, Signs& signs) {
+  while (!redundant_ && !capped()) {
     stopIfInterrupted();
     if (!solveOn(z0, solution)) return false;
     signs = signsOf(solution);
@@ -185,6 +185,7 @@ Vector Pivoting::solveBordered(const std::vector<char>& active, const Vector& h,
 /// p = 0 off the active set, s = 0 on it. \returns false where that is redundant.
 bool Pivoting::solveOn(const Vector& z0, ContactSolution& solution) {
   ++solution.pivots;
+  --pivotsLeft_;
   Vector off = -p0_;
   for (Eigen::Index i = 0; i < off.size(); ++i)
     if (solution.active[i] != 0) off[i] = 0;
@@ -254,9 +255,9 @@ std::vector<int> Pivoting::deepest(const Signs& signs, size_t count) const {
 
 /// Closes an overlap of a set on which the forces p push; of those that would pull, the one that is reached first is dropped,
 /// and so on: the energy falls (Lawson and Hanson 1974).
-void Pivoting::descend(const Vector& z0, int limit, int chosen, Vector p, ContactSolution& solution) {
+void Pivoting::descend(const Vector& z0, int chosen, Vector p, ContactSolution& solution) {
   solution.active[chosen] = 1;
-  while (solution.pivots < limit && !capped()) {
+  while (!capped()) {
     stopIfInterrupted();
     if (!solveOn(z0, solution)) return;
     const Vector towards = p0_ + solution.change - p;
@@ -275,14 +276,15 @@ void Pivoting::descend(const Vector& z0, int limit, int chosen, Vector p, Contac
 }
 
 /// Closes an overlap of a set whose forces all push; no sign that is right becomes wrong.
-void Pivoting::closeOne(const Vector& z0, int limit, int chosen, ContactSolution& solution) {
+void Pivoting::closeOne(const Vector& z0, int chosen, ContactSolution& solution) {
   if (!solveOn(z0, solution)) return;
   Vector p = p0_ + solution.change;
   Vector s = slackOf(solution);
   const auto diagonal = problem_.W.diagonal();
-  while (solution.pivots < limit && !capped()) {
+  while (!capped()) {
     stopIfInterrupted();
     ++solution.pivots;
+    --pivotsLeft_;
     Vector rate = -problem_.W.col(chosen);
     const Vector motion = solveBordered(solution.active, -problem_.G.row(chosen).transpose(), rate);
     if (redundant_) return;
