@@ -7,9 +7,8 @@
 int main(int count, char** arguments) try {
   using namespace mortier;
   if (count < 2) throw std::runtime_error("usage: press SCENE.toml [KEY=VALUE ...]");
-  std::vector<std::string> warnings;
   ResolvedScene resolved = resolveScene(readScene(arguments[1], {arguments + 2, arguments + count}));
-  const Model model = buildModel(resolved, warnings);
+  const Model model = buildModel(resolved);
   const SceneDescription& scene = resolved.description;
   State state = initialState(model);
   march(model, state, scene.time, scene.solver, [](const State& now, const StepReport& step) {

@@ -215,8 +215,7 @@ void requireSmooth(const SceneDescription& scene, const Model& model) {
 int writeFreefem(const FreefemCommand& command) {
   // 1. The scene, checked as for a run of our own.
   ResolvedScene resolved = resolveScene(readScene(command.scene, command.settings));
-  std::vector<std::string> warnings;
-  const Model model = buildModel(resolved, warnings);
+  const Model model = buildModel(resolved);
   const SceneDescription& scene = resolved.description;
   requireKnown(scene);
   requireSmooth(scene, model);

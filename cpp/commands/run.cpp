@@ -1,5 +1,7 @@
 #include "commands/run.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -13,6 +15,7 @@
 #include "commands/stopped_run.h"
 #include "commands/version.h"
 #include "linear/versions.h"
+#include "lint/lint.h"
 #include "plan/estimate_doubts.h"
 #include "report/accuracy.h"
 #include "report/checkpoint.h"
@@ -33,8 +36,14 @@ namespace mortier {
 
 namespace {
 
-/// The first Ctrl-C ends the run with a checkpoint of its last step; a second one kills.
+/// The first Ctrl-C ends the run with a checkpoint of its last step; a second one kills, and so does the first where a library
+/// would not hear of it (before the first step).
 void onInterrupt(int signal) {
+  if (inDeafCall()) {
+    constexpr char text[] = "mortier: interrupted before the first step; nothing was written\n";
+    static_cast<void>(!write(STDERR_FILENO, text, sizeof text - 1));
+    _exit(exitFailed);
+  }
   requestInterrupt();
   std::signal(signal, SIG_DFL);
 }
@@ -99,18 +108,10 @@ std::string defaultFolder(const std::string& scene) {
   return (std::filesystem::path("out") / std::filesystem::path(scene).stem()).string();
 }
 
-/// Crank-Nicolson multiplies an overstress by almost -1 in every step of a stiff scene.
-void warnOfRinging(const SceneDescription& scene, const Model& model) {
-  constexpr double ringing = 10;
-  if (scene.time.scheme != Scheme::crankNicolson) return;
-  const double weight = scene.time.end / scene.time.steps / 2;
-  double stiffness = 0;
-  for (const Body& body : model.bodies) stiffness = std::max(stiffness, body.material().stiffness(weight));
-  if (stiffness <= ringing) return;
-  char ratio[32];
-  std::snprintf(ratio, sizeof ratio, "%.1e", 2 * stiffness);
-  warn(scene.path + ": scheme = crank-nicolson rings here (step over relaxation time " + ratio +
-       "); sdirk2 is of second order too and does not");
+/// The warnings of `mortier check`, in its words.
+void warnOf(const Faults& faults) {
+  for (const Fault& fault : faults.all())
+    if (fault.kind->severity == Severity::warning) warn(fault.place + ": " + withRemedy(fault));
 }
 
 /// Writes checkpoints at intervals of wall time, and never so often that a tenth of the time goes into them.
@@ -158,14 +159,11 @@ int run(RunCommand command) {
   }
   RunIdentity identity = identityOf(command);
   ResolvedScene resolved = resolveScene(readScene(command.scene, command.settings));
-  std::vector<std::string> warnings;
-  const Model model = buildModel(resolved, warnings);
+  Faults doubts = lintResolved(resolved, command.settings);
+  const Model model = buildModel(resolved);
   SceneDescription& scene = resolved.description;
   scene.solver.threads = command.threads;
-  for (auto warning = warnings.begin(); warning != warnings.end(); ++warning)  // of several components once
-    if (std::find(warnings.begin(), warning, *warning) == warning) warn(*warning);
-
-  warnOfRinging(scene, model);
+  lintModel(scene, model, doubts);
   addMeshes(model, identity);
   if (stopped) {
     requireSame(stopped->checkpoint.identity, identity, stopped->folder);
@@ -177,8 +175,6 @@ int run(RunCommand command) {
     LoadCourses loads = loadCourses(scene, model);
     scene.time.breaks = std::move(loads.breaks);
     scene.time.data = std::move(loads.data);
-  } else {
-    for (const std::string& warning : loadsBetweenSteps(scene, model)) warn(warning);
   }
 
   // 2. Where the result goes, and what is reported.
@@ -187,9 +183,7 @@ int run(RunCommand command) {
   std::optional<ResultFiles> files;
   StepReport last;
   State state = initialState(model);
-  if (!stopped)
-    if (const std::string doubt = settle(scene, model, state); !doubt.empty())
-      warn(scene.path + ": " + doubt);
+  if (!stopped) lintSettling(scene, settle(scene, model, state), doubts);
   MarchMemory memory;
   AccuracyMemory accuracySoFar;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, onInterrupt);
@@ -211,6 +205,8 @@ int run(RunCommand command) {
   Log log(command.quiet, scene.time.end);
   log.print("memory     " + aboutMemory(memoryNeed(model)) + "\n");
   log.print(logHeader(facts, model));
+
+  warnOf(doubts);
 
   // 3. The march in time. A failure leaves the last good step in `state`, an interruption in what is kept here.
   State keptState = state;

@@ -126,6 +126,24 @@ std::vector<Arc> arcsOf(const std::vector<Point>& points, bool closed, const std
   return arcs;
 }
 
+double turnOfPolygon(const std::vector<Point>& points, bool closed, double least) {
+  std::vector<Point> x = points;
+  if (closed && x.size() > 2) x.insert(x.end(), {points[1], points[2]});
+  double sharpest = 0;
+  for (size_t i = 0; i + fewest <= x.size(); ++i) {
+    const auto begin = static_cast<int>(i);
+    const Arc arc = arcThrough(x, begin, begin + fewest - 1, false);
+    if (!arc.known || arc.curvature == 0) continue;
+    for (size_t k = i + 1; k <= i + 2; ++k) {
+      const Point before = x[k] - x[k - 1];
+      const Point after = x[k + 1] - x[k];
+      const double turn = std::abs(std::atan2(cross(before, after), before.dot(after)));
+      if (turn > least) sharpest = std::max(sharpest, turn);
+    }
+  }
+  return sharpest;
+}
+
 double distanceToArc(const Point& a, const Point& b, double curvature, const Point& x, const Point& n) {
   const Point chord = b - a;
   const double h = chord.norm();

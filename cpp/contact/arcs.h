@@ -28,6 +28,11 @@ std::vector<double> nodalCurvatures(const std::vector<Point>& points, bool close
 std::vector<Arc> arcsOf(const std::vector<Point>& points, bool closed,
                         const std::vector<Point>& middles = {});
 
+/// By how much a polygon turns at its sharpest node where a circle goes through four of its vertices in turn and the turn is
+/// above a least one, else 0 [rad]: an octagon has pi/4.
+/// \pre the first and the last point of a closed line agree
+double turnOfPolygon(const std::vector<Point>& points, bool closed, double least);
+
 /// How far the arc from a to b is from the point x of its chord along the direction n of length one (outward, to
 /// the right of a to b, or not far from that) [m].
 double distanceToArc(const Point& a, const Point& b, double curvature, const Point& x, const Point& n);

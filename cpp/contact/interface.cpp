@@ -160,6 +160,8 @@ ContactInterface::ContactInterface(const ContactPair& pair, const TriangleMesh& 
   if (rows() == 0)
     throw InputError(names + " overlap at no nonmortar node, expected bodies that face each other");
   overlap_ /= shorter;
+  for (const BoundaryLine* each : {&nonmortar, &mortar})
+    polygonTurn_ = std::max(polygonTurn_, turnOfPolygon(each->points, each->closed, sharpTurn));
   mortarNodes_ = mortar.nodes;
   if (mortar.closed) mortarNodes_.pop_back();
 

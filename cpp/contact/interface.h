@@ -80,6 +80,8 @@ class ContactInterface {
   /// By how much the lines may be off the curves behind them where these are not known and the distance is that as
   /// meshed: the largest sagitta [m].
   [[nodiscard]] double sagitta() const { return sagitta_; }
+  /// The sharpest turn of a line whose nodes lie on a circle, but too far apart to stand for it; 0 where neither does [rad].
+  [[nodiscard]] double polygonTurn() const { return polygonTurn_; }
   /// Share of the shorter line that faces the other.
   [[nodiscard]] double overlap() const { return overlap_; }
   [[nodiscard]] int rows() const { return static_cast<int>(distance_.size()); }
@@ -118,6 +120,7 @@ class ContactInterface {
   Vector distance_;
   double overlap_ = 0;
   double sagitta_ = 0;
+  double polygonTurn_ = 0;
   int heldEnds_ = 0;
   PenetrationIntegral penetration_;
 };

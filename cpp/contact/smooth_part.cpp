@@ -44,7 +44,6 @@ Bends bendsOf(const BoundaryLine& line) {
 
 std::vector<int> cornersOf(const BoundaryLine& line) {
   constexpr double degree = M_PI / 180;
-  constexpr double always = 60 * degree;
   constexpr double least = degree;
   constexpr double ratio = 4;
   const Bends bends = bendsOf(line);
@@ -52,7 +51,7 @@ std::vector<int> cornersOf(const BoundaryLine& line) {
   std::vector<int> corners;
   for (int i = line.closed ? 0 : 1; i < last; ++i) {
     const double neighbours = std::max(bends.curvature[i == 0 ? last - 1 : i - 1], bends.curvature[i + 1]);
-    if (bends.turn[i] > always || (bends.turn[i] > least && bends.curvature[i] > ratio * neighbours))
+    if (bends.turn[i] > sharpTurn || (bends.turn[i] > least && bends.curvature[i] > ratio * neighbours))
       corners.push_back(i);
   }
   return corners;

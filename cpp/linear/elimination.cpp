@@ -6,6 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "base/interrupt.h"
 #include "linear/cholmod_common.h"
 
 namespace mortier {
@@ -73,6 +74,7 @@ std::vector<int> fillReducingOrder(const SparsePattern& pattern, const std::vect
   if (interior > 0) {
     Columns columns = permuted(pattern, position, interior, interior);
     cholmod_sparse A = columns.view(-1);
+    const DeafCall deaf;
     if (cholmod_metis(&A, nullptr, 0, 1, permutation.data(), &common) == 0)
       throw std::runtime_error("ordering of the tangent failed in METIS");
   }
@@ -103,6 +105,7 @@ Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept) 
   common->nrelax[0] = 2;
   common->nrelax[1] = 8;
   common->nrelax[2] = 24;
+  const DeafCall deaf;
   Columns columns = permuted(pattern, position, result.size, interior);
   cholmod_sparse A = columns.view(-1);
   std::vector<int> identity(result.size);

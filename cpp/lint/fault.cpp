@@ -34,8 +34,11 @@ std::string counted(size_t n, const std::string& what) {
 }
 
 std::string oneLine(const Fault& fault) {
-  return fault.place + ": " + word(fault.kind->severity) + ": " + fault.message + "; " + fault.kind->remedy +
-         " [" + fault.kind->id + "]";
+  return fault.place + ": " + word(fault.kind->severity) + ": " + withRemedy(fault);
+}
+
+std::string withRemedy(const Fault& fault) {
+  return fault.message + "; " + fault.kind->remedy + " [" + fault.kind->id + "]";
 }
 
 std::string word(Severity severity) {

@@ -53,6 +53,9 @@ std::string counted(size_t n, const std::string& what);
 /// `place: warning: message; remedy [id]`
 std::string oneLine(const Fault& fault);
 
+/// `message; remedy [id]`
+std::string withRemedy(const Fault& fault);
+
 /// "warning" or "error".
 std::string word(Severity severity);
 

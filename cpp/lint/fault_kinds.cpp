@@ -14,6 +14,8 @@ const std::vector<FaultKind>& faultKinds() {
        "take the id from docs/check.md"},
       {"data", error, "data that are not finite, or contradict each other where two labels meet",
        "correct the expression, or prescribe the component on one of the labels"},
+      {"memory", error, "the run needs more memory than there is",
+       "coarsen the contact lines, on which dense matrices are kept, or take a machine with more memory"},
       // Meshes that cannot be used.
       {"mesh-file", error, "a mesh cannot be read", "write it again as Medit .mesh, ASCII, two-dimensional"},
       {"clockwise-triangle", error, "a triangle runs clockwise", "exchange two of its vertices"},
@@ -154,6 +156,9 @@ const std::vector<FaultKind>& faultKinds() {
        "take the traction or the support away"},
       {"kink-between-steps", warning, "an expression changes its law within a step",
        "choose end and steps so that a step ends there"},
+      {"load-between-steps", warning,
+       "a load goes, within a step, far beyond its values at both ends of the step",
+       "take more steps, or time.tolerance"},
       {"kink-after-end", warning, "an expression changes its law after the end of the run",
        "check end, or simplify the expression"},
       {"constant-loads", warning, "many steps, and nothing that depends on time", "take steps = 1"},

@@ -1,13 +1,14 @@
 #include "lint/lint.h"
 
 #include <algorithm>
-#include <deque>
+#include <utility>
 
 #include "base/fault_error.h"
 #include "contact/interface.h"
 #include "mesh/read.h"
 #include "scene/build.h"
 #include "scene/build_quantities.h"
+#include "scene/load_courses.h"
 #include "scene/memory_need.h"
 #include "scene/overrides.h"
 #include "scene/resolve.h"
@@ -76,6 +77,11 @@ void runChecks(const LintInput& input, Faults& faults) {
   lintMaterials(input, faults);
   lintLoads(input, faults);
   lintTime(input, faults);
+  for (const std::string& id : input.scene.allowed) {
+    const auto& kinds = faultKinds();
+    if (std::none_of(kinds.begin(), kinds.end(), [&](const FaultKind& kind) { return kind.id == id; }))
+      faults.add("allow-unknown", input.where({"check", "allow"}), "no fault is called " + id);
+  }
 }
 
 /// Where contact alone holds bodies, whether it does: as the first step begins, and elastically at some times of the run.
@@ -99,17 +105,27 @@ void requireHeld(const SceneDescription& scene, const Model& model) {
   }
 }
 
+/// The input of the checks, with what several of them use.
+LintInput inputOf(const SceneDescription& scene, std::vector<const TriangleMesh*> meshes,
+                  const Node& document) {
+  LintInput input{{scene, std::move(meshes)}, document, {}};
+  for (const TriangleMesh* mesh : input.meshes)
+    input.topologies.push_back(mesh != nullptr ? topologyOf(*mesh) : Topology());
+  for (const ContactDescription& contact : scene.contacts)
+    input.interference.push_back(interferenceOf(contact, input));
+  return input;
+}
+
 /// What only the model can say: data where they are used, and whether everything is held.
 void build(ResolvedScene resolved, LintReport& report) {
   const SceneDescription& scene = resolved.description;
   try {
-    std::vector<std::string> doubts;  // named above, each with its remedy
-    Model model = buildModel(resolved, doubts);
+    Model model = buildModel(resolved);
     static_cast<void>(buildQuantities(scene, model));
+    lintModel(scene, model, report.faults);
     requireHeld(scene, model);
     State state = initialState(model);
-    if (const std::string doubt = settle(scene, model, state); !doubt.empty())
-      report.faults.add("initial-stress", scene.path, doubt);
+    lintSettling(scene, settle(scene, model, state), report.faults);
     report.model = std::move(model);
   } catch (const InputError& error) {
     addError(error, "data", report.faults);
@@ -148,30 +164,43 @@ LintReport lint(const std::string& path, const std::vector<std::string>& setting
   }
   SceneDescription& scene = *report.scene;
   report.faults = Faults(scene.allowed);
-  for (const std::string& id : scene.allowed) {
-    const auto& kinds = faultKinds();
-    if (std::none_of(kinds.begin(), kinds.end(), [&](const FaultKind& kind) { return kind.id == id; }))
-      report.faults.add("allow-unknown", whereIn(document, {"check", "allow"}), "no fault is called " + id);
-  }
-  LintInput input{{scene, {}}, document, {}};
+  std::vector<const TriangleMesh*> known;
   std::vector<TriangleMesh> meshes;
   meshes.reserve(scene.bodies.size());
   for (const BodyDescription& body : scene.bodies) {
-    input.meshes.push_back(nullptr);
-    input.topologies.emplace_back();
+    known.push_back(nullptr);
     try {
-      input.meshes.back() = &meshes.emplace_back(readMesh(body.mesh));
-      input.topologies.back() = topologyOf(meshes.back());
+      known.back() = &meshes.emplace_back(readMesh(body.mesh));
     } catch (const InputError& error) {
       addError(error, "mesh-file", report.faults);
     }
   }
-  resolveWhatCanBe(scene, input.meshes);
-  for (const ContactDescription& contact : scene.contacts)
-    input.interference.push_back(interferenceOf(contact, input));
-  runChecks(input, report.faults);
+  resolveWhatCanBe(scene, known);
+  runChecks(inputOf(scene, known, document), report.faults);
   if (report.faults.count(Severity::error) == 0) build({scene, std::move(meshes)}, report);
   return report;
+}
+
+Faults lintResolved(const ResolvedScene& resolved, const std::vector<std::string>& settings) {
+  const SceneDescription& scene = resolved.description;
+  std::vector<const TriangleMesh*> meshes;
+  for (const TriangleMesh& mesh : resolved.meshes) meshes.push_back(&mesh);
+  const Node document = documentOf(scene.path, settings);
+  Faults faults(scene.allowed);
+  runChecks(inputOf(scene, std::move(meshes), document), faults);
+  return faults;
+}
+
+void lintModel(const SceneDescription& scene, const Model& model, Faults& faults) {
+  if (scene.time.tolerance > 0) return;  // steps see what there is
+  for (const std::string& warning : loadsBetweenSteps(scene, model)) {
+    const auto [place, text] = splitPlace(warning);
+    faults.add("load-between-steps", place, text);
+  }
+}
+
+void lintSettling(const SceneDescription& scene, const std::string& doubt, Faults& faults) {
+  if (!doubt.empty()) faults.add("initial-stress", scene.path, doubt);
 }
 
 }  // namespace mortier

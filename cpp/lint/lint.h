@@ -10,7 +10,7 @@
 #include "lint/topology.h"
 #include "plan/loads.h"
 #include "scene/document.h"
-#include "scene/scene.h"
+#include "scene/resolve.h"
 #include "solver/model.h"
 
 namespace mortier {
@@ -38,6 +38,15 @@ struct LintReport {
 
 /// Everything. \throws nothing that a scene could cause: errors become faults.
 LintReport lint(const std::string& scene, const std::vector<std::string>& settings);
+
+/// What is found in a scene that is resolved, without building or solving anything: what `lint` finds too, word for word.
+Faults lintResolved(const ResolvedScene& resolved, const std::vector<std::string>& settings);
+
+/// What the model tells.
+void lintModel(const SceneDescription& scene, const Model& model, Faults& faults);
+
+/// What settling told, if anything (scene/settle.h).
+void lintSettling(const SceneDescription& scene, const std::string& doubt, Faults& faults);
 
 // What the linter looks for, one file each.
 void lintMeshes(const LintInput& input, Faults& faults);

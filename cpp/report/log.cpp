@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 
@@ -30,6 +31,13 @@ std::string heldEnds(const ContactInterface& interface) {
                 interface.heldEnds() > 1 ? "s" : "", mortar ? "merged into the next node" : "left out");
 }
 
+/// What a reader may have meant as a circle.
+std::string polygon(const ContactInterface& interface) {
+  if (interface.polygonTurn() == 0) return "";
+  return format("; a polygon, not a circle: it turns by %.3g degrees at a node",
+                interface.polygonTurn() * 180 / M_PI);
+}
+
 }  // namespace
 
 std::string logHeader(const RunFacts& facts, const Model& model) {
@@ -48,12 +56,12 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
     const std::string pressed =
         least < -noticeable * size ? format("; interference %.3g m", -least) : std::string();
     const std::string chosen = k < facts.choices.size() ? facts.choices[k] : "";
-    text +=
-        format("interface  %s, %zu nonmortar (%s) x %zu mortar (%s) nodes, overlap %.3f%s%s%s%s\n",
-               facts.variants[k].c_str(), interface.nonmortarNodes().size(),
-               model.bodies[interface.pair().nonmortar.body].name().c_str(), interface.mortarNodes().size(),
-               model.bodies[interface.pair().mortar.body].name().c_str(), interface.overlap(),
-               chosen.empty() ? "" : "; ", chosen.c_str(), heldEnds(interface).c_str(), pressed.c_str());
+    text += format("interface  %s, %zu nonmortar (%s) x %zu mortar (%s) nodes, overlap %.3f%s%s%s%s%s\n",
+                   facts.variants[k].c_str(), interface.nonmortarNodes().size(),
+                   model.bodies[interface.pair().nonmortar.body].name().c_str(),
+                   interface.mortarNodes().size(), model.bodies[interface.pair().mortar.body].name().c_str(),
+                   interface.overlap(), chosen.empty() ? "" : "; ", chosen.c_str(),
+                   heldEnds(interface).c_str(), pressed.c_str(), polygon(interface).c_str());
   }
   return text +
          "  step     time[s]  iter    active(+/-)  |residual|  penetration[m^2]   max p[Pa]  viscoplastic"

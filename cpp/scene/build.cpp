@@ -15,18 +15,18 @@ std::vector<double> sampleTimes(const TimePlan& plan) {
 
 }  // namespace
 
-Model buildModel(ResolvedScene& scene, std::vector<std::string>& warnings) {
+Model buildModel(ResolvedScene& scene) {
   Model model;
   const SceneDescription& description = scene.description;
   const std::vector<double> times = sampleTimes(description.time);
   model.bodies.reserve(description.bodies.size());
   for (size_t b = 0; b < description.bodies.size(); ++b) {
     model.bodies.push_back(
-        buildBody(description.bodies[b], std::move(scene.meshes[b]), description.plane, times, warnings));
+        buildBody(description.bodies[b], std::move(scene.meshes[b]), description.plane, times));
   }
   scene.meshes.clear();
   for (const ContactDescription& contact : description.contacts) {
-    addContact(description, contact, model, warnings);
+    addContact(description, contact, model);
   }
   return model;
 }

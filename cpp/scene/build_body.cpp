@@ -1,7 +1,6 @@
 #include "scene/build_body.h"
 
 #include <map>
-#include <sstream>
 
 #include "material/parts.h"
 #include "scene/check_data.h"
@@ -49,34 +48,10 @@ void addInitialStress(const StressDescription& stress, std::optional<int> region
   }
 }
 
-/// Thin triangles spoil the accuracy: told with their number and the worst.
-void warnOfThinTriangles(const BodyDescription& body, const TriangleMesh& mesh,
-                         std::vector<std::string>& warnings) {
-  constexpr double thin = 30;  // its smallest angle is about 2 degrees or less
-  int count = 0;
-  int worst = 0;
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
-    count += aspectRatio(mesh, t) > thin ? 1 : 0;
-    if (aspectRatio(mesh, t) > aspectRatio(mesh, worst)) {
-      worst = t;
-    }
-  }
-  if (count == 0) {
-    return;
-  }
-  std::ostringstream text;
-  text.precision(3);
-  text << body.meshWhere << ": body " << body.name << ": " << count << " of " << mesh.triangles.size()
-       << " triangles of " << mesh.name << " are thin; the worst is triangle " << worst + 1
-       << ", aspect ratio " << aspectRatio(mesh, worst);
-  warnings.push_back(text.str());
-}
-
 }  // namespace
 
-Body buildBody(const BodyDescription& body, TriangleMesh mesh, Plane plane, const std::vector<double>& times,
-               std::vector<std::string>& warnings) {
-  warnOfThinTriangles(body, mesh, warnings);
+Body buildBody(const BodyDescription& body, TriangleMesh mesh, Plane plane,
+               const std::vector<double>& times) {
   Conditions conditions;
   std::vector<const ConditionDescription*> displacements;
   for (const ConditionDescription& c : body.conditions) {

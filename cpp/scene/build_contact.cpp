@@ -4,24 +4,13 @@
 #include <sstream>
 #include <utility>
 
-#include "base/error.h"
+#include "base/fault_error.h"
 #include "mesh/boundary_line.h"
 #include "scene/memory_need.h"
 
 namespace mortier {
 
 namespace {
-
-/// Contact takes over the normal direction of its labels: further conditions there are rarely meant.
-void warnOfConditionsOn(const SideDescription& side, bool nonmortar, const SceneDescription& scene,
-                        std::vector<std::string>& warnings) {
-  for (const ConditionDescription& c : scene.bodies[bodyIndex(scene, side.body)].conditions) {
-    if (c.label == side.label && (c.kind == ConditionDescription::Kind::traction || nonmortar)) {
-      warnings.push_back(c.value.where + ": label " + std::to_string(c.label) + " of body " + side.body +
-                         " is in contact too; the condition is kept");
-    }
-  }
-}
 
 std::string twoDigits(double x) {
   std::ostringstream text;
@@ -40,8 +29,7 @@ std::string doubtOfPolygons(const ContactInterface& interface) {
          " m, and pressures are wrong in that ratio";
 }
 
-void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model,
-                std::vector<std::string>& warnings) {
+void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model) {
   ContactPair pair;
   pair.coupling = contact.variant;
   for (const auto& [side, target] :
@@ -49,8 +37,6 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
     target->body = bodyIndex(scene, side->body);
     target->label = side->label;
   }
-  warnOfConditionsOn(contact.nonmortar, true, scene, warnings);
-  warnOfConditionsOn(contact.mortar, false, scene, warnings);
   InterfaceOptions options;
   options.initial = contact.initial;
   if (contact.gap) {
@@ -69,8 +55,8 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
   try {
     requireMemory(meshes, pairs);
     addInterface(model, pair, options);
-    if (const std::string doubt = doubtOfPolygons(model.interfaces.back()); !doubt.empty())
-      warnings.push_back(contact.where + ": contact: " + doubt);
+  } catch (const FaultError& error) {
+    throw FaultError(contact.where + ": contact: " + error.what(), error.id());
   } catch (const InputError& error) {
     throw InputError(contact.where + ": contact: " + error.what());
   }

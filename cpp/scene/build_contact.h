@@ -10,10 +10,8 @@
 namespace mortier {
 
 /// Adds the interface to the model, which has its bodies.
-/// Doubtful but legal input is added to `warnings`, one line each.
 /// \throws InputError with file and line: a gap [m] that is not finite, sides that do not face each other.
-void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model,
-                std::vector<std::string>& warnings);
+void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model);
 
 /// In words, with what it does: distances that are not larger than what polygons are off the curves behind them.
 /// Empty where there is nothing to say.

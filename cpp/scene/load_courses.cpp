@@ -100,10 +100,7 @@ std::vector<std::string> loadsBetweenSteps(const SceneDescription& scene, const 
         if (const double part = beyondEnds(course, k * i, k * (i + 1)); part > most) {
           most = part;
           warning = expression.where + text(": between t = %.6g and %.6g s", k * i, k * (i + 1)) +
-                    text(
-                        ", a step, it goes %.0f %% of its range beyond both ends; take more steps, or "
-                        "time.tolerance",
-                        100 * part, 0);
+                    text(", a step, it goes %.0f %% of its range beyond both ends", 100 * part, 0);
         }
     }
     if (!warning.empty()) warnings.push_back(std::move(warning));

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <limits>
 
-#include "base/error.h"
+#include "base/fault_error.h"
 #include "mesh/boundary_line.h"
 
 namespace mortier {
@@ -98,9 +98,10 @@ void requireMemory(const std::vector<const TriangleMesh*>& meshes, const std::ve
   const double need = memoryNeed(meshes, pairs);
   const double available = availableMemory();
   if (need <= available) return;
-  throw InputError("the run needs " + aboutMemory(need) + " of memory, expected at most the " +
-                   aboutMemory(available).substr(6) +
-                   " that are available: dense matrices over the contact nodes");
+  throw FaultError("the run needs " + aboutMemory(need) + " of memory, expected at most the " +
+                       aboutMemory(available).substr(6) +
+                       " that are available: dense matrices over the contact nodes",
+                   "memory");
 }
 
 }  // namespace mortier

@@ -22,7 +22,7 @@ double memoryNeed(const Model& model);
 /// What the machine and the limits of the process leave [bytes]; infinity where nothing tells.
 double availableMemory();
 
-/// \throws InputError with both numbers where a run needs more than there is.
+/// \throws FaultError with both numbers where a run needs more than there is.
 void requireMemory(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs);
 
 /// "about 130 MiB", "about 290 GiB".

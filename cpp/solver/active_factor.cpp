@@ -67,30 +67,38 @@ Vector ActiveFactor::rowOfBorder(int condition) const {
   return row;
 }
 
-void ActiveFactor::insert(int condition) {
+/// All at once: one by one, each solve would read the factors anew.
+void ActiveFactor::insert(const std::vector<int>& conditions) {
   const auto n = static_cast<Eigen::Index>(base_.size());
   const auto k = static_cast<Eigen::Index>(border_.size());
-  if (rows_.rows() != n || rows_.cols() <= k) {
-    const Eigen::Index room = n / partOfBase + 1;
+  const auto count = static_cast<Eigen::Index>(conditions.size());
+  if (count == 0) return;
+  if (rows_.rows() != n || rows_.cols() < k + count) {
+    const Eigen::Index room = std::max(k + count, n / partOfBase + 1);
     rows_.conservativeResize(n, room);
     solved_.conservativeResize(n, room);
     schur_.conservativeResize(room, room);
   }
-  rows_.col(k) = rowOfBorder(condition);
-  const bool added = placeOf_[condition] < 0;
-  Matrix column = added ? Matrix(W_.col(condition)(base_)) : Matrix(rows_.col(k));
-  solveBase(column);
-  solved_.col(k) = column;
-  schur_.col(k).head(k + 1) = -rows_.leftCols(k + 1).transpose() * column;
-  schur_.row(k).head(k) = -rows_.col(k).transpose() * solved_.leftCols(k);
-  work_ += 4 * static_cast<double>(n) * static_cast<double>(k + 1);
-  border_.push_back(condition);
-  bordered_[condition] = 1;
-  if (!added) return;
-  for (Eigen::Index i = 0; i <= k; ++i) {
-    if (placeOf_[border_[i]] >= 0) continue;
-    schur_(i, k) += W_(border_[i], condition);
-    if (i < k) schur_(k, i) += W_(condition, border_[i]);
+  Matrix columns(n, count);
+  for (Eigen::Index c = 0; c < count; ++c) {
+    const int condition = conditions[c];
+    rows_.col(k + c) = rowOfBorder(condition);
+    columns.col(c) = placeOf_[condition] < 0 ? Vector(W_.col(condition)(base_)) : Vector(rows_.col(k + c));
+    border_.push_back(condition);
+    bordered_[condition] = 1;
+  }
+  solveBase(columns);
+  solved_.middleCols(k, count) = columns;
+  schur_.block(0, k, k + count, count).noalias() = -rows_.leftCols(k + count).transpose() * columns;
+  schur_.block(k, 0, count, k).noalias() = -rows_.middleCols(k, count).transpose() * solved_.leftCols(k);
+  work_ += 2 * static_cast<double>(n) * static_cast<double>(count) * static_cast<double>(2 * k + count);
+  for (Eigen::Index j = k; j < k + count; ++j) {
+    if (placeOf_[border_[j]] >= 0) continue;
+    for (Eigen::Index i = 0; i <= j; ++i) {
+      if (placeOf_[border_[i]] >= 0) continue;
+      schur_(i, j) += W_(border_[i], border_[j]);
+      if (i < j) schur_(j, i) += W_(border_[j], border_[i]);
+    }
   }
 }
 
@@ -117,8 +125,8 @@ bool ActiveFactor::take(const std::vector<char>& active) {
   if (size < smallSet || partOfBase * changed.size() > base_.size()) return refactor(active);
   for (int place = static_cast<int>(border_.size()); place-- > 0;)
     if ((active[border_[place]] != 0) == (placeOf_[border_[place]] >= 0)) remove(place);
-  for (const int condition : changed)
-    if (bordered_[condition] == 0) insert(condition);
+  std::erase_if(changed, [&](int condition) { return bordered_[condition] != 0; });
+  insert(changed);
   const auto k = static_cast<Eigen::Index>(border_.size());
   if (k == 0) return true;
   const Matrix schur = schur_.topLeftCorner(k, k);

@@ -32,7 +32,7 @@ class ActiveFactor {
  private:
   bool factoriseBase();
   void solveBase(Matrix& x);
-  void insert(int condition);
+  void insert(const std::vector<int>& conditions);
   void remove(int place);
   [[nodiscard]] Vector rowOfBorder(int condition) const;
 

@@ -2,8 +2,10 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
+#include "base/interrupt.h"
 #include "solver/pivoting.h"
 
 namespace mortier {
@@ -96,9 +98,22 @@ int dependentConditions(const Matrix& W) {
   constexpr double singular = 1e-12;  // as in ActiveFactor
   const std::vector<char> idle = idleConditions(W);
   const auto idles = static_cast<Eigen::Index>(std::count(idle.begin(), idle.end(), 1));
-  Eigen::ColPivHouseholderQR<Matrix> factor(W);
-  factor.setThreshold(singular);
-  return static_cast<int>(W.rows() - idles - factor.rank());
+  // Columns made orthogonal to the longest one that is left, until none is: in steps that can be interrupted.
+  Matrix rest = W;
+  Eigen::Index rank = 0;
+  double largest = 0;
+  for (; rank < W.rows(); ++rank) {
+    stopIfInterrupted();
+    Eigen::Index longest = 0;
+    const double length = std::sqrt(rest.colwise().squaredNorm().maxCoeff(&longest));
+    largest = std::max(largest, length);
+    if (!(length > singular * largest)) break;
+    const Vector q = rest.col(longest) / length;
+    const Eigen::RowVectorXd along = q.transpose() * rest;
+    rest.noalias() -= q * along;
+    rest.col(longest).setZero();
+  }
+  return static_cast<int>(W.rows() - idles - rank);
 }
 
 ContactSolution solveContact(const ContactProblem& problem, const Vector& fullSlack, const Vector& p0,

@@ -26,7 +26,7 @@ struct ContactSolution {
     solved,
     unbalanced,  ///< contact cannot balance r: `rigid` is the motion along which the bodies leave
     cycled,      ///< only where W is not a P-matrix (an indefinite tangent), or nearly so
-    capped       ///< all the work that is allowed was done: `workLimit` factorisations of W
+    capped       ///< all pivots, or all the work, that are allowed were done: `workLimit` factorisations of W
   };
   Outcome outcome = Outcome::cycled;
   Vector change;             ///< dp
@@ -45,9 +45,11 @@ int dependentConditions(const Matrix& W);
 constexpr double workLimit = 20;
 
 /// Principal pivoting. Forces that pull are dropped, all at once, until none is left; then the deepest condition of each
-/// run of neighbours that overlap is closed. Where that stops lowering the number of overlaps, one of them is closed
-/// without opening up any other condition: its force grows until its gap is closed, and conditions on the way that reach
-/// the end of their force or gap change sides. That ends for every P-matrix, symmetric or not (Cottle and Dantzig 1968).
+/// run of neighbours that overlap is closed. Where the set that comes of it is not better (by its energy where W is symmetric,
+/// else by the number of overlaps) fewer are closed, in the end one: where W is symmetric along the way on which the energy falls
+/// (Lawson and Hanson 1974), otherwise without opening up any other condition: its force grows until its gap is closed, and
+/// conditions on the way that reach the end of their force or gap change sides. That ends for every P-matrix (Cottle and
+/// Dantzig 1968).
 /// Factors are updated while the set changes little (active_factor.h).
 /// The balance is held by a proximal term on z, small enough that one or two repetitions make it exact (Rockafellar 1976).
 /// Conditions with W_ii = 0 stay inactive; where conditions depend on each other the same kind of term on dp picks one

@@ -1,4 +1,5 @@
-// Factors of a dense matrix, made in its own memory: Cholesky's where it is symmetric, else LU with row interchanges.
+// Factors of a dense matrix, made in its own memory: Cholesky's where it is symmetric, else LU with row interchanges, by
+// panels of columns, so that an interruption is heard between any two blocks of a large matrix.
 #pragma once
 
 #include "base/types.h"
@@ -8,7 +9,7 @@ namespace mortier {
 class DenseFactor {
  public:
   /// Takes the matrix over; of a symmetric one only the lower triangle is read.
-  /// \returns false where it is not positive definite, or a pivot of LU vanishes.
+  /// \returns false where it is not positive definite, or a pivot of LU vanishes. \throws Interrupted
   bool factorise(Matrix&& matrix, bool symmetric);
   /// Gives the memory back.
   void clear() { factor_.resize(0, 0); }
@@ -21,9 +22,16 @@ class DenseFactor {
   [[nodiscard]] Eigen::Index rows() const { return factor_.rows(); }
 
  private:
+  bool cholesky();
+  bool lu();
+  void eliminatePanel(Eigen::Index first, Eigen::Index columns);
+  /// Of triangles with themselves or transposed: solves by panels.
+  template <unsigned triangle, bool transposed>
+  void substitute(Matrix& x) const;
+
   bool symmetric_ = true;
   Matrix factor_;
-  Eigen::VectorXi interchange_;
+  Eigen::VectorXi interchange_;  ///< by columns: the row that was exchanged with the pivot's
   double leastPivot_ = 0;
 };
 

@@ -61,40 +61,56 @@ void Pivoting::soften() {
 }
 
 bool Pivoting::run(const Vector& z0, ContactSolution& solution) {
-  int patience = 8;
+  constexpr size_t faster = 2;
+  constexpr size_t slower = 4;
   const auto n = static_cast<int>(slack_.size());
-  const int limit = solution.pivots + 20 * n + 100;
-  int fewest = n + 1;
-  int tries = 0;
-  std::vector<char> best;
-  while (!redundant_ && solution.pivots < limit && !capped()) {
+  pivotsLeft_ = 20 * n + 100;
+  Signs best;
+  size_t atOnce = n;
+  if (!dropPulls(z0, solution, best)) return false;
+  while (!best.overlaps.empty()) {
+    const std::vector<char> before = solution.active;
+    const std::vector<int> chosen = deepest(best, atOnce);
+    for (const int i : chosen) solution.active[i] = 1;
+    Signs next;
+    if (!dropPulls(z0, solution, next)) return false;
+    if (isBetter(next, best)) {
+      best = std::move(next);
+      atOnce = faster * chosen.size();
+      continue;
+    }
+    solution.active = before;
+    atOnce = std::max<size_t>(1, chosen.size() / slower);
+    if (chosen.size() > 1) continue;
+    if (problem_.symmetric)
+      descend(z0, chosen.front(), best.force, solution);
+    else
+      closeOne(z0, chosen.front(), solution);
+    if (!dropPulls(z0, solution, best)) return false;
+  }
+  return true;
+}
+
+/// Drops forces that pull until none is left; where no overlap is either, with factors of the set itself.
+bool Pivoting::dropPulls(const Vector& z0, ContactSolution& solution, Signs& signs) {
+  while (!redundant_ && !capped()) {
     stopIfInterrupted();
     if (!solveOn(z0, solution)) return false;
-    const WrongSigns wrong = wrongSigns(solution);
-    if (wrong.none() && factor_.fresh()) return true;
-    if (wrong.none()) {
-      redundant_ = !factor_.refactor(solution.active);
-      continue;
-    }
-    if (!wrong.pulls.empty()) {
-      for (const int i : wrong.pulls) solution.active[i] = 0;
-      continue;
-    }
-    const auto count = static_cast<int>(wrong.overlaps.size());
-    if (count < fewest) {
-      fewest = count;
-      tries = 0;
-      best = solution.active;
-    } else if (++tries > patience) {
-      patience = 1;
-      tries = 0;
-      solution.active = best;
-      closeOne(z0, limit, solution);
-      continue;
-    }
-    for (const int i : deepest(wrong.overlaps)) solution.active[i] = 1;
+    signs = signsOf(solution);
+    for (const int i : signs.pulls) solution.active[i] = 0;
+    if (!signs.pulls.empty()) continue;
+    if (!signs.overlaps.empty() || factor_.fresh()) return true;
+    redundant_ = !factor_.refactor(solution.active);
   }
   return false;
+}
+
+/// Whether sets on which no force pulls come nearer to the solution. Where W is symmetric that is by the energy
+/// 1/2 p'W p + s0'p, whose change is half of s_old'p_new - s_new'p_old, otherwise by the number of overlaps.
+bool Pivoting::isBetter(const Signs& next, const Signs& best) const {
+  if (next.overlaps.empty()) return true;
+  if (!problem_.symmetric) return next.overlaps.size() < best.overlaps.size();
+  return best.slack.dot(next.force) < next.slack.dot(best.force);
 }
 
 Vector Pivoting::usualForces(const ContactSolution& solution) const {
@@ -123,9 +139,20 @@ bool Pivoting::leaves(const ContactSolution& solution) const {
 }
 
 Vector Pivoting::compliance(const Vector& p) {
-  if (p.isZero(0)) return p;
-  work_.done += 2 * static_cast<double>(problem_.W.size());
-  return problem_.W * p;
+  // Four columns at a time: each reads and writes the sum once.
+  const Matrix& W = problem_.W;
+  std::vector<Eigen::Index> loaded;
+  for (Eigen::Index i = 0; i < p.size(); ++i)
+    if (p[i] != 0) loaded.push_back(i);
+  work_.done += 2 * static_cast<double>(W.rows()) * static_cast<double>(loaded.size());
+  Vector sum = Vector::Zero(p.size());
+  size_t k = 0;
+  for (; k + 4 <= loaded.size(); k += 4) {
+    const Eigen::Index* j = &loaded[k];
+    sum += p[j[0]] * W.col(j[0]) + p[j[1]] * W.col(j[1]) + p[j[2]] * W.col(j[2]) + p[j[3]] * W.col(j[3]);
+  }
+  for (; k < loaded.size(); ++k) sum += p[loaded[k]] * W.col(loaded[k]);
+  return sum;
 }
 
 /// x_A and z of  W_AA x_A - G_A z = f_A,  G_A' x_A + proximal z = h.  \param f  becomes x, zero off A.
@@ -158,6 +185,7 @@ Vector Pivoting::solveBordered(const std::vector<char>& active, const Vector& h,
 /// p = 0 off the active set, s = 0 on it. \returns false where that is redundant.
 bool Pivoting::solveOn(const Vector& z0, ContactSolution& solution) {
   ++solution.pivots;
+  --pivotsLeft_;
   Vector off = -p0_;
   for (Eigen::Index i = 0; i < off.size(); ++i)
     if (solution.active[i] != 0) off[i] = 0;
@@ -182,52 +210,81 @@ Vector Pivoting::slackOf(const ContactSolution& solution) {
 }
 
 /// Signs are judged against rounding, slacks as the forces that would close them.
-Pivoting::WrongSigns Pivoting::wrongSigns(const ContactSolution& solution) {
-  const Vector s = slackOf(solution);
-  const Vector p = p0_ + solution.change;
+Pivoting::Signs Pivoting::signsOf(const ContactSolution& solution) {
+  Signs signs{slackOf(solution), p0_ + solution.change, {}, {}};
+  Vector& s = signs.slack;
+  Vector& p = signs.force;
   double largest = 0;
   for (Eigen::Index i = 0; i < s.size(); ++i)
     if (idle_[i] == 0)
       largest = std::max({largest, std::abs(p[i]), std::abs(p0_[i]), std::abs(slack_[i]) / problem_.W(i, i)});
-  depth_ = s.cwiseQuotient(problem_.W.diagonal());
+  const Vector depth = s.cwiseQuotient(problem_.W.diagonal());
   double noise = rounding * largest;  // the depth of closed conditions is nothing else
   for (Eigen::Index i = 0; i < s.size(); ++i)
-    if (idle_[i] == 0 && solution.active[i] != 0) noise = std::max(noise, 2 * std::abs(depth_[i]));
-  WrongSigns wrong;
+    if (idle_[i] == 0 && solution.active[i] != 0) noise = std::max(noise, 2 * std::abs(depth[i]));
   for (Eigen::Index i = 0; i < s.size(); ++i) {
     if (idle_[i] != 0) continue;
-    if (solution.active[i] != 0 && !(p[i] >= -rounding * largest)) wrong.pulls.push_back(static_cast<int>(i));
-    if (solution.active[i] == 0 && !(depth_[i] >= -noise)) wrong.overlaps.push_back(static_cast<int>(i));
+    if (solution.active[i] != 0 && !(p[i] >= -rounding * largest)) signs.pulls.push_back(static_cast<int>(i));
+    if (solution.active[i] == 0 && !(depth[i] >= -noise)) signs.overlaps.push_back(static_cast<int>(i));
   }
-  return wrong;
+  for (Eigen::Index i = 0; i < s.size(); ++i) {
+    if (solution.active[i] != 0) s[i] = 0;
+    p[i] = std::max(p[i], 0.0);
+  }
+  return signs;
 }
 
-/// Of each run of neighbours the deepest. Closing all would make most of them pull.
-std::vector<int> Pivoting::deepest(const std::vector<int>& overlaps) const {
+/// Of each run of neighbours that overlap the deepest: closing all would make most of them pull. At most `count`, the deepest
+/// ones.
+std::vector<int> Pivoting::deepest(const Signs& signs, size_t count) const {
+  const Vector depth = signs.slack.cwiseQuotient(problem_.W.diagonal());
   std::vector<int> result;
-  for (size_t k = 0; k < overlaps.size(); ++k) {
-    const int i = overlaps[k];
-    if (k == 0 || i != overlaps[k - 1] + 1)
+  for (size_t k = 0; k < signs.overlaps.size(); ++k) {
+    const int i = signs.overlaps[k];
+    if (k == 0 || i != signs.overlaps[k - 1] + 1)
       result.push_back(i);
-    else if (depth_[i] < depth_[result.back()])
+    else if (depth[i] < depth[result.back()])
       result.back() = i;
   }
+  if (result.size() <= count) return result;
+  std::nth_element(result.begin(), result.begin() + static_cast<std::ptrdiff_t>(count), result.end(),
+                   [&](int a, int b) { return std::pair(depth[a], a) < std::pair(depth[b], b); });
+  result.resize(count);
   return result;
 }
 
-/// Closes the deepest overlap of a set whose forces all push; no sign that is right becomes wrong.
-void Pivoting::closeOne(const Vector& z0, int limit, ContactSolution& solution) {
+/// Closes an overlap of a set on which the forces p push; of those that would pull, the one that is reached first is dropped,
+/// and so on: the energy falls (Lawson and Hanson 1974).
+void Pivoting::descend(const Vector& z0, int chosen, Vector p, ContactSolution& solution) {
+  solution.active[chosen] = 1;
+  while (!capped()) {
+    stopIfInterrupted();
+    if (!solveOn(z0, solution)) return;
+    const Vector towards = p0_ + solution.change - p;
+    double length = 1;
+    int first = -1;
+    for (int i = 0; i < p.size(); ++i) {
+      if (solution.active[i] == 0 || !(p[i] + length * towards[i] < 0)) continue;
+      length = -p[i] / towards[i];
+      first = i;
+    }
+    if (first < 0) return;
+    p = (p + length * towards).cwiseMax(0);
+    p[first] = 0;
+    solution.active[first] = 0;
+  }
+}
+
+/// Closes an overlap of a set whose forces all push; no sign that is right becomes wrong.
+void Pivoting::closeOne(const Vector& z0, int chosen, ContactSolution& solution) {
   if (!solveOn(z0, solution)) return;
-  const std::vector<int> overlaps = wrongSigns(solution).overlaps;
-  if (overlaps.empty()) return;
-  const int chosen = *std::min_element(overlaps.begin(), overlaps.end(),
-                                       [&](int a, int b) { return depth_[a] < depth_[b]; });
   Vector p = p0_ + solution.change;
   Vector s = slackOf(solution);
   const auto diagonal = problem_.W.diagonal();
-  while (solution.pivots < limit && !capped()) {
+  while (!capped()) {
     stopIfInterrupted();
     ++solution.pivots;
+    --pivotsLeft_;
     Vector rate = -problem_.W.col(chosen);
     const Vector motion = solveBordered(solution.active, -problem_.G.row(chosen).transpose(), rate);
     if (redundant_) return;

@@ -35,7 +35,7 @@ class Pivoting {
 
   /// Whether a matrix that was to be solved with is singular but for rounding.
   [[nodiscard]] bool redundant() const { return redundant_; }
-  [[nodiscard]] bool capped() const { return work_.done > work_.limit; }
+  [[nodiscard]] bool capped() const { return work_.done > work_.limit || pivotsLeft_ <= 0; }
   /// What the proximal term still carries of the balance, against all forces in it, or those that are usual.
   [[nodiscard]] double imbalance(const ContactSolution& solution, const Vector& usual) const;
   /// Contact forces of the step before, and on closed conditions those that the rounding of gaps makes.
@@ -44,19 +44,24 @@ class Pivoting {
   [[nodiscard]] bool leaves(const ContactSolution& solution) const;
 
  private:
-  struct WrongSigns {
+  /// Of a set that was solved on, and what is wrong with it.
+  struct Signs {
+    Vector slack;               ///< 0 on the set
+    Vector force;               ///< p, not below 0
     std::vector<int> pulls;     ///< active, p < 0
     std::vector<int> overlaps;  ///< inactive, s < 0
-    [[nodiscard]] bool none() const { return pulls.empty() && overlaps.empty(); }
   };
 
+  bool dropPulls(const Vector& z0, ContactSolution& solution, Signs& signs);
+  [[nodiscard]] bool isBetter(const Signs& next, const Signs& best) const;
   [[nodiscard]] Vector compliance(const Vector& p);
   Vector solveBordered(const std::vector<char>& active, const Vector& h, Vector& f);
   bool solveOn(const Vector& z0, ContactSolution& solution);
   [[nodiscard]] Vector slackOf(const ContactSolution& solution);
-  [[nodiscard]] WrongSigns wrongSigns(const ContactSolution& solution);
-  [[nodiscard]] std::vector<int> deepest(const std::vector<int>& overlaps) const;
-  void closeOne(const Vector& z0, int limit, ContactSolution& solution);
+  [[nodiscard]] Signs signsOf(const ContactSolution& solution);
+  [[nodiscard]] std::vector<int> deepest(const Signs& signs, size_t count) const;
+  void descend(const Vector& z0, int chosen, Vector p, ContactSolution& solution);
+  void closeOne(const Vector& z0, int chosen, ContactSolution& solution);
 
   const ContactProblem& problem_;
   const std::vector<char>& idle_;
@@ -65,9 +70,9 @@ class Pivoting {
   const Vector& balance_;
   Work& work_;
   ActiveFactor factor_;
-  Vector depth_;  ///< s over W_ii: minus the force that would close a condition alone
   double stiffness_ = 0;
   double proximal_ = 0;
+  int pivotsLeft_ = 0;  ///< in this run: sets of a few conditions cost next to nothing
   bool redundant_ = false;
 };
 

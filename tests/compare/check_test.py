@@ -16,7 +16,7 @@ class Check(InFolder):
     def check(self, case, *options):
         """Exit code and report of a case."""
         case.write(self.folder)
-        done = mortier("check", "scene.toml", "--json", *options, cwd=self.folder)
+        done = mortier("check", "scene.toml", "--json", *options, cwd=self.folder, **case.limited())
         return done.returncode, json.loads(done.stdout)
 
     def test_sound_scenes_are_silent(self):
@@ -64,7 +64,24 @@ class Check(InFolder):
                 status, _ = self.check(case)
                 if severities[identifier] != "error":
                     continue
-                self.mortier("run", "scene.toml", "--quiet", code=status)
+                self.mortier("run", "scene.toml", "--quiet", code=status, **case.limited())
+
+    def test_run_warns_as_check_does(self):
+        """The same warnings in the same words, each once."""
+        quick = {"load-on-contact", "support-on-contact", "sliver", "initial-stress", "load-between-steps", "body-alone",
+                 "unused-label", "interpolation-unmatched", "poisson-negative", "large-displacement"}
+        for identifier, _, scene, seed in FAULTS:
+            if identifier not in quick:
+                continue
+            with self.subTest(fault=identifier):
+                case = Case(scene)
+                seed(case)
+                _, report = self.check(case)
+                expected = sorted(f"mortier: warning: {f['place']}: {f['message']}; {f['remedy']} [{f['id']}]"
+                                  for f in report["faults"] if f["severity"] == "warning")
+                errors = self.mortier("run", "scene.toml", "--quiet").stderr.splitlines()
+                self.assertEqual(sorted(errors), expected)
+                self.assertIn(f"[{identifier}]", "".join(errors))
 
     def test_allowed_faults_are_not_named(self):
         case = Case()

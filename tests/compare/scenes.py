@@ -3,7 +3,7 @@ labels are 1 bottom, 2 right, 3 top, 4 left."""
 
 TWO_BLOCKS = """\
 title = "two blocks"
-
+check.allow = ["few-steps-across-yield"]
 [[body]]
 name = "upper"
 mesh = "upper.mesh"

@@ -53,6 +53,24 @@ TEST(Arcs, circlesAreFoundWhateverTheirSizeAndSense) {
   }
 }
 
+TEST(Arcs, polygonsOfFewEdgesAreTold) {
+  constexpr double least = pi / 6;
+  constexpr double rounding = 1e-9;
+  const auto polygon = [](int edges, double ratio) {
+    std::vector<Point> points;
+    for (int i = 0; i <= edges; ++i) {
+      const double t = 2 * pi * (i % edges) / edges;
+      points.emplace_back(3 + std::cos(t), ratio * std::sin(t));
+    }
+    return points;
+  };
+  for (const int edges : {4, 6, 8, 11})
+    EXPECT_NEAR(turnOfPolygon(polygon(edges, 1), true, least), 2 * pi / edges, rounding) << edges;
+  EXPECT_EQ(turnOfPolygon(polygon(13, 1), true, least), 0);
+  EXPECT_EQ(turnOfPolygon(polygon(9, 0.6), true, least), 0);  // no circle
+  EXPECT_EQ(turnOfPolygon({{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}}, false, least), 0);
+}
+
 TEST(Arcs, threeNodesTellNothing) {
   EXPECT_EQ(known(arcsOf(nodesOf(2, 0, 1, circle(1)), false)), 0);
   EXPECT_EQ(known(arcsOf({{0, 0}, {1, 0.1}}, false)), 0);

@@ -112,7 +112,7 @@ class Cli(OfTwoBlocks):
         self.mortier("mesh", "crisscross", "--cells", "2", "file/x.mesh", code=1)
 
     def test_output_reads_back(self):
-        result = self.mortier("run", "--set", "output.every=2", "body.material.projection=elasticity", "scene.toml",
+        result = self.mortier("run", "--set", "output.every=2", "body.upper.material.projection=elasticity", "scene.toml",
                               "--out", "result")
         self.assertEqual(result.stderr, "")
         rows = [line for line in result.stdout.splitlines() if line.split()[0].isdigit()]
@@ -163,7 +163,7 @@ class Cli(OfTwoBlocks):
     def test_thin_triangles_are_told(self):
         self.mortier("mesh", "crisscross", "--cells", "100,1", "upper.mesh")
         errors = self.mortier("run", "scene.toml", "--quiet").stderr
-        self.assertIn("warning: scene.toml:5: body upper: 400 of 400 triangles of upper.mesh are thin; the worst is triangle",
+        self.assertIn("warning: upper.mesh: triangle 228: 400 triangles with an aspect ratio above 20",
                       errors)
 
 

@@ -192,6 +192,22 @@ TEST(CurvedInterface, normalsOfACircleAreExact) {
     }
 }
 
+// Octagons that are a millimetre apart have straight sides: their vertices lie on circles, but they are polygons.
+TEST(CurvedInterface, anOctagonIsNoCircle) {
+  constexpr double rounding = 1e-12;
+  constexpr double half = M_PI / 8;
+  for (const int edges : {8, 16}) {
+    const TriangleMesh pin = annulusMesh({{0, 0}, 0.5, 1, 4, edges, 2});
+    const TriangleMesh hole = annulusMesh({{0, 0}, 1.001, 2, 4, edges, 2});
+    const ContactInterface interface({{0, 2}, {1, 1}, CouplingKind::mortar}, pin, hole);
+    const bool octagon = edges == 8;
+    EXPECT_EQ(interface.rows(), 16);  // two at each corner
+    EXPECT_NEAR(interface.polygonTurn(), octagon ? 2 * half : 0, rounding);
+    const double expected = 0.001 * (octagon ? std::cos(half) : 1);
+    EXPECT_LE((interface.initialDistance().array() - expected).abs().maxCoeff(), 1e-3 * expected) << edges;
+  }
+}
+
 TEST(CurvedInterface, cornersCutTheLine) {
   std::mt19937 random(4);
   const auto cornersOf = [&](auto map, int cells) {

@@ -51,9 +51,8 @@ steps = 4
     return readScene(path, settings);
   }
   static Model model(const SceneDescription& description) {
-    std::vector<std::string> warnings;
     ResolvedScene resolved = resolveScene(description);
-    return buildModel(resolved, warnings);
+    return buildModel(resolved);
   }
 
   std::string folder;

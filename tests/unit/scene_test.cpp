@@ -44,9 +44,9 @@ end = 2
 steps = 20
 )toml";
 
-Model modelOf(const SceneDescription& scene, std::vector<std::string>& warnings) {
+Model modelOf(const SceneDescription& scene) {
   ResolvedScene resolved = resolveScene(scene);
-  return buildModel(resolved, warnings);
+  return buildModel(resolved);
 }
 
 /// A folder with two meshes and a scene.
@@ -65,10 +65,7 @@ class SceneFiles : public testing::Test {
 
   /// The message of a scene that is wrong, without the folder.
   [[nodiscard]] std::string fault(const std::vector<std::string>& settings) const {
-    std::string text = messageOf([&] {
-      std::vector<std::string> warnings;
-      return modelOf(readScene(path(), settings), warnings);
-    });
+    std::string text = messageOf([&] { return modelOf(readScene(path(), settings)); });
     for (size_t at = text.find(folder + "/"); at != std::string::npos; at = text.find(folder + "/")) {
       text.erase(at, folder.size() + 1);
     }
@@ -105,19 +102,16 @@ TEST_F(SceneFiles, readsEveryKey) {
 }
 
 TEST_F(SceneFiles, buildsTheModel) {
-  std::vector<std::string> warnings;
-  const Model model = modelOf(readScene(path(), {"contact.swap=true"}), warnings);
+  const Model model = modelOf(readScene(path(), {"contact.swap=true"}));
   ASSERT_EQ(model.bodies.size(), 2u);
   ASSERT_EQ(model.interfaces.size(), 1u);
   EXPECT_EQ(model.interfaces[0].pair().nonmortar.body, 1);
   EXPECT_EQ(model.interfaces[0].pair().mortar.label, 1);
   EXPECT_EQ(model.bodies[0].mesh().triangles.size(), 16u);
-  EXPECT_TRUE(warnings.empty());
 }
 
 // Decided once: the model and the description that reports read name the same side, swapped or not.
 TEST_F(SceneFiles, sidesAreDecidedInOnePlace) {
-  std::vector<std::string> warnings;
   const std::string text = twoBlocks;
   const size_t begin = text.find("nonmortar");
   const size_t end = text.find("[time]");
@@ -133,10 +127,10 @@ TEST_F(SceneFiles, sidesAreDecidedInOnePlace) {
       EXPECT_EQ(scene.contacts[0].nonmortar.body, nonmortar == 0 ? "upper" : "lower");
       EXPECT_EQ(scene.contacts[0].choice,
                 swapped ? "nonmortar is the coarser mesh (swap)" : "nonmortar is the finer mesh");
-      EXPECT_EQ(buildModel(resolved, warnings).interfaces[0].pair().nonmortar.body, nonmortar);
+      EXPECT_EQ(buildModel(resolved).interfaces[0].pair().nonmortar.body, nonmortar);
       ResolvedScene again = resolveScene(scene);
       EXPECT_EQ(again.description.contacts[0].nonmortar.body, nonmortar == 0 ? "upper" : "lower");
-      EXPECT_EQ(buildModel(again, warnings).interfaces[0].pair().nonmortar.body, nonmortar);
+      EXPECT_EQ(buildModel(again).interfaces[0].pair().nonmortar.body, nonmortar);
     }
 }
 
@@ -159,13 +153,12 @@ TEST_F(SceneFiles, labelsAreNumbersOnceResolved) {
 
 // The upper mesh is the coarser one.
 TEST_F(SceneFiles, sidesInAnyOrderAndInitialDistances) {
-  std::vector<std::string> warnings;
   const auto model = [&](const std::string& contact) {
     const std::string text = twoBlocks;
     const size_t begin = text.find("nonmortar");
     const size_t end = text.find("[time]");
     write(text.substr(0, begin) + contact + "\n" + text.substr(end));
-    return modelOf(readScene(path()), warnings);
+    return modelOf(readScene(path()));
   };
   const std::string upper = "{ body = \"upper\", label = 1 }";
   const std::string lower = "{ body = \"lower\", label = 3 }";
@@ -241,8 +234,7 @@ TEST_F(SceneFiles, stepsByTheirErrorNeedATolerance) {
   EXPECT_EQ(scene.time.maxSteps, 50);
   EXPECT_EQ(scene.time.breaks, (std::vector<double>{0.25, 1.5}));
   // The jump of the lower support's datum is found beside them.
-  std::vector<std::string> warnings;
-  EXPECT_EQ(loadCourses(scene, modelOf(scene, warnings)).breaks,
+  EXPECT_EQ(loadCourses(scene, modelOf(scene)).breaks,
             (std::vector<double>{0.25, 1, std::nextafter(1.0, 2.0), 1.5}));
   const std::vector<std::pair<std::vector<std::string>, std::string>> faults = {
       {{"time.tolerance=0"}, "--set time.tolerance=0: time: tolerance = 0, expected 0 < tolerance < 1"},
@@ -259,13 +251,6 @@ TEST_F(SceneFiles, stepsByTheirErrorNeedATolerance) {
   for (const auto& [settings, message] : faults) {
     EXPECT_EQ(fault(settings), message);
   }
-}
-
-TEST_F(SceneFiles, warnsOfTractionOnAContactLabel) {
-  std::vector<std::string> warnings;
-  modelOf(readScene(path(), {"body.upper.boundary={label=1, tx=3}"}), warnings);
-  ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("label 1 of body upper is in contact too"), std::string::npos);
 }
 
 TEST(Expression, evaluatesAndKnowsConstants) {
@@ -310,8 +295,7 @@ TEST_F(SceneFiles, breaksOfTablesAreAllKnown) {
                "body.upper.boundary={label=3, pressure={time=[0, 0.3001, 0.3002, 2], value=[0, 3, 1, 1]}}",
                "body.lower.boundary={label=1, un={time=[-1, 1.3, 1.3000001, 3], value=[0, 0, 1e-9, 0]}}",
                "body.lower.force.x={time=[0.5, 1], value=[0, 1]}"});
-  std::vector<std::string> warnings;
-  EXPECT_EQ(loadCourses(scene, modelOf(scene, warnings)).breaks,
+  EXPECT_EQ(loadCourses(scene, modelOf(scene)).breaks,
             (std::vector<double>{0.3001, 0.3002, 0.5, 1, 1.3, 1.3000001}));
 }
 

@@ -1,4 +1,5 @@
 """A sound scene of two blocks with its meshes, for faults to be seeded into."""
+import resource
 
 SCENE = """\
 [[body]]
@@ -99,6 +100,7 @@ class Case:
         self.lower = Mesh(0, -1, 1, 0, 8, 8)
         self.third = Mesh(5, -1, 6, 0, 8, 8)
         self.raw = {}
+        self.limit = None  # of the memory that a run may take [bytes]
 
     def replace(self, old, new, count=1):
         assert old in self.scene, old
@@ -111,6 +113,10 @@ class Case:
         self.third.write(folder / "third.mesh")
         for name, text in self.raw.items():
             (folder / name).write_text(text)
+
+    def limited(self):
+        """Options of the process that runs it."""
+        return {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_AS, (self.limit,) * 2)} if self.limit else {}
 
     def line(self, text):
         """Where the scene says it first."""

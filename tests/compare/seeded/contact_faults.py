@@ -103,3 +103,10 @@ def _(case):
 def _(case):
     case.replace("ux = 0", "ux = 0\nuy = 0")
     case.replace("label = 3 }\n", "label = 3 }\nvariant = \"interpolation\"\n")
+
+
+@fault("memory", "[contact]")
+def _(case):
+    case.upper = Mesh(0, 0, 14000, 1, 14000, 1)
+    case.lower = Mesh(0, -1, 14000, 0, 14000, 1)
+    case.limit = 4 << 30
