@@ -1,8 +1,6 @@
 """mortier study and what others wrote: names in its page and pictures, files in its folder."""
 import html
-import os
 import re
-import signal
 import subprocess
 import unittest
 import xml.etree.ElementTree as xml
@@ -116,12 +114,11 @@ class StudyFiles(StudyTest):
         self.assertIn("in use, a study in it still goes on", self.one_line(2))
         process.kill()
         process.wait()
-        for line in subprocess.run(["ps", "ax", "-o", "pid,args"], capture_output=True, text=True).stdout.splitlines():
-            if f"{self.out}/mortier-work-" in line:  # its runs
-                os.kill(int(line.split()[0]), signal.SIGKILL)
         self.path.write_text(ONE_RUN)
         self.study()
         self.assertEqual(self.names("out"), ["manifest.json", "report.html", "study.csv"])
+        processes = subprocess.run(["ps", "ax", "-o", "args"], capture_output=True, text=True).stdout
+        self.assertNotIn(f"{self.out}/mortier-work-", processes)
 
 
 if __name__ == "__main__":
