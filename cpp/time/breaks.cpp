@@ -10,10 +10,10 @@
 namespace mortier {
 namespace {
 
-constexpr int firstIntervals = 499;  // a prime: no multiple of what people write
-constexpr double narrow = 1e-7;      // of the whole
-constexpr double nearby = 10;        // times that
-constexpr size_t mostBreaks = 10000;       // breaks of one datum
+constexpr int firstIntervals = 499;   // a prime: no multiple of what people write
+constexpr double narrow = 1e-7;       // of the whole
+constexpr double nearby = 10;         // times that
+constexpr size_t mostBreaks = 10000;  // breaks of one datum
 constexpr size_t mostSamples = 500000;
 
 class BreakFinder {

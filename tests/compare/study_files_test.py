@@ -2,11 +2,15 @@
 import html
 import re
 import subprocess
+import sys
 import unittest
 import xml.etree.ElementTree as xml
 
 from study_support import SPACE, StudyTest
-from support import PROGRAM, told
+from support import PROGRAM, ROOT, told
+
+sys.path.insert(0, str(ROOT / "tests/fuzz"))
+from fuzz_study import explore  # noqa: E402
 
 HEAD = SPACE[:SPACE.index("[[error]]")]
 NAMES = [r"a $\\frac{1}$ b", "a b", "A-b", "<script>alert(1)</script>", "_x" + 298 * "y"]
@@ -105,6 +109,11 @@ class StudyFiles(StudyTest):
         for bad in ("a = " + "[" * 5000, "a" + ".a" * 5000 + " = 1", "timeout = 1e300", "repeat = 99999999999", "[[" + " " * 100000):
             with self.subTest(bad[:20]):
                 self.refused(bad + "\n" + ONE_RUN, "")
+
+    def test_changed_studies_are_read_or_refused(self):
+        findings, numbers = explore(300)
+        self.assertEqual(findings, [])
+        self.assertGreater(min(numbers.values()), 10)
 
     def test_killed_and_two_at_once(self):
         self.path.write_text(ONE_RUN.replace("time.steps = 1", "time.steps = 100000000"))
