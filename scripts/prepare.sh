@@ -72,6 +72,7 @@ jobs_at_once() {
 
 build() {
   local options=(-DCMAKE_BUILD_TYPE=Release) folder="$root/build"
+  case $root in *[\"\;\$\\]*) die "CMake cannot build in $root: expected a path without \" ; \$ and \\" ;; esac
   # A build folder that came from elsewhere knows the wrong paths.
   local cache=$folder/CMakeCache.txt
   if [ -f "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then

@@ -84,8 +84,10 @@ def main():
         return study(given, (lambda line: None) if given.quiet else lambda line: print(shown(line), flush=True))
     except StudyError as error:
         return complain(error, 2)
-    except (RunFailure, OSError) as error:
+    except RunFailure as error:
         return complain(f"{given.study}: {error}", 1)
+    except OSError as error:
+        return complain(f"{given.study}: {error.filename or given.out or 'out'}: {error.strerror or error}", 1)
     except RecursionError:
         return complain(f"{given.study}: nested too deeply, expected a study (docs/study.md)", 2)
     except KeyboardInterrupt:

@@ -9,6 +9,7 @@ import json
 import os
 import re
 import shutil
+import time
 from pathlib import Path
 
 import table
@@ -117,16 +118,21 @@ def works(path):
 
 
 def clear(work):
-    for name in PASSING:
-        path = work / name
-        if path.is_dir() and not path.is_symlink():
-            shutil.rmtree(path, ignore_errors=True)
-        else:
-            path.unlink(missing_ok=True)
-    try:
-        work.rmdir()
-    except OSError:  # somebody has put something there
-        pass
+    """What has been put there by others stays."""
+    for _ in range(50):
+        for name in PASSING:
+            path = work / name
+            if path.is_dir() and not path.is_symlink():
+                shutil.rmtree(path, ignore_errors=True)
+            else:
+                path.unlink(missing_ok=True)
+        try:
+            return work.rmdir()
+        except OSError:
+            if not any(exists(work / name) for name in PASSING):
+                return None
+        time.sleep(0.02)  # a run of a killed study is just ending
+    return None
 
 
 def keep(path):

@@ -36,7 +36,7 @@ def measured(command, timeout=None, cwd=None, environment=None):
         with starts:
             if stopping.is_set():
                 raise Stopped
-            process = subprocess.Popen([*LAUNCH, str(write_end), *command], stdin=subprocess.DEVNULL,
+            process = subprocess.Popen([*LAUNCH, str(write_end), *command], stdin=subprocess.PIPE,
                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=cwd,
                                        env={**os.environ, **(environment or {})}, pass_fds=[write_end],
                                        start_new_session=True, text=True, errors="replace")
@@ -54,7 +54,10 @@ def measured(command, timeout=None, cwd=None, environment=None):
     timer = threading.Timer(timeout, stop) if timeout else None
     if timer:
         timer.start()
-    output, _ = process.communicate()
+    output = process.stdout.read()  # standard input stays open: its end would say that the study was killed
+    process.wait()
+    process.stdin.close()
+    process.stdout.close()
     running.discard(process.pid)
     if timer:
         timer.cancel()

@@ -49,7 +49,8 @@ Json asJson(const std::string& scene, const Plan& plan, const Faults& faults) {
                               {"severity", word(fault.kind->severity)},
                               {"place", printable(fault.place)},
                               {"message", printable(fault.message)},
-                              {"remedy", fault.kind->remedy}});
+                              {"remedy", fault.kind->remedy},
+                              {"more", fault.more}});
   }
   return json;
 }

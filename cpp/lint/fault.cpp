@@ -14,18 +14,24 @@ const FaultKind& faultKind(const std::string& id) {
 }
 
 void Faults::add(const std::string& id, const std::string& place, const std::string& message) {
+  constexpr size_t most = 20;
   const FaultKind& kind = faultKind(id);
   if (kind.severity == Severity::warning && allowed_.count(id) != 0) return;
-  // Said once of what several components of a condition or several bodies of a mesh share.
-  const auto known = [&](const Fault& fault) {
-    return fault.kind == &kind && fault.place == place && fault.message == message;
-  };
-  if (std::none_of(faults_.begin(), faults_.end(), known)) faults_.push_back({&kind, place, message});
+  OfKind& known = kinds_[&kind];
+  if (!known.seen.insert(std::hash<std::string>()(place + '\n' + message)).second) return;
+  if (known.seen.size() > most) {
+    ++faults_[known.last].more;
+    return;
+  }
+  known.last = faults_.size();
+  faults_.push_back({&kind, place, message});
 }
 
 int Faults::count(Severity severity) const {
-  return static_cast<int>(std::count_if(
-      faults_.begin(), faults_.end(), [&](const Fault& fault) { return fault.kind->severity == severity; }));
+  size_t number = 0;
+  for (const Fault& fault : faults_)
+    if (fault.kind->severity == severity) number += 1 + fault.more;
+  return static_cast<int>(number);
 }
 
 std::string counted(size_t n, const std::string& what) {
@@ -33,12 +39,20 @@ std::string counted(size_t n, const std::string& what) {
   return std::to_string(n) + " " + (what == "vertex" ? "vertices" : what + "s");
 }
 
+std::string listed(size_t n, const std::function<std::string(size_t)>& word) {
+  constexpr size_t most = 20;
+  std::string text;
+  for (size_t i = 0; i < std::min(n, most); ++i) text += (i == 0 ? "" : ", ") + word(i);
+  return n > most ? text + " and " + std::to_string(n - most) + " more" : text;
+}
+
 std::string oneLine(const Fault& fault) {
   return fault.place + ": " + word(fault.kind->severity) + ": " + withRemedy(fault);
 }
 
 std::string withRemedy(const Fault& fault) {
-  return fault.message + "; " + fault.kind->remedy + " [" + fault.kind->id + "]";
+  return fault.message + "; " + fault.kind->remedy + " [" + fault.kind->id + "]" +
+         (fault.more > 0 ? " and " + std::to_string(fault.more) + " more of this kind" : "");
 }
 
 std::string word(Severity severity) {

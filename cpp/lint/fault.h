@@ -2,8 +2,11 @@
 // all.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <set>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 namespace mortier {
@@ -31,8 +34,10 @@ struct Fault {
   const FaultKind* kind = nullptr;
   std::string place;    ///< `file:line`, or a mesh and what of it
   std::string message;  ///< what was found, with its numbers
+  size_t more = 0;      ///< faults of this kind that are counted only, in the last one that is told
 };
 
+/// Of each kind some are told, and how many more there are.
 class Faults {
  public:
   /// \param allowed  ids of warnings that are not to be named.
@@ -43,12 +48,20 @@ class Faults {
   [[nodiscard]] int count(Severity severity) const;
 
  private:
+  struct OfKind {
+    std::unordered_set<size_t> seen;  ///< hashes: several components or bodies may share a fault
+    size_t last = 0;                  ///< index of the last one that is told
+  };
   std::set<std::string> allowed_;
   std::vector<Fault> faults_;
+  std::map<const FaultKind*, OfKind> kinds_;
 };
 
 /// "1 vertex", "2 vertices".
 std::string counted(size_t n, const std::string& what);
+
+/// "a, b, c", of many words the first ones and how many there are beside them.
+std::string listed(size_t n, const std::function<std::string(size_t)>& word);
 
 /// `place: warning: message; remedy [id]`
 std::string oneLine(const Fault& fault);

@@ -58,10 +58,10 @@ std::string nameOf(const std::map<std::string, int>& names, int number) {
 void findMissing(const LintInput& input, size_t b, const Topology& topology, Faults& faults) {
   const TriangleMesh& mesh = *input.meshes[b];
   const std::vector<int> labels = boundaryLabels(mesh);
-  std::string known;
-  for (const int label : labels)
-    known += (known.empty() ? "" : ", ") + std::to_string(label) + nameOf(mesh.labelNames, label) + " " +
-             sideOf(mesh, topology, label);
+  const std::string known = listed(labels.size(), [&](size_t i) {
+    return std::to_string(labels[i]) + nameOf(mesh.labelNames, labels[i]) + " " +
+           sideOf(mesh, topology, labels[i]);
+  });
   const auto require = [&](int label, const std::string& name, const std::string& place) {
     if (std::binary_search(labels.begin(), labels.end(), label)) return;
     faults.add("missing-label", place,
@@ -161,9 +161,9 @@ void findRegions(const LintInput& input, size_t b, Faults& faults) {
   std::vector<int> regions = mesh.regions;
   std::sort(regions.begin(), regions.end());
   regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
-  std::string list;
-  for (const int region : regions)
-    list += (list.empty() ? "" : ", ") + std::to_string(region) + nameOf(mesh.regionNames, region);
+  const std::string list = listed(regions.size(), [&](size_t i) {
+    return std::to_string(regions[i]) + nameOf(mesh.regionNames, regions[i]);
+  });
   for (const RegionDescription& region : body.regions)
     if (!std::binary_search(regions.begin(), regions.end(), region.label))
       faults.add("missing-region", region.where,

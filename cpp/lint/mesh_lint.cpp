@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 
 #include "base/disjoint_sets.h"
@@ -71,18 +72,23 @@ void findDoubles(const TriangleMesh& mesh, const Topology& topology, Faults& fau
   for (const BoundaryEdge& edge : topology.boundary) vertices.push_back(edge.from);
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  std::sort(vertices.begin(), vertices.end(),
-            [&](int a, int b) { return mesh.vertices[a].x() < mesh.vertices[b].x(); });
-  std::map<int, int> twin;  // the lowest vertex at the same place
-  for (size_t i = 0; i < vertices.size(); ++i)
-    for (size_t j = i + 1;
-         j < vertices.size() && mesh.vertices[vertices[j]].x() - mesh.vertices[vertices[i]].x() <= tolerance;
-         ++j)
-      if ((mesh.vertices[vertices[i]] - mesh.vertices[vertices[j]]).norm() <= tolerance) {
-        const int low = std::min(vertices[i], vertices[j]);
-        twin[vertices[i]] = twin.count(vertices[i]) != 0 ? std::min(twin[vertices[i]], low) : low;
-        twin[vertices[j]] = twin.count(vertices[j]) != 0 ? std::min(twin[vertices[j]], low) : low;
-      }
+  std::map<int, int> twin;                                         // the lowest vertex at the same place
+  std::map<std::pair<int64_t, int64_t>, std::vector<int>> firsts;  // of each place, by cells of the tolerance
+  const Point origin = boundingBox(mesh)[0];
+  for (const int v : vertices) {
+    const Point cell = ((mesh.vertices[v] - origin) / tolerance).array().floor();
+    const auto i = static_cast<int64_t>(cell.x());
+    const auto j = static_cast<int64_t>(cell.y());
+    int first = -1;
+    for (int64_t k = 0; k < 9 && first < 0; ++k)
+      if (const auto found = firsts.find({i + k % 3 - 1, j + k / 3 - 1}); found != firsts.end())
+        for (const int other : found->second)
+          if ((mesh.vertices[v] - mesh.vertices[other]).norm() <= tolerance) first = other;
+    if (first < 0)
+      firsts[{i, j}].push_back(v);
+    else
+      twin[v] = twin[first] = first;
+  }
   if (twin.empty()) return;
   const auto same = [&](int v) { return twin.count(v) != 0 ? twin.at(v) : v; };
   std::map<std::pair<int, int>, int> seen;

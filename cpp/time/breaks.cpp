@@ -10,10 +10,10 @@
 namespace mortier {
 namespace {
 
-constexpr int firstIntervals = 499;  // a prime: no multiple of what people write
-constexpr double narrow = 1e-7;      // of the whole
-constexpr double nearby = 10;        // times that
-constexpr size_t most = 10000;       // breaks of one datum
+constexpr int firstIntervals = 499;   // a prime: no multiple of what people write
+constexpr double narrow = 1e-7;       // of the whole
+constexpr double nearby = 10;         // times that
+constexpr size_t mostBreaks = 10000;  // breaks of one datum
 constexpr size_t mostSamples = 500000;
 
 class BreakFinder {
@@ -30,7 +30,7 @@ class BreakFinder {
     for (int i = 0; i < firstIntervals; ++i)
       search(begin_ + width * i, std::min(end_, begin_ + width * (i + 1 + overlap)));
     for (const auto& [a, b] : brackets_) locate(a, b);
-    course_.resolved = brackets_.size() <= most && samples_.size() <= mostSamples;
+    course_.resolved = brackets_.size() <= mostBreaks && samples_.size() <= mostSamples;
     std::sort(samples_.begin(), samples_.end());
     samples_.erase(std::unique(samples_.begin(), samples_.end()), samples_.end());
     for (const auto& [t, value] : samples_) {
@@ -48,7 +48,7 @@ class BreakFinder {
 
   void search(double a, double b) {
     a = std::max(a, searched_);
-    if (b <= a || brackets_.size() > most || samples_.size() > mostSamples || smooth(a, b)) return;
+    if (b <= a || brackets_.size() > mostBreaks || samples_.size() > mostSamples || smooth(a, b)) return;
     if (b - a <= narrow * (end_ - begin_)) {
       // What is rough close to a break is the rounding of the same break.
       if (brackets_.empty() || a > brackets_.back().second + nearby * narrow * (end_ - begin_))

@@ -1,10 +1,13 @@
-"""Whatever call to the file system fails or is the last one: nothing is lost (a part of call_sweep.py, which tries all)."""
+"""Whatever call to the file system fails or is the last one: nothing is lost (parts of the sweeps that try all)."""
+import subprocess
+import sys
 import tempfile
 import unittest
+from pathlib import Path
 
 from call_sweep import Sweep
 
-EVERY = 89
+EVERY = 97
 
 
 class CallFaults(unittest.TestCase):
@@ -13,6 +16,12 @@ class CallFaults(unittest.TestCase):
             sweep = Sweep(folder)
             self.assertGreater(sweep.explore(1, EVERY), 60)
             self.assertEqual(sweep.findings, [])
+
+    def test_every_so_many_calls_of_studies(self):
+        done = subprocess.run([sys.executable, Path(__file__).with_name("study_call_sweep.py"), "--part", f"1/{EVERY}"],
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertRegex(done.stdout, r"[4-9]\d faults, 0 findings")
 
 
 if __name__ == "__main__":

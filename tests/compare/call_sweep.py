@@ -4,11 +4,13 @@
 call_sweep.py [--part K/N] [--mortier PROGRAM] [--calls failing_calls.so]    prints what was found, ends with 1 if anything was
 
 After each fault: no file of others is lost or changed, and the result is whole, the old one or the new one. After the next
-command for the same folder: the new result is in place, with every file of others, and nothing else is left.
+command for the same folder: the new result is in place, with every file of others, and nothing else is left. That command is
+run once for all faults that leave the same files.
 """
 import argparse
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -19,7 +21,7 @@ from scenes import TWO_BLOCKS
 from support import PROGRAM, ROOT
 
 CALLS = str(Path(os.environ.get("FAILING_CALLS", ROOT / "build/tests/libfailing-calls.so")).resolve())
-HOW = ("kill", "ENOSPC", "EIO", "all-ENOSPC")
+HOW = ("kill", "ENOSPC", "EIO", "EACCES", "all-ENOSPC")
 RUN = ["run", "scene.toml", "--quiet", "--out", "out/r", "--checkpoint", "0", "--set", "output.every=1"]
 FAILS = [*RUN, "solver.max_iterations=1", "solver.tolerance=1e-30"]
 RESTART = ["run", "--restart", "out/r", "--quiet", "--checkpoint", "0"]
@@ -32,6 +34,7 @@ class Sweep:
     def __init__(self, folder, program=PROGRAM, calls=CALLS):
         self.folder, self.program, self.calls = Path(folder), program, calls
         self.findings = []
+        self.seen = set()  # what was left, and what comes after it
         self.others = False  # whether there are files of others, and an old result
         base = self.folder / "base"
         base.mkdir()
@@ -107,6 +110,9 @@ class Sweep:
         faults = [*self.lost(folder), *self.ended(done), *(self.not_whole(folder / "out/r") if self.others else [])]
         if done.returncode == 0:
             faults += self.not_new(folder)
+        left = (tuple(after), self.state(folder))
+        if not faults and left in self.seen:
+            return
         next_ = self.run(folder, after)
         # A restart finds nothing to go on with where the result is complete already, or where no step had been kept.
         if next_.returncode == 2 and after == RESTART and "no stopped run" in next_.stderr and not self.not_new(folder):
@@ -115,9 +121,21 @@ class Sweep:
             faults.append(f"next command: {next_.returncode} {next_.stderr}")
         faults += [f"after the next command: {each}" for each in
                    [*self.lost(folder), *self.not_whole(folder / "out/r"), *self.not_new(folder), *self.left(folder)]]
-        if faults:
+        if not faults:
+            self.seen.add(left)
+        else:
             self.findings.append(f"{place}: {done.returncode} {done.stderr.strip()}\n  " + "\n  ".join(faults))
             print(self.findings[-1], flush=True)
+
+    def state(self, folder):
+        """All files: names without numbers of processes, sizes, contents without what is measured."""
+        files = []
+        for path in sorted(folder.rglob("*")):
+            measured = re.search("summary|manifest|checkpoint", path.name)
+            content = None if path.is_dir() else len(path.read_bytes()) if measured else path.read_bytes()
+            files.append((re.sub(r"-\d+", "-", str(path.relative_to(folder))), content))
+        manifests = tuple(not self.not_whole(path) for path in sorted(folder.glob("out/*")))
+        return hash((tuple(files), manifests))
 
     @staticmethod
     def ended(done):

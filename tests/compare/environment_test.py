@@ -9,7 +9,7 @@ import unittest
 
 from mutations import explore, require_whole
 from scenes import BODY_KEYS, CONTACT_KEYS, GEOMETRY_KEYS, ONE_BODY, TWO_BLOCKS
-from support import PROGRAM, ROOT, OfTwoBlocks, told
+from support import PROGRAM, ROOT, OfTwoBlocks, mortier, told
 
 LONG = ("--set", "time.steps=1000000")
 
@@ -144,6 +144,17 @@ class Environment(OfTwoBlocks):
         (self.folder / "shared/theirs").chmod(0o755)
         self.assertEqual(self.names("closed"), ["out"])
         self.assertEqual(self.names("shared"), ["theirs"])
+
+    def test_the_current_folder_is_not_replaced(self):
+        self.mortier("run", "scene.toml", "--quiet")
+        here = self.folder / "out/scene"
+        before = (here.stat().st_ino, (here / "summary.json").read_bytes())
+        for out in (".", "../scene", str(here), "..", "../../out/scene/"):
+            with self.subTest(out=out):
+                done = mortier("run", "../../scene.toml", "--quiet", "--out", out, cwd=here)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn("the current folder or one above it", done.stderr)
+                self.assertEqual((here.stat().st_ino, (here / "summary.json").read_bytes()), before)
 
     def test_two_processes_at_once(self):
         for _ in range(10):

@@ -1,14 +1,16 @@
 """mortier study and what others wrote: names in its page and pictures, files in its folder."""
 import html
-import os
 import re
-import signal
 import subprocess
+import sys
 import unittest
 import xml.etree.ElementTree as xml
 
 from study_support import SPACE, StudyTest
-from support import PROGRAM, told
+from support import PROGRAM, ROOT, told
+
+sys.path.insert(0, str(ROOT / "tests/fuzz"))
+from fuzz_study import explore  # noqa: E402
 
 HEAD = SPACE[:SPACE.index("[[error]]")]
 NAMES = [r"a $\\frac{1}$ b", "a b", "A-b", "<script>alert(1)</script>", "_x" + 298 * "y"]
@@ -108,6 +110,11 @@ class StudyFiles(StudyTest):
             with self.subTest(bad[:20]):
                 self.refused(bad + "\n" + ONE_RUN, "")
 
+    def test_changed_studies_are_read_or_refused(self):
+        findings, numbers = explore(300)
+        self.assertEqual(findings, [])
+        self.assertGreater(min(numbers.values()), 10)
+
     def test_killed_and_two_at_once(self):
         self.path.write_text(ONE_RUN.replace("time.steps = 1", "time.steps = 100000000"))
         process = subprocess.Popen([PROGRAM, "study", self.path, "--out", self.out, "--quiet"], start_new_session=True)
@@ -116,12 +123,11 @@ class StudyFiles(StudyTest):
         self.assertIn("in use, a study in it still goes on", self.one_line(2))
         process.kill()
         process.wait()
-        for line in subprocess.run(["ps", "ax", "-o", "pid,args"], capture_output=True, text=True).stdout.splitlines():
-            if f"{self.out}/mortier-work-" in line:  # its runs
-                os.kill(int(line.split()[0]), signal.SIGKILL)
         self.path.write_text(ONE_RUN)
         self.study()
         self.assertEqual(self.names("out"), ["manifest.json", "report.html", "study.csv"])
+        processes = subprocess.run(["ps", "ax", "-o", "args"], capture_output=True, text=True).stdout
+        self.assertNotIn(f"{self.out}/mortier-work-", processes)
 
 
 if __name__ == "__main__":

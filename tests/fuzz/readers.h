@@ -1,6 +1,7 @@
 // Everything that reads what others wrote, for any bytes: the first one says which reader gets the rest. An InputError is
 // what a reader owes to bytes that make no sense; anything else that is thrown, and every crash, is a fault.
-//   s scene   m Medit mesh   e expression   t table in time   o --set   c checkpoint   p message
+//   s scene   m Medit mesh   g mesh for Gmsh, in a process of its own   e expression   t table in time   o --set
+//   c checkpoint   p message
 #pragma once
 
 #include <sys/mman.h>
@@ -14,6 +15,7 @@
 #include "base/archive.h"
 #include "base/error.h"
 #include "base/printable.h"
+#include "mesh/gmsh.h"
 #include "mesh/medit.h"
 #include "report/checkpoint.h"
 #include "report/checkpoint_members.h"
@@ -51,6 +53,9 @@ inline void readBytes(char reader, const std::string& bytes) {
       break;
     case 'm':
       readMedit(File(bytes).path());
+      break;
+    case 'g':
+      readGmsh(File(bytes).path());
       break;
     case 'e':
       parseExpression(bytes, "here").value(0.5, -1, 2);

@@ -1,4 +1,6 @@
 """mortier freefem: a scene as data for the FreeFEM method, and what that does not know."""
+import shutil
+import subprocess
 import sys
 import unittest
 from pathlib import Path
@@ -8,6 +10,17 @@ import support  # noqa: E402
 from scenes import TWO_BLOCKS  # noqa: E402
 
 ALL = "(all that the FreeFEM method knows)"
+
+
+class WithoutLoad(support.OfTwoBlocks):
+    def test_freefem_verifies_a_scene_without_a_load(self):
+        if shutil.which("FreeFem++-nw") is None:
+            return
+        self.write(TWO_BLOCKS.replace('"-10*t"', "0").replace("steps = 4", "steps = 1"))
+        self.mortier("freefem", "scene.toml", "scene.edp")
+        done = subprocess.run(["FreeFem++-nw", "-nw", "-ne", "-v", "0", "scene.edp", "-quiet", "-out", "out"], cwd=self.folder,
+                              capture_output=True)
+        self.assertEqual(done.returncode, 0, done.stdout)
 
 
 class Script(support.OfTwoBlocks):

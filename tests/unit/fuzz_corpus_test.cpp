@@ -62,16 +62,18 @@ TEST(Readers, takeOrRefuseTheCorpus) {
   std::map<char, int> refused;
   for (const std::string& bytes : corpus()) ++(isRefused(bytes) ? refused : taken)[bytes[0]];
   for (const char reader : std::string("smetocp")) EXPECT_GT(taken[reader], 0) << reader;
-  for (const char reader : std::string("smetoc")) EXPECT_GT(refused[reader], 0) << reader;
+  for (const char reader : std::string("smgetoc")) EXPECT_GT(refused[reader], 0) << reader;
 }
 
 TEST(Readers, takeOrRefuseWhatBecomesOfIt) {
   constexpr int each = 200;
+  constexpr int few = 2;  // of those that need a process
   const std::vector<std::string> all = corpus();
   std::mt19937 random(5);
   int refused = 0;
   for (const std::string& bytes : all)
-    for (int n = 0; n < each; ++n) refused += isRefused(changed(bytes, all, random)) ? 1 : 0;
+    for (int n = 0; n < (bytes[0] == 'g' ? few : each); ++n)
+      refused += isRefused(changed(bytes, all, random)) ? 1 : 0;
   EXPECT_GT(refused, each);
 }
 

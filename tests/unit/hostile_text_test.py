@@ -46,6 +46,14 @@ class HostileText(support.OfTwoBlocks):
         self.solve("scene.edp")
         self.assertFalse((self.folder / "ran").exists())
 
+    def test_titles_in_a_study_with_freefem(self):
+        self.write(TWO_BLOCKS.replace('"two blocks"', toml(f"a\\n{RUN}")).replace("steps = 4", "steps = 1"))
+        self.write('scene = "scene.toml"\n[[error]]\nquantity = "von_mises_max"\nexact = 10\n[[sweep]]\ncode = ["freefem"]\n',
+                   "study.toml")
+        done = support.mortier("study", "study.toml", "--quiet", cwd=self.folder)
+        self.assertEqual(done.returncode, 0 if shutil.which("FreeFem++-nw") else 1, done.stderr)
+        self.assertEqual(list(self.folder.rglob("ran")), [])
+
     def test_names_of_files(self):
         for name in ('u"; exec("touch ran"); string zz="u.mesh', "u\n.mesh", "u\\.mesh", "ü.mesh", "u" * 247 + ".mesh"):
             with self.subTest(name):

@@ -37,6 +37,23 @@ TEST(Faults, areSaidOnce) {
   EXPECT_EQ(faults.all().size(), 2u);
 }
 
+TEST(Faults, manyOfAKindAreCounted) {
+  Faults faults;
+  for (int round = 0; round < 2; ++round)
+    for (int i = 0; i < 100000; ++i)
+      faults.add("missing-label", "scene.toml:" + std::to_string(i), "no edge has it");
+  faults.add("sliver", "a.mesh: triangle 3", "one is flat");
+  EXPECT_EQ(faults.all().size(), 21u);
+  EXPECT_EQ(faults.count(Severity::error), 100000);
+  EXPECT_EQ(faults.count(Severity::warning), 1);
+  const std::string last = oneLine(faults.all()[19]);
+  EXPECT_EQ(last.substr(last.find(" [")), " [missing-label] and 99980 more of this kind");
+  const auto word = [](size_t i) { return std::to_string(i); };
+  EXPECT_EQ(listed(3, word), "0, 1, 2");
+  const std::string many = listed(100000, word);
+  EXPECT_EQ(many.substr(many.rfind(',')), ", 19 and 99980 more");
+}
+
 TEST(Faults, aLineHasPlaceSeverityMessageRemedyAndId) {
   Faults faults;
   faults.add("sliver", "a.mesh: triangle 3", "one is flat");
