@@ -35,8 +35,9 @@ class Result:
             raise results.ResultError(f"{folder}: a result of FreeFEM, which holds no meshes; expected one of mortier run")
         self.bodies = [body["name"] for body in results.body_list(self.folder, self.summary)]
         self.interfaces = self.summary.get("interfaces")
-        if not isinstance(self.interfaces, list) or not all(isinstance(each, dict) and {each.get("nonmortar"), each.get("mortar")}
-                                                            <= set(self.bodies) for each in self.interfaces):
+        if not isinstance(self.interfaces, list) or not all(
+                isinstance(each, dict) and each.get("nonmortar") in self.bodies and each.get("mortar") in self.bodies
+                for each in self.interfaces):
             raise results.ResultError(f"{self.folder / 'summary.json'}: interfaces of bodies that there are not")
         self.kept = results.kept_steps(self.folder)
         self.tables = results.contact_tables(self.folder)

@@ -214,6 +214,7 @@ class Refused(InFolder):
         path = self.folder / "run" / "summary.json"
         summary = json.loads(path.read_text())
         for change in ({"bodies": []}, {"bodies": [{"name": "../../x"}]}, {"bodies": 3}, {"interfaces": [{"nonmortar": "z"}]},
+                       {"interfaces": [{"nonmortar": {}, "mortar": []}]},
                        {"steps": "4"}, {"status": "running"}, {"bodies": [{"name": "upper", "nodes": 1, "triangles": 1}]}):
             with self.subTest(str(change)):
                 path.write_text(json.dumps({**summary, **change}))
