@@ -9,6 +9,7 @@ import numpy as np
 from PIL import Image
 
 from support import InFolder, InSharedFolder, mortier
+from damaged_results import explore
 from views_support import solve, view
 import files
 import pictures
@@ -128,6 +129,15 @@ class Pictures(InSharedFolder):
         self.assertIn(result.reason, title)
         self.assertIn(words, title)
 
+    def test_a_run_that_stopped_in_its_first_step(self):
+        solve(self.folder, "first", "contact.variant=interpolation", "solver.max_iterations=1", "time.steps=1", code=1)
+        self.plot("first.failed")
+        result = runs.Result(self.folder / "first.failed")
+        run = result.at(0)
+        for body in run.bodies.values():
+            body.stress = 0 * body.stress
+        self.assertIsNone(result.stuck(run))
+
     def test_results_without_contact(self):
         solve(self.folder, "cook", scene="cook")
         self.assertEqual(sorted(self.plot("cook")), ["cook.plots/fields.png", "cook.plots/fields.svg", "cook.plots/history.png",
@@ -201,6 +211,12 @@ class Refused(InFolder):
                         self.assertEqual(errors.count("\n"), 1, errors)
                         self.assertFalse((self.folder / "x.png").exists())
                     path.write_bytes(data)
+
+    def test_seeded_damage(self):
+        (self.folder / "damaged").mkdir()
+        faults, codes = explore(self.folder / "damaged", 7, 40)
+        self.assertEqual(faults, [])
+        self.assertGreater(min(codes[0], codes[2]), 5)
 
     def test_numbers_that_are_none(self):
         path = self.folder / "run" / "contact.csv"
