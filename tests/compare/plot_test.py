@@ -12,6 +12,7 @@ from support import InFolder, InSharedFolder, mortier
 from damaged_results import explore
 from views_support import solve, view
 import files
+from problems import ViewError
 import pictures
 import results
 import runs
@@ -248,23 +249,28 @@ class Refused(InFolder):
             xml.parse(self.folder / "titled.svg")
 
     def test_files_of_others_stay(self):
-        plots = self.folder / "run.plots"
-        view(self.folder, "plot", "run", "--only", "history")
-        (plots / "mine.txt").write_text("mine")
-        for name in ("history.svg", "history.png"):
-            own = (plots / name).read_bytes()
-            for change in (lambda path: path.write_bytes(b"mine"), lambda path: path.write_bytes(b""),
-                           lambda path: path.write_bytes(own[:40] + b"\0" + own[41:]),
-                           lambda path: (path.unlink(), path.symlink_to("mine.txt"))):
-                change(plots / name)
-                before = {each.name: each.read_bytes() for each in plots.iterdir()}
-                code, _, errors = view(self.folder, "plot", "run", "--only", "history")
-                self.assertEqual(code, 2)
-                self.assertIn(f"{name}: in the way", errors)
-                self.assertEqual({each.name: each.read_bytes() for each in plots.iterdir()}, before)
-                (plots / name).unlink()
-                (plots / name).write_bytes(own)
-        self.assertEqual(view(self.folder, "plot", "run", "--only", "history")[0], 0)
+        """What the program did not write, and what was changed since, whatever kind of file it is."""
+        (self.folder / "mine.txt").write_text("mine")
+        for kind in ("png", "svg", "gif", "html"):
+            path = self.folder / f"a.{kind}"
+            files.put({path: b"drawn" * 30})
+            own = path.read_bytes()
+            for change in (lambda: path.write_bytes(b"mine"), lambda: path.write_bytes(b""),
+                           lambda: path.write_bytes(own[:40] + b"\0" + own[41:]),
+                           lambda: (path.unlink(), path.symlink_to("mine.txt")), lambda: (path.unlink(), path.mkdir())):
+                change()
+                before = None if path.is_dir() else path.read_bytes()
+                with self.assertRaisesRegex(ViewError, f"a.{kind}: in the way"):
+                    files.put({self.folder / "other.png": b"x", path: b"drawn again"})
+                self.assertEqual(None if path.is_dir() else path.read_bytes(), before)
+                self.assertFalse((self.folder / "other.png").exists())
+                path.rmdir() if path.is_dir() and not path.is_symlink() else path.unlink()
+                path.write_bytes(own)
+            files.put({path: b"drawn again"})
+        (self.folder / "run.html").write_text("mine")
+        code, _, errors = view(self.folder, "report", "run")
+        self.assertEqual((code, self.read("run.html")), (2, "mine"))
+        self.assertIn("run.html: in the way", errors)
 
     def test_whole_or_not_at_all(self):
         done = mortier("plot", "run", cwd=self.folder,
@@ -272,15 +278,6 @@ class Refused(InFolder):
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("cannot be written", done.stderr)
         self.assertEqual(list((self.folder / "run.plots").iterdir()), [])
-
-    def test_seals(self):
-        for kind in ("png", "gif", "svg", "html"):
-            path = self.folder / f"a.{kind}"
-            data = b"x" * 100
-            path.write_bytes(files.sealed(data, kind))
-            self.assertTrue(files.is_own(path))
-            path.write_bytes(data)
-            self.assertFalse(files.is_own(path))
 
 
 if __name__ == "__main__":
