@@ -250,6 +250,13 @@ class Pages(InSharedFolder):
             shown = self.browser.run("return [...document.querySelectorAll('canvas[id]')]"
                                      ".map(c => c.getBoundingClientRect().width)")
             self.assertGreater(min(shown), 300)
+            if width < 600:  # a finger on the middle of the picture says what is there
+                x, y = self.browser.run("const c = document.getElementById('canvas0'); c.scrollIntoView({block: 'center'}); "
+                                        "const r = c.getBoundingClientRect(); return [r.left + r.width/2, r.top + 0.7*r.height]")
+                self.browser.cdp("Input.dispatchTouchEvent", type="touchStart", touchPoints=[{"x": x, "y": y}])
+                self.browser.cdp("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+                settled(self.browser)
+                self.assertEqual(self.browser.run("return document.getElementById('read0').dataset.value"), "10")
         self.browser.size(1280, 900)
         looks = "const s = getComputedStyle(document.body); return [s.color, s.backgroundColor]"
         light = self.browser.run(looks)
