@@ -213,8 +213,8 @@ def fields(views, field_name="von_mises", scale=None, window=None, norm=None, co
         whole.append(axes)
         draw_whole(axes, each, scale, window, field, value, norm, colours)
         axes.set_title(title_of(each, views, scale, round(13 * width)), loc="left")
-        if each.result.failed:
-            mark_failure(axes, each, scale)
+        if each.result.failed and (stuck := each.result.stuck(each.run)):
+            mark_failure(axes, each, scale, *stuck[:2])
         for k, line in enumerate(lines[i]):
             below = figure.add_subplot(grid[1 + k, i])
             shared = strip_window([of_run[k] for of_run in lines if len(of_run) > k])
@@ -232,13 +232,14 @@ def title_of(view, views, scale, letters):
     words = "" if scale == 1 else f", displacements times {scale:g}"
     lines = [f"{name}, {time_words(view.result, view.step)}{words}"]
     if view.result.failed:
-        lines += [f"stopped early: {view.result.reason}", f"circle: {view.result.stuck(view.run)[2]}"]
+        lines.append(f"stopped early: {view.result.reason}")
+        if stuck := view.result.stuck(view.run):
+            lines.append(f"circle: {stuck[2]}")
     return "\n".join(textwrap.fill(line, letters) for line in lines)
 
 
-def mark_failure(axes, view, scale):
+def mark_failure(axes, view, scale, name, triangle):
     """A circle where the last good state is closest to what the step could not follow."""
-    name, triangle, _ = view.result.stuck(view.run)
     body = view.run.bodies[name]
     corners = body.triangles[triangle]
     axes.plot(*(body.points[corners] + scale * body.displacement[corners]).mean(0), marker="o", ms=16, mfc="none",

@@ -35,8 +35,9 @@ class Result:
             raise results.ResultError(f"{folder}: a result of FreeFEM, which holds no meshes; expected one of mortier run")
         self.bodies = [body["name"] for body in results.body_list(self.folder, self.summary)]
         self.interfaces = self.summary.get("interfaces")
-        if not isinstance(self.interfaces, list) or not all(isinstance(each, dict) and {each.get("nonmortar"), each.get("mortar")}
-                                                            <= set(self.bodies) for each in self.interfaces):
+        if not isinstance(self.interfaces, list) or not all(
+                isinstance(each, dict) and each.get("nonmortar") in self.bodies and each.get("mortar") in self.bodies
+                for each in self.interfaces):
             raise results.ResultError(f"{self.folder / 'summary.json'}: interfaces of bodies that there are not")
         self.kept = results.kept_steps(self.folder)
         self.tables = results.contact_tables(self.folder)
@@ -137,7 +138,7 @@ class Result:
 
     def stuck(self, run):
         """Body, triangle and words of the place to look at where a run stopped early: the largest stress of the last good
-        state, beyond yield where anything flows."""
+        state, beyond yield where anything flows; None before there is any."""
         found = []
         for name, body in run.bodies.items():
             flows = body.cells.get("viscoplastic", np.zeros(len(body.triangles)))
@@ -145,6 +146,8 @@ class Result:
             triangle = int(np.lexsort((stress, flows))[-1])
             found.append((flows[triangle], stress[triangle], name, triangle))
         flows, stress, name, triangle = max(found)
+        if not stress > 0:
+            return None
         where = run.bodies[name].points[run.bodies[name].triangles[triangle]].mean(0)
         return name, triangle, (f"largest stress{' beyond yield' if flows else ''}, {name}, triangle {triangle} at "
                                 f"({where[0]:.4g}, {where[1]:.4g})")

@@ -9,8 +9,10 @@ import numpy as np
 from PIL import Image
 
 from support import InFolder, InSharedFolder, mortier
+from damaged_results import explore
 from views_support import solve, view
 import files
+from problems import ViewError
 import pictures
 import results
 import runs
@@ -128,6 +130,15 @@ class Pictures(InSharedFolder):
         self.assertIn(result.reason, title)
         self.assertIn(words, title)
 
+    def test_a_run_that_stopped_in_its_first_step(self):
+        solve(self.folder, "first", "contact.variant=interpolation", "solver.max_iterations=1", "time.steps=1", code=1)
+        self.plot("first.failed")
+        result = runs.Result(self.folder / "first.failed")
+        run = result.at(0)
+        for body in run.bodies.values():
+            body.stress = 0 * body.stress
+        self.assertIsNone(result.stuck(run))
+
     def test_results_without_contact(self):
         solve(self.folder, "cook", scene="cook")
         self.assertEqual(sorted(self.plot("cook")), ["cook.plots/fields.png", "cook.plots/fields.svg", "cook.plots/history.png",
@@ -202,6 +213,12 @@ class Refused(InFolder):
                         self.assertFalse((self.folder / "x.png").exists())
                     path.write_bytes(data)
 
+    def test_seeded_damage(self):
+        (self.folder / "damaged").mkdir()
+        faults, codes = explore(self.folder / "damaged", 7, 40)
+        self.assertEqual(faults, [])
+        self.assertGreater(min(codes[0], codes[2]), 5)
+
     def test_numbers_that_are_none(self):
         path = self.folder / "run" / "contact.csv"
         table = path.read_text().splitlines()
@@ -214,6 +231,7 @@ class Refused(InFolder):
         path = self.folder / "run" / "summary.json"
         summary = json.loads(path.read_text())
         for change in ({"bodies": []}, {"bodies": [{"name": "../../x"}]}, {"bodies": 3}, {"interfaces": [{"nonmortar": "z"}]},
+                       {"interfaces": [{"nonmortar": {}, "mortar": []}]},
                        {"steps": "4"}, {"status": "running"}, {"bodies": [{"name": "upper", "nodes": 1, "triangles": 1}]}):
             with self.subTest(str(change)):
                 path.write_text(json.dumps({**summary, **change}))
@@ -231,23 +249,28 @@ class Refused(InFolder):
             xml.parse(self.folder / "titled.svg")
 
     def test_files_of_others_stay(self):
-        plots = self.folder / "run.plots"
-        view(self.folder, "plot", "run", "--only", "history")
-        (plots / "mine.txt").write_text("mine")
-        for name in ("history.svg", "history.png"):
-            own = (plots / name).read_bytes()
-            for change in (lambda path: path.write_bytes(b"mine"), lambda path: path.write_bytes(b""),
-                           lambda path: path.write_bytes(own[:40] + b"\0" + own[41:]),
-                           lambda path: (path.unlink(), path.symlink_to("mine.txt"))):
-                change(plots / name)
-                before = {each.name: each.read_bytes() for each in plots.iterdir()}
-                code, _, errors = view(self.folder, "plot", "run", "--only", "history")
-                self.assertEqual(code, 2)
-                self.assertIn(f"{name}: in the way", errors)
-                self.assertEqual({each.name: each.read_bytes() for each in plots.iterdir()}, before)
-                (plots / name).unlink()
-                (plots / name).write_bytes(own)
-        self.assertEqual(view(self.folder, "plot", "run", "--only", "history")[0], 0)
+        """What the program did not write, and what was changed since, whatever kind of file it is."""
+        (self.folder / "mine.txt").write_text("mine")
+        for kind in ("png", "svg", "gif", "html"):
+            path = self.folder / f"a.{kind}"
+            files.put({path: b"drawn" * 30})
+            own = path.read_bytes()
+            for change in (lambda: path.write_bytes(b"mine"), lambda: path.write_bytes(b""),
+                           lambda: path.write_bytes(own[:40] + b"\0" + own[41:]),
+                           lambda: (path.unlink(), path.symlink_to("mine.txt")), lambda: (path.unlink(), path.mkdir())):
+                change()
+                before = None if path.is_dir() else path.read_bytes()
+                with self.assertRaisesRegex(ViewError, f"a.{kind}: in the way"):
+                    files.put({self.folder / "other.png": b"x", path: b"drawn again"})
+                self.assertEqual(None if path.is_dir() else path.read_bytes(), before)
+                self.assertFalse((self.folder / "other.png").exists())
+                path.rmdir() if path.is_dir() and not path.is_symlink() else path.unlink()
+                path.write_bytes(own)
+            files.put({path: b"drawn again"})
+        (self.folder / "run.html").write_text("mine")
+        code, _, errors = view(self.folder, "report", "run")
+        self.assertEqual((code, self.read("run.html")), (2, "mine"))
+        self.assertIn("run.html: in the way", errors)
 
     def test_whole_or_not_at_all(self):
         done = mortier("plot", "run", cwd=self.folder,
@@ -255,15 +278,6 @@ class Refused(InFolder):
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("cannot be written", done.stderr)
         self.assertEqual(list((self.folder / "run.plots").iterdir()), [])
-
-    def test_seals(self):
-        for kind in ("png", "gif", "svg", "html"):
-            path = self.folder / f"a.{kind}"
-            data = b"x" * 100
-            path.write_bytes(files.sealed(data, kind))
-            self.assertTrue(files.is_own(path))
-            path.write_bytes(data)
-            self.assertFalse(files.is_own(path))
 
 
 if __name__ == "__main__":

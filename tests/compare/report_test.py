@@ -139,20 +139,25 @@ class Pages(InSharedFolder):
         for index in (0, 5, 8):  # of the slider
             choose(self.browser, "scale", index)
             scale = float(self.browser.run("return document.querySelector('output[for=scale]').textContent"))
-            self.browser.press("#canvas0", "0++\ue014")  # closer by 0.8 twice, then a step to the right
+            self.browser.press("#canvas0", "0")
+            settled(self.browser)
+            whole = float(self.browser.run("return document.getElementById('canvas0').dataset.view").split(",")[2])
+            self.browser.press("#canvas0", "++\ue014")  # closer by 0.8 twice, then a step to the right
             settled(self.browser)
             shapes = {name: body.points + scale * body.displacement for name, body in run.bodies.items()}
-            seen = []
-            for (x, y), (body, triangle, *_) in zip(*hovered(self.browser, 0, 6, places=True)):
-                seen.append((x, y, shapes[body][run.bodies[body].triangles[triangle]]))
-            # One map from the window to the plane puts every place into its triangle: the middles of the triangles fit it.
-            middles = np.array([corners.mean(0) for _, _, corners in seen])
-            size = max(np.ptp(corners, axis=0).max() for _, _, corners in seen)
-            for axis in (0, 1):
-                at = np.array([place[axis] for place in seen])
-                slope, constant = np.polyfit(at, middles[:, axis], 1)
-                self.assertLess(np.abs(slope * at + constant - middles[:, axis]).max(), size)
-                self.assertGreater(slope * (1 if axis == 0 else -1), 0)
+            seen = list(zip(*hovered(self.browser, 0, 8, places=True)))
+            shown = self.browser.run("return document.getElementById('canvas0').dataset.view")
+            middle_x, middle_y, half = map(float, shown.split(","))
+            left, top, width, height = self.browser.run("const r = document.getElementById('canvas0').getBoundingClientRect(); "
+                                                        "return [r.left, r.top, r.width, r.height]")
+            self.assertNotEqual(half, whole)
+            pixel = 2 * half / width
+            for (x, y), (body, triangle, *_) in seen:
+                place = np.array([middle_x + (x - left - width / 2) * pixel, middle_y - (y - top - height / 2) * pixel])
+                corners = shapes[body][run.bodies[body].triangles[triangle]]
+                for a, b in zip(corners, np.roll(corners, -1, axis=0)):  # how far to the left of each side, counterclockwise
+                    side = b - a
+                    self.assertGreater((side[0] * (place - a)[1] - side[1] * (place - a)[0]) / np.hypot(*side), -2 * pixel)
 
     def test_keyboard(self):
         self.page("interpolation")
@@ -245,6 +250,13 @@ class Pages(InSharedFolder):
             shown = self.browser.run("return [...document.querySelectorAll('canvas[id]')]"
                                      ".map(c => c.getBoundingClientRect().width)")
             self.assertGreater(min(shown), 300)
+            if width < 600:  # a finger on the middle of the picture says what is there
+                x, y = self.browser.run("const c = document.getElementById('canvas0'); c.scrollIntoView({block: 'center'}); "
+                                        "const r = c.getBoundingClientRect(); return [r.left + r.width/2, r.top + 0.7*r.height]")
+                self.browser.cdp("Input.dispatchTouchEvent", type="touchStart", touchPoints=[{"x": x, "y": y}])
+                self.browser.cdp("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+                settled(self.browser)
+                self.assertEqual(self.browser.run("return document.getElementById('read0').dataset.value"), "10")
         self.browser.size(1280, 900)
         looks = "const s = getComputedStyle(document.body); return [s.color, s.backgroundColor]"
         light = self.browser.run(looks)

@@ -108,6 +108,7 @@ function paint(panel, range) {
     if (now.ghost) outline(v => X(body.x[v]), v => Y(body.y[v]), [4 * ratio, 4 * ratio], 0.8 * ratio, "#8a8a92");
     outline(v => px[v], v => py[v], [], 0.9 * ratio, ink);
   }
+  canvas.dataset.view = [view.x, view.y, view.half];
   Object.assign(panel, {owner, offsets, step, px: lines.map(each => each.px), py: lines.map(each => each.py), ratio});
   const strip = panel.bar.getContext("2d"), shades = strip.createImageData(256, 1);
   new Uint32Array(shades.data.buffer).set(range.table);
