@@ -145,6 +145,8 @@ def main():
         return complain(error, 2)
     except OSError as error:
         return complain(f"{where}: {error.strerror or error}", 1)
+    except RecursionError:
+        return complain(f"{where}: nested too deeply, expected a result of mortier run", 2)
     except MemoryError:
         return complain(f"{where}: out of memory", 1)
     except KeyboardInterrupt:

@@ -199,7 +199,9 @@ def fields(views, field_name="von_mises", scale=None, window=None, norm=None, co
         cut = natural[2] and norm is None
         norm, colours = norm or natural[0], colours or natural[1]
     scale = scale if scale is not None else natural_scale(bodies_of(views))
-    window = window or whole_window(views, scale)
+    alike = all(list(each.run.bodies) == list(views[0].run.bodies) for each in views)  # else each has a window of its own
+    windows = [window or whole_window(views if alike else [each], scale) for each in views]
+    window = windows[0]
     lines = [each.result.lines(each.run, min(scale, 1.0))[:3] if strips else [] for each in views]
     rows = max(map(len, lines))
     aspect = (window[3] - window[2]) / (window[1] - window[0])
@@ -211,13 +213,13 @@ def fields(views, field_name="von_mises", scale=None, window=None, norm=None, co
     for i, (each, value) in enumerate(zip(views, values)):
         axes = figure.add_subplot(grid[0, i])
         whole.append(axes)
-        draw_whole(axes, each, scale, window, field, value, norm, colours)
+        draw_whole(axes, each, scale, windows[i], field, value, norm, colours)
         axes.set_title(title_of(each, views, scale, round(13 * width)), loc="left")
         if each.result.failed and (stuck := each.result.stuck(each.run)):
             mark_failure(axes, each, scale, *stuck[:2])
         for k, line in enumerate(lines[i]):
             below = figure.add_subplot(grid[1 + k, i])
-            shared = strip_window([of_run[k] for of_run in lines if len(of_run) > k])
+            shared = strip_window([of_run[k] for of_run in lines if len(of_run) > k] if alike else [line])
             draw_magnified(below, each, line, shared, field, value, norm, colours)
             below.set_ylabel("stretched")
             below.set_title(f"contact: {line.nonmortar} (nonmortar, circles), {line.mortar} (squares)", loc="left", fontsize=8)

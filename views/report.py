@@ -170,9 +170,10 @@ def plan_of(summary):
     if not (program and isinstance(path, str) and isinstance(text, str) and isinstance(settings, list)):
         return None
     try:
-        if Path(path).stat().st_size > 4 * SCENE_LETTERS or Path(path).read_bytes().decode(errors="replace") != text:
+        file = Path(path)
+        if not file.is_file() or file.stat().st_size > 4 * SCENE_LETTERS or file.read_bytes().decode(errors="replace") != text:
             return None
-        words = [program, "check", path, "--json", *(["--set", *map(str, settings)] if settings else [])]
+        words = [program, "check", os.path.abspath(path), "--json", *(["--set", *map(str, settings)] if settings else [])]
         done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, timeout=120, check=False)
         return [[bool(each["modelled"]), *(shown(each[key], 500) for key in ("part", "what", "why"))]
                 for each in json.loads(done.stdout)["plan"]]

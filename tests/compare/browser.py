@@ -10,6 +10,7 @@ import urllib.error
 import urllib.request
 
 NEEDED = "the tests of mortier report need Debian's chromium and chromium-driver (scripts/prepare.sh)"
+LOCAL = urllib.request.build_opener(urllib.request.ProxyHandler({}))  # whatever the proxies of this machine are
 ELEMENT = "element-6066-11e4-a52e-4f735466cecf"
 
 
@@ -44,7 +45,7 @@ class Browser:
     def send(self, method, path, body=None):
         data = None if body is None else json.dumps(body).encode()
         request = urllib.request.Request(self.address + path, data, {"Content-Type": "application/json"}, method=method)
-        with urllib.request.urlopen(request, timeout=120) as answer:
+        with LOCAL.open(request, timeout=120) as answer:
             return json.loads(answer.read())["value"]
 
     def cdp(self, command, **parameters):

@@ -238,6 +238,12 @@ class Refused(InFolder):
                 self.refuse("", "run")
         path.write_text("[" * 100000)
         self.refuse("", "run")
+        deep = "x"
+        for _ in range(800):
+            deep = {"a": deep}
+        path.write_text(json.dumps({**summary, "accuracy": deep}))
+        code, _, errors = view(self.folder, "report", "run")
+        self.assertEqual((code, errors.count("\n")), (2, 1), errors)
 
     def test_titles_are_shown_as_they_are(self):
         path = self.folder / "run" / "summary.json"

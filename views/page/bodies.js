@@ -7,7 +7,7 @@ const tables = Object.fromEntries(Object.entries(data.colours).map(([name, stops
     return (255 << 24 | blue << 16 | green << 8 | red) >>> 0;
   })];
 }));
-function colourRange() {  // one for all runs; a corner must not take all the colours
+function colourRange({runs}) {  // one for all runs of a group; a corner must not take all the colours
   const signed = fieldOf(runs[0], now.field).signed;
   const found = runs.flatMap(run => (now.wide ? run.ranges : [run.ranges[stepOf(run)]]).map(each => each[now.field]));
   let low = Math.min(...found.map(each => each[0])), high = Math.max(...found.map(each => each[1])), cut = false;
@@ -23,8 +23,15 @@ function colourRange() {  // one for all runs; a corner must not take all the co
 }
 
 // ---- Bodies: triangles are painted pixel by pixel, and each pixel knows its triangle -----------------------------------
-let view = null, fit = true;  // centre and half width of what is seen, the same for all runs; fit: everything, next time
-function everything() {
+// Runs with bodies of the same names are seen alike: one part of the plane, its centre and half width, and one scale of colours.
+const groups = new Map();
+for (const run of runs) {
+  const names = run.bodies.map(body => body.name).join();
+  if (!groups.has(names)) groups.set(names, {runs: [], view: null, fit: true});  // fit: everything, next time
+  groups.get(names).runs.push(run);
+  run.group = groups.get(names);
+}
+function everything({runs}) {
   let box = [Infinity, -Infinity, Infinity, -Infinity];
   for (const run of runs) run.bodies.forEach((body, b) => {
     const fields = run.steps[stepOf(run)].fields[b];
@@ -40,7 +47,7 @@ function everything() {
   return {x: (box[0] + box[1]) / 2, y: (box[2] + box[3]) / 2, half: 0.53 * Math.max(width, height / aspect), aspect};
 }
 function paint(panel, range) {
-  const {run, canvas, context} = panel, ratio = Math.min(window.devicePixelRatio || 1, 2);
+  const {run, canvas, context} = panel, {view} = run.group, ratio = Math.min(window.devicePixelRatio || 1, 2);
   const w = Math.max(1, Math.round(canvas.clientWidth * ratio)), h = Math.max(1, Math.round(w * view.aspect));
   if (canvas.width !== w || canvas.height !== h) { canvas.width = w; canvas.height = h; }
   const image = context.createImageData(w, h), pixels = new Uint32Array(image.data.buffer);

@@ -51,7 +51,7 @@ function drawContact(panel) {
   const {run, r} = panel, step = stepOf(run);
   panel.contact.replaceChildren(...run.lines.flatMap((line, k) => {
     const {pressure, gap, jump} = line.steps[step], small = 1e-9 * line.length, xWords = withUnit(line.name, run.units.length), where = `${line.nonmortar} on ${line.mortar}`;
-    const others = runs.flatMap(each => each.lines[k] ? [each.lines[k].steps[stepOf(each)]] : []);  // on one scale with this run
+    const others = run.group.runs.flatMap(each => each.lines[k] ? [each.lines[k].steps[stepOf(each)]] : []);  // on one scale with this run
     const range = name => others.flatMap(each => each[name] ? [Math.min(...each[name]), Math.max(...each[name])] : []);
     const drawn = jump ? [{x: jump[0], y: jump[1], run: r, fill: Math.min(...jump[1]) < -small, name: "gap between the nodes"}, {x: line.x, y: gap, run: r, marks: true, line: false, name: "gap of a node"}]
       : [{x: line.x, y: gap, run: r, marks: true, name: "gap of a node", fill: Math.min(...gap) < -small}];
