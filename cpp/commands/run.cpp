@@ -23,9 +23,9 @@
 #include "report/result_files.h"
 #include "report/summary.h"
 #include "scene/build.h"
+#include "scene/initial_equilibrium.h"
 #include "scene/load_courses.h"
 #include "scene/memory_need.h"
-#include "scene/settle.h"
 #include "scene/versions.h"
 
 namespace mortier {
@@ -185,7 +185,7 @@ int run(RunCommand command) {
   StepReport last;
   State state = initialState(model);
   if (!stopped)
-    if (const std::string doubt = settle(scene, model, state); !doubt.empty())
+    if (const std::string doubt = findInitialEquilibrium(scene, model, state); !doubt.empty())
       warn(scene.path + ": " + doubt);
   MarchMemory memory;
   AccuracyMemory accuracySoFar;

@@ -37,10 +37,4 @@ void DenseFactor::solve(Matrix& x) const {
   factor_.triangularView<Eigen::Upper>().solveInPlace(x);
 }
 
-int DenseFactor::determinantSign() const {
-  if (symmetric_) return 1;
-  const bool odd = Eigen::PermutationMatrix<Eigen::Dynamic>(interchange_).determinant() < 0;
-  return ((factor_.diagonal().array() < 0).count() % 2 == 1) != odd ? -1 : 1;
-}
-
 }  // namespace mortier
