@@ -66,6 +66,7 @@ TEST(StepSystem, linearSolveHoldsTheLawEquilibriumAndContact) {
   const Step step = system.step(state0, data);
   Iterate iterate = startingIterate(state0);
   StepOutcome outcome;
+  bool opened = false;
   for (int i = 0; i < 2; ++i) {  // the second from stresses beyond yield
     const auto linearised = system.linearise(step, iterate, data.weight, false);
     const auto factorised = linearised.factorise(outcome);
@@ -99,8 +100,9 @@ TEST(StepSystem, linearSolveHoldsTheLawEquilibriumAndContact) {
       EXPECT_LE(std::abs(p[k] * gap[k]), rounding);
     }
     EXPECT_GT(p.maxCoeff(), 0);
-    EXPECT_LT(gap.minCoeff(), 0) << "a node is meant to open";
+    opened = opened || gap.minCoeff() < 0;
   }
+  EXPECT_TRUE(opened);
 }
 
 TEST(StepSystem, responseIsTheDerivativeOfTheSolution) {
