@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "linear/condensing_solver.h"
-#include "solver/step.h"
+#include "solver/solve_step.h"
 #include "squares.h"
 #include "time/march.h"
 
@@ -126,14 +126,14 @@ void wholeIteration(benchmark::State& run) {
   const State state = flowing(model);
   SolverOptions options;
   options.threads = static_cast<int>(run.range(2));
-  StepSolver solver(model, options);
+  StepSystem system(model, options);
   const StepData step{flowingTime + timeStep, timeStep, {}};
-  Iterate solution = solver.start(state);
-  if (!solver.solve(state, step, solution).converged) run.SkipWithError("not converged");
+  Iterate solution = startingIterate(state);
+  if (!solveStep(system, state, step, solution).converged()) run.SkipWithError("not converged");
   int iterations = 0;
   for ([[maybe_unused]] const auto turn : run) {
     Iterate guess = solution;
-    iterations += solver.solve(state, step, guess).iterations;
+    iterations += solveStep(system, state, step, guess).iterations;
   }
   run.counters["iterations"] = benchmark::Counter(iterations, benchmark::Counter::kAvgIterations);
   run.SetItemsProcessed(run.iterations() * cellsOf(run).triangles());

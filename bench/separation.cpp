@@ -21,7 +21,7 @@
 #include "material/stress.h"
 #include "mesh/generate.h"
 #include "mesh/medit.h"
-#include "solver/step.h"
+#include "solver/condensed_body.h"
 #include "table.h"
 #include "time/march.h"
 
@@ -127,15 +127,20 @@ Pivots contactPivots(const Model& model) {
   Pivots result;
   for (const int b : {0, 1}) {
     const Body& body = model.bodies[b];
-    BodySystem system(model, b, firstRow, SolverOptions{});
+    CondensedBody system(model, b, firstRow, SolverOptions{}, Threads::none());
     BodyIterate iterate{Vector::Zero(body.dofs()), Vector::Zero(body.dofs()), state.bodies[b].stress,
                         Matrix::Zero(3, body.points())};
-    system.linearise({0, state.bodies[b].stress, iterate.strain}, nullptr, iterate);
+    system.linearise(state.bodies[b].stress, nullptr, iterate,
+                     {[&](const BodyIterate& at, Linearisation& law, int begin, int end) {
+                       return body.material().linearise({0, state.bodies[b].stress, at.strain}, at.stress,
+                                                        law, begin, end);
+                     }});
+    const ContactDofs& dofs = system.contact();
     result.factorisation += secondsOf([&] { system.factorise(); });
-    slack -= system.C() * system.condense(body.load(1));
+    slack -= dofs.C * system.condense(body.load(1));
     system.addCompliance(problem.W);
-    normalMotions.emplace_back(system.C() * system.R());
-    rigidForces.push_back(system.rigidForce(body.load(1)));
+    normalMotions.emplace_back(dofs.C * dofs.R);
+    rigidForces.push_back(dofs.rigidForce(body.load(1)));
   }
   problem.G.resize(rows, normalMotions[0].cols() + normalMotions[1].cols());
   problem.G << normalMotions[0], normalMotions[1];

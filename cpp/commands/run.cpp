@@ -27,9 +27,9 @@
 #include "report/summary.h"
 #include "scene/build.h"
 #include "scene/build_quantities.h"
+#include "scene/initial_equilibrium.h"
 #include "scene/load_courses.h"
 #include "scene/memory_need.h"
-#include "scene/settle.h"
 #include "scene/versions.h"
 
 namespace mortier {
@@ -183,7 +183,7 @@ int run(RunCommand command) {
   std::optional<ResultFiles> files;
   StepReport last;
   State state = initialState(model);
-  if (!stopped) lintSettling(scene, settle(scene, model, state), doubts);
+  if (!stopped) lintSettling(scene, findInitialEquilibrium(scene, model, state), doubts);
   MarchMemory memory;
   AccuracyMemory accuracySoFar;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, onInterrupt);

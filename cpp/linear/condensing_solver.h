@@ -26,8 +26,6 @@ class CondensingSolver {
   [[nodiscard]] virtual const Matrix& schurComplement() const = 0;
   /// The same, taken over: it is gone until the next factorise().
   [[nodiscard]] virtual Matrix takeSchurComplement() = 0;
-  /// 1 or -1, the sign of det K_bb.
-  [[nodiscard]] virtual int determinantSign() const = 0;
   /// f (equations) in place: its kept part becomes f_k - K_kb K_bb^-1 f_b, its interior whatever expand()
   /// needs.
   virtual void condense(Vector& f) const = 0;

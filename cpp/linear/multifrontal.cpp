@@ -49,18 +49,6 @@ class Multifrontal final : public CondensingSolver {
   [[nodiscard]] const Matrix& schurComplement() const override { return schur_; }
   [[nodiscard]] Matrix takeSchurComplement() override { return std::move(schur_); }
 
-  [[nodiscard]] int determinantSign() const override {
-    bool negative = false;
-    for (size_t s = 0; !symmetric_ && s < plan_.fronts.size(); ++s) {
-      const Front& front = plan_.fronts[s];
-      for (int i = 0; i < front.pivots; ++i) {
-        const bool interchanged = pivots_[factors_[s].pivot + i] != i;
-        negative ^= interchanged != (panel(static_cast<int>(s))[(front.rows.size() + 1) * i] < 0);
-      }
-    }
-    return negative ? -1 : 1;
-  }
-
   void condense(Vector& f) const override {
     Vector x = f(plan_.order);
     std::vector<double*> passed(plan_.fronts.size());

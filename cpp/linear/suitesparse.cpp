@@ -63,7 +63,6 @@ class Factorisation {
   virtual ~Factorisation() = default;
   virtual bool factorise(Block& K) = 0;
   virtual void solve(const Block& K, Vector& x) const = 0;
-  [[nodiscard]] virtual int determinantSign() const = 0;
 };
 
 class Cholmod final : public Factorisation {
@@ -99,8 +98,6 @@ class Cholmod final : public Factorisation {
     std::copy_n(static_cast<const double*>(solution->x), x.size(), x.data());
     cholmod_free_dense(&solution, &common_);
   }
-
-  [[nodiscard]] int determinantSign() const override { return 1; }
 
  private:
   static cholmod_sparse view(Block& K) {
@@ -149,13 +146,6 @@ class Umfpack final : public Factorisation {
     const Vector b = x;
     umfpack_di_solve(UMFPACK_A, K.start.data(), K.rows.data(), K.values.data(), x.data(), b.data(), numeric_,
                      control_, nullptr);
-  }
-
-  [[nodiscard]] int determinantSign() const override {
-    double mantissa = 0;
-    double exponent = 0;
-    umfpack_di_get_determinant(&mantissa, &exponent, numeric_, nullptr);
-    return mantissa < 0 ? -1 : 1;
   }
 
  private:
@@ -209,10 +199,6 @@ class SuiteSparse final : public CondensingSolver {
 
   [[nodiscard]] const Matrix& schurComplement() const override { return schur_; }
   [[nodiscard]] Matrix takeSchurComplement() override { return std::move(schur_); }
-  [[nodiscard]] int determinantSign() const override {
-    return factorisation_ ? factorisation_->determinantSign() : 1;
-  }
-
   // f_b becomes K_bb^-1 f_b.
   void condense(Vector& f) const override {
     Vector interior = gather(f, interiorEquations_);

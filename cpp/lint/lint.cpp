@@ -8,12 +8,12 @@
 #include "mesh/read.h"
 #include "scene/build.h"
 #include "scene/build_quantities.h"
+#include "scene/initial_equilibrium.h"
 #include "scene/load_courses.h"
 #include "scene/memory_need.h"
 #include "scene/overrides.h"
 #include "scene/resolve.h"
-#include "scene/settle.h"
-#include "solver/step.h"
+#include "solver/solve_step.h"
 
 namespace mortier {
 namespace {
@@ -87,20 +87,20 @@ void runChecks(const LintInput& input, Faults& faults) {
 /// Where contact alone holds bodies, whether it does: as the first step begins, and elastically at some times of the run.
 /// What contact can balance depends on no material.
 void requireHeld(const SceneDescription& scene, const Model& model) {
-  StepSolver solver(model, scene.solver);
-  if (!solver.contactHolds()) return;
+  StepSystem system(model, scene.solver);
+  if (!system.contactHolds()) return;
   constexpr int count = 16;
   const TimePlan& plan = scene.time;
   const State begin = initialState(model);
   const double first = plan.end / std::max(plan.steps, 1);
   for (int i = 0; i <= count; ++i) {
     const double time = i == 0 ? first : plan.end * i / count;
-    Iterate iterate = solver.start(begin);
-    const StepOutcome outcome = solver.solve(begin, {time, 0, {}}, iterate);
-    const std::string loose = outcome.converged && i == 0 ? solver.looseMotion(begin, iterate) : "";
-    const std::string reason = outcome.unheld  ? outcome.reason
-                               : loose.empty() ? ""
-                                               : "no contact is closed that would hold " + loose;
+    Iterate iterate = startingIterate(begin);
+    const StepOutcome outcome = solveStep(system, begin, {time, 0, {}}, iterate);
+    const std::string loose = outcome.converged() && i == 0 ? system.looseMotion(begin, iterate) : "";
+    const std::string reason = outcome.unheld() ? outcome.detail
+                               : loose.empty()  ? ""
+                                                : "no contact is closed that would hold " + loose;
     if (!reason.empty()) throw UnheldBodyError("t = " + shortest(time) + " s: " + reason);
   }
 }
@@ -125,7 +125,7 @@ void build(ResolvedScene resolved, LintReport& report) {
     lintModel(scene, model, report.faults);
     requireHeld(scene, model);
     State state = initialState(model);
-    lintSettling(scene, settle(scene, model, state), report.faults);
+    lintSettling(scene, findInitialEquilibrium(scene, model, state), report.faults);
     report.model = std::move(model);
   } catch (const InputError& error) {
     addError(error, "data", report.faults);

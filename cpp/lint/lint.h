@@ -45,7 +45,7 @@ Faults lintResolved(const ResolvedScene& resolved, const std::vector<std::string
 /// What the model tells.
 void lintModel(const SceneDescription& scene, const Model& model, Faults& faults);
 
-/// What settling told, if anything (scene/settle.h).
+/// What initial equilibrium told, if anything (scene/initial_equilibrium.h).
 void lintSettling(const SceneDescription& scene, const std::string& doubt, Faults& faults);
 
 // What the linter looks for, one file each.

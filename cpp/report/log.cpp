@@ -69,7 +69,7 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
 }
 
 std::string logRow(const StepReport& r) {
-  std::string remarks = r.rung == "newton" ? "" : "  " + r.rung;
+  std::string remarks = r.rung == Rung::newton ? "" : std::string("  ") + nameOf(r.rung);
   if (r.guarded) remarks += "  guarded";
   if (r.rejections > 0) remarks += "  " + std::to_string(r.rejections) + " rejected";
   const std::string change = format("%d (+%d/-%d)", r.active, r.joined, r.left);

@@ -1,100 +1,112 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "solver/step.h"
+#include "solver/methods.h"
 
 namespace mortier {
+namespace {
 
-// Where paths of solutions are a maze, the step is approached as the rest state of damped motion (pseudo-transient
-// continuation, Kelley and Keyes 1998): beside the stress s on the law acts that of a viscosity in parallel,
-//   s + E B (du - du_n)/delta,
-// du_n where the motion was last. For small delta it makes the tangent that of an elastic body, whatever the law; where
-// the motion ends it vanishes, so what is found solves the step. It goes down the stable side of folds, in steps that are
-// solved roughly; delta, the length of one, doubles with each and falls where one cannot be solved.
-StepOutcome StepSolver::damped(const State& state0, const StepData& step, int maxIterations,
-                               Iterate& solution) {
+/// The viscosity in parallel: elastic moduli of all bodies, and the strains where the motion was last.
+struct Damper {
+  const Model& model;
+  std::vector<Matrix> moduli = {};
+  std::vector<Matrix> strain0 = {};
+
+  /// E (strain - strain0)/delta in the plane; nothing where the law is linear.
+  [[nodiscard]] Matrix stress(size_t body, const Matrix& strain, double delta) const {
+    Matrix result = Matrix::Zero(strain.rows(), strain.cols());
+    if (model.bodies[body].material().linear()) return result;
+    for (int i = 0; i < strain.cols(); ++i) {
+      const std::array<double, 9> D = moduliAt(moduli[body], i);
+      result.col(i).head<3>() = Eigen::Map<const Eigen::Matrix3d>(D.data()) *
+                                (strain.col(i) - strain0[body].col(i)).head<3>() / delta;
+    }
+    return result;
+  }
+  /// Largest |stress| over the yield stress.
+  [[nodiscard]] double largest(const Iterate& iterate, double delta) const {
+    double largest = 0;
+    for (size_t b = 0; b < model.bodies.size(); ++b) {
+      const double unit = model.bodies[b].material().stressScale();
+      if (unit == 0) continue;
+      largest = std::max(largest, stress(b, iterate.bodies[b].strain, delta).cwiseAbs().maxCoeff() / unit);
+    }
+    return largest;
+  }
+};
+
+/// One step of the motion, of length delta, solved roughly. \returns whether it could be.
+bool advance(StepSystem& system, const Step& step, const Damper& damper, double delta, Iterate& next,
+             StepOutcome& total) {
+  constexpr int most = 3;
+  constexpr double roughly = 0.1;  // material residual
+  constexpr double hopeless = 1e3;
+  const StepSystem::LawOf damped = [&](int b) {
+    BodyLaw law = system.law(step, b, step.data.weight, true);
+    law.everywhere = [&, b](const BodyIterate& body, Linearisation& result) {
+      if (damper.model.bodies[b].material().linear()) return;
+      result.predictor += damper.stress(b, body.strain, delta);
+      result.moduli += damper.moduli[b] / delta;
+      result.elastic = 0;
+    };
+    return law;
+  };
+  for (int iteration = 0;; ++iteration) {
+    const StepSystem::Linearised linearised = system.linearise(step, next, damped);
+    const double residual = linearised.residual();
+    if (iteration > 0 && residual <= roughly) return true;
+    if (iteration == most || !std::isfinite(residual) || (iteration >= 2 && residual > hopeless))
+      return false;
+    ++total.iterations;
+    const std::optional<StepSystem::Factorised> factorised = linearised.factorise(total);
+    if (!factorised) return false;
+    StepSystem::Condensed condensed = factorised->condense(step, next);
+    const ContactSolution contact = condensed.solveContact();
+    if (!std::move(condensed).expand(contact, next, total)) return false;
+    for (size_t b = 0; b < next.bodies.size(); ++b) {
+      updateStrain(damper.model, step, b, next);
+      next.bodies[b].stress -= damper.stress(b, next.bodies[b].strain, delta);
+    }
+  }
+}
+
+}  // namespace
+
+StepOutcome restOfDampedMotion(StepSystem& system, const Step& step, int maxIterations, Iterate& solution) {
   constexpr double shorter = 4;
   constexpr double longer = 2;
   constexpr double shortest = 1e-4;
-  constexpr int iterations = 3;
-  constexpr double roughly = 0.1;    // material residual of a step of the motion
   constexpr double nearRest = 0.02;  // stress of the damping, in yield stresses
-  constexpr double hopeless = 1e3;
   constexpr int finishing = 7;
 
   StepOutcome total;
-  const std::vector<Vector>& loads = loadsAt(step.time);
-  Iterate rest = start(state0);
-  prescribe(state0, step.time, rest);
-  StepData elastic = step;
-  elastic.weight = 0;
-  linearise(state0, elastic, rest, false);
-  std::vector<Matrix> moduli;
-  std::vector<Matrix> strain0;
-  for (size_t b = 0; b < systems_.size(); ++b) {
-    moduli.push_back(systems_[b].moduli());
-    strain0.push_back(rest.bodies[b].strain);
+  Iterate at = startingIterate(step.state0);
+  prescribe(system.model(), step, at);
+  Damper damper{system.model()};
+  const StepSystem::Linearised elastic = system.linearise(step, at, 0, false);
+  for (size_t b = 0; b < at.bodies.size(); ++b) {
+    damper.moduli.push_back(elastic.law(static_cast<int>(b)).moduli);
+    damper.strain0.push_back(at.bodies[b].strain);
   }
-
-  constexpr double unsolved = std::numeric_limits<double>::infinity();
-  // One step of the motion from `rest`. \returns the largest stress of the damping, infinite where it was not solved.
-  const auto advance = [&](double delta, Iterate& next) {
-    for (int iteration = 0;; ++iteration) {
-      const double residual = linearise(state0, step, next, true);
-      if (iteration > 0 && residual <= roughly) break;
-      if (iteration == iterations || !std::isfinite(residual) || (iteration >= 2 && residual > hopeless))
-        return unsolved;
-      ++total.iterations;
-      for (size_t b = 0; b < systems_.size(); ++b)
-        systems_[b].damp(moduli[b], delta, next.bodies[b].strain - strain0[b]);
-      if (!factorise(total)) return unsolved;
-      solveLinearised(state0, loads, next, total);
-      if (!total.reason.empty()) return unsolved;
-      forEachBody([&](int b) {
-        BodyIterate& body = next.bodies[b];
-        strain(step, b, body);
-        body.stress -= systems_[b].dampingStress(moduli[b], delta, body.strain - strain0[b]);
-      });
-    }
-    double largest = 0;
-    for (size_t b = 0; b < systems_.size(); ++b) {
-      const double unit = model_.bodies[b].material().stressScale();
-      if (unit == 0) continue;
-      const Matrix stress = systems_[b].dampingStress(moduli[b], delta, next.bodies[b].strain - strain0[b]);
-      largest = std::max(largest, stress.cwiseAbs().maxCoeff() / unit);
-    }
-    return largest;
-  };
-
   for (double delta = 1; total.iterations < maxIterations && delta > shortest;) {
-    total.reason.clear();
-    total.unheld = false;
-    Iterate next = rest;
-    const double damping = advance(delta, next);
-    if (!std::isfinite(damping)) {
+    Iterate next = at;
+    if (!advance(system, step, damper, delta, next, total)) {
       delta /= shorter;
       continue;
     }
-    rest = std::move(next);
-    for (size_t b = 0; b < systems_.size(); ++b) strain0[b] = rest.bodies[b].strain;
+    at = std::move(next);
+    const double damping = damper.largest(at, delta);
+    for (size_t b = 0; b < at.bodies.size(); ++b) damper.strain0[b] = at.bodies[b].strain;
     delta *= longer;
-    if (damping > nearRest) continue;
-    Iterate last = rest;
-    StepOutcome outcome =
-        newton(state0, step,
-               {std::min(finishing, maxIterations - total.iterations), options_.tolerance, true}, last);
-    total.iterations += outcome.iterations;
-    total.factorisations += outcome.factorisations;
-    if (!outcome.converged) continue;
-    total.converged = true;
-    total.certificate = outcome.certificate;
-    solution = std::move(last);
-    return total;
+    if (!(damping <= nearRest)) continue;
+    solution = at;
+    total.follow(newton(
+        system, step, step.data.weight,
+        {std::min(finishing, maxIterations - total.iterations), system.options().tolerance, true}, solution));
+    if (total.converged()) return total;
   }
-  if (total.reason.empty())
-    total.reason =
-        "the damped motion did not come to rest in " + std::to_string(total.iterations) + " iterations";
+  total.fail(Reason::unconverged,
+             "the damped motion did not come to rest in " + std::to_string(total.iterations) + " iterations");
   return total;
 }
 

@@ -167,11 +167,4 @@ void DenseFactor::solve(Matrix& x) const {
   substitute<Eigen::Upper, false>(x);
 }
 
-int DenseFactor::determinantSign() const {
-  if (symmetric_) return 1;
-  Eigen::Index odd = (factor_.diagonal().array() < 0).count();
-  for (Eigen::Index k = 0; k < interchange_.size(); ++k) odd += interchange_[k] != k ? 1 : 0;
-  return odd % 2 == 1 ? -1 : 1;
-}
-
 }  // namespace mortier

@@ -17,8 +17,6 @@ class DenseFactor {
   void solve(Matrix& x) const;
   /// Least pivot over what stood in its place before elimination: over the diagonal, or the largest entry of the column.
   [[nodiscard]] double leastPivot() const { return leastPivot_; }
-  /// 1 or -1, the sign of the determinant.
-  [[nodiscard]] int determinantSign() const;
   [[nodiscard]] Eigen::Index rows() const { return factor_.rows(); }
 
  private:

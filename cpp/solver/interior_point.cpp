@@ -3,15 +3,53 @@
 #include <limits>
 
 #include "material/interior_path.h"
-#include "solver/step.h"
+#include "solver/methods.h"
 
 namespace mortier {
+namespace {
 
-// The law is followed along its central path (material/interior_path.h) while the complementarity of contact
-// stays exact in every linear solve. Near the end of the path it is told which triangles flow, and Newton's
-// method finishes.
-StepOutcome StepSolver::interiorPoint(const State& state0, const StepData& step, int maxIterations,
-                                      Iterate& solution) {
+/// The paths of all bodies; none of those whose law is linear.
+class Paths {
+ public:
+  Paths(const Model& model, const Step& step) {
+    for (size_t b = 0; b < model.bodies.size(); ++b) {
+      const Material& material = model.bodies[b].material();
+      const Matrix& stress0 = step.state0.bodies[b].stress;
+      paths_.push_back(material.interiorPath(step.data.weight, stress0));
+      if (!paths_[b]) continue;
+      const double flow = paths_[b]->flowAtTwiceYield();
+      points_ += paths_[b]->points();
+      flow_ = std::max(flow_, flow);
+      yieldStrain_ = std::min(yieldStrain_, flow / (1 + material.stiffness(step.data.weight)));
+      // Stresses that are there may be far beyond yield already.
+      overstress_ = std::max(overstress_, stress0.cwiseAbs().maxCoeff() / material.stressScale());
+    }
+  }
+  /// `overstress` is counted in the stresses that are there, or the yield stress.
+  void begin(double overstress) {
+    for (const auto& path : paths_)
+      if (path) path->begin(overstress * overstress_ * flow_);
+  }
+  [[nodiscard]] InteriorPath* operator[](size_t body) const { return paths_[body].get(); }
+  [[nodiscard]] double yieldStrain() const { return yieldStrain_; }
+  [[nodiscard]] double complementarity() const {
+    double sum = 0;
+    for (const auto& path : paths_) sum += path ? path->complementarity() : 0;
+    return sum / points_;
+  }
+
+ private:
+  std::vector<std::unique_ptr<InteriorPath>> paths_;
+  int points_ = 0;
+  double flow_ = 0;
+  double yieldStrain_ = std::numeric_limits<double>::infinity();
+  double overstress_ = 1;
+};
+
+}  // namespace
+
+// Near the end of the path it is told which triangles flow, and Newton's method finishes.
+StepOutcome interiorPoint(StepSystem& system, const Step& step, int maxIterations, Iterate& solution) {
   constexpr double toBoundary = 0.99;
   constexpr double blocked = 1e-6;
   constexpr double leastCentering = 1e-6;
@@ -19,85 +57,55 @@ StepOutcome StepSolver::interiorPoint(const State& state0, const StepData& step,
   constexpr int allIterations = 120;
   constexpr double ends[] = {1e-4, 1e-6, 1e-8};  // of mu over the yield strain
 
+  const Model& model = system.model();
   StepOutcome total;
-  const auto add = [&](const StepOutcome& part) {
-    total.iterations += part.iterations;
-    total.factorisations += part.factorisations;
-    total.unheld = part.unheld;
-    total.reason = part.reason;
-  };
-  const std::vector<Vector>& loads = loadsAt(step.time);
-
-  Iterate iterate = start(state0);
-  prescribe(state0, step.time, iterate);
-  std::vector<std::unique_ptr<InteriorPath>> paths;
-  int points = 0;
-  double flow = 0;
-  double yieldStrain = std::numeric_limits<double>::infinity();
-  for (size_t b = 0; b < model_.bodies.size(); ++b) {
-    const Material& material = model_.bodies[b].material();
-    paths.push_back(material.interiorPath(step.weight, state0.bodies[b].stress));
-    if (!paths[b]) continue;
-    points += paths[b]->points();
-    flow = std::max(flow, paths[b]->flowAtTwiceYield());
-    yieldStrain = std::min(yieldStrain, paths[b]->flowAtTwiceYield() / (1 + material.stiffness(step.weight)));
-  }
-  // Stresses that are there may be far beyond yield already.
-  double overstress = 1;
-  for (size_t b = 0; b < model_.bodies.size(); ++b)
-    if (paths[b])
-      overstress = std::max(overstress, state0.bodies[b].stress.cwiseAbs().maxCoeff() /
-                                            model_.bodies[b].material().stressScale());
-  for (const auto& path : paths)
-    if (path) path->begin(options_.firstOverstress * overstress * flow);
-  const auto complementarity = [&] {
-    double sum = 0;
-    for (const auto& path : paths) sum += path ? path->complementarity() : 0;
-    return sum / points;
-  };
+  Iterate iterate = startingIterate(step.state0);
+  prescribe(model, step, iterate);
+  Paths paths(model, step);
+  paths.begin(system.options().firstOverstress);
   // Where the iterate would go in the direction that aims at `target`. \returns the largest step.
-  const auto direct = [&](double target, bool correct, Iterate& next) {
-    forEachBody([&](int b) {
-      BodyIterate& body = iterate.bodies[b];
-      if (paths[b])
-        systems_[b].linearise(*paths[b], body.strain, target, correct);
-      else
-        systems_[b].linearise({step.weight, state0.bodies[b].stress, body.strain, false},
-                              step.shift.empty() ? nullptr : &step.shift[b], body);
+  const auto direct = [&](double target, bool correct, Iterate& next) -> std::optional<double> {
+    const StepSystem::Linearised linearised = system.linearise(step, iterate, [&](int b) -> BodyLaw {
+      if (!paths[b]) return system.law(step, b, step.data.weight, false);
+      return {{}, [&, b](const BodyIterate& body, Linearisation& result) {
+                paths[b]->linearise(body.strain, target, correct, result);
+              }};
     });
-    if (!correct && !factorise(total)) return 0.0;
+    const std::optional<StepSystem::Factorised> factorised =
+        correct ? linearised.keepFactors() : linearised.factorise(total);
+    if (!factorised) return std::nullopt;
     next = iterate;
-    solveLinearised(state0, loads, next, total);
-    if (!total.reason.empty()) return 0.0;
+    StepSystem::Condensed condensed = factorised->condense(step, iterate);
+    const ContactSolution contact = condensed.solveContact();
+    if (!std::move(condensed).expand(contact, next, total)) return std::nullopt;
     double largest = 1 / toBoundary;
-    for (size_t b = 0; b < paths.size(); ++b) {
-      strain(step, static_cast<int>(b), next.bodies[b]);
+    for (size_t b = 0; b < model.bodies.size(); ++b) {
+      updateStrain(model, step, b, next);
       if (paths[b])
         largest = std::min(largest, paths[b]->direct(next.bodies[b].strain - iterate.bodies[b].strain));
     }
     return largest;
   };
-
   for (const double end : ends) {
-    for (double mu = complementarity(); mu > end * yieldStrain; mu = complementarity()) {
+    for (double mu = paths.complementarity(); mu > end * paths.yieldStrain(); mu = paths.complementarity()) {
       if (total.iterations >= std::min(maxIterations, allIterations)) {
-        total.reason = "the interior point method did not converge in " + std::to_string(total.iterations) +
-                       " iterations";
+        total.fail(Reason::unconverged, "the interior point method did not converge in " +
+                                            std::to_string(total.iterations) + " iterations");
         return total;
       }
       ++total.iterations;
-      for (size_t b = 0; b < paths.size(); ++b) strain(step, static_cast<int>(b), iterate.bodies[b]);
       Iterate next;
-      const double open = std::min(1.0, direct(0, false, next));
-      if (!total.reason.empty()) return total;
-      const double centering = std::max(leastCentering, std::pow(1 - open, 3));
-      const double length = std::min(1.0, toBoundary * direct(centering * mu, true, next));
-      if (!total.reason.empty()) return total;
+      const std::optional<double> open = direct(0, false, next);
+      if (!open) return total;
+      const double centering = std::max(leastCentering, std::pow(1 - std::min(1.0, *open), 3));
+      const std::optional<double> most = direct(centering * mu, true, next);
+      if (!most) return total;
+      const double length = std::min(1.0, toBoundary * *most);
       if (length < blocked) {
-        total.reason = "the interior point method found its way barred";
+        total.fail(Reason::unconverged, "the interior point method found its way barred");
         return total;
       }
-      for (size_t b = 0; b < paths.size(); ++b) {
+      for (size_t b = 0; b < model.bodies.size(); ++b) {
         BodyIterate& body = iterate.bodies[b];
         body.increment += length * next.bodies[b].increment.minus(body.increment);
         if (paths[b])
@@ -111,14 +119,9 @@ StepOutcome StepSolver::interiorPoint(const State& state0, const StepData& step,
     }
     solution = iterate;
     const int left = maxIterations - total.iterations;
-    const StepOutcome last =
-        newton(state0, step, {std::min(finishing, left), options_.tolerance, true}, solution);
-    add(last);
-    if (last.converged) {
-      total.converged = true;
-      total.certificate = last.certificate;
-      return total;
-    }
+    total.follow(newton(system, step, step.data.weight,
+                        {std::min(finishing, left), system.options().tolerance, true}, solution));
+    if (total.converged()) return total;
   }
   return total;
 }

@@ -38,7 +38,8 @@ struct SolverOptions {
   int maxIterations = defaultIterations(Method::newton);  ///< linear solves in one step before it is given up
   LinearEngine linear = LinearEngine::multifrontal;
   int threads = 1;
-  /// Leave out what changes nothing: factors of bodies in which nothing flows, steps in which nothing happens.
+  /// Leave out what changes nothing: factors of bodies in which nothing flows, steps in which nothing
+  /// happens.
   bool reduce = true;
   // Where two methods begin; what they end in does not depend on it.
   double proximalWeight = 1e-9;  ///< solver/complementarity.h [-]

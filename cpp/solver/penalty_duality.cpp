@@ -1,19 +1,19 @@
-// The penalty-duality method of Bermudez and Moreno (1981), which the note uses (as Burguera and Viano 1995): a
-// constant matrix, factorised once, and multipliers that are updated by Yosida regularisations of the law and of the
-// contact condition. Per iteration, from (du, s, p) in equilibrium:
+// The penalty-duality method of Bermudez and Moreno (1981), which the note uses (as Burguera and Viano 1995):
+// a constant matrix, factorised once, and multipliers that are updated by Yosida regularisations of the law
+// and of the contact condition. Per iteration, from (du, s, p) in equilibrium:
 //
 //   t  with  E^-1 (t - s0) + weight G(t) = B du + D^-1 (s - t)     in every triangle   (material)
 //   q  =     [p + omega g]_+,   g = C (u0 + du) - g0               at every node       (contact)
 //
 //   equilibrium with the stress s + 2 a (t - s) + D B d and the forces p + 2 a (q - p) + omega C d
 //
-// gives the next du, s and p. It converges linearly for every D > 0, omega > 0 and 0 < a < 1 where the law is monotone
-// (Lions and Mercier 1979), the faster the nearer D^-1 is to the slope of the law and omega to that of the
-// bodies:
+// gives the next du, s and p. It converges linearly for every D > 0, omega > 0 and 0 < a < 1 where the law is
+// monotone (Lions and Mercier 1979), the faster the nearer D^-1 is to the slope of the law and omega to that
+// of the bodies:
 //   D^-1  = E^-1 + penalty weight/(2 lambda), penalty the geometric mean of the slopes of the flow (choosePenalty),
 //   omega = 1/sqrt(least times largest eigenvalue of the contact compliance W),
-// which have the units that they need. Where convergence is slow the penalties are chosen again for the stress
-// reached, ever more rarely, so that they become constant.
+// which have the units that they need. Where convergence is slow the penalties are chosen again for the
+// stress reached, ever more rarely, so that they become constant.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@
 #include <sstream>
 
 #include "base/worst.h"
-#include "solver/step.h"
+#include "solver/methods.h"
 
 namespace mortier {
 namespace {
@@ -49,8 +49,8 @@ class Restarts {
   double before_ = INFINITY;
 };
 
-/// The bodies' answer to the multipliers. With the rigid motions z = zeta/omega and the jump a = C d that the forces
-/// left over make at dp = 0:
+/// The bodies' answer to the multipliers. With the rigid motions z = zeta/omega and the jump a = C d that the
+/// forces left over make at dp = 0:
 ///   (I + omega W) dp - G zeta = target + omega a,   G' dp = balance
 class MultiplierSystem {
  public:
@@ -111,92 +111,86 @@ class MultiplierSystem {
 
 }  // namespace
 
-/// \returns how far the stress is from the law, scaled; NaN when any stress is.
-double StepSolver::regularise(const State& state0, const StepData& step, Iterate& iterate) {
-  std::vector<double> change(systems_.size());
-  forEachBody([&](int b) {
-    BodyIterate& body = iterate.bodies[b];
-    change[b] = systems_[b].regularise({step.weight, state0.bodies[b].stress, body.strain},
-                                       step.shift.empty() ? nullptr : &step.shift[b], 2 * relaxation, body);
-  });
-  Worst worst;
-  for (const double value : change) worst.add(value);
-  return worst.value();
-}
-
-StepOutcome StepSolver::penaltyDuality(const State& state0, const StepData& step, Iterate& iterate) {
+StepOutcome penaltyDuality(StepSystem& system, const Step& step, Iterate& iterate) {
+  const Model& model = system.model();
+  const SolverOptions& options = system.options();
   StepOutcome outcome;
-  outcome.rung = "penalty-duality";
-  prescribe(state0, step.time, iterate);
-  const std::vector<Vector>& loads = loadsAt(step.time);
+  outcome.rung = Rung::penaltyDuality;
+  prescribe(model, step, iterate);
   double largestLoad = 0;
-  for (const Vector& load : loads) largestLoad = std::max(largestLoad, load.cwiseAbs().maxCoeff());
+  for (const Vector& load : step.loads) largestLoad = std::max(largestLoad, load.cwiseAbs().maxCoeff());
+  std::vector<Vector> penalty(model.bodies.size());
+  const StepSystem::LawOf regularised = [&](int b) -> BodyLaw {
+    return {[&, b](const BodyIterate& body, Linearisation& result, int begin, int end) {
+      return model.bodies[b].material().regularise(
+          {step.data.weight, step.state0.bodies[b].stress, body.strain}, body.stress, penalty[b],
+          2 * relaxation, result, begin, end);
+    }};
+  };
   Restarts restarts;
-  std::optional<MultiplierSystem> system;
+  std::optional<MultiplierSystem> multipliers;
   double change = 0;         // of stresses
   double contactChange = 0;  // of contact forces, over the largest force
   for (;; ++outcome.iterations) {
-    const bool choose = !system || restarts.due(outcome.iterations, std::max(change, contactChange));
-    for (size_t b = 0; b < systems_.size() && choose; ++b)
-      systems_[b].choosePenalty(iterate.bodies[b].stress);
-    change = regularise(state0, step, iterate);
-    if (choose) {
-      if (!factorise(outcome)) return outcome;
-      system.emplace(contact_);
-    }
+    const bool choose = !multipliers || restarts.due(outcome.iterations, std::max(change, contactChange));
+    for (size_t b = 0; b < penalty.size() && choose; ++b)
+      model.bodies[b].material().choosePenalty(iterate.bodies[b].stress, penalty[b]);
+    StepSystem::Linearised linearised = system.linearise(step, iterate, regularised);
+    change = linearised.residual();
+    const std::optional<StepSystem::Factorised> factorised =
+        choose ? linearised.factorise(outcome) : linearised.keepFactors();
+    if (!factorised) return outcome;
+    if (choose) multipliers.emplace(factorised->contact());
 
-    const std::vector<Vector> gap = gaps(model_, state0, iterate);
-    Vector g(rows());
-    Vector p(rows());
-    for (size_t k = 0; k < model_.interfaces.size(); ++k) {
-      g.segment(firstRow_[k], gap[k].size()) = gap[k];
-      p.segment(firstRow_[k], gap[k].size()) = iterate.contactForce[k];
-    }
-    const Vector q = (p + system->omega() * g).cwiseMax(0);
+    const Vector g = system.joined(gaps(model, step.state0, iterate));
+    const Vector p = system.joined(iterate.contactForce);
+    const Vector q = (p + multipliers->omega() * g).cwiseMax(0);
     const double scale = q.size() > 0 ? std::max(largestLoad, q.maxCoeff()) : 0;
     contactChange = scale > 0 ? (q - p).cwiseAbs().maxCoeff() / scale : 0;
 
-    if (outcome.iterations > 0 && change <= options_.tolerance && contactChange <= contactTolerance) {
+    if (outcome.iterations > 0 && change <= options.tolerance && contactChange <= contactTolerance) {
       Iterate solution = iterate;
-      for (size_t k = 0; k < model_.interfaces.size(); ++k)
-        for (int i = 0; i < model_.interfaces[k].rows(); ++i) {
-          solution.contactForce[k][i] = q[firstRow_[k] + i];
-          solution.active[k][i] = q[firstRow_[k] + i] > 0 ? 1 : 0;
-        }
+      solution.contactForce = system.parted(q);
+      for (size_t k = 0; k < solution.active.size(); ++k)
+        for (size_t i = 0; i < solution.active[k].size(); ++i)
+          solution.active[k][i] = solution.contactForce[k][static_cast<Eigen::Index>(i)] > 0 ? 1 : 0;
       solution.wrongForce = p.size() > 0 ? std::max(0.0, -p.minCoeff()) : 0;
-      const double residual = linearise(state0, step, solution, false);
-      outcome.certificate = certify(state0, loads, solution, residual);
-      if (residual <= options_.tolerance && outcome.certificate.forceBalance <= balanceTolerance) {
+      const double residual = system.linearise(step, solution, step.data.weight, false).residual();
+      const Certificate certificate = system.certify(step, solution, residual);
+      if (residual <= options.tolerance && certificate.forceBalance <= balanceTolerance) {
         iterate = std::move(solution);
-        outcome.converged = true;
+        outcome.converge(certificate);
         return outcome;
       }
-      regularise(state0, step, iterate);
+      system.linearise(step, iterate, regularised);
     }
-    if (outcome.iterations == options_.maxIterations || !std::isfinite(change + contactChange)) {
-      std::ostringstream reason;
-      reason << "the penalty-duality method did not converge in " << outcome.iterations
-             << " iterations: stresses change by " << change << " yield stresses, contact forces by "
-             << contactChange << "; solver.method = \"newton\" solves more";
-      outcome.reason = reason.str();
+    if (outcome.iterations == options.maxIterations || !std::isfinite(change + contactChange)) {
+      std::ostringstream text;
+      text << "the penalty-duality method did not converge in " << outcome.iterations
+           << " iterations: stresses change by " << change << " yield stresses, contact forces by "
+           << contactChange << "; solver.method = \"newton\" solves more";
+      outcome.fail(Reason::unconverged, text.str());
       return outcome;
     }
 
-    // The forces that the new load asks for are found first: a passing one beyond yield would be hard to undo.
-    const bool first = outcome.iterations == 0;
-    const ContactSolve multipliers = [&](const Vector& slack, const Vector& p0, const Vector& balance,
-                                         const std::vector<char>& active) {
-      if (!first) return system->solve(2 * relaxation * (q - p), -(slack + g), balance);
-      if (balance.size() > 0) {
-        ContactSolution held = solveContact(contact_, slack, p0, balance, active);
-        if (held.outcome == ContactSolution::Outcome::unbalanced) return held;
+    // The forces that the new load asks for are found first: a passing one beyond yield would be hard to
+    // undo.
+    StepSystem::Condensed condensed = factorised->condense(step, iterate);
+    const Vector& slack = condensed.slack;
+    ContactSolution contact;
+    if (outcome.iterations > 0) {
+      contact = multipliers->solve(2 * relaxation * (q - p), -(slack + g), condensed.balance);
+    } else {
+      if (condensed.balance.size() > 0)
+        contact = solveContact(factorised->contact(), slack, p, condensed.balance, condensed.active);
+      if (contact.outcome != ContactSolution::Outcome::unbalanced) {
+        contact = multipliers->iterate(factorised->contact(), g, slack, p, condensed.balance,
+                                       options.maxIterations - 1);
+        outcome.iterations += contact.pivots;
       }
-      ContactSolution solution = system->iterate(contact_, g, slack, p0, balance, options_.maxIterations - 1);
-      outcome.iterations += solution.pivots;
-      return solution;
-    };
-    solveLinearised(state0, loads, multipliers, iterate, outcome);
-    if (!outcome.reason.empty()) return outcome;
+    }
+    if (!std::move(condensed).expand(contact, iterate, outcome)) return outcome;
+    iterate.contactForce = system.parted(p + contact.change);  // multipliers may pull on the way
   }
 }
 

@@ -18,8 +18,8 @@ struct State {
   double time = 0;  ///< [s]
   std::vector<BodyState> bodies;
   std::vector<Vector> contactForce;  ///< per interface and nonmortar node, p >= 0 [N/m]
-  /// g per interface and nonmortar node [m], the sum of its changes: taken from the displacements anew, their rounding
-  /// would open and close what is in contact.
+  /// g per interface and nonmortar node [m], the sum of its changes: taken from the displacements anew, their
+  /// rounding would open and close what is in contact.
   std::vector<Vector> gap;
 };
 
@@ -39,8 +39,8 @@ struct Certificate {
   double openPenetration = 0;  ///< largest g of a node that is not active, over the same
   double sign = 0;             ///< largest negative contact force over the largest nodal force
   double complementarity = 0;  ///< max |p g| over (largest contact force times that length)
-  /// What the rounding of meshes and displacements makes of stresses, over the same as materialResidual: epsilon
-  /// |H^-1| |u|/h. No residual shows it.
+  /// What the rounding of meshes and displacements makes of stresses, over the same as materialResidual:
+  /// epsilon |H^-1| |u|/h. No residual shows it.
   double rounding = 0;
 };
 
@@ -52,19 +52,25 @@ struct SpecialConditions {
 
 enum class Status { converged, failed, unheld };
 
+/// What a step took, in the order of what it costs (docs/theory.md).
+enum class Rung { rest, newton, continuation, interiorPoint, path, damping, penaltyDuality, cut };
+
+/// As in history.csv and summary.json.
+const char* nameOf(Rung rung);
+
 struct StepReport {
   int step = 0;
   double time = 0;      ///< at the end of the step [s]
   double timeStep = 0;  ///< [s]
   Status status = Status::converged;
-  std::string reason;           ///< one line when the status is not converged
-  std::string rung = "newton";  ///< what it took: newton, continuation, interior-point, path, damping, cut
-  bool guarded = false;         ///< done again as two half steps of backward Euler
-  int rejections = 0;           ///< attempts that were not good enough or could not be solved
-  double estimate = 0;          ///< of the error in time so far, relative; 0 with equal steps
-  int iterations = 0;           ///< linear solves with a new tangent
-  int factorisations = 0;       ///< matrices factorised, all bodies
-  int active = 0;               ///< active contact nodes, and how many joined and left in this step
+  std::string reason;        ///< one line when the status is not converged
+  Rung rung = Rung::newton;  ///< the hardest of its parts
+  bool guarded = false;      ///< done again as two half steps of backward Euler
+  int rejections = 0;        ///< attempts that were not good enough or could not be solved
+  double estimate = 0;       ///< of the error in time so far, relative; 0 with equal steps
+  int iterations = 0;        ///< linear solves with a new tangent
+  int factorisations = 0;    ///< matrices factorised, all bodies
+  int active = 0;            ///< active contact nodes, and how many joined and left in this step
   int joined = 0;
   int left = 0;
   double penetration = 0;   ///< integral of the positive part of the jump, all interfaces [m^2]

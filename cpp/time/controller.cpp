@@ -74,7 +74,7 @@ void Controller::pilot(StepTaker& taker, State& state) {
     const StepOutcome outcome = taker.attempt(nextTime(state.time, k), Scheme::backwardEuler);
     memory_.run.iterations += outcome.iterations;
     memory_.run.factorisations += outcome.factorisations;
-    if (!outcome.converged) break;
+    if (!outcome.converged()) break;
     taker.commit();
     largest = larger(largest, measure_.sizeOf(state));
   }
@@ -155,21 +155,21 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     const StepOutcome outcome = taker.attempt(t1);
     report.iterations += outcome.iterations;
     report.factorisations += outcome.factorisations;
-    if (!outcome.converged) {
-      report.rung = "cut";
+    if (!outcome.converged()) {
+      report.rung = Rung::cut;
       ++report.rejections;
       // The end of equilibrium is approached as closely as the tolerance asks.
-      if (outcome.unheld && k <= plan_.tolerance * (plan_.end - memory_.begin))
-        return giveUp(Status::unheld, t1, outcome.reason);
+      if (outcome.unheld() && k <= plan_.tolerance * (plan_.end - memory_.begin))
+        return giveUp(Status::unheld, t1, outcome.detail);
       if (++failures == patience)
-        return giveUp(outcome.unheld ? Status::unheld : Status::failed, t1, outcome.reason);
+        return giveUp(outcome.unheld() ? Status::unheld : Status::failed, t1, outcome.detail);
       own.timeStep = failureFactor * k;
       continue;
     }
     failures = 0;
     std::vector<Matrix> local;
     double size = 0;
-    if (outcome.rung != "rest") {
+    if (outcome.rung != Rung::rest) {
       local = taker.localError();
       // In the middle of a loading most of the error of an overstress is forgotten in the next step; at a stop it is there.
       ErrorNorms norms =
@@ -190,7 +190,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     const bool shortened = k < own.timeStep && factor >= 1;
     const double grown = (report.rejections > 0 ? std::min(factor, 1.0) : factor) * k;
     own.timeStep = std::max(least, shortened ? std::max(grown, own.timeStep) : grown);
-    if (outcome.rung != "rest") add(taker, std::move(local), size);
+    if (outcome.rung != Rung::rest) add(taker, std::move(local), size);
     taker.commit();
     const ErrorNorms reached = measure_.sizeOf(state);
     own.scale = larger(own.scale, reached);
@@ -200,7 +200,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     report.estimate = estimate();
     report.guarded = taker.guarded();
     report.certificate = outcome.certificate;
-    if (outcome.rung != "newton" && report.rung == "newton") report.rung = outcome.rung;
+    if (outcome.rung != Rung::newton && report.rung == Rung::newton) report.rung = outcome.rung;
     return;
   }
 }

@@ -6,7 +6,7 @@
 
 #include "solver/model.h"
 #include "solver/state.h"
-#include "solver/step.h"
+#include "solver/step_system.h"
 #include "time/memory.h"
 
 namespace mortier {

@@ -4,20 +4,21 @@
 #include <utility>
 
 #include "base/error.h"
+#include "solver/solve_step.h"
 
 namespace mortier {
 
-StepOutcome settle(const Model& model, State& state, const SolverOptions& options) {
-  StepSolver solver(model, options);
-  Iterate iterate = solver.start(state);
-  StepOutcome outcome = solver.solve(state, {state.time, 0, {}}, iterate);
-  if (!outcome.converged) return outcome;
+StepOutcome balanceElastically(const Model& model, State& state, const SolverOptions& options) {
+  StepSystem system(model, options);
+  Iterate iterate = startingIterate(state);
+  StepOutcome outcome = solveStep(system, state, {state.time, 0, {}}, iterate);
+  if (!outcome.converged()) return outcome;
   state.gap = solvedGaps(model, state, iterate);
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     BodyState& body = state.bodies[b];
-    BodyIterate& settled = iterate.bodies[b];
-    body.displacement += settled.increment.value();
-    body.stress = std::move(settled.stress);
+    BodyIterate& balanced = iterate.bodies[b];
+    body.displacement += balanced.increment.value();
+    body.stress = std::move(balanced.stress);
   }
   state.contactForce = std::move(iterate.contactForce);
   return outcome;
@@ -25,10 +26,10 @@ StepOutcome settle(const Model& model, State& state, const SolverOptions& option
 
 double balanceInitialStress(const Model& model, State& state, const SolverOptions& options) {
   const State before = state;
-  const StepOutcome outcome = settle(model, state, options);
-  if (outcome.unheld) throw UnheldBodyError("at t = 0: " + outcome.reason);
-  if (!outcome.converged)
-    throw InputError("the initial stress cannot be brought into equilibrium at t = 0: " + outcome.reason);
+  const StepOutcome outcome = balanceElastically(model, state, options);
+  if (outcome.unheld()) throw UnheldBodyError("at t = 0: " + outcome.detail);
+  if (!outcome.converged())
+    throw InputError("the initial stress cannot be brought into equilibrium at t = 0: " + outcome.detail);
   double change = 0;
   double largest = 0;
   for (size_t b = 0; b < model.bodies.size(); ++b) {

@@ -2,15 +2,15 @@
 #pragma once
 
 #include "solver/model.h"
+#include "solver/outcome.h"
 #include "solver/state.h"
-#include "solver/step.h"
 
 namespace mortier {
 
-/// Lets the bodies settle elastically: with the loads and supports of the state's time,
+/// The bodies give way elastically: with the loads and supports of the state's time,
 ///   E^-1 (s - s0) = B u,   sum |T| B' s + C'p = F,   g <= 0, p >= 0, p g = 0,
 /// which changes nothing where s0 is in equilibrium already. Where that is impossible the state is left alone.
-StepOutcome settle(const Model& model, State& state, const SolverOptions& options);
+StepOutcome balanceElastically(const Model& model, State& state, const SolverOptions& options);
 
 /// The same for an initial stress. \returns by how much the stress changed, over the largest stress.
 /// \throws InputError when there is no such state, UnheldBodyError where contact cannot hold a body.

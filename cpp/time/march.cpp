@@ -25,25 +25,25 @@ void advance(StepTaker& taker, const State& state, double t1, StepReport& report
     const StepOutcome outcome = taker.attempt(time, parts == 1 ? Effort::all : Effort::usual);
     report.iterations += outcome.iterations;
     report.factorisations += outcome.factorisations;
-    if (outcome.rung != "newton" && report.rung == "newton") report.rung = outcome.rung;
-    if (outcome.converged) {
+    if (outcome.rung != Rung::newton && report.rung == Rung::newton) report.rung = outcome.rung;
+    if (outcome.converged()) {
       report.certificate = worse(report.certificate, outcome.certificate);
       report.guarded = report.guarded || taker.guarded();
       taker.commit();
       ++done;
       continue;
     }
-    if (outcome.unheld || parts == smallest) {
-      report.status = outcome.unheld ? Status::unheld : Status::failed;
+    if (outcome.unheld() || parts == smallest) {
+      report.status = outcome.unheld() ? Status::unheld : Status::failed;
       std::ostringstream reason;
-      reason << "step " << report.step << " at t = " << time << " s: " << outcome.reason;
+      reason << "step " << report.step << " at t = " << time << " s: " << outcome.detail;
       report.reason = reason.str();
       return;
     }
     parts *= 2;
     done *= 2;
     ++report.rejections;
-    report.rung = "cut";
+    report.rung = Rung::cut;
   }
 }
 
@@ -57,7 +57,7 @@ void add(const StepReport& report, RunReport& run) {
   run.reason = report.reason;
   if (report.status != Status::converged) return;
   run.steps = report.step;
-  ++run.rungs[report.rung];
+  ++run.rungs[nameOf(report.rung)];
   run.guarded += report.guarded ? 1 : 0;
   run.worst = worse(run.worst, report.certificate);
 }
@@ -132,7 +132,7 @@ RunReport trials(const Model& model, State& state, MarchMemory& memory, const Ti
   constexpr int most = 5;
   const auto loaded = [&](const Body& body) { return !body.load(state.time).isZero(0); };
   if (std::any_of(model.bodies.begin(), model.bodies.end(), loaded))
-    memory.run.iterations += settle(model, state, options).iterations;
+    memory.run.iterations += balanceElastically(model, state, options).iterations;
   Controller controller(model, plan, memory);
   const State before = state;
   {

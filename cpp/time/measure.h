@@ -1,9 +1,9 @@
 // What is reported of a state.
 #pragma once
 
+#include "solver/iterate.h"
 #include "solver/model.h"
 #include "solver/state.h"
-#include "solver/step.h"
 #include "time/report.h"
 
 namespace mortier {

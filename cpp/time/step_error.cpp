@@ -142,7 +142,7 @@ std::vector<Matrix> StepTaker::carried(const std::vector<Matrix>& strain) {
 }
 
 std::vector<Response> StepTaker::response(const std::vector<Matrix>& strain) {
-  return solver_.respond(strain, solutions_.back().active);
+  return system_.respond(strain, solutions_.back().active);
 }
 
 std::vector<Response> StepTaker::surprise() const {

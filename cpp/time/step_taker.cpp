@@ -9,8 +9,8 @@ namespace mortier {
 
 StepTaker::StepTaker(const Model& model, State& state, MarchMemory& memory, Scheme scheme,
                      const SolverOptions& options)
-    : model_(model), state_(state), memory_(memory), scheme_(scheme), solver_(model, options) {
-  if (memory.run.steps > 0) solver_.resume(memory.solver);
+    : model_(model), state_(state), memory_(memory), scheme_(scheme), system_(model, options) {
+  if (memory.run.steps > 0) system_.resume(memory.solver);
 }
 
 // An explicit or second-order scheme may overshoot into the elastic domain, where nothing brings the stress
@@ -23,7 +23,7 @@ StepOutcome StepTaker::attempt(double t1, Scheme scheme, Effort effort) {
   tableau_ = tableau(scheme);
   guarded_ = false;
   StepOutcome outcome = solveStages(t1, effort);
-  if (scheme == Scheme::sdirk2 && outcome.converged && turnedShare() > turned) {
+  if (scheme == Scheme::sdirk2 && outcome.converged() && turnedShare() > turned) {
     tableau_ = twoHalfSteps();
     guarded_ = true;
     StepOutcome again = solveStages(t1, effort);
@@ -31,14 +31,11 @@ StepOutcome StepTaker::attempt(double t1, Scheme scheme, Effort effort) {
     again.factorisations += outcome.factorisations;
     outcome = std::move(again);
   }
-  if (const std::string motion = outcome.converged ? solver_.looseMotion(state_, solutions_.back()) : "";
-      !motion.empty()) {
-    outcome.converged = false;
-    outcome.unheld = true;
-    outcome.reason = "no contact is closed that would hold " + motion;
-  }
-  if (!outcome.converged) memory_.increments.clear();
-  memory_.solver = solver_.memory();
+  if (const std::string motion = outcome.converged() ? system_.looseMotion(state_, solutions_.back()) : "";
+      !motion.empty())
+    outcome.fail(Reason::unheld, "no contact is closed that would hold " + motion);
+  if (!outcome.converged()) memory_.increments.clear();
+  memory_.solver = system_.memory();
   return outcome;
 }
 
@@ -54,14 +51,13 @@ StepOutcome StepTaker::solveStages(double t1, Effort effort) {
     const double time = stage.time == 1 ? t1 : state_.time + stage.time * k;
     const StepData data{time, stage.diagonal * k, shift_, memory_.run.steps > 0};
     Iterate iterate = guess(i, k);
-    StepOutcome outcome = solver_.solve(state_, data, iterate, effort);
+    StepOutcome outcome = solveStep(system_, state_, data, iterate, effort);
     outcome.iterations += total.iterations;
     outcome.factorisations += total.factorisations;
     outcome.certificate = worse(outcome.certificate, total.certificate);
-    if (i > 0 && (outcome.rung == "rest" || (total.rung != "newton" && total.rung != "rest")))
-      outcome.rung = total.rung;
+    if (i > 0 && (outcome.rung == Rung::rest || total.rung > Rung::newton)) outcome.rung = total.rung;
     total = std::move(outcome);
-    if (!total.converged) return total;
+    if (!total.converged()) return total;
     if (tableau_.stages.size() > 1) rates_.push_back(ratesOf(iterate, data.weight));
     solutions_.push_back(std::move(iterate));
   }
@@ -81,7 +77,7 @@ void StepTaker::shiftOf(const Stage& stage, double k) {
 /// one.
 Iterate StepTaker::guess(size_t stage, double k) const {
   constexpr double sameStep = 1e-9;
-  Iterate iterate = solver_.start(state_);
+  Iterate iterate = startingIterate(state_);
   constexpr double farthest = 10;
   const bool sameStages = !guarded_ && memory_.increments.size() == tableau_.stages.size();
   if (!sameStages || k > farthest * memory_.timeStep) return iterate;

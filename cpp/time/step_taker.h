@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "solver/model.h"
+#include "solver/solve_step.h"
 #include "solver/state.h"
-#include "solver/step.h"
 #include "time/memory.h"
 #include "time/scheme.h"
 
@@ -41,7 +41,7 @@ class StepTaker {
   /// Power of the step with which the local error falls.
   [[nodiscard]] int errorOrder() const { return tableau_.errorOrder; }
   /// What was met among the contact conditions so far.
-  [[nodiscard]] const SpecialConditions& special() const { return solver_.special(); }
+  [[nodiscard]] const SpecialConditions& special() const { return system_.special(); }
   /// Takes the last attempt over.
   void commit();
   /// Active sets of the last step.
@@ -69,7 +69,7 @@ class StepTaker {
   State& state_;
   MarchMemory& memory_;
   Scheme scheme_;
-  StepSolver solver_;
+  StepSystem system_;
   // Of the last attempt:
   Tableau tableau_;
   std::vector<Iterate> solutions_;          ///< by stage

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,12 +28,28 @@ struct HardCase {
   bool slow = false;  ///< in the benchmark only
 };
 
+/// What the steps cost that took a rung.
+struct RungCost {
+  int steps = 0;
+  int iterations = 0;  ///< linear solves, those of the methods tried before included
+  int most = 0;        ///< in one step
+
+  void add(const RungCost& other) {
+    steps += other.steps;
+    iterations += other.iterations;
+    most = std::max(most, other.most);
+  }
+};
+using RungCosts = std::map<Rung, RungCost>;
+
 struct HardResult {
   State state;
   RunReport report;
-  std::string rung;  ///< the last resort of any step
+  RungCosts costs;
   double seconds = 0;
 
+  /// The last resort of any step.
+  [[nodiscard]] Rung rung() const { return costs.empty() ? Rung::newton : costs.rbegin()->first; }
   [[nodiscard]] bool meetsLimits() const {
     return report.status == Status::converged && report.worst.forceBalance < forceBalanceLimit &&
            report.worst.complementarity < complementarityLimit &&
@@ -41,15 +58,10 @@ struct HardResult {
 };
 
 inline HardResult solve(const Model& model, const TimePlan& plan) {
-  constexpr const char* rungs[] = {"rest", "newton",  "continuation", "interior-point",
-                                   "path", "damping", "cut"};
-  const auto order = [&](const std::string& rung) {
-    return std::find(std::begin(rungs), std::end(rungs), rung) - std::begin(rungs);
-  };
   const auto begin = std::chrono::steady_clock::now();
-  HardResult result{initialState(model), {}, "newton", 0};
+  HardResult result{initialState(model), {}, {}, 0};
   result.report = march(model, result.state, plan, {}, [&](const State&, const StepReport& report) {
-    if (order(report.rung) > order(result.rung)) result.rung = report.rung;
+    if (report.step > 0) result.costs[report.rung].add({1, report.iterations, report.iterations});
   });
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;

@@ -5,7 +5,8 @@
 
 #include <iostream>
 
-#include "solver/viscosity_path.h"
+#include "solver/solve_step.h"
+#include "solver/viscosity_walk.h"
 
 namespace mortier {
 namespace {
@@ -54,18 +55,19 @@ TEST(HardCases, pathTurnsBackAndGoesOn) {
   const RunReport report = march(model, state, {.end = 1.0 * before / steps, .steps = before}, {},
                                  [](const State&, const StepReport&) {});
   ASSERT_EQ(report.status, Status::converged);
-  StepSolver solver(model, {});
-  const StepData step{1.0 * (before + 1) / steps, 1.0 / steps, {}};
-  ViscosityPath path(solver, state, step);
+  StepSystem system(model, {});
+  const StepData data{1.0 * (before + 1) / steps, 1.0 / steps, {}};
+  const Step step = system.step(state, data);
+  ViscosityWalk walk(model, step);
   Iterate solution;
-  const StepOutcome outcome = path.follow(1500, solution);
-  EXPECT_TRUE(outcome.converged) << outcome.reason;
+  const StepOutcome outcome = followCurve(system, step, walk, 1500, solution);
+  EXPECT_TRUE(outcome.converged()) << outcome.detail;
   EXPECT_LT(outcome.certificate.materialResidual, materialResidualLimit);
   EXPECT_LT(outcome.certificate.forceBalance, forceBalanceLimit);
   std::cout << outcome.iterations << " linear solves, turns at";
-  for (const double decades : path.turns()) std::cout << " 10^" << decades;
+  for (const double decades : walk.turns) std::cout << " 10^" << decades;
   std::cout << " times the viscosity\n";
-  EXPECT_GE(path.turns().size(), 2);
+  EXPECT_GE(walk.turns.size(), 2);
 }
 
 TEST(HardCases, dampingEndsWhereThePathIsAMaze) {
@@ -89,13 +91,13 @@ TEST(HardCases, whatIsGivenUpHasAReasonAndKeepsToItsLimit) {
       SolverOptions options;
       options.maxIterations = most;
       const Model model = scene.model();
-      StepSolver solver(model, options);
+      StepSystem system(model, options);
       const State state0 = initialState(model);
-      Iterate iterate = solver.start(state0);
-      const StepOutcome outcome = solver.solve(state0, {0.2, 0.2, {}}, iterate, Effort::all);
+      Iterate iterate = startingIterate(state0);
+      const StepOutcome outcome = solveStep(system, state0, {0.2, 0.2, {}}, iterate, Effort::all);
       EXPECT_LE(outcome.iterations, most);
-      EXPECT_EQ(outcome.converged, outcome.reason.empty()) << most << " " << nameOf(projection);
-      givenUp += outcome.converged ? 0 : 1;
+      EXPECT_EQ(outcome.converged(), outcome.detail.empty()) << most << " " << nameOf(projection);
+      givenUp += outcome.converged() ? 0 : 1;
     }
   EXPECT_GE(givenUp, 6);
 }

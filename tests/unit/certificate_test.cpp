@@ -6,7 +6,7 @@
 
 #include "material/perzyna.h"
 #include "mesh/generate.h"
-#include "solver/step.h"
+#include "solver/solve_step.h"
 #include "time/march.h"
 #include "time/measure.h"
 
@@ -43,17 +43,18 @@ Model squares(bool contact, double upperLoad = -1, double lowerLoad = 0) {
 struct Solved {
   Model model = squares(true);
   State state0 = initialState(model);
-  StepSolver solver{model, {}};
-  Iterate iterate = solver.start(state0);
-  StepOutcome outcome = solver.solve(state0, {1, 1, {}}, iterate);
+  StepSystem system{model, {}};
+  StepData data{1, 1, {}};
+  Iterate iterate = startingIterate(state0);
+  StepOutcome outcome = solveStep(system, state0, data, iterate);
   std::vector<Vector> loads{model.bodies[0].load(1), model.bodies[1].load(1)};
 
-  [[nodiscard]] Certificate certificate() const { return solver.certify(state0, loads, iterate, 0); }
+  [[nodiscard]] Certificate certificate() const { return system.certify({state0, data, loads}, iterate, 0); }
 };
 
 TEST(Certificate, ofASolutionIsRounding) {
   const Solved solved;
-  ASSERT_TRUE(solved.outcome.converged);
+  ASSERT_TRUE(solved.outcome.converged());
   const Certificate found = solved.certificate();
   EXPECT_LE(found.forceBalance, 1e-13);
   EXPECT_LE(found.gapOnActive, 1e-15);
@@ -108,11 +109,11 @@ TEST(Certificate, keepsEveryNaN) {
 TEST(Certificate, aBodyWithoutANumberIsNotSolved) {
   for (const bool first : {true, false}) {
     const Model model = squares(false, first ? nan : -1, first ? 0 : nan);
-    StepSolver solver(model, {});
+    StepSystem system(model, {});
     const State state0 = initialState(model);
-    Iterate iterate = solver.start(state0);
-    const StepOutcome outcome = solver.solve(state0, {1, 1, {}}, iterate);
-    EXPECT_FALSE(outcome.converged) << (first ? "first" : "second");
+    Iterate iterate = startingIterate(state0);
+    const StepOutcome outcome = solveStep(system, state0, {1, 1, {}}, iterate);
+    EXPECT_FALSE(outcome.converged()) << (first ? "first" : "second");
   }
 }
 

@@ -103,7 +103,6 @@ inline void compare(const Engine& engine, const System& system, const std::vecto
   };
   const Matrix S = K(kept, kept) - K(kept, interior) * solveInterior(Matrix(K(interior, kept)));
   ASSERT_EQ(solver->schurComplement().rows(), S.rows());
-  EXPECT_EQ(solver->determinantSign(), lu.determinant() < 0 ? -1 : 1);
   const double scale = K.cwiseAbs().maxCoeff();
   EXPECT_LE((solver->schurComplement() - S).lpNorm<Eigen::Infinity>(), tolerance * scale);
 

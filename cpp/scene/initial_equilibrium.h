@@ -8,8 +8,8 @@
 
 namespace mortier {
 
-/// Settles the initial stresses of `state`, where there are any (time/initial_balance.h). \returns what a user may not have
+/// Brings the initial stresses of `state`, where there are any, into equilibrium (time/initial_balance.h). \returns what a user may not have
 /// meant: by how much they changed; empty where they were in equilibrium. \throws InputError, UnheldBodyError
-std::string settle(const SceneDescription& scene, const Model& model, State& state);
+std::string findInitialEquilibrium(const SceneDescription& scene, const Model& model, State& state);
 
 }  // namespace mortier

@@ -1,0 +1,66 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/worst.h"
+#include "solver/step_system.h"
+
+namespace mortier {
+
+Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double materialResidual) const {
+  constexpr double roundingOfMotion = 1e-15;
+  Worst force;
+  Worst length;  // gaps are differences of displacements
+  Worst rounding;
+  std::vector<Vector> residual;
+  const std::vector<Vector> u = displacements(step.state0, iterate);
+  for (size_t b = 0; b < bodies_.size(); ++b) {
+    const Body& body = model_.bodies[b];
+    const Matrix& stress0 = step.state0.bodies[b].stress;
+    const BodyIterate& unknowns = iterate.bodies[b];
+    residual.push_back(step.loads[b] - body.internalForce(unknowns.stress));
+    force.add(body.largestForce(unknowns.stress));
+    force.add(body.largestForce(stress0));  // of which rounding is left
+    force.add(step.loads[b]);
+    // A body that moves without any load and does not flow has forces that are nothing but rounding.
+    if (bodies_[b].law().elastic == body.points())
+      force.add(roundingOfMotion * bodies_[b].law().moduli.lpNorm<Eigen::Infinity>() *
+                unknowns.increment.high.lpNorm<Eigen::Infinity>());
+    length.add(extent(body.mesh()));
+    length.add(u[b]);
+    rounding.add(bodies_[b].rounding(stress0, unknowns, u[b]));
+  }
+  Worst contactForce;
+  for (const Vector& p : iterate.contactForce) contactForce.add(p);
+  Worst gapOnActive;
+  Worst openPenetration;
+  Worst complementarity;
+  for (size_t k = 0; k < model_.interfaces.size(); ++k) {
+    const ContactInterface& interface = model_.interfaces[k];
+    const int b1 = interface.pair().nonmortar.body;
+    const int b2 = interface.pair().mortar.body;
+    const Vector& p = iterate.contactForce[k];
+    interface.subtractForces(p, residual[b1], residual[b2]);
+    const Vector g = interface.gap(u[b1], u[b2]) / length.value();
+    for (Eigen::Index i = 0; i < g.size(); ++i) {
+      if (iterate.active[k][i] != 0)
+        gapOnActive.add(std::abs(g[i]));
+      else
+        openPenetration.add(g[i]);
+      if (contactForce.value() != 0) complementarity.add(std::abs(p[i] / contactForce.value() * g[i]));
+    }
+  }
+  Worst balance;
+  for (size_t b = 0; b < bodies_.size(); ++b) balance.add(model_.bodies[b].gather(residual[b]));
+  const auto overForce = [&](double value) { return value == 0 ? 0 : value / force.value(); };
+  Certificate result;
+  result.forceBalance = overForce(balance.value());
+  result.materialResidual = materialResidual;
+  result.gapOnActive = gapOnActive.value();
+  result.openPenetration = openPenetration.value();
+  result.sign = overForce(iterate.wrongForce);
+  result.complementarity = complementarity.value();
+  result.rounding = rounding.value();
+  return result;
+}
+
+}  // namespace mortier

@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "solver/methods.h"
+
+namespace mortier {
+namespace {
+
+using Place = ViscosityWalk::Place;
+
+constexpr double roughly = 1e-5;  // material residual of a place on the way
+constexpr int lastIterations = 20;
+
+/// A direction of the curve, of length one: stresses over the yield stress, and decades.
+struct Direction {
+  std::vector<Response> response;
+  double decades = 0;
+};
+
+void move(const Direction& along, double length, Place& place) {
+  place.decades += length * along.decades;
+  for (size_t b = 0; b < along.response.size(); ++b) {
+    const auto& [displacement, stress] = along.response[b];
+    place.iterate.bodies[b].stress += length * stress;
+    place.iterate.bodies[b].increment += length * displacement;
+  }
+}
+
+Direction difference(const Place& a, const Place& b) {
+  Direction result;
+  result.decades = a.decades - b.decades;
+  for (size_t i = 0; i < a.iterate.bodies.size(); ++i)
+    result.response.push_back({{}, a.iterate.bodies[i].stress - b.iterate.bodies[i].stress});
+  return result;
+}
+
+/// The curve of a step, and the work done along it.
+class Curve {
+ public:
+  Curve(StepSystem& system, const Step& step) : system_(system), step_(step) {
+    double largest = 0;
+    for (const Body& body : system.model().bodies) {
+      unit_.push_back(body.material().stressScale());
+      largest = std::max(largest, unit_.back());
+    }
+    for (double& unit : unit_)
+      if (unit == 0) unit = largest;
+  }
+
+  [[nodiscard]] double weightAt(const Place& place) const {
+    return step_.data.weight * std::pow(10, place.decades);
+  }
+
+  /// Linear solves at the viscosity of the place until its residual is `tolerance`.
+  bool solve(double tolerance, int iterations, Place& place) {
+    total.follow(newton(system_, step_, weightAt(place), {iterations, tolerance, true}, place.iterate));
+    return total.converged();
+  }
+
+  /// The direction at a place, towards larger `decades`. \returns false where the tangent is singular there.
+  bool directionAt(Place& place, Direction& direction) {
+    ++total.iterations;
+    const auto tangent = system_.linearise(step_, place.iterate, weightAt(place), true).factorise(total);
+    if (tangent) direction = directionWith(*tangent, place, {{}, 1});
+    return tangent.has_value();
+  }
+
+  struct Correction {
+    bool converged = false;
+    int iterations = 0;
+    Direction direction;  ///< of the curve, as of the last linear solve
+  };
+  /// Back to the curve in the plane across `along`.
+  Correction correct(const Direction& along, Place& place) {
+    constexpr int most = 5;
+    constexpr double lost = 100;  // beyond this many yield stresses the corrector does not come back
+    const Place predicted = place;
+    Correction result;
+    for (;; ++result.iterations) {
+      const StepSystem::Linearised linearised =
+          system_.linearise(step_, place.iterate, weightAt(place), true);
+      const double residual = linearised.residual();
+      result.converged = result.iterations > 0 && residual <= roughly;
+      if (result.converged || result.iterations == most || !std::isfinite(residual) ||
+          (result.iterations >= 2 && residual > lost))
+        return result;
+      ++total.iterations;
+      const std::optional<StepSystem::Factorised> tangent = linearised.factorise(total);
+      if (!tangent) return result;
+      Place before = place;
+      StepSystem::Condensed condensed = tangent->condense(step_, place.iterate);
+      const ContactSolution contact = condensed.solveContact();
+      if (!std::move(condensed).expand(contact, place.iterate, total)) return result;
+      before.iterate.active = place.iterate.active;
+      result.direction = directionWith(*tangent, before, along);
+      // No more than a decade at once.
+      const double size = -dot(along, difference(place, predicted)) / dot(along, result.direction);
+      const double farthest = 1 / std::abs(result.direction.decades);
+      move(result.direction, std::clamp(size, -farthest, farthest), place);
+    }
+  }
+
+  StepOutcome total;
+
+ private:
+  [[nodiscard]] double dot(const Direction& a, const Direction& b) const {
+    double sum = a.decades * b.decades;
+    for (size_t i = 0; i < std::min(a.response.size(), b.response.size()); ++i)
+      sum += a.response[i].stress.cwiseProduct(b.response[i].stress).sum() / (unit_[i] * unit_[i]);
+    return sum;
+  }
+
+  /// The direction at a place with this tangent, forwards as `along` is.
+  [[nodiscard]] Direction directionWith(const StepSystem::Factorised& tangent, const Place& place,
+                                        const Direction& along) const {
+    std::vector<Matrix> flow;
+    for (size_t b = 0; b < place.iterate.bodies.size(); ++b) {
+      Matrix rate;
+      system_.model().bodies[b].material().viscoplasticRate(place.iterate.bodies[b].stress, rate);
+      flow.push_back(std::numbers::ln10 * weightAt(place) * rate);
+    }
+    Direction result{tangent.respond(flow, place.iterate.active), 1};
+    const double length = std::copysign(std::sqrt(dot(result, result)), dot(along, result));
+    result.decades /= length;
+    for (auto& [displacement, stress] : result.response) {
+      displacement /= length;
+      stress /= length;
+    }
+    return result;
+  }
+
+  StepSystem& system_;
+  const Step& step_;
+  std::vector<double> unit_;  ///< of the stresses of each body
+};
+
+}  // namespace
+
+StepOutcome followCurve(StepSystem& system, const Step& step, ViscosityWalk& walk, int maxIterations,
+                        Iterate& solution) {
+  constexpr double longest = 20;
+  constexpr double tiniest = 1e-9;  // length of a step
+  Curve curve(system, step);
+  StepOutcome& total = curve.total;
+  Place at = walk.startOfCurve();
+  Direction along;
+  if (!curve.solve(roughly, lastIterations, at) || !curve.directionAt(at, along)) return total;
+  for (double length = 0.5; total.iterations < maxIterations && length > tiniest;) {
+    if (at.decades + length * along.decades >= 0) {
+      Place end = at;
+      move(along, -at.decades / along.decades, end);
+      end.decades = 0;
+      if (curve.solve(system.options().tolerance, std::min(lastIterations, maxIterations - total.iterations),
+                      end)) {
+        solution = std::move(end.iterate);
+        return total;
+      }
+      length = -at.decades / along.decades / 3;
+      continue;
+    }
+    Place place = at;
+    move(along, length, place);
+    Curve::Correction correction = curve.correct(along, place);
+    if (!correction.converged) {
+      length /= 3;
+      continue;
+    }
+    if ((along.decades > 0) != (correction.direction.decades > 0)) walk.turns.push_back(-at.decades);
+    at = std::move(place);
+    along = std::move(correction.direction);
+    if (correction.iterations == 1) length *= 2;
+    if (correction.iterations == 2) length *= 1.4;
+    length = std::min(length, longest);
+  }
+  total.fail(Reason::unconverged, "the curve of solutions for all viscosities was not followed to its end");
+  return total;
+}
+
+}  // namespace mortier

@@ -1,0 +1,73 @@
+#include "solver/iterate.h"
+
+#include <utility>
+
+namespace mortier {
+
+ActiveSets startingSets(const State& state0) {
+  ActiveSets sets;
+  for (const Vector& p : state0.contactForce) {
+    const bool none = p.size() == 0 || p.maxCoeff() <= 0;
+    std::vector<char> active(p.size());
+    for (Eigen::Index i = 0; i < p.size(); ++i) active[i] = none || p[i] > 0 ? 1 : 0;
+    sets.push_back(std::move(active));
+  }
+  return sets;
+}
+
+Iterate startingIterate(const State& state0) {
+  Iterate iterate;
+  for (const BodyState& body : state0.bodies)
+    iterate.bodies.push_back({TwoPartVector::zero(body.displacement.size()), body.stress, {}});
+  iterate.contactForce = state0.contactForce;
+  iterate.active = startingSets(state0);
+  return iterate;
+}
+
+void prescribe(const Model& model, const Step& step, Iterate& iterate) {
+  for (size_t b = 0; b < model.bodies.size(); ++b)
+    model.bodies[b].prescribeIncrement(step.state0.time, step.data.time, iterate.bodies[b].increment);
+}
+
+void updateStrain(const Model& model, const Step& step, size_t body, Iterate& iterate) {
+  BodyIterate& unknowns = iterate.bodies[body];
+  unknowns.strain.resizeLike(unknowns.stress);
+  model.bodies[body].strain(unknowns.increment, step.shift(body), unknowns.strain, 0,
+                            model.bodies[body].points());
+}
+
+std::vector<Vector> displacements(const State& state0, const Iterate& iterate) {
+  std::vector<Vector> u;
+  for (size_t b = 0; b < state0.bodies.size(); ++b)
+    u.push_back(state0.bodies[b].displacement + iterate.bodies[b].increment.value());
+  return u;
+}
+
+std::vector<Vector> gaps(const Model& model, const State& state0, const Iterate& iterate) {
+  std::vector<Vector> result;
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    const ContactInterface& interface = model.interfaces[k];
+    const TwoPartVector& u1 = iterate.bodies[interface.pair().nonmortar.body].increment;
+    const TwoPartVector& u2 = iterate.bodies[interface.pair().mortar.body].increment;
+    // The parts apart: the first no longer changes where the iteration ends.
+    result.emplace_back((state0.gap[k] + interface.jump(u1.high, u2.high)) + interface.jump(u1.low, u2.low));
+  }
+  return result;
+}
+
+std::vector<Vector> solvedGaps(const Model& model, const State& state0, const Iterate& solution) {
+  std::vector<Vector> result = gaps(model, state0, solution);
+  for (size_t k = 0; k < result.size(); ++k)
+    for (Eigen::Index i = 0; i < result[k].size(); ++i)
+      if (solution.active[k][i] != 0) result[k][i] = 0;
+  return result;
+}
+
+bool flows(const Model& model, const State& state) {
+  for (size_t b = 0; b < model.bodies.size(); ++b)
+    for (int i = 0; i < model.bodies[b].points(); ++i)
+      if (model.bodies[b].material().flows(state.bodies[b].stress, i)) return true;
+  return false;
+}
+
+}  // namespace mortier

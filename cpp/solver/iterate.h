@@ -1,0 +1,73 @@
+// The data of a step, and its unknowns on the way to their values.
+#pragma once
+
+#include <vector>
+
+#include "base/two_part_vector.h"
+#include "solver/model.h"
+#include "solver/state.h"
+
+namespace mortier {
+
+/// What is asked of a step.
+struct StepData {
+  double time = 0;            ///< t1: loads and prescribed displacements are taken here [s]
+  double weight = 0;          ///< time step times the scheme's diagonal coefficient [s]
+  std::vector<Matrix> shift;  ///< per body, components x points; empty for none
+  bool startSolved = false;   ///< the start of the step is the solution of the one before
+};
+
+/// The same with where it begins.
+struct Step {
+  const State& state0;
+  const StepData& data;
+  const std::vector<Vector>& loads;  ///< per body, nodal forces (dofs) at t1 [N/m]
+
+  [[nodiscard]] const Matrix* shift(size_t body) const {
+    return data.shift.empty() ? nullptr : &data.shift[body];
+  }
+};
+
+/// Per interface and nonmortar node, whether it is held closed.
+using ActiveSets = std::vector<std::vector<char>>;
+
+/// The unknowns of a body in a step.
+struct BodyIterate {
+  TwoPartVector increment;  ///< du (dofs) [m]
+  Matrix stress;            ///< s
+  Matrix strain;            ///< B du - shift, components x points, as of the last linearisation
+};
+
+/// The unknowns of a step.
+struct Iterate {
+  std::vector<BodyIterate> bodies;
+  std::vector<Vector> contactForce;  ///< p per interface
+  ActiveSets active;
+  double wrongForce = 0;  ///< the largest negative p of the last linear solve, before it was set to 0 [N/m]
+};
+
+/// The sets with which a step from `state0` begins: where there was a force, or everywhere if there was none.
+ActiveSets startingSets(const State& state0);
+
+/// Nothing moved yet, contact forces and active sets as in `state0`.
+Iterate startingIterate(const State& state0);
+
+/// The increment takes the prescribed displacements of t1.
+void prescribe(const Model& model, const Step& step, Iterate& iterate);
+
+/// iterate.bodies[body].strain becomes B du - shift.
+void updateStrain(const Model& model, const Step& step, size_t body, Iterate& iterate);
+
+/// u0 + du per body.
+std::vector<Vector> displacements(const State& state0, const Iterate& iterate);
+
+/// g = C (u0 + du) - g0 per interface: the gap of the state and what the increments add.
+std::vector<Vector> gaps(const Model& model, const State& state0, const Iterate& iterate);
+
+/// Those of a solution: 0 where it is active, whatever rounding left there.
+std::vector<Vector> solvedGaps(const Model& model, const State& state0, const Iterate& solution);
+
+/// Whether any point of the state flows.
+bool flows(const Model& model, const State& state);
+
+}  // namespace mortier

@@ -1,0 +1,67 @@
+// Rigid motions that contact does not hold.
+#include <Eigen/Eigenvalues>
+
+#include "base/error.h"
+#include "fem/rigid_modes.h"
+#include "solver/step_system.h"
+
+namespace mortier {
+namespace {
+
+/// A motion that moves the contact nodes by less than this part of what motions do there is not held by
+/// contact.
+constexpr double heldFraction = 1e-14;
+
+/// A body that moves by less than this part of a motion has none in it.
+constexpr double negligibleMotion = 1e-6;
+
+}  // namespace
+
+void StepSystem::requireHeld() {
+  contact_.proximal = options_.proximalWeight;
+  contact_.G = Matrix::Zero(rows(), firstMotion_.back());
+  for (size_t b = 0; b < bodies_.size(); ++b) {
+    const ContactDofs& dofs = bodies_[b].contact();
+    contact_.G.middleCols(firstMotion_[b], dofs.R.cols()) = dofs.C * dofs.R;
+  }
+  if (contact_.G.cols() == 0) return;
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(contact_.G.transpose() * contact_.G);
+  if (eigen.eigenvalues()[0] <= heldFraction * contact_.G.squaredNorm())
+    throw UnheldBodyError("nothing holds " + describeRigid(eigen.eigenvectors().col(0)) +
+                          "; a support (ux, uy) or a contact would");
+}
+
+std::string StepSystem::looseMotion(const State& state0, const Iterate& solution) const {
+  if (contact_.G.cols() == 0) return "";
+  constexpr double touching = 1e-14;
+  const std::vector<Vector> u = displacements(state0, solution);
+  Matrix closed = contact_.G;
+  for (size_t k = 0; k < model_.interfaces.size(); ++k) {
+    const ContactPair& pair = model_.interfaces[k].pair();
+    const Vector gap = model_.interfaces[k].gap(u[pair.nonmortar.body], u[pair.mortar.body]);
+    const double size = extent(model_.bodies[pair.nonmortar.body].mesh());
+    for (Eigen::Index i = 0; i < gap.size(); ++i)
+      if (solution.active[k][i] == 0 && gap[i] < -touching * size) closed.row(firstRow_[k] + i).setZero();
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(closed.transpose() * closed);
+  if (eigen.eigenvalues()[0] > heldFraction * contact_.G.squaredNorm()) return "";
+  const Vector z = eigen.eigenvectors().col(0);
+  bool untouched = true;
+  for (size_t b = 0; b < bodies_.size(); ++b)
+    untouched = untouched && (motionOf(z, b).norm() <= negligibleMotion || u[b].isZero(0));
+  return untouched ? "" : describeRigid(z);
+}
+
+std::string StepSystem::describeRigid(const Vector& z) const {
+  std::string text;
+  for (size_t b = 0; b < bodies_.size(); ++b) {
+    const Vector part = motionOf(z, b);
+    if (!(part.norm() > negligibleMotion * z.norm())) continue;
+    if (!text.empty()) text += ", ";
+    text += "body " + model_.bodies[b].name() + ": " +
+            describeRigidMotion(model_.bodies[b], bodies_[b].contact().motions * part);
+  }
+  return text;
+}
+
+}  // namespace mortier

@@ -1,0 +1,41 @@
+// The methods by which a step is solved, each on a linearised step of step_system.h. They leave the solution
+// in `iterate`.
+#pragma once
+
+#include "solver/step_system.h"
+#include "solver/viscosity_walk.h"
+
+namespace mortier {
+
+/// Solved without a linear solve, where no load and no support changes and nothing flows: the state must
+/// solve the step as it is.
+StepOutcome rest(StepSystem& system, const Step& step, Iterate& iterate);
+
+struct NewtonLimits {
+  int iterations = 0;
+  double tolerance = 0;       ///< material residual of the solution
+  bool anticipate = false;    ///< material/material.h
+  bool elasticFirst = false;  ///< the first iteration takes the bodies as elastic
+  bool turning = false;  ///< given up at once where a body that flowed is thrown far off, as where it unloads
+};
+
+/// Newton's method from `iterate`, at this weight [s].
+StepOutcome newton(StepSystem& system, const Step& step, double weight, const NewtonLimits& limits,
+                   Iterate& iterate);
+
+/// The law is followed along its central path (material/interior_path.h), contact exact in every linear
+/// solve.
+StepOutcome interiorPoint(StepSystem& system, const Step& step, int maxIterations, Iterate& iterate);
+
+/// Where curves of solutions are a maze, the step as the rest state of damped motion (pseudo-transient
+/// continuation, Kelley and Keyes 1998): beside the stress s on the law acts that of a viscosity in parallel,
+///   s + E B (du - du_n)/delta,
+/// du_n where the motion was last. For small delta, the length of a step of it, the tangent is that of an
+/// elastic body, whatever the law; where the motion ends the second term vanishes. Delta doubles with each
+/// step and falls where one cannot be solved.
+StepOutcome restOfDampedMotion(StepSystem& system, const Step& step, int maxIterations, Iterate& iterate);
+
+/// The penalty-duality method of Bermudez and Moreno, from `iterate`.
+StepOutcome penaltyDuality(StepSystem& system, const Step& step, Iterate& iterate);
+
+}  // namespace mortier

@@ -1,0 +1,50 @@
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "solver/methods.h"
+
+namespace mortier {
+
+StepOutcome newton(StepSystem& system, const Step& step, double weight, const NewtonLimits& limits,
+                   Iterate& iterate) {
+  // Beyond this many times the stresses that are there, or the yield stress, an iterate does not come back.
+  constexpr double hopeless = 1e3;
+  constexpr int patience = 2;
+  int outOfBalance = 0;
+  StepOutcome outcome;
+  prescribe(system.model(), step, iterate);
+  StepSystem::Linearised linearised =
+      system.linearise(step, iterate, limits.elasticFirst ? 0 : weight, limits.anticipate);
+  while (true) {
+    const double residual = linearised.residual();
+    const bool far = residual > hopeless;
+    if (outcome.iterations == limits.iterations || !std::isfinite(residual) ||
+        (far && outcome.iterations >= 2) ||
+        (far && outcome.iterations == 1 && limits.turning && flows(system.model(), step.state0))) {
+      std::ostringstream text;
+      text << "Newton's method did not converge in " << outcome.iterations
+           << " iterations, material residual " << residual;
+      outcome.fail(Reason::unconverged, text.str());
+      return outcome;
+    }
+    ++outcome.iterations;
+    const std::optional<StepSystem::Factorised> factorised = linearised.factorise(outcome);
+    if (!factorised) return outcome;
+    StepSystem::Condensed condensed = factorised->condense(step, iterate);
+    const ContactSolution contact = condensed.solveContact();
+    if (!std::move(condensed).expand(contact, iterate, outcome)) return outcome;
+
+    linearised = system.linearise(step, iterate, weight, limits.anticipate);
+    if (!(linearised.residual() <= limits.tolerance)) continue;
+    const Certificate certificate = system.certify(step, iterate, linearised.residual());
+    if (certificate.forceBalance <= std::max(balanceTolerance, limits.tolerance * 1e-2)) {
+      outcome.converge(certificate);
+      return outcome;
+    }
+    // The law holds and equilibrium does not, again and again: the linear solves are to blame.
+    if (++outOfBalance == patience) system.useLibraries();
+  }
+}
+
+}  // namespace mortier

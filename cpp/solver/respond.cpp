@@ -1,0 +1,97 @@
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "solver/step_system.h"
+
+namespace mortier {
+namespace {
+
+/// The linear problem that is left of (contact) when the active set is given: s = 0 on it, dp = 0 off it, the
+/// balance G' dp = r. A little compliance keeps it regular where conditions or motions are redundant.
+Matrix closedSystem(const ContactProblem& problem, const std::vector<int>& closed) {
+  constexpr double little = 1e-12;
+  const auto n = static_cast<Eigen::Index>(closed.size());
+  const Eigen::Index motions = problem.G.cols();
+  const Matrix G = problem.G(closed, Eigen::all);
+  Matrix system = Matrix::Zero(n + motions, n + motions);
+  system.topLeftCorner(n, n) = problem.W(closed, closed);
+  const double compliance = system.diagonal().cwiseAbs().maxCoeff();
+  system.topLeftCorner(n, n).diagonal().array() += little * compliance;
+  system.topRightCorner(n, motions) = -G;
+  system.bottomLeftCorner(motions, n) = G.transpose();
+  system.bottomRightCorner(motions, motions).diagonal().array() += little / compliance;
+  return system;
+}
+
+/// Conditions of all interfaces that are held closed.
+std::vector<int> closedConditions(const ActiveSets& active) {
+  std::vector<int> closed;
+  int condition = 0;
+  for (const std::vector<char>& set : active)
+    for (const char holds : set) {
+      if (holds != 0) closed.push_back(condition);
+      ++condition;
+    }
+  return closed;
+}
+
+ContactSolution holdClosed(const ContactProblem& problem, const Vector& slack, const ActiveSets& active) {
+  ContactSolution solution;
+  solution.change = Vector::Zero(slack.size());
+  solution.rigid = Vector::Zero(problem.G.cols());
+  const std::vector<int> closed = closedConditions(active);
+  if (closed.empty()) return solution;
+  const auto n = static_cast<Eigen::Index>(closed.size());
+  const Eigen::Index motions = problem.G.cols();
+  Vector right(n + motions);
+  right << -slack(closed), Vector::Zero(motions);  // stresses do no work on rigid motions
+  Matrix system = closedSystem(problem, closed);
+  const Eigen::PartialPivLU<Eigen::Ref<Matrix>> factor(system);  // in place: it may be large
+  const Vector x = factor.solve(right);
+  solution.change(closed) = x.head(n);
+  solution.rigid = x.tail(motions);
+  return solution;
+}
+
+}  // namespace
+
+std::vector<Response> StepSystem::Factorised::respond(const std::vector<Matrix>& error,
+                                                      const ActiveSets& active) const {
+  const Model& model = system_->model_;
+  std::vector<CondensedBody>& bodies = system_->bodies_;
+  std::vector<Response> responses(bodies.size());
+  std::vector<Vector> motion(bodies.size());
+  system_->forEachBody([&](int b) {
+    Matrix& stress = responses[b].stress;
+    stress.resizeLike(error[b]);
+    for (int i = 0; i < stress.cols(); ++i) stress.col(i) = -stressOf(bodies[b].law(), error[b].col(i), i);
+    motion[b] = bodies[b].condense(-model.bodies[b].internalForce(stress));
+  });
+  Vector slack = Vector::Zero(system_->rows());
+  for (size_t b = 0; b < bodies.size(); ++b)
+    if (!bodies[b].contact().none()) slack -= bodies[b].contact().C * motion[b];
+  const ContactSolution contact = holdClosed(system_->contact_, slack, active);
+  system_->forEachBody([&](int b) {
+    Response& response = responses[b];
+    response.displacement = bodies[b].expand(contact.change, system_->motionOf(contact.rigid, b));
+    model.bodies[b].addStressOf(response.displacement, bodies[b].law(), response.stress, 0,
+                                model.bodies[b].points());
+  });
+  return responses;
+}
+
+std::vector<Response> StepSystem::respond(const std::vector<Matrix>& error, const ActiveSets& active) {
+  std::vector<Response> responses(bodies_.size());
+  if (std::all_of(error.begin(), error.end(), [](const Matrix& e) { return e.isZero(0); })) {
+    for (size_t b = 0; b < bodies_.size(); ++b)
+      responses[b] = {Vector::Zero(model_.bodies[b].dofs()), Matrix::Zero(error[b].rows(), error[b].cols())};
+    return responses;
+  }
+  const Linearised last(*this, 0, Key{});
+  StepOutcome again;
+  const auto stale = [](const CondensedBody& body) { return body.stale(); };
+  if (std::any_of(bodies_.begin(), bodies_.end(), stale)) static_cast<void>(last.factorise(again));
+  return last.keepFactors().respond(error, active);
+}
+
+}  // namespace mortier

@@ -1,0 +1,88 @@
+#include "solver/solve_step.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "solver/methods.h"
+
+namespace mortier {
+
+const char* nameOf(Rung rung) {
+  switch (rung) {
+    case Rung::rest:
+      return "rest";
+    case Rung::newton:
+      return "newton";
+    case Rung::continuation:
+      return "continuation";
+    case Rung::interiorPoint:
+      return "interior-point";
+    case Rung::path:
+      return "path";
+    case Rung::damping:
+      return "damping";
+    case Rung::penaltyDuality:
+      return "penalty-duality";
+    default:
+      return "cut";
+  }
+}
+
+// What takes many linear solves comes last, and is for projections that are not associated: with a symmetric
+// tangent the interior point method leads to the one solution.
+StepOutcome solveStep(StepSystem& system, const State& state0, const StepData& data, Iterate& guess,
+                      Effort effort) {
+  constexpr int plainIterations = 7;
+  constexpr int firstWalk = 60;
+  constexpr int usualIterations = 300;
+  constexpr int secondWalk = 100;
+  constexpr int longWalk = 1500;
+  const SolverOptions& options = system.options();
+  const Step step = system.step(state0, data);
+  if (options.reduce && data.startSolved) {
+    Iterate resting;
+    if (StepOutcome outcome = rest(system, step, resting); outcome.converged()) {
+      guess = std::move(resting);
+      return outcome;
+    }
+  }
+  if (options.method == Method::penaltyDuality) return penaltyDuality(system, step, guess);
+
+  NewtonLimits plain{std::min(plainIterations, options.maxIterations), options.tolerance};
+  plain.turning = true;
+  StepOutcome total = newton(system, step, data.weight, plain, guess);
+  const auto climb = [&](Rung rung, StepOutcome next) {
+    total.follow(std::move(next));
+    total.rung = rung;
+  };
+  const auto left = [&](int most) { return std::min(most, options.maxIterations) - total.iterations; };
+  const auto open = [&](int most) { return !total.converged() && !total.unheld() && left(most) > 0; };
+  // What flowed may unload.
+  if (open(usualIterations) && flows(system.model(), state0)) {
+    plain.iterations = std::min(plainIterations, left(options.maxIterations));
+    plain.turning = false;
+    plain.elasticFirst = true;
+    Iterate unloaded = startingIterate(state0);
+    climb(Rung::newton, newton(system, step, data.weight, plain, unloaded));
+    if (total.converged()) guess = std::move(unloaded);
+  }
+  const bool unique = system.uniqueSolutions();
+  ViscosityWalk walk(system.model(), step);
+  if (open(usualIterations) && !unique)
+    climb(Rung::continuation,
+          lowerViscosity(system, step, walk, std::min(firstWalk, left(usualIterations)), guess));
+  if (open(usualIterations))
+    climb(Rung::interiorPoint, interiorPoint(system, step, left(usualIterations), guess));
+  if (open(usualIterations)) {
+    const int most = std::min(unique ? usualIterations : secondWalk, left(usualIterations));
+    climb(Rung::continuation, lowerViscosity(system, step, walk, most, guess));
+  }
+  const int longest = effort == Effort::all ? options.maxIterations : usualIterations;
+  if (open(longest) && !unique)
+    climb(Rung::path, followCurve(system, step, walk, std::min(longWalk, left(longest)), guess));
+  if (effort == Effort::all && !unique && open(longest))
+    climb(Rung::damping, restOfDampedMotion(system, step, left(longest), guess));
+  return total;
+}
+
+}  // namespace mortier

@@ -1,0 +1,223 @@
+#include "solver/step_system.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/worst.h"
+
+namespace mortier {
+namespace {
+
+/// Starting threads costs more than it gains below this many triangles.
+constexpr int trianglesWorthThreads = 30000;
+
+int threadsFor(const Model& model, int most) {
+  int triangles = 0;
+  for (const Body& body : model.bodies) triangles += static_cast<int>(body.mesh().triangles.size());
+  return triangles >= trianglesWorthThreads ? most : 1;
+}
+
+std::vector<int> numberRows(const Model& model) {
+  std::vector<int> first{0};
+  for (const ContactInterface& interface : model.interfaces) first.push_back(first.back() + interface.rows());
+  return first;
+}
+
+/// The sets of all interfaces as one.
+std::vector<char> joinedSets(const ActiveSets& active) {
+  std::vector<char> set;
+  for (const std::vector<char>& part : active) set.insert(set.end(), part.begin(), part.end());
+  return set;
+}
+
+}  // namespace
+
+StepSystem::StepSystem(const Model& model, const SolverOptions& options)
+    : model_(model),
+      options_(options),
+      threads_(threadsFor(model, options.threads)),
+      firstRow_(numberRows(model)) {
+  bodies_.reserve(model.bodies.size());
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    bodies_.emplace_back(model, static_cast<int>(b), firstRow_, options, threads_);
+    firstMotion_.push_back(firstMotion_.back() + static_cast<int>(bodies_[b].contact().R.cols()));
+    uniqueSolutions_ = uniqueSolutions_ && model.bodies[b].pattern().symmetric;
+  }
+  requireHeld();
+}
+
+const std::vector<Vector>& StepSystem::loadsAt(double time) {
+  for (size_t i = 0; i < loads_.size(); ++i)
+    if (loads_[i].time == time) {
+      latestLoads_ = i;
+      return loads_[i].forces;
+    }
+  latestLoads_ = 1 - latestLoads_;
+  Loads& loads = loads_[latestLoads_];
+  loads = {time, {}};
+  for (const Body& body : model_.bodies) loads.forces.push_back(body.load(time));
+  return loads.forces;
+}
+
+Vector StepSystem::joined(const std::vector<Vector>& parts) const {
+  Vector all(rows());
+  for (size_t k = 0; k < parts.size(); ++k) all.segment(firstRow_[k], parts[k].size()) = parts[k];
+  return all;
+}
+
+std::vector<Vector> StepSystem::parted(const Vector& all) const {
+  std::vector<Vector> parts;
+  for (size_t k = 0; k + 1 < firstRow_.size(); ++k)
+    parts.emplace_back(all.segment(firstRow_[k], firstRow_[k + 1] - firstRow_[k]));
+  return parts;
+}
+
+StepSystem::Linearised StepSystem::linearise(const Step& step, Iterate& iterate, const LawOf& lawOf) {
+  std::vector<double> residual(bodies_.size());
+  forEachBody([&](int b) {
+    residual[b] =
+        bodies_[b].linearise(step.state0.bodies[b].stress, step.shift(b), iterate.bodies[b], lawOf(b));
+  });
+  Worst worst;
+  for (const double value : residual) worst.add(value);
+  return {*this, worst.value(), Key{}};
+}
+
+BodyLaw StepSystem::law(const Step& step, int body, double weight, bool anticipate) const {
+  const Material& material = model_.bodies[body].material();
+  const Matrix& stress0 = step.state0.bodies[body].stress;
+  return {[=, &material, &stress0](const BodyIterate& iterate, Linearisation& result, int begin, int end) {
+    return material.linearise({weight, stress0, iterate.strain, anticipate}, iterate.stress, result, begin,
+                              end);
+  }};
+}
+
+StepSystem::Linearised StepSystem::linearise(const Step& step, Iterate& iterate, double weight,
+                                             bool anticipate) {
+  return linearise(step, iterate, [&](int b) { return law(step, b, weight, anticipate); });
+}
+
+std::optional<StepSystem::Factorised> StepSystem::Linearised::factorise(StepOutcome& outcome) const {
+  std::vector<CondensedBody>& bodies = system_->bodies_;
+  ContactProblem& contact = system_->contact_;
+  std::vector<CondensedBody::Factors> factors(bodies.size());
+  system_->forEachBody([&](int b) { factors[b] = bodies[b].factorise(); });
+  bool changed = contact.W.rows() != system_->rows();
+  bool regular = true;
+  for (const CondensedBody::Factors& body : factors) {
+    if (!body.failure.empty()) regular = outcome.fail(Reason::singular, body.failure);
+    changed = changed || body.changed;
+    outcome.factorisations += body.changed ? 1 : 0;
+  }
+  if (!regular) return std::nullopt;
+  if (changed) {
+    contact.W.setZero(system_->rows(), system_->rows());
+    contact.symmetric = true;
+    for (size_t b = 0; b < bodies.size(); ++b) {
+      if (bodies[b].contact().none()) continue;
+      contact.symmetric = contact.symmetric && system_->model_.bodies[b].pattern().symmetric;
+      bodies[b].addCompliance(contact.W);
+    }
+  }
+  return keepFactors();
+}
+
+StepSystem::Factorised StepSystem::Linearised::keepFactors() const {
+  return {*system_, Key{}};
+}
+
+StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const Iterate& iterate) const {
+  const Model& model = system_->model_;
+  std::vector<CondensedBody>& bodies = system_->bodies_;
+  std::vector<Vector> force(bodies.size());
+  system_->forEachBody(
+      [&](int b) { force[b] = step.loads[b] - model.bodies[b].internalForce(bodies[b].law().predictor); });
+  system_->contact_.force = 0;
+  for (const Vector& before : step.state0.contactForce)
+    if (before.size() > 0) system_->contact_.force = std::max(system_->contact_.force, before.maxCoeff());
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    const ContactPair& pair = model.interfaces[k].pair();
+    model.interfaces[k].subtractForces(iterate.contactForce[k], force[pair.nonmortar.body],
+                                       force[pair.mortar.body]);
+  }
+  Condensed result(*system_, Key{});
+  result.slack = -system_->joined(gaps(model, step.state0, iterate));
+  result.p0 = system_->joined(iterate.contactForce);
+  std::vector<Vector> motion(bodies.size());
+  system_->forEachBody([&](int b) { motion[b] = bodies[b].condense(force[b]); });
+  result.balance.resize(system_->contact_.G.cols());
+  for (size_t b = 0; b < bodies.size(); ++b) {
+    const ContactDofs& dofs = bodies[b].contact();
+    if (dofs.none()) continue;
+    result.slack -= dofs.C * motion[b];
+    result.balance.segment(system_->firstMotion_[b], dofs.R.cols()) = dofs.rigidForce(step.loads[b]);
+  }
+  result.balance -= system_->contact_.G.transpose() * result.p0;
+  result.active = joinedSets(iterate.active);
+  return result;
+}
+
+ContactSolution StepSystem::Condensed::solveContact() const {
+  ContactSolution solution = mortier::solveContact(system_->contact_, slack, p0, balance, active);
+  SpecialConditions& special = system_->special_;
+  special.idle = std::max(special.idle, solution.idle);
+  if (solution.dependent && special.dependent == 0)
+    special.dependent = dependentConditions(system_->contact_.W);
+  return solution;
+}
+
+bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iterate,
+                                   StepOutcome& outcome) && {
+  if (contact.outcome == ContactSolution::Outcome::cycled)
+    return outcome.fail(Reason::contact, "the contact problem of the linearised step has no solution");
+  if (contact.outcome == ContactSolution::Outcome::capped)
+    return outcome.fail(Reason::contact,
+                        "the contact problem of the linearised step was given up after the work of " +
+                            std::to_string(static_cast<int>(workLimit)) + " factorisations");
+  if (contact.outcome == ContactSolution::Outcome::unbalanced)
+    return outcome.fail(Reason::unheld, "contact cannot hold " + system_->describeRigid(contact.rigid));
+  system_->forEachBody([&](int b) {
+    const Body& body = system_->model_.bodies[b];
+    const Linearisation& law = system_->bodies_[b].law();
+    const Vector d = system_->bodies_[b].expand(contact.change, system_->motionOf(contact.rigid, b));
+    Matrix& stress = iterate.bodies[b].stress;
+    iterate.bodies[b].increment += d;
+    stress.resizeLike(law.predictor);
+    forEachBlock(body, system_->threads_, [&](int begin, int end) {
+      stress.middleCols(begin, end - begin) = law.predictor.middleCols(begin, end - begin);
+      body.addStressOf(d, law, stress, begin, end);
+    });
+  });
+  iterate.contactForce = system_->parted(p0 + contact.change);
+  iterate.wrongForce = 0;
+  for (size_t k = 0; k < iterate.contactForce.size(); ++k) {
+    Vector& p = iterate.contactForce[k];
+    const auto first = contact.active.begin() + system_->firstRow_[k];
+    iterate.active[k].assign(first, first + p.size());
+    if (p.size() > 0) iterate.wrongForce = std::max(iterate.wrongForce, -p.minCoeff());
+    p = p.cwiseMax(0);
+  }
+  return true;
+}
+
+void StepSystem::useLibraries() {
+  for (CondensedBody& body : bodies_) body.useLibraries();
+}
+
+SolverMemory StepSystem::memory() const {
+  SolverMemory memory;
+  for (const CondensedBody& body : bodies_) {
+    memory.libraries.push_back(body.usesLibraries() ? 1 : 0);
+    memory.elasticFactors.push_back(body.elasticFactors() ? 1 : 0);
+  }
+  return memory;
+}
+
+void StepSystem::resume(const SolverMemory& memory) {
+  for (size_t b = 0; b < memory.libraries.size(); ++b) {
+    if (memory.libraries[b] != 0) bodies_[b].useLibraries();
+    if (memory.elasticFactors[b] != 0) bodies_[b].elasticFactorsWereCounted();
+  }
+}
+
+}  // namespace mortier

@@ -1,0 +1,178 @@
+// The linearised step. Displacement increment and stress are both unknowns, so a triangle needs no local
+// solve:
+//
+//   E^-1 (s - s0) + weight G(s) = B du - shift    in every triangle          (material)
+//   sum |T| B' s + C' p = F(t1)                   at every free dof          (equilibrium)
+//   g = C (u0 + du) - g0 <= 0, p >= 0, p g = 0    at every nonmortar node    (contact)
+//
+// Linearised at s (material/material.h), (material) gives s = predictor + H^-1 B d; what is left is
+//   K d + C' p = F - sum |T| B' predictor,  K = sum |T| B' H^-1 B,
+// with (contact) kept as it is: each body is condensed to its contact dofs, and the complementarity problem
+// is solved there. A linear solve goes from one type to the next, and only so:
+//
+//   StepSystem -linearise-> Linearised -factorise-> Factorised -condense-> Condensed -solveContact, expand-> iterate
+//
+// Each is good until the next linearise().
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/parallel.h"
+#include "solver/complementarity.h"
+#include "solver/condensed_body.h"
+#include "solver/iterate.h"
+#include "solver/outcome.h"
+
+namespace mortier {
+
+/// Force balance asked of a converged step; far above rounding, far below what any result shows.
+constexpr double balanceTolerance = 1e-11;
+
+/// What a body answers to an error of its strain.
+struct Response {
+  Vector displacement;  ///< by dofs [m]
+  Matrix stress;        ///< components x points [Pa]
+};
+
+class StepSystem {
+  struct Key {
+    explicit Key() = default;
+  };
+
+ public:
+  /// \throws UnheldBodyError when neither supports nor contact hold a body.
+  StepSystem(const Model& model, const SolverOptions& options);
+
+  [[nodiscard]] const Model& model() const { return model_; }
+  [[nodiscard]] const SolverOptions& options() const { return options_; }
+
+  /// A step from a state; good until two other times are asked for.
+  [[nodiscard]] Step step(const State& state0, const StepData& data) {
+    return {state0, data, loadsAt(data.time)};
+  }
+  /// Nodal forces of all bodies at a time.
+  const std::vector<Vector>& loadsAt(double time);
+
+  /// The law that a body is linearised with.
+  using LawOf = std::function<BodyLaw(int body)>;
+  class Linearised;
+  Linearised linearise(const Step& step, Iterate& iterate, const LawOf& lawOf);
+  /// That of the material, with this weight [s].
+  [[nodiscard]] BodyLaw law(const Step& step, int body, double weight, bool anticipate) const;
+  Linearised linearise(const Step& step, Iterate& iterate, double weight, bool anticipate);
+
+  class Factorised;
+  class Condensed;
+
+  /// The residuals of an iterate; the law as it was linearised last.
+  [[nodiscard]] Certificate certify(const Step& step, const Iterate& iterate, double materialResidual) const;
+
+  /// Factorised::respond with the last tangent, factorised anew where points began or ceased to flow since.
+  std::vector<Response> respond(const std::vector<Matrix>& error, const ActiveSets& active);
+
+  /// The rigid motion, in words, that no closed contact of a solution of a step holds, though no load drives
+  /// it: the bodies could be anywhere along it. Empty where there is none, or only of bodies that nothing has
+  /// moved so far.
+  [[nodiscard]] std::string looseMotion(const State& state0, const Iterate& solution) const;
+  /// Whether there are bodies that contact alone holds.
+  [[nodiscard]] bool contactHolds() const { return contact_.G.cols() > 0; }
+  /// Whether every tangent is symmetric: a step minimises a convex energy.
+  [[nodiscard]] bool uniqueSolutions() const { return uniqueSolutions_; }
+  /// What was met among the contact conditions so far.
+  [[nodiscard]] const SpecialConditions& special() const { return special_; }
+
+  /// Vectors of all interfaces as one, and one of all conditions by interface.
+  [[nodiscard]] Vector joined(const std::vector<Vector>& parts) const;
+  [[nodiscard]] std::vector<Vector> parted(const Vector& all) const;
+
+  void forEachBody(const Threads::Work& work) { threads_.forEach(static_cast<int>(bodies_.size()), work); }
+  /// From now on CHOLMOD or UMFPACK.
+  void useLibraries();
+  /// What of the solver itself a run must know to go on from here as if it had not stopped.
+  [[nodiscard]] SolverMemory memory() const;
+  void resume(const SolverMemory& memory);
+
+ private:
+  void requireHeld();
+  [[nodiscard]] std::string describeRigid(const Vector& z) const;
+  [[nodiscard]] Vector motionOf(const Vector& z, size_t body) const {
+    return z.segment(firstMotion_[body], firstMotion_[body + 1] - firstMotion_[body]);
+  }
+  [[nodiscard]] int rows() const { return firstRow_.back(); }
+
+  const Model& model_;
+  SolverOptions options_;
+  Threads threads_;
+  std::vector<int>
+      firstRow_;  ///< of each interface among all contact conditions, and their number at the end
+  std::vector<CondensedBody> bodies_;
+  std::vector<int> firstMotion_{0};  ///< of each body among all rigid motions, and their number at the end
+  ContactProblem contact_;
+  SpecialConditions special_;
+  struct Loads {
+    double time = NAN;
+    std::vector<Vector> forces;  ///< per body
+  };
+  std::array<Loads, 2> loads_;
+  size_t latestLoads_ = 0;
+  bool uniqueSolutions_ = true;
+};
+
+/// The law of a step linearised at an iterate.
+class StepSystem::Linearised {
+ public:
+  Linearised(StepSystem& system, double residual, Key /*key*/) : system_(&system), residual_(residual) {}
+  /// Of the material, scaled; NaN when any stress is.
+  [[nodiscard]] double residual() const { return residual_; }
+  [[nodiscard]] const Linearisation& law(int body) const { return system_->bodies_[body].law(); }
+  /// Nothing, and the reason, where a tangent is singular.
+  [[nodiscard]] std::optional<Factorised> factorise(StepOutcome& outcome) const;
+  /// The factors of the linearisation before, whose tangent is the same.
+  [[nodiscard]] Factorised keepFactors() const;
+
+ private:
+  StepSystem* system_;
+  double residual_;
+};
+
+class StepSystem::Factorised {
+ public:
+  Factorised(StepSystem& system, Key /*key*/) : system_(&system) {}
+  /// What the loads leave over, condensed to the contact conditions.
+  [[nodiscard]] Condensed condense(const Step& step, const Iterate& iterate) const;
+  [[nodiscard]] const ContactProblem& contact() const { return system_->contact_; }
+  /// With these contacts kept closed and the others open:
+  ///   s = H^-1 (B d - error),   sum |T| B' s + C_A' p = 0,   C_A d = 0.
+  /// \param error  per body, a strain added in every triangle (components x points).
+  [[nodiscard]] std::vector<Response> respond(const std::vector<Matrix>& error,
+                                              const ActiveSets& active) const;
+
+ private:
+  StepSystem* system_;
+};
+
+/// The contact problem of a linear solve (complementarity.h).
+class StepSystem::Condensed {
+ public:
+  Condensed(StepSystem& system, Key /*key*/) : system_(&system) {}
+  [[nodiscard]] ContactSolution solveContact() const;
+  /// The iterate goes to the solution of the linear solve: displacement, stress, contact.
+  /// \returns false, and the reason, where there is none.
+  bool expand(const ContactSolution& contact, Iterate& iterate, StepOutcome& outcome) &&;
+
+  Vector slack;              ///< g0 - C u at dp = 0
+  Vector p0;                 ///< contact forces
+  Vector balance;            ///< of the forces that only contact can carry
+  std::vector<char> active;  ///< to begin with
+
+ private:
+  StepSystem* system_;
+};
+
+}  // namespace mortier
