@@ -8,10 +8,13 @@
 // corrector of Mehrotra 1992). What is small is carried, never a difference: 1 - |x|^2 and y' + y_0 x.
 #pragma once
 
+#include <optional>
+
 #include "material/material.h"
 
 namespace mortier {
 
+/// Some points of a body on their path. All of its points are handed over.
 class InteriorPath {
  public:
   virtual ~InteriorPath() = default;
@@ -33,5 +36,22 @@ class InteriorPath {
   /// Goes `step` along the last direction; `stress` follows.
   virtual void advance(double step, Matrix& stress) = 0;
 };
+
+/// A law with such a path, on three directions in which it is diagonal.
+struct ConeLaw {
+  Eigen::Array3d e;        ///< eigenvalues of the elasticity tensor [Pa]
+  Eigen::Array3d a;        ///< of the yield function [-]
+  Eigen::Array3d b;        ///< a over the weights of the projection's norm [-]
+  double yieldStress = 0;  ///< sigma_Y [Pa]
+  double theta = 0;        ///< weight/(2 lambda) [1/Pa]
+  std::optional<double> bulk =
+      {};  ///< where the directions are k, q, r of plane strain, that of the pressure [Pa]
+};
+
+std::unique_ptr<InteriorPath> conePath(const ConeLaw& law, const Matrix& stress0, std::vector<int> points);
+
+/// Points without a path of their own follow Newton's method; they bar no step and count as none.
+std::unique_ptr<InteriorPath> newtonPath(const Material& material, const PathStart& start,
+                                         std::vector<int> points);
 
 }  // namespace mortier

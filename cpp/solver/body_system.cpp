@@ -55,9 +55,7 @@ BodySystem::BodySystem(const Model& model, int body, const std::vector<int>& fir
   findRigidMotions();
   solver_ = engine_ == LinearEngine::multifrontal ? multifrontalSolver(body_.pattern(), kept_)
                                                   : suiteSparseSolver(body_.pattern(), kept_);
-  law_.predictor.resize(body_.material().components(), body_.points());
-  law_.moduli.resize(body_.material().symmetricTangent() ? 6 : 9, body_.points());
-  if (body_.material().components() > 3) law_.beyond.resize(4, body_.points());
+  law_ = body_.material().room(body_.points());
 }
 
 void BodySystem::findContactDofs(const Model& model, int body, const std::vector<int>& firstRow) {
@@ -108,15 +106,18 @@ template <class Law>
 double BodySystem::evaluate(const MaterialStep& step, const Matrix* shift, BodyIterate& iterate,
                             const Law& law) {
   iterate.strain.resizeLike(iterate.stress);
-  law_.elastic = 0;
-  std::vector<double> largest(blocks());
+  std::vector<LawReport> reports(blocks());
   forEachBlock([&](int begin, int end) {
     stopIfInterrupted();
     body_.strain(iterate.increment, shift, iterate.strain, begin, end);
-    largest[begin / block] = law(begin, end);
+    reports[begin / block] = law(begin, end);
   });
   Worst residual;
-  for (const double value : largest) residual.add(value);
+  law_.elastic = 0;
+  for (const LawReport& report : reports) {
+    residual.add(report.change);
+    law_.elastic += report.elastic;
+  }
   return residual.value() == 0 ? 0 : residual.value() / residualScale(step.stress0, iterate);
 }
 

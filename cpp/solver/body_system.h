@@ -103,7 +103,7 @@ class BodySystem {
   /// Calls work(begin, end) for all points, a block at a time.
   template <class Work>
   void forEachBlock(const Work& work);
-  /// Strain at the iterate, then the law's law(begin, end) for all points. \returns the largest value, scaled.
+  /// Strain at the iterate, then the law's law(begin, end) for all points. \returns the largest change, scaled.
   template <class Law>
   double evaluate(const MaterialStep& step, const Matrix* shift, BodyIterate& iterate, const Law& law);
   void findContactDofs(const Model& model, int body, const std::vector<int>& firstRow);
