@@ -2,9 +2,9 @@
 // with x = P_B s / sigma_Y scaled by a^(1/2) (yield_domain.h) and the flow as a cone variable y = (y_0, y'),
 //   E^-1 (s - s0) + flow(y) = B du - shift,   s = sigma_Y a^(-1/2) (x - b y'),   |x| <= 1,  |y'| <= y_0,
 //   x o y = (y_0 + x.y', y' + y_0 x) = (mu, 0).
-// For mu = 0 this is the law itself: y' = -m x, where m >= 0 and m (1 - |x|) = 0. For mu > 0 a point is never quite
-// elastic and never quite on the yield surface, and mu falls to zero in some twenty iterations however stiff
-// the law (primal-dual method with the direction of Alizadeh, Haeberly and Overton 1998, predictor and
+// For mu = 0 this is the law itself: y' = -m x, where m >= 0 and m (1 - |x|) = 0. For mu > 0 a point is never
+// quite elastic and never quite on the yield surface, and mu falls to zero in some twenty iterations however
+// stiff the law (primal-dual method with the direction of Alizadeh, Haeberly and Overton 1998, predictor and
 // corrector of Mehrotra 1992). What is small is carried, never a difference: 1 - |x|^2 and y' + y_0 x.
 #pragma once
 
@@ -27,8 +27,8 @@ class InteriorPath {
   [[nodiscard]] virtual double complementarity() const = 0;
   [[nodiscard]] virtual int points() const = 0;
 
-  /// Linearises at the iterate, whose strain (minus shift) is given: predictor and moduli of the stress. Aims at
-  /// mu = `target`; `correct` takes in what was neglected by the last direction.
+  /// Linearises at the iterate, whose strain (minus shift) is given: predictor and moduli of the stress. Aims
+  /// at mu = `target`; `correct` takes in what was neglected by the last direction.
   virtual void linearise(const Matrix& strain, double target, bool correct, Linearisation& result) = 0;
   /// The direction in which a change of strain takes the points. \returns the largest step along it that none
   /// of them bars [-].

@@ -1,5 +1,5 @@
-// What a body asks of its material: the stress law of one time step at its points, linearised. A material knows no mesh
-// and keeps no state. With the elasticity E and the viscoplastic rate G,
+// What a body asks of its material: the stress law of one time step at its points, linearised. A material
+// knows no mesh and keeps no state. With the elasticity E and the viscoplastic rate G,
 //   E^-1 (s - s0) + weight G(s, eps) = strain.
 // Laws are written for one point (point_material.h); a body may have several (parts.h).
 #pragma once
@@ -18,8 +18,8 @@ struct MaterialStep {
   double weight = 0;      ///< time step times the scheme's diagonal coefficient [s]
   const Matrix& stress0;  ///< components x points, at the start of the step [Pa]
   const Matrix& strain;   ///< components x points, total strain increment minus the scheme's shift [-]
-  /// Judge yielding by the stress plus a part of what the strain still asks for: slower where bodies flow, but it holds
-  /// where triangles sit on the yield surface.
+  /// Judge yielding by the stress plus a part of what the strain still asks for: slower where bodies flow,
+  /// but it holds where triangles sit on the yield surface.
   bool anticipate = false;
   /// What `strain` is added to, to give the total strain eps; needed where the law depends on that [-].
   const Matrix* strain0 = nullptr;
@@ -41,11 +41,11 @@ struct PathStart {
 /// The law linearised at an iterate s of the stress: the next iterate is predictor + H^-1 B d.
 struct Linearisation {
   Matrix predictor;  ///< components x points: s + H^-1 r [Pa]
-  /// The block of H^-1 that acts on the strains of the plane [Pa], column major: 9 x points, or, where the moduli are
-  /// symmetric, 6 x points for the lower triangle.
+  /// The block of H^-1 that acts on the strains of the plane [Pa], column major: 9 x points, or, where the
+  /// moduli are symmetric, 6 x points for the lower triangle.
   Matrix moduli;
-  /// What a fourth stress component adds to H^-1 [Pa]: its row, and, where H^-1 is not symmetric, the first three of its
-  /// column: 4 or 7 x points. Empty where there are three components.
+  /// What a fourth stress component adds to H^-1 [Pa]: its row, and, where H^-1 is not symmetric, the first
+  /// three of its column: 4 or 7 x points. Empty where there are three components.
   Matrix beyond = {};
   int elastic = 0;  ///< points at which the moduli are those of elasticity, as far as they were counted
 };
@@ -124,8 +124,8 @@ class Material {
   virtual LawReport linearise(const MaterialStep& step, const Matrix& stress, Linearisation& result,
                               int begin, int end) const = 0;
   /// The law regularised for the penalty-duality method (solver/penalty_duality.cpp). With penalties
-  /// w = penalty weight/(2 lambda) [1/Pa] per point and D^-1 = E^-1 + w, the moduli become D and the predictor
-  /// s + relaxation (t - s), where t is on the law at the strain + D^-1 (s - t).
+  /// w = penalty weight/(2 lambda) [1/Pa] per point and D^-1 = E^-1 + w, the moduli become D and the
+  /// predictor s + relaxation (t - s), where t is on the law at the strain + D^-1 (s - t).
   virtual LawReport regularise(const MaterialStep& step, const Matrix& stress, const Vector& penalty,
                                double relaxation, Linearisation& result, int begin, int end) const = 0;
   virtual void choosePenalty(const Matrix& stress, Vector& penalty, int begin, int end) const = 0;
@@ -139,9 +139,11 @@ class Material {
 
   /// Room for the linearisation of so many points.
   [[nodiscard]] Linearisation room(int points) const;
-  /// The penalties [-] that suit a stress: nothing where it is elastic, the mean stiffness of the flow where it flows.
+  /// The penalties [-] that suit a stress: nothing where it is elastic, the mean stiffness of the flow where
+  /// it flows.
   void choosePenalty(const Matrix& stress, Vector& penalty) const;
-  /// Viscoplastic strain rate G [1/s], components x points, of stress and, where the law depends on it, total strain.
+  /// Viscoplastic strain rate G [1/s], components x points, of stress and, where the law depends on it, total
+  /// strain.
   void viscoplasticRate(const Matrix& stress, Matrix& rate, const Matrix* strain = nullptr) const;
   /// E^-1 s [-], components x points.
   void elasticStrain(const Matrix& stress, Matrix& strain) const;

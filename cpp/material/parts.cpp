@@ -140,8 +140,8 @@ class Parts final : public Material {
     }
   }
 
-  /// What call(material, first, last) reports in all. Changes are scaled so that one yield stress of their material is one
-  /// stressScale_; that must not depend on the range of points.
+  /// What call(material, first, last) reports in all. Changes are scaled so that one yield stress of their
+  /// material is one stressScale_; that must not depend on the range of points.
   template <class Call>
   [[nodiscard]] LawReport reported(int begin, int end, Call call) const {
     Worst worst;

@@ -1,8 +1,9 @@
-// Isotropic laws in plane strain. Stresses are (p, q, r, s33), eps33 = 0. With the deviator and the pressure as coordinates,
+// Isotropic laws in plane strain. Stresses are (p, q, r, s33), eps33 = 0. With the deviator and the pressure
+// as coordinates,
 //   k = (p - sqrt2 s33)/sqrt3,  q,  r;   h = (sqrt2 p + s33)/sqrt3 = tr sigma/sqrt3,
-// again an orthonormal basis, elasticity is diagonal: E/(1+nu) on k, q, r and E/(1-2 nu) on h. A law that leaves the pressure
-// to elasticity is one of the deviator. For Perzyna's that is so in the norms of all three projections: B is the von Mises
-// cylinder, and P_B shortens the deviator to sigma_Y sqrt(2/3),
+// again an orthonormal basis, elasticity is diagonal: E/(1+nu) on k, q, r and E/(1-2 nu) on h. A law that
+// leaves the pressure to elasticity is one of the deviator. For Perzyna's that is so in the norms of all
+// three projections: B is the von Mises cylinder, and P_B shortens the deviator to sigma_Y sqrt(2/3),
 //   eps' = E^-1 sigma' + (1 - sigma_Y/vM)_+ dev sigma / (2 lambda).
 #pragma once
 

@@ -14,8 +14,9 @@
 //   double outOfPlane(Eigen::Vector3d) const;     where there are 4 components
 //   ConeLaw cone(double weight) const;            where its interior path is known (interior_path.h)
 //
-// E is any symmetric elliptic tensor and G any function: nothing else is assumed of them. Stresses and strains are
-// arrays of components, each for eight points (base/lanes.h); this class runs the law over a body's points.
+// E is any symmetric elliptic tensor and G any function: nothing else is assumed of them. Stresses and
+// strains are arrays of components, each for eight points (base/lanes.h); this class runs the law over a
+// body's points.
 #pragma once
 
 #include <utility>

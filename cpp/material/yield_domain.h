@@ -1,7 +1,8 @@
 // The elastic domain B = { a . s^2 <= sigma_Y^2 } and the projection on it in a norm with weights w,
 //   (P_B s)_i = s_i / (1 + m b_i),  b_i = a_i / w_i,  m >= 0 the root of  a . (P_B s)^2 = sigma_Y^2,
-// for eight stresses at once. a = (1/2, 3/2, 3/2) on p, q, r is von Mises in plane stress; (3/2, 3/2, 3/2) on a
-// deviator is von Mises in three dimensions. Every norm here weighs the second and the third direction alike.
+// for eight stresses at once. a = (1/2, 3/2, 3/2) on p, q, r is von Mises in plane stress; (3/2, 3/2, 3/2) on
+// a deviator is von Mises in three dimensions. Every norm here weighs the second and the third direction
+// alike.
 #pragma once
 
 #include "material/law_lanes.h"
@@ -32,8 +33,8 @@ class YieldDomain {
   YieldDomain(double yieldStress, const Pair& a, const std::array<B, 2>& b)
       : scale_(1 / yieldStress), a_(a), b_(b) {}
 
-  /// Of one stress or of eight. A stress on the yield surface, up to rounding, counts as beyond it: with the elastic
-  /// tangent there Newton cycles.
+  /// Of one stress or of eight. A stress on the yield surface, up to rounding, counts as beyond it: with the
+  /// elastic tangent there Newton cycles.
   template <class Scalar>
   [[nodiscard]] auto yields(const std::array<Scalar, 3>& s) const {
     constexpr double onSurface = 1 - 1e-10;
@@ -73,8 +74,9 @@ class YieldDomain {
     return {a_[0] * p * p, a_[1] * (q * q + r * r)};
   }
 
-  /// psi(m) = (sum a s^2/(sigma_Y^2 (1 + m b)^2))^(-1/2) is concave and rises to 1 at the root: Newton from the left climbs
-  /// monotonically and ends when it no longer climbs. On a common denominator, with d = 1 + m b, psi is
+  /// psi(m) = (sum a s^2/(sigma_Y^2 (1 + m b)^2))^(-1/2) is concave and rises to 1 at the root: Newton from
+  /// the left climbs monotonically and ends when it no longer climbs. On a common denominator, with d = 1 + m
+  /// b, psi is
   ///   d_p d_q / sqrt(p d_q^2 + q d_p^2).
   /// A lane that has arrived stays, so no lane depends on its neighbours.
   [[nodiscard]] Lanes multiplier(const LaneVector& t, LaneMask climbing) const {

@@ -1,5 +1,5 @@
-// The general form eps' = E^-1 s' + G(s, eps), any symmetric elliptic E: laws that the program does not have, run by what
-// runs those that it has.
+// The general form eps' = E^-1 s' + G(s, eps), any symmetric elliptic E: laws that the program does not have,
+// run by what runs those that it has.
 #include "material/point_material.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,8 @@ std::array<Lanes, n> times(const Eigen::Matrix<double, n, n>& A, const std::arra
   return y;
 }
 
-/// G = (s - K eps)/eta with any matrix K: for a symmetric one the standard linear solid, which relaxes to K eps.
+/// G = (s - K eps)/eta with any matrix K: for a symmetric one the standard linear solid, which relaxes to K
+/// eps.
 template <int n>
 class Relaxing {
  public:
