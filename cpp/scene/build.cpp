@@ -22,7 +22,7 @@ Model buildModel(ResolvedScene& scene, std::vector<std::string>& warnings) {
   model.bodies.reserve(description.bodies.size());
   for (size_t b = 0; b < description.bodies.size(); ++b) {
     model.bodies.push_back(
-        buildBody(description.bodies[b], std::move(scene.meshes[b]), description.plane, times, warnings));
+        buildBody(description.bodies[b], std::move(scene.meshes[b]), description, times, warnings));
   }
   scene.meshes.clear();
   for (const ContactDescription& contact : description.contacts) {

@@ -3,6 +3,7 @@
 #include <map>
 #include <sstream>
 
+#include "fem/element.h"
 #include "material/parts.h"
 #include "scene/check_data.h"
 
@@ -21,7 +22,7 @@ std::shared_ptr<const Material> buildMaterial(const MaterialDescription& descrip
 
 /// One material, or as many as regions ask for.
 std::shared_ptr<const Material> buildMaterial(const BodyDescription& body, const TriangleMesh& mesh,
-                                              Plane plane) {
+                                              Plane plane, int pointsOfATriangle) {
   std::vector<std::shared_ptr<const Material>> materials{buildMaterial(body.material, plane)};
   std::map<int, int> number;
   for (const RegionDescription& region : body.regions) {
@@ -36,7 +37,7 @@ std::shared_ptr<const Material> buildMaterial(const BodyDescription& body, const
   std::vector<int> materialOf;
   for (const int label : mesh.regions) {
     const auto found = number.find(label);
-    materialOf.push_back(found == number.end() ? 0 : found->second);
+    materialOf.insert(materialOf.end(), pointsOfATriangle, found == number.end() ? 0 : found->second);
   }
   return materialOfParts(std::move(materials), std::move(materialOf));
 }
@@ -74,8 +75,8 @@ void warnOfThinTriangles(const BodyDescription& body, const TriangleMesh& mesh,
 
 }  // namespace
 
-Body buildBody(const BodyDescription& body, TriangleMesh mesh, Plane plane, const std::vector<double>& times,
-               std::vector<std::string>& warnings) {
+Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescription& scene,
+               const std::vector<double>& times, std::vector<std::string>& warnings) {
   warnOfThinTriangles(body, mesh, warnings);
   Conditions conditions;
   std::vector<const ConditionDescription*> displacements;
@@ -88,7 +89,8 @@ Body buildBody(const BodyDescription& body, TriangleMesh mesh, Plane plane, cons
     }
   }
   requireFiniteData(body, mesh, times);
-  requireOneDisplacement(Supports(mesh, conditions.displacements), displacements, mesh, times);
+  requireOneDisplacement(Supports(mesh, elementNodes(mesh, 1), conditions.displacements), displacements, mesh,
+                         times);
   for (const int c : {0, 1}) {
     if (body.force[c]) {
       conditions.forces.push_back({c, body.force[c]->value});
@@ -98,8 +100,9 @@ Body buildBody(const BodyDescription& body, TriangleMesh mesh, Plane plane, cons
   for (const RegionDescription& region : body.regions) {
     addInitialStress(region.initialStress, region.label, conditions);
   }
-  const std::shared_ptr<const Material> material = buildMaterial(body, mesh, plane);
-  return {body.name, std::move(mesh), material, std::move(conditions)};
+  const int points = withElement(scene.degree, [](auto element) { return decltype(element)::points; });
+  const std::shared_ptr<const Material> material = buildMaterial(body, mesh, scene.plane, points);
+  return {body.name, std::move(mesh), material, std::move(conditions), scene.degree};
 }
 
 }  // namespace mortier

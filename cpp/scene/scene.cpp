@@ -62,6 +62,8 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   scene.path = path;
   scene.title = root.string("title", "");
   scene.plane = static_cast<Plane>(root.oneOf("plane", planeWords, 0));
+  scene.degree = root.integer("degree", 1, scene.degree);
+  if (scene.degree > 2) root.reject("degree", "1 or 2");
   readOptions(root, scene);
   const std::vector<const Node*> bodies = root.tables("body");
   if (bodies.empty()) {
@@ -79,6 +81,7 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   for (const Node* contact : root.tables("contact")) {
     scene.contacts.push_back(readContact(*contact, scene));
   }
+  if (scene.degree == 2 && !scene.contacts.empty()) root.reject("degree", "1 where bodies are in contact");
   return scene;
 }
 
