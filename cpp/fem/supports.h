@@ -48,6 +48,9 @@ class Supports {
   /// Labels that the mesh does not have hold nothing.
   Supports(const TriangleMesh& mesh, const ElementNodes& nodes,
            const std::vector<PrescribedDisplacement>& conditions);
+  /// Of linear displacements.
+  Supports(const TriangleMesh& mesh, const std::vector<PrescribedDisplacement>& conditions)
+      : Supports(mesh, elementNodes(mesh, 1), conditions) {}
 
   [[nodiscard]] const std::vector<NodeSupport>& nodes() const { return nodes_; }  ///< ascending
   [[nodiscard]] const std::vector<FurtherMotion>& further() const { return further_; }

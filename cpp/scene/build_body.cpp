@@ -89,8 +89,7 @@ Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescri
     }
   }
   requireFiniteData(body, mesh, times);
-  requireOneDisplacement(Supports(mesh, elementNodes(mesh, 1), conditions.displacements), displacements, mesh,
-                         times);
+  requireOneDisplacement(Supports(mesh, conditions.displacements), displacements, mesh, times);
   for (const int c : {0, 1}) {
     if (body.force[c]) {
       conditions.forces.push_back({c, body.force[c]->value});
