@@ -1,4 +1,5 @@
-// A vector carried as an unevaluated sum of two: a small change of large entries is not rounded to their size.
+// A vector carried as an unevaluated sum of two: a small change of large entries is not rounded to their
+// size.
 #pragma once
 
 #include "base/double_double.h"
@@ -21,6 +22,16 @@ struct TwoPartVector {
       low[i] += sum.low;
     }
     return *this;
+  }
+
+  /// The component of the vector at rows i, i + 1 along a unit vector; that across it stays.
+  void setAlong(Eigen::Index i, const Point& direction, double value) {
+    high.segment<2>(i) += (value - direction.dot(high.segment<2>(i))) * direction;
+    low.segment<2>(i) -= direction.dot(low.segment<2>(i)) * direction;
+  }
+  void set(Eigen::Index i, double value) {
+    high[i] = value;
+    low[i] = 0;
   }
 
   /// The difference, rounded once.

@@ -17,6 +17,7 @@
 #include "linear/versions.h"
 #include "lint/lint.h"
 #include "plan/estimate_doubts.h"
+#include "plan/loads.h"
 #include "report/accuracy.h"
 #include "report/checkpoint.h"
 #include "report/checkpoint_files.h"
@@ -72,26 +73,9 @@ RunFacts factsOf(const RunCommand& command, const SceneDescription& scene) {
   for (const auto& libraries : {linearLibraries(), sceneLibraries()})
     facts.versions.insert(facts.versions.end(), libraries.begin(), libraries.end());
   std::vector<std::string> projections;
-  for (const BodyDescription& body : scene.bodies) {
-    std::vector<const MaterialDescription*> materials{&body.material};
-    for (const RegionDescription& region : body.regions) {
-      if (region.material) {
-        materials.push_back(&*region.material);
-      }
-    }
-    std::vector<std::string> words;
-    for (const MaterialDescription* material : materials) {
-      const auto& flow = material->viscoplasticity;
-      // In plane strain all projections are one.
-      const std::string law =
-          scene.plane == Plane::strain || !flow ? "Perzyna" : "Perzyna (" + word(flow->projection) + ")";
-      words.push_back(flow ? law : "elastic");
-      if (flow) {
-        projections.push_back(word(flow->projection));
-      }
-    }
-    facts.materials.push_back(joinedOnce(words));
-  }
+  for (const BodyDescription& body : scene.bodies)
+    for (const MaterialDescription* material : materialsOf(body))
+      if (material->viscoplasticity) projections.push_back(word(material->viscoplasticity->projection));
   std::vector<std::string> nonmortars;
   for (const ContactDescription& contact : scene.contacts) {
     facts.variants.push_back(word(contact.variant));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "base/double_double.h"
 #include "base/error.h"
 #include "fem/element.h"
 #include "material/stress.h"
@@ -11,13 +10,19 @@
 namespace mortier {
 namespace {
 
-using Element = LinearTriangle;
+/// The places of the nodes of a triangle.
+template <class Element>
+std::array<Point, Element::nodes> placesOf(const ElementNodes& nodes, size_t triangle) {
+  std::array<Point, Element::nodes> x;
+  for (int a = 0; a < Element::nodes; ++a) x[a] = nodes.places[nodes.of(triangle)[a]];
+  return x;
+}
 
-/// Calls f(edge length, vertex, midpoint weight...) for the edges of a label.
-template <class Visit>
-void forEachEdge(const TriangleMesh& mesh, int label, Visit visit) {
-  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
-    if (mesh.boundaryLabels[e] == label) visit(mesh.boundaryEdges[e]);
+template <size_t n>
+Point placeOf(const std::array<double, n>& shapes, const std::array<Point, n>& x) {
+  Point place = Point::Zero();
+  for (size_t a = 0; a < n; ++a) place += shapes[a] * x[a];
+  return place;
 }
 
 void requireLabel(const TriangleMesh& mesh, const std::string& body, int label) {
@@ -29,26 +34,48 @@ void requireLabel(const TriangleMesh& mesh, const std::string& body, int label) 
 }  // namespace
 
 Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> material,
-           Conditions conditions)
+           Conditions conditions, int degree)
     : name_(std::move(name)),
       mesh_(std::move(mesh)),
+      nodes_(mortier::elementNodes(mesh_, degree)),
       material_(std::move(material)),
       conditions_(std::move(conditions)),
-      supports_(mesh_, conditions_.displacements) {
+      supports_(mesh_, nodes_, conditions_.displacements) {
   for (const auto& condition : conditions_.displacements) requireLabel(mesh_, name_, condition.label);
   for (const auto& condition : conditions_.tractions) requireLabel(mesh_, name_, condition.label);
-  weights_.reserve(mesh_.triangles.size());
-  gradients_.reserve(4 * mesh_.triangles.size());
-  for (const auto& triangle : mesh_.triangles) {
-    const auto table = Element::tabulate(
-        {mesh_.vertices[triangle[0]], mesh_.vertices[triangle[1]], mesh_.vertices[triangle[2]]});
-    weights_.push_back(table.weight);
-    largestGradient_ = std::max(largestGradient_, table.gradients.lpNorm<Eigen::Infinity>());
-    for (int a = 1; a < Element::nodes; ++a)
-      for (int c = 0; c < 2; ++c) gradients_.push_back(table.gradients(c, a) * (std::numbers::sqrt2 / 2));
-  }
+  withElement(degree, [&](auto element) {
+    using Element = decltype(element);
+    const size_t count = Element::points * mesh_.triangles.size();
+    weights_.reserve(count);
+    gradients_.reserve(2 * (Element::nodes - 1) * count);
+    for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto table = Element::tabulate(placesOf<Element>(nodes_, t));
+      for (int i = 0; i < Element::points; ++i) {
+        if (!(table.weights[i] > 0))
+          throw InputError(mesh_.name + ": triangle " + std::to_string(t + 1) +
+                           " is turned inside out by its curved side, expected a finer mesh there");
+        weights_.push_back(table.weights[i]);
+        largestGradient_ = std::max(largestGradient_, table.gradients[i].template lpNorm<Eigen::Infinity>());
+        for (int a = 1; a < Element::nodes; ++a)
+          for (int c = 0; c < 2; ++c)
+            gradients_.push_back(table.gradients[i](c, a) * (std::numbers::sqrt2 / 2));
+      }
+    }
+  });
   numberEquations();
   assembly_ = TangentAssembly(triangleData(), frameOf_, material_->symmetricTangent());
+}
+
+std::vector<Point> Body::places() const {
+  std::vector<Point> places;
+  places.reserve(weights_.size());
+  withElement(degree(), [&](auto element) {
+    using Element = decltype(element);
+    for (size_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (const Point& place : Element::tabulate(placesOf<Element>(nodes_, t)).places)
+        places.push_back(place);
+  });
+  return places;
 }
 
 void Body::numberEquations() {
@@ -99,7 +126,7 @@ Vector Body::spread(const Vector& x) const {
 }
 
 std::array<double, 2> Body::prescribedAt(const NodeSupport& support, double t) const {
-  const Point& x = mesh_.vertices[support.node];
+  const Point& x = nodes_.places[support.node];
   std::array<double, 2> values{0, 0};
   for (int i = 0; i < support.count; ++i)
     values[i] = conditions_.displacements[support.conditions[i]].value(x.x(), x.y(), t);
@@ -113,75 +140,89 @@ void Body::prescribe(double t, Vector& u) const {
 }
 
 void Body::prescribeIncrement(double t0, double t1, TwoPartVector& increment) const {
-  auto& [high, low] = increment;
   for (const NodeSupport& support : supports_.nodes()) {
     const int dof = 2 * support.node;
     const auto [a0, b0] = prescribedAt(support, t0);
     const auto [a1, b1] = prescribedAt(support, t1);
     const Point change = prescribed(support, {a1 - a0, b1 - b0}, Point::Zero());
-    if (support.count == 2) {
-      high.segment<2>(dof) = change;
-      low.segment<2>(dof).setZero();
-    } else if (!support.turned()) {
-      const int c = support.directions[0].x() == 0 ? 1 : 0;
-      high[dof + c] = change[c];
-      low[dof + c] = 0;
-    } else {
-      const Point& n = support.directions[0];
-      high.segment<2>(dof) += n.dot(change - high.segment<2>(dof)) * n;
-      low.segment<2>(dof) -= n.dot(low.segment<2>(dof)) * n;
+    const Point& n = support.directions[0];
+    if (support.turned()) {
+      increment.setAlong(dof, n, n.dot(change));
+      continue;
     }
+    for (const int c : {0, 1})
+      if (support.count == 2 || n[c] != 0) increment.set(dof + c, change[c]);
   }
 }
 
 Vector Body::load(double t) const {
   Vector f = Vector::Zero(dofs());
-  // Simpson on each edge, and the midpoints of the edges of each triangle: exact for data up to degree 2
-  // against the shape functions (edges), degree 1 (triangles).
-  for (const auto& traction : conditions_.tractions)
-    forEachEdge(mesh_, traction.label, [&](const std::array<int, 2>& edge) {
-      const Point& a = mesh_.vertices[edge[0]];
-      const Point& b = mesh_.vertices[edge[1]];
-      const Point m = (a + b) / 2;
-      // Its direction times the length of the edge.
-      const Point along = b - a;
-      const double length = along.norm();
-      const Point direction = traction.component == alongX        ? Point(length, 0)
-                              : traction.component == alongY      ? Point(0, length)
-                              : traction.component == alongNormal ? Point(along.y(), -along.x())
-                                                                  : along;
-      const double middle = 2 * traction.value(m.x(), m.y(), t);
-      f.segment<2>(2 * edge[0]) += (traction.value(a.x(), a.y(), t) + middle) / 6 * direction;
-      f.segment<2>(2 * edge[1]) += (traction.value(b.x(), b.y(), t) + middle) / 6 * direction;
-    });
-  for (const auto& force : conditions_.forces)
-    for (const auto& triangle : mesh_.triangles) {
-      const Point& a = mesh_.vertices[triangle[0]];
-      const Point& b = mesh_.vertices[triangle[1]];
-      const Point& c = mesh_.vertices[triangle[2]];
-      const double area = ((b - a).x() * (c - a).y() - (b - a).y() * (c - a).x()) / 2;
-      for (int i = 0; i < 3; ++i) {
-        const Point m = (mesh_.vertices[triangle[i]] + mesh_.vertices[triangle[(i + 1) % 3]]) / 2;
-        const double value = area / 6 * force.value(m.x(), m.y(), t);
-        f[2 * triangle[i] + force.component] += value;
-        f[2 * triangle[(i + 1) % 3] + force.component] += value;
-      }
-    }
+  addTractions(t, f);
+  addForces(t, f);
   return f;
+}
+
+void Body::addTractions(double t, Vector& f) const {
+  withElement(degree(), [&](auto element) {
+    using Element = decltype(element);
+    for (const auto& traction : conditions_.tractions)
+      for (size_t e = 0; e < mesh_.boundaryEdges.size(); ++e) {
+        if (mesh_.boundaryLabels[e] != traction.label) continue;
+        std::array<int, Element::edgeNodes> nodes;
+        std::array<Point, Element::edgeNodes> x;
+        for (int a = 0; a < Element::edgeNodes; ++a) {
+          nodes[a] = a < 2 ? mesh_.boundaryEdges[e][a] : nodes_.middles[e];
+          x[a] = nodes_.places[nodes[a]];
+        }
+        std::array<double, Element::edgeNodes> sums{};
+        for (const auto& [s, toNode] : Element::edgeRule()) {
+          const Point at = placeOf(Element::edgeShapes(s), x);
+          const double value = traction.value(at.x(), at.y(), t);
+          for (int a = 0; a < Element::edgeNodes; ++a) sums[a] += toNode[a] * value;
+          if (Element::straight && s != Element::edgeRule().back().at) continue;
+          // The direction times the length of the edge.
+          const Point along = Element::edgeTangent(s, x);
+          const double length = along.norm();
+          const Point direction = traction.component == alongX        ? Point(length, 0)
+                                  : traction.component == alongY      ? Point(0, length)
+                                  : traction.component == alongNormal ? Point(along.y(), -along.x())
+                                                                      : along;
+          for (int a = 0; a < Element::edgeNodes; ++a)
+            f.segment<2>(2 * nodes[a]) += sums[a] / Element::edgeDivisor * direction;
+          sums.fill(0);
+        }
+      }
+  });
+}
+
+void Body::addForces(double t, Vector& f) const {
+  withElement(degree(), [&](auto element) {
+    using Element = decltype(element);
+    for (const auto& force : conditions_.forces)
+      for (size_t tri = 0; tri < mesh_.triangles.size(); ++tri) {
+        const auto x = placesOf<Element>(nodes_, tri);
+        for (const auto& [at, toNode] : Element::loadRule()) {
+          const Point place = placeOf(Element::shapes(at), x);
+          const double value =
+              Element::areaAt(at, x) / Element::loadDivisor * force.value(place.x(), place.y(), t);
+          for (int a = 0; a < Element::nodes; ++a)
+            f[2 * nodes_.of(tri)[a] + force.component] += toNode[a] * value;
+        }
+      }
+  });
 }
 
 Matrix Body::initialStress() const {
   const int components = material_->components();
+  const std::vector<Point> places = hasInitialStress() ? this->places() : std::vector<Point>();
   // By component, those beyond the plane as far as they are given.
   Matrix given = Matrix::Zero(components, points());
   std::vector<char> beyond(points(), 0);
   for (const auto& [component, region, value] : conditions_.initialStresses)
     for (int i = 0; i < points(); ++i) {
-      const auto t = static_cast<size_t>(i / Element::points);
-      if (region && mesh_.regions[t] != *region) continue;
-      const auto& [a, b, c] = mesh_.triangles[t];
-      const Point centre = (mesh_.vertices[a] + mesh_.vertices[b] + mesh_.vertices[c]) / 3;
-      given(component, i) = value(centre.x(), centre.y(), 0);
+      const size_t triangle = i / (weights_.size() / mesh_.triangles.size());
+      if (region && mesh_.regions[triangle] != *region) continue;
+      given(component, i) = value(places[i].x(), places[i].y(), 0);
       if (component == 3) beyond[i] = 1;
     }
   Matrix stress = given;

@@ -13,12 +13,13 @@
 #include "fem/supports.h"
 #include "fem/tangent_assembly.h"
 #include "material/material.h"
+#include "mesh/element_nodes.h"
 #include "mesh/triangle_mesh.h"
 
 namespace mortier {
 
-/// Surface force per length on a labelled boundary along a direction (Component) [N/m per metre of depth, Pa];
-/// a pressure p is the normal traction -p.
+/// Surface force per length on a labelled boundary along a direction (Component) [N/m per metre of depth,
+/// Pa]; a pressure p is the normal traction -p.
 struct Traction {
   int label = 0;
   int component = 0;
@@ -31,8 +32,8 @@ struct BodyForce {
   Function value;
 };
 
-/// Stress at t = 0, one component (0: s11, 1: s22, 2: s12, 3: s33 in plane strain), in a region or everywhere [Pa]; later
-/// ones replace earlier ones.
+/// Stress at t = 0, one component (0: s11, 1: s22, 2: s12, 3: s33 in plane strain), in a region or everywhere
+/// [Pa]; later ones replace earlier ones.
 struct InitialStress {
   int component = 0;
   std::optional<int> region;
@@ -48,18 +49,27 @@ struct Conditions {
 
 class Body {
  public:
-  /// \throws InputError when a condition names a label that the mesh does not have.
-  Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> material, Conditions conditions);
+  /// \param degree  of the displacements, 1 or 2
+  /// \throws InputError when a condition names a label that the mesh does not have, or where a triangle with
+  /// a curved side is turned inside out.
+  Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> material, Conditions conditions,
+       int degree = 1);
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
   [[nodiscard]] const Material& material() const { return *material_; }
-  [[nodiscard]] int nodes() const { return static_cast<int>(mesh_.vertices.size()); }
+  /// Nodes of the displacement: the vertices of the mesh, and what lies between them.
+  [[nodiscard]] const ElementNodes& elementNodes() const { return nodes_; }
+  [[nodiscard]] int degree() const { return nodes_.degree; }
+  [[nodiscard]] int nodes() const { return nodes_.count(); }
   [[nodiscard]] int dofs() const { return 2 * nodes(); }
-  /// Quadrature points: columns of stresses, strains and moduli.
+  /// Quadrature points, triangle by triangle: columns of stresses, strains and moduli.
   [[nodiscard]] int points() const { return static_cast<int>(weights_.size()); }
   /// Quadrature weights, the area in all [m^2].
   [[nodiscard]] const std::vector<double>& weights() const { return weights_; }
+
+  /// Places of the points [m].
+  [[nodiscard]] std::vector<Point> places() const;
 
   // Equations. A node has two, less those of its prescribed motions: along the axes, or along the normal and
   // the tangent of a turned support.
@@ -82,8 +92,8 @@ class Body {
   [[nodiscard]] const Supports& supports() const { return supports_; }
   /// Writes the prescribed displacements at time t into `u` (dofs).
   void prescribe(double t, Vector& u) const;
-  /// Gives an increment (dofs) what prescribed displacements change by from t0 to t1: taken from the displacements
-  /// themselves, their rounding would strain the body.
+  /// Gives an increment (dofs) what prescribed displacements change by from t0 to t1: taken from the
+  /// displacements themselves, their rounding would strain the body.
   void prescribeIncrement(double t0, double t1, TwoPartVector& increment) const;
   /// Nodal forces (dofs) of tractions and body forces at time t [N/m].
   [[nodiscard]] Vector load(double t) const;
@@ -91,17 +101,18 @@ class Body {
   /// Of a shape function, the largest component in any triangle [1/m].
   [[nodiscard]] double largestGradient() const { return largestGradient_; }
 
-  /// Stress at t = 0, at the centres of the triangles (components x points) [Pa].
+  /// Stress at t = 0 (components x points) [Pa].
   [[nodiscard]] Matrix initialStress() const;
   [[nodiscard]] bool hasInitialStress() const { return !conditions_.initialStresses.empty(); }
   /// sum |T| B' s: nodal forces (dofs) of a stress field (components x points) [N/m].
   [[nodiscard]] Vector internalForce(const Matrix& stress) const;
-  /// The largest nodal force of any one triangle [N/m]: what their sum is rounded against, also where stresses balance
-  /// each other.
+  /// The largest nodal force of any one triangle [N/m]: what their sum is rounded against, also where
+  /// stresses balance each other.
   [[nodiscard]] double largestForce(const Matrix& stress) const;
-  /// B u - shift (components x points; no shift where null) of a displacement (dofs) in two parts, in twice the
-  /// working precision: a triangle that is still elastic next to one that flows sees tiny differences of large
-  /// displacements, and where stress relaxes almost all of B u is shift. Fills the columns [begin, end).
+  /// B u - shift (components x points; no shift where null) of a displacement (dofs) in two parts, in twice
+  /// the working precision: a triangle that is still elastic next to one that flows sees tiny differences of
+  /// large displacements, and where stress relaxes almost all of B u is shift. Fills the columns [begin,
+  /// end).
   void strain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
   /// stress += H^-1 B d in the columns [begin, end), d by dofs.
   void addStressOf(const Vector& d, const Linearisation& law, Matrix& stress, int begin, int end) const;
@@ -115,13 +126,16 @@ class Body {
   void numberEquations();
   /// By the directions of a support [m].
   [[nodiscard]] std::array<double, 2> prescribedAt(const NodeSupport& support, double t) const;
-  [[nodiscard]] TriangleData triangleData() const {
-    return {mesh_.triangles, equations_, weights_, gradients_};
-  }
+  [[nodiscard]] TriangleData triangleData() const { return {nodes_, equations_, weights_, gradients_}; }
   void addSupported(const Matrix& moduli, std::vector<double>& values) const;
+  template <class Element>
+  void strainOf(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
+  void addTractions(double t, Vector& f) const;
+  void addForces(double t, Vector& f) const;
 
   std::string name_;
   TriangleMesh mesh_;
+  ElementNodes nodes_;
   std::shared_ptr<const Material> material_;
   Conditions conditions_;
   Supports supports_;
@@ -129,7 +143,8 @@ class Body {
   std::vector<Eigen::Matrix2d> frames_;  ///< rows normal and tangent, of the turned supports
   std::vector<int> frameOf_;             ///< per node; -1 for the axes. Empty when all are
   std::vector<double> weights_;
-  std::vector<double> gradients_;  ///< 4 per point: of the second and third node's shape function, over sqrt2
+  std::vector<double>
+      gradients_;  ///< of all shape functions of a triangle but the first, over sqrt2, by points
   double largestGradient_ = 0;
   TangentAssembly assembly_;
 };

@@ -2,6 +2,7 @@
 #include "base/double_double.h"
 #include "base/lanes.h"
 #include "fem/body.h"
+#include "fem/element.h"
 
 namespace mortier {
 
@@ -12,28 +13,34 @@ namespace mortier {
 Vector Body::internalForce(const Matrix& stress) const {
   const TriangleData triangles = triangleData();
   Vector f = Vector::Zero(dofs());
-  for (int i = 0; i < points(); ++i) {
-    const auto& triangle = mesh_.triangles[i];
-    const double p = weights_[i] * stress(0, i);
-    const double q = weights_[i] * stress(1, i);
-    const double r = weights_[i] * stress(2, i);
-    const std::array<double, triangleDofs> G = triangles.gradientsOf(i);
-    for (int a = 0; a < 3; ++a) {
-      f[2 * triangle[a]] += (p + q) * G[2 * a] + r * G[2 * a + 1];
-      f[2 * triangle[a] + 1] += (p - q) * G[2 * a + 1] + r * G[2 * a];
+  withElement(degree(), [&](auto element) {
+    using Element = decltype(element);
+    for (size_t i = 0; i < weights_.size(); ++i) {
+      const int* triangle = &nodes_.triangles[Element::nodes * (i / Element::points)];
+      const auto column = static_cast<Eigen::Index>(i);
+      const double p = weights_[i] * stress(0, column);
+      const double q = weights_[i] * stress(1, column);
+      const double r = weights_[i] * stress(2, column);
+      const auto G = triangles.gradientsOf<Element>(i);
+      for (int a = 0; a < Element::nodes; ++a) {
+        f[2 * triangle[a]] += (p + q) * G[2 * a] + r * G[2 * a + 1];
+        f[2 * triangle[a] + 1] += (p - q) * G[2 * a + 1] + r * G[2 * a];
+      }
     }
-  }
+  });
   return f;
 }
 
 double Body::largestForce(const Matrix& stress) const {
   const TriangleData triangles = triangleData();
   double largest = 0;
-  for (int i = 0; i < points(); ++i) {
-    const auto s = stress.col(i).head<3>().cwiseAbs();
-    for (const double gradient : triangles.gradientsOf(i))
-      largest = std::max(largest, weights_[i] * std::abs(gradient) * s.maxCoeff());
-  }
+  withElement(degree(), [&](auto element) {
+    for (size_t i = 0; i < weights_.size(); ++i) {
+      const auto s = stress.col(static_cast<Eigen::Index>(i)).head<3>().cwiseAbs();
+      for (const double gradient : triangles.gradientsOf<decltype(element)>(i))
+        largest = std::max(largest, weights_[i] * std::abs(gradient) * s.maxCoeff());
+    }
+  });
   return largest;
 }
 
@@ -43,34 +50,40 @@ void Body::strain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, i
   if (strain.rows() > 3 && shift != nullptr)
     strain.bottomRows(strain.rows() - 3).middleCols(begin, end - begin) =
         -shift->bottomRows(strain.rows() - 3).middleCols(begin, end - begin);
+  withElement(degree(), [&](auto element) { strainOf<decltype(element)>(u, shift, strain, begin, end); });
+}
+
+template <class Element>
+void Body::strainOf(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const {
+  constexpr int others = 2 * (Element::nodes - 1);  // dofs of the nodes but the first
   const double* high = u.high.data();
   const double* low = u.low.data();
   for (int first = begin; first < end; first += laneCount) {
-    // The second and the third node, x and y, and the first, by lanes.
-    double u1[4][laneCount];
-    double u0[4][laneCount];
-    double smallChange[4][laneCount];
-    double G[4][laneCount];
+    // The other nodes, x and y, and the first, by lanes.
+    double u1[others][laneCount];
+    double u0[others][laneCount];
+    double smallChange[others][laneCount];
+    double G[others][laneCount];
     double taken[3][laneCount] =
         {};  // the shift; no branch in the loop over lanes, or it is not made of vectors
     const int count = std::min(laneCount, end - first);
     for (int lane = 0; lane < laneCount; ++lane) {
       const int i = first + std::min(lane, count - 1);
-      const auto& triangle = mesh_.triangles[i];
-      for (int k = 0; k < 4; ++k) {
+      const int* triangle = &nodes_.triangles[static_cast<size_t>(Element::nodes) * (i / Element::points)];
+      for (int k = 0; k < others; ++k) {
         const int dof = 2 * triangle[1 + k / 2] + k % 2;
         const int dof0 = 2 * triangle[0] + k % 2;
         u1[k][lane] = high[dof];
         u0[k][lane] = high[dof0];
         smallChange[k][lane] = low[dof] - low[dof0];
-        G[k][lane] = gradients_[static_cast<size_t>(4) * i + k];
+        G[k][lane] = gradients_[static_cast<size_t>(others) * i + k];
       }
       for (int c = 0; c < 3 && shift != nullptr; ++c) taken[c][lane] = (*shift)(c, i);
     }
     double result[3][laneCount];
     for (int lane = 0; lane < laneCount; ++lane) {
-      DoubleDouble d[4];
-      for (int k = 0; k < 4; ++k) {
+      DoubleDouble d[others];
+      for (int k = 0; k < others; ++k) {
         d[k] = DoubleDouble::sum(u1[k][lane], -u0[k][lane]);
         d[k].low += smallChange[k][lane];
       }
@@ -82,11 +95,15 @@ void Body::strain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, i
       DoubleDouble xx = times(0, 0);
       DoubleDouble yy = times(1, 1);
       DoubleDouble xy = times(1, 0);
-      xx += times(2, 2);
-      yy += times(3, 3);
+      for (int k = 2; k < others; k += 2) {
+        xx += times(k, k);
+        yy += times(k + 1, k + 1);
+      }
       xy += times(0, 1);
-      xy += times(3, 2);
-      xy += times(2, 3);
+      for (int k = 2; k < others; k += 2) {
+        xy += times(k + 1, k);
+        xy += times(k, k + 1);
+      }
       DoubleDouble p = xx;
       DoubleDouble q = xx;
       p += yy;
@@ -104,35 +121,39 @@ void Body::strain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, i
 }
 
 void Body::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress, int begin, int end) const {
-  const auto strainOf = [&](int i) {
-    const auto& triangle = mesh_.triangles[i];
-    const double* G = &gradients_[static_cast<size_t>(4) * i];
-    double xx = 0;
-    double yy = 0;
-    double xy = 0;
-    const double x0 = d[2 * triangle[0]];
-    const double y0 = d[2 * triangle[0] + 1];
-    for (int a = 1; a < 3; ++a) {
-      const double dx = d[2 * triangle[a]] - x0;
-      const double dy = d[2 * triangle[a] + 1] - y0;
-      const double gx = G[2 * a - 2];
-      const double gy = G[2 * a - 1];
-      xx += gx * dx;
-      yy += gy * dy;
-      xy += gy * dx + gx * dy;
+  withElement(degree(), [&](auto element) {
+    using Element = decltype(element);
+    constexpr int others = 2 * (Element::nodes - 1);
+    const auto strainOf = [&](int i) {
+      const int* triangle = &nodes_.triangles[static_cast<size_t>(Element::nodes) * (i / Element::points)];
+      const double* G = &gradients_[static_cast<size_t>(others) * i];
+      double xx = 0;
+      double yy = 0;
+      double xy = 0;
+      const double x0 = d[2 * triangle[0]];
+      const double y0 = d[2 * triangle[0] + 1];
+      for (int a = 1; a < Element::nodes; ++a) {
+        const double dx = d[2 * triangle[a]] - x0;
+        const double dy = d[2 * triangle[a] + 1] - y0;
+        const double gx = G[2 * a - 2];
+        const double gy = G[2 * a - 1];
+        xx += gx * dx;
+        yy += gy * dy;
+        xy += gy * dx + gx * dy;
+      }
+      return std::array<double, 3>{xx + yy, xx - yy, xy};
+    };
+    for (int i = begin; i < end; ++i) {
+      const auto [p, q, r] = strainOf(i);
+      const std::array<double, 9> D = moduliAt(law.moduli, i);
+      for (int c = 0; c < 3; ++c) stress(c, i) += D[c] * p + D[3 + c] * q + D[6 + c] * r;
     }
-    return std::array<double, 3>{xx + yy, xx - yy, xy};
-  };
-  for (int i = begin; i < end; ++i) {
-    const auto [p, q, r] = strainOf(i);
-    const std::array<double, 9> D = moduliAt(law.moduli, i);
-    for (int c = 0; c < 3; ++c) stress(c, i) += D[c] * p + D[3 + c] * q + D[6 + c] * r;
-  }
-  if (stress.rows() == 3) return;
-  for (int i = begin; i < end; ++i) {
-    const auto [p, q, r] = strainOf(i);
-    stress(3, i) += law.beyond(0, i) * p + law.beyond(1, i) * q + law.beyond(2, i) * r;
-  }
+    if (stress.rows() == 3) return;
+    for (int i = begin; i < end; ++i) {
+      const auto [p, q, r] = strainOf(i);
+      stress(3, i) += law.beyond(0, i) * p + law.beyond(1, i) * q + law.beyond(2, i) * r;
+    }
+  });
 }
 
 void Body::tangent(const Matrix& moduli, std::vector<double>& values, Threads& threads) const {
@@ -141,25 +162,31 @@ void Body::tangent(const Matrix& moduli, std::vector<double>& values, Threads& t
 }
 
 void Body::addSupported(const Matrix& moduli, std::vector<double>& values) const {
-  for (const auto& [t, entries] : assembly_.supported()) {
-    // B T: strains of the motions along the frames of the nodes.
-    Eigen::Matrix<double, 3, triangleDofs> B;
-    const std::array<double, triangleDofs> G = triangleData().gradientsOf(t);
-    for (int a = 0; a < 3; ++a) {
-      const double gx = G[2 * a];
-      const double gy = G[2 * a + 1];
-      Eigen::Matrix<double, 3, 2> Ba{{gx, gy}, {gx, -gy}, {gy, gx}};
-      const int frame = frameOf_.empty() ? -1 : frameOf_[mesh_.triangles[t][a]];
-      if (frame >= 0) Ba = Ba * frames_[frame].transpose();
-      B.middleCols<2>(2 * a) = Ba;
+  withElement(degree(), [&](auto element) {
+    using Element = decltype(element);
+    constexpr int dofs = 2 * Element::nodes;
+    for (const auto& [t, entries] : assembly_.supported()) {
+      Eigen::Matrix<double, dofs, dofs> K = Eigen::Matrix<double, dofs, dofs>::Zero();
+      for (int i = Element::points * t; i < Element::points * (t + 1); ++i) {
+        // B T: strains of the motions along the frames of the nodes.
+        Eigen::Matrix<double, 3, dofs> B;
+        const auto G = triangleData().template gradientsOf<Element>(i);
+        for (int a = 0; a < Element::nodes; ++a) {
+          const double gx = G[2 * a];
+          const double gy = G[2 * a + 1];
+          Eigen::Matrix<double, 3, 2> Ba{{gx, gy}, {gx, -gy}, {gy, gx}};
+          const int frame = frameOf_.empty() ? -1 : frameOf_[nodes_.of(t)[a]];
+          if (frame >= 0) Ba = Ba * frames_[frame].transpose();
+          B.template middleCols<2>(2 * a) = Ba;
+        }
+        const std::array<double, 9> D = moduliAt(moduli, i);
+        K += weights_[i] * (B.transpose() * Eigen::Map<const Eigen::Matrix3d>(D.data()) * B);
+      }
+      for (int j = 0; j < dofs; ++j)
+        for (int i = 0; i < dofs; ++i)
+          if (const int entry = entries[dofs * j + i]; entry >= 0) values[entry] += K(i, j);
     }
-    const std::array<double, 9> D = moduliAt(moduli, t);
-    const Eigen::Matrix<double, triangleDofs, triangleDofs> K =
-        weights_[t] * (B.transpose() * Eigen::Map<const Eigen::Matrix3d>(D.data()) * B);
-    for (int j = 0; j < triangleDofs; ++j)
-      for (int i = 0; i < triangleDofs; ++i)
-        if (const int entry = entries[triangleDofs * j + i]; entry >= 0) values[entry] += K(i, j);
-  }
+  });
 }
 
 }  // namespace mortier

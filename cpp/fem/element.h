@@ -1,33 +1,174 @@
-// Elements: where they integrate, and the gradients of their shape functions there.
+// Elements: nodes, shape functions, where they integrate, and the gradients there. Kernels are written once,
+// for `Element::nodes` and `Element::points`, and compiled for each (withElement).
 #pragma once
 
 #include <array>
+#include <cmath>
+
+#include <Eigen/LU>
 
 #include "base/types.h"
 
 namespace mortier {
 
+using Barycentric = std::array<double, 3>;
+
+/// A point of a rule on the triangle, in parts of the area; and what its value gives to each node of an
+/// element.
+template <int n>
+struct LoadPoint {
+  Barycentric at;
+  std::array<double, n> toNode;
+};
+
+/// The same on an edge, at a part of its length.
+template <int n>
+struct EdgePoint {
+  double at;
+  std::array<double, n> toNode;
+};
+
 /// Displacement linear on the triangle, strain and stress constant: one quadrature point.
 struct LinearTriangle {
   static constexpr int nodes = 3;
   static constexpr int points = 1;
+  static constexpr int edgeNodes = 2;
+  static constexpr bool straight = true;  ///< its sides
 
   struct Tabulation {
-    double weight = 0;                          ///< area [m^2]
-    Eigen::Matrix<double, 2, nodes> gradients;  ///< of the shape functions [1/m]; they sum to zero exactly
+    std::array<double, points> weights{};                           ///< their sum is the area [m^2]
+    std::array<Eigen::Matrix<double, 2, nodes>, points> gradients;  ///< [1/m]; they sum to zero
+    std::array<Point, points> places;                               ///< [m]
   };
-
-  static Tabulation tabulate(const std::array<Point, 3>& corners) {
-    const Point e1 = corners[1] - corners[0];
-    const Point e2 = corners[2] - corners[0];
+  static Tabulation tabulate(const std::array<Point, nodes>& x) {
+    const Point e1 = x[1] - x[0];
+    const Point e2 = x[2] - x[0];
     const double twiceArea = e1.x() * e2.y() - e1.y() * e2.x();
     Tabulation result;
-    result.weight = twiceArea / 2;
-    result.gradients.col(1) = Point(e2.y(), -e2.x()) / twiceArea;
-    result.gradients.col(2) = Point(-e1.y(), e1.x()) / twiceArea;
-    result.gradients.col(0) = -result.gradients.col(1) - result.gradients.col(2);
+    result.weights[0] = twiceArea / 2;
+    auto& gradients = result.gradients[0];
+    gradients.col(1) = Point(e2.y(), -e2.x()) / twiceArea;
+    gradients.col(2) = Point(-e1.y(), e1.x()) / twiceArea;
+    gradients.col(0) = -gradients.col(1) - gradients.col(2);
+    result.places[0] = (x[0] + x[1] + x[2]) / 3;
     return result;
   }
+
+  // Loads: sums over these over the divisor. Exact for data of degree 2 on edges (Simpson), 1 on triangles.
+  static constexpr double edgeDivisor = 6;
+  static constexpr std::array<EdgePoint<2>, 3> edgeRule() {
+    return {{{0, {1, 0}}, {0.5, {2, 2}}, {1, {0, 1}}}};
+  }
+  static constexpr double loadDivisor = 6;
+  static constexpr std::array<LoadPoint<3>, 3> loadRule() {
+    return {{{{0.5, 0.5, 0}, {1, 1, 0}}, {{0, 0.5, 0.5}, {0, 1, 1}}, {{0.5, 0, 0.5}, {1, 0, 1}}}};
+  }
+
+  static constexpr std::array<double, nodes> shapes(const Barycentric& b) { return b; }
+  static constexpr std::array<double, edgeNodes> edgeShapes(double s) { return {1 - s, s}; }
+  /// A stress by its values at the points.
+  static constexpr std::array<double, points> stressShapes(const Barycentric& /*b*/) { return {1}; }
+  /// dx/ds
+  static Point edgeTangent(double /*s*/, const std::array<Point, edgeNodes>& x) { return x[1] - x[0]; }
+  /// By which the weights of a rule are multiplied at a point.
+  static double areaAt(const Barycentric& /*at*/, const std::array<Point, nodes>& x) {
+    return tabulate(x).weights[0];
+  }
 };
+
+/// Displacement quadratic on a triangle with straight or curved sides (isoparametric); stress at three
+/// interior points. Nodes: the vertices, then the middles of the sides 0-1, 1-2, 2-0.
+struct QuadraticTriangle {
+  static constexpr int nodes = 6;
+  static constexpr int points = 3;
+  static constexpr int edgeNodes = 3;
+  static constexpr bool straight = false;
+
+  static constexpr std::array<double, nodes> shapes(const Barycentric& b) {
+    return {b[0] * (2 * b[0] - 1), b[1] * (2 * b[1] - 1), b[2] * (2 * b[2] - 1),
+            4 * b[0] * b[1],       4 * b[1] * b[2],       4 * b[2] * b[0]};
+  }
+  /// Of the ends, then the middle.
+  static constexpr std::array<double, edgeNodes> edgeShapes(double s) {
+    return {(1 - s) * (1 - 2 * s), s * (2 * s - 1), 4 * s * (1 - s)};
+  }
+  static constexpr std::array<double, points> stressShapes(const Barycentric& b) {
+    return {2 * b[0] - 1.0 / 3, 2 * b[1] - 1.0 / 3, 2 * b[2] - 1.0 / 3};
+  }
+  /// By the second and third barycentric coordinate.
+  static Eigen::Matrix<double, 2, nodes> derivatives(const Barycentric& b) {
+    Eigen::Matrix<double, 2, nodes> d;
+    d << 1 - 4 * b[0], 4 * b[1] - 1, 0, 4 * (b[0] - b[1]), 4 * b[2], -4 * b[2],  //
+        1 - 4 * b[0], 0, 4 * b[2] - 1, -4 * b[1], 4 * b[1], 4 * (b[0] - b[2]);
+    return d;
+  }
+
+  static Point edgeTangent(double s, const std::array<Point, edgeNodes>& x) {
+    return (x[1] - x[0]) + 4 * (1 - 2 * s) * (x[2] - (x[0] + x[1]) / 2);
+  }
+  static double areaAt(const Barycentric& at, const std::array<Point, nodes>& x) {
+    return jacobian(derivatives(at), x).determinant() / 2;
+  }
+
+  /// Rows: the derivatives of the place.
+  static Eigen::Matrix2d jacobian(const Eigen::Matrix<double, 2, nodes>& d,
+                                  const std::array<Point, nodes>& x) {
+    Eigen::Matrix2d J = Eigen::Matrix2d::Zero();
+    for (int a = 1; a < nodes; ++a) J += d.col(a) * (x[a] - x[0]).transpose();
+    return J;
+  }
+
+  struct Tabulation {
+    std::array<double, points> weights{};
+    std::array<Eigen::Matrix<double, 2, nodes>, points> gradients;
+    std::array<Point, points> places;
+  };
+  static constexpr std::array<Barycentric, points> interior{
+      {{2.0 / 3, 1.0 / 6, 1.0 / 6}, {1.0 / 6, 2.0 / 3, 1.0 / 6}, {1.0 / 6, 1.0 / 6, 2.0 / 3}}};
+
+  static Tabulation tabulate(const std::array<Point, nodes>& x) {
+    Tabulation result;
+    for (int q = 0; q < points; ++q) {
+      const Eigen::Matrix<double, 2, nodes> d = derivatives(interior[q]);
+      const Eigen::Matrix2d J = jacobian(d, x);
+      result.weights[q] = J.determinant() / 6;
+      result.gradients[q] = J.inverse() * d;
+      const std::array<double, nodes> N = shapes(interior[q]);
+      result.places[q] = Point::Zero();
+      for (int a = 0; a < nodes; ++a) result.places[q] += N[a] * x[a];
+    }
+    return result;
+  }
+
+  // Exact for data of degree 3 on edges (Gauss, three points), 2 on straight triangles (Dunavant 1985, degree
+  // 4).
+  static constexpr double edgeDivisor = 1;
+  static constexpr EdgePoint<3> gauss(double s, double w) {
+    const auto [a, b, m] = edgeShapes(s);
+    return {s, {w * a, w * b, w * m}};
+  }
+  static constexpr std::array<EdgePoint<3>, 3> edgeRule() {
+    return {{gauss(0.1127016653792583, 5.0 / 18), gauss(0.5, 8.0 / 18), gauss(0.8872983346207417, 5.0 / 18)}};
+  }
+  static constexpr double loadDivisor = 1;
+  static constexpr LoadPoint<6> dunavant(const Barycentric& b, double w) {
+    const std::array<double, nodes> N = shapes(b);
+    return {b, {w * N[0], w * N[1], w * N[2], w * N[3], w * N[4], w * N[5]}};
+  }
+  static constexpr double near = 0.445948490915965, nearWeight = 0.223381589678011;
+  static constexpr double far = 0.091576213509771, farWeight = 0.109951743655322;
+  static constexpr std::array<LoadPoint<6>, 6> loadRule() {
+    return {{dunavant({1 - 2 * near, near, near}, nearWeight),
+             dunavant({near, 1 - 2 * near, near}, nearWeight),
+             dunavant({near, near, 1 - 2 * near}, nearWeight), dunavant({1 - 2 * far, far, far}, farWeight),
+             dunavant({far, 1 - 2 * far, far}, farWeight), dunavant({far, far, 1 - 2 * far}, farWeight)}};
+  }
+};
+
+/// Calls work(Element{}) with the element of a degree.
+template <class Work>
+decltype(auto) withElement(int degree, Work work) {
+  return degree == 1 ? work(LinearTriangle{}) : work(QuadraticTriangle{});
+}
 
 }  // namespace mortier

@@ -2,9 +2,11 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numeric>
 #include <vector>
+
+#include "fem/element.h"
 
 namespace mortier {
 namespace {
@@ -32,21 +34,19 @@ class Neighbours {
   std::vector<int> triangles_;
 };
 
-Point centre(const TriangleMesh& mesh, int triangle) {
-  const auto& [a, b, c] = mesh.triangles[triangle];
-  return (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3;
-}
-
-/// The fits of one region.
+/// The fits of one region: polynomials of the degree of the displacements to the stresses at the points of
+/// the element.
+template <class Element>
 class Fits {
  public:
-  Fits(const TriangleMesh& mesh, const Neighbours& neighbours, int region)
-      : mesh_(mesh), neighbours_(neighbours), region_(region) {}
+  /// \param samples  places of the points, triangle by triangle
+  Fits(const TriangleMesh& mesh, const Neighbours& neighbours, const std::vector<Point>& samples, int region)
+      : mesh_(mesh), neighbours_(neighbours), samples_(samples), region_(region) {}
 
-  /// Calls visit(triangle, weight) for what makes the stress at a vertex: the value there of the fit to the centres around
-  /// it. Where they lie to one side, those of the next ring count too.
+  /// Calls visit(point, weight) for what makes the stress at a place: the value there of the fit to the
+  /// points around a vertex. Where these lie to one side, those of the next ring count too.
   template <class Visit>
-  void at(int vertex, Visit visit) {
+  void at(int vertex, const Point& place, Visit visit) {
     patch_.clear();
     addAround(vertex);
     if (!closed()) {
@@ -56,11 +56,25 @@ class Fits {
       std::sort(patch_.begin(), patch_.end());
       patch_.erase(std::unique(patch_.begin(), patch_.end()), patch_.end());
     }
-    const std::vector<double>& weights = fit(mesh_.vertices[vertex]);
-    for (size_t i = 0; i < patch_.size(); ++i) visit(patch_[i], weights[i]);
+    const std::vector<double>& weights = fit(mesh_.vertices[vertex], place);
+    for (size_t i = 0; i < weights.size(); ++i)
+      visit(Element::points * patch_[i / Element::points] + static_cast<int>(i % Element::points),
+            weights[i]);
   }
 
  private:
+  static constexpr int terms = Element::nodes;  // of a polynomial of that degree
+  using Terms = Eigen::Matrix<double, terms, 1>;
+
+  static Terms termsAt(const Point& x) {
+    Terms result;
+    if constexpr (terms == 3)
+      result << 1, x.x(), x.y();
+    else
+      result << 1, x.x(), x.y(), x.x() * x.x(), x.x() * x.y(), x.y() * x.y();
+    return result;
+  }
+
   void addAround(int vertex) {
     neighbours_.of(vertex, [&](int t) {
       if (mesh_.regions[t] == region_) patch_.push_back(t);
@@ -77,34 +91,38 @@ class Fits {
     return end - corners_.begin() == static_cast<std::ptrdiff_t>(patch_.size()) + 1;
   }
 
-  /// Of a in a + b . (x - vertex), by least squares; of the mean where the centres do not determine it.
-  const std::vector<double>& fit(const Point& vertex) {
+  /// Of the value at a place, by least squares; of the mean where the points do not determine the polynomial.
+  const std::vector<double>& fit(const Point& vertex, const Point& place) {
     constexpr double degenerate = 1e-10;
-    const auto n = static_cast<double>(patch_.size());
     double size = 0;
-    for (const int t : patch_) size = std::max(size, (centre(mesh_, t) - vertex).squaredNorm());
+    const auto forEachSample = [&](auto visit) {
+      for (const int t : patch_)
+        for (int i = 0; i < Element::points; ++i) visit(samples_[Element::points * t + i]);
+    };
+    forEachSample([&](const Point& sample) { size = std::max(size, (sample - vertex).squaredNorm()); });
     size = std::sqrt(size);
     basis_.clear();
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-    for (const int t : patch_) {
-      const Point x = (centre(mesh_, t) - vertex) / size;
-      basis_.emplace_back(1, x.x(), x.y());
+    Eigen::Matrix<double, terms, terms> normal = Eigen::Matrix<double, terms, terms>::Zero();
+    forEachSample([&](const Point& sample) {
+      basis_.push_back(termsAt((sample - vertex) / size));
       normal += basis_.back() * basis_.back().transpose();
-    }
-    const Eigen::LDLT<Eigen::Matrix3d> factor(normal);
-    weights_.assign(patch_.size(), 1 / n);
+    });
+    const auto n = static_cast<double>(basis_.size());
+    const Eigen::LDLT<Eigen::Matrix<double, terms, terms>> factor(normal);
+    weights_.assign(basis_.size(), 1 / n);
     if (factor.vectorD().minCoeff() < degenerate * n) return weights_;
-    const Eigen::Vector3d value = factor.solve(Eigen::Vector3d::UnitX());
-    for (size_t i = 0; i < patch_.size(); ++i) weights_[i] = value.dot(basis_[i]);
+    const Terms value = factor.solve(termsAt((place - vertex) / size));
+    for (size_t i = 0; i < basis_.size(); ++i) weights_[i] = value.dot(basis_[i]);
     return weights_;
   }
 
   const TriangleMesh& mesh_;
   const Neighbours& neighbours_;
+  const std::vector<Point>& samples_;
   int region_;
   std::vector<int> patch_;
   std::vector<int> corners_;
-  std::vector<Eigen::Vector3d> basis_;
+  std::vector<Terms> basis_;
   std::vector<double> weights_;
 };
 
@@ -114,51 +132,85 @@ double ErrorEstimate::relative() const {
   return energy > 0 ? std::sqrt(error.sum() / energy) : 0;
 }
 
-ErrorEstimator::ErrorEstimator(const Body& body) : body_(body), corners_(body.mesh().triangles.size()) {
-  const TriangleMesh& mesh = body.mesh();
+ErrorEstimator::ErrorEstimator(const Body& body) : body_(body) {
+  withElement(body.degree(), [&](auto element) { recover<decltype(element)>(); });
+}
+
+template <class Element>
+void ErrorEstimator::recover() {
+  const TriangleMesh& mesh = body_.mesh();
+  const ElementNodes& nodes = body_.elementNodes();
   const Neighbours neighbours(mesh);
+  const std::vector<Point> samples = body_.places();
   std::vector<int> regions = mesh.regions;
   std::sort(regions.begin(), regions.end());
   regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
+  recoveredAt_.resize(nodes.triangles.size());
   for (const int region : regions) {
-    Fits fits(mesh, neighbours, region);
-    std::vector<int> known(mesh.vertices.size(), -1);
+    Fits<Element> fits(mesh, neighbours, samples, region);
+    std::vector<int> known(nodes.places.size(), -1);
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
       if (mesh.regions[t] != region) continue;
-      for (int i = 0; i < 3; ++i) {
-        int& place = known[mesh.triangles[t][i]];
-        if (place < 0) {
-          place = static_cast<int>(first_.size()) - 1;
-          fits.at(mesh.triangles[t][i], [&](int triangle, double weight) {
-            parts_.push_back({triangle, weight});
-          });
+      for (int a = 0; a < Element::nodes; ++a) {
+        const int node = nodes.of(t)[a];
+        if (known[node] < 0) {
+          known[node] = static_cast<int>(first_.size()) - 1;
+          // At a middle the mean of what the vertices beside it say.
+          const int fitsHere = a < 3 ? 1 : 2;
+          for (int k = 0; k < fitsHere; ++k)
+            fits.at(mesh.triangles[t][(a + k) % 3], nodes.places[node], [&](int point, double weight) {
+              parts_.push_back({point, weight / fitsHere});
+            });
           first_.push_back(parts_.size());
         }
-        corners_[t][i] = place;
+        recoveredAt_[Element::nodes * t + a] = known[node];
       }
     }
   }
 }
 
 ErrorEstimate ErrorEstimator::operator()(const Matrix& stress) const {
+  return withElement(body_.degree(), [&](auto element) { return estimate<decltype(element)>(stress); });
+}
+
+template <class Element>
+ErrorEstimate ErrorEstimator::estimate(const Matrix& stress) const {
+  constexpr int n = Element::points;
+  constexpr auto rule = Element::loadRule();
   Matrix recovered = Matrix::Zero(stress.rows(), static_cast<Eigen::Index>(first_.size()) - 1);
   for (Eigen::Index i = 0; i < recovered.cols(); ++i)
     for (size_t k = first_[i]; k < first_[i + 1]; ++k)
-      recovered.col(i) += parts_[k].weight * stress.col(parts_[k].triangle);
-  ErrorEstimate estimate{Vector::Zero(stress.cols()), 0};
-  Matrix middle(stress.rows(), stress.cols());
+      recovered.col(i) += parts_[k].weight * stress.col(parts_[k].point);
+  const Eigen::Index triangles = stress.cols() / n;
+  ErrorEstimate estimate{Vector::Zero(triangles), 0};
+  Matrix there(stress.rows(), stress.cols());
+  Matrix own(stress.rows(), stress.cols());
   Matrix strain;
-  // The midpoints of the edges integrate the square of a linear field exactly.
-  for (int i = 0; i < 3; ++i) {
-    for (Eigen::Index t = 0; t < stress.cols(); ++t)
-      middle.col(t) = 0.5 * (recovered.col(corners_[t][i]) + recovered.col(corners_[t][(i + 1) % 3]));
-    body_.material().elasticStrain(middle, strain);
-    for (Eigen::Index t = 0; t < stress.cols(); ++t)
-      estimate.energy += body_.weights()[t] / 3 * middle.col(t).dot(strain.col(t));
-    middle -= stress;
-    body_.material().elasticStrain(middle, strain);
-    for (Eigen::Index t = 0; t < stress.cols(); ++t)
-      estimate.error[t] += body_.weights()[t] / 3 * middle.col(t).dot(strain.col(t));
+  const auto integrate = [&](size_t at, auto add) {
+    body_.material().elasticStrain(there, strain);
+    for (Eigen::Index i = 0; i < stress.cols(); ++i) {
+      const auto& toNode = rule[at + i % n].toNode;
+      double area = 0;
+      for (int k = 0; k < n; ++k) area += body_.weights()[n * (i / n) + k];
+      const double weight = area * std::accumulate(toNode.begin(), toNode.end(), 0.0) / Element::loadDivisor;
+      add(i / n, weight * there.col(i).dot(strain.col(i)));
+    }
+  };
+  // As many points of the rule at once as the element has: so each meets the material of its triangle.
+  for (size_t at = 0; at < rule.size(); at += n) {
+    for (Eigen::Index i = 0; i < stress.cols(); ++i) {
+      const Barycentric& place = rule[at + i % n].at;
+      const auto N = Element::shapes(place);
+      const auto L = Element::stressShapes(place);
+      there.col(i).setZero();
+      own.col(i).setZero();
+      for (int a = 0; a < Element::nodes; ++a)
+        there.col(i) += N[a] * recovered.col(recoveredAt_[Element::nodes * (i / n) + a]);
+      for (int k = 0; k < n; ++k) own.col(i) += L[k] * stress.col(n * (i / n) + k);
+    }
+    integrate(at, [&](Eigen::Index, double part) { estimate.energy += part; });
+    there -= own;
+    integrate(at, [&](Eigen::Index triangle, double part) { estimate.error[triangle] += part; });
   }
   return estimate;
 }

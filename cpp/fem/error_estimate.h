@@ -1,10 +1,10 @@
-// How far the stress of a body is from the exact one, estimated from itself (Zienkiewicz and Zhu, Int. J. Numer.
-// Methods Engrg. 33, 1992): stresses of linear triangles are best at the centres, so a linear field fitted to the
-// centres around a vertex is a better stress there; what triangles lack to the continuous field of these values is the
-// estimate. It knows the error of the mesh, not that of the steps in time.
+// How far the stress of a body is from the exact one, estimated from itself (Zienkiewicz and Zhu, Int. J.
+// Numer. Methods Engrg. 33, 1992): stresses of triangles are best at their quadrature points, so a polynomial
+// of the degree of the displacements, fitted to those around a vertex, is a better stress there; what
+// triangles lack to the continuous field of these values is the estimate. It knows the error of the mesh, not
+// that of the steps in time.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "fem/body.h"
@@ -18,8 +18,8 @@ struct ErrorEstimate {
   [[nodiscard]] double relative() const;
 };
 
-/// Estimates for one body, which must outlive it. Regions of the mesh are recovered one by one: stresses jump between
-/// materials.
+/// Estimates for one body, which must outlive it. Regions of the mesh are recovered one by one: stresses jump
+/// between materials.
 class ErrorEstimator {
  public:
   explicit ErrorEstimator(const Body& body);
@@ -27,14 +27,19 @@ class ErrorEstimator {
   [[nodiscard]] ErrorEstimate operator()(const Matrix& stress) const;
 
  private:
+  template <class Element>
+  void recover();
+  template <class Element>
+  [[nodiscard]] ErrorEstimate estimate(const Matrix& stress) const;
+
   struct Part {
-    int triangle = 0;
+    int point = 0;
     double weight = 0;
   };
   const Body& body_;
-  std::vector<std::array<int, 3>> corners_;  ///< of each triangle, among the recovered stresses
-  std::vector<size_t> first_{0};             ///< part of each recovered stress
-  std::vector<Part> parts_;                  ///< it is the sum of weight times stress
+  std::vector<int> recoveredAt_;  ///< of each node of each triangle, among the recovered stresses
+  std::vector<size_t> first_{0};  ///< part of each recovered stress
+  std::vector<Part> parts_;       ///< it is the sum of weight times stress
 };
 
 }  // namespace mortier

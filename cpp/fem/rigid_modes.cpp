@@ -28,27 +28,29 @@ struct Frame {
   }
 };
 
-Frame frameOf(const TriangleMesh& mesh, const std::vector<int>& vertices) {
-  Point lower = mesh.vertices[vertices.front()];
+Frame frameOf(const std::vector<Point>& places, const std::vector<int>& vertices) {
+  Point lower = places[vertices.front()];
   Point upper = lower;
   Point sum = Point::Zero();
   for (const int v : vertices) {
-    sum += mesh.vertices[v];
-    lower = lower.cwiseMin(mesh.vertices[v]);
-    upper = upper.cwiseMax(mesh.vertices[v]);
+    sum += places[v];
+    lower = lower.cwiseMin(places[v]);
+    upper = upper.cwiseMax(places[v]);
   }
   return {sum / static_cast<double>(vertices.size()), (upper - lower).maxCoeff() / 2};
 }
 
 /// The components of a mesh that are rigid in themselves (mesh/components.h).
 struct RigidComponents {
-  explicit RigidComponents(const TriangleMesh& mesh) : home(mesh.vertices.size(), -1) {
-    const EdgeComponents components = edgeComponents(mesh);
+  explicit RigidComponents(const Body& body) : home(body.nodes(), -1) {
+    const ElementNodes& nodes = body.elementNodes();
+    const EdgeComponents components = edgeComponents(body.mesh());
     vertices.resize(components.count);
     DisjointSets joined(vertices.size());
     std::set<std::pair<int, int>> hinges;
-    for (size_t t = 0; t < mesh.triangles.size(); ++t)
-      for (const int v : mesh.triangles[t]) {
+    for (size_t t = 0; t < components.of.size(); ++t)
+      for (int a = 0; a < nodes.perTriangle(); ++a) {
+        const int v = nodes.of(t)[a];
         const int component = components.of[t];
         if (home[v] == component) continue;
         if (home[v] < 0)
@@ -58,14 +60,14 @@ struct RigidComponents {
         joined.join(home[v], component);
         vertices[component].push_back(v);
       }
-    for (const std::vector<int>& each : vertices) frames.push_back(frameOf(mesh, each));
+    for (const std::vector<int>& each : vertices) frames.push_back(frameOf(nodes.places, each));
     std::map<int, std::vector<int>> sets;
     for (int c = 0; c < static_cast<int>(vertices.size()); ++c) sets[joined.of(c)].push_back(c);
     for (auto& [first, group] : sets) groups.push_back(std::move(group));
   }
 
-  std::vector<int> home;  ///< of each vertex, its first component; in the others it is a hinge
-  std::vector<std::vector<int>> vertices;  ///< of each component
+  std::vector<int> home;                   ///< of each node, its first component; in the others it is a hinge
+  std::vector<std::vector<int>> vertices;  ///< nodes of each component
   std::vector<Frame> frames;
   std::vector<std::vector<int>> groups;  ///< components that hang together at hinges
 };
@@ -73,7 +75,7 @@ struct RigidComponents {
 /// The free motions of a group: three numbers a component in each column.
 Matrix freeMotions(const Body& body, const RigidComponents& components, const std::vector<int>& group,
                    const std::vector<const NodeSupport*>& supportAt) {
-  const auto& points = body.mesh().vertices;
+  const auto& points = body.elementNodes().places;
   const auto size = static_cast<Eigen::Index>(3 * group.size());
   std::map<int, Eigen::Index> place;
   for (const int component : group) place.emplace(component, 3 * static_cast<Eigen::Index>(place.size()));
@@ -108,7 +110,7 @@ Eigen::Vector3d motionOf(const Body& body, const RigidComponents& components, in
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const int v : components.vertices[component]) {
-    const auto motions = components.frames[component].motionsAt(body.mesh().vertices[v]);
+    const auto motions = components.frames[component].motionsAt(body.elementNodes().places[v]);
     normal += motions.transpose() * motions;
     right += motions.transpose() * motion.segment<2>(2 * v);
   }
@@ -119,7 +121,7 @@ Eigen::Vector3d motionOf(const Body& body, const RigidComponents& components, in
 
 Matrix rigidModes(const Body& body) {
   constexpr size_t most = 300;  // they are dense
-  const RigidComponents components(body.mesh());
+  const RigidComponents components(body);
   std::vector<const NodeSupport*> supportAt(body.nodes(), nullptr);
   for (const NodeSupport& support : body.supports().nodes()) supportAt[support.node] = &support;
   std::vector<Vector> free;
@@ -132,7 +134,7 @@ Matrix rigidModes(const Body& body) {
       Vector mode(Vector::Zero(body.dofs()));
       for (size_t k = 0; k < group.size(); ++k)
         for (const int v : components.vertices[group[k]])
-          mode.segment<2>(2 * v) = components.frames[group[k]].motionsAt(body.mesh().vertices[v]) *
+          mode.segment<2>(2 * v) = components.frames[group[k]].motionsAt(body.elementNodes().places[v]) *
                                    motions.col(i).segment<3>(3 * static_cast<Eigen::Index>(k));
       free.push_back(body.spread(body.gather(mode)));  // what is left along prescribed motions is rounding
     }
@@ -147,7 +149,7 @@ Matrix rigidModes(const Body& body) {
 
 std::string describeRigidMotion(const Body& body, const Vector& motion) {
   constexpr double negligible = 1e-6;
-  const RigidComponents components(body.mesh());
+  const RigidComponents components(body);
   // What moves most is named, and where it is unless the whole body moves with it.
   int mover = 0;
   double largest = 0;
@@ -161,8 +163,9 @@ std::string describeRigidMotion(const Body& body, const Vector& motion) {
   const Eigen::Vector3d fitted = motionOf(body, components, mover, motion);
   bool whole = true;
   for (int v = 0; v < body.nodes(); ++v)
-    whole = whole && (motion.segment<2>(2 * v) - frame.motionsAt(body.mesh().vertices[v]) * fitted).norm() <=
-                         negligible * largest;
+    whole = whole &&
+            (motion.segment<2>(2 * v) - frame.motionsAt(body.elementNodes().places[v]) * fitted).norm() <=
+                negligible * largest;
   const Eigen::Vector3d a = fitted.normalized();
   const auto shown = [](double value) { return std::abs(value) < 1e-9 ? 0.0 : value; };
   std::ostringstream text;

@@ -7,13 +7,14 @@
 
 namespace mortier {
 
-/// Columns are motions by dofs, independent, of unit size: translations and the rotation of each part of the mesh that is
-/// rigid in itself (mesh/components.h), combined so that nothing moves along a prescribed motion and parts stay together
-/// at hinges. None for a body that is held. \throws InputError, UnheldBodyError where the mesh falls into hundreds of parts.
+/// Columns are motions by dofs, independent, of unit size: translations and the rotation of each part of the
+/// mesh that is rigid in itself (mesh/components.h), combined so that nothing moves along a prescribed motion
+/// and parts stay together at hinges. None for a body that is held. \throws InputError, UnheldBodyError where
+/// the mesh falls into hundreds of parts.
 Matrix rigidModes(const Body& body);
 
-/// A motion in words: "translation along (0, 1)", "rotation about (0.5, 2)", where it is that of a part of the mesh
-/// ", of its part around (3, 1)".
+/// A motion in words: "translation along (0, 1)", "rotation about (0.5, 2)", where it is that of a part of
+/// the mesh ", of its part around (3, 1)".
 std::string describeRigidMotion(const Body& body, const Vector& motion);
 
 }  // namespace mortier

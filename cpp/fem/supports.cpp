@@ -14,9 +14,9 @@ const double cornerCosine = std::cos(40 * std::numbers::pi / 180);
 /// Directions whose sine is below this are the same.
 constexpr double sameDirection = 1e-6;
 
-/// A boundary edge seen from one of its nodes.
+/// A stretch of the boundary seen from one of its nodes.
 struct Side {
-  int edge = 0;
+  int edge = 0;    ///< number of the stretch
   int other = 0;   ///< the node at its other end
   Point weighted;  ///< outward normal over the squared length of the edge: over the length, a unit vector
   Point normal;    ///< unit
@@ -37,15 +37,17 @@ bool isTurned(int component) {
 }
 
 /// The edges with a normal or tangential condition, by their nodes.
-SidesOfNodes sidesOf(const TriangleMesh& mesh, const std::vector<PrescribedDisplacement>& conditions) {
+SidesOfNodes sidesOf(const TriangleMesh& mesh, const ElementNodes& nodes,
+                     const std::vector<PrescribedDisplacement>& conditions) {
   SidesOfNodes result;
-  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
+  for (size_t e = 0; e < nodes.boundary.size(); ++e) {
+    const auto& [edge, whole] = nodes.boundary[e];
+    const int label = mesh.boundaryLabels[whole];
     const auto here = [&](const PrescribedDisplacement& c) {
-      return c.label == mesh.boundaryLabels[e] && isTurned(c.component);
+      return c.label == label && isTurned(c.component);
     };
     if (std::none_of(conditions.begin(), conditions.end(), here)) continue;
-    const auto& edge = mesh.boundaryEdges[e];
-    const Point along = mesh.vertices[edge[1]] - mesh.vertices[edge[0]];
+    const Point along = nodes.places[edge[1]] - nodes.places[edge[0]];
     const double length = along.norm();
     const Point normal(along.y() / length, -along.x() / length);
     for (const int end : {0, 1})
@@ -91,17 +93,18 @@ void Supports::hold(NodeSupport& support, const Point& direction, int condition)
   ++support.count;
 }
 
-Supports::Supports(const TriangleMesh& mesh, const std::vector<PrescribedDisplacement>& conditions) {
-  const SidesOfNodes sides = sidesOf(mesh, conditions);
+Supports::Supports(const TriangleMesh& mesh, const ElementNodes& nodes,
+                   const std::vector<PrescribedDisplacement>& conditions) {
+  const SidesOfNodes sides = sidesOf(mesh, nodes, conditions);
   std::map<int, NodeSupport> held;
   // Axes first: a normal that is one of them up to rounding gives way.
   for (const bool turned : {false, true})
     for (size_t c = 0; c < conditions.size(); ++c) {
       const int component = conditions[c].component;
       if (isTurned(component) != turned) continue;
-      for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
-        if (mesh.boundaryLabels[e] != conditions[c].label) continue;
-        for (const int node : mesh.boundaryEdges[e]) {
+      for (size_t e = 0; e < nodes.boundary.size(); ++e) {
+        if (mesh.boundaryLabels[nodes.boundary[e].edge] != conditions[c].label) continue;
+        for (const int node : nodes.boundary[e].nodes) {
           NodeSupport& support = held[node];
           support.node = node;
           if (!turned) {

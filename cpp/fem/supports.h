@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/types.h"
-#include "mesh/triangle_mesh.h"
+#include "mesh/element_nodes.h"
 
 namespace mortier {
 
@@ -46,7 +46,11 @@ class Supports {
  public:
   Supports() = default;
   /// Labels that the mesh does not have hold nothing.
-  Supports(const TriangleMesh& mesh, const std::vector<PrescribedDisplacement>& conditions);
+  Supports(const TriangleMesh& mesh, const ElementNodes& nodes,
+           const std::vector<PrescribedDisplacement>& conditions);
+  /// Of linear displacements.
+  Supports(const TriangleMesh& mesh, const std::vector<PrescribedDisplacement>& conditions)
+      : Supports(mesh, elementNodes(mesh, 1), conditions) {}
 
   [[nodiscard]] const std::vector<NodeSupport>& nodes() const { return nodes_; }  ///< ascending
   [[nodiscard]] const std::vector<FurtherMotion>& further() const { return further_; }

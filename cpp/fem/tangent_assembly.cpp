@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "fem/element.h"
 #include "material/material.h"
 
 namespace mortier {
@@ -47,16 +48,19 @@ TangentAssembly::TangentAssembly(const TriangleData& triangles, const std::vecto
 void TangentAssembly::buildPattern(const TriangleData& triangles) {
   const int n = pattern_.size;
   // Columns by counting sort of the triangles' couplings, then sorted and made unique one column at a time.
+  const int dofs = 2 * triangles.nodes.perTriangle();
   const auto forEachCoupling = [&](auto visit) {
-    for (const auto& triangle : triangles.nodes)
-      for (int j = 0; j < triangleDofs; ++j) {
+    for (size_t t = 0; t < triangles.count(); ++t) {
+      const int* triangle = triangles.nodes.of(t);
+      for (int j = 0; j < dofs; ++j) {
         const int column = triangles.equations[2 * triangle[j / 2] + j % 2];
         if (column < 0) continue;
-        for (int i = 0; i < triangleDofs; ++i) {
+        for (int i = 0; i < dofs; ++i) {
           const int row = triangles.equations[2 * triangle[i / 2] + i % 2];
           if (row >= 0 && (row >= column || !pattern_.symmetric)) visit(row, column);
         }
       }
+    }
   };
   std::vector<int> start(n + 1, 0);
   forEachCoupling([&](int, int column) { ++start[column + 1]; });
@@ -82,16 +86,16 @@ int TangentAssembly::entry(int row, int column) const {
   return static_cast<int>(std::lower_bound(begin, end, row) - pattern_.rows.begin());
 }
 
-TangentAssembly::Entries TangentAssembly::entriesOf(const TriangleData& triangles, size_t t) const {
-  const auto& nodes = triangles.nodes[t];
-  Entries entries;
-  entries.fill(-1);
-  for (int j = 0; j < triangleDofs; ++j)
-    for (int i = 0; i < triangleDofs; ++i) {
+std::vector<int> TangentAssembly::entriesOf(const TriangleData& triangles, size_t t) const {
+  const int* nodes = triangles.nodes.of(t);
+  const int dofs = 2 * triangles.nodes.perTriangle();
+  std::vector<int> entries(static_cast<size_t>(dofs) * dofs, -1);
+  for (int j = 0; j < dofs; ++j)
+    for (int i = 0; i < dofs; ++i) {
       const int column = triangles.equations[2 * nodes[j / 2] + j % 2];
       const int row = triangles.equations[2 * nodes[i / 2] + i % 2];
       if (column < 0 || row < 0 || (row < column && pattern_.symmetric)) continue;
-      entries[triangleDofs * j + i] = entry(row, column);
+      entries[dofs * j + i] = entry(row, column);
     }
   return entries;
 }
@@ -117,29 +121,31 @@ void TangentAssembly::placeBlocks(const TriangleData& triangles, const std::vect
                                         [](int value, const Part& part) { return value < part.firstColumn; });
     return static_cast<int>(after - parts_.begin()) - 1;
   };
-  blocks_.resize(triangles.nodes.size());
-  for (size_t t = 0; t < triangles.nodes.size(); ++t) {
-    const auto& nodes = triangles.nodes[t];
-    bool plain = std::all_of(nodes.begin(), nodes.end(), isPlain);
-    std::array<int, 3> part{};
-    for (int b = 0; b < 3 && plain; ++b) {
+  const int n = triangles.nodes.perTriangle();
+  blocks_.resize(triangles.count() * n * n);
+  std::vector<int> home(n);
+  for (size_t t = 0; t < triangles.count(); ++t) {
+    const int* nodes = triangles.nodes.of(t);
+    uint16_t* blocks = &blocks_[t * n * n];
+    bool plain = std::all_of(nodes, nodes + n, isPlain);
+    for (int b = 0; b < n && plain; ++b) {
       const int column = triangles.equations[2 * nodes[b]];
-      part[b] = partOf(column);
-      for (int a = 0; a < 3; ++a) {
+      home[b] = partOf(column);
+      for (int a = 0; a < n; ++a) {
         const int row = triangles.equations[2 * nodes[a]];
         if (row < column && pattern_.symmetric) continue;
         const int place = entry(row, column) - pattern_.columnStart[column];
         plain = plain && place <= std::numeric_limits<uint16_t>::max();
-        blocks_[t][3 * b + a] = static_cast<uint16_t>(place);
+        blocks[n * b + a] = static_cast<uint16_t>(place);
       }
     }
     if (!plain) {
       supported_.push_back({static_cast<int>(t), entriesOf(triangles, t)});
       continue;
     }
-    std::sort(part.begin(), part.end());
-    for (int b = 0; b < 3; ++b)
-      if (b == 0 || part[b] != part[b - 1]) parts_[part[b]].triangles.push_back(static_cast<int>(t));
+    std::sort(home.begin(), home.end());
+    for (int b = 0; b < n; ++b)
+      if (b == 0 || home[b] != home[b - 1]) parts_[home[b]].triangles.push_back(static_cast<int>(t));
   }
   for (Part& part : parts_) part.triangles.shrink_to_fit();
 }
@@ -147,8 +153,11 @@ void TangentAssembly::placeBlocks(const TriangleData& triangles, const std::vect
 // Both rows of a node follow each other in every column, and its second column is its first one (where
 // symmetric: without its first row). Every entry is a sum over triangles in their order, whichever part it
 // lies in.
+template <class Element>
 void TangentAssembly::assemblePlain(const TriangleData& triangles, const Matrix& moduli,
                                     std::vector<double>& values, Threads& threads) const {
+  constexpr int n = Element::nodes;
+  constexpr int points = Element::points;
   values.resize(pattern_.entries());
   const bool symmetric = pattern_.symmetric;
   double* const first = values.data();
@@ -158,25 +167,39 @@ void TangentAssembly::assemblePlain(const TriangleData& triangles, const Matrix&
     const Part& part = parts_[p];
     std::fill(values.begin() + start[part.firstColumn], values.begin() + start[part.endColumn], 0.0);
     for (const int t : part.triangles) {
-      const std::array<double, triangleDofs> G = triangles.gradientsOf(t);
-      const std::array<double, 9> D = moduliAt(moduli, t);
-      const double weight = triangles.weights[t];
-      const auto& nodes = triangles.nodes[t];
-      const auto& blocks = blocks_[t];
-      const int equation[3] = {equations[2 * nodes[0]], equations[2 * nodes[1]], equations[2 * nodes[2]]};
-      for (int b = 0; b < 3; ++b) {
+      std::array<std::array<double, 2 * n>, points> G;
+      std::array<std::array<double, 9>, points> D;
+      for (int i = 0; i < points; ++i) {
+        G[i] = triangles.gradientsOf<Element>(points * t + i);
+        D[i] = moduliAt(moduli, points * t + i);
+      }
+      const double* weights = &triangles.weights[static_cast<size_t>(points) * t];
+      const int* nodes = &triangles.nodes.triangles[static_cast<size_t>(n) * t];
+      const uint16_t* blocks = &blocks_[static_cast<size_t>(n) * n * t];
+      int equation[n];
+      for (int a = 0; a < n; ++a) equation[a] = equations[2 * nodes[a]];
+      for (int b = 0; b < n; ++b) {
         if (equation[b] < part.firstColumn || equation[b] >= part.endColumn) continue;
-        const double gx = weight * G[2 * b];
-        const double gy = weight * G[2 * b + 1];
-        const ColumnOfDB x = columnOfDB(D, gx, gx, gy);
-        const ColumnOfDB y = columnOfDB(D, gy, -gy, gx);
+        ColumnOfDB x[points];
+        ColumnOfDB y[points];
+        for (int i = 0; i < points; ++i) {
+          const double gx = weights[i] * G[i][2 * b];
+          const double gy = weights[i] * G[i][2 * b + 1];
+          x[i] = columnOfDB(D[i], gx, gx, gy);
+          y[i] = columnOfDB(D[i], gy, -gy, gx);
+        }
         double* columnX = first + start[equation[b]];
         double* columnY = first + start[equation[b] + 1] - (symmetric ? 1 : 0);
-        for (int a = 0; a < 3; ++a) {
+        for (int a = 0; a < n; ++a) {
           if (symmetric && equation[a] < equation[b]) continue;
-          const int place = blocks[3 * b + a];
-          const Eigen::Vector2d yy = y.times(G[2 * a], G[2 * a + 1]);
-          add(columnX + place, x.times(G[2 * a], G[2 * a + 1]));
+          const int place = blocks[n * b + a];
+          Eigen::Vector2d xx = x[0].times(G[0][2 * a], G[0][2 * a + 1]);
+          Eigen::Vector2d yy = y[0].times(G[0][2 * a], G[0][2 * a + 1]);
+          for (int i = 1; i < points; ++i) {
+            xx += x[i].times(G[i][2 * a], G[i][2 * a + 1]);
+            yy += y[i].times(G[i][2 * a], G[i][2 * a + 1]);
+          }
+          add(columnX + place, xx);
           if (symmetric && a == b)
             columnY[place + 1] += yy[1];
           else
@@ -185,6 +208,12 @@ void TangentAssembly::assemblePlain(const TriangleData& triangles, const Matrix&
       }
     }
   });
+}
+
+void TangentAssembly::assemblePlain(const TriangleData& triangles, const Matrix& moduli,
+                                    std::vector<double>& values, Threads& threads) const {
+  withElement(triangles.nodes.degree,
+              [&](auto element) { assemblePlain<decltype(element)>(triangles, moduli, values, threads); });
 }
 
 }  // namespace mortier

@@ -9,22 +9,34 @@
 #include "base/parallel.h"
 #include "base/types.h"
 #include "linear/sparse_pattern.h"
+#include "mesh/element_nodes.h"
 
 namespace mortier {
 
-constexpr int triangleDofs = 6;
-
-/// The triangles of a body as the assembly sees them.
+/// The triangles of a body as kernels see them.
 struct TriangleData {
-  const std::vector<std::array<int, 3>>& nodes;
+  const ElementNodes& nodes;
   const std::vector<int>& equations;     ///< of dof 2 node + component, ascending; -1 where there is none
-  const std::vector<double>& weights;    ///< areas [m^2]
-  const std::vector<double>& gradients;  ///< of the second and third shape function, over sqrt2 [1/m]
+  const std::vector<double>& weights;    ///< of the quadrature points, triangle by triangle [m^2]
+  const std::vector<double>& gradients;  ///< of all but the first shape function, over sqrt2 [1/m]
 
-  /// Of all three. They sum to zero.
-  [[nodiscard]] std::array<double, 6> gradientsOf(int t) const {
-    const double* G = &gradients[static_cast<size_t>(4) * t];
-    return {-(G[0] + G[2]), -(G[1] + G[3]), G[0], G[1], G[2], G[3]};
+  [[nodiscard]] size_t count() const { return nodes.triangles.size() / nodes.perTriangle(); }
+  /// At a point; the first x and y of a node come one after the other. They sum to zero.
+  template <class Element>
+  [[nodiscard]] std::array<double, 2 * Element::nodes> gradientsOf(size_t point) const {
+    constexpr int others = 2 * (Element::nodes - 1);
+    const double* G = &gradients[others * point];
+    std::array<double, 2 * Element::nodes> all;
+    double x = G[0];
+    double y = G[1];
+    for (int k = 0; k < others; ++k) all[2 + k] = G[k];
+    for (int k = 2; k < others; k += 2) {
+      x += G[k];
+      y += G[k + 1];
+    }
+    all[0] = -x;
+    all[1] = -y;
+    return all;
   }
 };
 
@@ -41,11 +53,9 @@ class TangentAssembly {
   void assemblePlain(const TriangleData& triangles, const Matrix& moduli, std::vector<double>& values,
                      Threads& threads) const;
 
-  /// Entries of the pattern for the 6 x 6 matrix of a triangle, column major, -1 for none.
-  using Entries = std::array<int, triangleDofs * triangleDofs>;
   struct SupportedTriangle {
     int triangle = 0;
-    Entries entries;
+    std::vector<int> entries;  ///< of the pattern for its matrix, column major, -1 for none
   };
   /// The others.
   [[nodiscard]] const std::vector<SupportedTriangle>& supported() const { return supported_; }
@@ -61,13 +71,16 @@ class TangentAssembly {
   void buildPattern(const TriangleData& triangles);
   void cutIntoParts(const std::vector<int>& equations);
   void placeBlocks(const TriangleData& triangles, const std::vector<int>& frameOf);
-  [[nodiscard]] Entries entriesOf(const TriangleData& triangles, size_t t) const;
+  [[nodiscard]] std::vector<int> entriesOf(const TriangleData& triangles, size_t t) const;
+  template <class Element>
+  void assemblePlain(const TriangleData& triangles, const Matrix& moduli, std::vector<double>& values,
+                     Threads& threads) const;
   [[nodiscard]] int entry(int row, int column) const;
 
   SparsePattern pattern_;
   std::vector<Part> parts_;
-  /// Per triangle and pair of nodes 3 column + row: place of the block in its column.
-  std::vector<std::array<uint16_t, 9>> blocks_;
+  /// Per triangle and pair of its nodes, by columns: place of the block in its column.
+  std::vector<uint16_t> blocks_;
   std::vector<SupportedTriangle> supported_;
 };
 

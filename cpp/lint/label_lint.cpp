@@ -138,8 +138,9 @@ void findUnused(const LintInput& input, size_t b, const Topology& topology, Faul
                      " boundary edges, and the scene says nothing of it");
 }
 
-/// P1 triangles whose every corner is held have no strain but the prescribed one.
+/// Linear triangles whose every corner is held have no strain but the prescribed one.
 void findLocked(const LintInput& input, size_t b, Faults& faults) {
+  if (input.scene.degree > 1) return;
   const TriangleMesh& mesh = *input.meshes[b];
   const std::vector<char> held = heldDofs(mesh, input.scene.bodies[b].conditions);
   size_t locked = 0;

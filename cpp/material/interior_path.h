@@ -2,16 +2,19 @@
 // with x = P_B s / sigma_Y scaled by a^(1/2) (yield_domain.h) and the flow as a cone variable y = (y_0, y'),
 //   E^-1 (s - s0) + flow(y) = B du - shift,   s = sigma_Y a^(-1/2) (x - b y'),   |x| <= 1,  |y'| <= y_0,
 //   x o y = (y_0 + x.y', y' + y_0 x) = (mu, 0).
-// For mu = 0 this is the law itself: y' = -m x, where m >= 0 and m (1 - |x|) = 0. For mu > 0 a point is never quite
-// elastic and never quite on the yield surface, and mu falls to zero in some twenty iterations however stiff
-// the law (primal-dual method with the direction of Alizadeh, Haeberly and Overton 1998, predictor and
+// For mu = 0 this is the law itself: y' = -m x, where m >= 0 and m (1 - |x|) = 0. For mu > 0 a point is never
+// quite elastic and never quite on the yield surface, and mu falls to zero in some twenty iterations however
+// stiff the law (primal-dual method with the direction of Alizadeh, Haeberly and Overton 1998, predictor and
 // corrector of Mehrotra 1992). What is small is carried, never a difference: 1 - |x|^2 and y' + y_0 x.
 #pragma once
+
+#include <optional>
 
 #include "material/material.h"
 
 namespace mortier {
 
+/// Some points of a body on their path. All of its points are handed over.
 class InteriorPath {
  public:
   virtual ~InteriorPath() = default;
@@ -24,8 +27,8 @@ class InteriorPath {
   [[nodiscard]] virtual double complementarity() const = 0;
   [[nodiscard]] virtual int points() const = 0;
 
-  /// Linearises at the iterate, whose strain (minus shift) is given: predictor and moduli of the stress. Aims at
-  /// mu = `target`; `correct` takes in what was neglected by the last direction.
+  /// Linearises at the iterate, whose strain (minus shift) is given: predictor and moduli of the stress. Aims
+  /// at mu = `target`; `correct` takes in what was neglected by the last direction.
   virtual void linearise(const Matrix& strain, double target, bool correct, Linearisation& result) = 0;
   /// The direction in which a change of strain takes the points. \returns the largest step along it that none
   /// of them bars [-].
@@ -33,5 +36,22 @@ class InteriorPath {
   /// Goes `step` along the last direction; `stress` follows.
   virtual void advance(double step, Matrix& stress) = 0;
 };
+
+/// A law with such a path, on three directions in which it is diagonal.
+struct ConeLaw {
+  Eigen::Array3d e;        ///< eigenvalues of the elasticity tensor [Pa]
+  Eigen::Array3d a;        ///< of the yield function [-]
+  Eigen::Array3d b;        ///< a over the weights of the projection's norm [-]
+  double yieldStress = 0;  ///< sigma_Y [Pa]
+  double theta = 0;        ///< weight/(2 lambda) [1/Pa]
+  std::optional<double> bulk =
+      {};  ///< where the directions are k, q, r of plane strain, that of the pressure [Pa]
+};
+
+std::unique_ptr<InteriorPath> conePath(const ConeLaw& law, const Matrix& stress0, std::vector<int> points);
+
+/// Points without a path of their own follow Newton's method; they bar no step and count as none.
+std::unique_ptr<InteriorPath> newtonPath(const Material& material, const PathStart& start,
+                                         std::vector<int> points);
 
 }  // namespace mortier

@@ -1,4 +1,4 @@
-// What the laws of material/ share that are evaluated for eight points at once.
+// What laws are written with that are evaluated for eight points at once.
 #pragma once
 
 #include "base/lanes.h"
@@ -21,14 +21,6 @@ inline std::array<Lanes, 9> diagonalMinusRankOne(const LaneVector& d, const Lane
     result[3 * j + j] += d[j];
   }
   return result;
-}
-
-/// All of the moduli, or their lower triangle.
-inline void storeModuli(const Batch& batch, const std::array<Lanes, 9>& D, Matrix& moduli) {
-  if (moduli.rows() == 6)
-    batch.store(std::array<Lanes, 6>{D[0], D[1], D[2], D[4], D[5], D[8]}, moduli.data());
-  else
-    batch.store(D, moduli.data());
 }
 
 /// The largest |x| so far; NaN and infinity stay, as NaN.

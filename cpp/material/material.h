@@ -1,9 +1,13 @@
-// What a body asks of a material: the stress law of one time step, linearised. A material knows no mesh.
+// What a body asks of its material: the stress law of one time step at its points, linearised. A material
+// knows no mesh and keeps no state. With the elasticity E and the viscoplastic rate G,
+//   E^-1 (s - s0) + weight G(s, eps) = strain.
+// Laws are written for one point (point_material.h); a body may have several (parts.h).
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "base/types.h"
 
@@ -14,23 +18,42 @@ struct MaterialStep {
   double weight = 0;      ///< time step times the scheme's diagonal coefficient [s]
   const Matrix& stress0;  ///< components x points, at the start of the step [Pa]
   const Matrix& strain;   ///< components x points, total strain increment minus the scheme's shift [-]
-  bool anticipate =
-      false;  ///< judge yielding by the stress plus a part of what the strain still asks for: slower where
-              ///< bodies flow, but it holds where triangles sit on the yield surface
+  /// Judge yielding by the stress plus a part of what the strain still asks for: slower where bodies flow,
+  /// but it holds where triangles sit on the yield surface.
+  bool anticipate = false;
+  /// What `strain` is added to, to give the total strain eps; needed where the law depends on that [-].
+  const Matrix* strain0 = nullptr;
+};
+
+/// Stress, and total strain where the law depends on that. Columns are points.
+struct MaterialState {
+  const Matrix& stress;
+  const Matrix* strain = nullptr;
+};
+
+/// Where the path of a hard step begins: the members of MaterialStep.
+struct PathStart {
+  double weight = 0;
+  const Matrix& stress0;
+  const Matrix* strain0 = nullptr;
 };
 
 /// The law linearised at an iterate s of the stress: the next iterate is predictor + H^-1 B d.
 struct Linearisation {
   Matrix predictor;  ///< components x points: s + H^-1 r [Pa]
-  /// The block of H^-1 that acts on the strains of the plane [Pa], column major: 9 x points, or, where the moduli are
-  /// symmetric, 6 x points for the lower triangle. The caller sizes it.
+  /// The block of H^-1 that acts on the strains of the plane [Pa], column major: 9 x points, or, where the
+  /// moduli are symmetric, 6 x points for the lower triangle.
   Matrix moduli;
-  /// The row of H^-1 of a fourth stress component [Pa], which is its column too: 4 x points. Empty where there are three.
+  /// What a fourth stress component adds to H^-1 [Pa]: its row, and, where H^-1 is not symmetric, the first
+  /// three of its column: 4 or 7 x points. Empty where there are three components.
   Matrix beyond = {};
-  /// Points at which the moduli are those of elasticity: the caller sets 0, linearise() adds its own, from any
-  /// thread. Points of a law that does not count are taken to flow.
-  int elastic = 0;
-  void addElastic(int points) { std::atomic_ref(elastic).fetch_add(points, std::memory_order_relaxed); }
+  int elastic = 0;  ///< points at which the moduli are those of elasticity, as far as they were counted
+};
+
+/// What the linearisation of a range of points says beside the fields.
+struct LawReport {
+  double change = 0;  ///< the largest change of stress that the law asks for [Pa]; NaN where any is
+  int elastic = 0;    ///< points of the range if the moduli of all of them are those of elasticity, else 0
 };
 
 /// All 3 x 3 moduli of a point, column major.
@@ -38,14 +61,6 @@ inline std::array<double, 9> moduliAt(const Matrix& moduli, int point) {
   const double* D = &moduli(0, point);
   if (moduli.rows() == 6) return {D[0], D[1], D[2], D[1], D[3], D[4], D[2], D[4], D[5]};
   return {D[0], D[1], D[2], D[3], D[4], D[5], D[6], D[7], D[8]};
-}
-
-/// Stores the moduli of a point, their lower triangle where that is all that is kept.
-inline void storeModuli(const Eigen::Matrix3d& D, Matrix& moduli, int point) {
-  if (moduli.rows() == 6)
-    moduli.col(point) << D(0, 0), D(1, 0), D(2, 0), D(1, 1), D(2, 1), D(2, 2);
-  else
-    moduli.col(point) = Eigen::Map<const Eigen::VectorXd>(D.data(), 9);
 }
 
 using PointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;  ///< by components
@@ -56,53 +71,85 @@ inline PointVector stressOf(const Linearisation& law, const Eigen::Ref<const Vec
   PointVector stress(strain.size());
   stress.head<3>() = Eigen::Map<const Eigen::Matrix3d>(D.data()) * strain.head<3>();
   if (strain.size() > 3) {
-    stress.head<3>() += law.beyond.col(point).head<3>() * strain[3];
-    stress[3] = law.beyond.col(point).dot(strain);
+    const auto beyond = law.beyond.col(point);
+    const Eigen::Index column = beyond.size() == 7 ? 4 : 0;
+    stress.head<3>() += beyond.segment<3>(column) * strain[3];
+    stress[3] = beyond.head<4>().dot(strain);
   }
   return stress;
 }
+
+/// What a law is, for log, summary and plan.
+struct LawDescription {
+  struct Parameter {
+    std::string name;
+    double value = 0;
+    std::string unit;
+  };
+  std::string name;     ///< "elastic", "Perzyna"
+  std::string variant;  ///< "frobenius"; may be empty
+  std::vector<Parameter> parameters;
+
+  /// "Perzyna (frobenius)"
+  [[nodiscard]] std::string text() const { return variant.empty() ? name : name + " (" + variant + ")"; }
+};
 
 class InteriorPath;
 
 class Material {
  public:
   virtual ~Material() = default;
-  /// Number of stress components: those of the plane, and one beyond it (H^-1 is symmetric then).
+  /// Of each part.
+  [[nodiscard]] virtual std::vector<LawDescription> laws() const = 0;
+  /// Number of stress components: those of the plane, and one beyond it.
   [[nodiscard]] virtual int components() const = 0;
   /// The stress beyond the plane that elasticity asks for beside p, q, r, without strain beyond it [Pa].
-  [[nodiscard]] virtual double outOfPlane(const Eigen::Vector3d& /*stress*/, int /*point*/) const {
-    return 0;
-  }
+  [[nodiscard]] virtual double outOfPlane(const Eigen::Vector3d& stress, int point) const = 0;
   /// Whether the moduli are symmetric whatever the stress.
   [[nodiscard]] virtual bool symmetricTangent() const = 0;
   /// Whether the law is linear: its moduli depend on nothing.
   [[nodiscard]] virtual bool linear() const = 0;
+  /// Whether G depends on the total strain: then steps and states must have it.
+  [[nodiscard]] virtual bool ofStrain() const = 0;
   /// The stress that residuals are measured against [Pa]; 0 where the law has none.
   [[nodiscard]] virtual double stressScale() const = 0;
   /// Viscous over elastic compliance, theta e, for a step of `weight` [-].
   [[nodiscard]] virtual double stiffness(double weight) const = 0;
-
-  /// With r = strain - [E^-1 (s - s0) + weight G(s)] and H = E^-1 + weight G'(s), fills the columns [begin,
-  /// end). \returns the largest |H^-1 r| over them [Pa].
-  virtual double linearise(const MaterialStep& step, const Matrix& stress, Linearisation& result, int begin,
-                           int end) const = 0;
-  /// The law regularised for the penalty-duality method (solver/penalty_duality.cpp). With penalties
-  /// w = penalty weight/(2 lambda) [1/Pa] per point and D^-1 = E^-1 + w, the moduli become D and the predictor
-  /// s + relaxation (t - s), where t is on the law at the strain + D^-1 (s - t). Columns [begin, end).
-  /// \returns the largest |t - s| over them [Pa].
-  virtual double regularise(const MaterialStep& step, const Matrix& stress, const Vector& penalty,
-                            double relaxation, Linearisation& result, int begin, int end) const = 0;
-  /// The penalties [-] that suit a stress: nothing where it is elastic, the mean stiffness of the flow where it flows.
-  virtual void choosePenalty(const Matrix& stress, Vector& penalty) const = 0;
-  /// The path along which a hard step is solved; nothing where the law is linear. `stress0` must outlive it.
-  [[nodiscard]] virtual std::unique_ptr<InteriorPath> interiorPath(double weight,
-                                                                   const Matrix& stress0) const = 0;
-  /// Viscoplastic strain rate G(s) [1/s], components x points.
-  virtual void viscoplasticRate(const Matrix& stress, Matrix& rate) const = 0;
-  /// E^-1 s [-], components x points.
-  virtual void elasticStrain(const Matrix& stress, Matrix& strain) const = 0;
   /// Whether the stress of a point is on or beyond yield.
   [[nodiscard]] virtual bool flows(const Matrix& stress, int point) const = 0;
+
+  // Of the points [begin, end); what is filled is sized before.
+
+  /// With r = strain - [E^-1 (s - s0) + weight G] and H = E^-1 + weight G', the predictor and the moduli.
+  virtual LawReport linearise(const MaterialStep& step, const Matrix& stress, Linearisation& result,
+                              int begin, int end) const = 0;
+  /// The law regularised for the penalty-duality method (solver/penalty_duality.cpp). With penalties
+  /// w = penalty weight/(2 lambda) [1/Pa] per point and D^-1 = E^-1 + w, the moduli become D and the
+  /// predictor s + relaxation (t - s), where t is on the law at the strain + D^-1 (s - t).
+  virtual LawReport regularise(const MaterialStep& step, const Matrix& stress, const Vector& penalty,
+                               double relaxation, Linearisation& result, int begin, int end) const = 0;
+  virtual void choosePenalty(const Matrix& stress, Vector& penalty, int begin, int end) const = 0;
+  virtual void viscoplasticRate(const MaterialState& state, Matrix& rate, int begin, int end) const = 0;
+  virtual void elasticStrain(const Matrix& stress, Matrix& strain, int begin, int end) const = 0;
+  /// The path along which `points` of a hard step are solved; what `start` refers to must outlive it.
+  [[nodiscard]] virtual std::unique_ptr<InteriorPath> interiorPath(const PathStart& start,
+                                                                   std::vector<int> points) const = 0;
+
+  // Of all points.
+
+  /// Room for the linearisation of so many points.
+  [[nodiscard]] Linearisation room(int points) const;
+  /// The penalties [-] that suit a stress: nothing where it is elastic, the mean stiffness of the flow where
+  /// it flows.
+  void choosePenalty(const Matrix& stress, Vector& penalty) const;
+  /// Viscoplastic strain rate G [1/s], components x points, of stress and, where the law depends on it, total
+  /// strain.
+  void viscoplasticRate(const Matrix& stress, Matrix& rate, const Matrix* strain = nullptr) const;
+  /// E^-1 s [-], components x points.
+  void elasticStrain(const Matrix& stress, Matrix& strain) const;
+  /// Nothing where no point has one. \pre as MaterialStep
+  [[nodiscard]] std::unique_ptr<InteriorPath> interiorPath(double weight, const Matrix& stress0,
+                                                           const Matrix* strain0 = nullptr) const;
 };
 
 }  // namespace mortier

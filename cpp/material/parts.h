@@ -7,8 +7,8 @@
 
 namespace mortier {
 
-/// Behaves at point i as materials[materialOf[i]]. Residuals are scaled to the yield stress of each material, in
-/// elastic ones to the smallest of them.
+/// Behaves at point i as materials[materialOf[i]]. Residuals are scaled to the yield stress of each material,
+/// in elastic ones to the smallest of them.
 /// \pre as many components everywhere
 std::shared_ptr<const Material> materialOfParts(std::vector<std::shared_ptr<const Material>> materials,
                                                 std::vector<int> materialOf);

@@ -1,13 +1,10 @@
-// Isotropic elasticity in plane stress, and Perzyna viscoplasticity on it:
+// Perzyna viscoplasticity on isotropic elasticity,
 //   eps' = E^-1 sigma' + (sigma - P_B sigma) / (2 lambda)
 // (Fernandez, Hild, Viano 2000, section 3). P_B projects on B = { von Mises <= yieldStress } in a chosen
 // norm.
 #pragma once
 
-#include <memory>
-#include <string>
-
-#include "material/material.h"
+#include "material/elasticity.h"
 
 namespace mortier {
 
@@ -17,13 +14,7 @@ enum class Projection {
   frobenius,   ///< tau : tau; associated, symmetric tangent, every step minimises a convex energy
   compliance   ///< (E^-1 tau, tau), the norm of Duvaut and Lions
 };
-
-struct Elasticity {
-  double young = 0;    ///< E [Pa]
-  double poisson = 0;  ///< nu [-]
-  /// Eigenvalues of plane stress on p, q, r: E/(1-nu), E/(1+nu), E/(1+nu) [Pa].
-  [[nodiscard]] Eigen::Array3d moduli() const;
-};
+inline constexpr const char* projectionNames[] = {"elasticity", "frobenius", "compliance"};
 
 struct Viscoplasticity {
   double viscosity = 0;    ///< lambda [Pa s]
@@ -31,12 +22,52 @@ struct Viscoplasticity {
   Projection projection = Projection::frobenius;
 };
 
-/// \throws InputError unless young > 0 and -1 < poisson < 0.5, viscosity > 0 and yieldStress > 0.
-void requireValid(const Elasticity& elasticity);
+/// \throws InputError unless viscosity > 0 and yieldStress > 0.
 void requireValid(const Viscoplasticity& viscoplasticity);
 
-/// \throws InputError unless young > 0 and -1 < poisson < 0.5 (and viscosity > 0, yieldStress > 0).
-std::shared_ptr<const Material> elasticMaterial(const Elasticity& elasticity);
+LawDescription describe(const Elasticity& elasticity, const Viscoplasticity& viscoplasticity);
+
+/// On three directions in which E, B and the norm are diagonal, the last two alike.
+class PerzynaLaw {
+ public:
+  static constexpr int components = 3;
+  static constexpr bool linear = false;
+  static constexpr bool ofStrain = false;
+
+  /// \param e  eigenvalues of the elasticity tensor [Pa]  \param a, w  of the yield function and the norm [-]
+  PerzynaLaw(const Pair& e, const Pair& a, const Pair& w, const Viscoplasticity& law);
+
+  [[nodiscard]] bool symmetric() const { return symmetric_; }
+  [[nodiscard]] double stressScale() const { return law_.yieldStress; }
+  [[nodiscard]] double stiffness(double weight) const { return theta(weight) * std::max(e_[0], e_[1]); }
+  template <class Scalar>
+  [[nodiscard]] auto flows(const std::array<Scalar, 3>& stress) const {
+    return domain_.yields(stress);
+  }
+  [[nodiscard]] Lanes penalty(const LaneVector& stress) const;
+  [[nodiscard]] LaneVector rate(const LaneVector& stress, const LaneVector& total) const;
+  [[nodiscard]] LaneVector elasticStrain(LaneVector stress) const {
+    for (int k = 0; k < 3; ++k) stress[k] *= 1 / e_[k];
+    return stress;
+  }
+  [[nodiscard]] PointAnswer<3> linearise(const PointStep<3>& point) const;
+  [[nodiscard]] PointAnswer<3> regularise(const PointStep<3>& point, const Lanes& penalty) const;
+  [[nodiscard]] ConeLaw cone(double weight) const;
+
+ private:
+  [[nodiscard]] double theta(double weight) const { return weight / (2 * law_.viscosity); }
+  /// strain - E^-1 (s - s0): what is left for the flow.
+  [[nodiscard]] LaneVector rest(const PointStep<3>& point) const;
+
+  double e_[3];
+  Pair a_;
+  Pair w_;
+  Viscoplasticity law_;
+  bool symmetric_;
+  YieldDomain<double> domain_;
+};
+
+/// In plane stress. \throws InputError
 std::shared_ptr<const Material> perzynaMaterial(const Elasticity& elasticity,
                                                 const Viscoplasticity& viscoplasticity);
 

@@ -1,11 +1,16 @@
-// The elastic domain B = { a . s^2 <= sigma_Y^2 }, a = (1/2, 3/2, 3/2) on p, q, r (von Mises, plane stress),
-// and the projection on it in a norm with weights w:
-//   (P_B s)_i = s_i / (1 + m b_i),  b_i = a_i / w_i,  m >= 0 the root of  a . (P_B s)^2 = sigma_Y^2.
+// The elastic domain B = { a . s^2 <= sigma_Y^2 } and the projection on it in a norm with weights w,
+//   (P_B s)_i = s_i / (1 + m b_i),  b_i = a_i / w_i,  m >= 0 the root of  a . (P_B s)^2 = sigma_Y^2,
+// for eight stresses at once. a = (1/2, 3/2, 3/2) on p, q, r is von Mises in plane stress; (3/2, 3/2, 3/2) on
+// a deviator is von Mises in three dimensions. Every norm here weighs the second and the third direction
+// alike.
 #pragma once
 
-#include "base/types.h"
+#include "material/law_lanes.h"
 
 namespace mortier {
+
+/// The first direction, and the second and third.
+using Pair = std::array<double, 2>;
 
 /// The flow theta (t - P_B t) at a stress t on or beyond yield, and how it changes, free of cancellation. The
 /// same flow is theta kappa (t - P_B t) at t = s + c theta (s - P_B s), kappa = 1/(1 + c theta), for any c >=
@@ -13,41 +18,89 @@ namespace mortier {
 /// s:
 ///   theta (kappa diag(softening) + x y'/z).
 struct ProjectionOnYield {
-  Eigen::Array3d overstress;  ///< t - P_B t = m b/(1 + m b) t [Pa]
-  Eigen::Array3d softening;   ///< m b/(1 + kappa m b) [-]
-  Eigen::Array3d stretch;     ///< (1 + m b)/(1 + kappa m b) [-]
-  Eigen::Array3d x;
-  Eigen::Array3d y;
-  double z = 0;
+  LaneVector overstress;           ///< t - P_B t = m b/(1 + m b) t [Pa]
+  std::array<Lanes, 2> softening;  ///< m b/(1 + kappa m b) [-]
+  std::array<Lanes, 2> stretch;    ///< (1 + m b)/(1 + kappa m b) [-]
+  LaneVector x;
+  LaneVector y;
+  Lanes z;
 };
 
+/// \tparam B  a number, or one for each of eight stresses
+template <class B>
 class YieldDomain {
  public:
-  YieldDomain(double yieldStress, const Eigen::Array3d& a, const Eigen::Array3d& w)
-      : yieldStress_(yieldStress), a_(a), b_(a / w) {}
+  YieldDomain(double yieldStress, const Pair& a, const std::array<B, 2>& b)
+      : scale_(1 / yieldStress), a_(a), b_(b) {}
 
-  /// A stress on the yield surface, up to rounding, counts as beyond it: with the elastic tangent there
-  /// Newton cycles.
-  [[nodiscard]] bool yields(const Eigen::Array3d& s) const {
+  /// Of one stress or of eight. A stress on the yield surface, up to rounding, counts as beyond it: with the
+  /// elastic tangent there Newton cycles.
+  template <class Scalar>
+  [[nodiscard]] auto yields(const std::array<Scalar, 3>& s) const {
     constexpr double onSurface = 1 - 1e-10;
-    return (a_ * (s / yieldStress_).square()).sum() >= onSurface;
+    const auto [p, q] = square(s);
+    return p + q >= onSurface;
   }
 
-  [[nodiscard]] const Eigen::Array3d& a() const { return a_; }
-  [[nodiscard]] const Eigen::Array3d& b() const { return b_; }
-
-  /// \pre yields(t)
-  [[nodiscard]] ProjectionOnYield project(const Eigen::Array3d& t, double kappa = 1) const;
+  /// Lanes outside `flowing` get the projection with m = 0.
+  [[nodiscard]] ProjectionOnYield project(const LaneVector& t, const Lanes& kappa,
+                                          const LaneMask& flowing) const {
+    const Lanes m = multiplier(t, flowing);
+    ProjectionOnYield result;
+    result.z = 0;
+    for (int i = 0; i < 3; ++i) {
+      const int j = i == 0 ? 0 : 1;
+      const Lanes mb = m * b_[j];
+      const Lanes both = 1 / ((1 + mb) * (1 + kappa * mb));
+      const Lanes c = (1 + kappa * mb) * both;
+      const Lanes k = (1 + mb) * both;
+      result.overstress[i] = mb * c * t[i];
+      result.softening[j] = mb * k;
+      result.stretch[j] = (1 + mb) * k;
+      result.x[i] = t[i] * b_[j] * c * k;
+      result.y[i] = t[i] * a_[j] * c * k;
+      result.z += a_[j] * b_[j] * (t[i] * c) * (t[i] * c) * k;
+    }
+    return result;
+  }
 
  private:
-  /// The root m >= 0.
-  [[nodiscard]] double multiplier(const Eigen::Array3d& s) const;
+  /// The parts of the first direction and of the others in a . s^2 / sigma_Y^2.
+  template <class Scalar>
+  [[nodiscard]] std::array<Scalar, 2> square(const std::array<Scalar, 3>& s) const {
+    const Scalar p = s[0] * scale_;
+    const Scalar q = s[1] * scale_;
+    const Scalar r = s[2] * scale_;
+    return {a_[0] * p * p, a_[1] * (q * q + r * r)};
+  }
 
-  double yieldStress_;
-  Eigen::Array3d a_;
-  Eigen::Array3d b_;
+  /// psi(m) = (sum a s^2/(sigma_Y^2 (1 + m b)^2))^(-1/2) is concave and rises to 1 at the root: Newton from
+  /// the left climbs monotonically and ends when it no longer climbs. On a common denominator, with d = 1 + m
+  /// b, psi is
+  ///   d_p d_q / sqrt(p d_q^2 + q d_p^2).
+  /// A lane that has arrived stays, so no lane depends on its neighbours.
+  [[nodiscard]] Lanes multiplier(const LaneVector& t, LaneMask climbing) const {
+    constexpr double last = 1e-9;
+    const auto [p, q] = square(t);
+    Lanes m = 0;
+    for (int iteration = 0; iteration < 60; ++iteration) {
+      const Lanes dp = 1 + m * b_[0];
+      const Lanes dq = 1 + m * b_[1];
+      const Lanes P = p * dq * dq;
+      const Lanes Q = q * dp * dp;
+      const Lanes slope = P * dq * b_[0] + Q * dp * b_[1];
+      const Lanes step = (P + Q) * (sqrt(P + Q) - dp * dq) / slope;
+      climbing = climbing && step > 0;
+      where(climbing, m) += step;
+      climbing = climbing && step > last * m;
+      if (none_of(climbing)) break;
+    }
+    return m;
+  }
+
+  double scale_;
+  Pair a_;
+  std::array<B, 2> b_;
 };
-
-YieldDomain yieldDomain(double yieldStress, const Eigen::Array3d& norm);
 
 }  // namespace mortier

@@ -25,6 +25,9 @@ class Planner {
     planContact();
     planTime();
     planMemory();
+    if (scene_.degree == 2)
+      add("scene", true, "quadratic displacements",
+          "degree = 2: six nodes a triangle, stresses at three points");
     if (scene_.plane == Plane::strain)
       add("scene", true, "plane strain", "plane = \"strain\": nothing moves across the plane, s33 is found");
     add("scene", false, "inertia, friction, finite strains and slips",
@@ -48,10 +51,10 @@ class Planner {
     }
     std::string projection;
     double yieldStress = INFINITY;
-    for (const MaterialDescription* material : materialsOf(scene_.bodies[b])) {
-      if (!material->viscoplasticity) continue;
-      projection = word(material->viscoplasticity->projection);
-      yieldStress = std::min(yieldStress, material->viscoplasticity->yieldStress);
+    for (const LawDescription& law : body.material().laws()) {
+      if (!law.variant.empty()) projection = law.variant;
+      for (const LawDescription::Parameter& parameter : law.parameters)
+        if (parameter.name == "yield_stress") yieldStress = std::min(yieldStress, parameter.value);
     }
     const std::string law = scene_.plane == Plane::strain
                                 ? "its tangent is symmetric in plane strain"

@@ -87,13 +87,13 @@ std::vector<double> flat(const Matrix& m) {
   return {m.data(), m.data() + m.size()};
 }
 
-void writePoints(VtuFile& file, const TriangleMesh& mesh, const Vector& displacement) {
+void writePoints(VtuFile& file, const std::vector<Point>& places, const Vector& displacement) {
   std::vector<double> points;
   std::vector<double> u;
-  points.reserve(3 * mesh.vertices.size());
-  u.reserve(3 * mesh.vertices.size());
-  for (size_t v = 0; v < mesh.vertices.size(); ++v) {
-    points.insert(points.end(), {mesh.vertices[v][0], mesh.vertices[v][1], 0.0});
+  points.reserve(3 * places.size());
+  u.reserve(3 * places.size());
+  for (size_t v = 0; v < places.size(); ++v) {
+    points.insert(points.end(), {places[v][0], places[v][1], 0.0});
     u.insert(u.end(), {displacement[2 * v], displacement[2 * v + 1], 0.0});
   }
   file.open("Points");
@@ -104,20 +104,18 @@ void writePoints(VtuFile& file, const TriangleMesh& mesh, const Vector& displace
   file.shut("PointData");
 }
 
-void writeCells(VtuFile& file, const TriangleMesh& mesh) {
+void writeCells(VtuFile& file, const ElementNodes& nodes) {
   constexpr uint8_t vtkTriangle = 5;
-  std::vector<int32_t> connectivity;
-  std::vector<int32_t> offsets;
-  connectivity.reserve(3 * mesh.triangles.size());
-  offsets.reserve(mesh.triangles.size());
-  for (const auto& triangle : mesh.triangles) {
-    connectivity.insert(connectivity.end(), triangle.begin(), triangle.end());
-    offsets.push_back(static_cast<int32_t>(connectivity.size()));
-  }
+  constexpr uint8_t vtkQuadraticTriangle = 22;  // its nodes are numbered as ours
+  const std::vector<int32_t> connectivity(nodes.triangles.begin(), nodes.triangles.end());
+  std::vector<int32_t> offsets(connectivity.size() / nodes.perTriangle());
+  for (size_t t = 0; t < offsets.size(); ++t)
+    offsets[t] = static_cast<int32_t>((t + 1) * nodes.perTriangle());
   file.open("Cells");
   file.integers("Int32", "connectivity", connectivity);
   file.integers("Int32", "offsets", offsets);
-  file.integers("UInt8", "types", std::vector<uint8_t>(mesh.triangles.size(), vtkTriangle));
+  file.integers("UInt8", "types",
+                std::vector<uint8_t>(offsets.size(), nodes.degree == 1 ? vtkTriangle : vtkQuadraticTriangle));
   file.shut("Cells");
 }
 
@@ -175,13 +173,13 @@ void Fields::write(const std::vector<BodyState>& bodies, KeptFields& kept) {
     estimators_.emplace_back(model_.bodies[b]);
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
-    const TriangleMesh& mesh = body.mesh();
+    const ElementNodes& nodes = body.elementNodes();
     const std::string name = fieldName(body.name(), kept.step);
     VtuFile file(folder_ + "/" + name);
-    file.open("Piece", "NumberOfPoints=\"" + std::to_string(mesh.vertices.size()) + "\" NumberOfCells=\"" +
-                           std::to_string(mesh.triangles.size()) + "\"");
-    writePoints(file, mesh, bodies[b].displacement);
-    writeCells(file, mesh);
+    file.open("Piece", "NumberOfPoints=\"" + std::to_string(nodes.count()) + "\" NumberOfCells=\"" +
+                           std::to_string(body.mesh().triangles.size()) + "\"");
+    writePoints(file, nodes.places, bodies[b].displacement);
+    writeCells(file, nodes);
     writeCellData(file, body, bodies[b], estimators_[b](bodies[b].stress));
     file.shut("Piece");
     kept.files[name] = file.close();

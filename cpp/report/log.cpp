@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "report/clock.h"
+#include "report/laws.h"
 #include "report/summary.h"
 
 namespace mortier {
@@ -45,7 +46,7 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     text += (b == 0 ? "bodies     " : ", ") + body.name() + " " + std::to_string(body.dofs()) + " dofs, " +
-            facts.materials[b];
+            lawsOf(body.material());
   }
   text += "; plane " + facts.plane + "\n";
   for (size_t k = 0; k < model.interfaces.size(); ++k) {

@@ -15,7 +15,6 @@ struct RunFacts {
   std::string title;
   std::string plane = "stress";        ///< "stress" or "strain"
   std::vector<std::string> settings;   ///< --set, as given
-  std::vector<std::string> materials;  ///< per body: "elastic" or "Perzyna (frobenius)"
   std::vector<std::string> variants;   ///< per interface: "mortar" or "interpolation"
   std::vector<std::string>
       choices;             ///< per interface: why its nonmortar side is that; empty where the scene says it

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "report/clock.h"
 #include "report/fields.h"
+#include "report/laws.h"
 #include "report/output_file.h"
 #include "time/measure.h"
 
@@ -29,17 +30,15 @@ void requireFiniteNumbers(const Json& json, const std::string& path) {
   }
 }
 
-Json bodies(const RunFacts& facts, const Model& model) {
+Json bodies(const Model& model) {
   Json list = Json::array();
-  for (size_t b = 0; b < model.bodies.size(); ++b) {
-    const Body& body = model.bodies[b];
+  for (const Body& body : model.bodies)
     list.push_back({{"name", body.name()},
-                    {"material", facts.materials[b]},
+                    {"material", lawsOf(body.material())},
                     {"triangles", body.mesh().triangles.size()},
                     {"nodes", body.nodes()},
                     {"dofs", body.dofs()},
                     {"free_dofs", body.freeDofs()}});
-  }
   return list;
 }
 
@@ -144,7 +143,7 @@ FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const 
   json["nodes"] = nodes;
   json["dofs"] = dofs;
   json["free_dofs"] = freeDofs;
-  json["bodies"] = bodies(facts, model);
+  json["bodies"] = bodies(model);
   json["interfaces"] = interfaces(facts, model, state);
   json["steps"] = report.steps;
   if (facts.tolerance > 0) {

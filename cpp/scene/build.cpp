@@ -22,7 +22,7 @@ Model buildModel(ResolvedScene& scene) {
   model.bodies.reserve(description.bodies.size());
   for (size_t b = 0; b < description.bodies.size(); ++b) {
     model.bodies.push_back(
-        buildBody(description.bodies[b], std::move(scene.meshes[b]), description.plane, times));
+        buildBody(description.bodies[b], std::move(scene.meshes[b]), description, times));
   }
   scene.meshes.clear();
   for (const ContactDescription& contact : description.contacts) {

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "fem/element.h"
 #include "material/parts.h"
 #include "scene/check_data.h"
 
@@ -20,7 +21,7 @@ std::shared_ptr<const Material> buildMaterial(const MaterialDescription& descrip
 
 /// One material, or as many as regions ask for.
 std::shared_ptr<const Material> buildMaterial(const BodyDescription& body, const TriangleMesh& mesh,
-                                              Plane plane) {
+                                              Plane plane, int pointsOfATriangle) {
   std::vector<std::shared_ptr<const Material>> materials{buildMaterial(body.material, plane)};
   std::map<int, int> number;
   for (const RegionDescription& region : body.regions) {
@@ -35,7 +36,7 @@ std::shared_ptr<const Material> buildMaterial(const BodyDescription& body, const
   std::vector<int> materialOf;
   for (const int label : mesh.regions) {
     const auto found = number.find(label);
-    materialOf.push_back(found == number.end() ? 0 : found->second);
+    materialOf.insert(materialOf.end(), pointsOfATriangle, found == number.end() ? 0 : found->second);
   }
   return materialOfParts(std::move(materials), std::move(materialOf));
 }
@@ -50,7 +51,7 @@ void addInitialStress(const StressDescription& stress, std::optional<int> region
 
 }  // namespace
 
-Body buildBody(const BodyDescription& body, TriangleMesh mesh, Plane plane,
+Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescription& scene,
                const std::vector<double>& times) {
   Conditions conditions;
   std::vector<const ConditionDescription*> displacements;
@@ -73,8 +74,9 @@ Body buildBody(const BodyDescription& body, TriangleMesh mesh, Plane plane,
   for (const RegionDescription& region : body.regions) {
     addInitialStress(region.initialStress, region.label, conditions);
   }
-  const std::shared_ptr<const Material> material = buildMaterial(body, mesh, plane);
-  return {body.name, std::move(mesh), material, std::move(conditions)};
+  const int points = withElement(scene.degree, [](auto element) { return decltype(element)::points; });
+  const std::shared_ptr<const Material> material = buildMaterial(body, mesh, scene.plane, points);
+  return {body.name, std::move(mesh), material, std::move(conditions), scene.degree};
 }
 
 }  // namespace mortier

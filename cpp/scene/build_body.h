@@ -10,6 +10,7 @@ namespace mortier {
 
 /// Data are tried at `times` [s].
 /// \throws InputError with one line that names the scene's file and line, or the mesh's.
-Body buildBody(const BodyDescription& body, TriangleMesh mesh, Plane plane, const std::vector<double>& times);
+Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescription& scene,
+               const std::vector<double>& times);
 
 }  // namespace mortier

@@ -33,15 +33,18 @@ SideSize sizeOf(const TriangleMesh& mesh, int label) {
   return {nodes, (alongX || alongY ? 1 : 2) * nodes};
 }
 
+/// Of a body with so many nodes, in 8 bytes.
+double needOf(size_t nodes) {
+  const auto n = static_cast<double>(nodes);
+  return n * (16 * std::log2(n + 1) + 150);
+}
+
 }  // namespace
 
 double memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs) {
   constexpr double program = 12 << 17;  // in 8 bytes: code and libraries, 12 MiB
   double need = program;
-  for (const TriangleMesh* mesh : meshes) {
-    const auto vertices = static_cast<double>(mesh->vertices.size());
-    need += vertices * (16 * std::log2(vertices + 1) + 150);
-  }
+  for (const TriangleMesh* mesh : meshes) need += needOf(mesh->vertices.size());
   std::vector<double> dofs(meshes.size(), 0);
   double conditions = 0;
   double making = 0;
@@ -68,7 +71,10 @@ double memoryNeed(const Model& model) {
   for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
   std::vector<ContactPair> pairs;
   for (const ContactInterface& interface : model.interfaces) pairs.push_back(interface.pair());
-  return memoryNeed(meshes, pairs);
+  double betweenVertices = 0;
+  for (const Body& body : model.bodies)
+    betweenVertices += needOf(body.nodes()) - needOf(body.mesh().vertices.size());
+  return memoryNeed(meshes, pairs) + sizeof(double) * betweenVertices;
 }
 
 double availableMemory() {

@@ -63,6 +63,8 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   scene.path = path;
   scene.title = root.string("title", "");
   scene.plane = static_cast<Plane>(root.oneOf("plane", planeWords, 0));
+  scene.degree = root.integer("degree", 1, scene.degree);
+  if (scene.degree > 2) root.reject("degree", "1 or 2");
   readOptions(root, scene);
   const std::vector<const Node*> bodies = root.tables("body");
   if (bodies.empty()) {
@@ -83,6 +85,7 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   for (const Node* quantity : root.tables("quantity")) {
     scene.quantities.push_back(readQuantity(*quantity, scene));
   }
+  if (scene.degree == 2 && !scene.contacts.empty()) root.reject("degree", "1 where bodies are in contact");
   return scene;
 }
 

@@ -92,6 +92,7 @@ struct SceneDescription {
   std::string path;   ///< the file
   std::string title;  ///< may be empty
   Plane plane = Plane::stress;
+  int degree = 1;  ///< of the displacements: 1 or 2
   std::vector<BodyDescription> bodies;
   std::vector<ContactDescription> contacts;
   std::vector<QuantityDescription> quantities;

@@ -8,7 +8,7 @@ namespace mortier {
 
 const Keys& keysOf(const std::string& path) {
   static const std::map<std::string, Keys> tables = {
-      {"", {"title", "plane", "body", "contact", "quantity", "time", "solver", "output", "check"}},
+      {"", {"title", "plane", "body", "contact", "quantity", "time", "solver", "output", "check", "degree"}},
       {"body", {"name", "mesh", "material", "force", "boundary", "region", "initial_stress"}},
       {"body.mesh", {"file", "region", "size", "parameters"}},
       {"body.initial_stress", {"s11", "s22", "s12", "s33"}},

@@ -1,17 +1,20 @@
 // The words by which a scene chooses, each list in the order of the enumeration it stands for.
 #pragma once
 
+#include <iterator>
+
+#include "material/perzyna.h"
 #include "scene/schema.h"
 
 namespace mortier {
 
-inline const Keys planeWords{"stress", "strain"};                             // Plane
-inline const Keys couplingWords{"interpolation", "mortar"};                   // CouplingKind
-inline const Keys initialWords{"as-meshed", "close", "reject"};               // InitialGap
-inline const Keys projectionWords{"elasticity", "frobenius", "compliance"};   // Projection
-inline const Keys schemeWords{"backward-euler", "crank-nicolson", "sdirk2"};  // Scheme
-inline const Keys methodWords{"newton", "penalty-duality"};                   // Method
-inline const Keys linearWords{"multifrontal", "suitesparse"};                 // LinearEngine
-inline const Keys componentWords{"x", "y", "moment"};                        // Quantity::Component
+inline const Keys planeWords{"stress", "strain"};                                           // Plane
+inline const Keys couplingWords{"interpolation", "mortar"};                                 // CouplingKind
+inline const Keys initialWords{"as-meshed", "close", "reject"};                             // InitialGap
+inline const Keys projectionWords(std::begin(projectionNames), std::end(projectionNames));  // Projection
+inline const Keys schemeWords{"backward-euler", "crank-nicolson", "sdirk2"};                // Scheme
+inline const Keys methodWords{"newton", "penalty-duality"};                                 // Method
+inline const Keys linearWords{"multifrontal", "suitesparse"};                               // LinearEngine
+inline const Keys componentWords{"x", "y", "moment"};  // Quantity::Component
 
 }  // namespace mortier

@@ -21,9 +21,7 @@ CondensedBody::CondensedBody(const Model& model, int body, const std::vector<int
   solver_ = engine_ == LinearEngine::multifrontal ? multifrontalSolver(body_.pattern(), contact_.equations)
                                                   : suiteSparseSolver(body_.pattern(), contact_.equations);
   solver_->use(threads);
-  law_.predictor.resize(body_.material().components(), body_.points());
-  law_.moduli.resize(body_.material().symmetricTangent() ? 6 : 9, body_.points());
-  if (body_.material().components() > 3) law_.beyond.resize(4, body_.points());
+  law_ = body_.material().room(body_.points());
 }
 
 double CondensedBody::linearise(const Matrix& stress0, const Matrix* shift, BodyIterate& iterate,
@@ -36,9 +34,10 @@ double CondensedBody::linearise(const Matrix& stress0, const Matrix* shift, Body
     stopIfInterrupted();
     body_.strain(iterate.increment, shift, iterate.strain, begin, end);
     if (!law.inBlock) return;
-    const double largest = law.inBlock(iterate, law_, begin, end);
+    const LawReport report = law.inBlock(iterate, law_, begin, end);
     const std::scoped_lock locked(lock);
-    residual.add(largest);
+    residual.add(report.change);
+    law_.elastic += report.elastic;
   });
   if (law.everywhere) law.everywhere(iterate, law_);
   return residual.value() == 0 ? 0 : residual.value() / residualScale(stress0, iterate);

@@ -15,8 +15,8 @@ namespace mortier {
 
 /// Linearises the law of a body at its iterate (material/material.h).
 struct BodyLaw {
-  /// In the points [begin, end). \returns the largest residual over them [Pa].
-  std::function<double(const BodyIterate& iterate, Linearisation& result, int begin, int end)> inBlock = {};
+  /// In the points [begin, end).
+  std::function<LawReport(const BodyIterate& iterate, Linearisation& result, int begin, int end)> inBlock = {};
   /// Or at all points, the strain known everywhere.
   std::function<void(const BodyIterate& iterate, Linearisation& result)> everywhere = {};
 };

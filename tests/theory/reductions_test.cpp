@@ -172,45 +172,16 @@ TEST(Reductions, slowFlowIsNoRest) {
 }
 
 /// A symmetric law for which the general factorisation is taken.
-class AsUnsymmetric final : public Material {
+class Unsymmetric : public PerzynaLaw {
  public:
-  explicit AsUnsymmetric(std::shared_ptr<const Material> law) : law_(std::move(law)) {}
-  [[nodiscard]] int components() const override { return law_->components(); }
-  [[nodiscard]] bool symmetricTangent() const override { return false; }
-  [[nodiscard]] bool linear() const override { return law_->linear(); }
-  [[nodiscard]] double stressScale() const override { return law_->stressScale(); }
-  [[nodiscard]] double stiffness(double weight) const override { return law_->stiffness(weight); }
-  double linearise(const MaterialStep& step, const Matrix& stress, Linearisation& result, int begin,
-                   int end) const override {
-    return law_->linearise(step, stress, result, begin, end);
-  }
-  double regularise(const MaterialStep& step, const Matrix& stress, const Vector& penalty, double relaxation,
-                    Linearisation& result, int begin, int end) const override {
-    return law_->regularise(step, stress, penalty, relaxation, result, begin, end);
-  }
-  void choosePenalty(const Matrix& stress, Vector& penalty) const override {
-    law_->choosePenalty(stress, penalty);
-  }
-  [[nodiscard]] std::unique_ptr<InteriorPath> interiorPath(double weight,
-                                                           const Matrix& stress0) const override {
-    return law_->interiorPath(weight, stress0);
-  }
-  void viscoplasticRate(const Matrix& stress, Matrix& rate) const override {
-    law_->viscoplasticRate(stress, rate);
-  }
-  void elasticStrain(const Matrix& stress, Matrix& strain) const override {
-    law_->elasticStrain(stress, strain);
-  }
-  [[nodiscard]] bool flows(const Matrix& stress, int point) const override {
-    return law_->flows(stress, point);
-  }
-
- private:
-  std::shared_ptr<const Material> law_;
+  using PerzynaLaw::PerzynaLaw;
+  [[nodiscard]] static bool symmetric() { return false; }
 };
 
 TEST(Reductions, symmetricFactorsServeSymmetricLaws) {
-  const auto general = std::make_shared<AsUnsymmetric>(flowing(1));
+  const Eigen::Array3d e = soft.moduli();
+  const auto general =
+      pointMaterial(Unsymmetric({e[0], e[1]}, {0.5, 1.5}, {1, 1}, {1, 1, Projection::frobenius}), {});
   const Counted cholesky = solve(pressed(ramp(10), flowing(1), flowing(1)), {.end = 1, .steps = 10}, true);
   const Model model = pressed(ramp(10), general, general);
   ASSERT_FALSE(model.bodies[0].pattern().symmetric);

@@ -187,13 +187,14 @@ std::array<long double, 3> exactStrain(const Body& plate, const Vector& u, const
   using Long = long double;
   const auto& triangle = plate.mesh().triangles[i];
   const auto& x = plate.mesh().vertices;
-  const auto table = LinearTriangle::tabulate({x[triangle[0]], x[triangle[1]], x[triangle[2]]});
+  const auto gradients =
+      LinearTriangle::tabulate({x[triangle[0]], x[triangle[1]], x[triangle[2]]}).gradients[0];
   Long gradient[2][2] = {{0, 0}, {0, 0}};
   for (int a = 1; a < 3; ++a)
     for (int c = 0; c < 2; ++c) {
       const Long du = (Long(u[2 * triangle[a] + c]) - u[2 * triangle[0] + c]) +
                       (Long(small[2 * triangle[a] + c]) - small[2 * triangle[0] + c]);
-      for (int k = 0; k < 2; ++k) gradient[c][k] += table.gradients(k, a) * (std::numbers::sqrt2 / 2) * du;
+      for (int k = 0; k < 2; ++k) gradient[c][k] += gradients(k, a) * (std::numbers::sqrt2 / 2) * du;
     }
   return {gradient[0][0] + gradient[1][1], gradient[0][0] - gradient[1][1], gradient[0][1] + gradient[1][0]};
 }

@@ -44,8 +44,8 @@ TEST(Parts, everyPointIsOfItsMaterial) {
   const MaterialStep step{0.1, stress0, strain};
   Linearisation law{Matrix::Zero(3, points), Matrix::Zero(9, points)};
   // In two halves, as threads may.
-  const double residual =
-      std::max(mixed->linearise(step, stress, law, 0, 30), mixed->linearise(step, stress, law, 30, points));
+  const double residual = std::max(mixed->linearise(step, stress, law, 0, 30).change,
+                                   mixed->linearise(step, stress, law, 30, points).change);
   Matrix rate;
   Matrix elastic;
   mixed->viscoplasticRate(stress, rate);
@@ -104,9 +104,9 @@ TEST(Parts, residualsOfEachPartAreScaledByIts) {
   Linearisation law{Matrix(3, 2), Matrix(9, 2)};
   const MaterialStep step{0, none, none};
   stress(0, 0) = 1;  // elastic at rest: the residual is the stress itself, 1 of a yield stress 4
-  EXPECT_DOUBLE_EQ(mixed->linearise(step, stress, law, 0, 2) / mixed->stressScale(), 0.25);
+  EXPECT_DOUBLE_EQ(mixed->linearise(step, stress, law, 0, 2).change / mixed->stressScale(), 0.25);
   stress(1, 0) = NAN;  // a sound point follows
-  EXPECT_TRUE(std::isnan(mixed->linearise(step, stress, law, 0, 2)));
+  EXPECT_TRUE(std::isnan(mixed->linearise(step, stress, law, 0, 2).change));
 }
 
 TEST(Parts, interiorPathIsThatOfEachPart) {

@@ -144,10 +144,10 @@ TEST(Perzyna, pointsOfABatchAreIndependent) {
       Linearisation all{Matrix(3, points), Matrix(9, points)};
       Linearisation parts{Matrix(3, points), Matrix(9, points)};
       const MaterialStep step{weight, stress0, strain, anticipate};
-      const double residual = material->linearise(step, stress, all, 0, points);
+      const double residual = material->linearise(step, stress, all, 0, points).change;
       double largest = 0;
       for (const auto& [begin, end] : {std::pair{0, 5}, std::pair{5, 21}, std::pair{21, points}})
-        largest = std::max(largest, material->linearise(step, stress, parts, begin, end));
+        largest = std::max(largest, material->linearise(step, stress, parts, begin, end).change);
       EXPECT_TRUE(all.predictor == parts.predictor && all.moduli == parts.moduli);
       EXPECT_EQ(residual, largest);
       EXPECT_EQ(residual, (all.predictor - stress).cwiseAbs().maxCoeff());
@@ -169,7 +169,7 @@ TEST(Perzyna, residualOfAnUndefinedStressIsNotANumber) {
         Matrix stress = zero;
         stress(1, where) = undefined;
         Linearisation result{Matrix(3, points), Matrix(9, points)};
-        EXPECT_FALSE(std::isfinite(material->linearise({0.1, zero, zero}, stress, result, 0, points)));
+        EXPECT_FALSE(std::isfinite(material->linearise({0.1, zero, zero}, stress, result, 0, points).change));
       }
 }
 

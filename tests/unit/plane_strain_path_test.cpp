@@ -30,7 +30,7 @@ TEST(PlaneStrain, regularisedLawEndsAtTheLaw) {
     // With D B d = 0 the stress goes to the law under the strain that is given.
     double change = 0;
     for (int k = 0; k < 400; ++k) {
-      change = material->regularise(step, stress, penalty, 1.5, result, 0, 1);
+      change = material->regularise(step, stress, penalty, 1.5, result, 0, 1).change;
       stress = result.predictor;
     }
     const Vector4d trial = Tensors::vector(Tensors::tensor(stress0) + law.stressOf(Tensors::tensor(strain)));

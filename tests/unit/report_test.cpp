@@ -244,7 +244,6 @@ struct Blocks {
     }
     state.time = 0.25;
     state.contactForce.push_back(Vector::Constant(2, 1.0));
-    facts.materials = {"Perzyna (frobenius)", "elastic"};
     facts.variants = {"mortar"};
     facts.contact = "mortar";
     facts.nonmortar = "upper";

@@ -17,6 +17,39 @@ using Eigen::Array3d;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 const Array3d a(0.5, 1.5, 1.5);
 
+/// The projection of one stress.
+struct Projected {
+  Array3d overstress;
+  Array3d softening;
+  Array3d x;
+  Array3d y;
+  double z = 0;
+};
+
+/// The domain as one stress sees it.
+class OneStress {
+ public:
+  OneStress(double yieldStress, const Array3d& w)
+      : domain_(yieldStress, {a[0], a[1]}, {a[0] / w[0], a[1] / w[1]}) {}
+
+  [[nodiscard]] bool yields(const Array3d& s) const {
+    return domain_.yields(std::array<double, 3>{s[0], s[1], s[2]});
+  }
+  [[nodiscard]] Projected project(const Array3d& s, double kappa = 1) const {
+    const ProjectionOnYield P = domain_.project({s[0], s[1], s[2]}, kappa, LaneMask(true));
+    const auto of = [](const LaneVector& x) { return Array3d(x[0][5], x[1][5], x[2][5]); };
+    return {of(P.overstress), Array3d(P.softening[0][5], P.softening[1][5], P.softening[1][5]), of(P.x),
+            of(P.y), P.z[5]};
+  }
+
+ private:
+  YieldDomain<double> domain_;
+};
+
+OneStress yieldDomain(double yieldStress, const Array3d& w) {
+  return {yieldStress, w};
+}
+
 struct Norm {
   std::string name;
   Array3d w;
@@ -38,7 +71,7 @@ double size(const Array3d& s) {
 }
 
 /// P_B s = s c without the cancellation of s - overstress, from y = a s c^2.
-Array3d projected(const Array3d& s, const ProjectionOnYield& P) {
+Array3d projected(const Array3d& s, const Projected& P) {
   return s * (P.y / (a * s)).sqrt();
 }
 
@@ -58,13 +91,13 @@ class Stresses {
 TEST(YieldDomain, projectionLandsOnTheSurface) {
   constexpr double tolerance = 8 * epsilon;  // a handful of roundings in a sum of three squares
   for (const Norm& norm : norms()) {
-    const YieldDomain B = yieldDomain(1, norm.w);
+    const OneStress B = yieldDomain(1, norm.w);
     Stresses stresses;
     for (const double beyond : {1e-12, 1e-6, 1e-2, 1.0, 10.0, 1e3, 1e6, 1e12})
       for (int k = 0; k < 50; ++k) {
         const Array3d s = stresses.ofSize(1 + beyond);
         ASSERT_TRUE(B.yields(s));
-        const ProjectionOnYield P = B.project(s);
+        const Projected P = B.project(s);
         ASSERT_NEAR(size(projected(s, P)), 1, tolerance) << norm.name << ", beyond by " << beyond;
         ASSERT_TRUE((P.overstress - (s - projected(s, P))).abs().maxCoeff() <=
                     tolerance * s.abs().maxCoeff());
@@ -74,7 +107,7 @@ TEST(YieldDomain, projectionLandsOnTheSurface) {
 
 TEST(YieldDomain, projectionIsIdempotent) {
   for (const Norm& norm : norms()) {
-    const YieldDomain B = yieldDomain(1, norm.w);
+    const OneStress B = yieldDomain(1, norm.w);
     Stresses stresses;
     for (int k = 0; k < 200; ++k) {
       const Array3d s = stresses.ofSize(k % 2 == 0 ? 3 : 300);
@@ -91,12 +124,12 @@ TEST(YieldDomain, projectionIsIdempotent) {
 TEST(YieldDomain, projectionIsOrthogonalInItsNorm) {
   constexpr double tolerance = 32 * epsilon;
   for (const Norm& norm : norms()) {
-    const YieldDomain B = yieldDomain(1, norm.w);
+    const OneStress B = yieldDomain(1, norm.w);
     Stresses stresses;
     for (const double beyond : {1e-2, 1.0, 1e4})
       for (int k = 0; k < 50; ++k) {
         const Array3d s = stresses.ofSize(1 + beyond);
-        const ProjectionOnYield result = B.project(s);
+        const Projected result = B.project(s);
         const Array3d P = projected(s, result);
         const Array3d normal = norm.w * result.overstress;
         for (const double radius : {1e-3, 1e-1, 1.0})
@@ -114,12 +147,12 @@ TEST(YieldDomain, derivativeMatchesFiniteDifference) {
   constexpr double tolerance = 1e-8;  // central differences: h^2 = 1e-10 and epsilon/h = 2e-11 of the stress
   constexpr double h = 1e-5;
   for (const Norm& norm : norms()) {
-    const YieldDomain B = yieldDomain(1, norm.w);
+    const OneStress B = yieldDomain(1, norm.w);
     Stresses stresses;
     for (const double beyond : {1e-2, 1.0, 1e3})
       for (int k = 0; k < 20; ++k) {
         const Array3d s = stresses.ofSize(1 + beyond);
-        const ProjectionOnYield P = B.project(s);
+        const Projected P = B.project(s);
         for (int j = 0; j < 3; ++j) {
           const Array3d unit = Eigen::Vector3d::Unit(j).array();
           const Array3d step = h * (1 + beyond) * unit;
@@ -138,13 +171,13 @@ TEST(YieldDomain, derivativeMatchesFiniteDifference) {
 TEST(YieldDomain, flowIsTheSameFromFurtherOut) {
   constexpr double tolerance = 64 * epsilon;
   for (const Norm& norm : norms()) {
-    const YieldDomain B = yieldDomain(1, norm.w);
+    const OneStress B = yieldDomain(1, norm.w);
     Stresses stresses;
     for (const double beyond : {1.0, 1e3})
       for (const double kappa : {1.0, 0.5, 1e-3}) {
         const Array3d s = stresses.ofSize(1 + beyond);
-        const ProjectionOnYield P = B.project(s);
-        const ProjectionOnYield Q = B.project(s + (1 / kappa - 1) * P.overstress, kappa);
+        const Projected P = B.project(s);
+        const Projected Q = B.project(s + (1 / kappa - 1) * P.overstress, kappa);
         const double size = P.overstress.abs().maxCoeff();
         EXPECT_LE((kappa * Q.overstress - P.overstress).abs().maxCoeff(), tolerance * size) << norm.name;
         EXPECT_LE((kappa * Q.softening - P.softening).abs().maxCoeff(), tolerance) << norm.name;
@@ -163,9 +196,9 @@ TEST(YieldDomain, stressOnTheSurfaceCountsAsBeyondIt) {
     if ((a * s.square()).sum() != 1) continue;
     ++exact;
     for (const Norm& norm : norms()) {
-      const YieldDomain B = yieldDomain(1, norm.w);
+      const OneStress B = yieldDomain(1, norm.w);
       ASSERT_TRUE(B.yields(s));
-      const ProjectionOnYield P = B.project(s);
+      const Projected P = B.project(s);
       ASSERT_LE(P.overstress.abs().maxCoeff(), 4 * epsilon);
       ASSERT_TRUE(P.z > 0 && P.x.isFinite().all());
     }
@@ -181,8 +214,8 @@ TEST(YieldDomain, unitsOfPowersOfTwoChangeNoBit) {
     for (const double beyond : {1e-9, 1.0, 1e6})
       for (const double unit : {0x1p-40, 0x1p+31}) {
         const Array3d s = stresses.ofSize(1 + beyond);
-        const ProjectionOnYield P = yieldDomain(1, norm.w).project(s);
-        const ProjectionOnYield Q = yieldDomain(unit, norm.w).project(unit * s);
+        const Projected P = yieldDomain(1, norm.w).project(s);
+        const Projected Q = yieldDomain(unit, norm.w).project(unit * s);
         EXPECT_TRUE((Q.overstress == unit * P.overstress).all() && (Q.softening == P.softening).all())
             << norm.name;
       }

@@ -1,9 +1,11 @@
-#include "material/perzyna_path.h"
+#include "material/interior_path.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
+#include <utility>
+
+#include "material/plane_strain.h"
 
 namespace mortier {
 namespace {
@@ -32,6 +34,7 @@ struct IteratePoint {
   Array3d delta = Array3d::Zero();  ///< y' + y_0 x
   double y0 = 1;                    ///< flow
   double slack = 1;                 ///< 1 - |x|^2
+  double pressure = 0;              ///< [Pa]
 };
 
 /// A direction, and what linearise() left for it.
@@ -43,27 +46,39 @@ struct Direction {
   double first = 0;  ///< first part
   Array3d r;
   double z = 0;
+  double pressure = 0;      ///< as linearised
+  double nextPressure = 0;  ///< at the end
 };
 
-class PerzynaPath final : public InteriorPath {
+/// A column of a matrix on the directions of the law; the pressure stays 0 in plane stress.
+struct OnDirections {
+  Array3d directions;
+  double pressure = 0;
+};
+
+class ConePath final : public InteriorPath {
  public:
-  PerzynaPath(const PerzynaPathData& law, const Matrix& stress0)
-      : stress0_(stress0),
+  ConePath(const ConeLaw& law, const Matrix& stress0, std::vector<int> points)
+      : columns_(std::move(points)),
         e_(law.e),
         b_(law.b),
         theta_(law.theta),
+        bulk_(law.bulk),
         unit_((1 / law.e.maxCoeff() + law.theta) * law.yieldStress),
         scale_(law.yieldStress / law.a.sqrt()),
         compliance_(scale_ / e_),
         flow_((1 / e_ + theta_) * b_ * scale_),
-        points_(stress0.cols()),
-        directions_(stress0.cols()) {}
+        points_(columns_.size()),
+        directions_(columns_.size()) {
+    for (const int column : columns_) stress0_.push_back(at(stress0, column));
+  }
 
   [[nodiscard]] double flowAtTwiceYield() const override { return unit_; }
 
   void begin(double flow) override {
     points_.assign(points_.size(), {});
     for (IteratePoint& point : points_) point.y0 = flow / unit_;
+    for (size_t i = 0; i < points_.size(); ++i) points_[i].pressure = stress0_[i].pressure;
   }
 
   [[nodiscard]] double complementarity() const override {
@@ -79,7 +94,8 @@ class PerzynaPath final : public InteriorPath {
   void linearise(const Matrix& strain, double target, bool correct, Linearisation& result) override {
     for (size_t i = 0; i < points_.size(); ++i) {
       const IteratePoint& point = points_[i];
-      const auto& [x, delta, y0, slack] = point;
+      const auto& [x, delta, y0, slack, pressure] = point;
+      const auto [ownStrain, volume] = at(strain, columns_[i]);
       Direction& d = directions_[i];
       double neglected = 0;
       Array3d rest = delta;
@@ -92,26 +108,30 @@ class PerzynaPath final : public InteriorPath {
       d.first = target / unit_ - product(point) - neglected + dot(x, rest);
       const Array3d diagonal = compliance_ + flow_ * y0;
       const Array3d right = 2 * y0 * x / diagonal;
-      d.r = strain.col(i).array() + stress0_.col(i).array() / e_ - diagonal * x + flow_ * (delta - rest);
+      d.r = ownStrain + stress0_[i].directions / e_ - diagonal * x + flow_ * (delta - rest);
       d.z = slack + dot(right, flow_ * x);
       const double dy0 = (d.first + dot(right, d.r)) / d.z;
       const Array3d dx = (d.r - flow_ * x * dy0) / diagonal;
       const Array3d stretch = 1 + b_ * y0;
-      result.predictor.col(i) = scale_ * (stretch * (x + dx) + b_ * (x * dy0 + rest - delta));
+      const Array3d predictor = scale_ * (stretch * (x + dx) + b_ * (x * dy0 + rest - delta));
+      d.pressure = bulk_ ? stress0_[i].pressure + *bulk_ * volume : 0;
+      put(predictor, d.pressure, columns_[i], result.predictor);
       const Array3d left = -theta_ * b_ * scale_ * scale_ / diagonal * x / d.z;
       Eigen::Matrix3d moduli = left.matrix() * right.matrix().transpose();
       moduli.diagonal().array() += scale_ * stretch / diagonal;
-      storeModuli(moduli, result.moduli, static_cast<int>(i));
+      putModuli(moduli, columns_[i], result);
     }
   }
 
   double direct(const Matrix& strainChange) override {
     double largest = std::numeric_limits<double>::infinity();
     for (size_t i = 0; i < points_.size(); ++i) {
-      const auto& [x, delta, y0, slack] = points_[i];
+      const auto& [x, delta, y0, slack, pressure] = points_[i];
+      const auto [ownChange, volumeChange] = at(strainChange, columns_[i]);
       Direction& d = directions_[i];
+      d.nextPressure = bulk_ ? d.pressure + *bulk_ * volumeChange : 0;
       const Array3d diagonal = compliance_ + flow_ * y0;
-      const Array3d r = d.r + strainChange.col(i).array();
+      const Array3d r = d.r + ownChange;
       d.y0 = (d.first + 2 * y0 * dot(x, r / diagonal)) / d.z;
       d.x = (r - flow_ * x * d.y0) / diagonal;
       // Where the point flows x . dx is nothing but rounding of dx.
@@ -131,13 +151,14 @@ class PerzynaPath final : public InteriorPath {
 
   void advance(double step, Matrix& stress) override {
     for (size_t i = 0; i < points_.size(); ++i) {
-      auto& [x, delta, y0, slack] = points_[i];
+      auto& [x, delta, y0, slack, pressure] = points_[i];
       const Direction& d = directions_[i];
       delta += step * (step * d.y0 * d.x - d.rest);
       slack -= step * (2 * d.xx + step * dot(d.x, d.x));
       x += step * d.x;
       y0 += step * d.y0;
-      stress.col(static_cast<Eigen::Index>(i)) = scale_ * ((1 + b_ * y0) * x - b_ * delta);
+      pressure += step * (d.nextPressure - pressure);
+      put(scale_ * ((1 + b_ * y0) * x - b_ * delta), pressure, columns_[i], stress);
     }
   }
 
@@ -147,10 +168,40 @@ class PerzynaPath final : public InteriorPath {
     return point.y0 * point.slack + dot(point.x, point.delta);
   }
 
-  const Matrix& stress0_;
+  [[nodiscard]] OnDirections at(const Matrix& m, int column) const {
+    if (!bulk_) return {m.col(column).array()};
+    const auto [k, h] = split(std::array<double, 4>{m(0, column), m(1, column), m(2, column), m(3, column)});
+    return {Array3d(k[0], k[1], k[2]), h};
+  }
+  void put(const Array3d& x, double pressure, int column, Matrix& m) const {
+    if (!bulk_)
+      m.col(column) = x;
+    else
+      m.col(column) =
+          Eigen::Map<const Eigen::Vector4d>(joined(Split<double>{{x[0], x[1], x[2]}, pressure}).data());
+  }
+  void putModuli(const Eigen::Matrix3d& D, int column, Linearisation& result) const {
+    Eigen::Matrix3d H = D;
+    if (bulk_) {
+      std::array<double, 9> own;
+      Eigen::Map<Eigen::Matrix3d>(own.data()) = D;
+      const std::array<double, 16> all = joinedModuli(own, *bulk_);
+      const Eigen::Map<const Eigen::Matrix4d> whole(all.data());
+      H = whole.topLeftCorner<3, 3>();
+      result.beyond.col(column).head<4>() = whole.row(3).transpose();
+    }
+    if (result.moduli.rows() == 6)
+      result.moduli.col(column) << H(0, 0), H(1, 0), H(2, 0), H(1, 1), H(2, 1), H(2, 2);
+    else
+      result.moduli.col(column) = H.reshaped();
+  }
+
+  std::vector<int> columns_;  ///< of the points
+  std::vector<OnDirections> stress0_;
   Array3d e_;
   Array3d b_;
   double theta_;
+  std::optional<double> bulk_;
   double unit_;  ///< strain per y_0
   Array3d scale_;
   Array3d compliance_;
@@ -159,10 +210,48 @@ class PerzynaPath final : public InteriorPath {
   std::vector<Direction> directions_;
 };
 
+/// A law without such a path, linearised where the stress is.
+class NewtonPath final : public InteriorPath {
+ public:
+  NewtonPath(const Material& material, const PathStart& start, std::vector<int> points)
+      : material_(material), start_(start), columns_(std::move(points)) {}
+
+  [[nodiscard]] double flowAtTwiceYield() const override { return 0; }
+  void begin(double /*flow*/) override { stress_ = start_.stress0; }
+  [[nodiscard]] double complementarity() const override { return 0; }
+  [[nodiscard]] int points() const override { return 0; }
+
+  void linearise(const Matrix& strain, double /*target*/, bool /*correct*/, Linearisation& result) override {
+    const MaterialStep step{start_.weight, start_.stress0, strain, false, start_.strain0};
+    for (const int i : columns_) material_.linearise(step, stress_, result, i, i + 1);
+    law_ = result;
+  }
+  double direct(const Matrix& strainChange) override {
+    for (const int i : columns_) law_.predictor.col(i) += stressOf(law_, strainChange.col(i), i);
+    return std::numeric_limits<double>::infinity();
+  }
+  void advance(double step, Matrix& stress) override {
+    for (const int i : columns_)
+      stress_.col(i) = stress.col(i) += step * (law_.predictor.col(i) - stress.col(i));
+  }
+
+ private:
+  const Material& material_;
+  PathStart start_;
+  std::vector<int> columns_;
+  Matrix stress_;      ///< of the iterate
+  Linearisation law_;  ///< of the last linearise(), the predictor moved by direct()
+};
+
 }  // namespace
 
-std::unique_ptr<InteriorPath> perzynaPath(const PerzynaPathData& law, const Matrix& stress0) {
-  return std::make_unique<PerzynaPath>(law, stress0);
+std::unique_ptr<InteriorPath> conePath(const ConeLaw& law, const Matrix& stress0, std::vector<int> points) {
+  return std::make_unique<ConePath>(law, stress0, std::move(points));
+}
+
+std::unique_ptr<InteriorPath> newtonPath(const Material& material, const PathStart& start,
+                                         std::vector<int> points) {
+  return std::make_unique<NewtonPath>(material, start, std::move(points));
 }
 
 }  // namespace mortier

@@ -1,0 +1,37 @@
+#include "material/elasticity.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "base/error.h"
+
+namespace mortier {
+
+Eigen::Array3d Elasticity::moduli() const {
+  return {young / (1 - poisson), young / (1 + poisson), young / (1 + poisson)};
+}
+
+void requireParameter(bool holds, const char* name, double value, const char* expected) {
+  if (holds && std::isfinite(value)) return;
+  std::ostringstream message;
+  message << name << " = " << value << ", expected " << expected;
+  throw InputError(message.str());
+}
+
+void requireValid(const Elasticity& elasticity) {
+  requireParameter(elasticity.young > 0, "young", elasticity.young, "young > 0 [Pa]");
+  requireParameter(elasticity.poisson > -1 && elasticity.poisson < 0.5, "poisson", elasticity.poisson,
+                   "-1 < poisson < 0.5");
+}
+
+LawDescription describe(const std::string& name, const Elasticity& elasticity) {
+  return {name, "", {{"young", elasticity.young, "Pa"}, {"poisson", elasticity.poisson, ""}}};
+}
+
+std::shared_ptr<const Material> elasticMaterial(const Elasticity& elasticity) {
+  requireValid(elasticity);
+  const Eigen::Array3d e = elasticity.moduli();
+  return pointMaterial(ElasticLaw({e[0], e[1]}), describe("elastic", elasticity));
+}
+
+}  // namespace mortier

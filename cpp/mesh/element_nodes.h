@@ -1,0 +1,36 @@
+// The nodes of a mesh whose displacements are polynomials of a degree: the vertices, and for degree 2 the
+// middles of all edges beside them.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesh/triangle_mesh.h"
+
+namespace mortier {
+
+/// An edge of the boundary, or half of one where it has a node in its middle.
+struct BoundaryStretch {
+  std::array<int, 2> nodes{};  ///< the body to the left
+  int edge = 0;                ///< of TriangleMesh::boundaryEdges
+};
+
+struct ElementNodes {
+  int degree = 1;
+  std::vector<Point> places;   ///< [m]; vertices first, numbered as in the mesh
+  std::vector<int> triangles;  ///< 3 or 6 per triangle: vertices, then the middles of the sides 0-1, 1-2, 2-0
+  std::vector<int> middles;    ///< of each labelled boundary edge; empty for degree 1
+  std::vector<BoundaryStretch> boundary;  ///< of the labelled boundary, edge by edge
+
+  [[nodiscard]] int perTriangle() const { return degree == 1 ? 3 : 6; }
+  /// Of a triangle.
+  [[nodiscard]] const int* of(size_t triangle) const {
+    return &triangles[triangle * static_cast<size_t>(perTriangle())];
+  }
+  [[nodiscard]] int count() const { return static_cast<int>(places.size()); }
+};
+
+/// \param degree  1 or 2. A middle on the boundary lies where TriangleMesh::edgeMiddles says, others halfway.
+ElementNodes elementNodes(const TriangleMesh& mesh, int degree);
+
+}  // namespace mortier
