@@ -41,6 +41,7 @@ StepOutcome StepSolver::solve(const State& state0, const StepData& step, Iterate
     climb("newton", newton(state0, step, plain, unloaded));
     if (total.converged) guess = std::move(unloaded);
   }
+  if (effort == Effort::little) return total;
   if (open(usualIterations) && !uniqueSolutions_)
     climb("continuation",
           continuation(state0, step, std::min(continuationIterations, left(usualIterations)), guess));

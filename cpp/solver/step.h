@@ -69,8 +69,9 @@ struct Response {
 
 /// How much is done before a step is given up.
 enum class Effort {
-  usual,  ///< for a step that may as well be cut
-  all     ///< also the methods that take thousands of linear solves
+  little,  ///< Newton's method alone: for a step that is likely to be too long
+  usual,   ///< for a step that may as well be cut
+  all      ///< also the methods that take thousands of linear solves
 };
 
 class StepSolver {

@@ -259,7 +259,7 @@ inline Outcome runOf(const Case& which, const Truth& truth, const TimePlan& plan
   MarchMemory memory;
   try {
     (void)march(model, state, memory, plan, {}, [&](const State& now, const StepReport& report) {
-      if (report.step > 0) result.error = std::max(result.error, truth.error(now));
+      result.error = report.step == 0 ? 0 : std::max(result.error, truth.error(now));
       if (result.error > most) throw Left{};
     });
   } catch (const Left&) {
