@@ -111,10 +111,11 @@ class Checkpoints {
     constexpr double rarely = 10;
     return processSeconds() - last_ >= (interval_ > 0 ? std::max(interval_, rarely * cost_) : 0);
   }
-  void write(ResultFiles& files, const StepReport& last, const State& state, const MarchMemory& memory,
-             const AccuracyMemory& accuracy) {
+  /// \param empty  the files before the first step
+  void write(const FilesSoFar& empty, const FilesSoFar& files, const StepReport& last, const State& state,
+             const MarchMemory& memory, const AccuracyMemory& accuracy) {
     const double begin = processSeconds();
-    writeCheckpoint(folder_, {identity_, files.sync(), last, state, memory, accuracy});
+    writeCheckpoint(folder_, {identity_, empty, files, last, state, memory, accuracy});
     last_ = processSeconds();
     cost_ = last_ - begin;
   }
@@ -165,6 +166,7 @@ int run(RunCommand command) {
   const std::string path = command.out.empty() ? defaultFolder(command.scene) : command.out;
   std::optional<OutputFolder> folder;
   std::optional<ResultFiles> files;
+  FilesSoFar empty;
   StepReport last;
   State state = initialState(model);
   if (!stopped) lintSettling(scene, findInitialEquilibrium(scene, model, state), doubts);
@@ -174,6 +176,7 @@ int run(RunCommand command) {
   if (stopped) {
     folder.emplace(path, stopped->folder, std::move(stopped->lock));
     files.emplace(folder->temporary(), model, facts.quantities, scene.every, stopped->checkpoint.files);
+    empty = stopped->checkpoint.empty;
     last = stopped->checkpoint.last;
     state = std::move(stopped->checkpoint.state);
     memory = std::move(stopped->checkpoint.memory);
@@ -195,14 +198,30 @@ int run(RunCommand command) {
   // 3. The march in time. A failure leaves the last good step in `state`, an interruption in what is kept here.
   State keptState = state;
   MarchMemory keptMemory = memory;
+  const auto save = [&](const FilesSoFar& written, const State& at, const MarchMemory& with) {
+    checkpoints.write(empty, written, last, at, with, accuracySoFar);
+  };
   const Observer observe = [&](const State&, const StepReport& report) {
-    files->add(state, report);
+    const bool again = report.step == 0 && memory.controller.trial > 1;
+    if (again) {
+      // A checkpoint before the files are cut: one that knows them as they were would be of no use.
+      log.print(logTrial(keptMemory.run.timeError, scene.time.tolerance));
+      last = report;
+      accuracySoFar = {};
+      const FilesSoFar written = files->sync();
+      save(empty, state, memory);
+      files.reset();
+      removeFields(folder->temporary(), written, empty);
+      files.emplace(folder->temporary(), model, facts.quantities, scene.every, empty);
+    } else {
+      files->add(state, report);
+      if (report.step == 0) empty = files->sync();
+    }
     accuracies.add(state, report, scene.every > 0 && report.step % scene.every == 0);
     if (report.step > 0) log.step(report);
     last = report;
-    if (report.step > 0 && state.time < scene.time.end && checkpoints.due()) {
-      checkpoints.write(*files, last, state, memory, accuracySoFar);
-    }
+    if (report.step > 0 && state.time < scene.time.end && checkpoints.due())
+      save(files->sync(), state, memory);
     keptState = state;
     keptMemory = memory;
   };
@@ -215,10 +234,11 @@ int run(RunCommand command) {
     throw OutputError(error.what() + ("; mortier run --restart " + path + " goes on"));
   } catch (const Interrupted&) {
     log.finish();
-    if (last.step > 0) checkpoints.write(*files, last, keptState, keptMemory, accuracySoFar);
+    const bool begun = last.step > 0 || keptMemory.controller.trial > 1;
+    if (begun) save(files->sync(), keptState, keptMemory);
     throw InterruptedError(
         scene.path + ": interrupted after step " + std::to_string(last.step) +
-        (last.step == 0 ? "; nothing was written" : "; mortier run --restart " + path + " goes on"));
+        (!begun ? "; nothing was written" : "; mortier run --restart " + path + " goes on"));
   }
   log.finish();
 

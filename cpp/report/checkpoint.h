@@ -25,6 +25,7 @@ struct RunIdentity {
 
 struct Checkpoint {
   RunIdentity identity;
+  FilesSoFar empty;  ///< before the first step
   FilesSoFar files;
   StepReport last;
   State state;

@@ -53,11 +53,16 @@ void requireFits(const Checkpoint& checkpoint, const Model& model, const std::st
                        " is not one of this scene, expected a checkpoint that this program wrote");
   };
   const State begin = initialState(model);
-  const auto& [identity, files, last, state, memory, accuracy] = checkpoint;
+  const auto& [identity, empty, files, last, state, memory, accuracy] = checkpoint;
   require(isTime(state.time) && isTime(last.time) && last.step >= 0 && last.step == memory.run.steps, "time");
-  require(oneABody(state.bodies, begin.bodies), "state");
-  require(areLike(state.contactForce, begin.contactForce), "contact force");
-  require(areLike(state.gap, begin.gap), "gap");
+  const auto requireState = [&](const State& given) {
+    require(oneABody(given.bodies, begin.bodies), "state");
+    require(areLike(given.contactForce, begin.contactForce), "contact force");
+    require(areLike(given.gap, begin.gap), "gap");
+  };
+  requireState(state);
+  require(memory.controller.trial >= 0, "trial");
+  if (memory.controller.trial > 0) requireState(memory.controller.start);
   require(std::all_of(memory.increments.begin(), memory.increments.end(),
                       [&](const auto& stage) { return oneABody(stage, begin.bodies); }),
           "increment");

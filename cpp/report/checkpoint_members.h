@@ -90,8 +90,8 @@ void visitMembers(Archive& archive, ErrorNorms& norms) {
 }
 template <class Archive>
 void visitMembers(Archive& archive, ControllerMemory& controller) {
-  auto& [timeStep, scale, largest, local, strain, error, worst] = controller;
-  archive(timeStep, scale, largest, local, strain, error, worst);
+  auto& [trial, start, timeStep, scale, largest, local, strain, error, worst] = controller;
+  archive(trial, start, timeStep, scale, largest, local, strain, error, worst);
 }
 template <class Archive>
 void visitMembers(Archive& archive, SolverMemory& solver) {
@@ -105,8 +105,8 @@ void visitMembers(Archive& archive, MarchMemory& memory) {
 }
 template <class Archive>
 void visitMembers(Archive& archive, Checkpoint& checkpoint) {
-  auto& [identity, files, last, state, memory, accuracy] = checkpoint;
-  archive(identity, files, last, state, memory, accuracy);
+  auto& [identity, empty, files, last, state, memory, accuracy] = checkpoint;
+  archive(identity, empty, files, last, state, memory, accuracy);
 }
 
 }  // namespace mortier

@@ -80,6 +80,11 @@ std::string logRow(const StepReport& r) {
                 r.maxPressure, 100 * r.viscoplasticFraction, r.contactForce, remarks.c_str());
 }
 
+std::string logTrial(double error, double tolerance) {
+  return format("           error in time %.2g, tolerance %.2g: begun again with smaller errors of a step\n",
+                error, tolerance);
+}
+
 std::string logStatus(const RunReport& report, const std::string& folder) {
   const double wall = processSeconds();
   const double share = wall > 0 ? std::min(1.0, report.solveSeconds / wall) : 0;

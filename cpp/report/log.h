@@ -14,6 +14,8 @@ namespace mortier {
 std::string logHeader(const RunFacts& facts, const Model& model);
 /// One step.
 std::string logRow(const StepReport& report);
+/// That a run with steps chosen by their error is begun again.
+std::string logTrial(double error, double tolerance);
 /// How the run ended, and where its result is.
 std::string logStatus(const RunReport& report, const std::string& folder);
 /// How well the equations hold in the worst step.

@@ -1,6 +1,15 @@
 #include "report/result_files.h"
 
+#include <filesystem>
+
 namespace mortier {
+
+void removeFields(const std::string& folder, const FilesSoFar& files, const FilesSoFar& kept) {
+  std::error_code none;  // what stays is no part of the result
+  for (size_t i = kept.fields.size(); i < files.fields.size(); ++i)
+    for (const auto& [name, record] : files.fields[i].files)
+      std::filesystem::remove(std::filesystem::path(folder) / name, none);
+}
 
 ResultFiles::ResultFiles(const std::string& folder, const Model& model,
                          const std::vector<Quantity>& quantities, int every)

@@ -17,6 +17,9 @@ struct FilesSoFar {
   std::vector<KeptFields> fields;
 };
 
+/// Takes the fields away that are in `files` and not in `kept`.
+void removeFields(const std::string& folder, const FilesSoFar& files, const FilesSoFar& kept);
+
 class ResultFiles {
  public:
   /// \param every  keep fields and contact of the steps 0, k, 2k, ... beside the last one; 0: the last one

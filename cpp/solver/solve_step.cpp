@@ -66,6 +66,7 @@ StepOutcome solveStep(StepSystem& system, const State& state0, const StepData& d
     climb(Rung::newton, newton(system, step, data.weight, plain, unloaded));
     if (total.converged()) guess = std::move(unloaded);
   }
+  if (effort == Effort::little) return total;
   const bool unique = system.uniqueSolutions();
   ViscosityWalk walk(system.model(), step);
   if (open(usualIterations) && !unique)

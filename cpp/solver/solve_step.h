@@ -7,6 +7,7 @@ namespace mortier {
 
 /// How much is done before a step is given up.
 enum class Effort {
+  little,  ///< Newton's method alone: for a step that is likely to be too long
   usual,  ///< for a step that may as well be cut
   all     ///< also what takes thousands of linear solves
 };

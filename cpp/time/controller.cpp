@@ -10,7 +10,6 @@ namespace {
 
 constexpr double safety = 0.9;
 constexpr double leastFactor = 0.2;
-constexpr double largestFactor = 5;
 constexpr double failureFactor = 0.25;
 constexpr double aim = 0.7;         // of the tolerance
 constexpr double unseenPart = 0.2;  // of the square root of the tolerance
@@ -55,10 +54,6 @@ double Controller::nextTime(double t, double k) const {
   }
 }
 
-double Controller::estimate() const {
-  return relative(memory_.controller.error, memory_.controller.largest);
-}
-
 double Controller::worst() const {
   return relative(memory_.controller.worst, memory_.controller.largest);
 }
@@ -93,6 +88,8 @@ void Controller::begin(const State& state) {
   run.factorisations = memory_.run.factorisations;
   run.solveSeconds = memory_.run.solveSeconds;
   ControllerMemory own;
+  own.trial = memory_.controller.trial + 1;
+  own.start = state;
   own.timeStep = plan_.steps > 0 ? whole / plan_.steps : firstStep * whole;
   own.scale = memory_.controller.scale;
   own.local = memory_.controller.local;
@@ -104,15 +101,18 @@ void Controller::begin(const State& state) {
   memory_.controller = own;
 }
 
-bool Controller::adapt() {
+bool Controller::beginAgain(State& state) {
+  constexpr int trials = 5;
   constexpr double least = 1e-4;  // by which the error of a step changes at once
   ControllerMemory& own = memory_.controller;
-  const double error = worst();
   own.scale = own.largest;
-  if (error <= plan_.tolerance) return true;
+  if (worst() <= plan_.tolerance || own.trial == trials) return false;
   const double order = plan_.scheme == Scheme::backwardEuler ? 1 : 2;
-  own.local *= std::max(least, std::pow(aim * plan_.tolerance / error, (order + 1) / order));
-  return false;
+  const double next = order == 1 ? 0.8 : aim;  // many small steps are the easier to foresee
+  own.local *= std::max(least, std::pow(next * plan_.tolerance / worst(), (order + 1) / order));
+  state = own.start;
+  begin(State(state));
+  return true;
 }
 
 /// Adds the error of the step to what has been carried to its end. Flow does not amplify errors: where the linearised
@@ -132,15 +132,46 @@ void Controller::add(StepTaker& taker, std::vector<Matrix> local, double size) {
   own.worst = larger(own.worst, own.error);
 }
 
+Controller::Judgement Controller::judge(StepTaker& taker, double t0, double t1) const {
+  Judgement result{taker.localError()};
+  // In the middle of a loading most of the error of an overstress is forgotten in the next step; at a stop it is there.
+  ErrorNorms norms = measure_.sizeOf(t1 < stopAfter(t0) ? taker.response(result.strain) : taker.errorAtEnd());
+  norms.stress = std::min(norms.stress, measure_.sizeOf(taker.surprise()).stress);
+  const ControllerMemory& own = memory_.controller;
+  result.size = relative(norms, own.scale);
+  const double error = result.size / own.local;
+  result.factor = std::clamp(safety * std::pow(error, -1.0 / taker.errorOrder()), leastFactor, largestFactor);
+  result.good = error <= 1 || t1 - t0 <= leastStep();
+  return result;
+}
+
+double Controller::leastStep() const {
+  constexpr double little = 1e-12;
+  return little * (plan_.end - memory_.begin);
+}
+
+StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort effort, Judgement& judgement) {
+  StepOutcome outcome = taker.attempt(t1, effort);
+  if (!outcome.converged() || outcome.rung == Rung::rest) return outcome;
+  judgement = judge(taker, t0, t1);
+  // What is too long without the guard is too long with it, whose steps are of the first order; but where the data turn to
+  // rest they are exact.
+  const bool turns = t0 == memory_.begin || std::binary_search(stops_.begin(), stops_.end(), t0);
+  if ((!judgement.good && !turns) || !taker.turned()) return outcome;
+  outcome = taker.guard(outcome, effort);
+  if (outcome.converged()) judgement = judge(taker, t0, t1);
+  return outcome;
+}
+
 void Controller::advance(StepTaker& taker, const State& state, StepReport& report) {
-  constexpr int patience = 12;      // attempts in a row that cannot be solved
-  constexpr double little = 1e-12;  // of the run: no step is shorter
-  constexpr double early = 0.05;    // parts of a step: it ends on the onset of flow between them
+  constexpr int patience = 14;    // attempts in a row that cannot be solved
+  constexpr double early = 0.05;  // parts of a step: it ends on the onset of flow between them
   constexpr double late = 0.85;
+  constexpr double allFlow = 0.9;  // of the points: where Newton's method then fails the load turns,
+  constexpr int easy = 2;          // and a shorter step costs less than the methods that come after it
   int failures = 0;
   ControllerMemory& own = memory_.controller;
-  const bool flowing = taker.flowing();
-  const double least = little * (plan_.end - memory_.begin);
+  const double flowing = taker.flowing();
   const auto giveUp = [&](Status status, double t1, const std::string& why) {
     std::ostringstream reason;
     reason << "step " << report.step << " at t = " << t1 << " s: " << why;
@@ -152,7 +183,10 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     const double k = t1 - state.time;
     if (memory_.run.steps + memory_.run.rejected + report.rejections >= plan_.maxSteps)
       return giveUp(Status::failed, t1, "all of max_steps = " + std::to_string(plan_.maxSteps) + " are used");
-    const StepOutcome outcome = taker.attempt(t1);
+    Judgement judgement;
+    const StepOutcome outcome =
+        attempt(taker, state.time, t1, flowing >= allFlow && failures < easy ? Effort::little : Effort::usual,
+                judgement);
     report.iterations += outcome.iterations;
     report.factorisations += outcome.factorisations;
     if (!outcome.converged()) {
@@ -167,37 +201,25 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
       continue;
     }
     failures = 0;
-    std::vector<Matrix> local;
-    double size = 0;
-    if (outcome.rung != Rung::rest) {
-      local = taker.localError();
-      // In the middle of a loading most of the error of an overstress is forgotten in the next step; at a stop it is there.
-      ErrorNorms norms =
-          measure_.sizeOf(t1 < stopAfter(state.time) ? taker.response(local) : taker.errorAtEnd());
-      norms.stress = std::min(norms.stress, measure_.sizeOf(taker.surprise()).stress);
-      size = relative(norms, own.scale);
-    }
-    const double error = size / own.local;
-    const double factor =
-        std::clamp(safety * std::pow(error, -1.0 / taker.errorOrder()), leastFactor, largestFactor);
-    if (error > 1 && k > least) {
+    const double factor = judgement.factor;
+    if (!judgement.good) {
       ++report.rejections;
-      const double onset = flowing || report.rejections > 1 ? 1 : taker.onset();
-      own.timeStep = std::max(least, k * (onset > early && onset < late ? onset : factor));
+      const double onset = flowing > 0 || report.rejections > 1 ? 1 : taker.onset();
+      own.timeStep = std::max(leastStep(), k * (onset > early && onset < late ? onset : factor));
       continue;
     }
     // A step that was only shortened to end on a stop tells nothing against a longer one.
     const bool shortened = k < own.timeStep && factor >= 1;
     const double grown = (report.rejections > 0 ? std::min(factor, 1.0) : factor) * k;
-    own.timeStep = std::max(least, shortened ? std::max(grown, own.timeStep) : grown);
-    if (outcome.rung != Rung::rest) add(taker, std::move(local), size);
+    own.timeStep = std::max(leastStep(), shortened ? std::max(grown, own.timeStep) : grown);
+    if (outcome.rung != Rung::rest) add(taker, std::move(judgement.strain), judgement.size);
     taker.commit();
     const ErrorNorms reached = measure_.sizeOf(state);
     own.scale = larger(own.scale, reached);
     own.largest = larger(own.largest, reached);
     report.time = t1;
     report.timeStep = k;
-    report.estimate = estimate();
+    report.estimate = relative(own.error, own.scale);
     report.guarded = taker.guarded();
     report.certificate = outcome.certificate;
     if (outcome.rung != Rung::newton && report.rung == Rung::newton) report.rung = outcome.rung;

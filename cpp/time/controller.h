@@ -1,7 +1,6 @@
 // Steps chosen by their error. `tolerance` is the error in time of every step of the run, relative to the largest
-// displacement and stress of the run. What the error of one step may be follows from it by trial: a whole run is tried
-// with a guess, its error estimated (step_taker.h), and tried again until that meets the tolerance; with N steps of a
-// scheme of order p both errors are linked by  global ~ local^(p/(p+1)).  Within a run
+// displacement and stress of the run. What the error of one step may be follows from it by trial: a run is tried with a
+// guess, its error estimated (step_taker.h), and begun again with a smaller one until that meets the tolerance; with N steps of a scheme of order p both errors are linked by  global ~ local^(p/(p+1)).  Within a run
 //   k <- k 0.9 (error/local)^(-1/(p+1)),  by a factor between 1/5 and 5,
 // and a step with a larger error is rejected. Steps end on the breaks of the plan and jump over no part of its data.
 #pragma once
@@ -28,14 +27,23 @@ class Controller {
   void begin(const State& state);
   /// Takes one step, or reports why there is none.
   void advance(StepTaker& taker, const State& state, StepReport& report);
-  /// Whether the run as it ended meets the tolerance; otherwise another guess is made.
-  bool adapt();
-  /// The error of a step over the largest displacement and stress so far, or of the run where it is known.
-  [[nodiscard]] double estimate() const;
-  /// The same of the worst step so far.
+  /// Goes back to the beginning with another guess, unless the run as it ended meets the tolerance or was the last trial.
+  bool beginAgain(State& state);
+  /// The error of the worst step so far over the largest displacement and stress so far.
   [[nodiscard]] double worst() const;
 
  private:
+  static constexpr double largestFactor = 5;
+  /// Of an attempt that converged.
+  struct Judgement {
+    std::vector<Matrix> strain;     ///< its error (StepTaker::localError)
+    double size = 0;                ///< of that, relative
+    double factor = largestFactor;  ///< by which the next step may be longer
+    bool good = true;
+  };
+  [[nodiscard]] Judgement judge(StepTaker& taker, double t0, double t1) const;
+  StepOutcome attempt(StepTaker& taker, double t0, double t1, Effort effort, Judgement& judgement);
+  [[nodiscard]] double leastStep() const;
   [[nodiscard]] double nextTime(double t, double k) const;
   [[nodiscard]] double stopAfter(double t) const;
   void add(StepTaker& taker, std::vector<Matrix> local, double size);

@@ -22,7 +22,9 @@ void advance(StepTaker& taker, const State& state, double t1, StepReport& report
   int done = 0;
   while (done < parts) {
     const double time = done + 1 == parts ? t1 : begin + (t1 - begin) * (done + 1) / parts;
-    const StepOutcome outcome = taker.attempt(time, parts == 1 ? Effort::all : Effort::usual);
+    const Effort effort = parts == 1 ? Effort::all : Effort::usual;
+    StepOutcome outcome = taker.attempt(time, effort);
+    if (outcome.converged() && taker.turned()) outcome = taker.guard(outcome, effort);
     report.iterations += outcome.iterations;
     report.factorisations += outcome.factorisations;
     if (outcome.rung != Rung::newton && report.rung == Rung::newton) report.rung = outcome.rung;
@@ -97,80 +99,18 @@ void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& p
   }
 }
 
-/// The steps of a run that is not shown yet, as long as they are not too many.
-class Recording {
- public:
-  struct Step {
-    State state;
-    MarchMemory memory;
-    StepReport report;
-  };
-
-  void add(const State& state, const MarchMemory& memory, const StepReport& report) {
-    constexpr size_t most = size_t{1} << 25;  // bytes
-    if (!complete_) return;
-    for (const BodyState& body : state.bodies)  // stress and strain, twice in the memory
-      bytes_ += sizeof(double) * static_cast<size_t>(4 * body.displacement.size() + 6 * body.stress.size());
-    complete_ = bytes_ <= most;
-    if (complete_)
-      steps.push_back({state, memory, report});
-    else
-      steps.clear();
-  }
-  [[nodiscard]] bool complete() const { return complete_; }
-
-  std::vector<Step> steps;
-
- private:
-  bool complete_ = true;
-  size_t bytes_ = 0;
-};
-
-/// Runs without an observer until one meets the tolerance, and shows that: as it was recorded, or once more.
-RunReport trials(const Model& model, State& state, MarchMemory& memory, const TimePlan& plan,
-                 const SolverOptions& options, const Observer& observer) {
-  constexpr int most = 5;
+/// Makes ready for steps chosen by their error: loads of the first moment act, and their scales are found.
+void prepare(const Model& model, State& state, MarchMemory& memory, const TimePlan& plan,
+             const SolverOptions& options) {
+  const auto begin = Clock::now();
   const auto loaded = [&](const Body& body) { return !body.load(state.time).isZero(0); };
   if (std::any_of(model.bodies.begin(), model.bodies.end(), loaded))
     memory.run.iterations += balanceElastically(model, state, options).iterations;
+  StepTaker taker(model, state, memory, Scheme::backwardEuler, options);
   Controller controller(model, plan, memory);
-  const State before = state;
-  {
-    const auto begin = Clock::now();
-    StepTaker taker(model, state, memory, Scheme::backwardEuler, options);
-    controller.pilot(taker, state);
-    memory.run.solveSeconds += secondsSince(begin);
-  }
-  bool done = false;
-  for (int trial = 1; !done; ++trial) {
-    Recording recording;
-    state = before;
-    controller.begin(state);
-    recording.add(state, memory, {});
-    StepTaker taker(model, state, memory, plan.scheme, options);
-    go(model, state, memory, plan, taker, controller,
-       [&](const State& now, const StepReport& report) { recording.add(now, memory, report); });
-    // What cannot be solved, or met, is shown as it is.
-    done = controller.adapt() || memory.run.status != Status::converged || trial == most;
-    if (!done || !recording.complete()) continue;
-    const RunReport run = memory.run;
-    const ErrorNorms largest = memory.controller.largest;
-    for (Recording::Step& step : recording.steps) {
-      state = std::move(step.state);
-      memory = std::move(step.memory);
-      memory.controller.largest = largest;
-      step.report.estimate = controller.estimate();
-      observer(state, step.report);
-    }
-    memory.run = run;
-    return run;
-  }
-  state = before;
+  controller.pilot(taker, state);
+  memory.run.solveSeconds += secondsSince(begin);
   controller.begin(state);
-  StepTaker taker(model, state, memory, plan.scheme, options);
-  observer(state, StepReport{});
-  go(model, state, memory, plan, taker, controller, observer);
-  return memory.run;
 }
 
 }  // namespace
@@ -201,16 +141,21 @@ RunReport march(const Model& model, State& state, const TimePlan& plan, const So
 
 RunReport march(const Model& model, State& state, MarchMemory& memory, const TimePlan& plan,
                 const SolverOptions& options, const Observer& observer) {
-  if (memory.run.steps == 0) memory.begin = state.time;
-  if (plan.tolerance > 0 && memory.run.steps == 0)
-    return trials(model, state, memory, plan, options, observer);
-  const auto begin = Clock::now();
-  StepTaker taker(model, state, memory, plan.scheme, options);
+  const bool controlled = plan.tolerance > 0;
+  const bool begun = memory.run.steps > 0 || memory.controller.trial > 0;
+  if (!begun) memory.begin = state.time;
+  if (!begun && controlled) prepare(model, state, memory, plan, options);
+  if (!begun) observer(state, StepReport{});
   Controller controller(model, plan, memory);
-  memory.run.solveSeconds += secondsSince(begin);
-  if (memory.run.steps == 0) observer(state, StepReport{});
-  go(model, state, memory, plan, taker, controller, observer);
-  return memory.run;
+  while (true) {
+    const auto begin = Clock::now();
+    StepTaker taker(model, state, memory, plan.scheme, options);
+    memory.run.solveSeconds += secondsSince(begin);
+    go(model, state, memory, plan, taker, controller, observer);
+    if (!controlled || memory.run.status != Status::converged || !controller.beginAgain(state))
+      return memory.run;
+    observer(state, StepReport{});
+  }
 }
 
 }  // namespace mortier

@@ -24,7 +24,9 @@ struct ErrorNorms {
 
 /// Of steps chosen by their error.
 struct ControllerMemory {
-  double timeStep = 0;         ///< to try next [s]; 0: the march has not begun
+  int trial = 0;               ///< runs begun; 0: the march has not begun
+  State start;                 ///< of each
+  double timeStep = 0;         ///< to try next [s]
   ErrorNorms scale;            ///< by which errors of steps are measured
   ErrorNorms largest;          ///< of the run, as far as it is known: by which its error is told
   double local = 0;            ///< what the error of a step may be, relative

@@ -156,11 +156,16 @@ std::vector<Response> StepTaker::surprise() const {
   return surprise;
 }
 
-bool StepTaker::flowing() const {
-  for (size_t b = 0; b < model_.bodies.size(); ++b)
+double StepTaker::flowing() const {
+  int points = 0;
+  int flowing = 0;
+  for (size_t b = 0; b < model_.bodies.size(); ++b) {
+    if (model_.bodies[b].material().linear()) continue;
+    points += model_.bodies[b].points();
     for (int i = 0; i < model_.bodies[b].points(); ++i)
-      if (model_.bodies[b].material().flows(state_.bodies[b].stress, i)) return true;
-  return false;
+      flowing += model_.bodies[b].material().flows(state_.bodies[b].stress, i) ? 1 : 0;
+  }
+  return points > 0 ? static_cast<double>(flowing) / points : 0;
 }
 
 double StepTaker::onset() const {

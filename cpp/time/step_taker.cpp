@@ -13,24 +13,33 @@ StepTaker::StepTaker(const Model& model, State& state, MarchMemory& memory, Sche
   if (memory.run.steps > 0) system_.resume(memory.solver);
 }
 
+StepOutcome StepTaker::attempt(double t1, Scheme scheme, Effort effort) {
+  t1_ = t1;
+  tableau_ = tableau(scheme);
+  guarded_ = false;
+  return hold(solveStages(t1, effort));
+}
+
 // An explicit or second-order scheme may overshoot into the elastic domain, where nothing brings the stress
 // back. When the flow turns round between the stages in more than a small share of the bodies, the step is
 // redone with backward Euler, which cannot. Two half steps of it are never worse than the one of a run with
 // backward Euler: an overstress is divided by (1 + z/2)^2 instead of 1 + z.
-StepOutcome StepTaker::attempt(double t1, Scheme scheme, Effort effort) {
-  constexpr double turned = 0.05;
-  t1_ = t1;
-  tableau_ = tableau(scheme);
-  guarded_ = false;
-  StepOutcome outcome = solveStages(t1, effort);
-  if (scheme == Scheme::sdirk2 && outcome.converged() && turnedShare() > turned) {
-    tableau_ = twoHalfSteps();
-    guarded_ = true;
-    StepOutcome again = solveStages(t1, effort);
-    again.iterations += outcome.iterations;
-    again.factorisations += outcome.factorisations;
-    outcome = std::move(again);
-  }
+bool StepTaker::turned() const {
+  constexpr double most = 0.05;
+  return tableau_.errorOrder == 3 && turnedShare() > most;
+}
+
+StepOutcome StepTaker::guard(const StepOutcome& before, Effort effort) {
+  tableau_ = twoHalfSteps();
+  guarded_ = true;
+  StepOutcome again = hold(solveStages(t1_, effort));
+  again.iterations += before.iterations;
+  again.factorisations += before.factorisations;
+  return again;
+}
+
+/// Refuses a solution that could be anywhere along a motion.
+StepOutcome StepTaker::hold(StepOutcome outcome) {
   if (const std::string motion = outcome.converged() ? system_.looseMotion(state_, solutions_.back()) : "";
       !motion.empty())
     outcome.fail(Reason::unheld, "no contact is closed that would hold " + motion);

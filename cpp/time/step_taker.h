@@ -21,7 +21,11 @@ class StepTaker {
   StepOutcome attempt(double t1, Effort effort = Effort::usual) { return attempt(t1, scheme_, effort); }
   /// The same with another scheme.
   StepOutcome attempt(double t1, Scheme scheme, Effort effort = Effort::usual);
-  /// Whether the last attempt was done again as two half steps of backward Euler.
+  /// Whether the last attempt, which converged, needs the guard.
+  [[nodiscard]] bool turned() const;
+  /// Does it again as two half steps of backward Euler. \returns the outcome, the work of `before` included
+  StepOutcome guard(const StepOutcome& before, Effort effort = Effort::usual);
+  /// Whether that was done.
   [[nodiscard]] bool guarded() const { return guarded_; }
   /// Error of the viscoplastic strain (exact less computed, per body) that the last attempt makes on its way from the
   /// state (step_error.cpp).
@@ -36,8 +40,8 @@ class StepTaker {
   [[nodiscard]] std::vector<Response> surprise() const;
   /// The fraction of the attempt at which the first point flows, where none did at its start; 1 if none does.
   [[nodiscard]] double onset() const;
-  /// Whether any point of the state flows.
-  [[nodiscard]] bool flowing() const;
+  /// Part of the points that can flow that do so in the state.
+  [[nodiscard]] double flowing() const;
   /// Power of the step with which the local error falls.
   [[nodiscard]] int errorOrder() const { return tableau_.errorOrder; }
   /// What was met among the contact conditions so far.
@@ -49,6 +53,7 @@ class StepTaker {
 
  private:
   StepOutcome solveStages(double t1, Effort effort);
+  StepOutcome hold(StepOutcome outcome);
   [[nodiscard]] Iterate guess(size_t stage, double k) const;
   void shiftOf(const Stage& stage, double k);
   /// G at the start of the step.

@@ -126,6 +126,17 @@ class Restart(InFolder):
         self.run_mortier("--restart", "out/killed", "--threads", 1)
         self.expect_same("out/whole", "out/killed")
 
+    def test_killed_in_a_run_that_is_begun_again(self):
+        settings = ["--set", "output.every=7", "contact.variant=mortar", "time.scheme=sdirk2", "time.tolerance=1e-3",
+                    'body.upper.boundary.ty="-5+4.9*cos(6*pi*t)"']
+        told = self.mortier("run", SCENE, *settings, "--out", "out/whole", timeout=300).stdout
+        self.assertIn("begun again", told)
+        for after in (2, 5, 12, 25):
+            result = f"out/killed-{after}"
+            self.stop(SCENE, *settings, "--out", result, after=after)
+            self.run_mortier("--restart", result)
+            self.expect_same("out/whole", result)
+
     def test_interrupted(self):
         self.run_mortier(SCENE, *self.settings(), "--out", "out/whole")
         for by in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):

@@ -36,7 +36,8 @@ struct OpenClose {
   double firstAfter = 0;        ///< first time with contact after that [s]
 
   Observer observer() {
-    return [this](const State& now, const StepReport&) {
+    return [this](const State& now, const StepReport& report) {
+      if (report.step == 0) *this = OpenClose(*model);
       const double force = now.contactForce[0].sum();
       if (force > 0 && now.time < 3) lastBefore = now.time;
       if (force > 0 && now.time > 3 && firstAfter == 0) firstAfter = now.time;
