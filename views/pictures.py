@@ -26,6 +26,7 @@ STYLE = {
     "legend.fontsize": 8, "legend.frameon": False, "savefig.dpi": 150, "svg.hashsalt": "mortier", "svg.fonttype": "path",
     "text.parse_math": False,  # titles and names are shown as they are
 }
+FINE = 20_000  # triangles of a body
 ROUNDING = 1e-9  # of the largest value: what is less apart has one colour
 HISTORY = ("contact_force", "max_pressure", "von_mises_max", "displacement_max", "elastic_energy", "penetration",
            "viscoplastic_fraction")
@@ -95,8 +96,10 @@ def draw_bodies(axes, run, scale=1.0, values=None, norm=None, colours=None, by_v
             axes.tripcolor(x, y, body.triangles, values[name], cmap=colours, norm=norm, shading="gouraud", rasterized=True)
             axes.triplot(x, y, body.triangles, color=MESH, lw=width)
         else:
-            axes.tripcolor(x, y, body.triangles, facecolors=values[name], cmap=colours, norm=norm, edgecolors=MESH,
-                           linewidth=width, rasterized=len(body.triangles) > 20000)
+            fine = len(body.triangles) > FINE  # edges would cover the colours
+            axes.tripcolor(x, y, body.triangles, facecolors=values[name], cmap=colours, norm=norm,
+                           edgecolors="face" if fine else MESH, linewidth=0 if fine else width, rasterized=fine,
+                           antialiased=not fine)
 
 
 def draw_as_meshed(axes, run):
