@@ -21,6 +21,7 @@
 #include "material/stress.h"
 #include "mesh/generate.h"
 #include "mesh/medit.h"
+#include "solver/complementarity.h"
 #include "solver/condensed_body.h"
 #include "table.h"
 #include "time/march.h"
