@@ -74,8 +74,10 @@ inline State flowing(const Model& model) {
     body.material().elasticStrain(stress, elastic);
     state.bodies.push_back({Vector::Zero(body.dofs()), std::move(stress), -elastic});
   }
-  for (const ContactInterface& interface : model.interfaces)
+  for (const ContactInterface& interface : model.interfaces) {
     state.contactForce.emplace_back(interface.mass() * Vector::Constant(interface.rows(), pressure));
+    state.gap.push_back(Vector::Zero(interface.rows()));
+  }
   return state;
 }
 

@@ -167,43 +167,32 @@ void TangentAssembly::assemblePlain(const TriangleData& triangles, const Matrix&
     const Part& part = parts_[p];
     std::fill(values.begin() + start[part.firstColumn], values.begin() + start[part.endColumn], 0.0);
     for (const int t : part.triangles) {
-      std::array<std::array<double, 2 * n>, points> G;
-      std::array<std::array<double, 9>, points> D;
-      for (int i = 0; i < points; ++i) {
-        G[i] = triangles.gradientsOf<Element>(points * t + i);
-        D[i] = moduliAt(moduli, points * t + i);
-      }
-      const double* weights = &triangles.weights[static_cast<size_t>(points) * t];
       const int* nodes = &triangles.nodes.triangles[static_cast<size_t>(n) * t];
       const uint16_t* blocks = &blocks_[static_cast<size_t>(n) * n * t];
       int equation[n];
       for (int a = 0; a < n; ++a) equation[a] = equations[2 * nodes[a]];
-      for (int b = 0; b < n; ++b) {
-        if (equation[b] < part.firstColumn || equation[b] >= part.endColumn) continue;
-        ColumnOfDB x[points];
-        ColumnOfDB y[points];
-        for (int i = 0; i < points; ++i) {
-          const double gx = weights[i] * G[i][2 * b];
-          const double gy = weights[i] * G[i][2 * b + 1];
-          x[i] = columnOfDB(D[i], gx, gx, gy);
-          y[i] = columnOfDB(D[i], gy, -gy, gx);
-        }
-        double* columnX = first + start[equation[b]];
-        double* columnY = first + start[equation[b] + 1] - (symmetric ? 1 : 0);
-        for (int a = 0; a < n; ++a) {
-          if (symmetric && equation[a] < equation[b]) continue;
-          const int place = blocks[n * b + a];
-          Eigen::Vector2d xx = x[0].times(G[0][2 * a], G[0][2 * a + 1]);
-          Eigen::Vector2d yy = y[0].times(G[0][2 * a], G[0][2 * a + 1]);
-          for (int i = 1; i < points; ++i) {
-            xx += x[i].times(G[i][2 * a], G[i][2 * a + 1]);
-            yy += y[i].times(G[i][2 * a], G[i][2 * a + 1]);
+      for (int i = points * t; i < points * (t + 1); ++i) {
+        const std::array<double, 2 * n> G = triangles.gradientsOf<Element>(i);
+        const std::array<double, 9> D = moduliAt(moduli, i);
+        const double weight = triangles.weights[i];
+        for (int b = 0; b < n; ++b) {
+          if (equation[b] < part.firstColumn || equation[b] >= part.endColumn) continue;
+          const double gx = weight * G[2 * b];
+          const double gy = weight * G[2 * b + 1];
+          const ColumnOfDB x = columnOfDB(D, gx, gx, gy);
+          const ColumnOfDB y = columnOfDB(D, gy, -gy, gx);
+          double* columnX = first + start[equation[b]];
+          double* columnY = first + start[equation[b] + 1] - (symmetric ? 1 : 0);
+          for (int a = 0; a < n; ++a) {
+            if (symmetric && equation[a] < equation[b]) continue;
+            const int place = blocks[n * b + a];
+            const Eigen::Vector2d yy = y.times(G[2 * a], G[2 * a + 1]);
+            add(columnX + place, x.times(G[2 * a], G[2 * a + 1]));
+            if (symmetric && a == b)
+              columnY[place + 1] += yy[1];
+            else
+              add(columnY + place, yy);
           }
-          add(columnX + place, xx);
-          if (symmetric && a == b)
-            columnY[place + 1] += yy[1];
-          else
-            add(columnY + place, yy);
         }
       }
     }

@@ -71,8 +71,8 @@ class PointMaterial final : public Material {
 
   using Material::choosePenalty, Material::elasticStrain, Material::interiorPath, Material::viscoplasticRate;
 
-  LawReport linearise(const MaterialStep& step, const Matrix& stress, Linearisation& result, int begin,
-                      int end) const override {
+  [[gnu::flatten]] LawReport linearise(const MaterialStep& step, const Matrix& stress, Linearisation& result,
+                                       int begin, int end) const override {
     Largest change;
     bool flows = false;
     for (int i = begin; i < end; i += laneCount) {
