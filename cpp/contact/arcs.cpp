@@ -130,11 +130,11 @@ double turnOfPolygon(const std::vector<Point>& points, bool closed, double least
   std::vector<Point> x = points;
   if (closed && x.size() > 2) x.insert(x.end(), {points[1], points[2]});
   double sharpest = 0;
-  for (size_t i = 0; i + fewest <= x.size(); ++i) {
+  for (size_t i = 0; i + fewest < x.size(); ++i) {  // through four of an ellipse one may go
     const auto begin = static_cast<int>(i);
-    const Arc arc = arcThrough(x, begin, begin + fewest - 1, false);
+    const Arc arc = arcThrough(x, begin, begin + fewest, false);
     if (!arc.known || arc.curvature == 0) continue;
-    for (size_t k = i + 1; k <= i + 2; ++k) {
+    for (size_t k = i + 1; k <= i + 3; ++k) {
       const Point before = x[k] - x[k - 1];
       const Point after = x[k + 1] - x[k];
       const double turn = std::abs(std::atan2(cross(before, after), before.dot(after)));

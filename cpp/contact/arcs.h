@@ -28,7 +28,7 @@ std::vector<double> nodalCurvatures(const std::vector<Point>& points, bool close
 std::vector<Arc> arcsOf(const std::vector<Point>& points, bool closed,
                         const std::vector<Point>& middles = {});
 
-/// By how much a polygon turns at its sharpest node where a circle goes through four of its vertices in turn and the turn is
+/// By how much a polygon turns at its sharpest node where a circle goes through five of its vertices in turn and the turn is
 /// above a least one, else 0 [rad]: an octagon has pi/4.
 /// \pre the first and the last point of a closed line agree
 double turnOfPolygon(const std::vector<Point>& points, bool closed, double least);

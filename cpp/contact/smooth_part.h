@@ -9,7 +9,7 @@
 // which is exact on a circle; at an end the neighbour's normal is reflected in that of the element.
 // Between nodes the normal is interpolated linearly and made a unit vector.
 //
-// A node is a corner where the line turns by more than 30 degrees (a polygon of less than twelve edges is one, and no
+// A node is a corner where the line turns by more than 40 degrees (a polygon of less than nine edges is one, and no
 // circle, even where its vertices lie on one), or by more than one degree with a
 // curvature (turn over length) more than four times that of both neighbours: a curve that a mesh resolves
 // turns about as much at every node, a broken line at few. At a corner two parts meet, and its node gets one
@@ -26,7 +26,8 @@
 namespace mortier {
 
 /// A line that turns by more than that at a node has a corner there [rad].
-constexpr double sharpTurn = (1 + 1e-9) * M_PI / 6;  // a dodecagon is a circle, whatever rounding makes of it
+constexpr double sharpTurn =
+    (1 + 1e-9) * M_PI * 2 / 9;  // a nonagon is a circle, whatever rounding makes of it
 
 struct SmoothPart {
   std::vector<int> nodes;          ///< vertex numbers along the line; first and last agree where it is closed

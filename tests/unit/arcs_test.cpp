@@ -64,7 +64,7 @@ TEST(Arcs, polygonsOfFewEdgesAreTold) {
     }
     return points;
   };
-  for (const int edges : {4, 6, 8, 11})
+  for (const int edges : {5, 6, 8, 11})
     EXPECT_NEAR(turnOfPolygon(polygon(edges, 1), true, least), 2 * pi / edges, rounding) << edges;
   EXPECT_EQ(turnOfPolygon(polygon(13, 1), true, least), 0);
   EXPECT_EQ(turnOfPolygon(polygon(9, 0.6), true, least), 0);  // no circle

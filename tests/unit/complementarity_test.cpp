@@ -269,7 +269,9 @@ TEST(Complementarity, workThatHasNoEndIsCutOff) {
     const ContactSolution solution = solve(c, std::vector<char>(n, 1));
     EXPECT_EQ(solution.outcome, Outcome::capped);
     EXPECT_LE(solution.work, 1.5 * workLimit);
-    if (diagonal > 0) EXPECT_GT(solution.work, workLimit);
+    if (diagonal > 0) {
+      EXPECT_GT(solution.work, workLimit);
+    }
   }
 }
 

@@ -45,6 +45,19 @@ class MemoryNeed(InFolder):
         self.assertLess(peak, 60)
         self.assertLess(abs(need - peak), peak / 2)
 
+    def test_two_dofs_a_node(self):
+        # On a ring no line is parallel to an axis: both components of its nodes take part.
+        self.mortier("mesh", "annulus", "--cells", "700,2", "--inner", "1", "--outer", "1.01", "upper.mesh")
+        self.mortier("mesh", "annulus", "--cells", "630,2", "--inner", "0.99", "--outer", "1", "lower.mesh")
+        loads = re.compile(r"(?<=young = 1e3, poisson = 0.3 }\n)boundary = .*label = 3.*")
+        scene = loads.sub('boundary = [ { label = 2, pressure = "t", ut = 0 } ]', SCENE, 1)
+        self.write(scene.replace("label = 3", "label = 2"))
+        told = self.mortier("run", "scene.toml", "--out", "out").stdout
+        peak = json.loads(self.read("out/summary.json"))["peak_memory_mib"]
+        need = float(re.search(r"^memory +about (\d+) MiB", told, re.M).group(1))
+        print(f"700 contact nodes on a circle: told {need:.0f} MiB, took {peak:.0f} MiB")
+        self.assertLess(abs(need - peak), peak / 4)
+
     def test_what_cannot_fit_is_refused_with_the_number(self):
         self.strips(20_000)
         def limit():

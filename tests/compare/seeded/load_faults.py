@@ -50,7 +50,7 @@ def _(case):
     case.replace("poisson = 0.3 }", "poisson = 0.3 }\ninitial_stress = { s11 = 1 }")
 
 
-@fault("load-between-steps", "ty =")
+@fault("load-between-steps", "ty = \"-10")
 def _(case):
     case.replace('"-10*t"', '"-10*t*(1.5+sin(100*pi*t))"')
     case.replace("steps = 100", "steps = 10")
