@@ -8,8 +8,9 @@ int main(int count, char** arguments) try {
   using namespace mortier;
   if (count < 2) throw std::runtime_error("usage: press SCENE.toml [KEY=VALUE ...]");
   std::vector<std::string> warnings;
-  const SceneDescription scene = readScene(arguments[1], {arguments + 2, arguments + count});
-  const Model model = buildModel(scene, warnings);
+  ResolvedScene resolved = resolveScene(readScene(arguments[1], {arguments + 2, arguments + count}));
+  const Model model = buildModel(resolved, warnings);
+  const SceneDescription& scene = resolved.description;
   State state = initialState(model);
   march(model, state, scene.time, scene.solver, [](const State& now, const StepReport& step) {
     std::printf("%.9g %.15g %.15g\n", now.time, now.bodies[0].displacement.minCoeff(), step.contactForce);

@@ -13,6 +13,7 @@
 #include "commands/shipped.h"
 #include "contact/smooth_part.h"
 #include "mesh/gmsh.h"
+#include "mesh/medit.h"
 #include "scene/build.h"
 #include "scene/document.h"
 
@@ -33,11 +34,17 @@ std::string methodFolder(const std::string& scene) {
   return fs::proximate(*folder).generic_string();
 }
 
-void writeBody(std::ostream& out, const BodyDescription& body, int number) {
+/// FreeFEM reads whole Medit files of two dimensions.
+bool isReadByFreefem(const MeshSource& mesh) {
+  return !isGmshFile(mesh.path) && mesh.regions.empty();
+}
+
+/// `meshFile`: as FreeFEM opens it.
+void writeBody(std::ostream& out, const BodyDescription& body, const std::string& meshFile, int number) {
   const auto& [elasticity, flow] = body.material;
   out << "string name" << number << " = \"" << body.name << "\";\n"
       << "string meshFile" << number << " = "
-      << freefemString(body.mesh, body.meshWhere + ": body " + body.name + ": mesh") << ";\n"
+      << freefemString(meshFile, body.meshWhere + ": body " + body.name + ": mesh") << ";\n"
       << "string projection" << number << " = \"" << word(flow ? flow->projection : Projection::frobenius)
       << "\";\n"
       << "real E" << number << " = " << shortest(elasticity.young) << ", nu" << number << " = "
@@ -112,7 +119,8 @@ std::string distances(const SceneDescription& scene, const Model& model) {
   return text.empty() ? text : "macro distances " + text + "//  interface, its bodies, distance\n";
 }
 
-std::string script(const SceneDescription& scene, const Model& model) {
+std::string script(const SceneDescription& scene, const Model& model,
+                   const std::vector<std::string>& meshFiles) {
   const std::string method = methodFolder(scene.path);
   const int bodies = static_cast<int>(scene.bodies.size());
   std::ostringstream out;
@@ -123,7 +131,7 @@ std::string script(const SceneDescription& scene, const Model& model) {
       << "macro eachBody(what)";
   for (int b = 0; b < bodies; ++b) out << " what(" << b + 1 << ')';
   out << " //\n";
-  for (int b = 0; b < bodies; ++b) writeBody(out, scene.bodies[b], b + 1);
+  for (int b = 0; b < bodies; ++b) writeBody(out, scene.bodies[b], meshFiles[b], b + 1);
   out << "\n// Boundary conditions and loads, functions of x, y and t\n";
   for (int b = 0; b < bodies; ++b) writeConditions(out, scene.bodies[b], b + 1);
   out << rollers(scene)
@@ -169,8 +177,6 @@ void requireKnown(const SceneDescription& scene) {
     if (stressed || !body.regions.empty()) {
       refuse(body.where + ": body " + body.name + ": regions or initial stress", "neither");
     }
-    if (isGmshFile(body.mesh))
-      refuse(body.meshWhere + ": body " + body.name + ": mesh " + body.mesh, "a .mesh file");
   }
 }
 
@@ -208,14 +214,28 @@ void requireSmooth(const SceneDescription& scene, const Model& model) {
 
 int writeFreefem(const FreefemCommand& command) {
   // 1. The scene, checked as for a run of our own.
-  const SceneDescription scene = readScene(command.scene, command.settings);
+  ResolvedScene resolved = resolveScene(readScene(command.scene, command.settings));
   std::vector<std::string> warnings;
-  const Model model = buildModel(scene, warnings);
+  const Model model = buildModel(resolved, warnings);
+  const SceneDescription& scene = resolved.description;
   requireKnown(scene);
   requireSmooth(scene, model);
 
-  // 2. The script.
-  const std::string text = script(scene, model);
+  // 2. The meshes that FreeFEM does not read, beside the script.
+  std::vector<std::string> meshFiles;
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    const BodyDescription& body = scene.bodies[b];
+    meshFiles.push_back(body.mesh.path);
+    if (isReadByFreefem(body.mesh)) continue;
+    if (command.file.empty())
+      throw InputError(body.meshWhere + ": body " + body.name + ": mesh " + body.mesh.path +
+                       ", expected a file for the script, beside which the mesh is written for FreeFEM");
+    meshFiles.back() = (fs::path(command.file).replace_extension() += "-" + body.name + ".mesh").string();
+    writeMedit(model.bodies[b].mesh(), meshFiles.back());
+  }
+
+  // 3. The script.
+  const std::string text = script(scene, model, meshFiles);
   if (command.file.empty()) {
     std::cout << text;
     return exitDone;

@@ -6,11 +6,11 @@
 #include <map>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "commands/exit_code.h"
 #include "mesh/boundary_line.h"
 #include "mesh/generate.h"
 #include "mesh/medit.h"
-#include "mesh/read.h"
 
 namespace mortier {
 
@@ -55,6 +55,13 @@ Value parseWord(const std::string& option, const std::string& text,
     known += (known.empty() ? "" : ", ") + word;
   }
   throw InputError(option + " " + text + ": expected one of " + known);
+}
+
+/// ", name" of a label that has one.
+std::string named(const std::map<std::string, int>& names, int label) {
+  for (const auto& [name, number] : names)
+    if (number == label) return ", " + printable(name);
+  return "";
 }
 
 struct Made {
@@ -111,9 +118,17 @@ int makeMesh(const MeshCommand& command) {
   return exitDone;
 }
 
+int convertMesh(const ConvertCommand& command) {
+  const TriangleMesh mesh = readMesh(command.source);
+  writeMedit(mesh, command.file);
+  std::printf("%s: %zu vertices, %zu triangles\n", command.file.c_str(), mesh.vertices.size(),
+              mesh.triangles.size());
+  return exitDone;
+}
+
 int meshInfo(const std::string& file) {
   // 1. Read; the reader validates.
-  const TriangleMesh mesh = readMesh(file);
+  const TriangleMesh mesh = readMesh({file});
 
   // 2. Extents and area.
   Point lower = mesh.vertices.front();
@@ -154,10 +169,11 @@ int meshInfo(const std::string& file) {
       upper[1]);
   std::printf("worst aspect ratio %.3g (triangle %d; 1 is equilateral)\n", worst, worstTriangle + 1);
   for (const auto& [label, what] : boundary) {
-    std::printf("label %-5d %d edges, length %.9g m\n", label, what.first, what.second);
+    std::printf("label %-5d %d edges, length %.9g m%s\n", label, what.first, what.second,
+                named(mesh.labelNames, label).c_str());
   }
   for (const auto& [region, count] : regions) {
-    std::printf("region %-4d %d triangles\n", region, count);
+    std::printf("region %-4d %d triangles%s\n", region, count, named(mesh.regionNames, region).c_str());
   }
   return exitDone;
 }

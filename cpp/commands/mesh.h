@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "mesh/read.h"
+
 namespace mortier {
 
 /// `mortier mesh FAMILY`: a labelled mesh of a simple shape (mesh/generate.h), options as given.
@@ -27,6 +29,15 @@ struct MeshCommand {
 
 /// \throws InputError, OutputError
 int makeMesh(const MeshCommand& command);
+
+/// `mortier mesh convert`: any mesh that a scene can name as a Medit file, with the names of its labels.
+struct ConvertCommand {
+  MeshSource source;
+  std::string file;
+};
+
+/// \throws InputError, OutputError
+int convertMesh(const ConvertCommand& command);
 
 /// `mortier mesh info`: counts, labels with their lengths, extents, worst triangle. \throws InputError
 int meshInfo(const std::string& file);

@@ -67,7 +67,20 @@ std::function<int()> addMeshCommand(CLI::App& app) {
   const auto file = std::make_shared<std::string>();
   CLI::App* info = mesh.add_subcommand("info", "counts, labels, extents, worst triangle");
   info->add_option("FILE", *file, "Medit .mesh file")->required();
-  return [=] { return info->parsed() ? meshInfo(*file) : makeMesh(*command); };
+
+  auto conversion = std::make_shared<ConvertCommand>();
+  CLI::App* convert =
+      mesh.add_subcommand("convert", "any mesh or geometry that a scene can name, as a Medit .mesh file");
+  convert->add_option("FROM", conversion->source.path, "Medit .mesh file, or a file for Gmsh")->required();
+  convert->add_option("TO", conversion->file, "Medit .mesh file to write")->required();
+  convert->add_option("--region", conversion->source.regions, "regions to keep, by name or number");
+  convert->add_option("--size", conversion->source.size, "longest edge of a geometry that is meshed [m]")
+      ->check(CLI::PositiveNumber);
+  return [=] {
+    return info->parsed()      ? meshInfo(*file)
+           : convert->parsed() ? convertMesh(*conversion)
+                               : makeMesh(*command);
+  };
 }
 
 }  // namespace mortier

@@ -26,7 +26,6 @@
 #include "scene/load_courses.h"
 #include "scene/memory_need.h"
 #include "scene/settle.h"
-#include "scene/sides.h"
 #include "scene/versions.h"
 
 namespace mortier {
@@ -157,11 +156,11 @@ int run(RunCommand command) {
     command.out = command.restart;
   }
   RunIdentity identity = identityOf(command);
-  SceneDescription scene = readScene(command.scene, command.settings);
-  scene.solver.threads = command.threads;
+  ResolvedScene resolved = resolveScene(readScene(command.scene, command.settings));
   std::vector<std::string> warnings;
-  const Model model = buildModel(scene, warnings);
-  decideSides(scene, meshesOf(model));
+  const Model model = buildModel(resolved, warnings);
+  SceneDescription& scene = resolved.description;
+  scene.solver.threads = command.threads;
   for (auto warning = warnings.begin(); warning != warnings.end(); ++warning)  // of several components once
     if (std::find(warnings.begin(), warning, *warning) == warning) warn(*warning);
 

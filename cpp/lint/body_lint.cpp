@@ -68,6 +68,19 @@ Meeting meet(const TriangleMesh& a, const Topology& boundaryOfA, const TriangleM
   return result;
 }
 
+/// Whether both are the same triangles: those of one file, and no region apart.
+bool sameMesh(const MeshSource& one, const MeshSource& two) {
+  std::error_code ignored;
+  if (!std::filesystem::equivalent(one.path, two.path, ignored)) return false;
+  const auto in = [](const std::string& region, const MeshSource& source) {
+    return source.regions.empty() ||
+           std::find(source.regions.begin(), source.regions.end(), region) != source.regions.end();
+  };
+  return one.regions.empty() || two.regions.empty() ||
+         std::any_of(one.regions.begin(), one.regions.end(),
+                     [&](const auto& region) { return in(region, two); });
+}
+
 void comparePair(const LintInput& input, size_t i, size_t j, Faults& faults) {
   const BodyDescription& one = input.scene.bodies[i];
   const BodyDescription& two = input.scene.bodies[j];
@@ -84,7 +97,7 @@ void comparePair(const LintInput& input, size_t i, size_t j, Faults& faults) {
     faults.add("stiffness-ratio", input.whereInBody(young < 1 ? i : j, {"material", "young"}),
                both + " have young = " + shortest(one.material.elasticity.young) + " Pa and " +
                    shortest(two.material.elasticity.young) + " Pa");
-  if (std::error_code ignored; std::filesystem::equivalent(one.mesh, two.mesh, ignored)) {
+  if (sameMesh(one.mesh, two.mesh)) {
     faults.add("same-mesh", two.meshWhere, both + " are meshed by the same file and lie on each other");
     return;
   }

@@ -9,8 +9,8 @@
 #include "scene/build.h"
 #include "scene/memory_need.h"
 #include "scene/overrides.h"
+#include "scene/resolve.h"
 #include "scene/settle.h"
-#include "scene/sides.h"
 #include "solver/step.h"
 
 namespace mortier {
@@ -44,27 +44,6 @@ std::string whereIn(const Node& node, const std::vector<std::string>& keys) {
     at = next;
   }
   return at->where;
-}
-
-/// Labels that are names get the number that the mesh gives them, one that no mesh has where it gives none.
-void numberLabels(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes) {
-  constexpr int none = -2;
-  const auto find = [&](const std::map<std::string, int>& names, const std::string& name, int& label) {
-    if (name.empty()) return;
-    const auto found = names.find(name);
-    label = found == names.end() ? none : found->second;
-  };
-  const auto number = [&](size_t body, const std::string& name, int& label) {
-    if (meshes[body] != nullptr) find(meshes[body]->labelNames, name, label);
-  };
-  for (size_t b = 0; b < scene.bodies.size(); ++b) {
-    for (ConditionDescription& c : scene.bodies[b].conditions) number(b, c.labelName, c.label);
-    for (RegionDescription& region : scene.bodies[b].regions)
-      if (meshes[b] != nullptr) find(meshes[b]->regionNames, region.labelName, region.label);
-  }
-  for (ContactDescription& contact : scene.contacts)
-    for (SideDescription* side : {&contact.nonmortar, &contact.mortar})
-      number(static_cast<size_t>(bodyIndex(scene, side->body)), side->labelName, side->label);
 }
 
 /// How deep the bodies of a contact overlap, as meshed or as its gap says: what is pressed together is no accident.
@@ -120,10 +99,11 @@ void requireHeld(const SceneDescription& scene, const Model& model) {
 }
 
 /// What only the model can say: data where they are used, and whether everything is held.
-void build(const SceneDescription& scene, LintReport& report) {
+void build(ResolvedScene resolved, LintReport& report) {
+  const SceneDescription& scene = resolved.description;
   try {
     std::vector<std::string> doubts;  // named above, each with its remedy
-    Model model = buildModel(scene, doubts);
+    Model model = buildModel(resolved, doubts);
     requireHeld(scene, model);
     State state = initialState(model);
     if (const std::string doubt = settle(scene, model, state); !doubt.empty())
@@ -172,7 +152,8 @@ LintReport lint(const std::string& path, const std::vector<std::string>& setting
       report.faults.add("allow-unknown", whereIn(document, {"check", "allow"}), "no fault is called " + id);
   }
   LintInput input{{scene, {}}, document, {}};
-  std::deque<TriangleMesh> meshes;
+  std::vector<TriangleMesh> meshes;
+  meshes.reserve(scene.bodies.size());
   for (const BodyDescription& body : scene.bodies) {
     input.meshes.push_back(nullptr);
     input.topologies.emplace_back();
@@ -183,12 +164,11 @@ LintReport lint(const std::string& path, const std::vector<std::string>& setting
       addError(error, "mesh-file", report.faults);
     }
   }
-  numberLabels(scene, input.meshes);
-  decideSides(scene, input.meshes);
+  resolveWhatCanBe(scene, input.meshes);
   for (const ContactDescription& contact : scene.contacts)
     input.interference.push_back(interferenceOf(contact, input));
   runChecks(input, report.faults);
-  if (report.faults.count(Severity::error) == 0) build(scene, report);
+  if (report.faults.count(Severity::error) == 0) build({scene, std::move(meshes)}, report);
   return report;
 }
 

@@ -4,17 +4,22 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
+#include <regex>
 #include <set>
 #include <type_traits>
 
 #include "base/archive.h"
 #include "base/child_process.h"
 #include "base/error.h"
+#include "mesh/regions.h"
 
 #ifdef MORTIER_GMSH
 #include <dlfcn.h>
@@ -34,9 +39,9 @@ bool isGmshFile(const std::string& path) {
 
 #ifndef MORTIER_GMSH
 
-TriangleMesh readGmsh(const std::string& path) {
+TriangleMesh readGmsh(const MeshSource& source) {
   throw InputError(
-      path +
+      source.path +
       ": read by Gmsh, which this build is without (libgmsh-dev was not there); expected a Medit "
       ".mesh file, which gmsh -2 -format mesh writes");
 }
@@ -54,18 +59,54 @@ void visitMembers(Archive& archive, TriangleMesh& mesh) {
 
 namespace {
 
+std::string decimal(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+/// Gmsh overlooks a number that no constant of the geometry takes.
+void requireParameters(const MeshSource& source) {
+  if (source.parameters.empty()) return;
+  std::ifstream file(source.path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::set<std::string> known;
+  const std::regex block(R"(DefineConstant\s*\[([^\]]*)\])");
+  const std::regex constant(R"(([A-Za-z_]\w*)\s*=)");
+  for (std::sregex_iterator found(text.begin(), text.end(), block), end; found != end; ++found) {
+    const std::string inside = (*found)[1];
+    for (std::sregex_iterator name(inside.begin(), inside.end(), constant); name != end; ++name)
+      known.insert((*name)[1]);
+  }
+  for (const auto& [name, value] : source.parameters)
+    if (known.count(name) == 0) {
+      std::string list;
+      for (const std::string& each : known) list += (list.empty() ? "" : ", ") + each;
+      throw InputError(source.path + ": no constant " + name + ", expected " +
+                       (list.empty() ? "a geometry with DefineConstant[...]"
+                                     : "one that its DefineConstant names: " + list));
+    }
+}
+
 /// Gmsh, from its start to its end, with one file.
 class Gmsh {
  public:
-  explicit Gmsh(std::string path) : path_(std::move(path)) {
+  explicit Gmsh(const MeshSource& source) : path_(source.path) {
     library_ = dlopen(MORTIER_GMSH, RTLD_NOW);
     if (library_ == nullptr) throw InputError(path_ + ": Gmsh cannot be loaded: " + dlerror());
     // Later versions ask as well whether to run as a program.
+    std::vector<std::string> words{"gmsh"};
+    for (const auto& [name, value] : source.parameters)
+      words.insert(words.end(), {"-setnumber", name, decimal(value)});
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    const int count = static_cast<int>(arguments.size());
     if constexpr (std::is_invocable_v<decltype(gmshInitialize), int, char**, int, int*>)
-      call<decltype(gmshInitialize)>("gmshInitialize", 0, nullptr, 0);
+      call<decltype(gmshInitialize)>("gmshInitialize", count, arguments.data(), 0);
     else
-      call<decltype(gmshInitialize)>("gmshInitialize", 0, nullptr, 0, 0);
+      call<decltype(gmshInitialize)>("gmshInitialize", count, arguments.data(), 0, 0);
     call<decltype(gmshOptionSetNumber)>("gmshOptionSetNumber", "General.Terminal", 0.0);
+    if (source.size > 0)
+      call<decltype(gmshOptionSetNumber)>("gmshOptionSetNumber", "Mesh.MeshSizeMax", source.size);
   }
   Gmsh(const Gmsh&) = delete;
   Gmsh& operator=(const Gmsh&) = delete;
@@ -225,12 +266,17 @@ Point middleOn(const Gmsh& gmsh, int curve, double z, const Point& a, const Poin
   return (point - a - half).norm() < half.norm() ? point : none;
 }
 
-TriangleMesh readHere(const std::string& path) {
+TriangleMesh readHere(const MeshSource& source) {
   constexpr int line = 1;
   constexpr int triangle = 2;
-  const Gmsh gmsh(path);
+  const std::string& path = source.path;
+  requireParameters(source);
+  const Gmsh gmsh(source);
   gmsh.call<decltype(gmshOpen)>("gmshOpen", path.c_str());
-  if (elementTypes(gmsh, 2).empty()) gmsh.call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", 2);
+  if (elementTypes(gmsh, 2).empty())
+    gmsh.call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", 2);
+  else if (source.size > 0)
+    throw InputError(path + ": size, expected only for a geometry: this file is a mesh");
   for (const int type : elementTypes(gmsh, 2))
     if (type != triangle)
       throw InputError(path + ": elements of Gmsh's type " + std::to_string(type) +
@@ -262,10 +308,6 @@ TriangleMesh readHere(const std::string& path) {
       }
     }
   }
-  // Curves inside a body are of no use as its boundary.
-  std::map<std::pair<int, int>, int> triangles;
-  for (const auto& corners : mesh.triangles)
-    for (int k = 0; k < 3; ++k) ++triangles[std::minmax(corners[k], corners[(k + 1) % 3])];
   for (const Group& group : groups(gmsh, 1)) {
     if (!group.name.empty()) mesh.labelNames[group.name] = group.number;
     for (const int entity : group.entities) {
@@ -274,9 +316,6 @@ TriangleMesh readHere(const std::string& path) {
       for (size_t i = 0; i + 1 < ends.size(); i += 2) {
         const int a = vertex(ends[i]);
         const int b = vertex(ends[i + 1]);
-        if (const auto found = triangles.find(std::minmax(a, b));
-            found != triangles.end() && found->second > 1)
-          continue;
         mesh.boundaryEdges.push_back({a, b});
         mesh.boundaryLabels.push_back(group.number);
         mesh.edgeMiddles.push_back(shaped
@@ -289,17 +328,22 @@ TriangleMesh readHere(const std::string& path) {
                    [](const Point& p) { return p.allFinite(); }))
     mesh.edgeMiddles.clear();
   mesh.name = path;
+  if (source.regions.empty())
+    dropInnerEdges(mesh);
+  else
+    keepRegions(mesh, source.regions);
   validate(mesh);
   return mesh;
 }
 
 }  // namespace
 
-TriangleMesh readGmsh(const std::string& path) {
+TriangleMesh readGmsh(const MeshSource& source) {
+  const std::string& path = source.path;
   if (std::error_code ignored; !std::filesystem::is_regular_file(path, ignored))
     throw InputError(path + ": not a file, expected a mesh or a geometry for Gmsh");
   const auto work = [&] {
-    TriangleMesh mesh = readHere(path);
+    TriangleMesh mesh = readHere(source);
     ArchiveWriter writer;
     writer(mesh);
     return writer.bytes;

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "mesh/triangle_mesh.h"
+#include "mesh/read.h"
 
 namespace mortier {
 
@@ -12,7 +12,8 @@ bool isGmshFile(const std::string& path);
 
 /// Physical curves become boundary labels, physical surfaces regions, with their numbers and names; where
 /// there are none, the curves or surfaces themselves, without names. \throws InputError when Gmsh cannot read
-/// the file, when it is no sound plane mesh of linear triangles, or when this build has no Gmsh.
-TriangleMesh readGmsh(const std::string& path);
+/// the file, when it is no sound plane mesh of linear triangles, when a parameter is none of the geometry's, or when this
+/// build has no Gmsh.
+TriangleMesh readGmsh(const MeshSource& source);
 
 }  // namespace mortier

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/whole_file.h"
 #include "mesh/medit_words.h"
+#include "mesh/regions.h"
 
 namespace mortier {
 namespace {
@@ -67,9 +68,15 @@ class Parser {
  public:
   Parser(const std::string& path, std::string_view text) : words_(path, text) { mesh_.name = path; }
 
-  TriangleMesh parse() {
+  TriangleMesh parse(const std::vector<std::string>& regions) {
     readHeader();
     while (readSection()) {
+    }
+    readNames();
+    if (!regions.empty() && verticesAreThere()) {
+      keepRegions(mesh_, regions);
+      validate(mesh_);
+      return std::move(mesh_);
     }
     validate(mesh_, [this](MeshPart part, int index) { return words_.place(offset(part, index)); });
     return std::move(mesh_);
@@ -96,9 +103,26 @@ class Parser {
     words_.number<int>("a version number");
     found = words_.next();
     if (found != "Dimension") words_.failAt(found, "Dimension");
-    const int dimension = words_.number<int>("a dimension");
-    if (dimension != 2)
-      words_.fail(words_.lastEnd() - 1, "Dimension " + std::to_string(dimension) + ", expected 2");
+    dimension_ = words_.number<int>("a dimension");
+    if (dimension_ != 2 && dimension_ != 3)
+      words_.fail(words_.lastEnd() - 1, "Dimension " + std::to_string(dimension_) + ", expected 2 or 3");
+  }
+
+  // Lines after the End of the format (medit.h).
+  void readNames() {
+    while (const auto name = words_.nextName()) {
+      if (name->of == "label") mesh_.labelNames[std::string(name->name)] = name->number;
+      if (name->of == "region") mesh_.regionNames[std::string(name->name)] = name->number;
+    }
+  }
+
+  [[nodiscard]] bool verticesAreThere() const {
+    const int n = int(mesh_.vertices.size());
+    const auto isThere = [n](int v) { return v < n; };
+    return std::all_of(mesh_.triangles.begin(), mesh_.triangles.end(),
+                       [&](const auto& t) { return std::all_of(t.begin(), t.end(), isThere); }) &&
+           std::all_of(mesh_.boundaryEdges.begin(), mesh_.boundaryEdges.end(),
+                       [&](const auto& e) { return std::all_of(e.begin(), e.end(), isThere); });
   }
 
   // Returns whether another section may follow.
@@ -130,7 +154,9 @@ class Parser {
     const auto* const section = std::find_if(std::begin(skippedSections), std::end(skippedSections),
                                              [&](const auto& s) { return s.keyword == keyword; });
     if (section == std::end(skippedSections)) words_.failAt(keyword, "Vertices, Edges, Triangles or End");
-    const std::int64_t values = std::int64_t(count(keyword, section->width)) * section->width;
+    const bool isVector = keyword == "Tangents" || keyword == "Normals";
+    const int width = isVector ? dimension_ : section->width;
+    const std::int64_t values = std::int64_t(count(keyword, width)) * width;
     for (std::int64_t i = 0; i < values; ++i) words_.number<double>("a number");
   }
 
@@ -160,11 +186,18 @@ class Parser {
   }
 
   void readVertices() {
-    const int n = begin("Vertices", vertices_, 3);
+    const int n = begin("Vertices", vertices_, dimension_ + 1);
     mesh_.vertices.reserve(n);
+    double plane = 0;
     for (int i = 0; i < n; ++i) {
       const double x = words_.number<double>("a coordinate");
       const double y = words_.number<double>("a coordinate");
+      const double z = dimension_ == 3 ? words_.number<double>("a coordinate") : 0;
+      if (i == 0) plane = z;
+      if (z != plane)
+        words_.fail(words_.lastEnd() - 1,
+                    "vertex " + std::to_string(i + 1) + " at z = " + std::to_string(z) +
+                        ", expected all vertices in the plane z = " + std::to_string(plane));
       words_.number<int>("a label");
       mesh_.vertices.emplace_back(x, y);
     }
@@ -193,9 +226,14 @@ class Parser {
   }
 
   MeditWords words_;
+  int dimension_ = 2;
   Section vertices_, triangles_, edges_;
   TriangleMesh mesh_;
 };
+
+bool isOneLine(const std::string& name) {
+  return !name.empty() && std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < ' '; });
+}
 
 template <class Number>
 void append(std::string& out, Number value, char after) {
@@ -206,9 +244,9 @@ void append(std::string& out, Number value, char after) {
 
 }  // namespace
 
-TriangleMesh readMedit(const std::string& path) {
+TriangleMesh readMedit(const std::string& path, const std::vector<std::string>& regions) {
   const std::string text = readAll(path);
-  return Parser(path, text).parse();
+  return Parser(path, text).parse(regions);
 }
 
 void writeMedit(const TriangleMesh& mesh, const std::string& path) {
@@ -232,6 +270,12 @@ void writeMedit(const TriangleMesh& mesh, const std::string& path) {
     append(out, mesh.regions[t], '\n');
   }
   out += "\nEnd\n";
+  const auto appendNames = [&](const char* of, const std::map<std::string, int>& names) {
+    for (const auto& [name, number] : names)
+      if (isOneLine(name)) out += std::string("# ") + of + ' ' + std::to_string(number) + " = " + name + '\n';
+  };
+  appendNames("label", mesh.labelNames);
+  appendNames("region", mesh.regionNames);
 
   writeWhole(path, out);
 }

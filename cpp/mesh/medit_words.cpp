@@ -27,6 +27,28 @@ std::string_view MeditWords::next() {
   return text_.substr(begin, at_ - begin);
 }
 
+std::optional<MeditWords::Name> MeditWords::nextName() {
+  while (at_ < text_.size()) {
+    const size_t end = std::min(text_.find('\n', at_), text_.size());
+    std::string_view line = text_.substr(at_, end - at_);
+    at_ = std::min(end + 1, text_.size());
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    for (const std::string_view of : {"label", "region"}) {
+      const std::string head = "# " + std::string(of) + " ";
+      if (line.substr(0, head.size()) != head) continue;
+      Name name{of, 0, {}};
+      const char* const last = line.data() + line.size();
+      const auto [after, error] = std::from_chars(line.data() + head.size(), last, name.number);
+      name.name = line.substr(static_cast<size_t>(after - line.data()));
+      constexpr std::string_view equals = " = ";
+      if (error != std::errc() || name.name.substr(0, equals.size()) != equals) continue;
+      name.name.remove_prefix(equals.size());
+      if (!name.name.empty()) return name;
+    }
+  }
+  return std::nullopt;
+}
+
 void MeditWords::skipString() {
   skipBlanks();
   if (at_ == text_.size() || text_[at_] != '"') failAt(next(), "a string in double quotes");

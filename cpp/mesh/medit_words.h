@@ -2,6 +2,7 @@
 #pragma once
 
 #include <charconv>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -31,6 +32,14 @@ class MeditWords {
     at_ = begin;
     failAt(next(), what);
   }
+
+  /// The next line `# label 3 = top` or `# region 1 = punch`, from where this is to the end of the text.
+  struct Name {
+    std::string_view of;
+    int number = 0;
+    std::string_view name;
+  };
+  std::optional<Name> nextName();
 
   /// Passes a string in double quotes, which FreeFEM's savemesh writes into the head of its files.
   void skipString();

@@ -2,7 +2,6 @@
 
 #include "scene/build_body.h"
 #include "scene/build_contact.h"
-#include "scene/sides.h"
 
 namespace mortier {
 
@@ -16,23 +15,18 @@ std::vector<double> sampleTimes(const TimePlan& plan) {
 
 }  // namespace
 
-std::vector<const TriangleMesh*> meshesOf(const Model& model) {
-  std::vector<const TriangleMesh*> meshes;
-  for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
-  return meshes;
-}
-
-Model buildModel(const SceneDescription& description, std::vector<std::string>& warnings) {
+Model buildModel(ResolvedScene& scene, std::vector<std::string>& warnings) {
   Model model;
+  const SceneDescription& description = scene.description;
   const std::vector<double> times = sampleTimes(description.time);
   model.bodies.reserve(description.bodies.size());
-  for (const BodyDescription& body : description.bodies) {
-    model.bodies.push_back(buildBody(body, description.plane, times, warnings));
+  for (size_t b = 0; b < description.bodies.size(); ++b) {
+    model.bodies.push_back(
+        buildBody(description.bodies[b], std::move(scene.meshes[b]), description.plane, times, warnings));
   }
-  SceneDescription scene = description;
-  decideSides(scene, meshesOf(model));
-  for (const ContactDescription& contact : scene.contacts) {
-    addContact(scene, contact, model, warnings);
+  scene.meshes.clear();
+  for (const ContactDescription& contact : description.contacts) {
+    addContact(description, contact, model, warnings);
   }
   return model;
 }

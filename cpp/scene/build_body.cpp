@@ -4,9 +4,7 @@
 #include <sstream>
 
 #include "material/parts.h"
-#include "mesh/read.h"
 #include "scene/check_data.h"
-#include "scene/labels.h"
 
 namespace mortier {
 
@@ -76,17 +74,9 @@ void warnOfThinTriangles(const BodyDescription& body, const TriangleMesh& mesh,
 
 }  // namespace
 
-Body buildBody(BodyDescription body, Plane plane, const std::vector<double>& times,
+Body buildBody(const BodyDescription& body, TriangleMesh mesh, Plane plane, const std::vector<double>& times,
                std::vector<std::string>& warnings) {
-  TriangleMesh mesh = readMesh(body.mesh);
   warnOfThinTriangles(body, mesh, warnings);
-  const auto place = [&](const std::string& where) { return where + ": body " + body.name; };
-  for (ConditionDescription& c : body.conditions) {
-    c.label = boundaryLabel(mesh, c.label, c.labelName, place(c.where));
-  }
-  for (RegionDescription& region : body.regions) {
-    region.label = regionLabel(mesh, region.label, region.labelName, place(region.where));
-  }
   Conditions conditions;
   std::vector<const ConditionDescription*> displacements;
   for (const ConditionDescription& c : body.conditions) {

@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "mesh/boundary_line.h"
-#include "scene/labels.h"
 #include "scene/memory_need.h"
 
 namespace mortier {
@@ -17,8 +16,7 @@ namespace {
 void warnOfConditionsOn(const SideDescription& side, bool nonmortar, const SceneDescription& scene,
                         std::vector<std::string>& warnings) {
   for (const ConditionDescription& c : scene.bodies[bodyIndex(scene, side.body)].conditions) {
-    if (c.label == side.label && c.labelName == side.labelName &&
-        (c.kind == ConditionDescription::Kind::traction || nonmortar)) {
+    if (c.label == side.label && (c.kind == ConditionDescription::Kind::traction || nonmortar)) {
       warnings.push_back(c.value.where + ": label " + std::to_string(c.label) + " of body " + side.body +
                          " is in contact too; the condition is kept");
     }
@@ -49,8 +47,7 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
   for (const auto& [side, target] :
        {std::pair(&contact.nonmortar, &pair.nonmortar), std::pair(&contact.mortar, &pair.mortar)}) {
     target->body = bodyIndex(scene, side->body);
-    target->label = boundaryLabel(model.bodies[target->body].mesh(), side->label, side->labelName,
-                                  side->where + ": body " + side->body);
+    target->label = side->label;
   }
   warnOfConditionsOn(contact.nonmortar, true, scene, warnings);
   warnOfConditionsOn(contact.mortar, false, scene, warnings);

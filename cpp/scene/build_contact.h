@@ -9,10 +9,9 @@
 
 namespace mortier {
 
-/// Adds the interface to the model, which has its bodies; which side is nonmortar is decided (scene/sides.h).
+/// Adds the interface to the model, which has its bodies.
 /// Doubtful but legal input is added to `warnings`, one line each.
-/// \throws InputError with file and line: a label that the mesh does not have, a gap [m] that is not finite,
-/// sides that do not face each other.
+/// \throws InputError with file and line: a gap [m] that is not finite, sides that do not face each other.
 void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model,
                 std::vector<std::string>& warnings);
 

@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "mesh/boundary_line.h"
-#include "scene/labels.h"
 
 namespace mortier {
 namespace {
@@ -46,8 +45,7 @@ void forEachDatum(const SceneDescription& scene, const Model& model,
   for (size_t b = 0; b < scene.bodies.size(); ++b) {
     const TriangleMesh& mesh = model.bodies[b].mesh();
     for (const ConditionDescription& c : scene.bodies[b].conditions) {
-      const int label = boundaryLabel(mesh, c.label, c.labelName, c.where);
-      call(c.value, samplePoints(mesh, &label));
+      call(c.value, samplePoints(mesh, &c.label));
     }
     for (const std::optional<Expression>& force : scene.bodies[b].force)
       if (force) call(*force, samplePoints(mesh, nullptr));

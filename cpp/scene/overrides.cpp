@@ -89,7 +89,8 @@ void setInArray(Node& array, const Setting& setting, size_t depth, const std::st
 void set(Node& table, const Setting& setting, size_t depth, const std::string& schemaPath) {
   const std::string& word = setting.path[depth];
   const Keys& keys = keysOf(schemaPath);
-  if (!table.isTable() || std::find(keys.begin(), keys.end(), word) == keys.end()) {
+  const bool named = schemaPath == "body.mesh.parameters";  // by the geometry, not by the schema
+  if (!table.isTable() || (!named && std::find(keys.begin(), keys.end(), word) == keys.end())) {
     const std::string guess = nearest(word, keys);
     throw InputError(
         setting.where + ": no " + word + " in " + (schemaPath.empty() ? "the scene" : schemaPath) +

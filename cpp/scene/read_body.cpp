@@ -1,6 +1,7 @@
 #include "scene/read_body.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "base/error.h"
@@ -108,12 +109,40 @@ void readRegion(const Node& node, BodyDescription& body) {
 }
 
 /// Mesh paths are relative to the scene that names them, those of the command line to the current folder.
-std::string meshPath(const Node& node, const std::string& scenePath) {
+std::string pathOf(const Node& node, const std::string& scenePath) {
   const std::filesystem::path path(node.text);
   if (path.is_absolute() || node.fromCommandLine) {
     return path.string();
   }
   return (std::filesystem::path(scenePath).parent_path() / path).lexically_normal().string();
+}
+
+/// A path, or a table with what is to be made of the file.
+void readMeshSource(const TableReader& owner, const std::string& scenePath, BodyDescription& body) {
+  const Node& node = owner.require("mesh", "a Medit .mesh file, or a file for Gmsh");
+  body.meshWhere = node.where;
+  if (!node.isTable()) {
+    static_cast<void>(owner.string("mesh"));
+    body.mesh.path = pathOf(node, scenePath);
+  } else {
+    const TableReader table(node, "body.mesh", "body " + body.name + ": mesh");
+    static_cast<void>(table.string("file"));
+    body.mesh.path = pathOf(*table.find("file"), scenePath);
+    body.mesh.regions = table.labels("region");
+    if (table.find("size") != nullptr) body.mesh.size = table.number("size", above(0));
+    if (const Node* parameters = table.find("parameters")) {
+      if (!parameters->isTable()) table.reject("parameters", "a table of numbers, { R = 8, ... }");
+      for (const Node& parameter : parameters->members) {
+        if (!parameter.isNumeric() || !std::isfinite(parameter.value))
+          throw InputError(table.message(
+              parameter.where,
+              "parameters." + parameter.key + " = " + parameter.quoted() + ", expected a finite number"));
+        body.mesh.parameters[parameter.key] = parameter.value;
+      }
+    }
+  }
+  if (std::error_code ignored; !std::filesystem::is_regular_file(body.mesh.path, ignored))
+    owner.reject("mesh", "a Medit .mesh file, or a file for Gmsh (there is none at " + body.mesh.path + ")");
 }
 
 /// Names become file names.
@@ -136,13 +165,7 @@ BodyDescription readBody(const Node& node, const std::string& scenePath, size_t 
     table.reject("name", "letters, digits, _ and -");
   }
   const std::string subject = "body " + body.name;
-  static_cast<void>(table.string("mesh"));
-  const Node& mesh = *table.find("mesh");
-  body.mesh = meshPath(mesh, scenePath);
-  body.meshWhere = mesh.where;
-  if (std::error_code ignored; !std::filesystem::is_regular_file(body.mesh, ignored)) {
-    table.reject("mesh", "a Medit .mesh file (there is none at " + body.mesh + ")");
-  }
+  readMeshSource(table, scenePath, body);
   body.material =
       readMaterial(table.require("material", "{ young = ..., poisson = ... }"), "body.material", subject);
   body.initialStress = readInitialStress(table, "body.initial_stress", subject);

@@ -1,4 +1,5 @@
-// A scene as written: what docs/scene.md documents, validated key by key. build.h turns it into a Model.
+// A scene as written: what docs/scene.md documents, validated key by key. resolve.h decides what it leaves to its meshes,
+// build.h turns it into a Model.
 #pragma once
 
 #include <array>
@@ -8,6 +9,7 @@
 
 #include "contact/interface.h"
 #include "material/plane_strain.h"
+#include "mesh/read.h"
 #include "scene/expression.h"
 #include "time/march.h"
 
@@ -23,7 +25,7 @@ struct ConditionDescription {
   enum class Kind { displacement, traction };
   Kind kind = Kind::displacement;
   int label = 0;
-  std::string labelName;  ///< where the label is a name; buildModel finds its number
+  std::string labelName;  ///< where the label is a name; resolveScene finds it
   int component = 0;      ///< Component (fem/supports.h)
   Expression value;
   std::string where;  ///< file and line of the label, or the --set that gave it
@@ -35,7 +37,7 @@ using StressDescription = std::array<std::optional<Expression>, 4>;
 /// What is different in the triangles of one region.
 struct RegionDescription {
   int label = 0;
-  std::string labelName;  ///< where the label is a name; buildModel finds its number
+  std::string labelName;  ///< where the label is a name; resolveScene finds it
   std::optional<MaterialDescription> material;
   StressDescription initialStress;
   std::string where;
@@ -43,7 +45,7 @@ struct RegionDescription {
 
 struct BodyDescription {
   std::string name;
-  std::string mesh;  ///< path, as the program opens it
+  MeshSource mesh;
   std::string meshWhere;
   MaterialDescription material;
   std::optional<Expression> force[2];  ///< x and y [N/m^3]
@@ -56,7 +58,7 @@ struct BodyDescription {
 struct SideDescription {
   std::string body;
   int label = 0;
-  std::string labelName;  ///< where the label is a name; buildModel finds its number
+  std::string labelName;  ///< where the label is a name; resolveScene finds it
   std::string where;
 };
 

@@ -10,6 +10,7 @@ const Keys& keysOf(const std::string& path) {
   static const std::map<std::string, Keys> tables = {
       {"", {"title", "plane", "body", "contact", "time", "solver", "output", "check"}},
       {"body", {"name", "mesh", "material", "force", "boundary", "region", "initial_stress"}},
+      {"body.mesh", {"file", "region", "size", "parameters"}},
       {"body.initial_stress", {"s11", "s22", "s12", "s33"}},
       {"body.region", {"label", "material", "initial_stress"}},
       {"body.region.material", {"young", "poisson", "viscosity", "yield_stress", "projection"}},

@@ -13,14 +13,8 @@ std::optional<double> meanEdge(const SceneDescription& scene, const SideDescript
                                const std::vector<const TriangleMesh*>& meshes) {
   const TriangleMesh* mesh = meshes[bodyIndex(scene, side.body)];
   if (mesh == nullptr) return std::nullopt;
-  int label = side.label;
-  if (!side.labelName.empty()) {
-    const auto found = mesh->labelNames.find(side.labelName);
-    if (found == mesh->labelNames.end()) return std::nullopt;
-    label = found->second;
-  }
   double length = 0;
-  const auto edges = edgesOn(*mesh, label);
+  const auto edges = edgesOn(*mesh, side.label);
   if (edges.empty()) return std::nullopt;
   for (const auto& [a, b] : edges) length += (mesh->vertices[b] - mesh->vertices[a]).norm();
   return length / static_cast<double>(edges.size());

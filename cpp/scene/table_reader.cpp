@@ -146,6 +146,23 @@ TableReader::Label TableReader::label(const std::string& key) const {
   return {integer(key, 0), ""};
 }
 
+std::vector<std::string> TableReader::labels(const std::string& key) const {
+  std::vector<std::string> result;
+  const Node* node = find(key);
+  if (node == nullptr) return result;
+  const bool isList = node->isArray();
+  for (size_t i = 0; i < (isList ? node->elements.size() : 1); ++i) {
+    const Node& each = isList ? node->elements[i] : *node;
+    const bool isName = each.isString() && !each.text.empty();
+    const bool isNumber = each.isNumeric() && each.value == std::floor(each.value) && each.value >= 0 &&
+                          each.value <= std::numeric_limits<int>::max();
+    if (!isName && !isNumber) reject(key, "an integer >= 0, a name in the mesh, or a list of them");
+    result.push_back(isName ? each.text : std::to_string(static_cast<int>(each.value)));
+  }
+  if (result.empty()) reject(key, "one label or more");
+  return result;
+}
+
 std::vector<double> TableReader::numbers(const std::string& key) const {
   const Node* node = find(key);
   if (node == nullptr || !node->isArray()) {

@@ -52,6 +52,8 @@ class TableReader {
     std::string name;
   };
   [[nodiscard]] Label label(const std::string& key) const;
+  /// One label or a list of them, as text; none where the key is missing.
+  [[nodiscard]] std::vector<std::string> labels(const std::string& key) const;
   /// An array of finite numbers.
   [[nodiscard]] std::vector<double> numbers(const std::string& key) const;
   /// A number, an expression in x, y, t, or a table in time.

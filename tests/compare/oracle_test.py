@@ -1,12 +1,16 @@
 """mortier and FreeFEM agree on the scenes; faults of the FreeFEM method that the compression test does not see are caught."""
 import shutil
+import tempfile
 import unittest
+from pathlib import Path
 
 import support
+from both import compare_runs
 from cases import SCENES, UNKNOWN_TO_FREEFEM, SceneCase, scene_cases
 from codes import RunError, run_freefem, run_mortier
 from compare import compare
 from oracle import compare_scenes
+from scenes import GEOMETRY_KEYS, PARTS_GEO
 
 COMPRESSION = SceneCase("compression", "interpolation", changes=(
     "time.steps=3", "body.upper.mesh=shared-meshes/block-upper-3.mesh", "body.lower.mesh=shared-meshes/block-lower-5.mesh"))
@@ -21,6 +25,14 @@ class Oracle(unittest.TestCase):
     def test_every_scene_is_compared_or_refused(self):
         scenes = {path.stem for path in (support.ROOT / "scenes").glob("*.toml")}
         self.assertEqual(scenes, {"compression"} | SCENES.keys() | UNKNOWN_TO_FREEFEM.keys())
+
+    def test_bodies_that_are_regions_of_a_geometry(self):
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = Path(temporary)
+            (folder / "parts.geo").write_text(PARTS_GEO)
+            (folder / "scene.toml").write_text(GEOMETRY_KEYS.replace("tx = -6", "tx = \"-6*y\""))
+            row = compare_runs(folder, [], folder / "scene.toml")
+        self.assertTrue(row["agree"], row["verdict"])
 
     def test_what_freefem_does_not_know_is_refused(self):
         for name, reason in UNKNOWN_TO_FREEFEM.items():

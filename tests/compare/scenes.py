@@ -116,6 +116,38 @@ reduce = false
 allow = ["few-steps-across-yield", "stiffness-ratio"]
 """
 
+# Two squares side by side in one geometry, PARTS_GEO as parts.geo; the other keys that a scene can have.
+GEOMETRY_KEYS = """\
+[[body]]
+name = "left"
+mesh = { file = "parts.geo", region = "left half", size = 0.25, parameters = { width = 1.5 } }
+material = { young = 100, poisson = 0 }
+boundary = [ { label = "left", ux = 0 }, { label = "base", uy = 0 } ]
+[[body]]
+name = "right"
+mesh = { file = "parts.geo", region = ["right half"], size = 0.2, parameters = { width = 1.5 } }
+material = { young = 100, poisson = 0 }
+boundary = [ { label = "right", tx = -6 }, { label = "base", uy = 0 } ]
+[contact]
+nonmortar = { body = "left", label = "between" }
+mortar = { body = "right", label = "between" }
+[time]
+end = 1
+steps = 1
+"""
+
+PARTS_GEO = """\
+DefineConstant[ width = {1, Name "Parameters/width"}, depth = 1 ];
+Point(1) = {0, 0, 0}; Point(2) = {width, 0, 0}; Point(3) = {2*width, 0, 0};
+Point(4) = {0, depth, 0}; Point(5) = {width, depth, 0}; Point(6) = {2*width, depth, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 6}; Line(4) = {6, 5}; Line(5) = {5, 4}; Line(6) = {4, 1}; Line(7) = {2, 5};
+Curve Loop(1) = {1, 7, 5, 6}; Plane Surface(1) = {1};
+Curve Loop(2) = {-7, 2, 3, 4}; Plane Surface(2) = {2};
+Physical Curve("base", 1) = {1, 2}; Physical Curve("right", 2) = {3}; Physical Curve("top", 3) = {4, 5};
+Physical Curve("left", 4) = {6}; Physical Curve("between", 9) = {7};
+Physical Surface("left half", 1) = {1}; Physical Surface("right half", 2) = {2};
+"""
+
 ONE_BODY = """\
 [[body]]
 name = "block"

@@ -7,6 +7,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "compare"))
 
+from scenes import GEOMETRY_KEYS, PARTS_GEO  # noqa: E402
 from support import OfTwoBlocks, mortier  # noqa: E402
 
 POINTS = [(0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1)]
@@ -131,6 +132,81 @@ every = 1
                 if row["step"] == "0"]
         self.assertGreater(len(gaps), 10)
         self.assertLess(max(gaps), 0.02 * sagitta)
+
+    def hasGmsh(self):
+        return "this build is without" not in mortier("mesh", "info", "parts.geo", cwd=self.folder).stderr
+
+    def test_two_bodies_in_one_geometry(self):
+        # Each region is a body of its own: pressed on each other they carry 6, and pulled apart they part.
+        self.write(PARTS_GEO, "parts.geo")
+        self.write(GEOMETRY_KEYS)
+        if not self.hasGmsh():
+            return
+        run = self.mortier("run", "scene.toml", "--quiet", "--out", "pressed")
+        self.assertEqual(run.stderr, "")
+        summary = json.loads(self.read("pressed/summary.json"))
+        self.assertAlmostEqual(summary["final"]["von_mises_min"], 6, places=10)
+        self.assertAlmostEqual(summary["final"]["von_mises_max"], 6, places=10)
+        self.assertAlmostEqual(summary["final"]["displacement_min"][0], -0.06 * 3, places=10)
+        checked = mortier("check", "scene.toml", cwd=self.folder)
+        self.assertNotIn("same-mesh", checked.stdout)
+        self.assertIn("\n0 errors", checked.stdout)
+        self.mortier("run", "scene.toml", "--quiet", "--set", "body.right.boundary.right.tx=6", code=3)
+        # The same body twice is named.
+        both = mortier("check", "scene.toml", "--set", "body.right.mesh.region=['left half', 'right half']", cwd=self.folder)
+        self.assertIn("[same-mesh]", both.stdout)
+
+    def test_meshes_of_a_geometry_as_asked_for(self):
+        self.write(PARTS_GEO, "parts.geo")
+        self.write(GEOMETRY_KEYS)
+        if not self.hasGmsh():
+            return
+        for size, fewest, most in ((0.5, 20, 200), (0.1, 300, 3000)):
+            self.mortier("mesh", "convert", "parts.geo", "all.mesh", "--size", str(size))
+            lines = self.read("all.mesh").splitlines()
+            count = int(lines[lines.index("Triangles") + 1])
+            self.assertTrue(fewest < count < most, count)
+        self.mortier("mesh", "convert", "parts.geo", "right.mesh", "--region", "right half")
+        info = self.mortier("mesh", "info", "right.mesh").stdout
+        for part in ("area       1 m^2", "length 1 m, base", "length 1 m, between", "triangles, right half"):
+            self.assertIn(part, info)
+
+    def test_a_converted_mesh_keeps_what_was_drawn(self):
+        self.write(PARTS_GEO, "parts.geo")
+        plain = GEOMETRY_KEYS.replace(", parameters = { width = 1.5 }", "").replace(", size = 0.25", "").replace(", size = 0.2", "")
+        self.write(plain)
+        if not self.hasGmsh():
+            return
+        left, right = '{ file = "parts.geo", region = "left half" }', '{ file = "parts.geo", region = ["right half"] }'
+        for name in ("left", "right"):
+            self.mortier("mesh", "convert", "parts.geo", f"{name}.mesh", "--region", f"{name} half")
+        final = []
+        for scene in (plain, plain.replace(left, '"left.mesh"').replace(right, '"right.mesh"')):
+            self.write(scene)
+            self.mortier("run", "scene.toml", "--quiet", "--out", "run")
+            final.append(json.loads(self.read("run/summary.json"))["final"])
+        self.assertEqual(*final)
+        self.reject('--set contact.mortar.label=betwen: body right: label = "betwen", expected one of base, between', "run", "scene.toml", "--quiet",
+                    "--set", "contact.mortar.label=betwen")
+
+    def test_what_a_geometry_does_not_have(self):
+        self.write(PARTS_GEO, "parts.geo")
+        self.write(GEOMETRY_KEYS)
+        if not self.hasGmsh():
+            return
+        for setting, message in (
+                ("body.left.mesh.parameters.wdth=2", "parts.geo: no constant wdth, expected one that its DefineConstant names: depth, width"),
+                ("body.left.mesh.region=middle", "parts.geo: no region middle, expected one of 1 (left half), 2 (right half)"),
+                ("body.left.mesh.region=3", "parts.geo: no region 3, expected one of 1 (left half), 2 (right half)"),
+                ("body.left.mesh.region=[]", "region = an array, expected one label or more"),
+                ("body.left.mesh.size=0", "size = 0, expected size > 0"),
+                ("body.left.mesh.parameters.width=a", "parameters.width = \"a\", expected a finite number"),
+                ("body.left.mesh.file=upper.mesh", "upper.mesh: size or parameters, expected only for a geometry that Gmsh meshes")):
+            with self.subTest(setting):
+                done = mortier("run", "scene.toml", "--quiet", "--set", setting, cwd=self.folder)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(message, done.stderr)
+                self.assertEqual(done.stderr.count("\n"), 1)
 
     def check_refused(self):
         for name in FILES:

@@ -88,7 +88,9 @@ TEST(Medit, namesTheLineOfAFault) {
   };
   const Fault faults[] = {
       {"MeshVersionFormatted", "MeshFormat", ":1: 'MeshFormat', expected MeshVersionFormatted"},
-      {"Dimension 2", "Dimension 3", ":2: Dimension 3, expected 2"},
+      {"Dimension 2", "Dimension 1", ":2: Dimension 1, expected 2 or 3"},
+      {"Dimension 2", "Dimension 3",
+       ":7: vertex 2 at z = 1.000000, expected all vertices in the plane z = 0.000000"},
       {"Dimension 2", "Dimension two", ":2: 'two', expected a dimension"},
       {"Vertices", "Nodes", ":3: 'Nodes', expected Vertices, Edges, Triangles or End"},
       {"Vertices\n4", "Vertices\n3", ":8: '0', expected Vertices, Edges"},
@@ -163,6 +165,48 @@ TEST(Medit, roundTripIsBitExact) {
   EXPECT_EQ(back.regions, mesh.regions);
   EXPECT_EQ(back.boundaryEdges, mesh.boundaryEdges);
   EXPECT_EQ(back.boundaryLabels, mesh.boundaryLabels);
+}
+
+// As Gmsh writes it.
+TEST(Medit, readsThreeCoordinatesInAPlane) {
+  std::string text = replaced(square, "Dimension 2", "Dimension 3");
+  text = replaced(text, "0 0 0\n1 0 0\n1 1 0\n0 1 0\n", "0 0 2 0\n1 0 2 0\n1 1 2 0\n0 1 2 0\n");
+  EXPECT_EQ(readText(text).vertices, readText(square).vertices);
+}
+
+TEST(Medit, namesStandBehindTheEnd) {
+  TriangleMesh mesh =
+      readText(square + "\n# label 2 = right side\r\n# label 9 = \n# region 8 = a = b\n# title\n");
+  EXPECT_EQ(mesh.labelNames, (std::map<std::string, int>{{"right side", 2}}));
+  EXPECT_EQ(mesh.regionNames, (std::map<std::string, int>{{"a = b", 8}}));
+  mesh.labelNames["two\nlines"] = 1;
+  const TemporaryFile file;
+  writeMedit(mesh, file.path);
+  const TriangleMesh back = readMedit(file.path);
+  EXPECT_EQ(back.labelNames, (std::map<std::string, int>{{"right side", 2}}));
+  EXPECT_EQ(back.regionNames, mesh.regionNames);
+}
+
+// The diagonal is a side of both triangles: labelled, it is a fault of the whole and a boundary of each.
+TEST(Medit, regionsAreBodies) {
+  std::string text = replaced(square, "Edges\n2\n", "Edges\n3\n3 1 5\n");
+  EXPECT_NE(messageOf([&] { readText(text); }).find("lies between two triangles"), std::string::npos);
+  const TemporaryFile file(text);
+  const TriangleMesh upper = readMedit(file.path, {"8"});
+  EXPECT_EQ(upper.vertices, (std::vector<Point>{{0, 0}, {1, 1}, {0, 1}}));
+  EXPECT_EQ(upper.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}}));
+  EXPECT_EQ(upper.boundaryEdges, (std::vector<std::array<int, 2>>{{0, 1}}));
+  EXPECT_EQ(upper.boundaryLabels, (std::vector<int>{5}));
+  EXPECT_EQ(readMedit(file.path, {"7"}).boundaryLabels, (std::vector<int>{5, 1, 2}));
+  EXPECT_EQ(messageOf([&] {
+              readMedit(file.path, {"7", "9"});
+            }),
+            file.path + ": no region 9, expected one of 7, 8");
+  EXPECT_EQ(messageOf([&] { readMedit(file.path, {"7x"}); }),
+            file.path + ": no region 7x, expected one of 7, 8");
+  // A fault is told with its line, whatever is kept.
+  const TemporaryFile broken(replaced(text, "1 3 4 8", "1 3 5 8"));
+  EXPECT_NE(messageOf([&] { readMedit(broken.path, {"7"}); }).find(":17: triangle 2"), std::string::npos);
 }
 
 // Each fault of a mesh shows itself as InputError or not at all; sanitizers see the rest.

@@ -52,7 +52,8 @@ steps = 4
   }
   static Model model(const SceneDescription& description) {
     std::vector<std::string> warnings;
-    return buildModel(description, warnings);
+    ResolvedScene resolved = resolveScene(description);
+    return buildModel(resolved, warnings);
   }
 
   std::string folder;

@@ -14,7 +14,6 @@
 #include "scene/load_courses.h"
 #include "scene/overrides.h"
 #include "scene/schema.h"
-#include "scene/sides.h"
 #include "unit/messages.h"
 
 namespace mortier {
@@ -45,6 +44,11 @@ end = 2
 steps = 20
 )toml";
 
+Model modelOf(const SceneDescription& scene, std::vector<std::string>& warnings) {
+  ResolvedScene resolved = resolveScene(scene);
+  return buildModel(resolved, warnings);
+}
+
 /// A folder with two meshes and a scene.
 class SceneFiles : public testing::Test {
  protected:
@@ -63,7 +67,7 @@ class SceneFiles : public testing::Test {
   [[nodiscard]] std::string fault(const std::vector<std::string>& settings) const {
     std::string text = messageOf([&] {
       std::vector<std::string> warnings;
-      return buildModel(readScene(path(), settings), warnings);
+      return modelOf(readScene(path(), settings), warnings);
     });
     for (size_t at = text.find(folder + "/"); at != std::string::npos; at = text.find(folder + "/")) {
       text.erase(at, folder.size() + 1);
@@ -80,7 +84,7 @@ TEST_F(SceneFiles, readsEveryKey) {
   ASSERT_EQ(scene.bodies.size(), 2u);
   const BodyDescription& upper = scene.bodies[0];
   EXPECT_EQ(upper.name, "upper");
-  EXPECT_EQ(upper.mesh, folder + "/upper.mesh");
+  EXPECT_EQ(upper.mesh.path, folder + "/upper.mesh");
   EXPECT_EQ(upper.material.elasticity.young, 3e11);
   ASSERT_TRUE(upper.material.viscoplasticity);
   EXPECT_EQ(upper.material.viscoplasticity->viscosity, 10);
@@ -102,7 +106,7 @@ TEST_F(SceneFiles, readsEveryKey) {
 
 TEST_F(SceneFiles, buildsTheModel) {
   std::vector<std::string> warnings;
-  const Model model = buildModel(readScene(path(), {"contact.swap=true"}), warnings);
+  const Model model = modelOf(readScene(path(), {"contact.swap=true"}), warnings);
   ASSERT_EQ(model.bodies.size(), 2u);
   ASSERT_EQ(model.interfaces.size(), 1u);
   EXPECT_EQ(model.interfaces[0].pair().nonmortar.body, 1);
@@ -123,18 +127,34 @@ TEST_F(SceneFiles, sidesAreDecidedInOnePlace) {
     for (const bool swapped : {false, true}) {
       write(text.substr(0, begin) + "sides = [" + sides + "]\nswap = " + (swapped ? "true" : "false") + "\n" +
             text.substr(end));
-      SceneDescription scene = readScene(path());
-      const Model model = buildModel(scene, warnings);
+      ResolvedScene resolved = resolveScene(readScene(path()));
+      const SceneDescription& scene = resolved.description;
       const int nonmortar = swapped ? 0 : 1;
-      EXPECT_EQ(model.interfaces[0].pair().nonmortar.body, nonmortar);
-      decideSides(scene, meshesOf(model));
       EXPECT_EQ(scene.contacts[0].nonmortar.body, nonmortar == 0 ? "upper" : "lower");
       EXPECT_EQ(scene.contacts[0].choice,
                 swapped ? "nonmortar is the coarser mesh (swap)" : "nonmortar is the finer mesh");
-      decideSides(scene, meshesOf(model));
-      EXPECT_EQ(scene.contacts[0].nonmortar.body, nonmortar == 0 ? "upper" : "lower");
-      EXPECT_EQ(buildModel(scene, warnings).interfaces[0].pair().nonmortar.body, nonmortar);
+      EXPECT_EQ(buildModel(resolved, warnings).interfaces[0].pair().nonmortar.body, nonmortar);
+      ResolvedScene again = resolveScene(scene);
+      EXPECT_EQ(again.description.contacts[0].nonmortar.body, nonmortar == 0 ? "upper" : "lower");
+      EXPECT_EQ(buildModel(again, warnings).interfaces[0].pair().nonmortar.body, nonmortar);
     }
+}
+
+// Names of conditions, regions and sides become the numbers of the mesh; what it does not have, one that no mesh has.
+TEST_F(SceneFiles, labelsAreNumbersOnceResolved) {
+  SceneDescription scene = readScene(path());
+  TriangleMesh mesh = crissCrossMesh({{0, 0}, {1, 1}, 2, 2});
+  mesh.labelNames = {{"base", 1}, {"top", 3}};
+  mesh.regionNames = {{"core", 7}};
+  scene.bodies[0].conditions[1].labelName = "top";
+  scene.bodies[0].conditions[0].labelName = "topp";
+  scene.bodies[0].regions = {RegionDescription{0, "core", {}, {}, ""}};
+  scene.contacts[0].nonmortar.labelName = "base";
+  resolveWhatCanBe(scene, {&mesh, nullptr});
+  EXPECT_EQ(scene.bodies[0].conditions[1].label, 3);
+  EXPECT_LT(scene.bodies[0].conditions[0].label, 0);
+  EXPECT_EQ(scene.bodies[0].regions[0].label, 7);
+  EXPECT_EQ(scene.contacts[0].nonmortar.label, 1);
 }
 
 // The upper mesh is the coarser one.
@@ -145,7 +165,7 @@ TEST_F(SceneFiles, sidesInAnyOrderAndInitialDistances) {
     const size_t begin = text.find("nonmortar");
     const size_t end = text.find("[time]");
     write(text.substr(0, begin) + contact + "\n" + text.substr(end));
-    return buildModel(readScene(path()), warnings);
+    return modelOf(readScene(path()), warnings);
   };
   const std::string upper = "{ body = \"upper\", label = 1 }";
   const std::string lower = "{ body = \"lower\", label = 3 }";
@@ -183,7 +203,7 @@ TEST_F(SceneFiles, overridesByNameByLabelByIndexAndForAll) {
 
 TEST_F(SceneFiles, overriddenMeshIsRelativeToTheCurrentFolder) {
   const SceneDescription scene = readScene(path(), {"body.upper.mesh=" + folder + "/lower.mesh"});
-  EXPECT_EQ(scene.bodies[0].mesh, folder + "/lower.mesh");
+  EXPECT_EQ(scene.bodies[0].mesh.path, folder + "/lower.mesh");
   EXPECT_NE(fault({"body.upper.mesh=upper.mesh"}).find("there is none at upper.mesh"), std::string::npos);
 }
 
@@ -222,7 +242,7 @@ TEST_F(SceneFiles, stepsByTheirErrorNeedATolerance) {
   EXPECT_EQ(scene.time.breaks, (std::vector<double>{0.25, 1.5}));
   // The jump of the lower support's datum is found beside them.
   std::vector<std::string> warnings;
-  EXPECT_EQ(loadCourses(scene, buildModel(scene, warnings)).breaks,
+  EXPECT_EQ(loadCourses(scene, modelOf(scene, warnings)).breaks,
             (std::vector<double>{0.25, 1, std::nextafter(1.0, 2.0), 1.5}));
   const std::vector<std::pair<std::vector<std::string>, std::string>> faults = {
       {{"time.tolerance=0"}, "--set time.tolerance=0: time: tolerance = 0, expected 0 < tolerance < 1"},
@@ -243,7 +263,7 @@ TEST_F(SceneFiles, stepsByTheirErrorNeedATolerance) {
 
 TEST_F(SceneFiles, warnsOfTractionOnAContactLabel) {
   std::vector<std::string> warnings;
-  buildModel(readScene(path(), {"body.upper.boundary={label=1, tx=3}"}), warnings);
+  modelOf(readScene(path(), {"body.upper.boundary={label=1, tx=3}"}), warnings);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("label 1 of body upper is in contact too"), std::string::npos);
 }
@@ -291,7 +311,7 @@ TEST_F(SceneFiles, breaksOfTablesAreAllKnown) {
                "body.lower.boundary={label=1, un={time=[-1, 1.3, 1.3000001, 3], value=[0, 0, 1e-9, 0]}}",
                "body.lower.force.x={time=[0.5, 1], value=[0, 1]}"});
   std::vector<std::string> warnings;
-  EXPECT_EQ(loadCourses(scene, buildModel(scene, warnings)).breaks,
+  EXPECT_EQ(loadCourses(scene, modelOf(scene, warnings)).breaks,
             (std::vector<double>{0.3001, 0.3002, 0.5, 1, 1.3, 1.3000001}));
 }
 

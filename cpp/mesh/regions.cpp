@@ -1,0 +1,103 @@
+#include "mesh/regions.h"
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+
+#include "base/error.h"
+
+namespace mortier {
+namespace {
+
+std::string regionsOf(const TriangleMesh& mesh) {
+  const std::set<int> present(mesh.regions.begin(), mesh.regions.end());
+  std::string text;
+  for (const int region : present) {
+    text += (text.empty() ? "" : ", ") + std::to_string(region);
+    for (const auto& [name, number] : mesh.regionNames)
+      if (number == region) text += " (" + name + ")";
+  }
+  return text;
+}
+
+int numberOf(const std::string& region, const TriangleMesh& mesh) {
+  const auto named = mesh.regionNames.find(region);
+  int number = 0;
+  const char* const end = region.data() + region.size();
+  const bool isNumber = std::from_chars(region.data(), end, number).ptr == end;
+  if (named != mesh.regionNames.end()) number = named->second;
+  if ((named != mesh.regionNames.end() || isNumber) &&
+      std::find(mesh.regions.begin(), mesh.regions.end(), number) != mesh.regions.end())
+    return number;
+  throw InputError(mesh.name + ": no region " + region + ", expected one of " + regionsOf(mesh));
+}
+
+template <class Keep>
+void keepEdges(TriangleMesh& mesh, const Keep& keep) {
+  size_t kept = 0;
+  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
+    if (!keep(mesh.boundaryEdges[e])) continue;
+    mesh.boundaryEdges[kept] = mesh.boundaryEdges[e];
+    mesh.boundaryLabels[kept] = mesh.boundaryLabels[e];
+    if (!mesh.edgeMiddles.empty()) mesh.edgeMiddles[kept] = mesh.edgeMiddles[e];
+    ++kept;
+  }
+  mesh.boundaryEdges.resize(kept);
+  mesh.boundaryLabels.resize(kept);
+  if (!mesh.edgeMiddles.empty()) mesh.edgeMiddles.resize(kept);
+}
+
+/// The sides of all triangles, smaller vertex first, in order: one that two triangles share stands there twice.
+std::vector<std::pair<int, int>> sidesOf(const TriangleMesh& mesh) {
+  std::vector<std::pair<int, int>> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (const auto& corners : mesh.triangles)
+    for (int k = 0; k < 3; ++k) sides.emplace_back(std::minmax(corners[k], corners[(k + 1) % 3]));
+  std::sort(sides.begin(), sides.end());
+  return sides;
+}
+
+auto timesIn(const std::vector<std::pair<int, int>>& sides, const std::array<int, 2>& edge) {
+  const auto [first, last] =
+      std::equal_range(sides.begin(), sides.end(), std::pair<int, int>(std::minmax(edge[0], edge[1])));
+  return last - first;
+}
+
+}  // namespace
+
+void keepRegions(TriangleMesh& mesh, const std::vector<std::string>& regions) {
+  std::set<int> wanted;
+  for (const std::string& region : regions) wanted.insert(numberOf(region, mesh));
+  size_t kept = 0;
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (wanted.count(mesh.regions[t]) == 0) continue;
+    mesh.triangles[kept] = mesh.triangles[t];
+    mesh.regions[kept++] = mesh.regions[t];
+  }
+  mesh.triangles.resize(kept);
+  mesh.regions.resize(kept);
+  const auto sides = sidesOf(mesh);
+  keepEdges(mesh, [&](const std::array<int, 2>& edge) { return timesIn(sides, edge) == 1; });
+
+  std::vector<int> numbers(mesh.vertices.size(), -1);
+  std::vector<Point> vertices;
+  const auto renumber = [&](int& v) {
+    if (numbers[v] < 0) {
+      numbers[v] = static_cast<int>(vertices.size());
+      vertices.push_back(mesh.vertices[v]);
+    }
+    v = numbers[v];
+  };
+  for (auto& corners : mesh.triangles)
+    for (int& v : corners) renumber(v);
+  for (auto& edge : mesh.boundaryEdges)
+    for (int& v : edge) renumber(v);
+  mesh.vertices = std::move(vertices);
+}
+
+void dropInnerEdges(TriangleMesh& mesh) {
+  const auto sides = sidesOf(mesh);
+  keepEdges(mesh, [&](const std::array<int, 2>& edge) { return timesIn(sides, edge) < 2; });
+}
+
+}  // namespace mortier

@@ -1,0 +1,65 @@
+#include "scene/resolve.h"
+
+#include <functional>
+
+#include "mesh/read.h"
+#include "scene/labels.h"
+#include "scene/sides.h"
+
+namespace mortier {
+namespace {
+
+using NumberLabel =
+    std::function<void(int body, int& label, const std::string& name, const std::string& where)>;
+
+void forEachLabel(SceneDescription& scene, const NumberLabel& boundary, const NumberLabel& region) {
+  for (int b = 0; b < static_cast<int>(scene.bodies.size()); ++b) {
+    for (ConditionDescription& c : scene.bodies[b].conditions) boundary(b, c.label, c.labelName, c.where);
+    for (RegionDescription& r : scene.bodies[b].regions) region(b, r.label, r.labelName, r.where);
+  }
+  for (ContactDescription& contact : scene.contacts)
+    for (SideDescription* side : {&contact.nonmortar, &contact.mortar})
+      boundary(bodyIndex(scene, side->body), side->label, side->labelName, side->where);
+}
+
+std::vector<const TriangleMesh*> pointersTo(const std::vector<TriangleMesh>& meshes) {
+  std::vector<const TriangleMesh*> pointers;
+  for (const TriangleMesh& mesh : meshes) pointers.push_back(&mesh);
+  return pointers;
+}
+
+}  // namespace
+
+ResolvedScene resolveScene(SceneDescription scene) {
+  std::vector<TriangleMesh> meshes;
+  for (const BodyDescription& body : scene.bodies) meshes.push_back(readMesh(body.mesh));
+  const auto place = [&](int body, const std::string& where) {
+    return where + ": body " + scene.bodies[body].name;
+  };
+  forEachLabel(
+      scene,
+      [&](int body, int& label, const std::string& name, const std::string& where) {
+        label = boundaryLabel(meshes[body], label, name, place(body, where));
+      },
+      [&](int body, int& label, const std::string& name, const std::string& where) {
+        label = regionLabel(meshes[body], label, name, place(body, where));
+      });
+  decideSides(scene, pointersTo(meshes));
+  return {std::move(scene), std::move(meshes)};
+}
+
+void resolveWhatCanBe(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes) {
+  constexpr int none = -2;
+  const auto number = [&](std::map<std::string, int> TriangleMesh::*names) {
+    return [&meshes, names](int body, int& label, const std::string& name, const std::string& /*where*/) {
+      if (meshes[body] == nullptr || name.empty()) return;
+      const auto& known = meshes[body]->*names;
+      const auto found = known.find(name);
+      label = found == known.end() ? none : found->second;
+    };
+  };
+  forEachLabel(scene, number(&TriangleMesh::labelNames), number(&TriangleMesh::regionNames));
+  decideSides(scene, meshes);
+}
+
+}  // namespace mortier
