@@ -122,12 +122,15 @@ class Environment(OfTwoBlocks):
         (self.folder / "dangling").symlink_to("nothing")
         (self.folder / "mine.failed").symlink_to("nothing")
         self.write("{}", "closed/out/summary.json")
-        program = shutil.copy(PROGRAM, self.folder)  # where every user reaches it, wherever the build is
-        run = [program, "run", "scene.toml", "--quiet", "--set", "time.steps=100000000", "--out"]
+        program = shutil.copy(PROGRAM, self.folder)  # where every user reaches it, wherever the build is and whatever the umask
+        run = [program, "run", "scene.toml", "--quiet", "--set", "time.steps=1000000", "--out"]
         user = {}
         if os.geteuid() == 0:  # as a user who owns nothing of it
             for path in (self.folder, self.folder / "shared"):
                 path.chmod(0o1777)
+            for path in (self.folder / "shared/theirs", *self.folder.iterdir()):
+                if path.is_file() or path.name == "theirs":
+                    path.chmod(0o755)
             user = {"user": 65534}
         else:
             (self.folder / "shared/theirs").chmod(0o555)

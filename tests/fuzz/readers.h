@@ -17,6 +17,7 @@
 #include "base/printable.h"
 #include "mesh/gmsh.h"
 #include "mesh/medit.h"
+#include "mesh/read.h"
 #include "report/checkpoint.h"
 #include "report/checkpoint_members.h"
 #include "scene/expression.h"
@@ -55,7 +56,7 @@ inline void readBytes(char reader, const std::string& bytes) {
       readMedit(File(bytes).path());
       break;
     case 'g':
-      readGmsh(File(bytes).path());
+      readGmsh({File(bytes).path()});
       break;
     case 'e':
       parseExpression(bytes, "here").value(0.5, -1, 2);
