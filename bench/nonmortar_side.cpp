@@ -16,14 +16,14 @@ namespace {
 using namespace mortier;
 using namespace mortier::scenes;
 
-struct Pair {
+struct MeshPair {
   int cells[2];  // of the upper and the lower body
   double young[2];
   double poisson[2];
   double error[2];  // with the upper, the lower body nonmortar
 };
 
-double energyError(const Pair& pair, CouplingKind coupling, int nonmortar) {
+double energyError(const MeshPair& pair, CouplingKind coupling, int nonmortar) {
   const HalfOpenContact upper({pair.young[0], pair.poisson[0]}, false);
   const HalfOpenContact lower({pair.young[1], pair.poisson[1]}, true);
   const Model model = contactModel(upper.body(pair.cells[0]), lower.body(pair.cells[1]), coupling, nonmortar);
@@ -38,7 +38,7 @@ double energyError(const Pair& pair, CouplingKind coupling, int nonmortar) {
 
 struct Rule {
   const char* text;
-  std::function<int(const Pair&)> side;
+  std::function<int(const MeshPair&)> side;
 };
 
 }  // namespace
@@ -48,24 +48,24 @@ int main(int count, char** arguments) {
   std::mt19937 random(count > 2 ? static_cast<unsigned>(std::atoi(arguments[2])) : 1);
   std::uniform_real_distribution<double> unit(0, 1);
   const Rule rules[] = {
-      {"upper", [](const Pair&) { return 0; }},
-      {"finer mesh", [](const Pair& p) { return p.cells[0] >= p.cells[1] ? 0 : 1; }},
-      {"coarser mesh", [](const Pair& p) { return p.cells[0] >= p.cells[1] ? 1 : 0; }},
-      {"softer body", [](const Pair& p) { return p.young[0] <= p.young[1] ? 0 : 1; }},
-      {"stiffer body", [](const Pair& p) { return p.young[0] <= p.young[1] ? 1 : 0; }},
+      {"upper", [](const MeshPair&) { return 0; }},
+      {"finer mesh", [](const MeshPair& p) { return p.cells[0] >= p.cells[1] ? 0 : 1; }},
+      {"coarser mesh", [](const MeshPair& p) { return p.cells[0] >= p.cells[1] ? 1 : 0; }},
+      {"softer body", [](const MeshPair& p) { return p.young[0] <= p.young[1] ? 0 : 1; }},
+      {"stiffer body", [](const MeshPair& p) { return p.young[0] <= p.young[1] ? 1 : 0; }},
       {"larger E h",
-       [](const Pair& p) { return p.young[0] / p.cells[0] >= p.young[1] / p.cells[1] ? 0 : 1; }},
+       [](const MeshPair& p) { return p.young[0] / p.cells[0] >= p.young[1] / p.cells[1] ? 0 : 1; }},
       {"smaller E h",
-       [](const Pair& p) { return p.young[0] / p.cells[0] >= p.young[1] / p.cells[1] ? 1 : 0; }},
+       [](const MeshPair& p) { return p.young[0] / p.cells[0] >= p.young[1] / p.cells[1] ? 1 : 0; }},
       {"larger E / h",
-       [](const Pair& p) { return p.young[0] * p.cells[0] >= p.young[1] * p.cells[1] ? 0 : 1; }},
+       [](const MeshPair& p) { return p.young[0] * p.cells[0] >= p.young[1] * p.cells[1] ? 0 : 1; }},
       {"smaller E / h",
-       [](const Pair& p) { return p.young[0] * p.cells[0] >= p.young[1] * p.cells[1] ? 1 : 0; }},
+       [](const MeshPair& p) { return p.young[0] * p.cells[0] >= p.young[1] * p.cells[1] ? 1 : 0; }},
   };
   for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::interpolation}) {
-    std::vector<Pair> all;
+    std::vector<MeshPair> all;
     for (int i = 0; i < pairs; ++i) {
-      Pair pair{};
+      MeshPair pair{};
       for (const int b : {0, 1}) {
         pair.cells[b] = static_cast<int>(std::lround(4 * std::pow(10, unit(random))));
         pair.young[b] = std::pow(10, 3 * unit(random));
@@ -82,7 +82,7 @@ int main(int count, char** arguments) {
     for (const Rule& rule : rules) {
       int good = 0;
       double worst = 1;
-      for (const Pair& pair : all) {
+      for (const MeshPair& pair : all) {
         const double ratio = pair.error[rule.side(pair)] / std::min(pair.error[0], pair.error[1]);
         good += ratio <= 1.1 ? 1 : 0;
         worst = std::max(worst, ratio);

@@ -51,7 +51,7 @@ class Environment(OfTwoBlocks):
         tables = re.search(r"tables = \{(.*?)\n  \};", (ROOT / "cpp/scene/schema.cpp").read_text(), re.S)[1]
         keys = {key for inner in re.findall(r"\{\"[\w.]*\", \{(.*?)\}\}", tables, re.S) for key in re.findall(r"\w+", inner)}
         self.assertGreater(len(keys), 40)
-        written = set(re.findall(r"\w+(?= = )|(?<=\[)\w+|(?<=\.)\w+(?=\])", CONTACT_KEYS + BODY_KEYS + GEOMETRY_KEYS))
+        written = set(re.findall(r"\w+(?= = )|(?<=\[)\w+|(?<=\.)\w+(?=\])", CONTACT_KEYS + BODY_KEYS + GEOMETRY_KEYS + ONE_BODY))
         self.assertEqual(keys - written, set())
 
     def test_mutated_scenes_and_meshes(self):

@@ -162,6 +162,7 @@ Physical Surface("left half", 1) = {1}; Physical Surface("right half", 2) = {2};
 """
 
 ONE_BODY = """\
+degree = 2
 [[body]]
 name = "block"
 mesh = "upper.mesh"

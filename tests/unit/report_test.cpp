@@ -307,7 +307,7 @@ TEST_F(Output, gapIsPositiveApart) {
 }
 
 TEST_F(Output, historyHasAsManyColumnsAsItsHeader) {
-  History history(path, {});
+  History history(path, std::vector<Quantity>());
   StepReport report;
   report.penetration = 1.25e-18;
   history.add(report, {});
