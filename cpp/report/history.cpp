@@ -17,9 +17,9 @@ History::History(const std::string& folder, const std::vector<Quantity>& quantit
 void History::add(const StepReport& r, const std::vector<double>& values) {
   const Certificate& c = r.certificate;
   file_ << r.step << ',' << r.time << ',' << r.timeStep << ',' << r.estimate << ',' << r.rejections << ','
-        << (r.guarded ? 1 : 0) << ',' << nameOf(r.rung) << ',' << r.iterations << ',' << r.factorisations << ','
-        << r.active << ',' << r.joined << ',' << r.left << ',' << r.penetration << ',' << r.maxPressure << ','
-        << r.contactForce << ',' << r.resultantX << ',' << r.resultantY << ',' << r.vonMises << ','
+        << (r.guarded ? 1 : 0) << ',' << nameOf(r.rung) << ',' << r.iterations << ',' << r.factorisations
+        << ',' << r.active << ',' << r.joined << ',' << r.left << ',' << r.penetration << ',' << r.maxPressure
+        << ',' << r.contactForce << ',' << r.resultantX << ',' << r.resultantY << ',' << r.vonMises << ','
         << r.displacement << ',' << r.energy << ',' << r.viscoplasticFraction << ',' << c.forceBalance << ','
         << c.materialResidual << ',' << c.gapOnActive << ',' << c.sign << ',' << c.complementarity << ','
         << c.openPenetration << ',' << c.rounding;

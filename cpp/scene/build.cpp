@@ -21,8 +21,7 @@ Model buildModel(ResolvedScene& scene) {
   const std::vector<double> times = sampleTimes(description.time);
   model.bodies.reserve(description.bodies.size());
   for (size_t b = 0; b < description.bodies.size(); ++b) {
-    model.bodies.push_back(
-        buildBody(description.bodies[b], std::move(scene.meshes[b]), description, times));
+    model.bodies.push_back(buildBody(description.bodies[b], std::move(scene.meshes[b]), description, times));
   }
   scene.meshes.clear();
   for (const ContactDescription& contact : description.contacts) {

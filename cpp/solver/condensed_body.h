@@ -16,7 +16,8 @@ namespace mortier {
 /// Linearises the law of a body at its iterate (material/material.h).
 struct BodyLaw {
   /// In the points [begin, end).
-  std::function<LawReport(const BodyIterate& iterate, Linearisation& result, int begin, int end)> inBlock = {};
+  std::function<LawReport(const BodyIterate& iterate, Linearisation& result, int begin, int end)> inBlock =
+      {};
   /// Or at all points, the strain known everywhere.
   std::function<void(const BodyIterate& iterate, Linearisation& result)> everywhere = {};
 };

@@ -8,8 +8,8 @@ namespace mortier {
 /// How much is done before a step is given up.
 enum class Effort {
   little,  ///< Newton's method alone: for a step that is likely to be too long
-  usual,  ///< for a step that may as well be cut
-  all     ///< also what takes thousands of linear solves
+  usual,   ///< for a step that may as well be cut
+  all      ///< also what takes thousands of linear solves
 };
 
 /// Solves from `guess`, falling back to a start from `state0`; the solution is left in `guess`.
