@@ -223,10 +223,16 @@ class Truth {
     State state = initialState(model_);
     TimePlan plan = case_.plan(Scheme::sdirk2, tolerance);
     plan.maxSteps = 1000000;
-    const RunReport run = mortier::march(model_, state, plan, {}, [&](const State& now, const StepReport&) {
-      times_.push_back(now.time);
-      keep(now);
-    });
+    const RunReport run =
+        mortier::march(model_, state, plan, {}, [&](const State& now, const StepReport& report) {
+          if (report.step == 0) {  // the run begins, or begins again
+            times_.clear();
+            states_.clear();
+            norms_.clear();
+          }
+          times_.push_back(now.time);
+          keep(now);
+        });
     if (run.status != Status::converged) std::printf("reference: %s\n", run.reason.c_str());
   }
 
