@@ -132,12 +132,12 @@ Integrals integrate(const SmoothPart& part, const FacingLine& mortar, const Dist
   return result;
 }
 
-/// W^-1 B
-Sparse projected(const Factor& W, const Sparse& B) {
+/// Phi^-1 B
+Sparse projected(const Factor& mass, const Sparse& B) {
   Triplets entries;
   for (int j = 0; j < B.outerSize(); ++j) {
     if (B.col(j).nonZeros() == 0) continue;
-    const Vector column = W.solve(Vector(B.col(j)));
+    const Vector column = mass.solve(Vector(B.col(j)));
     for (Eigen::Index i = 0; i < column.size(); ++i)
       if (std::abs(column[i]) > nothing) entries.emplace_back(static_cast<int>(i), j, column[i]);
   }
@@ -177,10 +177,10 @@ Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mor
     }
     result.C2 = matrix(mortar, seen);
   } else if (kind == CouplingKind::mortar) {
-    const Factor W(result.mass);
-    result.C1 += projected(W, matrix(part, integrals.D));
-    result.C2 = projected(W, matrix(mortar, integrals.M));
-    result.distance = W.solve(integrals.distance);
+    const Factor mass(result.mass);
+    result.C1 += projected(mass, matrix(part, integrals.D));
+    result.C2 = projected(mass, matrix(mortar, integrals.M));
+    result.distance = mass.solve(integrals.distance);
   } else {
     const Vector w = result.mass * Vector::Ones(n);
     const auto lumped = w.asDiagonal();

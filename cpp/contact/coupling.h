@@ -4,31 +4,31 @@
 // traces sum phi_k u1_k and sum psi_l u2_l of the elements, and row functions chi_i,
 //
 //   interpolation  (C u)_i = j(s_i)
-//   mortar         C u = W^-1 int chi j ds,   W_ij = int chi_i chi_j ds:   the L2 projection of the jump
+//   mortar         C u = Phi^-1 int chi j ds,   Phi_ij = int chi_i chi_j ds:   the L2 projection of the jump
 //   weighted       C u = w^-1 int chi j ds,   w_i = int chi_i ds:          its means
 //
-// so that the nodal forces of the pressure sum pi_i chi_i are W pi, or w pi; w is W lumped. In the field's words
-// C u = W^-1 (D u1 - M u2), D_ik = int chi_i n phi_k the matrix of the nonmortar side and M_il = int chi_i n psi_l that of
-// the mortar side (the note writes D for the latter, and M for W). chi are the shape functions phi; with `weighted` they are the
+// so that the nodal forces of the pressure sum pi_i chi_i are Phi pi, or w pi; w is Phi lumped. In the field's words
+// C u = Phi^-1 (D u1 - M u2), D_ik = int chi_i n phi_k the matrix of the nonmortar side and M_il = int chi_i n psi_l that of
+// the mortar side (the note writes D for the latter, and M for Phi). chi are the shape functions phi; with `weighted` they are the
 // hat functions of the vertices, whatever the degree, and p >= 0 says that the pressure is so at every point.
 //
 // Integrals are Gauss's on the common refinement, exact where the part is straight (quadrature on the elements of one
 // side would fail the patch test). Where only one vertex of an element has a row (the mortar side ends inside the
-// element, or the other vertex is merged into it), its chi goes on as 1: constants are still reproduced, and W stays
+// element, or the other vertex is merged into it), its chi goes on as 1: constants are still reproduced, and Phi stays
 // well conditioned however small the piece.
 //
 // The projection is taken of the difference from the motion of the row's own node along its own n_i,
 //
-//   W^-1 D u1 = n . u1 at the nodes + W^-1 int chi (n . u1 - sum chi_i n_i . u1_i) ds,
+//   Phi^-1 D u1 = n . u1 at the nodes + Phi^-1 int chi (n . u1 - sum chi_i n_i . u1_i) ds,
 //
-// where the second term is zero on straight parts and sparse everywhere: of W^-1 D and W^-1 M only the latter is dense by
+// where the second term is zero on straight parts and sparse everywhere: of Phi^-1 D and Phi^-1 M only the latter is dense by
 // nature, and its entries fall off from the node that is faced by a factor of about four a node.
 //
 // Whatever the rule, each Gauss point adds a pair of opposite forces along the line through x1 and x2, and shape functions
 // reproduce both places: every row balances in force and moment (docs/theory.md).
 //
 // Example (tests/unit/coupling_test.cpp): nonmortar nodes 0, 1/2, 1 and mortar nodes 0, 1/3, 1 give
-//   D = W = 1/12 [2 1 0; 1 4 1; 0 1 2],   M = 1/432 [56 51 1; 16 138 62; 0 27 81],
+//   D = Phi = 1/12 [2 1 0; 1 4 1; 0 1 2],   M = 1/432 [56 51 1; 16 138 62; 0 27 81],
 //   D^-1 M = 1/36 [30 9 -3; -4 33 7; 2 -3 37],   w^-1 M = 1/108 [56 51 1; 8 69 31; 0 27 81].
 // (Hild 2000; Bernardi, Maday, Patera 1994; curves: Yang, Laursen, Meng 2005.)
 #pragma once
@@ -45,7 +45,7 @@ enum class CouplingKind { interpolation, mortar, weighted };
 
 struct Coupling {
   std::vector<int> nodes;            ///< trace nodes of the part with a row, along the line (ElementLine)
-  Eigen::SparseMatrix<double> mass;  ///< W, or w as a diagonal, rows x rows [m]
+  Eigen::SparseMatrix<double> mass;  ///< Phi, or w as a diagonal, rows x rows [m]
   Eigen::SparseMatrix<double> C1;    ///< rows x 2 (trace nodes of the part): columns 2 node + component
   Eigen::SparseMatrix<double> C2;    ///< rows x 2 (trace nodes of the facing line)
   Vector distance;                   ///< g0, as the rows see it [m]

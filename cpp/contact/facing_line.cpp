@@ -321,13 +321,13 @@ Sight see(const SmoothPart& part, const FacingLine& mortar, const Segment& segme
   sight.psi = edgeShapes(mortar.degree(), seen);
   const Point y = mortar.at(j, seen);
   sight.distance = (y - x).dot(sight.normal);
-  if (part.bent(e))
-    sight.stretch = part.tangentAt(e, here).norm() / (part.s[e + 1] - part.s[e]);
-  else if (part.arcs[e].known)
-    sight.bulge += distanceToArc(part.points[e], part.points[e + 1], part.arcs[e].curvature, x, sight.normal);
-  if (!mortar.bent(j) && across.arc.known)
-    sight.bulge +=
-        distanceToArc(mortar.points[j + 1], mortar.points[j], across.arc.curvature, y, -sight.normal);
+  if (part.bent(e)) sight.stretch = part.tangentAt(e, here).norm() / (part.s[e + 1] - part.s[e]);
+  if (part.arcs[e].known)
+    sight.bulge += distanceToArc(part.points[e], part.points[e + 1], part.arcs[e].curvature, x, sight.normal,
+                                 !part.bent(e));
+  if (across.arc.known)
+    sight.bulge += distanceToArc(mortar.points[j + 1], mortar.points[j], across.arc.curvature, y,
+                                 -sight.normal, !mortar.bent(j));
   return sight;
 }
 

@@ -58,7 +58,7 @@ struct Sight {
   Point normal;         ///< direction n, of length one
   double stretch = 1;   ///< length of the element by its abscissa; not 1 where it is bent
   double distance = 0;  ///< of the two lines along n [m]
-  double bulge = 0;     ///< what the curves that straight elements stand for (arcs.h) take from it [m]
+  double bulge = 0;     ///< what the curves that the elements stand for (arcs.h) take from it [m]
 };
 
 /// Distance g0 of the bodies at a place of a nonmortar element [m].
