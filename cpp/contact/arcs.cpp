@@ -144,8 +144,7 @@ double turnOfPolygon(const std::vector<Point>& points, bool closed, double least
   return sharpest;
 }
 
-double distanceToArc(const Point& a, const Point& b, double curvature, const Point& x, const Point& n,
-                     bool onChord) {
+double distanceToArc(const Point& a, const Point& b, double curvature, const Point& x, const Point& n) {
   const Point chord = b - a;
   const double h = chord.norm();
   // With the power -P of x in the circle and v = (x - centre) . n: the smaller root of t^2 + 2 v t - P = 0.
@@ -153,9 +152,8 @@ double distanceToArc(const Point& a, const Point& b, double curvature, const Poi
   const double cosine = std::sqrt(std::max(0.0, 1 - half * half));
   const Point right = Point(chord.y(), -chord.x()) / h;
   const Point fromMiddle = x - a - chord / 2;
-  const double power =  // times the curvature
-      onChord ? curvature * std::max(0.0, (x - a).dot(chord) * (b - x).dot(chord) / (h * h))
-              : curvature * (x - a).dot(b - x) - 2 * cosine * fromMiddle.dot(right);
+  const double power =
+      curvature * (x - a).dot(b - x) - 2 * cosine * fromMiddle.dot(right);  // times the curvature
   const double q = curvature * fromMiddle.dot(n) + right.dot(n) * cosine;
   return power / (q + std::sqrt(std::max(0.0, q * q + curvature * power)));
 }

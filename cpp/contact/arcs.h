@@ -33,10 +33,9 @@ std::vector<Arc> arcsOf(const std::vector<Point>& points, bool closed,
 /// \pre the first and the last point of a closed line agree
 double turnOfPolygon(const std::vector<Point>& points, bool closed, double least);
 
-/// How far the arc from a to b is from the point x, on its chord or near it, along the direction n of length one (outward,
-/// to the right of a to b, or not far from that) [m].
-double distanceToArc(const Point& a, const Point& b, double curvature, const Point& x, const Point& n,
-                     bool onChord = true);
+/// How far the arc from a to b is from the point x, on its chord or near it, along the direction n of length one
+/// (outward, to the right of a to b, or not far from that) [m].
+double distanceToArc(const Point& a, const Point& b, double curvature, const Point& x, const Point& n);
 
 /// Of the arc over an element of this length [m].
 inline double sagitta(double length, double curvature) {

@@ -59,5 +59,83 @@ class Quadratic(InFolder):
         self.assertNotIn("quadratic", self.mortier("check", "scene.toml", "--set", "degree=1").stdout)
 
 
+
+TWO_BLOCKS = """degree = 2
+[[body]]
+name = "upper"
+mesh = "upper.mesh"
+material = { young = 100, poisson = 0.3, viscosity = 1, yield_stress = 1 }
+boundary = [ { label = 3, ux = "0.01*t", uy = "-0.05*t*(1 + x)*(2 - t)" } ]
+[[body]]
+name = "lower"
+mesh = "lower.mesh"
+material = { young = 30, poisson = 0.2, viscosity = 2, yield_stress = 0.7 }
+boundary = [ { label = 1, ux = 0, uy = 0 } ]
+[[contact]]
+nonmortar = { body = "upper", label = 1 }
+mortar = { body = "lower", label = 3 }
+[time]
+end = 1.5
+steps = 6
+[output]
+every = 1
+"""
+
+
+class InContact(InFolder):
+    def setUp(self):
+        super().setUp()
+        for name, cells, low, high in (("upper", "3", "0,0", "1,1"), ("lower", "5", "-0.2,-1", "1.1,0")):
+            self.mortier("mesh", "crisscross", "--cells", cells, "--lower", low, "--upper", high, f"{name}.mesh")
+        self.write(TWO_BLOCKS)
+
+    def summary(self, *settings):
+        self.mortier("run", "scene.toml", "--out", "out", *(["--set", *settings] if settings else []))
+        return json.loads(self.read("out/summary.json"))
+
+    def test_every_variant_scheme_and_plane_is_solved(self):
+        heights = {}
+        for variant in ("weighted", "mortar", "interpolation"):
+            for scheme in ("backward-euler", "crank-nicolson", "sdirk2"):
+                for plane in ("stress", "strain"):
+                    with self.subTest(variant=variant, scheme=scheme, plane=plane):
+                        summary = self.summary(f"contact.variant={variant}", f"time.scheme={scheme}", f"plane={plane}")
+                        self.assertEqual(summary["status"], "converged")
+                        self.assertLess(summary["verification"]["force_balance"], 1e-9)
+                        heights[variant, scheme, plane] = summary["final"]["displacement_min"][1]
+        for plane in ("stress", "strain"):  # the cones agree but for the meshes' error
+            self.assertAlmostEqual(heights["mortar", "sdirk2", plane], heights["weighted", "sdirk2", plane], delta=1e-3)
+
+    def test_the_newton_method_and_penalty_duality_agree(self):
+        newton = self.summary("time.steps=2")["final"]
+        dual = self.summary("time.steps=2", "solver.method=penalty-duality")["final"]
+        self.assertAlmostEqual(dual["contact_force"], newton["contact_force"], delta=1e-6)
+
+    def test_pressure_at_the_vertices_is_nowhere_negative(self):
+        self.summary()
+        rows = [line.split(",") for line in self.read("out/contact.csv").splitlines()]
+        pressure = rows[0].index("pressure")
+        self.assertEqual(len(rows) - 1, 6 * 4)  # of three elements, every step
+        self.assertTrue(all(float(row[pressure]) >= 0 for row in rows[1:]))
+
+    def test_mortar_has_a_condition_at_every_node_of_the_trace(self):
+        self.summary("contact.variant=mortar")
+        self.assertEqual(len(self.read("out/contact.csv").splitlines()) - 1, 6 * 7)
+
+    def test_forces_of_quantities_balance(self):
+        self.write(TWO_BLOCKS + """
+[[quantity]]
+name = "held"
+reaction = { body = "lower", label = 1 }
+component = "y"
+[[quantity]]
+name = "pressed"
+contact_force = { body = "lower", label = 3 }
+component = "y"
+""")
+        quantities = self.summary()["quantities"]
+        self.assertAlmostEqual(quantities["held"]["value"], -quantities["pressed"]["value"], delta=1e-11)
+
+
 if __name__ == "__main__":
     unittest.main()
