@@ -115,12 +115,12 @@ class InContact(InFolder):
         self.summary()
         rows = [line.split(",") for line in self.read("out/contact.csv").splitlines()]
         pressure = rows[0].index("pressure")
-        self.assertEqual(len(rows) - 1, 6 * 4)  # of three elements, every step
+        self.assertEqual(len(rows) - 1, 7 * 4)  # of three elements, at t = 0 and after every step
         self.assertTrue(all(float(row[pressure]) >= 0 for row in rows[1:]))
 
     def test_mortar_has_a_condition_at_every_node_of_the_trace(self):
         self.summary("contact.variant=mortar")
-        self.assertEqual(len(self.read("out/contact.csv").splitlines()) - 1, 6 * 7)
+        self.assertEqual(len(self.read("out/contact.csv").splitlines()) - 1, 7 * 7)
 
     def test_forces_of_quantities_balance(self):
         self.write(TWO_BLOCKS + """
