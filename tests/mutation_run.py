@@ -42,12 +42,12 @@ class Tree:
     """The copy, its build folder and its test programs."""
 
     def __init__(self, folder, labels):
-        self.source, self.build = folder / "source", folder / "build"
+        self.source, self.build = folder, folder / "build"
         listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
         names = [name for name in listed.split("\0") if name and (ROOT / name).is_file()]
         for name in names:
             self.refresh(name)
-        for old in [path for path in self.source.rglob("*") if path.is_file()]:
+        for old in [path for part in ("cpp", "tests") for path in (self.source / part).rglob("*") if path.is_file()]:
             if str(old.relative_to(self.source)) not in names:
                 old.unlink()
         self.tests = {path.stem: label for label in labels
