@@ -13,8 +13,8 @@ import numpy as np
 import codes
 import results
 from compare import compare
+from ending import Wrong, shown
 from other_meshes import compare_elsewhere, read_vtu_of, same_meshes
-from problems import ViewError, shown
 
 
 class CodeFailed(Exception):
@@ -81,7 +81,7 @@ def against(places):
         bodies = {found[1]: read_vtu_of(Path(found[2])) for found in files}
         return results.Run("another code", Path(places[0]), bodies, None, {})
     if len(places) > 1 or "=" in places[0] and not os.path.isdir(places[0]):
-        raise ViewError(f"--against {' '.join(places)}: expected one folder of a result, or BODY=FILE.vtu for "
+        raise Wrong(f"--against {' '.join(places)}: expected one folder of a result, or BODY=FILE.vtu for "
                         "each body")
     return results.read(places[0])
 
@@ -90,7 +90,7 @@ def verdict_on(ours, other, given):
     if other.code != "another code" and same_meshes(ours, other):
         return compare(ours, other, given.within)
     if given.within is None:
-        raise ViewError(f"{' '.join(given.against)}: meshes other than the scene's, expected --within X, the "
+        raise Wrong(f"{' '.join(given.against)}: meshes other than the scene's, expected --within X, the "
                         "largest relative difference that is allowed")
     return compare_elsewhere(ours, other, given.within)
 
