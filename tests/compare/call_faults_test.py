@@ -17,6 +17,15 @@ class CallFaults(unittest.TestCase):
             self.assertGreater(sweep.explore(1, EVERY), 60)
             self.assertEqual(sweep.findings, [])
 
+    def test_a_restart_that_may_not_lock_its_folder(self):
+        """All of the calls with which a restart finds and takes the stopped run."""
+        with tempfile.TemporaryDirectory() as folder:
+            sweep = Sweep(folder)
+            refused = sum(sweep.try_one("restart", *sweep.cases["restart over an old result"], "EACCES", at).returncode
+                          for at in range(56, 66))
+            self.assertEqual(sweep.findings, [])
+            self.assertGreater(refused, 5)
+
     def test_every_so_many_calls_of_studies(self):
         done = subprocess.run([sys.executable, Path(__file__).with_name("study_call_sweep.py"), "--part", f"1/{EVERY}"],
                               capture_output=True, text=True)
