@@ -193,14 +193,40 @@ bool Pivoting::solveOn(const Vector& z0, ContactSolution& solution) {
   solution.rigid = solveBordered(solution.active, balance_ - problem_.G.transpose() * off + proximal_ * z0,
                                  solution.change);
   solution.change += off;
-  if (redundant_ || factor_.fresh()) return !redundant_;
-  // Updated factors have more rounding; once is enough to take it out.
-  Vector rest = -slackOf(solution);
-  const Vector unbalanced =
-      balance_ - problem_.G.transpose() * solution.change - proximal_ * (solution.rigid - z0);
-  solution.rigid += solveBordered(solution.active, unbalanced, rest);
-  solution.change += rest;
-  return true;
+  // Forces that a motion and a slack need by themselves may be far larger than those of both together: what rounding leaves of
+  // that is solved for again while it becomes less.
+  constexpr int corrections = 4;
+  double before = INFINITY;
+  for (int k = 0; !redundant_; ++k) {
+    open_ = slackOf(solution);
+    const double left = residual(solution);
+    if (k == corrections || !(left > rounding * sizeOf(solution)) || !(left < before / 2)) break;
+    before = left;
+    Vector rest = -open_;
+    const Vector unbalanced =
+        balance_ - problem_.G.transpose() * solution.change - proximal_ * (solution.rigid - z0);
+    solution.rigid += solveBordered(solution.active, unbalanced, rest);
+    solution.change += rest;
+  }
+  return !redundant_;
+}
+
+/// Largest slack of closed conditions, as a force.
+double Pivoting::residual(const ContactSolution& solution) const {
+  double largest = 0;
+  for (Eigen::Index i = 0; i < open_.size(); ++i)
+    if (solution.active[i] != 0) largest = std::max(largest, std::abs(open_[i]) / problem_.W(i, i));
+  return largest;
+}
+
+/// Forces of the size that the problem has.
+double Pivoting::sizeOf(const ContactSolution& solution) const {
+  double largest = 0;
+  for (Eigen::Index i = 0; i < slack_.size(); ++i)
+    if (idle_[i] == 0)
+      largest = std::max({largest, std::abs(p0_[i] + solution.change[i]), std::abs(p0_[i]),
+                          std::abs(slack_[i]) / problem_.W(i, i)});
+  return largest;
 }
 
 Vector Pivoting::slackOf(const ContactSolution& solution) {
@@ -211,17 +237,12 @@ Vector Pivoting::slackOf(const ContactSolution& solution) {
 
 /// Signs are judged against rounding, slacks as the forces that would close them.
 Pivoting::Signs Pivoting::signsOf(const ContactSolution& solution) {
-  Signs signs{slackOf(solution), p0_ + solution.change, {}, {}};
+  Signs signs{open_, p0_ + solution.change, {}, {}};
   Vector& s = signs.slack;
   Vector& p = signs.force;
-  double largest = 0;
-  for (Eigen::Index i = 0; i < s.size(); ++i)
-    if (idle_[i] == 0)
-      largest = std::max({largest, std::abs(p[i]), std::abs(p0_[i]), std::abs(slack_[i]) / problem_.W(i, i)});
+  const double largest = sizeOf(solution);
   const Vector depth = s.cwiseQuotient(problem_.W.diagonal());
-  double noise = rounding * largest;  // the depth of closed conditions is nothing else
-  for (Eigen::Index i = 0; i < s.size(); ++i)
-    if (idle_[i] == 0 && solution.active[i] != 0) noise = std::max(noise, 2 * std::abs(depth[i]));
+  const double noise = std::max(rounding * largest, 2 * residual(solution));
   for (Eigen::Index i = 0; i < s.size(); ++i) {
     if (idle_[i] != 0) continue;
     if (solution.active[i] != 0 && !(p[i] >= -rounding * largest)) signs.pulls.push_back(static_cast<int>(i));
@@ -279,7 +300,7 @@ void Pivoting::descend(const Vector& z0, int chosen, Vector p, ContactSolution& 
 void Pivoting::closeOne(const Vector& z0, int chosen, ContactSolution& solution) {
   if (!solveOn(z0, solution)) return;
   Vector p = p0_ + solution.change;
-  Vector s = slackOf(solution);
+  Vector s = open_;
   const auto diagonal = problem_.W.diagonal();
   while (!capped()) {
     stopIfInterrupted();

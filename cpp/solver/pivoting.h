@@ -57,6 +57,8 @@ class Pivoting {
   [[nodiscard]] Vector compliance(const Vector& p);
   Vector solveBordered(const std::vector<char>& active, const Vector& h, Vector& f);
   bool solveOn(const Vector& z0, ContactSolution& solution);
+  [[nodiscard]] double residual(const ContactSolution& solution) const;
+  [[nodiscard]] double sizeOf(const ContactSolution& solution) const;
   [[nodiscard]] Vector slackOf(const ContactSolution& solution);
   [[nodiscard]] Signs signsOf(const ContactSolution& solution);
   [[nodiscard]] std::vector<int> deepest(const Signs& signs, size_t count) const;
@@ -70,6 +72,7 @@ class Pivoting {
   const Vector& balance_;
   Work& work_;
   ActiveFactor factor_;
+  Vector open_;  ///< slack of what was solved on last
   double stiffness_ = 0;
   double proximal_ = 0;
   int pivotsLeft_ = 0;  ///< in this run: sets of a few conditions cost next to nothing
