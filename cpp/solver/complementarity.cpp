@@ -140,11 +140,13 @@ ContactSolution solveContact(const ContactProblem& problem, const Vector& fullSl
     if (idle[i] != 0) active[i] = 0;
   const auto idles = static_cast<int>(std::count(idle.begin(), idle.end(), 1));
   ContactSolution solution;
+  int pivots = 0;
   bool dependent = false;
   if (idles == 0 || problem.G.cols() == 0) {
     ProximalContact contact(problem, idle, slack, p0, balance, work);
     solution = solveRegular(contact, problem, active);
     dependent = contact.redundant();
+    pivots = solution.pivots;
   }
   if (dependent || (idles > 0 && problem.G.cols() > 0)) {
     ContactProblem regular = problem;
@@ -152,11 +154,13 @@ ContactSolution solveContact(const ContactProblem& problem, const Vector& fullSl
       if (idle[i] != 0) regular.W(i, i) = problem.W.diagonal().maxCoeff();
     for (const double weight : {1e-9, 1e-8, 1e-7}) {
       solution = solveRedundant(regular, idle, slack, p0, balance, active, weight, work);
+      pivots += solution.pivots;
       if (solution.outcome != ContactSolution::Outcome::cycled) break;
     }
   }
   // The motion along which bodies leave is told without it.
   if (solution.outcome != ContactSolution::Outcome::unbalanced) solution.rigid += moved;
+  solution.pivots = pivots;
   solution.idle = idles;
   solution.dependent = dependent;
   solution.work = work.done / work.factorisation;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/interrupt.h"
 
@@ -169,9 +170,10 @@ bool pivot(ProximalContact& contact, ContactSolution& solution) {
   if (!dropPulls(contact, solution, best)) return false;
   size_t atOnce = solution.active.size();
   double least = depthOf(best, problem.W);
+  bool pressed = 2 * best.overlaps.size() > solution.active.size();  // most of what closes may stay closed
   while (!best.overlaps.empty()) {
     const std::vector<char> before = solution.active;
-    const std::vector<int> chosen = deepest(best, problem.W, atOnce);
+    const std::vector<int> chosen = pressed ? best.overlaps : deepest(best, problem.W, atOnce);
     for (const int i : chosen) solution.active[i] = 1;
     Signs next;
     if (!dropPulls(contact, solution, next)) return false;
@@ -181,11 +183,12 @@ bool pivot(ProximalContact& contact, ContactSolution& solution) {
       least = std::min(least, depth);
       best = std::move(next);
       atOnce = faster * chosen.size();
+      pressed = false;
       continue;
     }
     solution.active = before;
-    atOnce = std::max<size_t>(1, chosen.size() / slower);
-    if (chosen.size() > 1) continue;
+    if (!pressed) atOnce = std::max<size_t>(1, chosen.size() / slower);
+    if (std::exchange(pressed, false) || chosen.size() > 1) continue;
     if (problem.symmetric)
       descend(contact, chosen.front(), best.force, solution);
     else
