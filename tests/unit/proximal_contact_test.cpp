@@ -1,5 +1,5 @@
 // A set that was solved on is closed to rounding, however large the forces are that cancel in it: signs of one exact problem do
-// not go round.
+// not go round. Compliances of 1/k^5 have condition numbers of 1e13; without corrections single forces are wrong by 1e-9.
 #include "solver/proximal_contact.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,9 @@ TEST(ProximalContact, closesASetToRounding) {
   const Vector p0 = Vector::Zero(n);
   std::mt19937 random(1);
   for (const int motions : {0, 1, 2}) {
-    ContactProblem problem{patterns::compliance(patterns::Line::thinBeam, n), true, Matrix::Ones(n, motions)};
+    const Matrix Q = patterns::waves(n);
+    ContactProblem problem{Q * patterns::compliances(n, 5).asDiagonal() * Q.transpose(), true,
+                           Matrix::Ones(n, motions)};
     if (motions == 2) problem.G.col(1).setLinSpaced(-1, 1);
     for (int trial = 0; trial < 30; ++trial) {
       const patterns::Pattern pattern = patterns::pattern(random, problem);
