@@ -1,6 +1,7 @@
 #include "solver/step_system.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/worst.h"
@@ -169,11 +170,13 @@ ContactSolution StepSystem::Condensed::solveContact() const {
 bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iterate,
                                    StepOutcome& outcome) && {
   if (contact.outcome == ContactSolution::Outcome::cycled)
-    return outcome.fail(Reason::contact, "the contact problem of the linearised step has no solution");
-  if (contact.outcome == ContactSolution::Outcome::capped)
     return outcome.fail(Reason::contact,
-                        "the contact problem of the linearised step was given up after the work of " +
-                            std::to_string(static_cast<int>(workLimit)) + " factorisations");
+                        "no solution of the contact problem of the linearised step was found");
+  if (contact.outcome == ContactSolution::Outcome::capped)
+    return outcome.fail(Reason::contact, "the contact problem of the linearised step was given up after " +
+                                             std::to_string(contact.pivots) + " active sets, the work of " +
+                                             std::to_string(std::lround(contact.work)) +
+                                             " dense factorisations");
   if (contact.outcome == ContactSolution::Outcome::unbalanced)
     return outcome.fail(Reason::unheld, "contact cannot hold " + system_->describeRigid(contact.rigid));
   system_->forEachBody([&](int b) {
