@@ -37,15 +37,14 @@ def interrupt(*_):
 
 
 def code_of(command, where, expected, kept, place=""):
-    """The exit code of command(). Messages but those on a wrong input begin with `where`.
+    """The exit code of command(), 0 where it returns none. Messages but those on a wrong input begin with `where`.
 
     expected: what the input should be, where it is nested too deeply; kept: what is left by a command that is
     interrupted; place: what cannot be written, where the system does not name it.
     """
     signal.signal(signal.SIGTERM, interrupt)
     try:
-        command()
-        return 0
+        return command() or 0
     except Wrong as error:
         return complain(error, 2)
     except Failure as error:

@@ -1,6 +1,7 @@
-"""mortier plot and mortier report: pictures and a page of results (docs/pictures.md).
+"""mortier plot, report and compare: pictures and a page of results (docs/pictures.md), results beside others
+(docs/compare.md).
 
-Exit codes: 0 done, 1 output cannot be written, 2 wrong input.
+Exit codes: 0 done, 1 output cannot be written or results differ, 2 wrong input; of a run that fails, its own.
 """
 import argparse
 import math
@@ -46,6 +47,13 @@ def arguments(words):
     for each in (plot, report):
         each.add_argument("--out", type=Path)
         each.add_argument("results", nargs="+")
+    compare = commands.add_parser("compare")
+    compare.add_argument("--set", action="append", default=[])
+    compare.add_argument("--accept")
+    compare.add_argument("--against", action="append", default=[])
+    compare.add_argument("--within", type=numbers(1))
+    compare.add_argument("--picture", type=Path)
+    compare.add_argument("scene")
     return parser.parse_args(words)
 
 
@@ -114,11 +122,38 @@ def report(given):
     print(f"{shown(out)}: {len(page.encode()) / 1e6:.2f} MB")
 
 
+def compare(given):
+    """0: they agree, 1: they differ; of a run that fails, its own exit code."""
+    require("numpy", "matplotlib", "meshio")
+    import comparison
+
+    given.within = given.within[0] if given.within else None
+    if given.within is not None and not given.within > 0:
+        raise Wrong("--within: expected a number above 0")
+    if given.accept and (given.against or given.picture or given.within is not None):
+        raise Wrong("--accept: keeps a result and compares nothing, expected no --against, --within or --picture")
+    if given.within is not None and not given.against:
+        raise Wrong("--within: for --against only; both codes agree to rounding")
+    if given.picture and given.picture.suffix not in (".png", ".svg"):
+        raise Wrong(f"--picture {given.picture}: expected a file NAME.png or NAME.svg")
+    try:
+        return comparison.accept(given) if given.accept else comparison.run(given)
+    except comparison.CodeFailed as error:
+        sys.stderr.write(last_words(str(error)))
+        return error.code if error.code in (1, 2, 3) else 1
+
+
+def last_words(text):
+    """The messages of a run that failed, which is the program itself: as they are."""
+    lines = text.strip().splitlines()
+    return "".join(f"{line}\n" for line in [each for each in lines if each.startswith("mortier: ")] or lines[-8:])
+
+
 def view(given):
     require("numpy")
     import results
     try:
-        (plot if given.command == "plot" else report)(given)
+        return {"plot": plot, "report": report, "compare": compare}[given.command](given)
     except results.ResultError as error:
         raise Wrong(error) from error
 
@@ -128,8 +163,9 @@ def main():
         given = arguments(sys.argv[1:])
     except Wrong as error:
         return complain(error, 2)
-    return code_of(lambda: view(given), f"{given.command} {given.results[0]}",
-                   expected="a result of mortier run", kept="nothing was written")
+    of = given.scene if given.command == "compare" else given.results[0]
+    return code_of(lambda: view(given), f"{given.command} {of}", expected="a result of mortier run",
+                   kept="nothing was written")
 
 
 if __name__ == "__main__":
