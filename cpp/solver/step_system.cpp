@@ -47,6 +47,20 @@ StepSystem::StepSystem(const Model& model, const SolverOptions& options)
   requireHeld();
 }
 
+Step StepSystem::step(const State& state0, const StepData& data) {
+  Step step{state0, data, loadsAt(data.time), std::vector<Matrix>(model_.bodies.size())};
+  for (size_t b = 0; b < model_.bodies.size(); ++b) {
+    const Body& body = model_.bodies[b];
+    if (!body.material().ofStrain()) continue;
+    Matrix& strain = step.strains0[b];
+    strain.resize(body.material().components(), body.points());
+    body.strain({state0.bodies[b].displacement, Vector::Zero(body.dofs())}, nullptr, strain, 0,
+                body.points());
+    if (const Matrix* shift = step.shift(b)) strain += *shift;
+  }
+  return step;
+}
+
 const std::vector<Vector>& StepSystem::loadsAt(double time) {
   for (size_t i = 0; i < loads_.size(); ++i)
     if (loads_[i].time == time) {
@@ -87,9 +101,10 @@ StepSystem::Linearised StepSystem::linearise(const Step& step, Iterate& iterate,
 BodyLaw StepSystem::law(const Step& step, int body, double weight, bool anticipate) const {
   const Material& material = model_.bodies[body].material();
   const Matrix& stress0 = step.state0.bodies[body].stress;
+  const Matrix* strain0 = step.strain0(body);
   return {[=, &material, &stress0](const BodyIterate& iterate, Linearisation& result, int begin, int end) {
-    return material.linearise({weight, stress0, iterate.strain, anticipate}, iterate.stress, result, begin,
-                              end);
+    return material.linearise({weight, stress0, iterate.strain, anticipate, strain0}, iterate.stress, result,
+                              begin, end);
   }};
 }
 
