@@ -26,14 +26,15 @@ void PenetrationIntegral::add(const SmoothPart& part, const FacingLine& mortar, 
     };
     // Between its ends the distance of two curves is not linear: the chord of a curve hides what is below it.
     const double length = segment.end - segment.begin;
+    const double element = part.s[i + 1] - part.s[i];
     const Place begin = place(segment.begin);
     const Place middle = place(segment.begin + length / 2);
     const Place end = place(segment.end);
     if (std::abs(middle.distance - (begin.distance + end.distance) / 2) <= straight * length) {
-      stretches_.push_back({begin, end, length});
+      stretches_.push_back({begin, end, length, element});
     } else {
-      stretches_.push_back({begin, middle, length / 2});
-      stretches_.push_back({middle, end, length / 2});
+      stretches_.push_back({begin, middle, length / 2, element});
+      stretches_.push_back({middle, end, length / 2, element});
     }
   }
 }
@@ -64,6 +65,25 @@ double PenetrationIntegral::deepest(const Vector& uNonmortar, const Vector& uMor
     for (const Place* place : {&stretch.begin, &stretch.end})
       depth = std::max(depth, place->jump(uNonmortar, uMortar));
   return depth;
+}
+
+std::vector<GapSquare> PenetrationIntegral::squares(const Vector& uNonmortar, const Vector& uMortar,
+                                                    const std::function<bool(int)>& pressed) const {
+  std::vector<GapSquare> result;
+  result.reserve(stretches_.size());
+  for (const Stretch& stretch : stretches_) {
+    const auto& nodes = stretch.begin.nonmortar;
+    double a = stretch.begin.jump(uNonmortar, uMortar);
+    double b = stretch.end.jump(uNonmortar, uMortar);
+    double length = stretch.length;
+    if (!pressed(nodes[0]) && !pressed(nodes[1])) {
+      if (a * b < 0) length *= std::max(a, b) / std::abs(a - b);
+      a = std::max(a, 0.0);
+      b = std::max(b, 0.0);
+    }
+    result.push_back({nodes, stretch.begin.mortar, stretch.element, length * (a * a + a * b + b * b) / 3});
+  }
+  return result;
 }
 
 }  // namespace mortier

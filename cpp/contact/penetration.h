@@ -1,6 +1,7 @@
 // The note's measure of interpenetration, the integral over Gamma_C of ((u1 - u2).n - g0)_+, on the common
 // refinement: the jump is taken as linear between its points, which is exact where the nonmortar line is
-// straight.
+// straight. And the squares of the jump, element by element, by which an estimate of the error tells what contact
+// leaves between the nodes.
 #pragma once
 
 #include <array>
@@ -14,6 +15,13 @@ namespace mortier {
 /// Distance g0 at a place of a nonmortar element [m].
 using DistanceAt = std::function<double(int element, double s, const Sight& sight)>;
 
+/// Of a stretch of the common refinement.
+struct GapSquare {
+  std::array<int, 2> nonmortar, mortar;  ///< vertex numbers of the two elements
+  double element = 0;                    ///< length of the nonmortar one [m]
+  double integral = 0;                   ///< [m^3]
+};
+
 class PenetrationIntegral {
  public:
   /// Adds a part of the nonmortar line with what it faces.
@@ -22,6 +30,10 @@ class PenetrationIntegral {
   [[nodiscard]] double of(const Vector& uNonmortar, const Vector& uMortar) const;
   /// The largest jump at a point of the common refinement, 0 where all are negative [m].
   [[nodiscard]] double deepest(const Vector& uNonmortar, const Vector& uMortar) const;
+  /// The integral of the squared jump where a vertex of the nonmortar element is `pressed`, of its squared positive part
+  /// elsewhere.
+  [[nodiscard]] std::vector<GapSquare> squares(const Vector& uNonmortar, const Vector& uMortar,
+                                               const std::function<bool(int vertex)>& pressed) const;
 
  private:
   /// A point of the common refinement, seen from one of its segments.
@@ -35,6 +47,7 @@ class PenetrationIntegral {
   struct Stretch {
     Place begin, end;
     double length = 0;
+    double element = 0;  ///< length of the nonmortar one [m]
   };
   std::vector<Stretch> stretches_;
 };
