@@ -132,6 +132,33 @@ int dispatch(int argc, char** argv) {
       ->required();
   reportApp->add_option("--out", reportCommand.out, "the HTML file (default: OUT.html beside the result)");
 
+  CompareCommand compareCommand;
+  CLI::App* compareApp = app.add_subcommand(
+      "compare",
+      "a scene in both codes, or beside a result that was kept (docs/compare.md); exit code 0 or 1");
+  compareApp->add_option("SCENE", compareCommand.scene, "scene, a TOML file");
+  compareApp->add_option("--set", compareCommand.settings, settingsHelp)->type_name("KEY=VALUE");
+  compareApp
+      ->add_option("--accept", compareCommand.accept,
+                   "keeps the result of the scene, to be compared with later")
+      ->type_name("FOLDER");
+  compareApp
+      ->add_option(
+          "--against", compareCommand.against,
+          "a result (of --accept or mortier run), or BODY=FILE.vtu of another code (default: FreeFEM)")
+      ->type_name("FOLDER")
+      ->take_all()
+      ->expected(1);
+  compareApp
+      ->add_option(
+          "--within", compareCommand.within,
+          "largest relative difference from --against (default: that of rounding, on the same meshes)")
+      ->type_name("X");
+  compareApp
+      ->add_option("--picture", compareCommand.picture,
+                   "PNG or SVG of the difference (default: SCENE.difference.png where they differ)")
+      ->type_name("FILE");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -161,6 +188,10 @@ int dispatch(int argc, char** argv) {
   }
   if (*reportApp) {
     return report(reportCommand);
+  }
+  if (*compareApp) {
+    giveBackScene(compareCommand.settings, compareCommand.scene);
+    return compare(compareCommand);
   }
   if (app.got_subcommand("mesh")) {
     return meshCommand();

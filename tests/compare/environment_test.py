@@ -9,7 +9,7 @@ import unittest
 
 from mutations import explore, require_whole
 from scenes import BODY_KEYS, CONTACT_KEYS, GEOMETRY_KEYS, ONE_BODY, SHAPE_KEYS, TWO_BLOCKS
-from support import PROGRAM, ROOT, OfTwoBlocks, mortier, told
+from support import PROGRAM, ROOT, OfTwoBlocks, mortier, told, warned
 
 LONG = ("--set", "time.steps=1000000")
 
@@ -180,6 +180,7 @@ class Environment(OfTwoBlocks):
                 self.assertEqual(process.wait(timeout=60), 1, err)
                 process.stderr.close()
                 self.assertEqual(len(told(err)), 1, err)
+                self.assertEqual(warned(err), ["output-large"])
                 self.assertFalse((self.folder / "out/scene").exists())
 
     def test_what_a_killed_run_left_goes_with_the_next(self):
