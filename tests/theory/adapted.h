@@ -1,6 +1,7 @@
 // Meshes that are refined until an accuracy is reached, against exact solutions: elastic bodies, one step.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "adapt/error_history.h"
 #include "adapt/rounds.h"
 #include "fem/element.h"
+#include "mesh/regions.h"
 #include "theory/half_open_contact.h"
 
 namespace mortier::scenes {
@@ -118,6 +120,91 @@ inline KnownProblem halfOpen(std::pair<int, int> cells, double contrast, int non
   problem.stress = {[=](const Point& x) { return upper.stress(x.x(), x.y()); },
                     [=](const Point& x) { return lower.stress(x.x(), x.y()); }};
   problem.elasticity = {{1, 0.3}, {contrast, 0.2}};
+  return problem;
+}
+
+/// The corner of an L with free sides, where the stress is unbounded like r^(a - 1), a = 0.5445 (Williams 1952): in polar
+/// coordinates about it, from the middle of the L,
+///   2 mu u_r = r^a ((C2 - a - 1) C1 cos((a-1) phi) - (a+1) cos((a+1) phi)),
+///   2 mu u_phi = r^a ((C2 + a - 1) C1 sin((a-1) phi) + (a+1) sin((a+1) phi)).
+class LShape {
+ public:
+  [[nodiscard]] Point displacement(const Point& x) const {
+    const double r = x.norm();
+    if (r == 0) return Point::Zero();
+    const double phi = std::atan2(x.y(), x.x()) - middle;
+    return std::pow(r, a) / (2 * mu) * (turned(phi) * polar(std::remainder(phi, 2 * M_PI)));
+  }
+
+  [[nodiscard]] Eigen::Vector3d stress(const Point& x) const {
+    const double r = x.norm();
+    const double phi = std::atan2(x.y(), x.x()) - middle;
+    const Point u = polar(std::remainder(phi, 2 * M_PI));
+    const Point du = slope(std::remainder(phi, 2 * M_PI));
+    Eigen::Matrix2d strain;
+    strain(0, 0) = a * u[0];
+    strain(1, 1) = u[0] + du[1];
+    strain(0, 1) = strain(1, 0) = (du[0] + (a - 1) * u[1]) / 2;
+    strain *= std::pow(r, a - 1) / (2 * mu);
+    const Eigen::Matrix2d s = lambda * strain.trace() * Eigen::Matrix2d::Identity() + 2 * mu * strain;
+    const Eigen::Matrix2d R = turned(phi);
+    const Eigen::Matrix2d there = R * s * R.transpose();
+    return {there(0, 0), there(1, 1), there(0, 1)};
+  }
+
+  static constexpr Elasticity elasticity{1, 0.3};
+
+ private:
+  static constexpr double a = 0.544483736782464;
+  static constexpr double middle = M_PI / 4;
+  static constexpr double mu = 1 / 2.6;
+  static constexpr double lambda = 0.3 / (1 - 0.3 * 0.3);  // of plane stress
+  static constexpr double C2 = 2 * (lambda + 2 * mu) / (lambda + mu);
+
+  static double C1() {
+    constexpr double omega = 3 * M_PI / 4;
+    return -std::cos((a + 1) * omega) / std::cos((a - 1) * omega);
+  }
+  /// To the directions along and across the radius.
+  static Eigen::Matrix2d turned(double phi) { return Eigen::Rotation2Dd(phi + middle).toRotationMatrix(); }
+  static Point polar(double phi) {
+    return {(C2 - a - 1) * C1() * std::cos((a - 1) * phi) - (a + 1) * std::cos((a + 1) * phi),
+            (C2 + a - 1) * C1() * std::sin((a - 1) * phi) + (a + 1) * std::sin((a + 1) * phi)};
+  }
+  static Point slope(double phi) {
+    return {-(C2 - a - 1) * C1() * (a - 1) * std::sin((a - 1) * phi) +
+                (a + 1) * (a + 1) * std::sin((a + 1) * phi),
+            (C2 + a - 1) * C1() * (a - 1) * std::cos((a - 1) * phi) +
+                (a + 1) * (a + 1) * std::cos((a + 1) * phi)};
+  }
+};
+
+inline KnownProblem lShape(int cells, int degree) {
+  TriangleMesh mesh =
+      rectangleMesh({.lower = {-1, -1}, .upper = {1, 1}, .cellsX = 2 * cells, .cellsY = 2 * cells});
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Point centre = Point::Zero();
+    for (const int v : mesh.triangles[t]) centre += mesh.vertices[v] / 3;
+    mesh.regions[t] = centre.x() < 0 && centre.y() < 0 ? 2 : 1;
+  }
+  keepRegions(mesh, {"1"});
+  KnownProblem problem;
+  problem.degree = degree;
+  problem.meshes = {std::move(mesh)};
+  problem.model = [degree](std::vector<TriangleMesh> meshes) {
+    Conditions conditions;
+    for (const int side : {bottom, right, top, left})
+      for (const int c : {0, 1})
+        conditions.displacements.push_back({side, c, [c](double x, double y, double t) {
+                                              return t * LShape().displacement({x, y})[c];
+                                            }});
+    Model model;
+    model.bodies.emplace_back("L", std::move(meshes[0]), elasticMaterial(LShape::elasticity), conditions,
+                              degree);
+    return model;
+  };
+  problem.stress = {[](const Point& x) { return LShape().stress(x); }};
+  problem.elasticity = {LShape::elasticity};
   return problem;
 }
 

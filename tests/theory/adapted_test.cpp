@@ -34,5 +34,32 @@ TEST(Adapted, contactWithAKnownEnd) {
                       adapt(halfOpen(cells, contrast, nonmortar), 0.05), 0.05);
 }
 
+TEST(Adapted, cornerOfAnLAtEitherDegree) {
+  for (const auto& [degree, accuracy] :
+       {std::pair(1, 0.1), std::pair(1, 0.05), std::pair(2, 0.02), std::pair(2, 0.01)})
+    expectReached("L, degree " + std::to_string(degree), adapt(lShape(1, degree), accuracy), accuracy);
+}
+
+/// Exponent of the unknowns in the errors of ever smaller accuracies.
+double orderInUnknowns(const KnownProblem& problem, const std::vector<double>& accuracies) {
+  std::vector<double> unknowns;
+  std::vector<double> errors;
+  for (const double accuracy : accuracies) {
+    const Adapted adapted = adapt(problem, accuracy);
+    unknowns.push_back(adapted.last().unknowns);
+    errors.push_back(adapted.last().error);
+  }
+  return fittedOrder(unknowns, errors);
+}
+
+// On meshes that are not refined towards the corner both degrees have the order a/2 = 0.27.
+TEST(Adapted, ordersAreThoseOfTheDegreeWhereStressesAreUnbounded) {
+  const double linear = orderInUnknowns(lShape(1, 1), {0.2, 0.1, 0.05});
+  const double quadratic = orderInUnknowns(lShape(1, 2), {0.05, 0.02, 0.01, 0.005});
+  std::cout << "order in unknowns: degree 1 " << linear << ", degree 2 " << quadratic << "\n";
+  EXPECT_NEAR(linear, -0.5, 0.1);
+  EXPECT_NEAR(quadratic, -1, 0.15);
+}
+
 }  // namespace
 }  // namespace mortier
