@@ -59,6 +59,20 @@ int dispatch(int argc, char** argv) {
       })
       ->type_name("SECONDS");
   runApp->add_option("--set", runCommand.settings, settingsHelp)->type_name("KEY=VALUE");
+  const auto addGoal = [&](const char* flag, const char* key, const char* help, const char* type) {
+    runApp
+        ->add_option_function<std::string>(
+            flag,
+            [&runCommand, key](const std::string& value) {
+              runCommand.settings.push_back(std::string("accuracy.") + key + "=" + value);
+            },
+            help)
+        ->type_name(type);
+  };
+  addGoal("--accuracy", "energy", "refine meshes and steps until the relative error in energy is less", "E");
+  addGoal("--max-unknowns", "max_unknowns", "end with what is reached before a round has more (default 1e6)",
+          "N");
+  addGoal("--max-seconds", "max_seconds", "end with what is reached before it takes longer", "SECONDS");
   runApp->add_option("--threads", runCommand.threads, "threads (default 1)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");

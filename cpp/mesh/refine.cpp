@@ -90,6 +90,7 @@ class Bisection {
   void addVertex(int edge, int a, int b) {
     const auto m = static_cast<int>(result_.mesh.vertices.size());
     middle_[edge] = m;
+    result_.cutEdges.push_back({a, b});
     const double bend = curvature(a, b);
     result_.mesh.vertices.push_back(middleOfArc(old_.vertices[a], old_.vertices[b], bend));
     if (bend == 0) return;

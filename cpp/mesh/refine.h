@@ -20,6 +20,7 @@ struct RefinedMesh {
   TriangleMesh mesh;         ///< the vertices of the mesh before, and new ones behind them
   CurvedEdges curves;        ///< of its edges
   std::vector<int> parents;  ///< of each triangle, that of the mesh before of which it is a part
+  std::vector<std::array<int, 2>> cutEdges;  ///< by new vertices: the edge in whose middle they are
   int offCurve = 0;  ///< new vertices that stayed on the chord: on the arc, a triangle would turn over
 };
 

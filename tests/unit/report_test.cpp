@@ -177,7 +177,7 @@ TEST_F(Output, summaryThatIsNotFiniteIsNotWritten) {
 TEST(Log, rowsStandUnderTheirHeader) {
   const Blocks blocks;
   const std::string header = logHeader(blocks.facts, blocks.model);
-  const std::string titles = header.substr(header.find("  step"));
+  const std::string titles = logStepsHeader();
   StepReport report;
   report.step = 11;
   report.active = 18;
@@ -186,6 +186,8 @@ TEST(Log, rowsStandUnderTheirHeader) {
   EXPECT_NE(row.find("18 (+0/-0)"), std::string::npos);
   EXPECT_NE(header.find("mortar, 2 nonmortar (upper) x 2 mortar (lower) nodes, overlap 1.000"),
             std::string::npos);
+  EXPECT_EQ(logRound({{100, 200, 3, 0.5, 0.1, 7}, {1000, 2000, 30, 0.05, 0.01, 7}}).size(),
+            logRoundsHeader().size());
 }
 
 }  // namespace
