@@ -18,39 +18,44 @@ COMPRESSION = "scenes/compression.toml"
 class RunError(Exception):
     """A code that ended with an error; the message ends with its last words."""
 
+    def __init__(self, message, code=1, output=""):
+        super().__init__(message)
+        self.code, self.output = code, output
 
-def call(command):
-    """Runs a command in the repository; its output, and its wall time [s]."""
+
+def call(command, cwd=ROOT):
+    """Runs a command in a folder; its output, and its wall time [s]."""
     begin = time.perf_counter()
     try:
-        done = subprocess.run([str(word) for word in command], cwd=ROOT, stdout=subprocess.PIPE,
+        done = subprocess.run([str(word) for word in command], cwd=cwd, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, errors="replace")
     except OSError as error:
         raise RunError(f"{command[0]}: {error.strerror}") from error
     seconds = time.perf_counter() - begin
     if done.returncode != 0:
         words = "\n".join(done.stdout.strip().splitlines()[-8:])
-        raise RunError(f"{' '.join(map(str, command))}\nended with code {done.returncode}:\n{words}")
+        raise RunError(f"{' '.join(map(str, command))}\nended with code {done.returncode}:\n{words}",
+                       done.returncode, done.stdout)
     return done.stdout, seconds
 
 
-def run_mortier(folder, settings=(), scene=COMPRESSION):
-    """Solves a scene with mortier; settings are KEY=VALUE."""
-    _, seconds = call([MORTIER, "run", scene, "--quiet", "--out", folder, *set_option(settings)])
+def run_mortier(folder, settings=(), scene=COMPRESSION, cwd=ROOT):
+    """Solves a scene with mortier; settings are KEY=VALUE. Paths of the scene and in settings begin at cwd."""
+    _, seconds = call([MORTIER, "run", scene, "--quiet", "--out", folder, *set_option(settings)], cwd)
     run = results.read_mortier(folder)
     run.wall_time = seconds
     return run
 
 
-def run_freefem(folder, settings=(), scene=COMPRESSION, method="freefem"):
+def run_freefem(folder, settings=(), scene=COMPRESSION, method="freefem", cwd=ROOT):
     """Solves a scene with FreeFEM; another method than that of freefem/ is a folder like it."""
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     script = folder / "scene.edp"
-    call([MORTIER, "freefem", scene, script, *set_option(settings)])
+    call([MORTIER, "freefem", scene, script, *set_option(settings)], cwd)
     if method != "freefem":
         script.write_text(script.read_text().replace('include "freefem/', f'include "{method}/'))
-    _, seconds = call([FREEFEM, "-nw", "-nw", "-ne", "-v", "0", script, "-quiet", "-out", folder])
+    _, seconds = call([FREEFEM, "-nw", "-nw", "-ne", "-v", "0", script, "-quiet", "-out", folder], cwd)
     run = results.read_freefem(folder)
     run.wall_time = seconds
     return run

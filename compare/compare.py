@@ -8,7 +8,7 @@ the largest value. Exit code 1 when one is beyond its tolerance, 2 when a run ca
 """
 import json
 import sys
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
@@ -70,8 +70,8 @@ class Verdict:
                 "differences": [asdict(d) | {"within": d.within} for d in self.differences]}
 
 
-def compare(first, second):
-    """The verdict on two runs."""
+def compare(first, second, within=None):
+    """The verdict on two runs on the same meshes; within takes the place of all tolerances."""
     faults = []
     for key in ("contact", "nonmortar", "projection"):
         a, b = first.summary.get(key), second.summary.get(key)
@@ -107,6 +107,7 @@ def compare(first, second):
         Difference("contact position", relative(first.contact.position, second.contact.position,
                                                 np.ptp(second.contact.position)), POSITION),
     ]
+    differences += quantity_differences(first, second, within)
     # Scalars, against the size of their kind: a penetration of 1e-18 m^2 has no digits of its own.
     scales = {"von_mises_min": (stress, STRESS), "von_mises_max": (stress, STRESS),
               "contact_force": (force, FORCE),
@@ -116,7 +117,24 @@ def compare(first, second):
         scale, tolerance = scales.get(key, (length, DISPLACEMENT))
         b = second.scalars[key]
         differences.append(Difference(key, relative(a, b, scale), tolerance, a, b))
+    if within is not None:  # counts are for the same steps on the same meshes
+        differences = [replace(each, tolerance=within) for each in differences if each.tolerance > 0]
     return Verdict(differences, [])
+
+
+def quantity_differences(first, second, within=None):
+    """Of the quantities that the scene asks for, against the largest one of the same unit."""
+    pairs = [run.summary.get("quantities", {}) for run in (first, second)]
+    known = [name for name in pairs[0] if name in pairs[1]]
+    found = []
+    for name in known:
+        a, b = (each[name]["value"] for each in pairs)
+        size = max(abs(each[other]["value"]) for each in pairs for other in known
+                   if each[other]["unit"] == pairs[0][name]["unit"])
+        if pairs[0][name]["unit"] == "N/m":  # a reaction may be zero to the rounding of what presses
+            size = max(size, *(abs(run.scalars["contact_force"]) for run in (first, second)))
+        found.append(Difference(name, relative(a, b, size), FORCE if within is None else within, a, b))
+    return found
 
 
 def relative(a, b, scale):

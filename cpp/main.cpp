@@ -59,6 +59,20 @@ int dispatch(int argc, char** argv) {
       })
       ->type_name("SECONDS");
   runApp->add_option("--set", runCommand.settings, settingsHelp)->type_name("KEY=VALUE");
+  const auto addGoal = [&](const char* flag, const char* key, const char* help, const char* type) {
+    runApp
+        ->add_option_function<std::string>(
+            flag,
+            [&runCommand, key](const std::string& value) {
+              runCommand.settings.push_back(std::string("accuracy.") + key + "=" + value);
+            },
+            help)
+        ->type_name(type);
+  };
+  addGoal("--accuracy", "energy", "refine meshes and steps until the relative error in energy is less", "E");
+  addGoal("--max-unknowns", "max_unknowns", "end with what is reached before a round has more (default 1e6)",
+          "N");
+  addGoal("--max-seconds", "max_seconds", "end with what is reached before it takes longer", "SECONDS");
   runApp->add_option("--threads", runCommand.threads, "threads (default 1)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
@@ -118,6 +132,33 @@ int dispatch(int argc, char** argv) {
       ->required();
   reportApp->add_option("--out", reportCommand.out, "the HTML file (default: OUT.html beside the result)");
 
+  CompareCommand compareCommand;
+  CLI::App* compareApp = app.add_subcommand(
+      "compare",
+      "a scene in both codes, or beside a result that was kept (docs/compare.md); exit code 0 or 1");
+  compareApp->add_option("SCENE", compareCommand.scene, "scene, a TOML file");
+  compareApp->add_option("--set", compareCommand.settings, settingsHelp)->type_name("KEY=VALUE");
+  compareApp
+      ->add_option("--accept", compareCommand.accept,
+                   "keeps the result of the scene, to be compared with later")
+      ->type_name("FOLDER");
+  compareApp
+      ->add_option(
+          "--against", compareCommand.against,
+          "a result (of --accept or mortier run), or BODY=FILE.vtu of another code (default: FreeFEM)")
+      ->type_name("FOLDER")
+      ->take_all()
+      ->expected(1);
+  compareApp
+      ->add_option(
+          "--within", compareCommand.within,
+          "largest relative difference from --against (default: that of rounding, on the same meshes)")
+      ->type_name("X");
+  compareApp
+      ->add_option("--picture", compareCommand.picture,
+                   "PNG or SVG of the difference (default: SCENE.difference.png where they differ)")
+      ->type_name("FILE");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -147,6 +188,10 @@ int dispatch(int argc, char** argv) {
   }
   if (*reportApp) {
     return report(reportCommand);
+  }
+  if (*compareApp) {
+    giveBackScene(compareCommand.settings, compareCommand.scene);
+    return compare(compareCommand);
   }
   if (app.got_subcommand("mesh")) {
     return meshCommand();

@@ -19,6 +19,9 @@ last good state of a run that stopped at a step that cannot be solved
 .B DIR.plots, DIR.html
 pictures and page of a result
 .TP
+.B SCENE.difference.png
+where two results differ, of mortier compare
+.TP
 .B DIR.tmp\\-PID
 what a run has written so far, with its checkpoints
 .SH EXIT STATUS

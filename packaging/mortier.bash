@@ -15,7 +15,7 @@ _mortier() {
   done
 
   case $previous in
-    --out | --restart) mapfile -t COMPREPLY < <(compgen -d -- "$current"); return ;;
+    --out | --restart | --accept | --against) mapfile -t COMPREPLY < <(compgen -d -- "$current"); return ;;
     --set) compopt -o nospace 2>/dev/null ;;
   esac
   words=$(sed -n '/^Subcommands:/,$p' <<<"$text" | sed -nE 's/^  ([a-z][a-z-]*).*/\1/p')

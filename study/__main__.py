@@ -4,16 +4,16 @@ Exit codes: 0 done (runs that failed are rows with their reason), 1 no run has a
 2 wrong input.
 """
 import argparse
-import importlib
 import os
-import signal
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "compare")]
 
 import plan as plans  # noqa: E402
-from problems import RunFailure, StudyError, shown  # noqa: E402
+from ending import code_of, require, shown  # noqa: E402
+from problems import RunFailure  # noqa: E402
 
 
 def arguments():
@@ -27,15 +27,6 @@ def arguments():
     if found.jobs < 1:
         parser.error(f"--jobs {found.jobs}: expected an integer >= 1")
     return found
-
-
-def require(*modules):
-    """Debian's packages of Python modules; another Python may lack them."""
-    for module in modules:
-        try:
-            importlib.import_module(module)
-        except ImportError as error:
-            raise RunFailure(f"the Python module {module} is missing (Debian package python3-{module})") from error
 
 
 def study(given, say):
@@ -70,35 +61,13 @@ def study(given, say):
         say(f"{out}/report.html: {len(rows)} runs" + (f", {failed} without a result (reasons in study.csv)" if failed else ""))
         if failed == len(rows):
             raise RunFailure(f"no run has a result (reasons in {out}/study.csv)")
-        return 0
-
-
-def interrupt(*_):
-    raise KeyboardInterrupt
 
 
 def main():
     given = arguments()
-    signal.signal(signal.SIGTERM, interrupt)
-    try:
-        return study(given, (lambda line: None) if given.quiet else lambda line: print(shown(line), flush=True))
-    except StudyError as error:
-        return complain(error, 2)
-    except RunFailure as error:
-        return complain(f"{given.study}: {error}", 1)
-    except OSError as error:
-        return complain(f"{given.study}: {error.filename or given.out or 'out'}: {error.strerror or error}", 1)
-    except RecursionError:
-        return complain(f"{given.study}: nested too deeply, expected a study (docs/study.md)", 2)
-    except KeyboardInterrupt:
-        return complain(f"{given.study}: interrupted; finished runs are kept", 1)
-    except Exception as error:  # a fault of this program
-        return complain(f"{given.study}: {type(error).__name__}: {error}; please report this", 1)
-
-
-def complain(text, code):
-    print(f"mortier: {shown(text)}", file=sys.stderr)
-    return code
+    say = (lambda line: None) if given.quiet else lambda line: print(shown(line), flush=True)
+    return code_of(lambda: study(given, say), given.study, expected="a study (docs/study.md)",
+                   kept="finished runs are kept", place=given.out or "out")
 
 
 if __name__ == "__main__":

@@ -1,15 +1,15 @@
 """What stops a study, in one line: the file, the line, the key and what was expected."""
+import sys
+from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parent.parent / "compare"))
+
+from ending import Failure, Wrong, shown  # noqa: E402, F401
 
 
-class StudyError(Exception):
+class StudyError(Wrong):
     """A wrong input; nothing has been written."""
 
 
-class RunFailure(Exception):
+class RunFailure(Failure):
     """A run of the sweep that has no result; its message becomes the reason in the table."""
-
-
-def shown(text, most=2000):
-    """A text as one line of visible characters; of a long one the middle is left out."""
-    line = "".join(c if c.isprintable() else "?" for c in str(text))
-    return line if len(line) <= most else f"{line[:most // 2]} ... {line[-most // 2:]}"

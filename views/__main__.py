@@ -1,18 +1,17 @@
-"""mortier plot and mortier report: pictures and a page of results (docs/pictures.md).
+"""mortier plot, report and compare: pictures and a page of results (docs/pictures.md), results beside others
+(docs/compare.md).
 
-Exit codes: 0 done, 1 output cannot be written, 2 wrong input.
+Exit codes: 0 done, 1 output cannot be written or results differ, 2 wrong input; of a run that fails, its own.
 """
 import argparse
-import importlib
 import math
-import signal
 import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "compare")]
 
-from problems import ViewError, shown  # noqa: E402
+from ending import Wrong, code_of, complain, require, shown  # noqa: E402
 
 PICTURES = ("fields", "contact", "history")
 
@@ -31,7 +30,7 @@ def numbers(count):
 
 class Parser(argparse.ArgumentParser):
     def error(self, message):
-        raise ViewError(f"{message} (see mortier --help)")
+        raise Wrong(f"{message} (see mortier --help)")
 
 
 def arguments(words):
@@ -48,16 +47,14 @@ def arguments(words):
     for each in (plot, report):
         each.add_argument("--out", type=Path)
         each.add_argument("results", nargs="+")
+    compare = commands.add_parser("compare")
+    compare.add_argument("--set", action="append", default=[])
+    compare.add_argument("--accept")
+    compare.add_argument("--against", action="append", default=[])
+    compare.add_argument("--within", type=numbers(1))
+    compare.add_argument("--picture", type=Path)
+    compare.add_argument("scene")
     return parser.parse_args(words)
-
-
-def require(*modules):
-    """Debian's packages of Python modules; another Python may lack them."""
-    for module in modules:
-        try:
-            importlib.import_module(module)
-        except ImportError as error:
-            raise OSError(0, f"the Python module {module} is missing (Debian package python3-{module})") from error
 
 
 def plot(given):
@@ -69,23 +66,23 @@ def plot(given):
 
     # 1. The runs, and what is wrong with the options before anything is drawn.
     if len(given.results) > len(pictures.OF_RUNS):
-        raise ViewError(f"{len(given.results)} results, expected {len(pictures.OF_RUNS)} at most")
+        raise Wrong(f"{len(given.results)} results, expected {len(pictures.OF_RUNS)} at most")
     results = [runs.Result(folder) for folder in given.results]
     views = [pictures.view(result, given.step) for result in results]
     known = set.intersection(*[set(each.result.fields(each.run)) for each in views])
     if given.field != "none" and given.field not in known:
         ordered = [name for name in views[0].result.fields(views[0].run) if name in known]
-        raise ViewError(f"--field {given.field}: expected one of {', '.join([*ordered, 'none'])}")
+        raise Wrong(f"--field {given.field}: expected one of {', '.join([*ordered, 'none'])}")
     if given.window and not (given.window[0] < given.window[1] and given.window[2] < given.window[3]):
-        raise ViewError("--window: expected XMIN,XMAX,YMIN,YMAX, each minimum below its maximum")
+        raise Wrong("--window: expected XMIN,XMAX,YMIN,YMAX, each minimum below its maximum")
     if given.animate and max(len(result.kept) for result in results) < 2:
-        raise ViewError(f"{given.results[0]}: --animate: one step was kept only (mortier run --set output.every=1 keeps all)")
+        raise Wrong(f"{given.results[0]}: --animate: one step was kept only (mortier run --set output.every=1 keeps all)")
     folder = given.out or files.beside(given.results, ".plots")
     single = folder.suffix[1:] if folder.suffix in (".png", ".svg", ".gif") else None
     if single == "gif" and not given.animate:
-        raise ViewError(f"--out {folder}: a .gif is for --animate")
+        raise Wrong(f"--out {folder}: a .gif is for --animate")
     if given.animate and single in ("png", "svg"):
-        raise ViewError(f"--out {folder}: --animate makes a .gif")
+        raise Wrong(f"--out {folder}: --animate makes a .gif")
 
     # 2. The pictures.
     scale = given.scale[0] if given.scale else None
@@ -100,7 +97,7 @@ def plot(given):
                       "contact": lambda: pictures.contact(views), "history": lambda: pictures.history(views)}[name]()
             if figure is None:
                 if given.only:
-                    raise ViewError(f"{given.results[0]}: nothing to draw: "
+                    raise Wrong(f"{given.results[0]}: nothing to draw: "
                                     f"{'no contact' if name == 'contact' else 'fewer than two steps'} in this run")
                 continue
             for kind in (single,) if single else ("png", "svg"):
@@ -119,45 +116,56 @@ def report(given):
 
     out = given.out or files.beside(given.results, ".html")
     if out.suffix != ".html":
-        raise ViewError(f"--out {out}: expected a file NAME.html")
+        raise Wrong(f"--out {out}: expected a file NAME.html")
     page = reports.page([runs.Result(folder) for folder in given.results])
     files.put({out: page.encode()})
     print(f"{shown(out)}: {len(page.encode()) / 1e6:.2f} MB")
 
 
-def interrupt(*_):
-    raise KeyboardInterrupt
+def compare(given):
+    """0: they agree, 1: they differ; of a run that fails, its own exit code."""
+    require("numpy", "matplotlib", "meshio")
+    import comparison
+
+    given.within = given.within[0] if given.within else None
+    if given.within is not None and not given.within > 0:
+        raise Wrong("--within: expected a number above 0")
+    if given.accept and (given.against or given.picture or given.within is not None):
+        raise Wrong("--accept: keeps a result and compares nothing, expected no --against, --within or --picture")
+    if given.within is not None and not given.against:
+        raise Wrong("--within: for --against only; both codes agree to rounding")
+    if given.picture and given.picture.suffix not in (".png", ".svg"):
+        raise Wrong(f"--picture {given.picture}: expected a file NAME.png or NAME.svg")
+    try:
+        return comparison.accept(given) if given.accept else comparison.run(given)
+    except comparison.CodeFailed as error:
+        sys.stderr.write(last_words(str(error)))
+        return error.code if error.code in (1, 2, 3) else 1
+
+
+def last_words(text):
+    """The messages of a run that failed, which is the program itself: as they are."""
+    lines = text.strip().splitlines()
+    return "".join(f"{line}\n" for line in [each for each in lines if each.startswith("mortier: ")] or lines[-8:])
+
+
+def view(given):
+    require("numpy")
+    import results
+    try:
+        return {"plot": plot, "report": report, "compare": compare}[given.command](given)
+    except results.ResultError as error:
+        raise Wrong(error) from error
 
 
 def main():
-    signal.signal(signal.SIGTERM, interrupt)
-    where = " ".join(sys.argv[1:2])
     try:
         given = arguments(sys.argv[1:])
-        where = f"{given.command} {given.results[0]}"
-        import results
-        try:
-            (plot if given.command == "plot" else report)(given)
-        except results.ResultError as error:
-            return complain(error, 2)
-        return 0
-    except ViewError as error:
+    except Wrong as error:
         return complain(error, 2)
-    except OSError as error:
-        return complain(f"{where}: {error.strerror or error}", 1)
-    except RecursionError:
-        return complain(f"{where}: nested too deeply, expected a result of mortier run", 2)
-    except MemoryError:
-        return complain(f"{where}: out of memory", 1)
-    except KeyboardInterrupt:
-        return complain(f"{where}: interrupted; nothing was written", 1)
-    except Exception as error:  # a fault of this program
-        return complain(f"{where}: {type(error).__name__}: {error}; please report this", 1)
-
-
-def complain(text, code):
-    print(f"mortier: {shown(text)}", file=sys.stderr)
-    return code
+    of = given.scene if given.command == "compare" else given.results[0]
+    return code_of(lambda: view(given), f"{given.command} {of}", expected="a result of mortier run",
+                   kept="nothing was written")
 
 
 if __name__ == "__main__":

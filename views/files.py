@@ -8,7 +8,7 @@ import re
 import zlib
 from pathlib import Path
 
-from problems import ViewError
+from ending import Wrong
 
 
 def seal_of(data, kind):
@@ -41,7 +41,7 @@ def put(files):
     """path -> bytes: all of them, or where one cannot be written none that was not there before."""
     for path in files:
         if (path.exists() or path.is_symlink()) and not is_own(path):
-            raise ViewError(f"{path}: in the way, and no file of mortier or changed since; expected another --out")
+            raise Wrong(f"{path}: in the way, and no file of mortier or changed since; expected another --out")
     new = {}
     try:
         for path, data in files.items():

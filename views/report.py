@@ -15,7 +15,7 @@ import numpy as np
 
 from coding import Block, scaled
 from contact_line import boundary_edges
-from problems import shown
+from ending import shown
 from runs import extent, natural_scale
 
 PAGE = Path(__file__).resolve().parent / "page"

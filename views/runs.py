@@ -8,7 +8,7 @@ import numpy as np
 
 import results
 from contact_line import ContactLine
-from problems import ViewError, shown
+from ending import Wrong, shown
 
 
 @dataclass
@@ -87,7 +87,7 @@ class Result:
             return steps[-1]
         if given not in steps:
             listed = ", ".join(map(str, steps[:8])) + (f", ... {steps[-1]}" if len(steps) > 8 else "")
-            raise ViewError(f"{self.folder}: step {given} was not kept, expected one of {listed} "
+            raise Wrong(f"{self.folder}: step {given} was not kept, expected one of {listed} "
                             "(mortier run --set output.every=1 keeps all)")
         return given
 

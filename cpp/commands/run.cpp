@@ -6,25 +6,24 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <optional>
 
+#include "adapt/error_history.h"
+#include "adapt/rounds.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "commands/complain.h"
 #include "commands/exit_code.h"
-#include "commands/stopped_run.h"
+#include "commands/solve.h"
 #include "commands/version.h"
 #include "linear/versions.h"
 #include "lint/lint.h"
+#include "mesh/medit.h"
 #include "plan/estimate_doubts.h"
 #include "plan/loads.h"
-#include "report/accuracy.h"
-#include "report/checkpoint.h"
-#include "report/checkpoint_files.h"
 #include "report/clock.h"
-#include "report/log.h"
-#include "report/output_folder.h"
-#include "report/result_files.h"
+#include "report/output_file.h"
 #include "report/summary.h"
 #include "scene/build.h"
 #include "scene/build_quantities.h"
@@ -59,8 +58,10 @@ std::string joinedOnce(std::vector<std::string> words) {
   return text.empty() ? "none" : text;
 }
 
-RunFacts factsOf(const RunCommand& command, const SceneDescription& scene) {
+RunFacts factsOf(const RunCommand& command, const SceneDescription& scene, std::vector<RoundFacts> rounds) {
   RunFacts facts;
+  facts.rounds = std::move(rounds);
+  facts.accuracy = scene.accuracy.energy;
   facts.scene = scene.path;
   facts.title = scene.title;
   facts.plane = word(scene.plane);
@@ -98,35 +99,44 @@ void warnOf(const Faults& faults) {
     if (fault.kind->severity == Severity::warning) warn(fault.place + ": " + withRemedy(fault));
 }
 
-/// Writes checkpoints at intervals of wall time, and never so often that a tenth of the time goes into them.
-class Checkpoints {
- public:
-  Checkpoints(std::string folder, double interval, RunIdentity identity)
-      : folder_(std::move(folder)),
-        interval_(interval),
-        last_(processSeconds()),
-        identity_(std::move(identity)) {}
+/// Beside the times of the scene, what its steps need to know of its data where they are chosen by their error.
+void lookAhead(SceneDescription& scene, const Model& model) {
+  if (!(scene.time.tolerance > 0)) return;
+  LoadCourses loads = loadCourses(scene, model);
+  scene.time.breaks = std::move(loads.breaks);
+  scene.time.data = std::move(loads.data);
+}
 
-  [[nodiscard]] bool due() const {
-    constexpr double rarely = 10;
-    return processSeconds() - last_ >= (interval_ > 0 ? std::max(interval_, rarely * cost_) : 0);
-  }
-  /// \param empty  the files before the first step
-  void write(const FilesSoFar& empty, const FilesSoFar& files, const StepReport& last, const State& state,
-             const MarchMemory& memory, const AccuracyMemory& accuracy) {
-    const double begin = processSeconds();
-    writeCheckpoint(folder_, {identity_, empty, files, last, state, memory, accuracy});
-    last_ = processSeconds();
-    cost_ = last_ - begin;
-  }
+/// How well it holds.
+void tell(Log& log, const RunFacts& facts, const Model& model, const Solved& solved,
+          const std::string& where) {
+  log.print(logStatus(solved.report, where));
+  log.print(logVerification(solved.report.worst));
+  log.print(logSpecial(solved.report.special));
+  log.print(logAccuracy(facts, model, solved.accuracy));
+  log.print(logTimeError(facts, solved.report));
+  log.print(logPeaks(solved.report.peaks, solved.last));
+  log.print(logQuantities(facts.quantities, evaluate(facts.quantities, model, solved.state)));
+}
 
- private:
-  std::string folder_;
-  double interval_;
-  double last_;
-  double cost_ = 0;
-  RunIdentity identity_;
-};
+int unknownsOf(const Model& model) {
+  int unknowns = 0;
+  for (const Body& body : model.bodies) unknowns += body.freeDofs();
+  return unknowns;
+}
+
+size_t trianglesOf(const Model& model) {
+  size_t triangles = 0;
+  for (const Body& body : model.bodies) triangles += body.mesh().triangles.size();
+  return triangles;
+}
+
+void clearFields(const std::string& folder, const std::map<std::string, FileRecord>& files) {
+  std::error_code none;  // what stays is no part of the result
+  for (const auto& [name, record] : files)
+    if (std::filesystem::path(name).extension() == ".vtu")  // others are written anew
+      std::filesystem::remove(std::filesystem::path(folder) / name, none);
+}
 
 }  // namespace
 
@@ -145,124 +155,111 @@ int run(RunCommand command) {
   RunIdentity identity = identityOf(command);
   ResolvedScene resolved = resolveScene(readScene(command.scene, command.settings));
   Faults doubts = lintResolved(resolved, command.settings);
-  const Model model = buildModel(resolved);
+  std::optional<Rounds> rounds;
+  if (resolved.description.accuracy.energy > 0) {
+    rounds.emplace(std::move(resolved));
+    resolved = rounds->scene();
+  }
   SceneDescription& scene = resolved.description;
-  scene.solver.threads = command.threads;
-  lintModel(scene, model, doubts);
-  addMeshes(model, identity);
+  std::unique_ptr<Model> model;  // those who look at it know where it is
+  RunFacts facts;
+  const auto build = [&] {
+    model = std::make_unique<Model>(buildModel(resolved));
+    scene.solver.threads = command.threads;
+    facts = factsOf(command, scene, std::move(facts.rounds));
+    facts.sceneText = identity.text;
+    facts.quantities = buildQuantities(scene, *model);
+    lookAhead(scene, *model);
+  };
+  build();
+  lintModel(scene, *model, doubts);
+  addMeshes(*model, identity);
   if (stopped) {
     requireSame(stopped->checkpoint.identity, identity, stopped->folder);
-    requireFits(stopped->checkpoint, model, stopped->folder);
-  }
-  RunFacts facts = factsOf(command, scene);
-  facts.quantities = buildQuantities(scene, model);
-  if (scene.time.tolerance > 0) {
-    LoadCourses loads = loadCourses(scene, model);
-    scene.time.breaks = std::move(loads.breaks);
-    scene.time.data = std::move(loads.data);
+    requireFits(stopped->checkpoint, *model, stopped->folder);
   }
 
   // 2. Where the result goes, and what is reported.
   const std::string path = command.out.empty() ? defaultFolder(command.scene) : command.out;
   std::optional<OutputFolder> folder;
-  std::optional<ResultFiles> files;
-  FilesSoFar empty;
-  StepReport last;
-  State state = initialState(model);
-  if (!stopped) lintSettling(scene, findInitialEquilibrium(scene, model, state), doubts);
-  MarchMemory memory;
-  AccuracyMemory accuracySoFar;
+  State state = initialState(*model);
+  const bool goesOn = stopped && !rounds;
+  if (!goesOn) lintSettling(scene, findInitialEquilibrium(scene, *model, state), doubts);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, onInterrupt);
-  if (stopped) {
+  if (stopped)
     folder.emplace(path, stopped->folder, std::move(stopped->lock));
-    files.emplace(folder->temporary(), model, facts.quantities, scene.every, stopped->checkpoint.files);
-    empty = stopped->checkpoint.empty;
-    last = stopped->checkpoint.last;
-    state = std::move(stopped->checkpoint.state);
-    memory = std::move(stopped->checkpoint.memory);
-    accuracySoFar = stopped->checkpoint.accuracy;
-  } else {
+  else
     folder.emplace(path);
-    files.emplace(folder->temporary(), model, facts.quantities, scene.every);
-  }
-  facts.sceneText = identity.text;
-  Checkpoints checkpoints(folder->temporary(), command.checkpoint, std::move(identity));
-  facts.doubts = estimateDoubts(scene, model);
-  AccuracyRecord accuracies(model, accuracySoFar);
+  Checkpoints checkpoints(folder->temporary(), command.checkpoint, identity);
   Log log(command.quiet, scene.time.end);
-  log.print("memory     " + aboutMemory(memoryNeed(model)) + "\n");
-  log.print(logHeader(facts, model));
-
+  Log rows(command.quiet || rounds, scene.time.end);
+  log.print("memory     " + aboutMemory(memoryNeed(*model)) + "\n");
+  log.print(logHeader(facts, *model));
+  log.print(rounds ? logRoundsHeader() : logStepsHeader());
   warnOf(doubts);
+  if (stopped && rounds) warn(command.restart + ": the rounds begin again");
 
-  // 3. The march in time. A failure leaves the last good step in `state`, an interruption in what is kept here.
-  State keptState = state;
-  MarchMemory keptMemory = memory;
-  const auto save = [&](const FilesSoFar& written, const State& at, const MarchMemory& with) {
-    checkpoints.write(empty, written, last, at, with, accuracySoFar);
-  };
-  const Observer observe = [&](const State&, const StepReport& report) {
-    const bool again = report.step == 0 && memory.controller.trial > 1;
-    if (again) {
-      // A checkpoint before the files are cut: one that knows them as they were would be of no use.
-      log.print(logTrial(keptMemory.run.timeError, scene.time.tolerance));
-      last = report;
-      accuracySoFar = {};
-      const FilesSoFar written = files->sync();
-      save(empty, state, memory);
-      files.reset();
-      removeFields(folder->temporary(), written, empty);
-      files.emplace(folder->temporary(), model, facts.quantities, scene.every, empty);
-    } else {
-      files->add(state, report);
-      if (report.step == 0) empty = files->sync();
-    }
-    accuracies.add(state, report, scene.every > 0 && report.step % scene.every == 0);
-    if (report.step > 0) log.step(report);
-    last = report;
-    if (report.step > 0 && state.time < scene.time.end && checkpoints.due())
-      save(files->sync(), state, memory);
-    keptState = state;
-    keptMemory = memory;
-  };
-  RunReport report;
-  try {
-    report = march(model, state, memory, scene.time, scene.solver, observe);
-  } catch (const OutputError& error) {
-    log.finish();
-    if (!hasCheckpoint(folder->temporary())) throw;
-    throw OutputError(error.what() + ("; mortier run --restart " + path + " goes on"));
-  } catch (const Interrupted&) {
-    log.finish();
-    const bool begun = last.step > 0 || keptMemory.controller.trial > 1;
-    if (begun) save(files->sync(), keptState, keptMemory);
-    throw InterruptedError(
-        scene.path + ": interrupted after step " + std::to_string(last.step) +
-        (!begun ? "; nothing was written" : "; mortier run --restart " + path + " goes on"));
+  // 3. The march in time; where an accuracy is asked for, again and again.
+  Solved solved;
+  Rounds::Verdict verdict = rounds ? Rounds::Verdict::goOn : Rounds::Verdict::reached;
+  for (double begin = 0;;) {
+    std::optional<ErrorHistory> errors;
+    if (rounds) errors.emplace(*model);
+    Solving solving{scene,       *model, facts, folder->temporary(), rows, std::move(state), {},
+                    checkpoints, {},     {}};
+    if (goesOn) solving.stopped = std::move(stopped->checkpoint);
+    solving.onlyTheStart = rounds.has_value();
+    solving.again = "; mortier run --restart " + path + (rounds ? " begins the rounds again" : " goes on");
+    if (errors)
+      solving.alsoObserve = [&](const State& at, const StepReport& report) { errors->add(at, report); };
+    solved = solve(std::move(solving));
+    if (!rounds || solved.report.status != Status::converged) break;
+    const double now = processSeconds();
+    const RoundResult result{errors->errors(), errors->energy(), solved.report.timeError, now - begin};
+    verdict = rounds->judge(result, now);
+    facts.rounds.push_back({trianglesOf(*model), unknownsOf(*model), solved.report.steps, rounds->meshError(),
+                            solved.report.timeError, now - begin});
+    log.print(logRound(facts.rounds));
+    if (verdict != Rounds::Verdict::goOn) break;
+    begin = now;
+    clearFields(folder->temporary(), solved.files);
+    errors.reset();
+    resolved = rounds->scene();
+    build();
+    state = initialState(*model);
+    findInitialEquilibrium(scene, *model, state);
   }
-  log.finish();
 
   // 4. The result, in place of an older one only when the run is complete.
-  const bool complete = report.status == Status::converged;
-  Manifest manifest{!complete, files->close(state, last.step)};
-  const Accuracy accuracy = accuracies.atEnd(state, report.peaks);
-  manifest.files["summary.json"] =
-      writeSummary(folder->temporary(), facts, model, state, last, report, accuracy);
+  const bool complete = solved.report.status == Status::converged;
+  const bool reached = verdict == Rounds::Verdict::reached;
+  facts.doubts = estimateDoubts(scene, *model);
+  Manifest manifest{!complete, std::move(solved.files)};
+  if (rounds) {
+    const std::vector<std::string> more = rounds->doubts();
+    facts.doubts.insert(facts.doubts.end(), more.begin(), more.end());
+    facts.reached = reached;
+    for (const Body& body : model->bodies) {
+      OutputFile file(folder->temporary() + "/" + body.name() + ".mesh");
+      file << meditText(body.mesh());
+      manifest.files[body.name() + ".mesh"] = file.close();
+    }
+  }
+  manifest.files["summary.json"] = writeSummary(folder->temporary(), facts, *model, solved.state, solved.last,
+                                                solved.report, solved.accuracy);
   const std::string where = folder->commit(manifest);
 
   // 5. How well it holds.
-  log.print(logStatus(report, where));
-  log.print(logVerification(report.worst));
-  log.print(logSpecial(report.special));
-  log.print(logAccuracy(facts, model, accuracy));
-  log.print(logTimeError(facts, report));
-  log.print(logPeaks(report.peaks, last));
-  log.print(logQuantities(facts.quantities, evaluate(facts.quantities, model, state)));
+  tell(log, facts, *model, solved, where);
   if (!complete) {
-    complain(scene.path + ": " + report.reason + "; the state after step " + std::to_string(last.step) +
-             " is in " + where);
+    complain(scene.path + ": " + solved.report.reason + "; the state after step " +
+             std::to_string(solved.last.step) + " is in " + where);
+    return solved.report.status == Status::unheld ? exitUnheld : exitFailed;
   }
-  return complete ? exitDone : report.status == Status::unheld ? exitUnheld : exitFailed;
+  if (reached) return exitDone;
+  complain(scene.path + ": accuracy " + shortest(scene.accuracy.energy) +
+           " not reached: " + rounds->reason() + "; the best result is in " + where);
+  return exitFailed;
 }
 
 }  // namespace mortier

@@ -1,6 +1,7 @@
 #include "commands/stopped_run.h"
 
 #include <filesystem>
+#include <utility>
 
 #include "base/error.h"
 #include "scene/document.h"
@@ -16,7 +17,9 @@ std::optional<StoppedRun> findStoppedRun(const std::string& path) {
     const LeftBehind left = clearUp(place);
     if (!left.stopped.empty()) {
       const std::string folder = left.stopped.front().string();
-      return StoppedRun{folder, FolderLock(folder), readCheckpoint(folder)};
+      FolderLock lock(folder);
+      if (!lock.held()) throw OutputError(place.shown(folder) + ": cannot be locked");
+      return StoppedRun{folder, std::move(lock), readCheckpoint(folder)};
     }
     if (left.placed == place.of(true))
       throw OutputError(place.shown(left.placed) + ": the run had stopped at a step that cannot be solved");

@@ -37,4 +37,14 @@ int report(const ReportCommand& command) {
   becomeViews(words, command.results);
 }
 
+int compare(const CompareCommand& command) {
+  std::vector<std::string> words{"compare"};
+  for (const std::string& setting : command.settings) addOption(words, "set", setting);
+  for (const std::string& place : command.against) addOption(words, "against", place);
+  addOption(words, "accept", command.accept);
+  addOption(words, "within", command.within);
+  addOption(words, "picture", command.picture);
+  becomeViews(words, {command.scene});
+}
+
 }  // namespace mortier

@@ -23,8 +23,19 @@ struct ReportCommand {
   std::string out;  ///< empty: <result>.html
 };
 
+/// `mortier compare`: a scene in both codes, or its run beside a result that was kept; made in views/ as well.
+struct CompareCommand {
+  std::string scene;
+  std::vector<std::string> settings;  ///< key=value
+  std::vector<std::string> against;   ///< a result, or BODY=FILE.vtu of another code; empty: FreeFEM
+  std::string accept;                 ///< folder that keeps the result; empty: compare
+  std::string within;                 ///< relative difference that is allowed; empty: that of rounding
+  std::string picture;                ///< of the difference; empty: <scene>.difference.png where they differ
+};
+
 /// Do not return unless Python or the program in views/ cannot be found. \throws OutputError
 int plot(const PlotCommand& command);
 int report(const ReportCommand& command);
+int compare(const CompareCommand& command);
 
 }  // namespace mortier

@@ -232,4 +232,15 @@ Vector ContactInterface::contactPressure(const Vector& p) const {
   return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(mass_).solve(p);
 }
 
+std::vector<GapSquare> ContactInterface::gapSquares(const Vector& p, const Vector& uNonmortar,
+                                                    const Vector& uMortar) const {
+  std::vector<int> pressed;
+  for (int row = 0; row < rows(); ++row)
+    if (p[row] > 0) pressed.push_back(nonmortarNodes_[row]);
+  std::sort(pressed.begin(), pressed.end());
+  return penetration_.squares(uNonmortar, uMortar, [&](int vertex) {
+    return std::binary_search(pressed.begin(), pressed.end(), vertex);
+  });
+}
+
 }  // namespace mortier

@@ -113,6 +113,10 @@ class ContactInterface {
   [[nodiscard]] double deepestOverlap(const Vector& uNonmortar, const Vector& uMortar) const {
     return penetration_.deepest(uNonmortar, uMortar);
   }
+  /// What nodal forces p [N/m] leave of the gap between the nodes: its square where they press, that of the overlap
+  /// elsewhere.
+  [[nodiscard]] std::vector<GapSquare> gapSquares(const Vector& p, const Vector& uNonmortar,
+                                                  const Vector& uMortar) const;
 
  private:
   void assemble(const std::vector<SmoothPart>& parts, const std::vector<FacingLine>& facing,

@@ -16,26 +16,43 @@ double positiveMean(double a, double b) {
   return a > 0 || b > 0 ? std::max(a, b) * std::max(a, b) / (2 * std::abs(a - b)) : 0;
 }
 
-/// The same of the parabola from a through m in the middle to b.
-double positiveMean(double a, double m, double b) {
-  const double bend = 2 * (a - 2 * m + b);
-  const double slope = 4 * m - 3 * a - b;
-  const auto at = [&](double t) { return a + t * (slope + t * bend); };
-  std::array<double, 4> ends{0, 1, 1, 1};
-  const double discriminant = slope * slope - 4 * bend * a;
-  if (discriminant > 0) {
-    const double q = -(slope + std::copysign(std::sqrt(discriminant), slope)) / 2;
-    ends[1] = std::clamp(q != 0 ? a / q : 0.0, 0.0, 1.0);
-    ends[2] = std::clamp(bend != 0 ? q / bend : 1.0, 0.0, 1.0);
-    if (ends[1] > ends[2]) std::swap(ends[1], ends[2]);
+/// The parabola from a through m in the middle to b, over [0, 1].
+class Parabola {
+ public:
+  Parabola(double a, double m, double b) : a_(a), slope_(4 * m - 3 * a - b), bend_(2 * (a - 2 * m + b)) {}
+
+  /// The mean of its positive part: Simpson's rule between its roots.
+  [[nodiscard]] double positiveMean() const {
+    return overPositive([](double a, double m, double b) { return (a + 4 * m + b) / 6; });
   }
-  double mean = 0;
-  for (int k = 0; k < 3; ++k) {  // Simpson's rule between its roots
-    const double middle = at((ends[k] + ends[k + 1]) / 2);
-    if (middle > 0) mean += (ends[k + 1] - ends[k]) * (at(ends[k]) + 4 * middle + at(ends[k + 1])) / 6;
+  [[nodiscard]] double squareMean() const { return square(at(0), at(0.5), at(1)); }
+  [[nodiscard]] double positiveSquareMean() const { return overPositive(square); }
+
+ private:
+  [[nodiscard]] double at(double t) const { return a_ + t * (slope_ + t * bend_); }
+  static double square(double a, double m, double b) {
+    return (4 * a * a + 16 * m * m + 4 * b * b + 4 * m * (a + b) - 2 * a * b) / 30;
   }
-  return mean;
-}
+  template <class Mean>
+  [[nodiscard]] double overPositive(Mean mean) const {
+    std::array<double, 4> ends{0, 1, 1, 1};
+    const double discriminant = slope_ * slope_ - 4 * bend_ * a_;
+    if (discriminant > 0) {
+      const double q = -(slope_ + std::copysign(std::sqrt(discriminant), slope_)) / 2;
+      ends[1] = std::clamp(q != 0 ? a_ / q : 0.0, 0.0, 1.0);
+      ends[2] = std::clamp(bend_ != 0 ? q / bend_ : 1.0, 0.0, 1.0);
+      if (ends[1] > ends[2]) std::swap(ends[1], ends[2]);
+    }
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double middle = at((ends[k] + ends[k + 1]) / 2);
+      if (middle > 0) sum += (ends[k + 1] - ends[k]) * mean(at(ends[k]), middle, at(ends[k + 1]));
+    }
+    return sum;
+  }
+
+  double a_, slope_, bend_;
+};
 
 EdgeNodes numbers(const ElementLine& line, int element) {
   EdgeNodes nodes = line.nodesOf(element);
@@ -57,20 +74,21 @@ void PenetrationIntegral::add(const SmoothPart& part, const FacingLine& mortar, 
     };
     // Between its ends the distance of two curves is not linear: the chord of a curve hides what is below it.
     const double length = segment.end - segment.begin;
+    const double element = part.s[segment.nonmortar + 1] - part.s[segment.nonmortar];
     const Place begin = place(segment.begin);
     const Place middle = place(segment.begin + length / 2);
     const Place end = place(segment.end);
     const auto first = static_cast<int>(places_.size());
     if (quadratic) {
       places_.insert(places_.end(), {begin, middle, end});
-      stretches_.push_back({first, true, length});
+      stretches_.push_back({first, true, length, element});
     } else if (std::abs(middle.distance - (begin.distance + end.distance) / 2) <= straight * length) {
       places_.insert(places_.end(), {begin, end});
-      stretches_.push_back({first, false, length});
+      stretches_.push_back({first, false, length, element});
     } else {
       places_.insert(places_.end(), {begin, middle, end});
-      stretches_.push_back({first, false, length / 2});
-      stretches_.push_back({first + 1, false, length / 2});
+      stretches_.push_back({first, false, length / 2, element});
+      stretches_.push_back({first + 1, false, length / 2, element});
     }
   }
 }
@@ -86,8 +104,8 @@ double PenetrationIntegral::of(const Vector& uNonmortar, const Vector& uMortar) 
   double integral = 0;
   for (const Stretch& stretch : stretches_) {
     const auto jump = [&](int k) { return places_[stretch.first + k].jump(uNonmortar, uMortar); };
-    integral += stretch.length *
-                (stretch.parabola ? positiveMean(jump(0), jump(1), jump(2)) : positiveMean(jump(0), jump(1)));
+    integral += stretch.length * (stretch.parabola ? Parabola(jump(0), jump(1), jump(2)).positiveMean()
+                                                   : positiveMean(jump(0), jump(1)));
   }
   return integral;
 }
@@ -96,6 +114,25 @@ double PenetrationIntegral::deepest(const Vector& uNonmortar, const Vector& uMor
   double depth = 0;
   for (const Place& place : places_) depth = std::max(depth, place.jump(uNonmortar, uMortar));
   return depth;
+}
+
+std::vector<GapSquare> PenetrationIntegral::squares(const Vector& uNonmortar, const Vector& uMortar,
+                                                    const std::function<bool(int)>& pressed) const {
+  std::vector<GapSquare> result;
+  result.reserve(stretches_.size());
+  for (const Stretch& stretch : stretches_) {
+    const auto jump = [&](int k) { return places_[stretch.first + k].jump(uNonmortar, uMortar); };
+    const Parabola gap = stretch.parabola ? Parabola(jump(0), jump(1), jump(2))
+                                          : Parabola(jump(0), (jump(0) + jump(1)) / 2, jump(1));
+    const Place& place = places_[stretch.first];
+    const std::array nonmortar{place.nonmortar[0], place.nonmortar[1]};
+    const bool any = pressed(nonmortar[0]) || pressed(nonmortar[1]);
+    result.push_back({nonmortar,
+                      {place.mortar[0], place.mortar[1]},
+                      stretch.element,
+                      stretch.length * (any ? gap.squareMean() : gap.positiveSquareMean())});
+  }
+  return result;
 }
 
 }  // namespace mortier

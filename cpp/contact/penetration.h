@@ -1,13 +1,24 @@
 // The note's measure of interpenetration, the integral over Gamma_C of ((u1 - u2).n - g0)_+, on the common
 // refinement. Between its points the jump of linear traces is taken as linear (of curves in two halves), that of
-// quadratic ones as the parabola through its value in the middle too: exact where the nonmortar line is straight.
+// quadratic ones as the parabola through its value in the middle too: exact where the nonmortar line is straight. And
+// the squares of the jump, element by element, by which an estimate of the error tells what contact leaves between the
+// nodes.
 #pragma once
 
+#include <array>
+#include <functional>
 #include <vector>
 
 #include "contact/facing_line.h"
 
 namespace mortier {
+
+/// Of a stretch of the common refinement.
+struct GapSquare {
+  std::array<int, 2> nonmortar, mortar;  ///< vertex numbers of the two elements
+  double element = 0;                    ///< length of the nonmortar one [m]
+  double integral = 0;                   ///< [m^3]
+};
 
 class PenetrationIntegral {
  public:
@@ -17,6 +28,10 @@ class PenetrationIntegral {
   [[nodiscard]] double of(const Vector& uNonmortar, const Vector& uMortar) const;
   /// The largest jump at a point of the common refinement or in the middle between two, 0 where all are negative [m].
   [[nodiscard]] double deepest(const Vector& uNonmortar, const Vector& uMortar) const;
+  /// The integral of the squared jump where a vertex of the nonmortar element is `pressed`, of its squared positive part
+  /// elsewhere.
+  [[nodiscard]] std::vector<GapSquare> squares(const Vector& uNonmortar, const Vector& uMortar,
+                                               const std::function<bool(int vertex)>& pressed) const;
 
  private:
   /// A point of the common refinement, seen from one of its segments.
@@ -32,6 +47,7 @@ class PenetrationIntegral {
     int first = 0;
     bool parabola = false;
     double length = 0;
+    double element = 0;  ///< length of the nonmortar one [m]
   };
   std::vector<Place> places_;
   std::vector<Stretch> stretches_;

@@ -1,7 +1,9 @@
-// CHOLMOD's workspace as an RAII object, for the sources of this folder only.
+// CHOLMOD's workspace as an RAII object and its view of a matrix, for the sources of this folder only.
 #pragma once
 
 #include <cholmod.h>
+
+#include <vector>
 
 namespace mortier {
 
@@ -22,5 +24,23 @@ class CholmodCommon {
  private:
   cholmod_common common_{};
 };
+
+/// The lower triangle of a symmetric matrix by columns, or its pattern alone.
+inline cholmod_sparse lowerTriangle(std::vector<int>& columnStart, std::vector<int>& rows,
+                                    double* values = nullptr) {
+  cholmod_sparse A{};
+  A.nrow = A.ncol = columnStart.size() - 1;
+  A.nzmax = rows.size();
+  A.p = columnStart.data();
+  A.i = rows.data();
+  A.x = values;
+  A.stype = -1;
+  A.itype = CHOLMOD_INT;
+  A.xtype = values == nullptr ? CHOLMOD_PATTERN : CHOLMOD_REAL;
+  A.dtype = CHOLMOD_DOUBLE;
+  A.sorted = 1;
+  A.packed = 1;
+  return A;
+}
 
 }  // namespace mortier

@@ -12,25 +12,9 @@
 namespace mortier {
 namespace {
 
-/// A sparse pattern on its way into CHOLMOD.
 struct Columns {
   std::vector<int> start{0};
   std::vector<int> rows;
-
-  cholmod_sparse view(int stype) {
-    cholmod_sparse A{};
-    A.nrow = A.ncol = start.size() - 1;
-    A.nzmax = rows.size();
-    A.p = start.data();
-    A.i = rows.data();
-    A.stype = stype;
-    A.itype = CHOLMOD_INT;
-    A.xtype = CHOLMOD_PATTERN;
-    A.dtype = CHOLMOD_DOUBLE;
-    A.sorted = 1;
-    A.packed = 1;
-    return A;
-  }
 };
 
 /// The pattern in new positions, lower triangle; `size` positions from 0, entries outside dropped. `clique`
@@ -73,7 +57,7 @@ std::vector<int> fillReducingOrder(const SparsePattern& pattern, const std::vect
   std::vector<int> permutation(interior);
   if (interior > 0) {
     Columns columns = permuted(pattern, position, interior, interior);
-    cholmod_sparse A = columns.view(-1);
+    cholmod_sparse A = lowerTriangle(columns.start, columns.rows);
     const DeafCall deaf;
     if (cholmod_metis(&A, nullptr, 0, 1, permutation.data(), &common) == 0)
       throw std::runtime_error("ordering of the tangent failed in METIS");
@@ -107,7 +91,7 @@ Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept) 
   common->nrelax[2] = 24;
   const DeafCall deaf;
   Columns columns = permuted(pattern, position, result.size, interior);
-  cholmod_sparse A = columns.view(-1);
+  cholmod_sparse A = lowerTriangle(columns.start, columns.rows);
   std::vector<int> identity(result.size);
   std::iota(identity.begin(), identity.end(), 0);
   const auto release = [&](cholmod_factor* L) { cholmod_free_factor(&L, &common); };

@@ -73,7 +73,7 @@ class Cholmod final : public Factorisation {
     common_->method[0].ordering = CHOLMOD_METIS;
     common_->quick_return_if_not_posdef = 1;
     pattern.values.assign(pattern.rows.size(), 0.0);
-    cholmod_sparse A = view(pattern);
+    cholmod_sparse A = lowerTriangle(pattern.start, pattern.rows, pattern.values.data());
     factor_ = cholmod_analyze(&A, &common_);
     if (factor_ == nullptr) throw std::runtime_error("symbolic analysis failed in CHOLMOD");
   }
@@ -82,7 +82,7 @@ class Cholmod final : public Factorisation {
   ~Cholmod() override { cholmod_free_factor(&factor_, &common_); }
 
   bool factorise(Block& K) override {
-    cholmod_sparse A = view(K);
+    cholmod_sparse A = lowerTriangle(K.start, K.rows, K.values.data());
     return cholmod_factorize(&A, factor_, &common_) != 0 && common_->status == CHOLMOD_OK;
   }
 
@@ -100,22 +100,6 @@ class Cholmod final : public Factorisation {
   }
 
  private:
-  static cholmod_sparse view(Block& K) {
-    cholmod_sparse A{};
-    A.nrow = A.ncol = K.start.size() - 1;
-    A.nzmax = K.rows.size();
-    A.p = K.start.data();
-    A.i = K.rows.data();
-    A.x = K.values.data();
-    A.stype = -1;
-    A.itype = CHOLMOD_INT;
-    A.xtype = CHOLMOD_REAL;
-    A.dtype = CHOLMOD_DOUBLE;
-    A.sorted = 1;
-    A.packed = 1;
-    return A;
-  }
-
   mutable CholmodCommon common_;
   cholmod_factor* factor_ = nullptr;
 };

@@ -5,7 +5,6 @@
 
 #include "base/fault_error.h"
 #include "contact/interface.h"
-#include "mesh/read.h"
 #include "scene/build.h"
 #include "scene/build_quantities.h"
 #include "scene/initial_equilibrium.h"
@@ -171,7 +170,7 @@ LintReport lint(const std::string& path, const std::vector<std::string>& setting
   for (const BodyDescription& body : scene.bodies) {
     known.push_back(nullptr);
     try {
-      known.back() = &meshes.emplace_back(readMesh(body.mesh));
+      known.back() = &meshes.emplace_back(meshOf(body));
     } catch (const InputError& error) {
       addError(error, "mesh-file", report.faults);
     }

@@ -30,8 +30,8 @@ void lintTime(const LintInput& input, Faults& faults) {
   const int kept = scene.every > 0 ? 1 + scene.time.steps / scene.every : 1;
   if (bytes * kept > large)
     faults.add("output-large", input.where({"output", "every"}),
-               std::to_string(kept) + " kept states of about " + shortest(std::round(bytes / 1e5) / 10) +
-                   " MB each");
+               std::to_string(kept) + " kept states, about " + shortest(std::round(bytes * kept / 1e8) / 10) +
+                   " GB in all");
 }
 
 }  // namespace mortier

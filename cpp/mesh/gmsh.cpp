@@ -7,18 +7,16 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
-#include <regex>
 #include <set>
 #include <type_traits>
 
 #include "base/archive.h"
 #include "base/child_process.h"
 #include "base/error.h"
+#include "mesh/geometry_constants.h"
 #include "mesh/regions.h"
 
 #ifdef MORTIER_GMSH
@@ -62,29 +60,6 @@ namespace {
 std::string decimal(double value) {
   char digits[32];
   return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
-
-/// Gmsh overlooks a number that no constant of the geometry takes.
-void requireParameters(const MeshSource& source) {
-  if (source.parameters.empty()) return;
-  std::ifstream file(source.path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  std::set<std::string> known;
-  const std::regex block(R"(DefineConstant\s*\[([^\]]*)\])");
-  const std::regex constant(R"(([A-Za-z_]\w*)\s*=)");
-  for (std::sregex_iterator found(text.begin(), text.end(), block), end; found != end; ++found) {
-    const std::string inside = (*found)[1];
-    for (std::sregex_iterator name(inside.begin(), inside.end(), constant); name != end; ++name)
-      known.insert((*name)[1]);
-  }
-  for (const auto& [name, value] : source.parameters)
-    if (known.count(name) == 0) {
-      std::string list;
-      for (const std::string& each : known) list += (list.empty() ? "" : ", ") + each;
-      throw InputError(source.path + ": no constant " + name + ", expected " +
-                       (list.empty() ? "a geometry with DefineConstant[...]"
-                                     : "one that its DefineConstant names: " + list));
-    }
 }
 
 /// Gmsh, from its start to its end, with one file.
@@ -270,7 +245,7 @@ TriangleMesh readHere(const MeshSource& source) {
   constexpr int line = 1;
   constexpr int triangle = 2;
   const std::string& path = source.path;
-  requireParameters(source);
+  requireConstants(source);
   const Gmsh gmsh(source);
   gmsh.call<decltype(gmshOpen)>("gmshOpen", path.c_str());
   if (elementTypes(gmsh, 2).empty())

@@ -249,7 +249,7 @@ TriangleMesh readMedit(const std::string& path, const std::vector<std::string>& 
   return Parser(path, text).parse(regions);
 }
 
-void writeMedit(const TriangleMesh& mesh, const std::string& path) {
+std::string meditText(const TriangleMesh& mesh) {
   std::string out = "MeshVersionFormatted 2\nDimension 2\n\nVertices\n";
   append(out, mesh.vertices.size(), '\n');
   for (const Point& p : mesh.vertices) {
@@ -276,8 +276,11 @@ void writeMedit(const TriangleMesh& mesh, const std::string& path) {
   };
   appendNames("label", mesh.labelNames);
   appendNames("region", mesh.regionNames);
+  return out;
+}
 
-  writeWhole(path, out);
+void writeMedit(const TriangleMesh& mesh, const std::string& path) {
+  writeWhole(path, meditText(mesh));
 }
 
 }  // namespace mortier

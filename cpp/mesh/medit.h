@@ -21,4 +21,7 @@ TriangleMesh readMedit(const std::string& path, const std::vector<std::string>& 
 /// \throws OutputError when the file cannot be written.
 void writeMedit(const TriangleMesh& mesh, const std::string& path);
 
+/// What it writes.
+std::string meditText(const TriangleMesh& mesh);
+
 }  // namespace mortier

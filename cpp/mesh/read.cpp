@@ -7,6 +7,7 @@
 namespace mortier {
 
 TriangleMesh readMesh(const MeshSource& source) {
+  if (source.shape) return shapeMesh(*source.shape);
   if (isGmshFile(source.path)) return readGmsh(source);
   if (source.size > 0 || !source.parameters.empty())
     throw InputError(source.path + ": size or parameters, expected only for a geometry that Gmsh meshes");

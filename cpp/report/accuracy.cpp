@@ -2,22 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace mortier {
 namespace {
-
-/// The energy norm, squared, of stresses that the rounding of displacements makes: strains of `displacement` times epsilon
-/// over the size of a triangle.
-double roundingOf(const Body& body, double displacement) {
-  constexpr double roundings = 4;
-  const double u = roundings * std::numeric_limits<double>::epsilon() * displacement;
-  Matrix strain;
-  body.material().elasticStrain(Matrix::Ones(body.material().components(), body.points()), strain);
-  double sum = 0;
-  for (int i = 0; i < body.points(); ++i) sum += u * u / strain.col(i).cwiseAbs().head<3>().minCoeff();
-  return sum;
-}
 
 /// Below this part of the largest energy of a run an error, squared, is rounding.
 constexpr double negligible = 1e-24;
@@ -25,8 +12,7 @@ constexpr double negligible = 1e-24;
 }  // namespace
 
 void AccuracyRecord::prepare() {
-  for (size_t b = estimators_.size(); b < model_.bodies.size(); ++b)
-    estimators_.emplace_back(model_.bodies[b]);
+  if (!estimator_) estimator_.emplace(model_);
 }
 
 void AccuracyRecord::add(const State& state, const StepReport& report, bool kept) {
@@ -35,8 +21,7 @@ void AccuracyRecord::add(const State& state, const StepReport& report, bool kept
   prepare();
   memory_.energy = std::max(memory_.energy, report.energy);
   double error = 0;
-  for (size_t b = 0; b < model_.bodies.size(); ++b)
-    error += estimators_[b](state.bodies[b].stress).error.sum();
+  for (const ErrorEstimate& estimate : (*estimator_)(state)) error += estimate.error.sum();
   if (!(error > memory_.error)) return;
   memory_.error = error;
   memory_.time = report.time;
@@ -50,9 +35,10 @@ Accuracy AccuracyRecord::atEnd(const State& state, const Peaks& peaks) {
   double energy = 0;
   double largest = 0;
   double allRounding = negligible * largestEnergy;
+  const std::vector<ErrorEstimate> estimates = (*estimator_)(state);
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
-    const ErrorEstimate estimate = estimators_[b](state.bodies[b].stress);
-    const double rounding = roundingOf(model_.bodies[b], peaks.displacement.value);
+    const ErrorEstimate& estimate = estimates[b];
+    const double rounding = estimator_->roundingOf(b, peaks.displacement.value);
     allRounding += rounding;
     energy += estimate.energy;
     const bool real = estimate.error.sum() > rounding + negligible * largestEnergy;

@@ -1,13 +1,12 @@
-// How accurate the stresses of a run are, by their own estimate (fem/error_estimate.h).
+// How accurate the stresses of a run are, by their own estimate (time/space_error.h).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "fem/error_estimate.h"
-#include "solver/model.h"
-#include "solver/state.h"
 #include "time/report.h"
+#include "time/space_error.h"
 
 namespace mortier {
 
@@ -44,7 +43,7 @@ class AccuracyRecord {
 
   const Model& model_;
   AccuracyMemory& memory_;
-  std::vector<ErrorEstimator> estimators_;  ///< from the first estimate on
+  std::optional<SpaceErrorEstimator> estimator_;  ///< from the first estimate on
 };
 
 }  // namespace mortier

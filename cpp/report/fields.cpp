@@ -168,9 +168,9 @@ std::string fieldName(const std::string& body, int step) {
   return body + "_" + number + ".vtu";
 }
 
-void Fields::write(const std::vector<BodyState>& bodies, KeptFields& kept) {
-  for (size_t b = estimators_.size(); b < model_.bodies.size(); ++b)
-    estimators_.emplace_back(model_.bodies[b]);
+void Fields::write(const State& state, KeptFields& kept) {
+  if (!estimator_) estimator_.emplace(model_);
+  const std::vector<ErrorEstimate> estimates = (*estimator_)(state);
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
     const ElementNodes& nodes = body.elementNodes();
@@ -178,9 +178,9 @@ void Fields::write(const std::vector<BodyState>& bodies, KeptFields& kept) {
     VtuFile file(folder_ + "/" + name);
     file.open("Piece", "NumberOfPoints=\"" + std::to_string(nodes.count()) + "\" NumberOfCells=\"" +
                            std::to_string(body.mesh().triangles.size()) + "\"");
-    writePoints(file, nodes.places, bodies[b].displacement);
+    writePoints(file, nodes.places, state.bodies[b].displacement);
     writeCells(file, nodes);
-    writeCellData(file, body, bodies[b], estimators_[b](bodies[b].stress));
+    writeCellData(file, body, state.bodies[b], estimates[b]);
     file.shut("Piece");
     kept.files[name] = file.close();
   }
@@ -197,9 +197,9 @@ void Fields::add(const State& state, int step) {
   wait();
   kept_.push_back({step, state.time, {}});  // the next one waits until this one is written
   if (triangles < trianglesWorthAThread)
-    write(state.bodies, kept_.back());
+    write(state, kept_.back());
   else
-    writing_ = std::async(std::launch::async, [this, bodies = state.bodies] { write(bodies, kept_.back()); });
+    writing_ = std::async(std::launch::async, [this, state] { write(state, kept_.back()); });
 }
 
 const std::vector<KeptFields>& Fields::sync() {

@@ -8,12 +8,13 @@
 
 #include <future>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "fem/error_estimate.h"
 #include "report/manifest.h"
 #include "time/march.h"
+#include "time/space_error.h"
 
 namespace mortier {
 
@@ -41,7 +42,7 @@ class Fields {
   std::map<std::string, FileRecord> close();
 
  private:
-  void write(const std::vector<BodyState>& bodies, KeptFields& kept);
+  void write(const State& state, KeptFields& kept);
   /// Until the last step is written.
   void wait();
 
@@ -49,7 +50,7 @@ class Fields {
   const Model& model_;
   std::vector<KeptFields> kept_;
   size_t synced_;
-  std::vector<ErrorEstimator> estimators_;  ///< from the first step that is written
+  std::optional<SpaceErrorEstimator> estimator_;  ///< from the first step that is written
   std::future<void> writing_;
 };
 

@@ -23,16 +23,20 @@ namespace {
 
 constexpr std::string_view mark = "mortier run in ";
 
+[[noreturn]] void fail(const std::string& path, const char* what, int reason) {
+  throw OutputError(path + ": cannot be " + what + ": " + std::strerror(reason));
+}
+
 /// Whether `path` still names the open file.
 bool isStill(int file, const std::string& path) {
   struct stat one {};
   struct stat other {};
-  return fstat(file, &one) == 0 && lstat(path.c_str(), &other) == 0 && one.st_ino == other.st_ino &&
-         one.st_dev == other.st_dev;
-}
-
-[[noreturn]] void fail(const std::string& path, const char* what, int reason) {
-  throw OutputError(path + ": cannot be " + what + ": " + std::strerror(reason));
+  if (fstat(file, &one) != 0) fail(path, "read", errno);
+  if (lstat(path.c_str(), &other) != 0) {
+    if (errno != ENOENT) fail(path, "read", errno);
+    return false;
+  }
+  return one.st_ino == other.st_ino && one.st_dev == other.st_dev;
 }
 
 /// The name in a lock; empty where it is not one of ours.
@@ -63,7 +67,8 @@ FolderLock::FolderLock(const std::string& folder) {
   }
   if (!S_ISREG(facts.st_mode)) return;
   file_ = open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (file_ < 0 && (errno == ENOENT || errno == EACCES)) return;  // gone in between, or not of this user
+  if (file_ < 0 && (errno == ENOENT || (errno == EACCES && facts.st_uid != geteuid())))
+    return;  // gone in between, or of another user
   if (file_ < 0) fail(path, "read", errno);
   name_ = nameIn(file_, path);
   if (name_.empty()) return;

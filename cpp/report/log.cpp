@@ -64,9 +64,22 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
                    interface.overlap(), chosen.empty() ? "" : "; ", chosen.c_str(),
                    heldEnds(interface).c_str(), pressed.c_str(), polygon(interface).c_str());
   }
-  return text +
-         "  step     time[s]  iter    active(+/-)  |residual|  penetration[m^2]   max p[Pa]  viscoplastic"
+  return text;
+}
+
+std::string logStepsHeader() {
+  return "  step     time[s]  iter    active(+/-)  |residual|  penetration[m^2]   max p[Pa]  viscoplastic"
          "  force[N/m]\n";
+}
+
+std::string logRoundsHeader() {
+  return " round  triangles  unknowns  steps  error of meshes  of steps  seconds\n";
+}
+
+std::string logRound(const std::vector<RoundFacts>& rounds) {
+  const RoundFacts& last = rounds.back();
+  return format("%6zu  %9zu  %8d  %5d  %13.3g %%  %6.2g %%  %7.3g\n", rounds.size(), last.triangles,
+                last.unknowns, last.steps, 100 * last.mesh, 100 * last.time, last.seconds);
 }
 
 std::string logRow(const StepReport& r) {

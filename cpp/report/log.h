@@ -10,8 +10,13 @@
 
 namespace mortier {
 
-/// What is solved: bodies, interfaces, the head of the table of steps.
+/// What is solved: bodies, interfaces.
 std::string logHeader(const RunFacts& facts, const Model& model);
+/// The head of the table of steps, or of rounds.
+std::string logStepsHeader();
+std::string logRoundsHeader();
+/// The last of the rounds.
+std::string logRound(const std::vector<RoundFacts>& rounds);
 /// One step.
 std::string logRow(const StepReport& report);
 /// That a run with steps chosen by their error is begun again.

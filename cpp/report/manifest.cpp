@@ -113,8 +113,9 @@ bool isSound(const std::string& folder, const Manifest& manifest) {
 bool isResultName(const std::string& name) {
   constexpr std::array fixed{"fields.pvd", "contact.csv", "history.csv", "summary.json"};
   if (std::find(fixed.begin(), fixed.end(), name) != fixed.end()) return true;
-  // <body>_<step>.vtu
+  // <body>.mesh, <body>_<step>.vtu
   const fs::path path(name);
+  if (path.extension() == ".mesh") return name.find('/') == std::string::npos;
   const std::string stem = path.stem().string();
   const size_t line = stem.rfind('_');
   return path.extension() == ".vtu" && name.find('/') == std::string::npos && line != std::string::npos &&

@@ -9,6 +9,16 @@
 
 namespace mortier {
 
+/// Of the rounds on ever better meshes by which an accuracy is reached.
+struct RoundFacts {
+  size_t triangles = 0;
+  int unknowns = 0;
+  int steps = 0;
+  double mesh = 0;  ///< estimated errors, relative
+  double time = 0;
+  double seconds = 0;  ///< wall time
+};
+
 struct RunFacts {
   std::string scene;      ///< path of the scene
   std::string sceneText;  ///< the file as it was read
@@ -25,6 +35,9 @@ struct RunFacts {
   int plannedSteps = 0;
   double tolerance = 0;  ///< of a step; 0: equal steps
   int threads = 1;
+  double accuracy = 0;               ///< asked for, relative, in the energy norm; 0: none
+  bool reached = false;              ///< that
+  std::vector<RoundFacts> rounds;    ///< none where no accuracy is asked for
   std::vector<Quantity> quantities;  ///< that the scene asks for
   std::vector<std::string>
       doubts;  ///< where the estimate of the accuracy is known to be wrong, and by how much

@@ -60,6 +60,18 @@ Json interfaces(const RunFacts& facts, const Model& model, const State& state) {
   return list;
 }
 
+Json rounds(const RunFacts& facts) {
+  Json list = Json::array();
+  for (const RoundFacts& round : facts.rounds)
+    list.push_back({{"triangles", round.triangles},
+                    {"unknowns", round.unknowns},
+                    {"steps", round.steps},
+                    {"mesh", round.mesh},
+                    {"time", round.time},
+                    {"seconds", round.seconds}});
+  return list;
+}
+
 Json finalState(const Model& model, const State& state, const StepReport& last) {
   const Extremes e = extremes(model, state);
   return {{"time", state.time},
@@ -177,6 +189,13 @@ FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const 
                                                     {"unit", facts.quantities[i].unit()}};
   json["accuracy"] = jsonOf(facts, model, accuracy);
   if (facts.tolerance > 0) json["accuracy"]["time"] = report.timeError;
+  if (facts.accuracy > 0) {
+    json["accuracy"]["asked"] = facts.accuracy;
+    json["accuracy"]["reached"] = facts.reached;
+    json["accuracy"]["mesh"] = facts.rounds.empty() ? accuracy.largest : facts.rounds.back().mesh;
+    json["accuracy"]["time"] = report.timeError;
+    json["rounds"] = rounds(facts);
+  }
   json["peak_memory_mib"] = peakMemory();
   json["wall_time_s"] = processSeconds();
   json["versions"] = Json::object();

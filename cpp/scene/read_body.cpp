@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "scene/read_shape.h"
 #include "scene/table_reader.h"
 #include "scene/words.h"
 
@@ -117,7 +118,15 @@ std::string pathOf(const Node& node, const std::string& scenePath) {
   return (std::filesystem::path(scenePath).parent_path() / path).lexically_normal().string();
 }
 
-/// A path, or a table with what is to be made of the file.
+/// Beside a file there is nothing that says what a mesh is of.
+void requireFileKeys(const TableReader& table) {
+  const Keys known{"file", "region", "size", "parameters"};
+  for (const Node& member : table.table().members)
+    if (std::find(known.begin(), known.end(), member.key) == known.end())
+      table.reject(member.key, "it beside shape; of a file " + joined(known));
+}
+
+/// A path, or a table with what is to be made of the file, or of what shape the mesh is.
 void readMeshSource(const TableReader& owner, const std::string& scenePath, BodyDescription& body) {
   const Node& node = owner.require("mesh", "a Medit .mesh file, or a file for Gmsh");
   body.meshWhere = node.where;
@@ -126,6 +135,12 @@ void readMeshSource(const TableReader& owner, const std::string& scenePath, Body
     body.mesh.path = pathOf(node, scenePath);
   } else {
     const TableReader table(node, "body.mesh", "body " + body.name + ": mesh");
+    if (const Node* shape = table.find("shape")) {
+      body.mesh.shape = readShape(table);
+      body.mesh.path = shape->text;
+      return;
+    }
+    requireFileKeys(table);
     static_cast<void>(table.string("file"));
     body.mesh.path = pathOf(*table.find("file"), scenePath);
     body.mesh.regions = table.labels("region");

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "base/error.h"
 #include "mesh/read.h"
 #include "scene/labels.h"
 #include "scene/sides.h"
@@ -32,9 +33,18 @@ std::vector<const TriangleMesh*> pointersTo(const std::vector<TriangleMesh>& mes
 
 }  // namespace
 
+TriangleMesh meshOf(const BodyDescription& body) {
+  if (!body.mesh.shape) return readMesh(body.mesh);
+  try {
+    return shapeMesh(*body.mesh.shape);
+  } catch (const InputError& error) {
+    throw InputError(body.meshWhere + ": body " + body.name + ": mesh: " + error.what());
+  }
+}
+
 ResolvedScene resolveScene(SceneDescription scene) {
   std::vector<TriangleMesh> meshes;
-  for (const BodyDescription& body : scene.bodies) meshes.push_back(readMesh(body.mesh));
+  for (const BodyDescription& body : scene.bodies) meshes.push_back(meshOf(body));
   const auto place = [&](int body, const std::string& where) {
     return where + ": body " + scene.bodies[body].name;
   };

@@ -14,6 +14,9 @@ struct ResolvedScene {
   std::vector<TriangleMesh> meshes;
 };
 
+/// Reads or makes the mesh of a body. \throws InputError
+TriangleMesh meshOf(const BodyDescription& body);
+
 /// Reads the meshes and decides. \throws InputError with one line that names the scene's file and line, or the mesh's:
 /// unreadable meshes, labels that a mesh does not have.
 ResolvedScene resolveScene(SceneDescription scene);

@@ -30,6 +30,16 @@ void requireInPlane(const BodyDescription& body, Plane plane) {
   }
 }
 
+void readAccuracy(const TableReader& accuracy, SceneDescription& scene) {
+  scene.accuracy.energy = accuracy.number("energy", between(0, 1));
+  scene.accuracy.maxUnknowns = accuracy.number("max_unknowns", above(0), scene.accuracy.maxUnknowns);
+  scene.accuracy.maxSeconds = accuracy.number("max_seconds", above(0), scene.accuracy.maxSeconds);
+  if (scene.time.scheme == Scheme::crankNicolson)
+    accuracy.reject("energy", "it only beside time.scheme = sdirk2 or backward-euler, whose error is known");
+  if (scene.solver.method != Method::newton)
+    accuracy.reject("energy", "it only beside solver.method = newton, by whose tangent errors are estimated");
+}
+
 void readOptions(const TableReader& root, SceneDescription& scene) {
   scene.time = readTime(root.require("time", "a table [time] with end, steps"));
   if (const Node* node = root.find("solver")) {
@@ -42,6 +52,9 @@ void readOptions(const TableReader& root, SceneDescription& scene) {
     scene.solver.maxIterations = solver.integer("max_iterations", 1, defaultIterations(scene.solver.method));
     scene.solver.linear = static_cast<LinearEngine>(solver.oneOf("linear", linearWords, 0));
     scene.solver.reduce = solver.boolean("reduce", scene.solver.reduce);
+  }
+  if (const Node* node = root.find("accuracy")) {
+    readAccuracy(TableReader(*node, "accuracy", "accuracy"), scene);
   }
   if (const Node* node = root.find("output")) {
     scene.every = TableReader(*node, "output", "output").integer("every", 0, 0);
@@ -81,6 +94,12 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   }
   for (const Node* contact : root.tables("contact")) {
     scene.contacts.push_back(readContact(*contact, scene));
+    if (scene.accuracy.energy > 0 && scene.contacts.back().variant == CouplingKind::interpolation) {
+      throw InputError(
+          scene.contacts.back().where +
+          ": contact: variant = \"interpolation\", expected mortar beside accuracy: the estimate "
+          "does not see the false stresses of interpolation");
+    }
   }
   for (const Node* quantity : root.tables("quantity")) {
     scene.quantities.push_back(readQuantity(*quantity, scene));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -88,6 +89,13 @@ struct QuantityDescription {
   std::string where;  ///< of the label or the point
 };
 
+/// An error that the run is to reach by itself (adapt/rounds.h).
+struct AccuracyGoal {
+  double energy = 0;         ///< relative, in the energy norm, of meshes and steps together; 0: none is asked
+  double maxUnknowns = 1e6;  ///< of a round
+  double maxSeconds = INFINITY;  ///< wall time of all rounds [s]
+};
+
 struct SceneDescription {
   std::string path;   ///< the file
   std::string title;  ///< may be empty
@@ -98,6 +106,7 @@ struct SceneDescription {
   std::vector<QuantityDescription> quantities;
   TimePlan time;
   SolverOptions solver;
+  AccuracyGoal accuracy;
   int every =
       0;  ///< keep each so many steps (and the initial state) beside the last one; 0: the last one only
   std::vector<std::string> allowed;  ///< faults that mortier check is not to name (docs/check.md)

@@ -8,9 +8,13 @@ namespace mortier {
 
 const Keys& keysOf(const std::string& path) {
   static const std::map<std::string, Keys> tables = {
-      {"", {"title", "plane", "body", "contact", "quantity", "time", "solver", "output", "check", "degree"}},
+      {"",
+       {"title", "plane", "body", "contact", "quantity", "time", "solver", "output", "check", "degree",
+        "accuracy"}},
       {"body", {"name", "mesh", "material", "force", "boundary", "region", "initial_stress"}},
-      {"body.mesh", {"file", "region", "size", "parameters"}},
+      {"body.mesh",
+       {"file", "region", "size", "parameters", "shape", "cells", "cut", "lower", "upper", "focus", "grading",
+        "corners", "centre", "inner", "outer", "span", "lowest", "radius", "core"}},
       {"body.initial_stress", {"s11", "s22", "s12", "s33"}},
       {"body.region", {"label", "material", "initial_stress"}},
       {"body.region.material", {"young", "poisson", "viscosity", "yield_stress", "projection"}},
@@ -29,6 +33,7 @@ const Keys& keysOf(const std::string& path) {
       {"quantity.displacement", {"body", "label", "point"}},
       {"time", {"end", "steps", "scheme", "tolerance", "max_steps", "breaks"}},
       {"solver", {"method", "tolerance", "max_iterations", "linear", "reduce"}},
+      {"accuracy", {"energy", "max_unknowns", "max_seconds"}},
       {"check", {"allow"}},
       {"output", {"every"}},
   };

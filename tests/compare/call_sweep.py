@@ -112,7 +112,7 @@ class Sweep:
             faults += self.not_new(folder)
         left = (tuple(after), self.state(folder))
         if not faults and left in self.seen:
-            return
+            return done
         next_ = self.run(folder, after)
         # A restart finds nothing to go on with where the result is complete already, or where no step had been kept.
         if next_.returncode == 2 and after == RESTART and "no stopped run" in next_.stderr and not self.not_new(folder):
@@ -126,6 +126,7 @@ class Sweep:
         else:
             self.findings.append(f"{place}: {done.returncode} {done.stderr.strip()}\n  " + "\n  ".join(faults))
             print(self.findings[-1], flush=True)
+        return done
 
     def state(self, folder):
         """All files: names without numbers of processes, sizes, contents without what is measured."""

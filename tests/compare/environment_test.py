@@ -8,8 +8,8 @@ import subprocess
 import unittest
 
 from mutations import explore, require_whole
-from scenes import BODY_KEYS, CONTACT_KEYS, GEOMETRY_KEYS, ONE_BODY, TWO_BLOCKS
-from support import PROGRAM, ROOT, OfTwoBlocks, mortier, told
+from scenes import BODY_KEYS, CONTACT_KEYS, GEOMETRY_KEYS, ONE_BODY, SHAPE_KEYS, TWO_BLOCKS
+from support import PROGRAM, ROOT, OfTwoBlocks, mortier, told, warned
 
 LONG = ("--set", "time.steps=1000000")
 
@@ -42,7 +42,7 @@ class Environment(OfTwoBlocks):
         return [name for name in self.names("out") if ".tmp-" in name or ".mortier-" in name]
 
     def test_scenes_are_sound_before_they_are_changed(self):
-        for scene in (TWO_BLOCKS, CONTACT_KEYS, BODY_KEYS, ONE_BODY):
+        for scene in (TWO_BLOCKS, CONTACT_KEYS, BODY_KEYS, ONE_BODY, SHAPE_KEYS):
             self.write(scene)
             self.mortier("run", "scene.toml", "--quiet", "--out", "out")
             require_whole(self.folder / "out")
@@ -51,7 +51,7 @@ class Environment(OfTwoBlocks):
         tables = re.search(r"tables = \{(.*?)\n  \};", (ROOT / "cpp/scene/schema.cpp").read_text(), re.S)[1]
         keys = {key for inner in re.findall(r"\{\"[\w.]*\", \{(.*?)\}\}", tables, re.S) for key in re.findall(r"\w+", inner)}
         self.assertGreater(len(keys), 40)
-        written = set(re.findall(r"\w+(?= = )|(?<=\[)\w+|(?<=\.)\w+(?=\])", CONTACT_KEYS + BODY_KEYS + GEOMETRY_KEYS + ONE_BODY))
+        written = set(re.findall(r"\w+(?= = )|(?<=\[)\w+|(?<=\.)\w+(?=\])", CONTACT_KEYS + BODY_KEYS + GEOMETRY_KEYS + SHAPE_KEYS + ONE_BODY))
         self.assertEqual(keys - written, set())
 
     def test_mutated_scenes_and_meshes(self):
@@ -180,6 +180,7 @@ class Environment(OfTwoBlocks):
                 self.assertEqual(process.wait(timeout=60), 1, err)
                 process.stderr.close()
                 self.assertEqual(len(told(err)), 1, err)
+                self.assertEqual(warned(err), ["output-large"])
                 self.assertFalse((self.folder / "out/scene").exists())
 
     def test_what_a_killed_run_left_goes_with_the_next(self):

@@ -12,7 +12,7 @@ from support import InFolder, InSharedFolder, mortier
 from damaged_results import explore
 from views_support import solve, view
 import files
-from problems import ViewError
+from ending import Wrong
 import pictures
 import results
 import runs
@@ -266,7 +266,7 @@ class Refused(InFolder):
                            lambda: (path.unlink(), path.symlink_to("mine.txt")), lambda: (path.unlink(), path.mkdir())):
                 change()
                 before = None if path.is_dir() else path.read_bytes()
-                with self.assertRaisesRegex(ViewError, f"a.{kind}: in the way"):
+                with self.assertRaisesRegex(Wrong, f"a.{kind}: in the way"):
                     files.put({self.folder / "other.png": b"x", path: b"drawn again"})
                 self.assertEqual(None if path.is_dir() else path.read_bytes(), before)
                 self.assertFalse((self.folder / "other.png").exists())

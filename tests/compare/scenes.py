@@ -161,6 +161,37 @@ Physical Curve("left", 4) = {6}; Physical Curve("between", 9) = {7};
 Physical Surface("left half", 1) = {1}; Physical Surface("right half", 2) = {2};
 """
 
+# Meshes by their shape, refined until an accuracy is reached.
+SHAPE_KEYS = """\
+[[body]]
+name = "plate"
+mesh = { shape = "rectangle", lower = [0, 0], upper = [2, 1], cells = [4, 2], cut = "both", focus = [0, 1], grading = 2 }
+material = { young = 100, poisson = 0.3 }
+boundary = [ { label = 1, ux = 0, uy = 0 }, { label = 3, ty = -1 } ]
+[[body]]
+name = "membrane"
+mesh = { shape = "quadrilateral", corners = [[5, 0], [53, 44], [53, 60], [5, 44]], cells = 2 }
+material = { young = 100, poisson = 0.3 }
+boundary = [ { label = 4, ux = 0, uy = 0 }, { label = 2, ty = 0.1 } ]
+[[body]]
+name = "ring"
+mesh = { shape = "annulus", centre = [-5, 0], inner = 1, outer = 2, span = "quarter", cells = [2, 1] }
+material = { young = 100, poisson = 0.3 }
+boundary = [ { label = 1, pressure = 1 }, { label = 3, uy = 0 }, { label = 4, ux = 0 } ]
+[[body]]
+name = "disc"
+mesh = { shape = "halfdisc", lowest = [-5, -9], radius = 3, core = 0.9, cells = 1 }
+material = { young = 100, poisson = 0.3 }
+boundary = [ { label = 1, uy = 0, ux = 0 }, { label = 2, ty = -1 } ]
+[time]
+end = 1
+steps = 1
+[accuracy]
+energy = 0.1
+max_unknowns = 40000
+max_seconds = 100
+"""
+
 ONE_BODY = """\
 degree = 2
 [[body]]

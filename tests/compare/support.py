@@ -1,5 +1,6 @@
 """What the Python tests share. Each is run by ctest, or alone: MORTIER=build/mortier /usr/bin/python3 FILE"""
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -18,6 +19,11 @@ def mortier(*arguments, **options):
     """Runs the program; its standard output and errors are text."""
     options.setdefault("stdout", subprocess.PIPE)
     return subprocess.run([PROGRAM, *map(str, arguments)], **{"stderr": subprocess.PIPE, "text": True, "timeout": 120, **options})
+
+
+def warned(errors):
+    """The kinds of the faults that warnings name, in their order."""
+    return re.findall(r"^mortier: warning: .* \[([\w-]+)\]$", errors, re.M)
 
 
 def told(errors):

@@ -53,6 +53,14 @@ class HalfOpenContact {
   /// The part of it that is modelled, [-0.9, 1.1] x [0, 1], loaded in proportion to time.
   [[nodiscard]] Body body(int cells, int degree = 1) const {
     const double lower = mirrored_ ? -1 : 0;
+    return body(
+        crissCrossMesh(
+            {.lower = {-0.9, lower}, .upper = {1.1, lower + 1}, .cellsX = cells, .cellsY = (cells + 1) / 2}),
+        degree);
+  }
+
+  /// The same on a mesh of it.
+  [[nodiscard]] Body body(TriangleMesh mesh, int degree = 1) const {
     const auto self = *this;
     const auto traction = [self](int component, double sign) {
       return [self, component, sign](double x, double y, double t) {
@@ -64,18 +72,16 @@ class HalfOpenContact {
           [self, component](double x, double y, double t) { return t * self.displacement(x, y)[component]; };
     };
     const int held = mirrored_ ? bottom : top;
-    return {
-        mirrored_ ? "lower" : "upper",
-        crissCrossMesh(
-            {.lower = {-0.9, lower}, .upper = {1.1, lower + 1}, .cellsX = cells, .cellsY = (cells + 1) / 2}),
-        plane_ == Plane::strain ? planeStrainElasticMaterial(elasticity_) : elasticMaterial(elasticity_),
-        {{{held, 0, displacement(0)}, {held, 1, displacement(1)}},
-         {{right, 0, traction(0, 1)},
-          {right, 1, traction(2, 1)},
-          {left, 0, traction(0, -1)},
-          {left, 1, traction(2, -1)}},
-         {}},
-        degree};
+    return {mirrored_ ? "lower" : "upper",
+            std::move(mesh),
+            plane_ == Plane::strain ? planeStrainElasticMaterial(elasticity_) : elasticMaterial(elasticity_),
+            {{{held, 0, displacement(0)}, {held, 1, displacement(1)}},
+             {{right, 0, traction(0, 1)},
+              {right, 1, traction(2, 1)},
+              {left, 0, traction(0, -1)},
+              {left, 1, traction(2, -1)}},
+             {}},
+            degree};
   }
 
   /// Energy of the stress error and of the exact stress, by four times four midpoint triangles with the three

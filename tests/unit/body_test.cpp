@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "fem/element.h"
 #include "material/stress.h"
+#include "unit/dense_reference.h"
 #include "unit/plate.h"
 
 namespace mortier {
@@ -62,14 +63,7 @@ TEST(Body, weightsSumToTheArea) {
 Matrix dense(const Body& plate, const Matrix& moduli) {
   std::vector<double> values;
   plate.tangent(moduli, values);
-  const SparsePattern& pattern = plate.pattern();
-  Matrix K = Matrix::Zero(pattern.size, pattern.size);
-  for (int j = 0; j < pattern.size; ++j)
-    for (int k = pattern.columnStart[j]; k < pattern.columnStart[j + 1]; ++k) {
-      K(pattern.rows[k], j) = values[k];
-      if (pattern.symmetric) K(j, pattern.rows[k]) = values[k];
-    }
-  return K;
+  return dense(plate.pattern(), values);
 }
 
 // The internal force of the stresses that a step from zero ends at, as a function of the displacement.

@@ -12,24 +12,11 @@
 
 #include "base/archive.h"
 #include "base/error.h"
-#include "material/perzyna.h"
-#include "mesh/generate.h"
 #include "report/checkpoint_members.h"
+#include "unit/blocks_of_one_cell.h"
 
 namespace mortier {
 namespace {
-
-Model twoBlocks() {
-  Model model;
-  const Elasticity elasticity{100, 0.3};
-  model.bodies.emplace_back("upper", crissCrossMesh({{0, 0}, {1, 1}, 1, 1}),
-                            perzynaMaterial(elasticity, {1, 1}), Conditions{});
-  model.bodies.emplace_back("lower", crissCrossMesh({{0, -1}, {1, 0}, 1, 1}), elasticMaterial(elasticity),
-                            Conditions{});
-  model.interfaces.emplace_back(ContactPair{{0, 1}, {1, 3}, CouplingKind::mortar}, model.bodies[0].mesh(),
-                                model.bodies[1].mesh());
-  return model;
-}
 
 Checkpoint checkpointOf(const Model& model) {
   Checkpoint checkpoint;
@@ -57,12 +44,12 @@ Checkpoint decoded(const std::string& bytes) {
 }
 
 TEST(Checkpoint, readsWhatWasWritten) {
-  const std::string bytes = bytesOf(checkpointOf(twoBlocks()));
+  const std::string bytes = bytesOf(checkpointOf(blocksOfOneCell()));
   EXPECT_EQ(bytesOf(decoded(bytes)), bytes);
 }
 
 TEST(Checkpoint, ofAnotherModelIsRefused) {
-  const Model model = twoBlocks();
+  const Model model = blocksOfOneCell();
   requireFits(checkpointOf(model), model, "out");
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<std::function<void(Checkpoint&)>> changes{
@@ -112,7 +99,7 @@ TEST(Checkpoint, bytesThatAreNoneAreRefused) {
 }
 
 TEST(Checkpoint, changedBytesAreRefusedOrRead) {
-  const Model model = twoBlocks();
+  const Model model = blocksOfOneCell();
   const std::string sound = bytesOf(checkpointOf(model));
   std::mt19937 random(11);
   for (int n = 0; n < 3000; ++n) {
@@ -134,7 +121,7 @@ TEST(Checkpoint, damagedFilesAreNamed) {
     OutputFile file(folder + "/" + name);
     return (file << text).close();
   };
-  Checkpoint checkpoint = checkpointOf(twoBlocks());
+  Checkpoint checkpoint = checkpointOf(blocksOfOneCell());
   checkpoint.files = {put("history.csv", "step\n1\n"),
                       put("contact.csv", "x\n"),
                       {{0, 0.0, {{"upper_000000.vtu", put("upper_000000.vtu", "field")}}}}};

@@ -8,7 +8,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "compare"))
 
 from scenes import GEOMETRY_KEYS, PARTS_GEO  # noqa: E402
-from support import mortier, OfTwoBlocks, told  # noqa: E402
+from support import mortier, OfTwoBlocks, told, warned  # noqa: E402
 
 POINTS = [(0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1)]
 LINES = [(1, 1, 2), (1, 2, 3), (2, 3, 6), (3, 6, 5), (3, 5, 4), (4, 4, 1), (9, 2, 5)]  # group, ends
@@ -144,6 +144,7 @@ every = 1
             return
         run = self.mortier("run", "scene.toml", "--quiet", "--out", "pressed")
         self.assertEqual(told(run.stderr), [])
+        self.assertEqual(warned(run.stderr), ["large-strain"])
         summary = json.loads(self.read("pressed/summary.json"))
         self.assertAlmostEqual(summary["final"]["von_mises_min"], 6, places=10)
         self.assertAlmostEqual(summary["final"]["von_mises_max"], 6, places=10)
@@ -224,6 +225,9 @@ every = 1
                 self.assertNotIn("label 9", info.stdout)
                 run = self.mortier("run", "scene.toml", "--quiet", "--set", f"body.plate.mesh={name}", "--out", "plate")
                 self.assertEqual(told(run.stderr), [])
+                coarse = ["mesh-coarse"] if name.endswith(".msh") else []
+                self.assertEqual(warned(run.stderr), coarse + ["large-strain", "large-strain", "yield-over-young",
+                                                               "initial-load"])
                 plate = json.loads(self.read("plate/summary.json"))
                 self.assertAlmostEqual(plate["final"]["displacement_min"][1], -0.06, places=12)
                 self.assertAlmostEqual(plate["final"]["von_mises_min"], 6, places=10)

@@ -77,7 +77,7 @@ class HostileText(support.OfTwoBlocks):
 
     def test_messages_are_one_short_line(self):
         for name in ("a\nb.toml", "x\x1b[31m.toml", "\u202etxt.toml", "a" * 100000, b"\xff\xfe.toml".decode(errors="surrogateescape")):
-            for command in ("run", "check", "freefem", "study", "plot", "report"):
+            for command in ("run", "check", "freefem", "study", "plot", "report", "compare"):
                 with self.subTest(name=name[:20], command=command):
                     done = subprocess.run([support.PROGRAM, command, name], cwd=self.folder, capture_output=True)
                     self.assertEqual(done.returncode, 2)

@@ -16,8 +16,9 @@ SEES["time"] = {*SEES["solver"], "solver"}
 SEES["scene"] = {*SEES["time"], "time"}
 SEES["plan"] = {*SEES["scene"], "scene"}
 SEES["lint"] = {*SEES["plan"], "plan"}
+SEES["adapt"] = {*SEES["plan"], "plan"}
 SEES["report"] = {*SEES["time"], "time"}
-SEES["commands"] = {*SEES["lint"], "lint", "report"}
+SEES["commands"] = {*SEES["lint"], "lint", "adapt", "report"}
 
 # Headers of libraries, and the only files that include them.
 LIBRARIES = {r"cholmod|umfpack|cblas|amd\.h|colamd|metis|lapack": r"linear/\w+\.cpp|linear/cholmod_common\.h",

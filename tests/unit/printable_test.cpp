@@ -7,8 +7,11 @@
 
 using namespace mortier;
 
+// The first and last characters of each number of bytes are there.
 TEST(Printable, visibleTextStays) {
-  for (const std::string text : {"", "a b~", "é 日本 𝄞", "\"'$<>\\"}) EXPECT_EQ(printable(text), text);
+  for (const std::string text :
+       {"", "a b~", "é 日本 𝄞", "\u00a0\u07ff\u0800\uffef\U00010000\U0010fffd", "\"'$<>\\"})
+    EXPECT_EQ(printable(text), text);
 }
 
 TEST(Printable, controlCharactersAndBrokenBytesAreShownAsQuestionMarks) {

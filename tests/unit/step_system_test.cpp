@@ -10,6 +10,7 @@
 #include "solver/methods.h"
 #include "solver/solve_step.h"
 #include "time/march.h"
+#include "unit/dense_reference.h"
 
 namespace mortier {
 namespace {
@@ -39,14 +40,7 @@ Model squares(std::shared_ptr<const Material> material, double shear = 0) {
 Matrix tangentOf(const Body& body, const Matrix& moduli) {
   std::vector<double> values;
   body.tangent(moduli, values);
-  const SparsePattern& pattern = body.pattern();
-  Matrix K = Matrix::Zero(pattern.size, pattern.size);
-  for (int j = 0; j < pattern.size; ++j)
-    for (int k = pattern.columnStart[j]; k < pattern.columnStart[j + 1]; ++k) {
-      K(pattern.rows[k], j) = values[k];
-      if (pattern.symmetric) K(j, pattern.rows[k]) = values[k];
-    }
-  return K;
+  return dense(body.pattern(), values);
 }
 
 /// The rows of C over the equations of a body.
@@ -158,6 +152,19 @@ TEST(StepSystem, whyAStepIsNotSolvedIsToldByItsReason) {
     EXPECT_TRUE(outcome.unheld());
     EXPECT_NE(outcome.detail.find("body upper: translation"), std::string::npos) << outcome.detail;
   }
+}
+
+TEST(StepSystem, aStepThatCannotEvenBeginEnds) {
+  Model model;
+  model.bodies.emplace_back(
+      "square", crissCrossMesh({{0, 0}, {1, 1}, 2, 2}),
+      perzynaMaterial({3e11, 0.3}, {10, 0.05, Projection::elasticity}),
+      Conditions{{{4, alongX, constant(0)}, {1, alongY, constant(0)}, {3, alongY, constant(NAN)}}, {}, {}});
+  const State state0 = initialState(model);
+  StepSystem system(model, {});
+  Iterate iterate = startingIterate(state0);
+  const StepOutcome outcome = solveStep(system, state0, {1, 1, {}}, iterate, Effort::all);
+  EXPECT_EQ(outcome.reason, Reason::unconverged);
 }
 
 TEST(StepSystem, restIsFoundOnlyWhereNothingChanges) {

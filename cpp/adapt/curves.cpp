@@ -1,0 +1,112 @@
+#include "adapt/curves.h"
+
+#include <cmath>
+#include <map>
+
+#include "contact/smooth_part.h"
+
+namespace mortier {
+namespace {
+
+constexpr int unlabelled = -1;
+constexpr int inside = -2;
+
+/// Edges with a label of their own, by their vertices; where two regions meet, that of one side.
+std::map<std::array<int, 2>, int> edgesToFollow(const TriangleMesh& mesh) {
+  std::map<std::array<int, 2>, int> regionOf;
+  for (size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      regionOf[{mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]}] = mesh.regions[t];
+  std::map<std::array<int, 2>, int> labels;
+  for (const auto& [edge, region] : regionOf) {
+    const auto other = regionOf.find({edge[1], edge[0]});
+    if (other == regionOf.end())
+      labels[edge] = unlabelled;
+    else if (region < other->second)
+      labels[edge] = inside;
+  }
+  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
+    labels[mesh.boundaryEdges[e]] = mesh.boundaryLabels[e];
+  return labels;
+}
+
+/// The edges of one label as lines that neither branch nor end where they could go on.
+std::vector<BoundaryLine> linesOf(const TriangleMesh& mesh, const std::vector<std::array<int, 2>>& edges) {
+  struct Ends {
+    int in = 0;
+    std::vector<int> next;
+  };
+  std::map<int, Ends> at;
+  for (const auto& [a, b] : edges) {
+    at[a].next.push_back(b);
+    ++at[b].in;
+  }
+  std::map<int, char> passes;
+  for (const auto& [v, ends] : at) passes[v] = ends.in == 1 && ends.next.size() == 1 ? 1 : 0;
+  std::vector<BoundaryLine> lines;
+  const auto follow = [&](int from) {
+    BoundaryLine line;
+    int v = from;
+    do {
+      line.nodes.push_back(v);
+      const int to = at[v].next.back();
+      at[v].next.pop_back();
+      v = to;
+    } while (passes[v] != 0 && v != from);
+    line.nodes.push_back(v);
+    line.closed = v == from;
+    for (const int node : line.nodes) line.points.push_back(mesh.vertices[node]);
+    lines.push_back(std::move(line));
+  };
+  for (const auto& [v, passed] : passes)
+    while (passed == 0 && !at[v].next.empty()) follow(v);
+  for (const auto& [v, passed] : passes)  // what is left is closed
+    if (!at[v].next.empty()) follow(v);
+  return lines;
+}
+
+/// Of the edges of which the mesh tells a third point: the curvature of the arc through the three.
+std::map<std::array<int, 2>, double> toldByMesh(const TriangleMesh& mesh) {
+  constexpr double straight = 1e-9;
+  std::map<std::array<int, 2>, double> told;
+  for (size_t e = 0; e < mesh.edgeMiddles.size(); ++e) {
+    if (!mesh.edgeMiddles[e].allFinite()) continue;
+    const auto& [a, b] = mesh.boundaryEdges[e];
+    const Point& from = mesh.vertices[a];
+    const Point& to = mesh.vertices[b];
+    const double curvature = arcsOf({from, to}, false, {mesh.edgeMiddles[e]}).front().curvature;
+    told[{a, b}] = std::abs(curvature) * (to - from).norm() > straight ? curvature : 0;
+  }
+  return told;
+}
+
+std::string nameOf(int label) {
+  return label == unlabelled ? "its boundary without a label"
+         : label == inside   ? "the line between its regions"
+                             : "label " + std::to_string(label);
+}
+
+}  // namespace
+
+KnownCurves curvesBehind(const TriangleMesh& mesh) {
+  KnownCurves known;
+  std::map<int, std::vector<std::array<int, 2>>> edges;
+  for (const auto& [edge, label] : edgesToFollow(mesh)) edges[label].push_back(edge);
+  const auto told = toldByMesh(mesh);
+  for (const auto& [label, ofLabel] : edges) {
+    bool polygon = false;
+    for (const BoundaryLine& line : linesOf(mesh, ofLabel))
+      for (const SmoothPart& part : smoothParts(line))
+        for (int e = 0; e < part.elements(); ++e) {
+          const std::array<int, 2> edge{part.nodes[e], part.nodes[e + 1]};
+          const auto found = told.find(edge);
+          const Arc arc = found != told.end() ? Arc{found->second, true} : part.arcs[e];
+          if (arc.known && arc.curvature != 0) known.edges[edge] = arc.curvature;
+          polygon = polygon || !arc.known;
+        }
+    if (polygon) known.polygons.push_back(nameOf(label));
+  }
+  return known;
+}
+
+}  // namespace mortier

@@ -1,0 +1,136 @@
+#include "adapt/rounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "mesh/element_nodes.h"
+#include "plan/loads.h"
+
+namespace mortier {
+namespace {
+
+constexpr double careful = 0.85;     // aims are this part of what is asked
+constexpr double reachOfARound = 4;  // by which a round divides the error, about
+
+bool flows(const SceneDescription& scene) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const BodyDescription& body) {
+    const auto materials = materialsOf(body);
+    return std::any_of(materials.begin(), materials.end(),
+                       [](const MaterialDescription* each) { return each->viscoplasticity.has_value(); });
+  });
+}
+
+int nodesOf(const AdaptedMeshes& meshes, size_t bodies, int degree) {
+  int nodes = 0;
+  for (size_t b = 0; b < bodies; ++b) nodes += elementNodes(meshes.mesh(b), degree).count();
+  return nodes;
+}
+
+std::string percent(double part) {
+  std::ostringstream text;
+  text.precision(2);
+  text << 100 * part << " %";
+  return text.str();
+}
+
+}  // namespace
+
+Rounds::Rounds(ResolvedScene scene)
+    : description_(std::move(scene.description)), meshes_(scene.meshes, description_.degree) {
+  constexpr double firstTolerance = 0.1;
+  if (timeShare() > 0) timeTolerance_ = std::max(timeShare(), firstTolerance);
+}
+
+double Rounds::timeShare() const {
+  if (!flows(description_)) return 0;
+  const double share = (description_.degree == 1 ? 0.2 : 0.3) * description_.accuracy.energy;
+  return description_.time.tolerance > 0 ? std::min(share, description_.time.tolerance) : share;
+}
+
+ResolvedScene Rounds::scene() const {
+  ResolvedScene scene{description_, {}};
+  for (size_t b = 0; b < description_.bodies.size(); ++b) scene.meshes.push_back(meshes_.mesh(b));
+  if (timeTolerance_ > 0) scene.description.time.tolerance = timeTolerance_;
+  return scene;
+}
+
+Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
+  constexpr double short_ = 2;
+  constexpr int often = 2;
+  const double asked = description_.accuracy.energy;
+  const double ofMeshes = asked - timeShare();
+  double sum = 0;
+  for (const Vector& error : result.errors) sum += error.sum();
+  meshError_ = result.energy > 0 ? std::sqrt(sum / result.energy) : 0;
+  ++done_;
+  if (done_ > 1 && meshError_ + result.time <= asked) return Verdict::reached;
+
+  // The steps alone are too long.
+  const bool lastSteps = timeTolerance_ <= timeShare();
+  if (done_ > 1 && meshError_ <= ofMeshes) {
+    if (lastSteps) return stop("the error of the steps, " + percent(result.time) + ", does not fall");
+    timeTolerance_ = timeShare();
+    return Verdict::goOn;
+  }
+
+  shortfalls_ = aim_ > 0 && meshError_ > short_ * aim_ ? shortfalls_ + 1 : 0;
+  if (shortfalls_ >= often) return stop("the error does not fall as it should");
+  const double excess = meshError_ / (careful * ofMeshes);
+  const double toCome = std::max(1.0, std::round(std::log(excess) / std::log(reachOfARound)));
+  const double factor = std::clamp(std::pow(excess, -1 / toCome), 1.0 / 8, 1.0);
+  if (timeTolerance_ > 0) {
+    constexpr double part = 0.4;
+    timeTolerance_ =
+        toCome > 1 ? std::max(timeShare(), std::min(timeTolerance_, part * meshError_)) : timeShare();
+  }
+  return refine(result, factor * meshError_, seconds) ? Verdict::goOn : Verdict::notReached;
+}
+
+bool Rounds::refine(const RoundResult& result, double aim, double seconds) {
+  constexpr double cost = 1.2;  // seconds grow like this power of the unknowns
+  constexpr double gain = 0.9;
+  const AccuracyGoal& goal = description_.accuracy;
+  const size_t bodies = description_.bodies.size();
+  const int before = nodesOf(meshes_, bodies, description_.degree);
+  const AdaptedMeshes kept = meshes_;
+  // Where the meshes that are wanted are too large, those that are not.
+  for (; aim == 0 || aim <= gain * meshError_ || done_ == 1; aim = std::sqrt(aim * meshError_)) {
+    meshes_ = kept;
+    if (meshError_ > 0)
+      meshes_.refine(result.errors, aim * std::sqrt(result.energy));
+    else
+      meshes_.refineAll();
+    const int nodes = nodesOf(meshes_, bodies, description_.degree);
+    const double expected = result.seconds * std::pow(double(nodes) / before, cost);
+    const bool small = 2.0 * nodes <= goal.maxUnknowns;
+    if (small && seconds + expected <= goal.maxSeconds) {
+      aim_ = aim;
+      return true;
+    }
+    stop(small ? "a further round would take more than max_seconds"
+               : "a further round would have more unknowns than max_unknowns");
+    if (meshError_ == 0 || aim > gain * meshError_) break;
+  }
+  meshes_ = kept;
+  return false;
+}
+
+Rounds::Verdict Rounds::stop(const std::string& reason) {
+  reason_ = reason;
+  return Verdict::notReached;
+}
+
+std::vector<std::string> Rounds::doubts() const {
+  std::vector<std::string> doubts;
+  for (size_t b = 0; b < description_.bodies.size(); ++b)
+    for (const std::string& line : meshes_.polygons(b))
+      doubts.push_back("body " + description_.bodies[b].name + ": " + line +
+                       " is a polygon of whose curve nothing is known, which refinement does not change");
+  if (meshes_.offCurve() > 0)
+    doubts.push_back(std::to_string(meshes_.offCurve()) +
+                     " vertices are not on the curve of their boundary, where triangles would turn over");
+  return doubts;
+}
+
+}  // namespace mortier

@@ -1,0 +1,58 @@
+// A scene solved again and again, on meshes that are refined by the error of the round before and with steps to match, until
+// the estimated error is what was asked for. With E the error of the meshes over 0.85 of what is asked of it,
+//
+//   k = max(1, round(log E / log 4))   rounds are to come, each of which divides it by  min(E^(1/k), 8):
+//
+// equal reaches avoid the dear case, a mesh that misses by a little and is solved again at the same size. Where bodies flow a
+// part of what is asked is that of the steps in time (0.2 of degree 1, 0.3 of degree 2); before the last round steps are as
+// good as the meshes deserve. One round of refinement is made at least: on the first meshes an estimate is not trusted.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adapt/adapted_meshes.h"
+#include "scene/resolve.h"
+
+namespace mortier {
+
+/// What a round has found.
+struct RoundResult {
+  std::vector<Vector> errors;  ///< of the meshes, squared, by bodies and triangles [J/m]
+  double energy = 0;           ///< that they are relative to [J/m]
+  double time = 0;             ///< error of the steps, relative
+  double seconds = 0;          ///< wall time of the round
+};
+
+class Rounds {
+ public:
+  explicit Rounds(ResolvedScene scene);
+
+  /// The scene of the round to come.
+  [[nodiscard]] ResolvedScene scene() const;
+  enum class Verdict { goOn, reached, notReached };
+  /// \param seconds  wall time of all so far. Where it goes on, the meshes of the next round are made.
+  Verdict judge(const RoundResult& result, double seconds);
+  /// Why it is not reached.
+  [[nodiscard]] const std::string& reason() const { return reason_; }
+  /// Of the last round, relative.
+  [[nodiscard]] double meshError() const { return meshError_; }
+  /// What spoils the estimate beside plan/estimate_doubts.h.
+  [[nodiscard]] std::vector<std::string> doubts() const;
+
+ private:
+  Verdict stop(const std::string& reason);
+  [[nodiscard]] double timeShare() const;
+  bool refine(const RoundResult& result, double aim, double seconds);
+
+  SceneDescription description_;
+  AdaptedMeshes meshes_;
+  double timeTolerance_ = 0;  ///< of the round to come; 0: as the scene says
+  double aim_ = 0;            ///< error that the meshes are to have in it
+  double meshError_ = 0;
+  int done_ = 0;
+  int shortfalls_ = 0;
+  std::string reason_;
+};
+
+}  // namespace mortier

@@ -1,0 +1,111 @@
+#include "commands/solve.h"
+
+#include <algorithm>
+
+#include "base/checksum.h"
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "report/checkpoint_files.h"
+#include "report/clock.h"
+
+namespace mortier {
+
+Checkpoints::Checkpoints(std::string folder, double interval, RunIdentity identity)
+    : folder_(std::move(folder)),
+      interval_(interval),
+      last_(processSeconds()),
+      identity_(std::move(identity)) {}
+
+bool Checkpoints::due() const {
+  constexpr double rarely = 10;
+  return processSeconds() - last_ >= (interval_ > 0 ? std::max(interval_, rarely * cost_) : 0);
+}
+
+void Checkpoints::write(const FilesSoFar& empty, const FilesSoFar& files, const StepReport& last,
+                        const State& state, const MarchMemory& memory, const AccuracyMemory& accuracy) {
+  const double begin = processSeconds();
+  writeCheckpoint(folder_, {identity_, empty, files, last, state, memory, accuracy});
+  last_ = processSeconds();
+  cost_ = last_ - begin;
+}
+
+Solved solve(Solving solving) {
+  const auto& [scene, model, facts, folder, log] =
+      std::tie(solving.scene, solving.model, solving.facts, solving.folder, solving.log);
+  Solved solved;
+  StepReport& last = solved.last;
+  State& state = solved.state;
+  std::optional<ResultFiles> files;
+  FilesSoFar empty;
+  MarchMemory memory;
+  AccuracyMemory accuracySoFar;
+  if (solving.stopped) {
+    Checkpoint& stopped = *solving.stopped;
+    files.emplace(folder, model, facts.quantities, scene.every, stopped.files);
+    empty = stopped.empty;
+    last = stopped.last;
+    state = std::move(stopped.state);
+    memory = std::move(stopped.memory);
+    accuracySoFar = stopped.accuracy;
+  } else {
+    files.emplace(folder, model, facts.quantities, scene.every);
+    state = std::move(solving.state);
+  }
+  AccuracyRecord accuracies(model, accuracySoFar);
+
+  // A failure leaves the last good step in `state`, an interruption in what is kept here.
+  State keptState = state;
+  MarchMemory keptMemory = memory;
+  const auto save = [&](const FilesSoFar& written, const State& at, const MarchMemory& with) {
+    solving.checkpoints.write(empty, written, last, at, with, accuracySoFar);
+  };
+  const Observer observe = [&](const State&, const StepReport& report) {
+    const bool again = report.step == 0 && memory.controller.trial > 1;
+    if (again) {
+      // A checkpoint before the files are cut: one that knows them as they were would be of no use.
+      log.print(logTrial(keptMemory.run.timeError, scene.time.tolerance));
+      last = report;
+      accuracySoFar = {};
+      const FilesSoFar written = files->sync();
+      if (!solving.onlyTheStart) save(empty, state, memory);
+      files.reset();
+      removeFields(folder, written, empty);
+      files.emplace(folder, model, facts.quantities, scene.every, empty);
+    } else {
+      files->add(state, report);
+      if (report.step == 0) empty = files->sync();
+      if (report.step == 0 && solving.onlyTheStart && facts.rounds.empty()) {
+        const FileRecord nothing{0, Checksum().value};  // whatever later rounds write
+        save({nothing, nothing, {}}, state, memory);
+      }
+    }
+    accuracies.add(state, report, scene.every > 0 && report.step % scene.every == 0);
+    if (solving.alsoObserve) solving.alsoObserve(state, report);
+    if (report.step > 0) log.step(report);
+    last = report;
+    if (!solving.onlyTheStart && report.step > 0 && state.time < scene.time.end && solving.checkpoints.due())
+      save(files->sync(), state, memory);
+    keptState = state;
+    keptMemory = memory;
+  };
+  RunReport& report = solved.report;
+  try {
+    report = march(model, state, memory, scene.time, scene.solver, observe);
+  } catch (const OutputError& error) {
+    log.finish();
+    if (!hasCheckpoint(folder)) throw;
+    throw OutputError(error.what() + solving.again);
+  } catch (const Interrupted&) {
+    log.finish();
+    const bool begun = last.step > 0 || keptMemory.controller.trial > 1;
+    if (begun && !solving.onlyTheStart) save(files->sync(), keptState, keptMemory);
+    throw InterruptedError(scene.path + ": interrupted after step " + std::to_string(last.step) +
+                           (hasCheckpoint(folder) ? solving.again : "; nothing was written"));
+  }
+  log.finish();
+  solved.files = files->close(state, last.step);
+  solved.accuracy = accuracies.atEnd(state, report.peaks);
+  return solved;
+}
+
+}  // namespace mortier

@@ -1,0 +1,100 @@
+#include "time/space_error.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "material/stress.h"
+
+namespace mortier {
+
+SpaceErrorEstimator::SpaceErrorEstimator(const Model& model) : model_(model) {
+  const Eigen::Vector3d alongX = fromCartesian({1, 0, 0});
+  for (const Body& body : model.bodies) {
+    bodies_.emplace_back(body);
+    Matrix stress = Matrix::Zero(body.material().components(), body.points());
+    stress.topRows<3>().colwise() = alongX;
+    Matrix strain;
+    body.material().elasticStrain(stress, strain);
+    compliances_.emplace_back((stress.array() * strain.array()).colwise().sum().transpose());
+  }
+  for (const ContactInterface& interface : model.interfaces) {
+    const auto of = [&](const ContactSide& side) {
+      return lineOf(model.bodies[side.body].mesh(), side.label);
+    };
+    lines_.push_back({of(interface.pair().nonmortar), of(interface.pair().mortar)});
+  }
+}
+
+SpaceErrorEstimator::Line SpaceErrorEstimator::lineOf(const TriangleMesh& mesh, int label) {
+  Line line;
+  for (std::array<int, 2> edge : edgesOn(mesh, label)) {
+    std::sort(edge.begin(), edge.end());
+    line.edges.push_back(edge);
+  }
+  std::sort(line.edges.begin(), line.edges.end());
+  line.triangles.assign(line.edges.size(), 0);
+  for (size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
+      const std::array<int, 2> edge{low, high};
+      const auto found = std::lower_bound(line.edges.begin(), line.edges.end(), edge);
+      if (found != line.edges.end() && *found == edge)
+        line.triangles[found - line.edges.begin()] = static_cast<int>(t);
+    }
+  return line;
+}
+
+int SpaceErrorEstimator::Line::triangleOf(const std::array<int, 2>& edge) const {
+  const auto [low, high] = std::minmax(edge[0], edge[1]);
+  const auto found = std::lower_bound(edges.begin(), edges.end(), std::array<int, 2>{low, high});
+  return triangles[found - edges.begin()];
+}
+
+SpaceErrorEstimator::Compliance SpaceErrorEstimator::complianceOf(const State& state, int body,
+                                                                  int triangle) const {
+  const Body& of = model_.bodies[body];
+  const int point = of.points() / static_cast<int>(of.mesh().triangles.size()) * triangle;
+  const double elastic = compliances_[body][point];
+  if (of.material().linear()) return {elastic, elastic};
+  // What has flowed is as soft as it was strained.
+  const double flowed = state.bodies[body].viscoplasticStrain.col(point).norm();
+  const double stress = state.bodies[body].stress.col(point).norm();
+  return {elastic, stress > 0 ? elastic + flowed / stress : elastic};
+}
+
+std::vector<ErrorEstimate> SpaceErrorEstimator::operator()(const State& state) const {
+  std::vector<ErrorEstimate> estimates;
+  for (size_t b = 0; b < bodies_.size(); ++b) estimates.push_back(bodies_[b](state.bodies[b].stress));
+  for (size_t k = 0; k < lines_.size(); ++k) addGaps(k, state, estimates);
+  return estimates;
+}
+
+void SpaceErrorEstimator::addGaps(size_t interface, const State& state,
+                                  std::vector<ErrorEstimate>& estimates) const {
+  const ContactInterface& contact = model_.interfaces[interface];
+  const auto& [nonmortar, mortar, coupling] = contact.pair();
+  if (coupling == CouplingKind::interpolation) return;
+  for (const GapSquare& square :
+       contact.gapSquares(state.contactForce[interface], state.bodies[nonmortar.body].displacement,
+                          state.bodies[mortar.body].displacement)) {
+    const int triangle = lines_[interface][0].triangleOf(square.nonmortar);
+    const Compliance compliance =
+        complianceOf(state, nonmortar.body, triangle) +
+        complianceOf(state, mortar.body, lines_[interface][1].triangleOf(square.mortar));
+    estimates[nonmortar.body].error[triangle] +=
+        compliance.elastic / (compliance.all * compliance.all) * square.integral / square.element;
+  }
+}
+
+double SpaceErrorEstimator::roundingOf(size_t body, double displacement) const {
+  constexpr double roundings = 4;
+  const Body& of = model_.bodies[body];
+  const double u = roundings * std::numeric_limits<double>::epsilon() * displacement;
+  Matrix strain;
+  of.material().elasticStrain(Matrix::Ones(of.material().components(), of.points()), strain);
+  double sum = 0;
+  for (int i = 0; i < of.points(); ++i) sum += u * u / strain.col(i).cwiseAbs().head<3>().minCoeff();
+  return sum;
+}
+
+}  // namespace mortier

@@ -1,0 +1,56 @@
+// The error of the meshes in a state: that of the stress of each body (fem/error_estimate.h), and what contact leaves between
+// its nodes. Recovery is blind to the latter: a soft body pressed by a wrong pressure has smooth stresses. With e the
+// error, p and g the pressure and the gap, h at the meshes,
+//
+//   a(e, e) = (bodies) + <p - p_h, g - g_h>,       <p - p_h, g - g_h> <= <p_h - p, g_h>,
+//
+// so all that is left is the gap under pressure, and penetration without. Both are stresses of about E* g/h:
+//
+//   integral of E* g^2/h where p_h > 0, of E* (g_+)^2/h elsewhere,       1/E* = 1/E1 + 1/E2,
+//
+// h the edge of the nonmortar triangle, to whose error they are added. Where bodies have flowed, the gap closes under less stress: E* is
+// then that of strain over stress, and the energy that of elasticity, K^2/E* in place of E*.
+#pragma once
+
+#include <vector>
+
+#include "fem/error_estimate.h"
+#include "solver/model.h"
+#include "solver/state.h"
+
+namespace mortier {
+
+/// Estimates for a model, which must outlive it.
+class SpaceErrorEstimator {
+ public:
+  explicit SpaceErrorEstimator(const Model& model);
+  /// By bodies.
+  [[nodiscard]] std::vector<ErrorEstimate> operator()(const State& state) const;
+  /// The energy norm, squared, of the stresses of a body that the rounding of displacements makes: strains of `displacement`
+  /// [m] times epsilon over the size of a triangle [J/m].
+  [[nodiscard]] double roundingOf(size_t body, double displacement) const;
+
+ private:
+  /// Where the elements of a line are, and how soft.
+  struct Line {
+    std::vector<std::array<int, 2>> edges;  ///< smaller vertex first, ascending
+    std::vector<int> triangles;             ///< behind them
+    [[nodiscard]] int triangleOf(const std::array<int, 2>& edge) const;
+  };
+  [[nodiscard]] static Line lineOf(const TriangleMesh& mesh, int label);
+  void addGaps(size_t interface, const State& state, std::vector<ErrorEstimate>& estimates) const;
+  /// 1/E, and strain over stress [1/Pa].
+  struct Compliance {
+    double elastic = 0;
+    double all = 0;
+    Compliance operator+(const Compliance& other) const { return {elastic + other.elastic, all + other.all}; }
+  };
+  [[nodiscard]] Compliance complianceOf(const State& state, int body, int triangle) const;
+
+  const Model& model_;
+  std::vector<ErrorEstimator> bodies_;
+  std::vector<std::array<Line, 2>> lines_;  ///< of each interface, nonmortar and mortar
+  std::vector<Vector> compliances_;         ///< 1/E by points [1/Pa]
+};
+
+}  // namespace mortier

@@ -1,0 +1,198 @@
+"""Runs that refine their meshes and steps until an accuracy is reached."""
+import json
+import re
+import signal
+import subprocess
+import time
+import unittest
+
+from scenes import SHAPE_KEYS, TWO_BLOCKS
+from support import PROGRAM, InFolder
+
+# A stiff punch in the middle of a block, meshes as coarse as they can be.
+PUNCH = """\
+[[body]]
+name = "punch"
+mesh = { shape = "rectangle", lower = [-0.5, 0], upper = [0.5, 1], cells = 1 }
+material = { young = 1000, poisson = 0.3 }
+boundary = [ { label = 3, ux = 0, uy = "-0.01*t" } ]
+[[body]]
+name = "block"
+mesh = { shape = "rectangle", lower = [-2, -2], upper = [2, 0], cells = [3, 2] }
+material = { young = 1, poisson = 0.3 }
+boundary = [ { label = 1, ux = 0, uy = 0 } ]
+[contact]
+nonmortar = { body = "punch", label = 1 }
+mortar = { body = "block", label = 3 }
+[time]
+end = 1
+steps = 1
+[accuracy]
+energy = 0.15
+"""
+
+FLOWING = """\
+[[body]]
+name = "block"
+mesh = { shape = "rectangle", cells = 1, cut = "both" }
+material = { young = 100, poisson = 0.3, viscosity = 1, yield_stress = 1 }
+boundary = [ { label = 1, ux = 0, uy = 0 }, { label = 3, ty = "-1.5*t*(1 + 0.5*x)" } ]
+[time]
+end = 1
+steps = 5
+[accuracy]
+energy = 0.1
+"""
+
+
+class Accuracy(InFolder):
+    def run_scene(self, scene, *arguments, code=0):
+        """Standard output and summary.json."""
+        self.write(scene)
+        done = self.mortier("run", "scene.toml", "--out", "out", *arguments, code=code)
+        return done, json.loads(self.read("out/summary.json"))
+
+    def test_an_accuracy_is_reached_and_told(self):
+        done, summary = self.run_scene(PUNCH)
+        accuracy, rounds = summary["accuracy"], summary["rounds"]
+        self.assertTrue(accuracy["reached"])
+        self.assertEqual(accuracy["asked"], 0.15)
+        self.assertLessEqual(accuracy["mesh"] + accuracy["time"], 0.15)
+        self.assertGreater(len(rounds), 1)
+        self.assertEqual(accuracy["mesh"], rounds[-1]["mesh"])
+        self.assertAlmostEqual(accuracy["energy_error"], accuracy["mesh"], delta=1e-12)
+        self.assertEqual(rounds[-1]["triangles"], summary["triangles"])
+        self.assertEqual(rounds[-1]["unknowns"], summary["free_dofs"])
+        self.assertEqual(rounds[0]["triangles"], 2 + 12)
+        sizes = [each["unknowns"] for each in rounds]
+        self.assertEqual(sizes, sorted(set(sizes)))
+        rows = re.findall(r"^ +(\d+) +(\d+) +(\d+) +1 +[\d.]+ %", done.stdout, re.M)
+        self.assertEqual([tuple(map(int, row)) for row in rows],
+                         [(i + 1, each["triangles"], each["unknowns"]) for i, each in enumerate(rounds)])
+
+    def test_the_refined_meshes_give_the_same_result(self):
+        _, summary = self.run_scene(PUNCH)
+        self.write(PUNCH[:PUNCH.index("[accuracy]")], "plain.toml")
+        self.mortier("run", "plain.toml", "--out", "again", "--set", "body.punch.mesh=out/punch.mesh",
+                     "body.block.mesh=out/block.mesh")
+        again = json.loads(self.read("again/summary.json"))
+        self.assertEqual(again["dofs"], summary["dofs"])
+        for key in ("contact_force", "elastic_energy", "von_mises_max"):
+            self.assertAlmostEqual(again["final"][key] / summary["final"][key], 1, delta=1e-9)
+
+    def test_the_option_is_the_key(self):
+        _, summary = self.run_scene(PUNCH[:PUNCH.index("[accuracy]")], "--accuracy", "0.15", "--max-unknowns", "1e5",
+                                    "--max-seconds", "100")
+        self.assertEqual(summary["accuracy"]["asked"], 0.15)
+        self.assertEqual(summary["settings"], ["accuracy.energy=0.15", "accuracy.max_unknowns=1e5", "accuracy.max_seconds=100"])
+
+    def test_what_is_not_reached_is_said(self):
+        done, summary = self.run_scene(PUNCH, "--accuracy", "0.001", "--max-unknowns", "2000", code=1)
+        self.assertIn("accuracy 0.001 not reached", done.stderr)
+        self.assertIn("max_unknowns", done.stderr)
+        self.assertFalse(summary["accuracy"]["reached"])
+        self.assertLessEqual(summary["free_dofs"], 2000)
+        self.assertGreater(summary["free_dofs"], 500)
+        self.assertGreater(summary["accuracy"]["mesh"], 0.001)
+        self.assertEqual(self.names("."), ["out", "scene.toml"])
+
+    def test_bodies_that_flow_get_their_steps_too(self):
+        _, summary = self.run_scene(FLOWING)
+        accuracy = summary["accuracy"]
+        self.assertTrue(accuracy["reached"])
+        self.assertLessEqual(accuracy["mesh"] + accuracy["time"], 0.1)
+        self.assertGreater(accuracy["time"], 0)
+        self.assertAlmostEqual(summary["tolerance"], 0.02, delta=1e-15)
+
+    def test_a_constant_stress_is_exact_after_one_refinement(self):
+        scene = TWO_BLOCKS.replace('"upper.mesh"', '{ shape = "rectangle", lower = [0, 0], upper = [1, 1], cells = 3 }')
+        scene = scene.replace('"lower.mesh"', '{ shape = "rectangle", lower = [0, -1], upper = [1, 0], cells = 4 }')
+        _, summary = self.run_scene(scene, "--accuracy", "0.01")
+        self.assertEqual(len(summary["rounds"]), 2)
+        self.assertEqual(summary["accuracy"]["mesh"], 0)
+
+    def test_circles_of_shapes_are_circles(self):
+        self.run_scene(SHAPE_KEYS)
+        lines = self.read("out/ring.mesh").splitlines()
+        begin = lines.index("Vertices") + 2
+        count = int(lines[begin - 1])
+        points = [tuple(map(float, line.split()[:2])) for line in lines[begin:begin + count]]
+        begin = lines.index("Edges") + 2
+        for line in lines[begin:begin + int(lines[begin - 1])]:
+            *ends, label = map(int, line.split())
+            if label > 2:
+                continue
+            for vertex in ends:
+                x, y = points[vertex - 1]
+                self.assertAlmostEqual(((x + 5)**2 + y**2)**0.5, label, delta=1e-13)
+        self.assertGreater(count, 12)
+
+    def test_a_polygon_is_named(self):
+        self.write(SHAPE_KEYS)
+        self.mortier("mesh", "annulus", "--cells", "16,2", "--inner", "1", "--outer", "2", "ring.mesh")
+        text = self.read("ring.mesh").split("\n")
+        begin = text.index("Vertices") + 2
+        for i in range(begin, begin + int(text[begin - 1])):
+            x, y, _ = text[i].split()
+            text[i] = f"{x} {0.8 * float(y)} 0"
+        self.write("\n".join(text), "ring.mesh")
+        scene = """
+[[body]]
+name = "ring"
+mesh = "ring.mesh"
+material = { young = 1, poisson = 0.3 }
+boundary = [ { label = 1, ux = 0, uy = 0 }, { label = 2, pressure = 1 } ]
+[time]
+end = 1
+steps = 1
+"""
+        _, summary = self.run_scene(scene, "--accuracy", "0.3")
+        self.assertTrue(any("label 1 is a polygon" in each for each in summary["accuracy"]["not_reliable"]))
+
+    def test_what_cannot_be_is_refused(self):
+        for setting, message in (("contact.variant=interpolation", "expected mortar beside accuracy"),
+                                 ("time.scheme=crank-nicolson", "expected it only beside time.scheme"),
+                                 ("solver.method=penalty-duality", "expected it only beside solver.method"),
+                                 ("accuracy.energy=1.5", "0 < energy < 1"), ("accuracy.max_unknowns=-1", "max_unknowns > 0")):
+            with self.subTest(setting):
+                self.write(PUNCH)
+                errors = self.mortier("run", "scene.toml", "--set", setting, code=2).stderr
+                self.assertIn(message, errors)
+                self.assertEqual(self.names("."), ["scene.toml"])
+
+    def test_shapes_that_cannot_be_are_refused(self):
+        good = 'shape = "rectangle", lower = [-0.5, 0], upper = [0.5, 1], cells = 1'
+        for bad, message in (('shape = "circle", cells = 1', 'shape = "circle", expected'),
+                             ('shape = "rectangle"', "cells is missing"),
+                             ('shape = "rectangle", cells = 1.5', "expected N or [N, M], integers >= 1"),
+                             ('shape = "rectangle", cells = 1, radius = 2', "radius = 2, expected of a mesh of shape rectangle"),
+                             ('shape = "rectangle", cells = 1, upper = [-1, 1]', "expected finite numbers with lower < upper"),
+                             ('shape = "quadrilateral", cells = 1, corners = [[0, 0], [1, 0]]', "expected four corners"),
+                             ('shape = "annulus", cells = 4, span = "most"', "span = \"most\", expected"),
+                             ('file = "a.mesh", cells = 1', "cells = 1, expected it beside shape")):
+            with self.subTest(bad):
+                self.write(PUNCH.replace(good, bad))
+                errors = self.mortier("run", "scene.toml", code=2).stderr
+                self.assertIn(message, errors)
+                self.assertTrue(errors.startswith("mortier: scene.toml:3: body punch: mesh"), errors)
+
+    def test_a_stopped_run_begins_its_rounds_again(self):
+        self.write(PUNCH)
+        self.mortier("run", "scene.toml", "--out", "whole", "--accuracy", "0.02")
+        run = subprocess.Popen([PROGRAM, "run", "scene.toml", "--out", "out", "--accuracy", "0.02"], cwd=self.folder,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        limit = time.time() + 60
+        while not list(self.folder.glob("out.tmp-*/checkpoint")) and time.time() < limit and run.poll() is None:
+            time.sleep(0.002)
+        run.send_signal(signal.SIGKILL)
+        run.wait()
+        done = subprocess.run([PROGRAM, "run", "--restart", "out"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("the rounds begin again", done.stderr)
+        for name in ("history.csv", "contact.csv", "punch.mesh", "block.mesh"):
+            self.assertEqual(self.read(f"out/{name}"), self.read(f"whole/{name}"))
+        self.assertEqual(self.names("."), ["out", "scene.toml", "whole"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,135 @@
+"""mortier compare: both codes, a result that was kept, other meshes, another code's files."""
+import os
+import stat
+import unittest
+
+import meshio
+import numpy as np
+
+from support import OfTwoBlocks, mortier
+import results
+
+
+class Compare(OfTwoBlocks):
+    def compare(self, *words, code=0, environment=None):
+        """The lines of standard output, or with an exit code of 2 the one of standard error."""
+        done = mortier("compare", "scene.toml", *words, cwd=self.folder,
+                       env={**os.environ, **(environment or {})})
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1 if code == 2 else 0, done.stderr)
+        return done.stderr if code == 2 else done.stdout.splitlines()
+
+    def beyond(self, lines):
+        return [line.split("  ")[0] for line in lines if line.endswith("<-- beyond")]
+
+    def test_both_codes_agree(self):
+        before = self.names()
+        lines = self.compare()
+        self.assertEqual(lines[-1], "scene.toml: agrees")
+        self.assertRegex(lines[-2], r"largest difference: \w+ of (upper|lower), .* of the largest")
+        self.assertEqual(self.names(), before)
+
+    def test_a_code_with_other_data_differs(self):
+        wrapper = self.folder / "other-freefem"
+        wrapper.write_text('#!/bin/sh\nfor word; do\n'
+                           'case $word in *.edp) sed -i "s/E1 = 3e+11/E1 = 3.001e+11/" "$word";; esac\ndone\n'
+                           'exec FreeFem++-nw "$@"\n')
+        wrapper.chmod(wrapper.stat().st_mode | stat.S_IXUSR)
+        lines = self.compare("--set", "body.upper.material.viscosity=1e12", code=1,
+                             environment={"FREEFEM": str(wrapper)})
+        self.assertIn("displacement upper", self.beyond(lines))
+        self.assertEqual(lines[-1], "scene.toml: differs; scene.difference.png")
+        self.assertTrue((self.folder / "scene.difference.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_a_missing_code(self):
+        done = mortier("compare", "scene.toml", cwd=self.folder,
+                       env={**os.environ, "FREEFEM": "no-such-code"})
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("no-such-code: No such file or directory (Debian package freefem++)", done.stderr)
+
+    def test_a_kept_result(self):
+        self.compare("--accept", "kept/scene")
+        self.assertEqual(self.compare("--against", "kept/scene")[-1], "scene.toml: agrees")
+        changed = ("--against", "kept/scene", "--set", "body.upper.material.viscosity=10.01")
+        lines = self.compare(*changed, code=1)
+        self.assertIn("displacement upper", self.beyond(lines))
+        lines = self.compare(*changed, "--within", "0.01", "--picture", "d.svg")
+        self.assertEqual(lines[-1], "scene.toml: agrees; d.svg")
+
+    def test_a_picture_never_takes_the_place_of_a_file_of_others(self):
+        self.compare("--accept", "kept")
+        (self.folder / "scene.difference.png").write_text("mine")
+        done = mortier("compare", "scene.toml", "--against", "kept", "--set",
+                       "body.upper.material.viscosity=11", cwd=self.folder)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("scene.difference.png: in the way", done.stderr)
+        self.assertEqual(self.read("scene.difference.png"), "mine")
+
+    def test_quantities(self):
+        self.write(self.read("scene.toml") + '[[quantity]]\nname = "foot"\n'
+                   'reaction = { body = "lower", label = 1 }\ncomponent = "y"\n')
+        self.compare("--accept", "kept")
+        self.assertTrue(any(line.startswith("foot ") for line in self.compare("--against", "kept")))
+        lines = self.compare("--against", "kept", "--set", 'body.upper.boundary.3.ty="-11*t"', code=1)
+        self.assertIn("foot", self.beyond(lines))
+
+    def test_another_mesh(self):
+        """The stress is constant: meshes do not matter."""
+        self.compare("--accept", "kept")
+        self.mortier("mesh", "crisscross", "--cells", "5", "fine.mesh")
+        other = ("--against", "kept", "--set", "body.upper.mesh=fine.mesh")
+        self.assertIn("expected --within X", self.compare(*other, code=2))
+        self.assertEqual(self.compare(*other, "--within", "1e-9")[-1], "scene.toml: agrees")
+        lines = self.compare(*other, 'body.upper.boundary.3.ty="-10.1*t"', "--within", "1e-3", code=1)
+        self.assertIn("stress upper", self.beyond(lines))
+        self.mortier("mesh", "crisscross", "--cells", "5", "--upper", "1.2,1", "wide.mesh")
+        lines = self.compare("--against", "kept", "--set", "body.upper.mesh=wide.mesh", "--within", "1",
+                             code=1)
+        self.assertRegex("\n".join(lines), r"body upper: 1\d % of its area lies outside of the other mesh")
+
+    def test_another_code_on_quadrangles(self):
+        """The exact fields, written as another code would."""
+        self.compare("--accept", "kept")
+        body = results.read_mortier(self.folder / "kept").bodies["upper"]
+        affine = np.column_stack([np.ones(len(body.points)), body.points])
+        linear, *_ = np.linalg.lstsq(affine, body.displacement, rcond=None)
+        x, y = np.meshgrid(np.linspace(0, 1, 8), np.linspace(0, 1, 5))
+        points = np.column_stack([x.ravel(), y.ravel(), 0 * x.ravel()])
+        first = (np.arange(4)[:, None] * 8 + np.arange(7)).ravel()
+        cells = [("quad", np.column_stack([first, first + 1, first + 9, first + 8]))]
+        displacement = np.column_stack([np.ones(len(points)), points[:, :2]]) @ linear
+        for factor, code in ((1.0, 0), (1.01, 1)):
+            stress = np.tile([0, -10 * factor, 0, 0, 0, 0], (28, 1))
+            meshio.write(self.folder / "other.vtu",
+                         meshio.Mesh(points, cells, {"displacement": displacement}, {"stress": [stress]}))
+            lines = self.compare("--against", "upper=other.vtu", "--within", "1e-6", code=code)
+            self.assertEqual(self.beyond(lines), ["stress upper"] if code else [])
+        self.assertTrue(any(line.startswith("displacement upper") for line in lines))
+
+    def test_wrong_input_is_one_line(self):
+        (self.folder / "text.vtu").write_text("no XML")
+        cases = [
+            (["--against", "nowhere"], "nowhere: no such folder"),
+            (["--against", "upper=text.vtu", "--within", "1"], "text.vtu: cannot be read"),
+            (["--against", "upper=none.vtu", "--within", "1"], "none.vtu: cannot be read"),
+            (["--within", "0.1"], "--within: for --against only"),
+            (["--against", ".", "--within", "nan"], "nan: expected a number"),
+            (["--accept", "kept", "--within", "1"], "--accept: keeps a result"),
+            (["--picture", "a.pdf"], "--picture a.pdf: expected a file NAME.png or NAME.svg"),
+            (["--set", "time.steps=-1"], "--set time.steps=-1"),
+            (["--set", "nix=1"], "--set nix=1")]
+        for words, expected in cases:
+            with self.subTest(words=words):
+                before = self.names()
+                self.assertIn(expected, self.compare(*words, code=2))
+                self.assertEqual(self.names(), before)
+
+    def test_a_scene_that_nothing_holds(self):
+        self.write(self.read("scene.toml").replace("ux = 0\n", "tx = 0\n", 1))
+        done = mortier("compare", "scene.toml", cwd=self.folder)
+        self.assertEqual(done.returncode, 3)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,220 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "adapt/adapted_meshes.h"
+#include "adapt/curves.h"
+#include "adapt/rounds.h"
+#include "mesh/boundary_line.h"
+#include "mesh/shape.h"
+
+namespace mortier {
+namespace {
+
+TriangleMesh square(int cells) {
+  return crissCrossMesh({.lower = {0, 0}, .upper = {1, 1}, .cellsX = cells, .cellsY = cells});
+}
+
+TEST(Curves, circlesOfARingAreKnown) {
+  for (const int quarters : {1, 2, 4}) {
+    const TriangleMesh mesh = annulusMesh({{3, 4}, 1, 2.5, quarters, 6 * quarters, 3});
+    const KnownCurves curves = curvesBehind(mesh);
+    EXPECT_TRUE(curves.polygons.empty());
+    EXPECT_EQ(curves.edges.size(), 12U * quarters);
+    for (const auto& edge : edgesOn(mesh, 1)) EXPECT_NEAR(curves.edges.at(edge), -1, 1e-12);
+    for (const auto& edge : edgesOn(mesh, 2)) EXPECT_NEAR(curves.edges.at(edge), 1 / 2.5, 1e-12);
+  }
+}
+
+TEST(Curves, boundariesWithoutALabelHaveTheirCurvesToo) {
+  TriangleMesh mesh = annulusMesh({{0, 0}, 1, 2, 4, 24, 3});
+  mesh.boundaryEdges.clear();
+  mesh.boundaryLabels.clear();
+  EXPECT_EQ(curvesBehind(mesh).edges.size(), 48U);
+}
+
+TEST(Curves, lineBetweenRegionsHasItsCurve) {
+  TriangleMesh mesh = annulusMesh({{0, 0}, 1, 2, 4, 24, 2});
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Point centre = Point::Zero();
+    for (const int v : mesh.triangles[t]) centre += mesh.vertices[v] / 3;
+    mesh.regions[t] = centre.norm() < std::sqrt(2.0) ? 1 : 2;
+  }
+  const KnownCurves curves = curvesBehind(mesh);
+  EXPECT_EQ(curves.edges.size(), 72U);
+  for (const auto& [edge, curvature] : curves.edges)
+    EXPECT_NEAR(1 / std::abs(curvature), mesh.vertices[edge[0]].norm(), 1e-12);
+}
+
+TEST(Curves, rectanglesAreStraightAndKnown) {
+  const KnownCurves curves = curvesBehind(square(3));
+  EXPECT_TRUE(curves.edges.empty());
+  EXPECT_TRUE(curves.polygons.empty());
+}
+
+TEST(Curves, anEllipseIsAPolygonThatIsNamed) {
+  TriangleMesh mesh = annulusMesh({{0, 0}, 1, 2, 4, 24, 3});
+  for (Point& x : mesh.vertices) x.y() *= 0.7;
+  EXPECT_EQ(curvesBehind(mesh).polygons, (std::vector<std::string>{"label 1", "label 2"}));
+}
+
+TEST(Curves, shapesTellTheirCirclesOnAnyMesh) {
+  const TriangleMesh mesh = shapeMesh({Annulus{{1, 1}, 1, 3, 4, 3, 1}});
+  const KnownCurves curves = curvesBehind(mesh);
+  EXPECT_TRUE(curves.polygons.empty());
+  for (const auto& edge : edgesOn(mesh, 1)) EXPECT_NEAR(curves.edges.at(edge), -1, 1e-12);
+  for (const auto& edge : edgesOn(mesh, 2)) EXPECT_NEAR(curves.edges.at(edge), 1.0 / 3, 1e-12);
+  const TriangleMesh disc = shapeMesh({HalfDisc{{0, 0}, 2, 0.5, 1}, Cut::both});
+  const KnownCurves arcs = curvesBehind(disc);
+  EXPECT_EQ(arcs.edges.size(), edgesOn(disc, 1).size() + edgesOn(disc, 3).size());
+  for (const auto& [edge, curvature] : arcs.edges) EXPECT_NEAR(curvature, 0.5, 1e-12);
+}
+
+std::vector<Vector> equalErrors(const AdaptedMeshes& meshes, double sum) {
+  const auto triangles = static_cast<Eigen::Index>(meshes.mesh(0).triangles.size());
+  return {Vector::Constant(triangles, sum / static_cast<double>(triangles))};
+}
+
+// eta_T ~ h^(p+1), the sum of squares ~ h^(2p): half the error is a quarter of the area at degree 1, half of it at degree 2.
+TEST(AdaptedMeshes, equalErrorsMakeEqualSizesThatMeetTheAim) {
+  for (const auto& [degree, pieces] : {std::pair(1, 4U), std::pair(2, 2U)}) {
+    const TriangleMesh first = square(3);
+    AdaptedMeshes meshes({first}, degree);
+    meshes.refine(equalErrors(meshes, 1), 0.5);
+    EXPECT_EQ(meshes.mesh(0).triangles.size(), pieces * first.triangles.size());
+  }
+}
+
+TEST(AdaptedMeshes, noSizeFallsToLessThanAnEighth) {
+  const TriangleMesh first = square(2);
+  AdaptedMeshes meshes({first}, 1);
+  meshes.refine(equalErrors(meshes, 1), 1e-6);
+  EXPECT_EQ(meshes.mesh(0).triangles.size(), 64 * first.triangles.size());
+}
+
+// With the aim met already, those triangles that make half of the error are cut, and no others but for closure.
+TEST(AdaptedMeshes, halfOfTheErrorIsCutWhateverElse) {
+  const TriangleMesh first = square(8);
+  AdaptedMeshes meshes({first, first}, 1);
+  std::vector<Vector> errors(2, Vector::Constant(static_cast<Eigen::Index>(first.triangles.size()), 1e-6));
+  errors[1][100] = 1;
+  meshes.refine(errors, 2);
+  EXPECT_EQ(meshes.mesh(0).triangles.size(), first.triangles.size());
+  EXPECT_GT(meshes.mesh(1).triangles.size(), first.triangles.size());
+  EXPECT_LE(meshes.mesh(1).triangles.size(), first.triangles.size() + 4);
+}
+
+double smallestArea(const TriangleMesh& mesh) {
+  double least = INFINITY;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
+    least = std::min(least, doubleArea(mesh, t) / 2);
+  return least;
+}
+
+/// Errors like area^s at the lower left corner, whatever the mesh, and small ones elsewhere.
+std::vector<Vector> cornerErrors(const TriangleMesh& mesh, double s) {
+  Vector errors = Vector::Constant(static_cast<Eigen::Index>(mesh.triangles.size()), 1e-9);
+  for (size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const int v : mesh.triangles[t])
+      if (mesh.vertices[v].norm() == 0)
+        errors[static_cast<Eigen::Index>(t)] = std::pow(doubleArea(mesh, static_cast<int>(t)), s);
+  return {errors};
+}
+
+TEST(AdaptedMeshes, trianglesAtAnUnboundedStressAreCutInLayers) {
+  const auto smallest = [](double s) {
+    AdaptedMeshes meshes({square(4)}, 2);
+    for (int round = 0; round < 2; ++round) {
+      const std::vector<Vector> errors = cornerErrors(meshes.mesh(0), s);
+      meshes.refine(errors, 0.5 * std::sqrt(errors[0].sum()));
+    }
+    return smallestArea(meshes.mesh(0)) / smallestArea(square(4));
+  };
+  EXPECT_LT(smallest(0.5), 1e-3);
+  EXPECT_GT(smallest(1.5), 1e-2);
+}
+
+ResolvedScene sceneOf(double accuracy) {
+  ResolvedScene scene;
+  scene.description.bodies.emplace_back();
+  scene.description.accuracy.energy = accuracy;
+  scene.meshes = {square(2)};
+  return scene;
+}
+
+RoundResult resultOf(const Rounds& rounds, double error) {
+  const auto triangles = static_cast<Eigen::Index>(rounds.scene().meshes[0].triangles.size());
+  return {{Vector::Constant(triangles, error * error / static_cast<double>(triangles))}, 1, 0, 1};
+}
+
+TEST(Rounds, oneRefinementIsMadeBeforeAnEstimateIsTrusted) {
+  Rounds rounds(sceneOf(0.1));
+  const size_t before = rounds.scene().meshes[0].triangles.size();
+  EXPECT_EQ(rounds.judge(resultOf(rounds, 0.001), 1), Rounds::Verdict::goOn);
+  EXPECT_GT(rounds.scene().meshes[0].triangles.size(), before);
+  EXPECT_EQ(rounds.judge(resultOf(rounds, 0.001), 1), Rounds::Verdict::reached);
+}
+
+TEST(Rounds, errorsThatAreNothingButRoundingEndAfterOneRefinement) {
+  Rounds rounds(sceneOf(0.1));
+  EXPECT_EQ(rounds.judge(resultOf(rounds, 0), 1), Rounds::Verdict::goOn);
+  EXPECT_EQ(rounds.judge(resultOf(rounds, 0), 1), Rounds::Verdict::reached);
+}
+
+TEST(Rounds, reachesAreEqual) {
+  // 0.68 over 0.85 of 0.1 is 8: log 8/log 4 = 1.5, two rounds that divide by 2.83 each; at degree 1 that is eight times the triangles.
+  Rounds rounds(sceneOf(0.1));
+  const double before = static_cast<double>(rounds.scene().meshes[0].triangles.size());
+  EXPECT_EQ(rounds.judge(resultOf(rounds, 0.68), 1), Rounds::Verdict::goOn);
+  EXPECT_NEAR(static_cast<double>(rounds.scene().meshes[0].triangles.size()) / before, 8, 0.01);
+}
+
+TEST(Rounds, limitsEndThemAndTheMeshesAreThoseThatWereSolved) {
+  for (const bool seconds : {true, false}) {
+    ResolvedScene scene = sceneOf(0.01);
+    (seconds ? scene.description.accuracy.maxSeconds : scene.description.accuracy.maxUnknowns) = 30;
+    Rounds rounds(std::move(scene));
+    const size_t before = rounds.scene().meshes[0].triangles.size();
+    EXPECT_EQ(rounds.judge(resultOf(rounds, 0.5), 29.9), Rounds::Verdict::notReached);
+    EXPECT_NE(rounds.reason().find(seconds ? "max_seconds" : "max_unknowns"), std::string::npos);
+    EXPECT_EQ(rounds.scene().meshes[0].triangles.size(), before);
+  }
+}
+
+TEST(Rounds, aLimitIsUsedAsFarAsItGoes) {
+  ResolvedScene scene = sceneOf(1e-4);
+  scene.description.accuracy.maxUnknowns = 200;
+  Rounds rounds(std::move(scene));
+  EXPECT_EQ(rounds.judge(resultOf(rounds, 0.5), 1), Rounds::Verdict::goOn);
+  EXPECT_LE(2 * rounds.scene().meshes[0].vertices.size(), 200U);
+}
+
+TEST(Rounds, errorsThatDoNotFallEndThem) {
+  Rounds rounds(sceneOf(0.01));
+  int done = 0;
+  while (rounds.judge(resultOf(rounds, 0.5), 1) == Rounds::Verdict::goOn) ASSERT_LT(++done, 4);
+  EXPECT_NE(rounds.reason().find("does not fall"), std::string::npos);
+}
+
+// Where bodies flow, steps get a part of what is asked, and early rounds are short in time too.
+TEST(Rounds, toleranceOfStepsFollowsTheMeshes) {
+  ResolvedScene scene = sceneOf(0.01);
+  scene.description.bodies[0].material.viscoplasticity.emplace();
+  Rounds rounds(std::move(scene));
+  EXPECT_EQ(rounds.scene().description.time.tolerance, 0.1);
+  RoundResult result = resultOf(rounds, 0.2);
+  result.time = 0.05;
+  EXPECT_EQ(rounds.judge(result, 1), Rounds::Verdict::goOn);
+  EXPECT_NEAR(rounds.scene().description.time.tolerance, 0.08, 1e-12);
+  result = resultOf(rounds, 0.007);
+  result.time = 0.05;
+  EXPECT_EQ(rounds.judge(result, 1), Rounds::Verdict::goOn);
+  EXPECT_NEAR(rounds.scene().description.time.tolerance, 0.002, 1e-12);
+  result = resultOf(rounds, 0.007);
+  result.time = 0.0015;
+  EXPECT_EQ(rounds.judge(result, 1), Rounds::Verdict::reached);
+}
+
+}  // namespace
+}  // namespace mortier
