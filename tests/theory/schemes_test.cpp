@@ -306,11 +306,13 @@ TEST(Schemes, allEndWithTheSameCertificate) {
       State state = initialState(model);
       const RunReport report = runWith(model, state, scheme, 1, 13);
       ASSERT_EQ(report.status, Status::converged) << nameOf(scheme) << ": " << report.reason;
-      EXPECT_LT(report.worst.forceBalance, 1e-10) << nameOf(scheme);
-      EXPECT_LT(report.worst.materialResidual, 1e-8) << nameOf(scheme);
-      EXPECT_LT(report.worst.complementarity, 1e-12) << nameOf(scheme);
-      EXPECT_LT(report.worst.gapOnActive, 1e-12) << nameOf(scheme);
-      EXPECT_LT(report.worst.sign, 1e-13) << nameOf(scheme);
+      // About twice what is found; the law holds to the tolerance where the stress is not uniform.
+      EXPECT_LE(report.worst.forceBalance, 2e-14) << nameOf(scheme);
+      EXPECT_LE(report.worst.materialResidual, coupling == CouplingKind::mortar ? 2e-15 : 1e-10)
+          << nameOf(scheme);
+      EXPECT_LE(report.worst.complementarity, 2e-16) << nameOf(scheme);
+      EXPECT_LE(report.worst.gapOnActive, 2e-16) << nameOf(scheme);
+      EXPECT_LE(report.worst.sign, 1e-16) << nameOf(scheme);
     }
 }
 

@@ -1,6 +1,7 @@
 """The built program from outside: usage, exit codes, output that other programs read."""
 import csv
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -94,6 +95,14 @@ class Cli(OfTwoBlocks):
             self.assertRegex(errors, r"scene.toml: interrupted after step 1; mortier run --restart \S*out/scene goes on\n$")
             left, = self.names("out")
             self.assertIn("checkpoint", self.names("out/" + left))
+
+    def test_interrupted_while_a_library_hears_nothing(self):
+        environment = {**os.environ, "LD_PRELOAD": os.environ["DEAF_METIS"], "ASAN_OPTIONS": "verify_asan_link_order=0"}
+        result = subprocess.run([PROGRAM, "run", "scene.toml", "--quiet"], cwd=self.folder, env=environment,
+                                stderr=subprocess.PIPE, text=True, timeout=20)
+        self.assertEqual((result.returncode, result.stderr),
+                         (1, "mortier: interrupted before the first step; nothing was written\n"))
+        self.assertFalse((self.folder / "out/scene").exists())
 
     def test_steps_chosen_by_their_error_end_at_kinks(self):
         # The table is a ramp but for a pulse that is too short to be found by trying.
