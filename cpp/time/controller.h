@@ -42,7 +42,9 @@ class Controller {
     bool good = true;
   };
   [[nodiscard]] Judgement judge(StepTaker& taker, double t0, double t1) const;
-  StepOutcome attempt(StepTaker& taker, double t0, double t1, Effort effort, Judgement& judgement);
+  StepOutcome attempt(StepTaker& taker, double t0, double t1, Effort effort, bool mayEndOnOnset,
+                      Judgement& judgement);
+  [[nodiscard]] bool turnsTooFar(const StepTaker& taker) const;
   [[nodiscard]] double leastStep() const;
   [[nodiscard]] double nextTime(double t, double k) const;
   [[nodiscard]] double stopAfter(double t) const;
