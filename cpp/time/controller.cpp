@@ -9,6 +9,7 @@ namespace mortier {
 namespace {
 
 constexpr double safety = 0.9;
+constexpr int mostOnsets = 6;  // attempts that may be told to end on the onset of flow
 constexpr double leastFactor = 0.2;
 constexpr double failureFactor = 0.25;
 constexpr double aim = 0.7;         // of the tolerance
@@ -160,19 +161,24 @@ bool Controller::turnsTooFar(const StepTaker& taker) const {
   return measure_.sizeOf(taker.turn()).stress > own.local * own.scale.stress;
 }
 
-StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort effort, bool mayEndOnOnset,
+StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort effort, int onsets,
                                 Judgement& judgement) {
   constexpr double early = 0.05;  // parts of a step: it ends on the onset of flow between them
-  constexpr double late = 0.99;
+  constexpr double late = 0.95;
+  constexpr double shorter = 0.8;
   StepOutcome outcome = taker.attempt(t1, effort);
   if (!outcome.converged() || outcome.rung == Rung::rest) return outcome;
   judgement = judge(taker, t0, t1);
-  if (mayEndOnOnset && (!judgement.good || turnsTooFar(taker)))
-    if (const double onset = taker.onset(); onset > early && onset < late) {
-      judgement.factor = onset;
+  const bool turned = onsets > 0 && turnsTooFar(taker);
+  if (turned || (onsets == mostOnsets && !judgement.good)) {
+    const double onset = taker.onset();
+    // Later than that it is where the load bends, and not well known.
+    if (onset > early && (onset < late || turned)) {
+      judgement.factor = onset < late ? onset : shorter;
       judgement.good = false;
       return outcome;
     }
+  }
   // What is too long without the guard is too long with it, whose steps are of the first order; but where the data turn to
   // rest they are exact.
   const bool turns = t0 == memory_.begin || std::binary_search(stops_.begin(), stops_.end(), t0);
@@ -203,7 +209,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     Judgement judgement;
     const StepOutcome outcome =
         attempt(taker, state.time, t1, flowing >= allFlow && failures < easy ? Effort::little : Effort::usual,
-                flowing == 0 && report.rejections == 0, judgement);
+                flowing == 0 ? mostOnsets - report.rejections : 0, judgement);
     report.iterations += outcome.iterations;
     report.factorisations += outcome.factorisations;
     if (!outcome.converged()) {

@@ -42,7 +42,8 @@ class Controller {
     bool good = true;
   };
   [[nodiscard]] Judgement judge(StepTaker& taker, double t0, double t1) const;
-  StepOutcome attempt(StepTaker& taker, double t0, double t1, Effort effort, bool mayEndOnOnset,
+  /// \param onsets  how often the step may still be shortened to end on the first onset of flow
+  StepOutcome attempt(StepTaker& taker, double t0, double t1, Effort effort, int onsets,
                       Judgement& judgement);
   [[nodiscard]] bool turnsTooFar(const StepTaker& taker) const;
   [[nodiscard]] double leastStep() const;
