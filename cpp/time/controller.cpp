@@ -9,6 +9,7 @@ namespace mortier {
 namespace {
 
 constexpr double safety = 0.9;
+constexpr int mostOnsets = 6;  // attempts that may be told to end on the onset of flow
 constexpr double leastFactor = 0.2;
 constexpr double failureFactor = 0.25;
 constexpr double aim = 0.7;         // of the tolerance
@@ -141,7 +142,8 @@ Controller::Judgement Controller::judge(StepTaker& taker, double t0, double t1) 
   result.size = relative(norms, own.scale);
   const double error = result.size / own.local;
   result.factor = std::clamp(safety * std::pow(error, -1.0 / taker.errorOrder()), leastFactor, largestFactor);
-  result.good = error <= 1 || t1 - t0 <= leastStep();
+  constexpr double rounding = 1.5;  // of times: the shortest step may come out a little longer
+  result.good = error <= 1 || t1 - t0 <= rounding * leastStep();
   return result;
 }
 
@@ -150,10 +152,33 @@ double Controller::leastStep() const {
   return little * (plan_.end - memory_.begin);
 }
 
-StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort effort, Judgement& judgement) {
+/// Whether the first points to flow turn by more than a step may miss. Where most flow the turn is behind them.
+bool Controller::turnsTooFar(const StepTaker& taker) const {
+  constexpr double most = 0.5;
+  const double flowing = taker.flowingAtEnd();
+  if (flowing == 0 || flowing > most) return false;
+  const ControllerMemory& own = memory_.controller;
+  return measure_.sizeOf(taker.turn()).stress > own.local * own.scale.stress;
+}
+
+StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort effort, int onsets,
+                                Judgement& judgement) {
+  constexpr double early = 0.05;  // parts of a step: it ends on the onset of flow between them
+  constexpr double late = 0.95;
+  constexpr double shorter = 0.8;
   StepOutcome outcome = taker.attempt(t1, effort);
   if (!outcome.converged() || outcome.rung == Rung::rest) return outcome;
   judgement = judge(taker, t0, t1);
+  const bool turned = onsets > 0 && turnsTooFar(taker);
+  if (turned || (onsets == mostOnsets && !judgement.good)) {
+    const double onset = taker.onset();
+    // Later than that it is where the load bends, and not well known.
+    if (onset > early && (onset < late || turned)) {
+      judgement.factor = onset < late ? onset : shorter;
+      judgement.good = false;
+      return outcome;
+    }
+  }
   // What is too long without the guard is too long with it, whose steps are of the first order; but where the data turn to
   // rest they are exact.
   const bool turns = t0 == memory_.begin || std::binary_search(stops_.begin(), stops_.end(), t0);
@@ -164,9 +189,7 @@ StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort e
 }
 
 void Controller::advance(StepTaker& taker, const State& state, StepReport& report) {
-  constexpr int patience = 14;    // attempts in a row that cannot be solved
-  constexpr double early = 0.05;  // parts of a step: it ends on the onset of flow between them
-  constexpr double late = 0.85;
+  constexpr int patience = 14;     // attempts in a row that cannot be solved
   constexpr double allFlow = 0.9;  // of the points: where Newton's method then fails the load turns,
   constexpr int easy = 2;          // and a shorter step costs less than the methods that come after it
   int failures = 0;
@@ -186,7 +209,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     Judgement judgement;
     const StepOutcome outcome =
         attempt(taker, state.time, t1, flowing >= allFlow && failures < easy ? Effort::little : Effort::usual,
-                judgement);
+                flowing == 0 ? mostOnsets - report.rejections : 0, judgement);
     report.iterations += outcome.iterations;
     report.factorisations += outcome.factorisations;
     if (!outcome.converged()) {
@@ -204,8 +227,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     const double factor = judgement.factor;
     if (!judgement.good) {
       ++report.rejections;
-      const double onset = flowing > 0 || report.rejections > 1 ? 1 : taker.onset();
-      own.timeStep = std::max(leastStep(), k * (onset > early && onset < late ? onset : factor));
+      own.timeStep = std::max(leastStep(), k * factor);
       continue;
     }
     // A step that was only shortened to end on a stop tells nothing against a longer one.

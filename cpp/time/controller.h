@@ -42,7 +42,10 @@ class Controller {
     bool good = true;
   };
   [[nodiscard]] Judgement judge(StepTaker& taker, double t0, double t1) const;
-  StepOutcome attempt(StepTaker& taker, double t0, double t1, Effort effort, Judgement& judgement);
+  /// \param onsets  how often the step may still be shortened to end on the first onset of flow
+  StepOutcome attempt(StepTaker& taker, double t0, double t1, Effort effort, int onsets,
+                      Judgement& judgement);
+  [[nodiscard]] bool turnsTooFar(const StepTaker& taker) const;
   [[nodiscard]] double leastStep() const;
   [[nodiscard]] double nextTime(double t, double k) const;
   [[nodiscard]] double stopAfter(double t) const;

@@ -156,26 +156,77 @@ std::vector<Response> StepTaker::surprise() const {
   return surprise;
 }
 
-double StepTaker::flowing() const {
+double StepTaker::share(const Matrix& (*stressOf)(const StepTaker&, size_t)) const {
   int points = 0;
   int flowing = 0;
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     if (model_.bodies[b].material().linear()) continue;
     points += model_.bodies[b].points();
     for (int i = 0; i < model_.bodies[b].points(); ++i)
-      flowing += model_.bodies[b].material().flows(state_.bodies[b].stress, i) ? 1 : 0;
+      flowing += model_.bodies[b].material().flows(stressOf(*this, b), i) ? 1 : 0;
   }
   return points > 0 ? static_cast<double>(flowing) / points : 0;
 }
 
+double StepTaker::flowing() const {
+  return share(
+      [](const StepTaker& taker, size_t b) -> const Matrix& { return taker.state_.bodies[b].stress; });
+}
+
+double StepTaker::flowingAtEnd() const {
+  return share([](const StepTaker& taker, size_t b) -> const Matrix& {
+    return taker.solutions_.back().bodies[b].stress;
+  });
+}
+
+/// The stress at the end of the attempt had it gone on as it began; nothing where that is not known.
+std::vector<Matrix> StepTaker::onwards() const {
+  std::vector<Matrix> stress;
+  const bool elastic = solutions_.size() > 1 && none(rates_[0]);
+  if (!elastic && memory_.increments.empty()) return stress;
+  for (size_t b = 0; b < model_.bodies.size(); ++b) {
+    const Matrix& start = state_.bodies[b].stress;
+    stress.push_back(
+        elastic
+            ? Matrix(start + (solutions_[0].bodies[b].stress - start) / tableau_.stages[0].time)
+            : Matrix(start + (t1_ - state_.time) / memory_.timeStep * memory_.increments.back()[b].stress));
+  }
+  return stress;
+}
+
+std::vector<Response> StepTaker::turn() const {
+  constexpr double part = 0.25;  // of the square: the flow keeps its last direction, which turns as it grows
+  const std::vector<Matrix> expected = onwards();
+  std::vector<Response> turn;
+  for (size_t b = 0; b < expected.size(); ++b) {
+    const Material& material = model_.bodies[b].material();
+    const Matrix& end = solutions_.back().bodies[b].stress;
+    Matrix stress = Matrix::Zero(end.rows(), end.cols());
+    for (int i = 0; i < end.cols() && !material.linear(); ++i) {
+      if (!material.flows(end, i)) continue;
+      stress.col(i) = end.col(i) - expected[b].col(i);
+      stress.col(i) *= part * stress.col(i).norm() / material.stressScale();
+    }
+    turn.push_back({Vector::Zero(state_.bodies[b].displacement.size()), std::move(stress)});
+  }
+  return turn;
+}
+
 double StepTaker::onset() const {
   constexpr int halvings = 12;
+  // The polynomial through the stages knows how the load bends, the stress before the first flow how it would go on.
+  const std::vector<Matrix> expected = onwards();
+  const auto anyFlows = [&](size_t b, const Matrix& stress) {
+    for (int i = 0; i < model_.bodies[b].points(); ++i)
+      if (model_.bodies[b].material().flows(stress, i)) return true;
+    return false;
+  };
   const auto flowsAt = [&](double fraction) {
     for (size_t b = 0; b < model_.bodies.size(); ++b) {
       if (model_.bodies[b].material().linear()) continue;
-      const Matrix stress = stressWithin(b, fraction);
-      for (int i = 0; i < model_.bodies[b].points(); ++i)
-        if (model_.bodies[b].material().flows(stress, i)) return true;
+      const Matrix& start = state_.bodies[b].stress;
+      if (anyFlows(b, stressWithin(b, fraction))) return true;
+      if (!expected.empty() && anyFlows(b, start + fraction * (expected[b] - start))) return true;
     }
     return false;
   };

@@ -38,10 +38,15 @@ class StepTaker {
   std::vector<Response> response(const std::vector<Matrix>& strain);
   /// By how much the stress of the attempt is not what the step before leads to expect; no displacement.
   [[nodiscard]] std::vector<Response> surprise() const;
+  /// Where points began to flow on the way, about what their stress is wrong by at its end: the stages that come before see
+  /// no flow, the others only its last direction. No displacement.
+  [[nodiscard]] std::vector<Response> turn() const;
   /// The fraction of the attempt at which the first point flows, where none did at its start; 1 if none does.
   [[nodiscard]] double onset() const;
   /// Part of the points that can flow that do so in the state.
   [[nodiscard]] double flowing() const;
+  /// The same at the end of the attempt.
+  [[nodiscard]] double flowingAtEnd() const;
   /// Power of the step with which the local error falls.
   [[nodiscard]] int errorOrder() const { return tableau_.errorOrder; }
   /// What was met among the contact conditions so far.
@@ -69,6 +74,8 @@ class StepTaker {
   void limit(const Fields& rates, Fields& missed) const;
   [[nodiscard]] Matrix stressWithin(size_t body, double fraction) const;
   [[nodiscard]] double turnedShare() const;
+  [[nodiscard]] std::vector<Matrix> onwards() const;
+  [[nodiscard]] double share(const Matrix& (*stressOf)(const StepTaker&, size_t)) const;
 
   const Model& model_;
   State& state_;

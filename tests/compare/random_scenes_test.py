@@ -9,13 +9,15 @@ FIRST, COUNT = 176, 58
 MOVED = 30
 # Crank-Nicolson rings at 1e4 yield stresses: the interior point method must begin beyond them.
 RINGING = 287
+# The error of a step is told too large until it is as short as time resolves, where rounding makes it a little longer.
+SHORTEST = 275
 SECONDS = 10
 
 
 class RandomScenes(unittest.TestCase):
     def test_every_scene_ends_with_a_result_or_an_unheld_motion(self):
         results = explore(PROGRAM, FIRST, COUNT, SECONDS)
-        for seed in (MOVED, RINGING):
+        for seed in (MOVED, RINGING, SHORTEST):
             results += explore(PROGRAM, seed, 1, SECONDS)
         for result in results:
             with self.subTest(seed=result["seed"]):

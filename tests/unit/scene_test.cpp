@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <thread>
 
 #include "base/error.h"
@@ -299,6 +300,39 @@ TEST_F(SceneFiles, breaksOfTablesAreAllKnown) {
                "body.lower.force.x={time=[0.5, 1], value=[0, 1]}"});
   EXPECT_EQ(loadCourses(scene, modelOf(scene)).breaks,
             (std::vector<double>{0.3001, 0.3002, 0.5, 1, 1.3, 1.3000001}));
+}
+
+// However many steps are asked for, the data are looked at where they were sampled.
+TEST_F(SceneFiles, looksAtDataBetweenStepsInATimeThatDoesNotGrowWithThem) {
+  const auto looks = [&](int steps) {
+    SceneDescription scene = readScene(path(), {});
+    scene.time.steps = steps;
+    const Model model = modelOf(scene);
+    const auto count = std::make_shared<int>(0);
+    for (BodyDescription& body : scene.bodies)
+      for (ConditionDescription& condition : body.conditions)
+        condition.value.value = [count, value = condition.value.value](double x, double y, double t) {
+          ++*count;
+          return value(x, y, t);
+        };
+    EXPECT_TRUE(loadsBetweenSteps(scene, model).empty());
+    return *count;
+  };
+  EXPECT_LT(looks(1 << 28), 3 * looks(1 << 14));
+}
+
+// The step in which a datum goes far beyond both its ends is named, in the middle of the run and at its end.
+TEST_F(SceneFiles, namesTheStepInWhichALoadGoesBeyondItsEnds) {
+  for (const int pulse : {0, 7, 9}) {
+    std::string load =
+        "body.upper.boundary={label=3, ty=\"-exp(-((t-" + std::to_string(pulse) + ".5)/0.2)^2)\"}";
+    const SceneDescription scene = readScene(path(), {"time={end=10, steps=10}", load});
+    const std::vector<std::string> warnings = loadsBetweenSteps(scene, modelOf(scene));
+    ASSERT_EQ(warnings.size(), 1);
+    const std::string step =
+        "between t = " + std::to_string(pulse) + " and " + std::to_string(pulse + 1) + " s";
+    EXPECT_NE(warnings[0].find(step), std::string::npos) << warnings[0];
+  }
 }
 
 TEST(Expression, copiesAreIndependent) {
