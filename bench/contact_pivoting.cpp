@@ -1,5 +1,6 @@
-// Work of the contact problem in factorisations of its matrix, over random loads (tests/unit/load_patterns.h): operations as
-// the solver counts them, and time against that of factorising the matrix once, both measured here.
+// Work of the contact problem in factorisations of its matrix, over random loads
+// (tests/unit/load_patterns.h): operations as the solver counts them, and time against that of factorising
+// the matrix once, both measured here.
 //   contact_pivoting [NODES] [PATTERNS]      (default 400 nodes, 1000 patterns a line)
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

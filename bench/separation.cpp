@@ -1,8 +1,8 @@
 // Two elastic problems whose whole process is measured against L: bare CHOLMOD once, reading the meshes and
 // analysing.
 // "patch": [0,1]x[0.5,1] on [0,1]x[0,0.5], 200 against 283 contact edges, uniform pressure, the stress exact.
-// "separation": [0,1]x[0.5,1] on [0,2]x[0,0.5], 230 against 320 edges, pressure on [0,0.4] of the top; contact
-// opens.
+// "separation": [0,1]x[0.5,1] on [0,2]x[0,0.5], 230 against 320 edges, pressure on [0,0.4] of the top;
+// contact opens.
 // Both bodies have rollers on x = 0, the lower one also on y = 0; the upper one is held by contact.
 // "growing load": the second one while its load spreads from x = 0.1 to 0.9 in 100 steps.
 //   bench_separation [--meshes FOLDER] [--cpu] [--rounds N]

@@ -1,10 +1,10 @@
 // How well a tolerance is met, how well the error in time is known, and what that costs beside equal steps:
 //   time_control [part of a row's name] [--fine] [--quick]
-// `equal` is the work of the cheapest run with equal steps of the same scheme that is as accurate; 0 where none takes less
-// than the run.
-// Truth: for mortar, where the stress is uniform and given, an integral in time; for interpolation a run with very
-// short steps. The error of a run is the largest of any step, of displacement (mean) and stress (energy norm), each
-// over the largest of the run.
+// `equal` is the work of the cheapest run with equal steps of the same scheme that is as accurate; 0 where
+// none takes less than the run.
+// Truth: for mortar, where the stress is uniform and given, an integral in time; for interpolation a run with
+// very short steps. The error of a run is the largest of any step, of displacement (mean) and stress (energy
+// norm), each over the largest of the run.
 #include <cstdio>
 #include <cstring>
 #include <string>

@@ -1,5 +1,5 @@
-// Foreign code in a process of its own: a crash of it is an error message, and it can neither start programs nor change
-// files (Linux: a seccomp filter; elsewhere only the crash is caught).
+// Foreign code in a process of its own: a crash of it is an error message, and it can neither start programs
+// nor change files (Linux: a seccomp filter; elsewhere only the crash is caught).
 #pragma once
 
 #include <functional>

@@ -1,4 +1,5 @@
-// Sets of numbers that are joined two by two; the smallest of its numbers stands for a set (Galler and Fischer 1964).
+// Sets of numbers that are joined two by two; the smallest of its numbers stands for a set (Galler and
+// Fischer 1964).
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Stopping a long computation: whoever wants it stopped says so, a signal handler too, and loops that may last ask.
+// Stopping a long computation: whoever wants it stopped says so, a signal handler too, and loops that may
+// last ask.
 #pragma once
 
 #include <atomic>
@@ -23,8 +24,8 @@ inline void requestInterrupt() {
   interruption::requested = true;
 }
 
-/// Lives around a long call of a library that asks nothing, where no file is being written and no step of a run is done: a signal
-/// that finds it may end the process.
+/// Lives around a long call of a library that asks nothing, where no file is being written and no step of a
+/// run is done: a signal that finds it may end the process.
 struct DeafCall {
   DeafCall() { ++interruption::deafCalls; }
   ~DeafCall() { --interruption::deafCalls; }

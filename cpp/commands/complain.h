@@ -1,4 +1,5 @@
-// What goes to standard error: one printable line of bounded length each, whatever a scene or a file name holds.
+// What goes to standard error: one printable line of bounded length each, whatever a scene or a file name
+// holds.
 #pragma once
 
 #include <string>

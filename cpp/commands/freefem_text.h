@@ -1,5 +1,6 @@
-// Text of others in a FreeFEM script: it stands there and is never run. FreeFEM reads strings of at most 255 printable
-// ASCII characters, with escapes of its own, and ends a comment at a line feed or a carriage return.
+// Text of others in a FreeFEM script: it stands there and is never run. FreeFEM reads strings of at most 255
+// printable ASCII characters, with escapes of its own, and ends a comment at a line feed or a carriage
+// return.
 #pragma once
 
 #include <string>

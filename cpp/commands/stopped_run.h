@@ -16,7 +16,8 @@ struct StoppedRun {
   Checkpoint checkpoint;
 };
 
-/// The latest stopped run whose result was to be `path`; none when the run was complete: its result has been put in place.
+/// The latest stopped run whose result was to be `path`; none when the run was complete: its result has been
+/// put in place.
 /// \throws InputError when there is none that can go on.
 std::optional<StoppedRun> findStoppedRun(const std::string& path);
 

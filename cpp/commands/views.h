@@ -23,7 +23,8 @@ struct ReportCommand {
   std::string out;  ///< empty: <result>.html
 };
 
-/// `mortier compare`: a scene in both codes, or its run beside a result that was kept; made in views/ as well.
+/// `mortier compare`: a scene in both codes, or its run beside a result that was kept; made in views/ as
+/// well.
 struct CompareCommand {
   std::string scene;
   std::vector<std::string> settings;  ///< key=value

@@ -39,7 +39,8 @@ struct LintReport {
 /// Everything. \throws nothing that a scene could cause: errors become faults.
 LintReport lint(const std::string& scene, const std::vector<std::string>& settings);
 
-/// What is found in a scene that is resolved, without building or solving anything: what `lint` finds too, word for word.
+/// What is found in a scene that is resolved, without building or solving anything: what `lint` finds too,
+/// word for word.
 Faults lintResolved(const ResolvedScene& resolved, const std::vector<std::string>& settings);
 
 /// What the model tells.

@@ -19,8 +19,9 @@ enum class Cut {
 /// \throws InputError unless there is one cell or more each way, and 1e8 triangles at most.
 void checkCells(const std::string& name, double cells1, double cells2, Cut cut);
 
-/// Adds the triangles of one cell. That the new vertex is where both diagonals meet lets the four triangles keep their volume
-/// in plane strain without locking (Nagtegaal, Parks and Rice 1974); a cell that is not convex has the mean of its corners.
+/// Adds the triangles of one cell. That the new vertex is where both diagonals meet lets the four triangles
+/// keep their volume in plane strain without locking (Nagtegaal, Parks and Rice 1974); a cell that is not
+/// convex has the mean of its corners.
 void addCell(TriangleMesh& mesh, const std::array<int, 4>& corners, Cut cut);
 
 /// A grid of n1 x n2 cells: node (i, j) is at(i, j), counterclockwise where i runs right and j up.

@@ -1,5 +1,5 @@
-// What of a mesh hangs together: components of triangles that share edges are rigid in themselves; where two of them
-// share a single vertex they can turn about it, as about a hinge.
+// What of a mesh hangs together: components of triangles that share edges are rigid in themselves; where two
+// of them share a single vertex they can turn about it, as about a hinge.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,6 @@
-// The library is opened when a file needs it (linked, its own libraries would start with every run), in a process of its
-// own: it crashes on some files, and a geometry is a program that could start others and write files.
+// The library is opened when a file needs it (linked, its own libraries would start with every run), in a
+// process of its own: it crashes on some files, and a geometry is a program that could start others and write
+// files.
 #include "mesh/gmsh.h"
 
 #include <algorithm>

@@ -12,8 +12,8 @@ bool isGmshFile(const std::string& path);
 
 /// Physical curves become boundary labels, physical surfaces regions, with their numbers and names; where
 /// there are none, the curves or surfaces themselves, without names. \throws InputError when Gmsh cannot read
-/// the file, when it is no sound plane mesh of linear triangles, when a parameter is none of the geometry's, or when this
-/// build has no Gmsh.
+/// the file, when it is no sound plane mesh of linear triangles, when a parameter is none of the geometry's,
+/// or when this build has no Gmsh.
 TriangleMesh readGmsh(const MeshSource& source);
 
 }  // namespace mortier

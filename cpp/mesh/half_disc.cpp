@@ -109,8 +109,9 @@ TriangleMesh halfDiscMesh(const HalfDisc& disc, Cut cut) {
   for (int r = 1; r <= rings; ++r) addEdge(ringNode(r - 1, 4 * m), ringNode(r, 4 * m), onRing(r));
   for (int k = 4 * m; k > 0; --k) addEdge(ringNode(rings, k), ringNode(rings, k - 1), 2);
 
-  // 3. Cells. A single diagonal runs through the core one way and through the rings the other, so that every node of the
-  // arc has three triangles. Were it mirrored about the vertical axis, the lowest point would have four, and a wrong pressure.
+  // 3. Cells. A single diagonal runs through the core one way and through the rings the other, so that every
+  // node of the arc has three triangles. Were it mirrored about the vertical axis, the lowest point would
+  // have four, and a wrong pressure.
   const Cut around = cut == Cut::both ? cut : cut == Cut::rising ? Cut::falling : Cut::rising;
   for (int j = 0; j < m; ++j)
     for (int i = -m; i < m; ++i)

@@ -47,7 +47,8 @@ void keepEdges(TriangleMesh& mesh, const Keep& keep) {
   if (!mesh.edgeMiddles.empty()) mesh.edgeMiddles.resize(kept);
 }
 
-/// The sides of all triangles, smaller vertex first, in order: one that two triangles share stands there twice.
+/// The sides of all triangles, smaller vertex first, in order: one that two triangles share stands there
+/// twice.
 std::vector<std::pair<int, int>> sidesOf(const TriangleMesh& mesh) {
   std::vector<std::pair<int, int>> sides;
   sides.reserve(3 * mesh.triangles.size());

@@ -21,8 +21,8 @@ struct TriangleMesh {
   std::vector<int> boundaryLabels;                ///< label of each boundary edge
   std::map<std::string, int> labelNames = {};     ///< boundary labels that have a name
   std::map<std::string, int> regionNames = {};
-  /// By boundary edge a point between its ends on the curve that it stands for [m], not finite where none is known; empty
-  /// where none is at all.
+  /// By boundary edge a point between its ends on the curve that it stands for [m], not finite where none is
+  /// known; empty where none is at all.
   std::vector<Point> edgeMiddles = {};
 };
 

@@ -7,7 +7,8 @@
 namespace mortier {
 namespace {
 
-/// Whether cells are cut by both diagonals: most triangles have a corner inside the mesh with four triangles around it.
+/// Whether cells are cut by both diagonals: most triangles have a corner inside the mesh with four triangles
+/// around it.
 bool crossed(const TriangleMesh& mesh) {
   constexpr double most = 0.9;
   std::vector<int> around(mesh.vertices.size(), 0);

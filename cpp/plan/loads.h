@@ -41,8 +41,8 @@ std::vector<double> trialTimes(const TimePlan& plan);
 /// Whether the value differs at any of the times.
 bool changesInTime(const SampledDatum& datum, const TimePlan& plan);
 
-/// The stress that the data of the scene ask for at a time, by order of magnitude [Pa]: tractions as they are, body
-/// forces times the extent, prescribed displacements over the extent times Young's modulus.
+/// The stress that the data of the scene ask for at a time, by order of magnitude [Pa]: tractions as they
+/// are, body forces times the extent, prescribed displacements over the extent times Young's modulus.
 double nominalStress(const SceneDescription& scene, const std::vector<SampledDatum>& data, double t);
 
 }  // namespace mortier

@@ -1,5 +1,5 @@
-// The plan of a run: what of a scene will be modelled, what will not, and why. Everything in it follows from the
-// scene and its meshes; what depends on the solution (whether a body yields) is said as a condition.
+// The plan of a run: what of a scene will be modelled, what will not, and why. Everything in it follows from
+// the scene and its meshes; what depends on the solution (whether a body yields) is said as a condition.
 #pragma once
 
 #include <string>

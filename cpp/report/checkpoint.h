@@ -1,5 +1,5 @@
-// Checkpoints: all that it takes to go on with a run as if it had never stopped, in one binary file. A file is written
-// as a whole or not at all, the one before it is kept, and a checksum tells a damaged one.
+// Checkpoints: all that it takes to go on with a run as if it had never stopped, in one binary file. A file
+// is written as a whole or not at all, the one before it is kept, and a checksum tells a damaged one.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// Which process a folder belongs to. Every folder in which a run writes holds the file run.lock, locked while its process
-// lives; its one line, `mortier run in NAME`, says that the folder is the program's, and how it was called then.
+// Which process a folder belongs to. Every folder in which a run writes holds the file run.lock, locked while
+// its process lives; its one line, `mortier run in NAME`, says that the folder is the program's, and how it
+// was called then.
 #pragma once
 
 #include <string>
@@ -40,8 +41,8 @@ class FolderLock {
   std::string name_;
 };
 
-/// One process at a time looks for runs in a folder, makes new ones and puts results in place. Without effect where
-/// folders cannot be locked, and where whoever has the lock keeps it for long.
+/// One process at a time looks for runs in a folder, makes new ones and puts results in place. Without effect
+/// where folders cannot be locked, and where whoever has the lock keeps it for long.
 class PlaceLock {
  public:
   explicit PlaceLock(const std::string& folder);

@@ -1,4 +1,5 @@
-// history.csv: a row per step with everything that is reported of it and the quantities of the scene, units in the header.
+// history.csv: a row per step with everything that is reported of it and the quantities of the scene, units
+// in the header.
 #pragma once
 
 #include "report/output_file.h"

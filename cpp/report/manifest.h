@@ -1,5 +1,6 @@
-// manifest.json: the record of what a run wrote into its result, by name, with sizes and checksums. It is written last, as
-// a whole: a folder with a manifest is a complete result. What it does not list, or what differs, is not the program's.
+// manifest.json: the record of what a run wrote into its result, by name, with sizes and checksums. It is
+// written last, as a whole: a folder with a manifest is a complete result. What it does not list, or what
+// differs, is not the program's.
 #pragma once
 
 #include <cstdint>
@@ -24,17 +25,20 @@ constexpr const char* manifestName = "manifest.json";
 /// \throws OutputError
 void writeManifest(const std::string& folder, const Manifest& manifest);
 
-/// The manifest of a folder; none where there is none that this program wrote. \throws OutputError  it cannot be read.
+/// The manifest of a folder; none where there is none that this program wrote. \throws OutputError  it cannot
+/// be read.
 std::optional<Manifest> readManifest(const std::string& folder);
 
-/// Whether the first `bytes` of a file are those of its record. A longer one does not match if it is to be `whole`.
+/// Whether the first `bytes` of a file are those of its record. A longer one does not match if it is to be
+/// `whole`.
 /// \throws OutputError, std::filesystem::filesystem_error  it cannot be read.
 bool matches(const std::string& path, const FileRecord& record, bool whole = true);
 
 /// Whether all of its files are as they were written.
 bool isSound(const std::string& folder, const Manifest& manifest);
 
-/// Names that a run gives to its files; those that no result keeps are the lock, checkpoints and files under way.
+/// Names that a run gives to its files; those that no result keeps are the lock, checkpoints and files under
+/// way.
 bool isResultName(const std::string& name);
 bool isWorkName(const std::string& name);
 

@@ -1,6 +1,6 @@
-// Where a run writes: a temporary folder DIR.tmp-PID beside the result DIR, which takes its place when it is complete
-// (report/result_place.h), so that a run that is killed or fails leaves what stood there. Files of others in the old
-// result (pictures, ParaView states) move into the new one.
+// Where a run writes: a temporary folder DIR.tmp-PID beside the result DIR, which takes its place when it is
+// complete (report/result_place.h), so that a run that is killed or fails leaves what stood there. Files of
+// others in the old result (pictures, ParaView states) move into the new one.
 #pragma once
 
 #include <string>

@@ -74,8 +74,8 @@ class Ours {
   std::optional<Manifest> manifest_;
 };
 
-/// Removes a folder in which nothing but the marks of this program is left. A kill at any moment leaves a folder that is
-/// known: by its marks, or empty and with a name of our own.
+/// Removes a folder in which nothing but the marks of this program is left. A kill at any moment leaves a
+/// folder that is known: by its marks, or empty and with a name of our own.
 void removeMarks(const ResultPlace& place, fs::path folder) {
   if (folder.string().rfind(place.of(false).string() + passing, 0) != 0) {
     const fs::path gone = place.unused(passing);

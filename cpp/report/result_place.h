@@ -1,7 +1,8 @@
-// How a finished result takes the place of an older one, and what is done about runs that were killed on the way. At any
-// moment the old or the new result stands in its place, whole, and every file of others stays:
+// How a finished result takes the place of an older one, and what is done about runs that were killed on the
+// way. At any moment the old or the new result stands in its place, whole, and every file of others stays:
 //   1. DIR.tmp-PID gets its manifest: from here on the run is complete, and who finds it goes on with 2.
-//   2. Names are exchanged: DIR is the new result, DIR.tmp-PID the old one. The run.lock in DIR names the latter.
+//   2. Names are exchanged: DIR is the new result, DIR.tmp-PID the old one. The run.lock in DIR names the
+//      latter.
 //   3. Files of others move from the old result into the new one; what the old one's manifest lists goes.
 //   4. Stopped runs for DIR and an old DIR.failed go, run.lock last.
 // Folders that are just being made or taken away are called DIR.mortier-PID.
@@ -45,7 +46,8 @@ std::filesystem::path putInPlace(const ResultPlace& place, const std::filesystem
 /// Steps 3 and 4. \param target  has just been put in place  \param name  of its folder before that
 void finish(const ResultPlace& place, const std::filesystem::path& target, const std::string& name);
 
-/// What killed runs left is brought to its end: complete results are put in place, what cannot be gone on with goes.
+/// What killed runs left is brought to its end: complete results are put in place, what cannot be gone on
+/// with goes.
 /// \throws InputError  a living process writes there.
 struct LeftBehind {
   std::vector<std::filesystem::path> stopped;  ///< temporary folders with a checkpoint, the latest first
@@ -53,8 +55,8 @@ struct LeftBehind {
 };
 LeftBehind clearUp(const ResultPlace& place);
 
-/// Takes away what the program has in a folder of its own, and the folder. Files of others move into `heir`; where that is
-/// no result, they stay.
+/// Takes away what the program has in a folder of its own, and the folder. Files of others move into `heir`;
+/// where that is no result, they stay.
 void discard(const ResultPlace& place, const std::filesystem::path& folder,
              const std::filesystem::path& heir);
 

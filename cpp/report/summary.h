@@ -19,7 +19,8 @@ struct Extremes {
 };
 Extremes extremes(const Model& model, const State& state);
 
-/// Writes `folder`/summary.json; `last` is the report of the step that led to `state`. \returns what was written.
+/// Writes `folder`/summary.json; `last` is the report of the step that led to `state`. \returns what was
+/// written.
 /// \throws OutputError when it cannot be written or a number is not finite.
 FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const Model& model,
                         const State& state, const StepReport& last, const RunReport& report,

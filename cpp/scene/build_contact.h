@@ -13,8 +13,8 @@ namespace mortier {
 /// \throws InputError with file and line: a gap [m] that is not finite, sides that do not face each other.
 void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model);
 
-/// In words, with what it does: distances that are not larger than what polygons are off the curves behind them.
-/// Empty where there is nothing to say.
+/// In words, with what it does: distances that are not larger than what polygons are off the curves behind
+/// them. Empty where there is nothing to say.
 std::string doubtOfPolygons(const ContactInterface& interface);
 
 }  // namespace mortier

@@ -7,8 +7,9 @@
 
 namespace mortier {
 
-/// What a resolved scene asks for. \throws InputError with file and line: a label without supports has no reaction, one
-/// that is no side of contact no contact force, and a point outside of its body no displacement.
+/// What a resolved scene asks for. \throws InputError with file and line: a label without supports has no
+/// reaction, one that is no side of contact no contact force, and a point outside of its body no
+/// displacement.
 std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model& model);
 
 }  // namespace mortier

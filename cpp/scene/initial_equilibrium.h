@@ -8,8 +8,9 @@
 
 namespace mortier {
 
-/// Brings the initial stresses of `state`, where there are any, into equilibrium (time/initial_balance.h). \returns what a user may not have
-/// meant: by how much they changed; empty where they were in equilibrium. \throws InputError, UnheldBodyError
+/// Brings the initial stresses of `state`, where there are any, into equilibrium (time/initial_balance.h).
+/// \returns what a user may not have meant: by how much they changed; empty where they were in equilibrium.
+/// \throws InputError, UnheldBodyError
 std::string findInitialEquilibrium(const SceneDescription& scene, const Model& model, State& state);
 
 }  // namespace mortier

@@ -19,8 +19,8 @@ struct LoadCourses {
 /// \throws InputError naming a datum that varies faster than can be sampled, and the point.
 LoadCourses loadCourses(const SceneDescription& scene, const Model& model);
 
-/// A warning for each datum that passes, within one of the equal steps of the scene, through values far beyond those at
-/// both its ends.
+/// A warning for each datum that passes, within one of the equal steps of the scene, through values far
+/// beyond those at both its ends.
 std::vector<std::string> loadsBetweenSteps(const SceneDescription& scene, const Model& model);
 
 }  // namespace mortier

@@ -61,7 +61,8 @@ class BreakFinder {
     search(a + (0.5 - overlap) * (b - a), b);
   }
 
-  /// Whether the cubic through every other of seven points meets those between. They are samples then, or where no interval is narrower.
+  /// Whether the cubic through every other of seven points meets those between. They are samples then, or
+  /// where no interval is narrower.
   [[nodiscard]] bool smooth(double a, double b) {
     constexpr double close = 1e-4;      // of the variation
     constexpr double rounding = 1e-13;  // of the values

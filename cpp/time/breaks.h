@@ -1,5 +1,5 @@
-// Data in time, looked at before a run: kinks and jumps, where steps chosen by their error end, and samples so dense
-// that a step which would jump over a part of a datum is seen.
+// Data in time, looked at before a run: kinks and jumps, where steps chosen by their error end, and samples
+// so dense that a step which would jump over a part of a datum is seen.
 #pragma once
 
 #include <functional>
@@ -18,9 +18,9 @@ struct Course {
   bool resolved = true;  ///< false: it varies faster than can be sampled
 };
 
-/// An interval is smooth where a cubic through four of its points meets others; what is not is halved, down to 1e-7
-/// of the whole, and the number with the fewest digits taken for a kink. The first intervals are 1/499 of the whole: a
-/// pulse shorter than 1/3000 of it may be missed.
+/// An interval is smooth where a cubic through four of its points meets others; what is not is halved, down
+/// to 1e-7 of the whole, and the number with the fewest digits taken for a kink. The first intervals are
+/// 1/499 of the whole: a pulse shorter than 1/3000 of it may be missed.
 Course resolve(std::function<double(double)> datum, double begin, double end);
 
 /// A datum that is linear between the times of a table and constant outside.
@@ -31,8 +31,8 @@ Course tableCourse(std::function<double(double)> datum, const std::vector<double
 std::vector<double> findBreaks(const std::vector<std::function<double(double)>>& data, double begin,
                                double end);
 
-/// By how much the datum is missed by the polynomial through its values at the start of the step [t0, t1] and at the
-/// fractions `nodes` of it, over the range of the datum: at most at the samples inside.
+/// By how much the datum is missed by the polynomial through its values at the start of the step [t0, t1] and
+/// at the fractions `nodes` of it, over the range of the datum: at most at the samples inside.
 double unseen(const Course& course, const std::vector<double>& nodes, double t0, double t1);
 
 /// How far the datum goes beyond its values at t0 and t1 in between, over its range.

@@ -1,5 +1,5 @@
-// The norms in which errors in time are measured: the stress in the energy norm, which is blind where equilibrium alone
-// decides the stress, and the displacement in the mean.
+// The norms in which errors in time are measured: the stress in the energy norm, which is blind where
+// equilibrium alone decides the stress, and the displacement in the mean.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,8 @@ class ErrorMeasure {
  public:
   explicit ErrorMeasure(const Model& model);
 
-  /// Of a state. Where everything is held no displacement is a scale: what the elastic strain makes of the extent is.
+  /// Of a state. Where everything is held no displacement is a scale: what the elastic strain makes of the
+  /// extent is.
   [[nodiscard]] ErrorNorms sizeOf(const State& state) const;
   [[nodiscard]] ErrorNorms sizeOf(const std::vector<Response>& error) const;
 

@@ -9,7 +9,8 @@ namespace mortier {
 
 /// The bodies give way elastically: with the loads and supports of the state's time,
 ///   E^-1 (s - s0) = B u,   sum |T| B' s + C'p = F,   g <= 0, p >= 0, p g = 0,
-/// which changes nothing where s0 is in equilibrium already. Where that is impossible the state is left alone.
+/// which changes nothing where s0 is in equilibrium already. Where that is impossible the state is left
+/// alone.
 StepOutcome balanceElastically(const Model& model, State& state, const SolverOptions& options);
 
 /// The same for an initial stress. \returns by how much the stress changed, over the largest stress.

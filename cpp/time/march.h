@@ -11,8 +11,9 @@
 
 namespace mortier {
 
-/// Called for the initial state (report.step == 0) and after every converged step. With steps chosen by their error it may
-/// be called for the initial state again: what came before is void, as its error in time was too large.
+/// Called for the initial state (report.step == 0) and after every converged step. With steps chosen by their
+/// error it may be called for the initial state again: what came before is void, as its error in time was too
+/// large.
 using Observer = std::function<void(const State& state, const StepReport& report)>;
 
 /// u0 = 0 but for what is prescribed at t = 0, sigma0 the initial stress of the bodies.

@@ -2,8 +2,8 @@
 //
 // The forces that supports exert are what is left of equilibrium at the nodes that they hold,
 //   r = sum |T| B' s + C' p - F.
-// At a node with two prescribed motions r is split along their directions, so each label has the forces of its own
-// supports and those of all labels add up to all of r.
+// At a node with two prescribed motions r is split along their directions, so each label has the forces of
+// its own supports and those of all labels add up to all of r.
 #pragma once
 
 #include <string>

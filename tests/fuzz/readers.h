@@ -1,6 +1,8 @@
-// Everything that reads what others wrote, for any bytes: the first one says which reader gets the rest. An InputError is
-// what a reader owes to bytes that make no sense; anything else that is thrown, and every crash, is a fault.
-//   s scene   m Medit mesh   g mesh for Gmsh, in a process of its own   e expression   t table in time   o --set
+// Everything that reads what others wrote, for any bytes: the first one says which reader gets the rest. An
+// InputError is what a reader owes to bytes that make no sense; anything else that is thrown, and every
+// crash, is a fault.
+//   s scene   m Medit mesh   g mesh for Gmsh, in a process of its own   e expression   t table in time
+//   o --set
 //   c checkpoint   p message
 #pragma once
 

@@ -1,5 +1,5 @@
-// Cook's membrane: the deflection of the middle of the free end, linear triangles. Values of two independent programs on
-// cells cut along the rising diagonal.
+// Cook's membrane: the deflection of the middle of the free end, linear triangles. Values of two independent
+// programs on cells cut along the rising diagonal.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -51,8 +51,8 @@ TEST(Cook, otherDiagonalsTendToTheSame) {
   }
 }
 
-// Nearly incompressible, plane strain: one diagonal a cell locks, by the known figures. Both diagonals do not: elements of
-// second order have 18.45 on 64 cells.
+// Nearly incompressible, plane strain: one diagonal a cell locks, by the known figures. Both diagonals do
+// not: elements of second order have 18.45 on 64 cells.
 TEST(Cook, nearlyIncompressiblePlaneStrainLocksByTheKnownFigures) {
   constexpr double digits = 5e-3;
   const auto material = planeStrainElasticMaterial({1, 0.4999});

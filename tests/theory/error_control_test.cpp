@@ -213,7 +213,8 @@ TEST(ErrorControl, tooFewStepsEndTheRunWithTheLastGoodState) {
 
 // ---- loads of many kinds
 
-// bench/time_control.cpp has all of them; here those that take little time, the stress uniform and the error exact.
+// bench/time_control.cpp has all of them; here those that take little time, the stress uniform and the error
+// exact.
 TEST(ErrorControl, theToleranceIsTheErrorOfEveryStepUnderLoadsOfManyKinds) {
   for (const timecases::Case& each : timecases::cases(timecases::Size::small)) {
     if (each.coupling != CouplingKind::mortar || each.young > 1e6) continue;

@@ -22,7 +22,8 @@ Eigen::Vector3d linearStress(const Point& x) {
   return {1 + 2 * x.x() - x.y(), -3 + x.x() + 4 * x.y(), 0.5 - x.x() + x.y()};
 }
 
-// With s linear the estimate is the integral of |s - s(centre)|^2, which corner values give: area/12 of their sum.
+// With s linear the estimate is the integral of |s - s(centre)|^2, which corner values give: area/12 of their
+// sum.
 TEST(ErrorEstimate, linearStressesAreRecoveredExactly) {
   for (const Cut cut : {Cut::rising, Cut::both}) {
     const Body body = block(rectangleMesh({.lower = {0, 0}, .upper = {2, 1}, .cellsX = 7, .cellsY = 5}, cut));

@@ -36,7 +36,8 @@ Measured hertz(double force, Plane plane, double block = blockYoung) {
   return {2 * force / (pi * b), b};
 }
 
-/// The flat side of the disc is moved down. \returns pressure and width over those of Hertz for the same force.
+/// The flat side of the disc is moved down. \returns pressure and width over those of Hertz for the same
+/// force.
 Measured solveHertz(int cells, CouplingKind coupling, bool discNonmortar, Plane plane = Plane::stress,
                     double young = blockYoung) {
   const auto material = [&](double stiffness) {

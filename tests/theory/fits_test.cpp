@@ -1,5 +1,6 @@
-// Bodies that fit into each other, meshed as polygons that do not match: the distance is that of the circles, not of
-// the polygons. Shrink fit after Lame; a pin in a hole with the distance of the circles as a reference.
+// Bodies that fit into each other, meshed as polygons that do not match: the distance is that of the circles,
+// not of the polygons. Shrink fit after Lame; a pin in a hole with the distance of the circles as a
+// reference.
 #include <gtest/gtest.h>
 
 #include <cmath>

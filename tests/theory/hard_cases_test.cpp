@@ -46,8 +46,8 @@ TEST(HardCases, eccentricLoad) {
 
 // ---- steps with several solutions
 
-// The solutions of the tenth step for all viscosities lie on a curve that turns back twice: no way leads on at a
-// viscosity that only falls.
+// The solutions of the tenth step for all viscosities lie on a curve that turns back twice: no way leads on
+// at a viscosity that only falls.
 TEST(HardCases, pathTurnsBackAndGoesOn) {
   constexpr int steps = 50;
   constexpr int before = 9;

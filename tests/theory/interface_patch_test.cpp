@@ -33,8 +33,8 @@ TriangleMesh mapped(int cells, double lower, const Map& map) {
 /// What holds and loads the sides that are not in contact.
 enum class Sides { pressed, held };
 
-/// A body under hydrostatic pressure, u = strain (x, y) on `supports`. No shear acts on any line, so the state
-/// is one of frictionless contact whatever Gamma_C looks like.
+/// A body under hydrostatic pressure, u = strain (x, y) on `supports`. No shear acts on any line, so the
+/// state is one of frictionless contact whatever Gamma_C looks like.
 Body hydrostatic(const std::string& name, TriangleMesh mesh, const std::vector<int>& held,
                  const std::vector<int>& pressed) {
   const double strain = -pressure * (1 - elasticity.poisson) / elasticity.young;
@@ -258,8 +258,8 @@ TEST(ConditionsMeet, heldToTheEndOfTheContact) {
       }
 }
 
-// Conditions that depend on each other: a rigid nonmortar line finer than the mortar one, and an interface that
-// is given twice.
+// Conditions that depend on each other: a rigid nonmortar line finer than the mortar one, and an interface
+// that is given twice.
 TEST(ConditionsMeet, redundantConditions) {
   for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::interpolation}) {
     const Function down = [](double, double, double t) { return -0.01 * t; };

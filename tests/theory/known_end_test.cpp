@@ -135,8 +135,8 @@ TEST(KnownEnd, contactEndsWithinOneElement) {
   }
 }
 
-// Between two nodes of the body the rigid line has more than one: conditions depend on each other, forces are not
-// unique, rounding decides on their signs. Each problem is solved all the same, with the exact resultant.
+// Between two nodes of the body the rigid line has more than one: conditions depend on each other, forces are
+// not unique, rounding decides on their signs. Each problem is solved all the same, with the exact resultant.
 TEST(KnownEnd, rigidNonmortarLineFinerThanTheBodyIsSolved) {
   const Setting rigid{"one body, nonmortar fine", 1, {{{1, 0.3}, false}}, lowerBody};
   double worst = 0;

@@ -1,5 +1,6 @@
-// Limit loads of perfect plasticity as the limits of slow viscoplastic flow: displacements grow slowly, and the force
-// stands still in the end. Continuous displacements bound limit loads from above; what the meshes leave falls with h.
+// Limit loads of perfect plasticity as the limits of slow viscoplastic flow: displacements grow slowly, and
+// the force stands still in the end. Continuous displacements bound limit loads from above; what the meshes
+// leave falls with h.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -131,7 +132,8 @@ TEST(LimitLoads, prandtlsPunchInPlaneStrain) {
   expectLimit("punch", exact, h, found, 0.9, 2.5e-2);
 }
 
-// One diagonal a cell leaves too few motions that keep the volume: such meshes lock, and their force goes on growing.
+// One diagonal a cell leaves too few motions that keep the volume: such meshes lock, and their force goes on
+// growing.
 TEST(LimitLoads, oneDiagonalACellLocks) {
   const Forces both = punch(8, Cut::both);
   const Forces rising = punch(8, Cut::rising);

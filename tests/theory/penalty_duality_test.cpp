@@ -85,7 +85,8 @@ TEST(PenaltyDuality, elasticBodiesDifferOnlyByTheContactMultipliers) {
     expectSameAsNewton(compression(6, 16, elasticMaterial(noteElasticity), coupling, upperBody), 2);
 }
 
-/// Squares of the note's test whose left part is elastic and three times as stiff, on a right part that flows.
+/// Squares of the note's test whose left part is elastic and three times as stiff, on a right part that
+/// flows.
 Body mixed(const std::string& name, double lowerY, int cells, Projection projection, Conditions conditions) {
   const auto& [young, poisson] = noteElasticity;
   Viscoplasticity law = noteLaw(projection);

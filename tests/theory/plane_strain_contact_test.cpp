@@ -1,5 +1,5 @@
-// Plane strain through contact on meshes that do not match: the compression of two blocks against its ordinary differential
-// equation, with every scheme and coupling; regions, initial stress, threads, units.
+// Plane strain through contact on meshes that do not match: the compression of two blocks against its
+// ordinary differential equation, with every scheme and coupling; regions, initial stress, threads, units.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -74,7 +74,8 @@ double topOf(const Model& model, const State& state) {
       .mean();
 }
 
-// First yield falls on a step: within one it would cost Crank-Nicolson an error of its own, up and down with the steps.
+// First yield falls on a step: within one it would cost Crank-Nicolson an error of its own, up and down with
+// the steps.
 TEST(PlaneStrainContact, schemesHaveTheirOrders) {
   const double end = 8 * firstYield();
   const Compressed exact = exactCompression(end);
@@ -134,7 +135,8 @@ TEST(PlaneStrainContact, stepsChosenByTheirErrorMeetTheTolerance) {
   }
 }
 
-// One linear solve for two elastic blocks, on meshes that do not match: s33 = nu s22, eps22 = (1 - nu^2) s22/E.
+// One linear solve for two elastic blocks, on meshes that do not match: s33 = nu s22, eps22 = (1 - nu^2)
+// s22/E.
 TEST(PlaneStrainContact, elasticPatchPassesInOneIteration) {
   const Elasticity elasticity{3e11, 0.3};
   for (const int nonmortar : {upperBody, lowerBody})
@@ -152,7 +154,8 @@ TEST(PlaneStrainContact, elasticPatchPassesInOneIteration) {
     }
 }
 
-// Where interpolation makes the stress uneven, its flow is harder: the note's stiff data, both couplings and sides.
+// Where interpolation makes the stress uneven, its flow is harder: the note's stiff data, both couplings and
+// sides.
 TEST(PlaneStrainContact, stiffDataAreSolvedWithBothCouplings) {
   for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::interpolation})
     for (const int nonmortar : {upperBody, lowerBody})

@@ -1,4 +1,5 @@
-// The same scene with its meshes turned or renumbered: only rounding differs, and by no more than the certificate says.
+// The same scene with its meshes turned or renumbered: only rounding differs, and by no more than the
+// certificate says.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

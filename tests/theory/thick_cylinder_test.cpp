@@ -1,5 +1,5 @@
-// A thick cylinder under inner pressure in plane strain, a = 1, b = 2, as a quarter ring between rollers: Lame's elastic
-// one, and steady creep of the viscoplastic one.
+// A thick cylinder under inner pressure in plane strain, a = 1, b = 2, as a quarter ring between rollers:
+// Lame's elastic one, and steady creep of the viscoplastic one.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -88,8 +88,8 @@ TEST(ThickCylinder, tendsToLame) {
   }
 }
 
-// In steady creep the stress stands still and u_r' = C/r: with tau = s_tt - s_rr = 2 (s_Y/sqrt3 + lambda' C/r^2), and
-// 2 lambda dev eps' = (1 - s_Y/vM) dev s, equilibrium r s_rr' = tau integrates to
+// In steady creep the stress stands still and u_r' = C/r: with tau = s_tt - s_rr = 2 (s_Y/sqrt3 + lambda'
+// C/r^2), and 2 lambda dev eps' = (1 - s_Y/vM) dev s, equilibrium r s_rr' = tau integrates to
 //   p = (2/sqrt3) s_Y ln(b/a) + 2 lambda C (1/a^2 - 1/b^2).
 constexpr double viscosity = 10;
 constexpr double yieldStress = 1;

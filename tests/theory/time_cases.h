@@ -286,8 +286,9 @@ inline Outcome controlledRun(const Case& which, const Truth& truth, double toler
   return runOf(which, truth, which.plan(which.scheme, tolerance));
 }
 
-/// Linear solves of the cheapest run with equal steps that is as accurate, but for 7 % of the steps; 0 where none takes
-/// fewer than `most`, a linear solve for each stage being the least that a step takes. `known` is kept from call to call.
+/// Linear solves of the cheapest run with equal steps that is as accurate, but for 7 % of the steps; 0 where
+/// none takes fewer than `most`, a linear solve for each stage being the least that a step takes. `known` is
+/// kept from call to call.
 inline int bestOfEqual(const Case& which, const Truth& truth, double error, int most,
                        std::map<int, Outcome>& known) {
   constexpr double ratio = 1.15;

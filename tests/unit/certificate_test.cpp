@@ -19,7 +19,8 @@ Function constant(double value) {
   return [value](double, double, double) { return value; };
 }
 
-/// Two elastic squares, the upper one pressed on the lower one; apart and each held by itself without contact.
+/// Two elastic squares, the upper one pressed on the lower one; apart and each held by itself without
+/// contact.
 Model squares(bool contact, double upperLoad = -1, double lowerLoad = 0) {
   const auto material = elasticMaterial({100, 0.3});
   Model model;

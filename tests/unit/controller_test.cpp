@@ -70,7 +70,8 @@ TEST(Controller, thePilotLeavesTheStateAndFindsTheScales) {
   EXPECT_EQ(taken.memory.controller.trial, 1);
   EXPECT_GT(taken.memory.run.pilotIterations, 0);
   EXPECT_EQ(taken.memory.run.iterations, taken.memory.run.pilotIterations);
-  // Of its five steps those at t = 0.2 and 0.8 have the largest stresses; |s|_E = |s|/sqrt(young) on the unit square.
+  // Of its five steps those at t = 0.2 and 0.8 have the largest stresses; |s|_E = |s|/sqrt(young) on the unit
+  // square.
   const double largest = std::max(std::abs(wave(0.2)), std::max(std::abs(wave(0.6)), std::abs(wave(0.8))));
   EXPECT_NEAR(taken.memory.controller.scale.stress, largest / std::sqrt(young), 1e-9 * largest);
 }

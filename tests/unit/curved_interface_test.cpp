@@ -192,7 +192,8 @@ TEST(CurvedInterface, normalsOfACircleAreExact) {
     }
 }
 
-// Octagons that are a millimetre apart have straight sides: their vertices lie on circles, but they are polygons.
+// Octagons that are a millimetre apart have straight sides: their vertices lie on circles, but they are
+// polygons.
 TEST(CurvedInterface, anOctagonIsNoCircle) {
   constexpr double rounding = 1e-12;
   constexpr double half = M_PI / 8;
@@ -291,8 +292,8 @@ Pair discOn(double wall, double otherRadius) {
   return {disc, below};
 }
 
-// The direction is that of Hertz's theory whichever side is nonmortar: exact against a wall, to second order in the
-// distance from the centre against another circle.
+// The direction is that of Hertz's theory whichever side is nonmortar: exact against a wall, to second order
+// in the distance from the centre against another circle.
 TEST(CurvedInterface, directionDoesNotDependOnTheSide) {
   std::mt19937 random(9);
   for (const double radius : {0.0, 1.0, 3.0})

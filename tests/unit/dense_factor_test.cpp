@@ -1,4 +1,5 @@
-// Factors of dense matrices solve, whatever the number of panels and of right-hand sides, and hear an interruption.
+// Factors of dense matrices solve, whatever the number of panels and of right-hand sides, and hear an
+// interruption.
 #include "solver/dense_factor.h"
 
 #include <gtest/gtest.h>

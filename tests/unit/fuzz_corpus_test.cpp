@@ -1,4 +1,5 @@
-// The corpus of tests/fuzz, and what becomes of it by seeded changes: no reader crashes, whatever it is given.
+// The corpus of tests/fuzz, and what becomes of it by seeded changes: no reader crashes, whatever it is
+// given.
 #include <gtest/gtest.h>
 
 #include <algorithm>

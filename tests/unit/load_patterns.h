@@ -1,5 +1,5 @@
-// Contact problems of lines with many nodes under loads of every wave length: the compliances that half planes and beams
-// have along their surface, and random loads.
+// Contact problems of lines with many nodes under loads of every wave length: the compliances that half
+// planes and beams have along their surface, and random loads.
 #pragma once
 
 #include <cmath>
@@ -70,7 +70,8 @@ inline Matrix compliance(Line line, int n) {
   return Q * root.asDiagonal() * inner * root.asDiagonal() * Q.transpose();
 }
 
-/// A load of unit size by nodes: noise, noise that decays with the wave number, or up to three waves, with a mean or none.
+/// A load of unit size by nodes: noise, noise that decays with the wave number, or up to three waves, with a
+/// mean or none.
 inline Vector load(std::mt19937& random, int n) {
   std::normal_distribution<double> normal;
   const auto within = [&](double low, double high) {

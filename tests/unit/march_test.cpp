@@ -1,4 +1,5 @@
-// The march as its callers see it, on a square in uniform stress: what it reports, where it stops, how it resumes.
+// The march as its callers see it, on a square in uniform stress: what it reports, where it stops, how it
+// resumes.
 #include "time/march.h"
 
 #include <gtest/gtest.h>

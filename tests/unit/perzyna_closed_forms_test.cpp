@@ -68,8 +68,8 @@ TEST(PerzynaClosedForms, relaxationFollowsItsClosedForm) {
 }
 
 // theta e = 1.5e8: one step lands on the yield surface.
-// Uniaxial stress: the table of docs/scene.md. Towards yield the rate over that of the overstress is 2 (b_p + b_q)/(b_p + 3 b_q),
-// lateral over axial flow (b_p - b_q)/(b_p + b_q).
+// Uniaxial stress: the table of docs/scene.md. Towards yield the rate over that of the overstress is 2 (b_p +
+// b_q)/(b_p + 3 b_q), lateral over axial flow (b_p - b_q)/(b_p + b_q).
 TEST(PerzynaClosedForms, uniaxialFlowIsNotThatOfThreeDimensions) {
   struct Row {
     Projection projection;

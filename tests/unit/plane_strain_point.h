@@ -55,7 +55,8 @@ inline Vector4d randomStress4(std::mt19937& random, double misesStress, double p
   return s + pressure * Vector4d(std::numbers::sqrt2, 0, 0, 1);
 }
 
-/// Three-dimensional tensors, in extended precision: the law as textbooks have it, step by step radial return.
+/// Three-dimensional tensors, in extended precision: the law as textbooks have it, step by step radial
+/// return.
 struct Tensors {
   using Tensor = Eigen::Matrix<Long, 3, 3>;
   Elasticity elasticity;

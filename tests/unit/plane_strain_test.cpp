@@ -36,8 +36,8 @@ TEST(PlaneStrain, elasticityIsThatOfThreeDimensions) {
   }
 }
 
-// H^-1 is the derivative of the step's stress, solved in three-dimensional tensors, with respect to the strain. On the
-// yield surface it is that of its outer side: one-sided differences of third order.
+// H^-1 is the derivative of the step's stress, solved in three-dimensional tensors, with respect to the
+// strain. On the yield surface it is that of its outer side: one-sided differences of third order.
 TEST(PlaneStrain, tangentMatchesFiniteDifference) {
   constexpr Long h = 1e-5L;
   constexpr double differences = 1e-10;
@@ -52,8 +52,8 @@ TEST(PlaneStrain, tangentMatchesFiniteDifference) {
         const Tensors law{elasticity, {10, 1}, weight};
         const auto material = planeStrainPerzynaMaterial(elasticity, {10, 1});
         const Vector4d s0 = randomStress4(random, 0.5, 0.1);
-        // A trial beyond yield such that the stress is beyond it by `beyond`; a strain with a part across the plane, as
-        // schemes of several stages have.
+        // A trial beyond yield such that the stress is beyond it by `beyond`; a strain with a part across the
+        // plane, as schemes of several stages have.
         const Vector4d trial = randomStress4(random, 1 + beyond * (beyond > 0 ? 1 + thetaE : 1), 0.7);
         Matrix strain;
         material->elasticStrain(trial - s0, strain);
@@ -109,7 +109,8 @@ TEST(PlaneStrain, onTheYieldSurfaceItFlows) {
   }
 }
 
-// Newton's method at a point ends at the radial return, whatever theta e; yielding anticipated in a few iterations.
+// Newton's method at a point ends at the radial return, whatever theta e; yielding anticipated in a few
+// iterations.
 TEST(PlaneStrain, newtonEndsAtTheRadialReturn) {
   constexpr double tolerance = 1e-12;
   std::mt19937 random(3);
@@ -161,8 +162,8 @@ TEST(PlaneStrain, theProjectionHasNoMeaning) {
   }
 }
 
-// Relaxation of a deviator of twice the yield stress, its strain held: sigma_Y + (1 + z)^-N by backward Euler with
-// z = k E/(2 lambda (1 + nu)); the pressure stays.
+// Relaxation of a deviator of twice the yield stress, its strain held: sigma_Y + (1 + z)^-N by backward Euler
+// with z = k E/(2 lambda (1 + nu)); the pressure stays.
 TEST(PlaneStrain, relaxationFollowsItsClosedForm) {
   const double nu = 0.3;
   const auto material = planeStrainPerzynaMaterial({2 * 2 * 10 * (1 + nu), nu}, {10, 1});

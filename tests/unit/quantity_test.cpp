@@ -19,8 +19,8 @@ Function constant(double value) {
   return [value](double, double, double) { return value; };
 }
 
-/// A block of 2 by 1 on rollers along its base and its left side, under a pressure on top that grows to the right and a
-/// shear on its right side, with a body force.
+/// A block of 2 by 1 on rollers along its base and its left side, under a pressure on top that grows to the
+/// right and a shear on its right side, with a body force.
 Model loadedBlock() {
   Conditions conditions;
   conditions.displacements = {{1, alongY, constant(0)}, {4, alongX, constant(0)}};
@@ -64,7 +64,8 @@ TEST(Quantity, reactionsBalanceLoads) {
   EXPECT_EQ(quantities[0].unit(), "N/m");
 }
 
-// A corner of two rollers at an angle of 60 degrees: each reacts along its own normal, and together they hold the load.
+// A corner of two rollers at an angle of 60 degrees: each reacts along its own normal, and together they hold
+// the load.
 TEST(Quantity, aCornerReactsAlongTheNormalsOfItsSides) {
   const double c = 0.5;
   const double s = std::sqrt(0.75);

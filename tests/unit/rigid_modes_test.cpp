@@ -59,7 +59,8 @@ Body elastic(TriangleMesh mesh, std::vector<PrescribedDisplacement> supports = {
   return {"body", std::move(mesh), elasticMaterial({1, 0.3}), {std::move(supports), {}, {}}};
 }
 
-/// Triangles whose outer sides are those of a regular polygon, hinged at its corners. The first side has label 1.
+/// Triangles whose outer sides are those of a regular polygon, hinged at its corners. The first side has
+/// label 1.
 TriangleMesh ring(int sides) {
   TriangleMesh mesh;
   mesh.name = "ring";

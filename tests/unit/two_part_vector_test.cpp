@@ -7,7 +7,8 @@
 namespace mortier {
 namespace {
 
-// Powers of two, so that every sum is known exactly: 1e5 changes below the rounding of the entry, and back again.
+// Powers of two, so that every sum is known exactly: 1e5 changes below the rounding of the entry, and back
+// again.
 TEST(TwoPartVector, keepsChangesBelowTheRoundingOfItsEntries) {
   constexpr double tiny = 0x1p-74;
   constexpr int changes = 100000;
