@@ -8,6 +8,7 @@
 #include "solver/solve_step.h"
 #include "squares.h"
 #include "time/march.h"
+#include "unit/straight_lines.h"
 
 namespace mortier::bench {
 namespace {
@@ -63,7 +64,9 @@ void coupling(benchmark::State& run) {
   for (int i = 0; i <= cells.upper; ++i) nonmortar[i] = static_cast<double>(i) / cells.upper;
   for (int i = 0; i <= cells.lower; ++i) mortar[i] = static_cast<double>(i) / cells.lower;
   const CouplingKind kind = run.range(1) == 0 ? CouplingKind::mortar : CouplingKind::interpolation;
-  for ([[maybe_unused]] const auto turn : run) benchmark::DoNotOptimize(couple(kind, nonmortar, mortar));
+  const SmoothPart part = straightPart(nonmortar);
+  const FacingLine facing = straightFacing(mortar);
+  for ([[maybe_unused]] const auto turn : run) benchmark::DoNotOptimize(couple(kind, part, facing));
 }
 
 void strain(benchmark::State& run) {

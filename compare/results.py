@@ -262,7 +262,7 @@ def read_vtu(path):
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):  # it prints as well
             mesh = meshio.read(path)
         return Body(mesh.point_data["displacement"][:, :2], mesh.cell_data["stress"][0], mesh.points[:, :2],
-                    mesh.cells_dict["triangle"], {name: values[0] for name, values in mesh.cell_data.items()})
+                    mesh.cells_dict.get("triangle", mesh.cells_dict.get("triangle6")), {name: values[0] for name, values in mesh.cell_data.items()})
     except (Exception, SystemExit) as error:  # meshio ends the process on some faults
         raise ResultError(f"{path}: cannot be read: {error!r}") from error
 

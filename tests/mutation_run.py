@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Breaks cpp/ in small ways, one at a time, and says which of these faults no test sees.
 
-    tests/mutation_run.py [--only TEXT] [--labels unit,theory,compare] [--folder DIR]
+    tests/mutation_run.py [--only TEXT] [--first N] [--labels unit,theory,compare] [--folder DIR]
 
 The faults stand in tests/mutations.txt. Everything happens on a copy of the tracked files in DIR, with a build folder
 that is kept. A fault costs the files that hold it, and each test is linked when its turn comes. Only tests are run that
@@ -162,14 +162,15 @@ class Tree:
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", metavar="TEXT", default="", help="faults with this in their file, text or change")
+    parser.add_argument("--first", type=int, default=1, metavar="N", help="number of the first fault that is injected")
     parser.add_argument("--labels", default=",".join(LABELS), help="of the tests that may see a fault (all)")
     parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "build-mutations", help="build-mutations/")
     options = parser.parse_args()
     tree = Tree(options.folder.resolve(), options.labels.split(","))
     by_test, missed, broken = {}, [], []
-    for file, old, new in faults():
-        name = f"{file}: {old}  ->  {new}"
-        if options.only not in name:
+    for number, (file, old, new) in enumerate(faults(), 1):
+        name = f"{number} {file}: {old}  ->  {new}"
+        if number < options.first or options.only not in name:
             continue
         begin, sound, verdict = time.monotonic(), None, "no test sees it"
         try:

@@ -61,9 +61,9 @@ bool isRoller(const ConditionDescription& condition) {
          (condition.component == alongNormal || condition.component == alongTangent);
 }
 
-/// Loads by the rules that mortier takes (docs/theory.md), for they decide what nodal forces are. A macro must
-/// not be empty.
-void writeConditions(std::ostream& out, const BodyDescription& body, int number) {
+/// Loads by the rules that mortier takes (docs/theory.md), for they decide what nodal forces are; with quadratic
+/// displacements by FreeFEM's own of degree 5. A macro must not be empty.
+void writeConditions(std::ostream& out, const BodyDescription& body, int number, int degree) {
   const std::string n = std::to_string(number);
   std::ostringstream supports;
   std::ostringstream loads;
@@ -74,12 +74,14 @@ void writeConditions(std::ostream& out, const BodyDescription& body, int number)
     } else if (c.kind == Kind::traction) {
       const std::string direction =
           c.component == alongNormal ? "(N.x*v1 + N.y*v2)" : "v" + std::to_string(c.component + 1);
-      loads << "+ simpson(" << n << ", " << c.label << ", (" << value << ")*" << direction << ") ";
+      loads << (degree == 1 ? "+ simpson(" + n + ", " : "+ int1d(Body" + n + ", ") << c.label
+            << (degree == 1 ? ", (" : ")((") << value << ")*" << direction << ") ";
     }
   }
   for (const int c : {0, 1}) {
     if (body.force[c]) {
-      loads << "+ midpoints(" << n << ", (" << freefemExpression(*body.force[c]) << ")*v" << c + 1 << ") ";
+      loads << (degree == 1 ? "+ midpoints(" + n + ", (" : "+ int2d(Body" + n + ")((")
+            << freefemExpression(*body.force[c]) << ")*v" << c + 1 << ") ";
     }
   }
   const auto orNothing = [&](const std::ostringstream& terms, const char* nothing) {
@@ -127,13 +129,14 @@ std::string script(const SceneDescription& scene, const Model& model,
   out << freefemComment(scene.title.empty() ? scene.path : scene.title)
       << freefemComment("Written by mortier freefem " + scene.path +
                         "; run from the folder in which that was called.")
-      << "\nstring plane = \"" << word(scene.plane) << "\";\n\n// Bodies\n"
+      << "\nstring plane = \"" << word(scene.plane) << "\";\n"
+      << (scene.degree == 2 ? "macro quadratic yes //  P2 displacements\n" : "") << "\n// Bodies\n"
       << "macro eachBody(what)";
   for (int b = 0; b < bodies; ++b) out << " what(" << b + 1 << ')';
   out << " //\n";
   for (int b = 0; b < bodies; ++b) writeBody(out, scene.bodies[b], meshFiles[b], b + 1);
   out << "\n// Boundary conditions and loads, functions of x, y and t\n";
-  for (int b = 0; b < bodies; ++b) writeConditions(out, scene.bodies[b], b + 1);
+  for (int b = 0; b < bodies; ++b) writeConditions(out, scene.bodies[b], b + 1, scene.degree);
   out << rollers(scene)
       << "\n// Contact: nonmortar body and label, mortar body and label; time\nint[int, int] contact = ";
   for (size_t k = 0; k < model.interfaces.size(); ++k) {

@@ -1,28 +1,35 @@
-// How the nonmortar nodes see the mortar side: rows of C, one per nonmortar node that faces it.
+// How a part of the nonmortar line sees the mortar line: rows of C, one per trace node with a condition.
 //
-// On a straight part, with the traces of both sides on one line and n constant, C u = (B u1 - A u2) . n,
+// x1(s) sees the mortar point x2(s) along the direction n(s) (facing_line.h). With the jump j(s) = n . (u1(x1) - u2(x2)),
+// traces sum phi_k u1_k and sum psi_l u2_l of the elements, and row functions chi_i,
 //
-//   interpolation  A = I_h:     values of the mortar trace at the nonmortar nodes,   B = 1
-//   mortar         A = M^-1 D,  B = M^-1 N:  L2 projections on the span of the row functions chi,
-//                               M_ij = int chi_i chi_j,  N_ij = int chi_i phi_j,  D_ij = int chi_i psi_j,
+//   interpolation  (C u)_i = j(s_i)
+//   mortar         C u = W^-1 int chi j ds,   W_ij = int chi_i chi_j ds:   the L2 projection of the jump
+//   weighted       C u = w^-1 int chi j ds,   w_i = int chi_i ds:          its means
 //
-// phi, psi the hat functions of the two traces, all integrals exact on the common refinement (quadrature on
-// the elements of one side would fail the patch test). chi = phi, and so B = 1, wherever both nodes of an
-// element have a row. Where only one has (the mortar side ends inside the element, or the other node is
-// merged into it), the one's chi goes on as 1: constants are still reproduced, and M stays well conditioned
-// however small the piece.
+// so that the nodal forces of the pressure sum pi_i chi_i are W pi, or w pi; w is W lumped. In the field's words
+// C u = W^-1 (D u1 - M u2), D_ik = int chi_i n phi_k the matrix of the nonmortar side and M_il = int chi_i n psi_l that of
+// the mortar side (the note writes D for the latter, and M for W). chi are the shape functions phi; with `weighted` they are the
+// hat functions of the vertices, whatever the degree, and p >= 0 says that the pressure is so at every point.
 //
-// On a curve, with x1(s) seeing the mortar point x2(s) along the direction n(s) (facing_line.h),
+// Integrals are Gauss's on the common refinement, exact where the part is straight (quadrature on the elements of one
+// side would fail the patch test). Where only one vertex of an element has a row (the mortar side ends inside the
+// element, or the other vertex is merged into it), its chi goes on as 1: constants are still reproduced, and W stays
+// well conditioned however small the piece.
 //
-//   interpolation  (C u)_i = n(s_i) . (u1(x_i) - u2(x2(s_i)))
-//   mortar         C u = M^-1 int chi n . (u1(x1(s)) - u2(x2(s))) ds
+// The projection is taken of the difference from the motion of the row's own node along its own n_i,
 //
-// with Gauss points. Whatever the rule, each term is a pair of opposite forces along the line through x1 and
-// x2, and the hat functions reproduce both places: every row balances in force and moment (docs/theory.md).
+//   W^-1 D u1 = n . u1 at the nodes + W^-1 int chi (n . u1 - sum chi_i n_i . u1_i) ds,
+//
+// where the second term is zero on straight parts and sparse everywhere: of W^-1 D and W^-1 M only the latter is dense by
+// nature, and its entries fall off from the node that is faced by a factor of about four a node.
+//
+// Whatever the rule, each Gauss point adds a pair of opposite forces along the line through x1 and x2, and shape functions
+// reproduce both places: every row balances in force and moment (docs/theory.md).
 //
 // Example (tests/unit/coupling_test.cpp): nonmortar nodes 0, 1/2, 1 and mortar nodes 0, 1/3, 1 give
-//   M = 1/12 [2 1 0; 1 4 1; 0 1 2],   D = 1/432 [56 51 1; 16 138 62; 0 27 81],
-//   A = M^-1 D = 1/36 [30 9 -3; -4 33 7; 2 -3 37].
+//   D = W = 1/12 [2 1 0; 1 4 1; 0 1 2],   M = 1/432 [56 51 1; 16 138 62; 0 27 81],
+//   D^-1 M = 1/36 [30 9 -3; -4 33 7; 2 -3 37],   w^-1 M = 1/108 [56 51 1; 8 69 31; 0 27 81].
 // (Hild 2000; Bernardi, Maday, Patera 1994; curves: Yang, Laursen, Meng 2005.)
 #pragma once
 
@@ -34,33 +41,25 @@
 
 namespace mortier {
 
-enum class CouplingKind { interpolation, mortar };
+enum class CouplingKind { interpolation, mortar, weighted };
 
 struct Coupling {
-  std::vector<int> nodes;         ///< nonmortar trace nodes with a row, ascending
-  Eigen::SparseMatrix<double> M;  ///< mass of the row functions [m]
-  Eigen::SparseMatrix<double> D;  ///< rows x mortar nodes [m]
-  Matrix A;                       ///< rows x mortar nodes; rows sum to one
-  Matrix B;                       ///< rows x nonmortar nodes; rows sum to one
+  std::vector<int> nodes;            ///< trace nodes of the part with a row, along the line (ElementLine)
+  Eigen::SparseMatrix<double> mass;  ///< W, or w as a diagonal, rows x rows [m]
+  Eigen::SparseMatrix<double> C1;    ///< rows x 2 (trace nodes of the part): columns 2 node + component
+  Eigen::SparseMatrix<double> C2;    ///< rows x 2 (trace nodes of the facing line)
+  Vector distance;                   ///< g0, as the rows see it [m]
 };
 
-/// \param nonmortar, mortar  traces on one line [m]
-/// \param merged  trace nodes without a row of their own (empty: none). No rows when no node lies within the
+/// The degree of the row functions on a line whose trace has a degree.
+inline int rowDegree(CouplingKind kind, int traceDegree) {
+  return kind == CouplingKind::weighted ? 1 : traceDegree;
+}
+
+/// \param distance  of the bodies, where x1(s) sees
+/// \param merged  vertices of the part without a row of their own (empty: none). No rows when no vertex lies within the
 /// overlap.
-Coupling couple(CouplingKind kind, const Trace& nonmortar, const Trace& mortar,
-                const std::vector<char>& merged = {});
-
-/// The rows of one part of the nonmortar line.
-struct PartCoupling {
-  std::vector<int> nodes;          ///< nodes of the part with a row, ascending
-  Eigen::SparseMatrix<double> M;   ///< mass of the row functions, rows x rows [m]
-  Eigen::SparseMatrix<double> C1;  ///< rows x 2 (nodes of the part): columns 2 node + component
-  Eigen::SparseMatrix<double> C2;  ///< rows x 2 (nodes of the facing line)
-  Vector bulge;  ///< by which the curves are nearer to each other than the polygons, per row [m]
-};
-
-/// The same for a part of the nonmortar line and what it faces: C1 and C2 take displacements by components.
-PartCoupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
-                    const std::vector<char>& merged = {});
+Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
+                const DistanceAt& distance = distanceOfCurves, const std::vector<char>& merged = {});
 
 }  // namespace mortier

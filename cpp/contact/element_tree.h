@@ -17,22 +17,27 @@ class ElementTree {
   /// lower the bound [m].
   template <class Visit>
   void near(const Point& x, const double& bound, Visit visit) const {
-    if (elements_ > 0) descend(0, 0, elements_, x, bound, visit);
+    near(x, x, bound, visit);
+  }
+  /// The same for a box in place of the point, by its lower left and its upper right corner.
+  template <class Visit>
+  void near(const Point& low, const Point& high, const double& bound, Visit visit) const {
+    if (elements_ > 0) descend(0, 0, elements_, {low, high}, bound, visit);
   }
 
  private:
   static constexpr int leaf = 8;  ///< elements in a box that is not divided
   struct Box {
     Point low, high;
-    [[nodiscard]] double distance(const Point& x) const {
-      return (low - x).cwiseMax(x - high).cwiseMax(0).norm();
+    [[nodiscard]] double distance(const Box& other) const {
+      return (low - other.high).cwiseMax(other.low - high).cwiseMax(0).norm();
     }
   };
 
   void build(size_t box, int begin, int end, const std::vector<Point>& points);
 
   template <class Visit>
-  void descend(size_t box, int begin, int end, const Point& x, const double& bound, Visit& visit) const {
+  void descend(size_t box, int begin, int end, const Box& x, const double& bound, Visit& visit) const {
     constexpr double rounding = 1 - 1e-12;
     if (rounding * boxes_[box].distance(x) > bound) return;
     if (end - begin <= leaf) {

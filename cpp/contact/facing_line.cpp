@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
-
-#include "contact/element_tree.h"
+#include <unordered_map>
 
 namespace mortier {
 namespace {
@@ -56,7 +54,7 @@ double crossProduct(const SmoothPart& part, int element, double xi, const Mortar
   const double s = part.s[element] + xi * (part.s[element + 1] - part.s[element]);
   const Point n = directionOf(part.normalAt(element, s), part.curvatureAt(element, s), node.normal,
                               node.curvature, node.smooth);
-  return cross(part.points[element] + xi * (part.points[element + 1] - part.points[element]) - node.x, n);
+  return cross(part.at(element, xi) - node.x, n);
 }
 
 /// Its root in [0, 1], between f0 >= 0 and f1 < 0, by false position (Illinois).
@@ -84,15 +82,7 @@ Foot footOnCurve(const SmoothPart& part, const ElementTree& tree, const MortarNo
     if (distance < best.distance) best = {s, normal, distance};
   };
   const auto at = [&](int element, double xi) { return crossProduct(part, element, xi, node); };
-  tree.near(node.x, best.distance, [&](int e) {
-    const double f0 = at(e, 0);
-    const double f1 = at(e, 1);
-    if (!(f0 >= 0 && f1 < 0)) return;
-    const double xi = rootIn(part, e, node, f0, f1);
-    const double s = part.s[e] + xi * (part.s[e + 1] - part.s[e]);
-    consider(s, part.at(e, s), part.normalAt(e, s));
-  });
-  if (part.closed) return best;
+  // Past the ends first: it bounds the search between them.
   const auto beyond = [&](int end, int element, double f) {
     const Point d = part.direction(element);
     const Point n =
@@ -101,190 +91,257 @@ Foot footOnCurve(const SmoothPart& part, const ElementTree& tree, const MortarNo
     consider(part.s[end] + by, part.points[end] + by * d, part.normals[end]);
   };
   const int last = part.elements() - 1;
-  if (const double f = at(0, 0); f < 0) beyond(0, 0, f);
-  if (const double f = at(last, 1); f >= 0) beyond(last + 1, last, f);
+  if (const double f = at(0, 0); !part.closed && f < 0) beyond(0, 0, f);
+  if (const double f = at(last, 1); !part.closed && f >= 0) beyond(last + 1, last, f);
+  tree.near(node.x, best.distance, [&](int e) {
+    const double f0 = at(e, 0);
+    const double f1 = at(e, 1);
+    if (!(f0 >= 0 && f1 < 0)) return;
+    const double xi = rootIn(part, e, node, f0, f1);
+    const double s = part.s[e] + xi * (part.s[e + 1] - part.s[e]);
+    consider(s, part.at(e, xi), part.normalAt(e, s));
+  });
   return best;
 }
 
-using Elements = std::unordered_map<int, FacingElement>;
+/// The stretch of the mortar line that faces a part, from its nearest element on in both directions.
+class Search {
+ public:
+  Search(const SmoothPart& part, const MortarLine& mortar)
+      : part_(part), mortar_(mortar), tree_(part.straight ? std::vector<Point>{} : part.points) {}
 
-/// Mortar nodes along the part with their feet.
-struct Feet {
-  std::vector<int> nodes;
-  std::vector<Point> points;
-  std::vector<Foot> feet;
+  FacingLine stretch() {
+    const int seed = nearest();
+    return seed < 0 ? FacingLine{} : around(seed);
+  }
+
+ private:
+  /// A node of the mortar line; a closed one has them again and again.
+  [[nodiscard]] int within(int node) const {
+    const int n = mortar_.elements();
+    return mortar_.closed ? (node % n + n) % n : node;
+  }
+  [[nodiscard]] bool has(int element) const {
+    return mortar_.closed || (element >= 0 && element < mortar_.elements());
+  }
+
+  const Foot& footOf(int node) {
+    node = within(node);
+    const auto [found, isNew] = feet_.try_emplace(node);
+    if (!isNew) return found->second;
+    const Point& x = mortar_.points[node];
+    const int end = node < mortar_.elements() ? 0 : 1;  // of the element after the node, or of the last one
+    const FacingElement& element = mortar_.geometry[node - end];
+    found->second =
+        part_.straight ? footOnStraight(part_, x)
+                       : footOnCurve(part_, tree_,
+                                     {x, element.normals[end], element.curvatures[end], element.smooth[end]});
+    return found->second;
+  }
+
+  /// Abscissa of a node next to one at `from`: each turn round a closed part adds its length.
+  double abscissaOf(int node, double from) {
+    const double s = footOf(node).s;
+    return part_.closed ? s + part_.length() * std::round((from - s) / part_.length()) : s;
+  }
+
+  bool faces(int element) {
+    const Foot a = footOf(element);
+    const Foot b = footOf(element + 1);
+    if (!std::isfinite(a.distance) || !std::isfinite(b.distance) || !(abscissaOf(element + 1, a.s) > a.s))
+      return false;
+    const Point n = (a.normal + b.normal).normalized();
+    const Point d = (mortar_.points[within(element) + 1] - mortar_.points[within(element)]).normalized();
+    return Point(-n.y(), n.x()).dot(d) > facing;
+  }
+
+  /// The least distance of an element over the part, infinite where it is not over it.
+  double distanceOf(int element) {
+    const Foot a = footOf(element);
+    const double to = abscissaOf(element + 1, a.s);
+    const double begin = part_.closed ? a.s : std::max(a.s, 0.0);
+    const double end = part_.closed ? to : std::min(to, part_.length());
+    if (!(begin < end)) return std::numeric_limits<double>::infinity();
+    const double slope = (footOf(element + 1).distance - a.distance) / (to - a.s);
+    return a.distance + std::min(slope * (begin - a.s), slope * (end - a.s));
+  }
+
+  int nearest() {
+    Point low = part_.points.front();
+    Point high = low;
+    for (const Point& x : part_.points) {
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+    int seed = -1;
+    double distance = std::numeric_limits<double>::infinity();
+    mortar_.tree.near(low, high, distance, [&](int element) {
+      if (!faces(element)) return;
+      const double here = distanceOf(element);
+      if (here < distance) {
+        distance = here;
+        seed = element;
+      }
+    });
+    return seed;
+  }
+
+  FacingLine around(int seed) {
+    const int most = mortar_.elements();
+    std::vector<double> before{footOf(seed).s};  // against the direction
+    int first = seed;
+    for (; before.back() > 0 && seed - first < most && has(first - 1) && faces(first - 1); --first)
+      before.push_back(abscissaOf(first - 1, before.back()));
+    FacingLine line;
+    line.s.assign(before.rbegin(), before.rend());
+    int last = seed;
+    line.s.push_back(abscissaOf(seed + 1, line.s.back()));
+    for (; line.s.back() < part_.length() && last - seed < most && has(last + 1) && faces(last + 1); ++last)
+      line.s.push_back(abscissaOf(last + 2, line.s.back()));
+    for (int node = first; node <= last + 1; ++node) {
+      line.nodes.push_back(mortar_.nodes[within(node)]);
+      line.points.push_back(mortar_.points[within(node)]);
+      if (node == first) continue;
+      const int element = within(node - 1);
+      line.geometry.push_back(mortar_.geometry[element]);
+      if (mortar_.middles.empty()) continue;
+      line.middles.push_back(mortar_.middles[element]);
+      line.middlePoints.push_back(mortar_.middlePoints[element]);
+    }
+    const double atFirst = part_.s[1] - part_.s[0];
+    const double atLast = part_.s[part_.s.size() - 1] - part_.s[part_.s.size() - 2];
+    for (double& s : line.s) {
+      if (std::abs(s) <= sameEnd * atFirst) s = 0;
+      if (std::abs(s - part_.length()) <= sameEnd * atLast) s = part_.length();
+    }
+    return line;
+  }
+
+  const SmoothPart& part_;
+  const MortarLine& mortar_;
+  ElementTree tree_;
+  std::unordered_map<int, Foot> feet_;
 };
 
-Feet feetOf(const SmoothPart& part, const BoundaryLine& line, const Elements& elements) {
-  Feet result{line.nodes, line.points, {}};
-  const ElementTree tree(part.points);
-  for (size_t j = 0; j < line.nodes.size(); ++j) {
-    const Point& x = line.points[j];
-    const int end = j + 1 < line.nodes.size() ? 0 : 1;  // of the element after the node, or of the last one
-    const FacingElement& element = elements.at(line.nodes[j - end]);
-    result.feet.push_back(
-        part.straight ? footOnStraight(part, x)
-                      : footOnCurve(part, tree,
-                                    {x, element.normals[end], element.curvatures[end], element.smooth[end]}));
+/// The part of an element of the mortar line at which (y - x) x n = 0
+double partSeen(const FacingLine& line, int element, const Point& x, const Point& n) {
+  const Point& a = line.points[element];
+  double xi = cross(x - a, n) / cross(line.points[element + 1] - a, n);
+  if (!line.bent(element)) return xi;
+  for (int k = 0; k < 20; ++k) {  // Newton's method
+    const double by = cross(x - line.at(element, xi), n) / cross(line.tangentAt(element, xi), n);
+    xi += by;
+    if (std::abs(by) <= sameSight) break;
   }
-  std::reverse(result.nodes.begin(), result.nodes.end());
-  std::reverse(result.points.begin(), result.points.end());
-  std::reverse(result.feet.begin(), result.feet.end());
-  if (!part.closed) return result;
-  // Unrolled: each turn round the part adds its length.
-  const double length = part.length();
-  for (size_t j = 1; j < result.feet.size(); ++j) {
-    Foot& foot = result.feet[j];
-    foot.s += length * std::round((result.feet[j - 1].s - foot.s) / length);
-  }
-  if (!line.closed) return result;
-  // Begun before the part begins, and gone round until it ends.
-  const auto n = static_cast<int>(result.nodes.size()) - 1;
-  Feet around;
-  for (int turn = -2; turn <= 2; ++turn)
-    for (int j = 0; j < n; ++j) {
-      Foot foot = result.feet[j];
-      foot.s += turn * length;
-      around.nodes.push_back(result.nodes[j]);
-      around.points.push_back(result.points[j]);
-      around.feet.push_back(foot);
-    }
-  const auto at = [&](size_t j) { return around.feet[j].s; };
-  size_t begin = 0;
-  while (begin + 1 < around.feet.size() && at(begin + 1) <= 0) ++begin;
-  size_t end = begin;
-  while (end + 1 < around.feet.size() && at(end) < length) ++end;
-  const auto cut = [&](auto& list) {
-    list.erase(list.begin() + static_cast<std::ptrdiff_t>(end) + 1, list.end());
-    list.erase(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(begin));
-  };
-  cut(around.nodes);
-  cut(around.points);
-  cut(around.feet);
-  return around;
+  return xi;
 }
 
-FacingLine facingStretch(const SmoothPart& part, const BoundaryLine& line, const Elements& elements) {
-  const Feet all = feetOf(part, line, elements);
-  const auto faces = [&](size_t j) {
-    const Foot& a = all.feet[j];
-    const Foot& b = all.feet[j + 1];
-    if (!std::isfinite(a.distance) || !std::isfinite(b.distance) || !(b.s > a.s)) return false;
-    const Point n = (a.normal + b.normal).normalized();
-    const Point d = (all.points[j + 1] - all.points[j]).normalized();
-    return Point(-n.y(), n.x()).dot(d) > facing;
-  };
-  size_t begin = 0;
-  size_t end = 0;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (size_t j = 0; j + 1 < all.nodes.size(); ++j) {
-    if (!faces(j)) continue;
-    const size_t first = j;
-    double distance = all.feet[j].distance;
-    for (; j + 1 < all.nodes.size() && faces(j); ++j) distance = std::min(distance, all.feet[j + 1].distance);
-    const bool overlaps = all.feet[first].s < part.length() && all.feet[j].s > 0;
-    if (overlaps && distance < nearest) {
-      nearest = distance;
-      begin = first;
-      end = j;
-    }
-  }
-  FacingLine stretch;
-  if (begin == end) return stretch;
-  for (size_t j = begin; j <= end; ++j) {
-    stretch.nodes.push_back(all.nodes[j]);
-    stretch.points.push_back(all.points[j]);
-    stretch.s.push_back(all.feet[j].s);
-    if (j == begin) continue;
-    FacingElement element = elements.at(all.nodes[j]);  // from there as the mesh runs
-    std::swap(element.normals[0], element.normals[1]);
-    std::swap(element.curvatures[0], element.curvatures[1]);
-    std::swap(element.smooth[0], element.smooth[1]);
-    stretch.elements.push_back(element);
-  }
-  const double first = part.s[1] - part.s[0];
-  const double last = part.s[part.s.size() - 1] - part.s[part.s.size() - 2];
-  for (double& s : stretch.s) {
-    if (std::abs(s) <= sameEnd * first) s = 0;
-    if (std::abs(s - part.length()) <= sameEnd * last) s = part.length();
-  }
-  return stretch;
+/// The element of the mortar line that holds s, the end elements beyond the ends.
+int elementAt(const FacingLine& mortar, double s) {
+  return static_cast<int>(std::upper_bound(mortar.s.begin() + 1, mortar.s.end() - 1, s) - mortar.s.begin()) -
+         1;
+}
+
+/// A node of the part: its element and its abscissa.
+struct Place {
+  int element = 0;
+  double s = 0;
+};
+
+Place placeOf(const SmoothPart& part, int node) {
+  const auto vertices = static_cast<int>(part.nodes.size());
+  if (node < vertices) return {std::min(node, part.elements() - 1), part.s[node]};
+  const int element = node - vertices;
+  return {element, (part.s[element] + part.s[element + 1]) / 2};
 }
 
 }  // namespace
 
-MortarLine::MortarLine(BoundaryLine boundary) : line(std::move(boundary)) {
-  const std::vector<SmoothPart> parts = smoothParts(line);
-  for (size_t k = 0; k < parts.size(); ++k) {
+MortarLine::MortarLine(const BoundaryLine& boundary) : closed(boundary.closed), tree(std::vector<Point>{}) {
+  const std::vector<SmoothPart> parts = smoothParts(boundary);
+  for (size_t k = parts.size(); k-- > 0;) {
     const SmoothPart& part = parts[k];
-    const bool round = line.closed && parts.size() > 1;
+    const bool round = boundary.closed && parts.size() > 1;
     const bool cornerBefore = k > 0 || round;
     const bool cornerAfter = k + 1 < parts.size() || round;
-    for (int e = 0; e < part.elements(); ++e)
-      elements[part.nodes[e]] = {
-          {part.normals[e], part.normals[e + 1]},
-          {part.curvatures[e], part.curvatures[e + 1]},
-          {e == 0 && cornerBefore ? 0.0 : 1.0, e + 1 == part.elements() && cornerAfter ? 0.0 : 1.0},
-          part.arcs[e]};
+    if (nodes.empty()) {
+      nodes.push_back(part.nodes.back());
+      points.push_back(part.points.back());
+    }
+    for (int e = part.elements() - 1; e >= 0; --e) {
+      nodes.push_back(part.nodes[e]);
+      points.push_back(part.points[e]);
+      if (!part.middles.empty()) {
+        middles.push_back(part.middles[e]);
+        middlePoints.push_back(part.middlePoints[e]);
+      }
+      geometry.push_back(
+          {{part.normals[e + 1], part.normals[e]},
+           {part.curvatures[e + 1], part.curvatures[e]},
+           {e + 1 == part.elements() && cornerAfter ? 0.0 : 1.0, e == 0 && cornerBefore ? 0.0 : 1.0},
+           part.arcs[e]});
+    }
   }
+  tree = ElementTree(points);
 }
 
 FacingLine facingLine(const SmoothPart& part, const MortarLine& mortar) {
-  // A closed line is opened where it is farthest off.
-  if (mortar.line.closed && !part.closed)
-    return facingStretch(part, begunAt(mortar.line, farthestNode(mortar.line.points, part.points)),
-                         mortar.elements);
-  return facingStretch(part, mortar.line, mortar.elements);
+  return Search(part, mortar).stretch();
 }
 
 Sight see(const SmoothPart& part, const FacingLine& mortar, const Segment& segment, double s) {
   const int e = segment.nonmortar;
-  const Point& a = mortar.points[segment.mortar];
-  const Point& b = mortar.points[segment.mortar + 1];
-  const FacingElement& across = mortar.elements[segment.mortar];
-  const Point x = part.at(e, s);
+  const int j = segment.mortar;
+  const FacingElement& across = mortar.geometry[j];
+  const double here = part.partAt(e, s);
+  const Point x = part.at(e, here);
   Sight sight;
-  sight.phi = hats(part.s, e, s);
+  double seen = 0;
   if (part.straight) {
     sight.normal = part.normals.front();
-    sight.psi = hats(mortar.s, segment.mortar, s);
+    seen = mortar.bent(j) ? partSeen(mortar, j, x, sight.normal) : mortar.partAt(j, s);
   } else {
     const Point n1 = part.normalAt(e, s);
     const double curvature1 = part.curvatureAt(e, s);
     const auto between = [](const auto& ends, double xi) { return (1 - xi) * ends[0] + xi * ends[1]; };
     // The direction depends on the point that is seen, hardly where the lines are close. Whatever is left of the
     // iteration, the point is on the line along the direction in the end.
-    double seen = cross(x - a, n1) / cross(b - a, n1);
+    seen = partSeen(mortar, j, x, n1);
     for (int k = 0; k < 50; ++k) {
       const double xi = std::clamp(seen, 0.0, 1.0);
       const Point n2 = between(across.normals, xi);
       sight.normal = directionOf(n1, curvature1, n2.normalized(), between(across.curvatures, xi),
                                  between(across.smooth, xi));
       const double before = seen;
-      seen = cross(x - a, sight.normal) / cross(b - a, sight.normal);
+      seen = partSeen(mortar, j, x, sight.normal);
       if (std::abs(seen - before) <= sameSight) break;
     }
-    sight.psi = {1 - seen, seen};
   }
-  const Point y = sight.psi[0] * a + sight.psi[1] * b;
+  sight.phi = edgeShapes(part.degree(), here);
+  sight.psi = edgeShapes(mortar.degree(), seen);
+  const Point y = mortar.at(j, seen);
   sight.distance = (y - x).dot(sight.normal);
-  if (part.arcs[e].known)
+  if (part.bent(e))
+    sight.stretch = part.tangentAt(e, here).norm() / (part.s[e + 1] - part.s[e]);
+  else if (part.arcs[e].known)
     sight.bulge += distanceToArc(part.points[e], part.points[e + 1], part.arcs[e].curvature, x, sight.normal);
-  if (across.arc.known) sight.bulge += distanceToArc(b, a, across.arc.curvature, y, -sight.normal);
+  if (!mortar.bent(j) && across.arc.known)
+    sight.bulge +=
+        distanceToArc(mortar.points[j + 1], mortar.points[j], across.arc.curvature, y, -sight.normal);
   return sight;
 }
 
-Segment placeOf(const SmoothPart& part, const FacingLine& mortar, int node) {
-  const double s = std::clamp(part.s[node], mortar.s.front(), mortar.s.back());
-  const auto above = std::upper_bound(mortar.s.begin() + 1, mortar.s.end() - 1, s);
-  return {std::min(node, part.elements() - 1), static_cast<int>(above - mortar.s.begin()) - 1, s, s};
+Sighting seeFrom(const SmoothPart& part, const FacingLine& mortar, int node) {
+  const auto [element, s] = placeOf(part, node);
+  const Segment place{element, elementAt(mortar, std::clamp(s, mortar.s.front(), mortar.s.back())), s, s};
+  return {see(part, mortar, place, s), place};
 }
 
 Point directionAt(const SmoothPart& part, const FacingLine& mortar, int node) {
-  const double s = part.s[node];
-  if (part.straight || mortar.empty() || s < mortar.s.front() || s > mortar.s.back())
-    return part.normals[node];
-  return see(part, mortar, placeOf(part, mortar, node), s).normal;
+  const auto [element, s] = placeOf(part, node);
+  if (part.straight) return part.normals.front();
+  if (mortar.empty() || s < mortar.s.front() || s > mortar.s.back()) return part.normalAt(element, s);
+  return seeFrom(part, mortar, node).sight.normal;
 }
 
 }  // namespace mortier

@@ -14,9 +14,10 @@
 #pragma once
 
 #include <array>
-#include <unordered_map>
+#include <functional>
 #include <vector>
 
+#include "contact/element_tree.h"
 #include "contact/smooth_part.h"
 
 namespace mortier {
@@ -26,46 +27,59 @@ struct FacingElement {
   std::array<Point, 2> normals;        ///< outward of the mortar body
   std::array<double, 2> curvatures{};  ///< without sign [1/m]
   std::array<double, 2> smooth{1, 1};  ///< 0 at a corner
-  Arc arc;
+  Arc arc;                             ///< as the mortar body runs
 };
 
-/// The mortar line with the normals and curvatures of its smooth parts.
-struct MortarLine {
-  explicit MortarLine(BoundaryLine boundary);
+/// The mortar line, against the direction of its body, with the normals and curvatures of its smooth parts.
+struct MortarLine : ElementLine {
+  explicit MortarLine(const BoundaryLine& boundary);
 
-  BoundaryLine line;
-  std::unordered_map<int, FacingElement> elements;  ///< as the mesh runs, by their first vertex
+  std::vector<FacingElement> geometry;  ///< by elements
+  bool closed = false;
+  ElementTree tree;
 };
 
-struct FacingLine {
-  std::vector<int> nodes;     ///< vertex numbers, in the direction of the part; a node may come twice
-  std::vector<Point> points;  ///< [m]
-  std::vector<FacingElement> elements;  ///< between them, in the same direction
-  Trace s;                              ///< abscissae on the part, strictly ascending [m]
+/// What a part sees of it: abscissae are those of the part. A node may come twice.
+struct FacingLine : ElementLine {
+  std::vector<FacingElement> geometry;
 
   [[nodiscard]] bool empty() const { return nodes.size() < 2; }
 };
 
 /// The stretch of the mortar line that faces the part: the abscissae ascend and the normals make an angle of 120
-/// degrees at least. Of several the nearest one. Empty when nothing faces it.
+/// degrees at least. Of several the nearest one. It ends with the first node beyond the part. Empty when nothing faces it.
 FacingLine facingLine(const SmoothPart& part, const MortarLine& mortar);
 
 /// What x1(s) sees: a pair of points, and the direction of the line through both, so that opposite forces along it
 /// have no moment.
 struct Sight {
-  Eigen::Vector2d phi;  ///< hat functions of the nonmortar element at x1
-  Eigen::Vector2d psi;  ///< of the mortar element at x2; linear in s where the part is straight
+  EdgeValues phi;       ///< shape functions of the nonmortar element at x1
+  EdgeValues psi;       ///< of the mortar element at x2; linear in s where the part is straight
   Point normal;         ///< direction n, of length one
-  double distance = 0;  ///< of the two polygons along n [m]
-  double bulge = 0;     ///< what the curves that they stand for (arcs.h) take from it [m]
+  double stretch = 1;   ///< length of the element by its abscissa; not 1 where it is bent
+  double distance = 0;  ///< of the two lines along n [m]
+  double bulge = 0;     ///< what the curves that straight elements stand for (arcs.h) take from it [m]
 };
+
+/// Distance g0 of the bodies at a place of a nonmortar element [m].
+using DistanceAt = std::function<double(int element, double s, const Sight& sight)>;
+
+/// As meshed, of the curves that the lines stand for.
+inline double distanceOfCurves(int /*element*/, double /*s*/, const Sight& sight) {
+  return sight.distance - sight.bulge;
+}
 
 Sight see(const SmoothPart& part, const FacingLine& mortar, const Segment& segment, double s);
 
+/// What a node of the part sees (`ElementLine::nodesOf`), and from which elements.
+struct Sighting {
+  Sight sight;
+  Segment place;
+};
+
+Sighting seeFrom(const SmoothPart& part, const FacingLine& mortar, int node);
+
 /// The direction of contact at a node of the part; its normal where it sees nothing.
 Point directionAt(const SmoothPart& part, const FacingLine& mortar, int node);
-
-/// A node of the part with the elements that it lies in.
-Segment placeOf(const SmoothPart& part, const FacingLine& mortar, int node);
 
 }  // namespace mortier

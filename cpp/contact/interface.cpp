@@ -57,7 +57,7 @@ double angleBetween(const std::vector<SmoothPart>& parts, const BoundaryLine& mo
 std::vector<char> mergedNodes(const SmoothPart& part, const FacingLine& mortar, CouplingKind kind,
                               const InterfaceOptions& options) {
   std::vector<char> merged(part.nodes.size(), 0);
-  if (!options.nonmortarHeld || part.closed) return merged;
+  if (!options.nonmortarHeld || part.closed || rowDegree(kind, part.degree()) < part.degree()) return merged;
   const auto direction = [&](size_t i) { return directionAt(part, mortar, static_cast<int>(i)); };
   const auto held = [&](size_t i) { return options.nonmortarHeld(part.nodes[i], direction(i)); };
   const auto facingHeld = [&](double s, const Point& normal) {
@@ -70,7 +70,7 @@ std::vector<char> mergedNodes(const SmoothPart& part, const FacingLine& mortar, 
   const size_t last = part.nodes.size() - 1;
   for (const auto& [end, neighbour] : {std::pair<size_t, size_t>{0, 1}, {last, last - 1}})
     if (held(end) && !held(neighbour))
-      merged[end] = kind == CouplingKind::mortar || facingHeld(part.s[end], direction(end)) ? 1 : 0;
+      merged[end] = kind != CouplingKind::interpolation || facingHeld(part.s[end], direction(end)) ? 1 : 0;
   return merged;
 }
 
@@ -83,31 +83,24 @@ double unknownSagitta(const SmoothPart& part, const FacingLine& mortar) {
     };
     const int i = segment.nonmortar;
     const int j = segment.mortar;
-    consider(part.arcs[i], part.points[i], part.points[i + 1]);
-    consider(mortar.elements[j].arc, mortar.points[j], mortar.points[j + 1]);
+    if (!part.bent(i)) consider(part.arcs[i], part.points[i], part.points[i + 1]);
+    if (!mortar.bent(j)) consider(mortar.geometry[j].arc, mortar.points[j], mortar.points[j + 1]);
   }
   return largest;
 }
 
-/// Columns 2 node + component to dofs of the mesh.
-void scatter(const ConstraintRows& values, const std::vector<int>& nodes, int firstRow, Triplets& entries) {
+/// Columns 2 node + component of a line to dofs of its mesh.
+void scatter(const ConstraintRows& values, const ElementLine& line, int firstRow, Triplets& entries) {
   for (int j = 0; j < values.outerSize(); ++j)
     for (ConstraintRows::InnerIterator entry(values, j); entry; ++entry)
-      entries.emplace_back(firstRow + static_cast<int>(entry.row()), 2 * nodes[j / 2] + j % 2, entry.value());
+      entries.emplace_back(firstRow + static_cast<int>(entry.row()), 2 * line.number(j / 2) + j % 2,
+                           entry.value());
 }
 
 Eigen::SparseMatrix<double> assembled(Eigen::Index rows, Eigen::Index columns, const Triplets& entries) {
   Eigen::SparseMatrix<double> matrix(rows, columns);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
-}
-
-/// Places of vertices by dofs, from `origin`.
-Vector placesOf(const TriangleMesh& mesh, const Point& origin) {
-  Vector x(2 * static_cast<Eigen::Index>(mesh.vertices.size()));
-  for (size_t v = 0; v < mesh.vertices.size(); ++v)
-    x.segment<2>(2 * static_cast<Eigen::Index>(v)) = mesh.vertices[v] - origin;
-  return x;
 }
 
 /// \throws InputError when the distances are not such as the user wants them.
@@ -135,11 +128,16 @@ void requireAllowed(const Vector& distance, InitialGap initial, double shorter, 
 
 ContactInterface::ContactInterface(const ContactPair& pair, const TriangleMesh& nonmortarMesh,
                                    const TriangleMesh& mortarMesh, const InterfaceOptions& options)
+    : ContactInterface(pair, ContactMesh{nonmortarMesh, elementNodes(nonmortarMesh, 1)},
+                       ContactMesh{mortarMesh, elementNodes(mortarMesh, 1)}, options) {}
+
+ContactInterface::ContactInterface(const ContactPair& pair, const ContactMesh& nonmortarMesh,
+                                   const ContactMesh& mortarMesh, const InterfaceOptions& options)
     : pair_(pair) {
-  const BoundaryLine nonmortar = boundaryLine(nonmortarMesh, pair.nonmortar.label);
-  const BoundaryLine mortar = boundaryLine(mortarMesh, pair.mortar.label);
-  const std::string names = nonmortarMesh.name + " label " + std::to_string(pair.nonmortar.label) + " and " +
-                            mortarMesh.name + " label " + std::to_string(pair.mortar.label);
+  const BoundaryLine nonmortar = boundaryLine(nonmortarMesh.mesh, nonmortarMesh.nodes, pair.nonmortar.label);
+  const BoundaryLine mortar = boundaryLine(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label);
+  const std::string names = nonmortarMesh.mesh.name + " label " + std::to_string(pair.nonmortar.label) +
+                            " and " + mortarMesh.mesh.name + " label " + std::to_string(pair.mortar.label);
   const double shorter = std::min(lengthOf(nonmortar), lengthOf(mortar));
 
   const std::vector<SmoothPart> parts = partsFacing(nonmortar, mortar);
@@ -164,62 +162,61 @@ ContactInterface::ContactInterface(const ContactPair& pair, const TriangleMesh& 
     polygonTurn_ = std::max(polygonTurn_, turnOfPolygon(each->points, each->closed, sharpTurn));
   mortarNodes_ = mortar.nodes;
   if (mortar.closed) mortarNodes_.pop_back();
+  mortarNodes_.insert(mortarNodes_.end(), mortar.middleNodes.begin(), mortar.middleNodes.end());
 
   if (options.gap) return;
-  const bool closed = options.initial == InitialGap::close;
   for (double& distance : distance_)
-    if (closed || std::abs(distance) < touching * shorter) distance = 0;
+    if (std::abs(distance) < touching * shorter) distance = 0;
   requireAllowed(distance_, options.initial, shorter, names);
 }
 
 void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std::vector<FacingLine>& facing,
-                                const TriangleMesh& nonmortarMesh, const TriangleMesh& mortarMesh,
+                                const ContactMesh& nonmortarMesh, const ContactMesh& mortarMesh,
                                 const InterfaceOptions& options) {
   Triplets rows1;
   Triplets rows2;
   Triplets mass;
-  std::vector<double> given;  // distances, where the user gives them
-  std::vector<double> bulge;
+  std::vector<double> distances;
   for (size_t k = 0; k < parts.size(); ++k) {
     if (facing[k].empty()) continue;
     const SmoothPart& part = parts[k];
     const std::vector<char> merged = mergedNodes(part, facing[k], pair_.coupling, options);
     heldEnds_ += static_cast<int>(std::count(merged.begin(), merged.end(), 1));
-    const PartCoupling coupling = couple(pair_.coupling, part, facing[k], merged);
+    const DistanceAt distance = [&](int element, double s, const Sight& sight) {
+      if (!options.gap)
+        return options.initial == InitialGap::close ? 0.0 : distanceOfCurves(element, s, sight);
+      const EdgeNodes nodes = part.nodesOf(element);
+      double gap = 0;
+      for (Eigen::Index j = 0; j < nodes.size(); ++j)
+        gap += sight.phi[j] * options.gap(nonmortarMesh.nodes.places[part.number(nodes[j])]);
+      return gap;
+    };
+    Coupling coupling = couple(pair_.coupling, part, facing[k], distance, merged);
+    if (options.gap && pair_.coupling != CouplingKind::weighted)  // what is given holds at the nodes
+      for (size_t i = 0; i < coupling.nodes.size(); ++i)
+        coupling.distance[static_cast<Eigen::Index>(i)] =
+            options.gap(nonmortarMesh.nodes.places[part.number(coupling.nodes[i])]);
     const auto firstRow = static_cast<int>(nonmortarNodes_.size());
-    scatter(coupling.C1, part.nodes, firstRow, rows1);
-    scatter(coupling.C2, facing[k].nodes, firstRow, rows2);
-    for (int j = 0; j < coupling.M.outerSize(); ++j)
-      for (Eigen::SparseMatrix<double>::InnerIterator entry(coupling.M, j); entry; ++entry)
+    scatter(coupling.C1, part, firstRow, rows1);
+    scatter(coupling.C2, facing[k], firstRow, rows2);
+    for (int j = 0; j < coupling.mass.outerSize(); ++j)
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(coupling.mass, j); entry; ++entry)
         mass.emplace_back(firstRow + static_cast<int>(entry.row()), firstRow + j, entry.value());
     for (const int node : coupling.nodes) {
-      nonmortarNodes_.push_back(part.nodes[node]);
+      nonmortarNodes_.push_back(part.number(node));
       normals_.push_back(directionAt(part, facing[k], node));
-      if (options.gap) given.push_back(options.gap(part.points[node]));
     }
     overlap_ += std::max(0.0, overlapOf(part.s, facing[k].s).length());
-    bulge.insert(bulge.end(), coupling.bulge.begin(), coupling.bulge.end());
+    distances.insert(distances.end(), coupling.distance.begin(), coupling.distance.end());
     if (!options.gap && options.initial != InitialGap::close)
       sagitta_ = std::max(sagitta_, unknownSagitta(part, facing[k]));
-    penetration_.add(part, facing[k], [&](int element, double s, const Sight& sight) {
-      if (options.gap) {
-        const Eigen::Vector2d phi = hats(part.s, element, s);
-        return phi[0] * options.gap(part.points[element]) + phi[1] * options.gap(part.points[element + 1]);
-      }
-      return options.initial == InitialGap::close ? 0.0 : sight.distance - sight.bulge;
-    });
+    penetration_.add(part, facing[k], distance);
   }
   const auto n = static_cast<Eigen::Index>(nonmortarNodes_.size());
-  C1_ = assembled(n, 2 * static_cast<Eigen::Index>(nonmortarMesh.vertices.size()), rows1);
-  C2_ = assembled(n, 2 * static_cast<Eigen::Index>(mortarMesh.vertices.size()), rows2);
+  C1_ = assembled(n, 2 * static_cast<Eigen::Index>(nonmortarMesh.nodes.count()), rows1);
+  C2_ = assembled(n, 2 * static_cast<Eigen::Index>(mortarMesh.nodes.count()), rows2);
   mass_ = assembled(n, n, mass);
-  if (options.gap) {
-    distance_ = Eigen::Map<const Vector>(given.data(), n);
-  } else {
-    const Point& origin = parts.front().points.front();
-    distance_ = -(C1_ * placesOf(nonmortarMesh, origin) + C2_ * placesOf(mortarMesh, origin)) -
-                Eigen::Map<const Vector>(bulge.data(), n);
-  }
+  distance_ = Eigen::Map<const Vector>(distances.data(), n);
 }
 
 Vector ContactInterface::gap(const Vector& uNonmortar, const Vector& uMortar) const {

@@ -3,15 +3,15 @@
 //
 //   C u = C1 u1 + C2 u2,      g = C u - g0 <= 0,   p >= 0,   p g = 0
 //
-// One row per nonmortar node that faces the mortar side (one per adjacent part at a corner), along the direction of
+// One row per nonmortar node (vertex, with linear row functions) that faces the mortar side (one per adjacent part at a corner), along the direction of
 // contact there: coupling.h, facing_line.h. g0 is the distance along it of the curves that the two lines stand for
 // (arcs.h), of the lines as meshed where these are not known. The solver sees the two sparse matrices and g0, nothing
 // of geometry.
 //
 // A nonmortar node at an end of Gamma_C whose normal motion is prescribed, while its neighbour's is not, has
-// no row of its own with the mortar coupling: its hat function goes to the neighbour, so that Dirichlet
-// conditions may reach to the end of Gamma_C and there are not more conditions than nodes that can move. With
-// interpolation the row is left out where the mortar side is held there too.
+// no row of its own: its row function goes to the neighbour, so that Dirichlet conditions may reach to the end of
+// Gamma_C and there are not more conditions than nodes that can move. With interpolation the row is left out where the
+// mortar side is held there too. Where the trace is quadratic and row functions are linear there are nodes enough.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -52,28 +52,37 @@ struct InterfaceOptions {
   std::function<bool(int, const Point&)> mortarHeld = {};
 };
 
-/// Rows of C on one body: conditions x dofs (2 vertex + component), without entries that are zero.
+/// Rows of C on one body: conditions x dofs (2 node + component), without entries that are zero.
 using ConstraintRows = Eigen::SparseMatrix<double>;
+
+/// A mesh and the nodes of displacements on it.
+struct ContactMesh {
+  const TriangleMesh& mesh;
+  const ElementNodes& nodes;
+};
 
 class ContactInterface {
  public:
   /// \throws InputError when the lines do not face each other, overlap nowhere, or are not as far from each
   /// other as the options allow.
+  ContactInterface(const ContactPair& pair, const ContactMesh& nonmortarMesh, const ContactMesh& mortarMesh,
+                   const InterfaceOptions& options = {});
+  /// The same for linear displacements.
   ContactInterface(const ContactPair& pair, const TriangleMesh& nonmortarMesh, const TriangleMesh& mortarMesh,
                    const InterfaceOptions& options = {});
 
   [[nodiscard]] const ContactPair& pair() const { return pair_; }
-  /// Vertex numbers of the nonmortar nodes that carry a condition, along the line; one row of C each. A node
-  /// at a corner comes twice.
+  /// Numbers of the nonmortar nodes that carry a condition, along the line; one row of C each. A node at a corner
+  /// comes twice.
   [[nodiscard]] const std::vector<int>& nonmortarNodes() const { return nonmortarNodes_; }
-  /// Vertex numbers of the nodes of the mortar line.
+  /// Numbers of the nodes of the mortar line, the vertices first.
   [[nodiscard]] const std::vector<int>& mortarNodes() const { return mortarNodes_; }
   /// Direction of contact at the node of each row, out of the nonmortar body.
   [[nodiscard]] const std::vector<Point>& normals() const { return normals_; }
   [[nodiscard]] const ConstraintRows& C1() const { return C1_; }             ///< on the nonmortar body
   [[nodiscard]] const ConstraintRows& C2() const { return C2_; }             ///< on the mortar body
   [[nodiscard]] const Vector& initialDistance() const { return distance_; }  ///< g0 [m]
-  /// Mass of the row functions, rows x rows [m]: nodal forces are M times the contact pressure.
+  /// Mass of the row functions, rows x rows [m]: nodal forces are the mass times the contact pressure.
   [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
   /// Held end nodes of the nonmortar line that have no condition: merged into their neighbours, or left out.
   [[nodiscard]] int heldEnds() const { return heldEnds_; }
@@ -94,7 +103,7 @@ class ContactInterface {
   [[nodiscard]] Vector gap(const Vector& uNonmortar, const Vector& uMortar) const;
   /// f -= C' p on both bodies' nodal forces [N/m].
   void subtractForces(const Vector& p, Vector& fNonmortar, Vector& fMortar) const;
-  /// M^-1 p: nodal values of the contact pressure [Pa] for nodal forces p [N/m].
+  /// mass^-1 p: nodal values of the contact pressure [Pa] for nodal forces p [N/m].
   [[nodiscard]] Vector contactPressure(const Vector& p) const;
   /// Integral over Gamma_C of ((u1 - u2).n - distance)_+, exact where the nonmortar line is straight [m^2].
   [[nodiscard]] double interpenetration(const Vector& uNonmortar, const Vector& uMortar) const {
@@ -111,7 +120,7 @@ class ContactInterface {
 
  private:
   void assemble(const std::vector<SmoothPart>& parts, const std::vector<FacingLine>& facing,
-                const TriangleMesh& nonmortarMesh, const TriangleMesh& mortarMesh,
+                const ContactMesh& nonmortarMesh, const ContactMesh& mortarMesh,
                 const InterfaceOptions& options);
 
   ContactPair pair_;

@@ -1,6 +1,7 @@
 #include "contact/penetration.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace mortier {
@@ -9,61 +10,109 @@ namespace {
 /// A distance that is off its chord by less than this part of the length is linear.
 constexpr double straight = 1e-12;
 
+/// The mean of the positive part of the linear function from a to b.
+double positiveMean(double a, double b) {
+  if (a >= 0 && b >= 0) return (a + b) / 2;
+  return a > 0 || b > 0 ? std::max(a, b) * std::max(a, b) / (2 * std::abs(a - b)) : 0;
+}
+
+/// The parabola from a through m in the middle to b, over [0, 1].
+class Parabola {
+ public:
+  Parabola(double a, double m, double b) : a_(a), slope_(4 * m - 3 * a - b), bend_(2 * (a - 2 * m + b)) {}
+
+  /// The mean of its positive part: Simpson's rule between its roots.
+  [[nodiscard]] double positiveMean() const {
+    return overPositive([](double a, double m, double b) { return (a + 4 * m + b) / 6; });
+  }
+  [[nodiscard]] double squareMean() const { return square(at(0), at(0.5), at(1)); }
+  [[nodiscard]] double positiveSquareMean() const { return overPositive(square); }
+
+ private:
+  [[nodiscard]] double at(double t) const { return a_ + t * (slope_ + t * bend_); }
+  static double square(double a, double m, double b) {
+    return (4 * a * a + 16 * m * m + 4 * b * b + 4 * m * (a + b) - 2 * a * b) / 30;
+  }
+  template <class Mean>
+  [[nodiscard]] double overPositive(Mean mean) const {
+    std::array<double, 4> ends{0, 1, 1, 1};
+    const double discriminant = slope_ * slope_ - 4 * bend_ * a_;
+    if (discriminant > 0) {
+      const double q = -(slope_ + std::copysign(std::sqrt(discriminant), slope_)) / 2;
+      ends[1] = std::clamp(q != 0 ? a_ / q : 0.0, 0.0, 1.0);
+      ends[2] = std::clamp(bend_ != 0 ? q / bend_ : 1.0, 0.0, 1.0);
+      if (ends[1] > ends[2]) std::swap(ends[1], ends[2]);
+    }
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double middle = at((ends[k] + ends[k + 1]) / 2);
+      if (middle > 0) sum += (ends[k + 1] - ends[k]) * mean(at(ends[k]), middle, at(ends[k + 1]));
+    }
+    return sum;
+  }
+
+  double a_, slope_, bend_;
+};
+
+EdgeNodes numbers(const ElementLine& line, int element) {
+  EdgeNodes nodes = line.nodesOf(element);
+  for (int& node : nodes) node = line.number(node);
+  return nodes;
+}
+
 }  // namespace
 
 void PenetrationIntegral::add(const SmoothPart& part, const FacingLine& mortar, const DistanceAt& distance) {
+  const bool quadratic = part.degree() > 1 || mortar.degree() > 1;
   for (const Segment& segment : commonRefinement(part.s, mortar.s)) {
-    const int i = segment.nonmortar;
-    const int j = segment.mortar;
+    const EdgeNodes nonmortarNodes = numbers(part, segment.nonmortar);
+    const EdgeNodes mortarNodes = numbers(mortar, segment.mortar);
     const auto place = [&](double s) {
       const Sight sight = see(part, mortar, segment, s);
-      return Place{{part.nodes[i], part.nodes[i + 1]},
-                   {mortar.nodes[j], mortar.nodes[j + 1]},
-                   sight.phi,
-                   sight.psi,
-                   sight.normal,
-                   distance(i, s, sight)};
+      return Place{nonmortarNodes, mortarNodes,  sight.phi,
+                   sight.psi,      sight.normal, distance(segment.nonmortar, s, sight)};
     };
     // Between its ends the distance of two curves is not linear: the chord of a curve hides what is below it.
     const double length = segment.end - segment.begin;
-    const double element = part.s[i + 1] - part.s[i];
+    const double element = part.s[segment.nonmortar + 1] - part.s[segment.nonmortar];
     const Place begin = place(segment.begin);
     const Place middle = place(segment.begin + length / 2);
     const Place end = place(segment.end);
-    if (std::abs(middle.distance - (begin.distance + end.distance) / 2) <= straight * length) {
-      stretches_.push_back({begin, end, length, element});
+    const auto first = static_cast<int>(places_.size());
+    if (quadratic) {
+      places_.insert(places_.end(), {begin, middle, end});
+      stretches_.push_back({first, true, length, element});
+    } else if (std::abs(middle.distance - (begin.distance + end.distance) / 2) <= straight * length) {
+      places_.insert(places_.end(), {begin, end});
+      stretches_.push_back({first, false, length, element});
     } else {
-      stretches_.push_back({begin, middle, length / 2, element});
-      stretches_.push_back({middle, end, length / 2, element});
+      places_.insert(places_.end(), {begin, middle, end});
+      stretches_.push_back({first, false, length / 2, element});
+      stretches_.push_back({first + 1, false, length / 2, element});
     }
   }
 }
 
 double PenetrationIntegral::Place::jump(const Vector& uNonmortar, const Vector& uMortar) const {
   Point u = Point::Zero();
-  for (int k = 0; k < 2; ++k)
-    u += phi[k] * uNonmortar.segment<2>(2 * nonmortar[k]) - psi[k] * uMortar.segment<2>(2 * mortar[k]);
+  for (Eigen::Index k = 0; k < phi.size(); ++k) u += phi[k] * uNonmortar.segment<2>(2 * nonmortar[k]);
+  for (Eigen::Index k = 0; k < psi.size(); ++k) u -= psi[k] * uMortar.segment<2>(2 * mortar[k]);
   return u.dot(normal) - distance;
 }
 
 double PenetrationIntegral::of(const Vector& uNonmortar, const Vector& uMortar) const {
   double integral = 0;
   for (const Stretch& stretch : stretches_) {
-    const double a = stretch.begin.jump(uNonmortar, uMortar);
-    const double b = stretch.end.jump(uNonmortar, uMortar);
-    if (a >= 0 && b >= 0)
-      integral += stretch.length * (a + b) / 2;
-    else if (a > 0 || b > 0)
-      integral += stretch.length * std::max(a, b) * std::max(a, b) / (2 * std::abs(a - b));
+    const auto jump = [&](int k) { return places_[stretch.first + k].jump(uNonmortar, uMortar); };
+    integral += stretch.length * (stretch.parabola ? Parabola(jump(0), jump(1), jump(2)).positiveMean()
+                                                   : positiveMean(jump(0), jump(1)));
   }
   return integral;
 }
 
 double PenetrationIntegral::deepest(const Vector& uNonmortar, const Vector& uMortar) const {
   double depth = 0;
-  for (const Stretch& stretch : stretches_)
-    for (const Place* place : {&stretch.begin, &stretch.end})
-      depth = std::max(depth, place->jump(uNonmortar, uMortar));
+  for (const Place& place : places_) depth = std::max(depth, place.jump(uNonmortar, uMortar));
   return depth;
 }
 
@@ -72,16 +121,16 @@ std::vector<GapSquare> PenetrationIntegral::squares(const Vector& uNonmortar, co
   std::vector<GapSquare> result;
   result.reserve(stretches_.size());
   for (const Stretch& stretch : stretches_) {
-    const auto& nodes = stretch.begin.nonmortar;
-    double a = stretch.begin.jump(uNonmortar, uMortar);
-    double b = stretch.end.jump(uNonmortar, uMortar);
-    double length = stretch.length;
-    if (!pressed(nodes[0]) && !pressed(nodes[1])) {
-      if (a * b < 0) length *= std::max(a, b) / std::abs(a - b);
-      a = std::max(a, 0.0);
-      b = std::max(b, 0.0);
-    }
-    result.push_back({nodes, stretch.begin.mortar, stretch.element, length * (a * a + a * b + b * b) / 3});
+    const auto jump = [&](int k) { return places_[stretch.first + k].jump(uNonmortar, uMortar); };
+    const Parabola gap = stretch.parabola ? Parabola(jump(0), jump(1), jump(2))
+                                          : Parabola(jump(0), (jump(0) + jump(1)) / 2, jump(1));
+    const Place& place = places_[stretch.first];
+    const std::array nonmortar{place.nonmortar[0], place.nonmortar[1]};
+    const bool any = pressed(nonmortar[0]) || pressed(nonmortar[1]);
+    result.push_back({nonmortar,
+                      {place.mortar[0], place.mortar[1]},
+                      stretch.element,
+                      stretch.length * (any ? gap.squareMean() : gap.positiveSquareMean())});
   }
   return result;
 }

@@ -1,7 +1,8 @@
 // The note's measure of interpenetration, the integral over Gamma_C of ((u1 - u2).n - g0)_+, on the common
-// refinement: the jump is taken as linear between its points, which is exact where the nonmortar line is
-// straight. And the squares of the jump, element by element, by which an estimate of the error tells what contact
-// leaves between the nodes.
+// refinement. Between its points the jump of linear traces is taken as linear (of curves in two halves), that of
+// quadratic ones as the parabola through its value in the middle too: exact where the nonmortar line is straight. And
+// the squares of the jump, element by element, by which an estimate of the error tells what contact leaves between the
+// nodes.
 #pragma once
 
 #include <array>
@@ -11,9 +12,6 @@
 #include "contact/facing_line.h"
 
 namespace mortier {
-
-/// Distance g0 at a place of a nonmortar element [m].
-using DistanceAt = std::function<double(int element, double s, const Sight& sight)>;
 
 /// Of a stretch of the common refinement.
 struct GapSquare {
@@ -28,7 +26,7 @@ class PenetrationIntegral {
   void add(const SmoothPart& part, const FacingLine& mortar, const DistanceAt& distance);
   /// Displacements by dofs of the two bodies [m]. \returns [m^2]
   [[nodiscard]] double of(const Vector& uNonmortar, const Vector& uMortar) const;
-  /// The largest jump at a point of the common refinement, 0 where all are negative [m].
+  /// The largest jump at a point of the common refinement or in the middle between two, 0 where all are negative [m].
   [[nodiscard]] double deepest(const Vector& uNonmortar, const Vector& uMortar) const;
   /// The integral of the squared jump where a vertex of the nonmortar element is `pressed`, of its squared positive part
   /// elsewhere.
@@ -38,17 +36,20 @@ class PenetrationIntegral {
  private:
   /// A point of the common refinement, seen from one of its segments.
   struct Place {
-    std::array<int, 2> nonmortar, mortar;  ///< vertex numbers of the two elements
-    Eigen::Vector2d phi, psi;              ///< their hat functions there
+    EdgeNodes nonmortar, mortar;  ///< node numbers of the two elements
+    EdgeValues phi, psi;          ///< their shape functions there
     Point normal;
     double distance = 0;
     [[nodiscard]] double jump(const Vector& uNonmortar, const Vector& uMortar) const;
   };
+  /// Between a place and the next one, or the next but one where it is a parabola.
   struct Stretch {
-    Place begin, end;
+    int first = 0;
+    bool parabola = false;
     double length = 0;
     double element = 0;  ///< length of the nonmortar one [m]
   };
+  std::vector<Place> places_;
   std::vector<Stretch> stretches_;
 };
 

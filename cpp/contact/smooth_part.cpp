@@ -96,7 +96,12 @@ SmoothPart partOf(const BoundaryLine& line, int begin, int end) {
   part.nodes.assign(line.nodes.begin() + begin, line.nodes.begin() + end + 1);
   part.points.assign(line.points.begin() + begin, line.points.begin() + end + 1);
   part.closed = part.nodes.front() == part.nodes.back();
+  if (!line.middleNodes.empty()) {
+    part.middles.assign(line.middleNodes.begin() + begin, line.middleNodes.begin() + end);
+    part.middlePoints.assign(line.middlePoints.begin() + begin, line.middlePoints.begin() + end);
+  }
   part.straight = !part.closed && isStraight(part.points);
+  for (int e = 0; e < part.elements(); ++e) part.straight = part.straight && !part.bent(e);
   if (part.straight) {
     const Point t = (part.points.back() - part.points.front()).normalized();
     for (const Point& point : part.points) part.s.push_back((point - part.points.front()).dot(t));
@@ -120,11 +125,6 @@ SmoothPart partOf(const BoundaryLine& line, int begin, int end) {
 
 }  // namespace
 
-Point SmoothPart::at(int element, double abscissa) const {
-  const Eigen::Vector2d phi = hats(s, element, abscissa);
-  return phi[0] * points[element] + phi[1] * points[element + 1];
-}
-
 Point SmoothPart::normalAt(int element, double abscissa) const {
   if (straight) return normals.front();
   const Eigen::Vector2d phi = hats(s, element, abscissa);
@@ -142,14 +142,19 @@ Point SmoothPart::direction(int element) const {
 
 BoundaryLine begunAt(const BoundaryLine& line, int first) {
   BoundaryLine result = line;
-  result.nodes.pop_back();
-  result.points.pop_back();
-  std::rotate(result.nodes.begin(), result.nodes.begin() + first, result.nodes.end());
-  std::rotate(result.points.begin(), result.points.begin() + first, result.points.end());
-  result.nodes.push_back(result.nodes.front());
-  result.points.push_back(result.points.front());
-  if (!result.middles.empty())
-    std::rotate(result.middles.begin(), result.middles.begin() + first, result.middles.end());
+  const auto begin = [first](auto& list) { std::rotate(list.begin(), list.begin() + first, list.end()); };
+  const auto beginClosed = [&](auto& list) {
+    list.pop_back();
+    begin(list);
+    list.push_back(list.front());
+  };
+  beginClosed(result.nodes);
+  beginClosed(result.points);
+  if (!result.middles.empty()) begin(result.middles);
+  if (!result.middleNodes.empty()) {
+    begin(result.middleNodes);
+    begin(result.middlePoints);
+  }
   return result;
 }
 

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "contact/arcs.h"
-#include "contact/segments.h"
+#include "contact/element_line.h"
 #include "mesh/boundary_line.h"
 
 namespace mortier {
@@ -29,20 +29,15 @@ namespace mortier {
 constexpr double sharpTurn =
     (1 + 1e-9) * M_PI * 2 / 9;  // a nonagon is a circle, whatever rounding makes of it
 
-struct SmoothPart {
-  std::vector<int> nodes;          ///< vertex numbers along the line; first and last agree where it is closed
-  std::vector<Point> points;       ///< [m]
-  std::vector<Point> normals;      ///< at the nodes, outward, of length one
-  Trace s;                         ///< arc length from the first node [m]
-  std::vector<double> curvatures;  ///< at the nodes, without sign [1/m]; 0 where the part is straight
+struct SmoothPart : ElementLine {  ///< abscissae: arc length from the first vertex
+  std::vector<Point> normals;      ///< at the vertices, outward, of length one
+  std::vector<double> curvatures;  ///< at the vertices, without sign [1/m]; 0 where the part is straight
   std::vector<Arc> arcs;           ///< what the elements stand for
   bool straight = false;
   bool closed = false;
 
-  [[nodiscard]] int elements() const { return static_cast<int>(nodes.size()) - 1; }
   [[nodiscard]] double length() const { return s.back(); }
-  /// x1(s) and n(s) at an abscissa s [m] on an element, or beyond its ends.
-  [[nodiscard]] Point at(int element, double abscissa) const;
+  /// n(s) at an abscissa s [m] on an element, or beyond its ends.
   [[nodiscard]] Point normalAt(int element, double abscissa) const;
   [[nodiscard]] double curvatureAt(int element, double abscissa) const;
   /// Direction of an element, of length one.

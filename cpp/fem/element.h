@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include "base/types.h"
+#include "mesh/edge_element.h"
 
 namespace mortier {
 
@@ -65,7 +66,7 @@ struct LinearTriangle {
   }
 
   static constexpr std::array<double, nodes> shapes(const Barycentric& b) { return b; }
-  static constexpr std::array<double, edgeNodes> edgeShapes(double s) { return {1 - s, s}; }
+  static constexpr std::array<double, edgeNodes> edgeShapes(double s) { return LinearEdge::shapes(s); }
   /// A stress by its values at the points.
   static constexpr std::array<double, points> stressShapes(const Barycentric& /*b*/) { return {1}; }
   /// dx/ds
@@ -89,9 +90,7 @@ struct QuadraticTriangle {
             4 * b[0] * b[1],       4 * b[1] * b[2],       4 * b[2] * b[0]};
   }
   /// Of the ends, then the middle.
-  static constexpr std::array<double, edgeNodes> edgeShapes(double s) {
-    return {(1 - s) * (1 - 2 * s), s * (2 * s - 1), 4 * s * (1 - s)};
-  }
+  static constexpr std::array<double, edgeNodes> edgeShapes(double s) { return QuadraticEdge::shapes(s); }
   static constexpr std::array<double, points> stressShapes(const Barycentric& b) {
     return {2 * b[0] - 1.0 / 3, 2 * b[1] - 1.0 / 3, 2 * b[2] - 1.0 / 3};
   }

@@ -238,7 +238,8 @@ void lintContacts(const LintInput& input, Faults& faults) {
     compareMeshes(contact, one, two, faults);
     compareStiffness(input, contact, one, two, faults);
     const ContactPair pair{{0, contact.nonmortar.label}, {1, contact.mortar.label}, contact.variant};
-    if (memoryNeed({one.mesh, two.mesh}, {pair}) > availableMemory()) continue;  // buildModel tells
+    if (memoryNeed({one.mesh, two.mesh}, {pair}, input.scene.degree) > availableMemory())
+      continue;  // buildModel tells
     try {
       const ContactInterface interface = interfaceOf(contact, one, two, false);
       checkInterface(contact, one, two, interface, std::min(extent(*one.mesh), extent(*two.mesh)), faults);

@@ -61,7 +61,8 @@ double interferenceOf(const ContactDescription& contact, const LintInput& input)
   if (contact.gap)
     options.gap = [value = contact.gap->value](const Point& x) { return value(x.x(), x.y(), 0); };
   try {
-    requireMemory({one, two}, {{{0, pair.nonmortar.label}, {1, pair.mortar.label}, pair.coupling}});
+    requireMemory({one, two}, {{{0, pair.nonmortar.label}, {1, pair.mortar.label}, pair.coupling}},
+                  input.scene.degree);
     return std::max(0.0, -ContactInterface(pair, *one, *two, options).initialDistance().minCoeff());
   } catch (const InputError&) {
     return 0;  // named elsewhere

@@ -51,7 +51,10 @@ std::vector<int> verticesOn(const TriangleMesh& mesh, int label) {
   return vertices;
 }
 
-BoundaryLine boundaryLine(const TriangleMesh& mesh, int label) {
+namespace {
+
+/// The vertices along a label.
+BoundaryLine verticesOf(const TriangleMesh& mesh, int label) {
   constexpr int none = -1;
   std::vector<int> next(mesh.vertices.size(), none), previous(mesh.vertices.size(), none);
   std::vector<int> starts;  // of the edges that carry the label
@@ -87,11 +90,35 @@ BoundaryLine boundaryLine(const TriangleMesh& mesh, int label) {
              " are in separate pieces, expected one line");
   }
   for (int v : line.nodes) line.points.push_back(mesh.vertices[v]);
-  if (mesh.edgeMiddles.empty()) return line;
-  std::unordered_map<int, Point> middleFrom;
+  return line;
+}
+
+/// The edge of the boundary that each element of the line is.
+std::vector<size_t> edgesOf(const BoundaryLine& line, const TriangleMesh& mesh, int label) {
+  std::unordered_map<int, size_t> edgeFrom;
   for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
-    if (mesh.boundaryLabels[e] == label) middleFrom[mesh.boundaryEdges[e][0]] = mesh.edgeMiddles[e];
-  for (size_t i = 0; i + 1 < line.nodes.size(); ++i) line.middles.push_back(middleFrom.at(line.nodes[i]));
+    if (mesh.boundaryLabels[e] == label) edgeFrom[mesh.boundaryEdges[e][0]] = e;
+  std::vector<size_t> edges;
+  for (size_t i = 0; i + 1 < line.nodes.size(); ++i) edges.push_back(edgeFrom.at(line.nodes[i]));
+  return edges;
+}
+
+}  // namespace
+
+BoundaryLine boundaryLine(const TriangleMesh& mesh, int label) {
+  BoundaryLine line = verticesOf(mesh, label);
+  if (mesh.edgeMiddles.empty()) return line;
+  for (const size_t e : edgesOf(line, mesh, label)) line.middles.push_back(mesh.edgeMiddles[e]);
+  return line;
+}
+
+BoundaryLine boundaryLine(const TriangleMesh& mesh, const ElementNodes& nodes, int label) {
+  BoundaryLine line = boundaryLine(mesh, label);
+  if (nodes.degree == 1) return line;
+  for (const size_t e : edgesOf(line, mesh, label)) {
+    line.middleNodes.push_back(nodes.middles[e]);
+    line.middlePoints.push_back(nodes.places[nodes.middles[e]]);
+  }
   return line;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "mesh/element_nodes.h"
 #include "mesh/triangle_mesh.h"
 
 namespace mortier {
@@ -14,12 +15,17 @@ struct BoundaryLine {
   std::vector<int> nodes;     ///< vertex numbers; the first and last agree on a closed line
   std::vector<Point> points;  ///< their coordinates [m]
   bool closed = false;
-  std::vector<Point> middles =
-      {};  ///< TriangleMesh::edgeMiddles of the elements; empty where none is known [m]
+  /// TriangleMesh::edgeMiddles of the elements; empty where none is known [m]
+  std::vector<Point> middles = {};
+  /// Nodes in the middle of the elements and their places [m]; empty where displacements are linear.
+  std::vector<int> middleNodes = {};
+  std::vector<Point> middlePoints = {};
 };
 
 /// \throws InputError when the label is missing, or when its edges do not form one connected line.
 BoundaryLine boundaryLine(const TriangleMesh& mesh, int label);
+/// The same with the nodes in the middle of its elements.
+BoundaryLine boundaryLine(const TriangleMesh& mesh, const ElementNodes& nodes, int label);
 
 /// The labels present on the boundary, ascending, each once.
 std::vector<int> boundaryLabels(const TriangleMesh& mesh);

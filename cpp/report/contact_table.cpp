@@ -15,10 +15,10 @@ void ContactTable::add(const State& state, int step) {
                                      state.bodies[pair.mortar.body].displacement);
     const Vector& force = state.contactForce[k];
     const Vector pressure = interface.contactPressure(force);
-    const TriangleMesh& mesh = model_.bodies[pair.nonmortar.body].mesh();
+    const std::vector<Point>& places = model_.bodies[pair.nonmortar.body].elementNodes().places;
     const std::vector<int>& nodes = interface.nonmortarNodes();
     for (size_t i = 0; i < nodes.size(); ++i) {
-      const Point& p = mesh.vertices[nodes[i]];
+      const Point& p = places[nodes[i]];
       file_ << step << ',' << state.time << ',' << k << ',' << nodes[i] << ',' << p[0] << ',' << p[1] << ','
             << 0 - gap[i] << ',' << force[i] << ',' << pressure[i] << ',' << (force[i] > 0 ? 1 : 0) << '\n';
     }

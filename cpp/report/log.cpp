@@ -27,9 +27,9 @@ namespace {
 /// What became of end nodes whose normal motion is prescribed.
 std::string heldEnds(const ContactInterface& interface) {
   if (interface.heldEnds() == 0) return "";
-  const bool mortar = interface.pair().coupling == CouplingKind::mortar;
+  const bool merged = interface.pair().coupling != CouplingKind::interpolation;
   return format("; %d held end%s without a condition: %s", interface.heldEnds(),
-                interface.heldEnds() > 1 ? "s" : "", mortar ? "merged into the next node" : "left out");
+                interface.heldEnds() > 1 ? "s" : "", merged ? "merged into the next node" : "left out");
 }
 
 /// What a reader may have meant as a circle.

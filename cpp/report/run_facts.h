@@ -25,7 +25,7 @@ struct RunFacts {
   std::string title;
   std::string plane = "stress";       ///< "stress" or "strain"
   std::vector<std::string> settings;  ///< --set, as given
-  std::vector<std::string> variants;  ///< per interface: "mortar" or "interpolation"
+  std::vector<std::string> variants;  ///< per interface: the word of the coupling
   std::vector<std::string>
       choices;             ///< per interface: why its nonmortar side is that; empty where the scene says it
   std::string contact;     ///< all variants, each once; "none" without an interface

@@ -40,11 +40,11 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
   InterfaceOptions options;
   options.initial = contact.initial;
   if (contact.gap) {
-    const TriangleMesh& mesh = model.bodies[pair.nonmortar.body].mesh();
+    const Body& body = model.bodies[pair.nonmortar.body];
     std::vector<Point> points;
-    for (const int v : verticesOn(mesh, pair.nonmortar.label)) {
-      points.push_back(mesh.vertices[v]);
-    }
+    for (const BoundaryStretch& stretch : body.elementNodes().boundary)
+      if (body.mesh().boundaryLabels[stretch.edge] == pair.nonmortar.label)
+        for (const int node : stretch.nodes) points.push_back(body.elementNodes().places[node]);
     requireFinite(*contact.gap, points, {0});
     options.gap = [value = contact.gap->value](const Point& x) { return value(x.x(), x.y(), 0); };
   }
@@ -53,7 +53,7 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
   std::vector<ContactPair> pairs{pair};
   for (const ContactInterface& interface : model.interfaces) pairs.push_back(interface.pair());
   try {
-    requireMemory(meshes, pairs);
+    requireMemory(meshes, pairs, scene.degree);
     addInterface(model, pair, options);
   } catch (const FaultError& error) {
     throw FaultError(contact.where + ": contact: " + error.what(), error.id());

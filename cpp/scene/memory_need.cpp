@@ -19,7 +19,7 @@ struct SideSize {
   double dofs = 0;  ///< of the nodes, that take part: one each where the line is parallel to an axis
 };
 
-SideSize sizeOf(const TriangleMesh& mesh, int label) {
+SideSize sizeOf(const TriangleMesh& mesh, int label, int degree) {
   constexpr double parallel = 1e-9;
   const auto edges = edgesOn(mesh, label);
   bool alongX = true;
@@ -29,7 +29,7 @@ SideSize sizeOf(const TriangleMesh& mesh, int label) {
     alongX = alongX && d.y() <= parallel * d.x();
     alongY = alongY && d.x() <= parallel * d.y();
   }
-  const auto nodes = static_cast<double>(edges.size() + 1);
+  const auto nodes = static_cast<double>(degree * edges.size() + 1);
   return {nodes, (alongX || alongY ? 1 : 2) * nodes};
 }
 
@@ -41,20 +41,22 @@ double needOf(size_t nodes) {
 
 }  // namespace
 
-double memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs) {
+double memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs,
+                  int degree) {
   constexpr double program = 12 << 17;  // in 8 bytes: code and libraries, 12 MiB
   double need = program;
-  for (const TriangleMesh* mesh : meshes) need += needOf(mesh->vertices.size());
+  // By Euler's formula a mesh has about as many edges as vertices and triangles together.
+  for (const TriangleMesh* mesh : meshes)
+    need +=
+        needOf(mesh->vertices.size() * (degree == 1 ? 1 : 2) + (degree == 1 ? 0 : mesh->triangles.size()));
   std::vector<double> dofs(meshes.size(), 0);
   double conditions = 0;
-  double making = 0;
   for (const ContactPair& pair : pairs) {
-    const SideSize nonmortar = sizeOf(*meshes[pair.nonmortar.body], pair.nonmortar.label);
-    const SideSize mortar = sizeOf(*meshes[pair.mortar.body], pair.mortar.label);
+    const SideSize nonmortar = sizeOf(*meshes[pair.nonmortar.body], pair.nonmortar.label, degree);
+    const SideSize mortar = sizeOf(*meshes[pair.mortar.body], pair.mortar.label, degree);
     conditions += nonmortar.nodes;
     dofs[pair.nonmortar.body] += nonmortar.dofs;
     dofs[pair.mortar.body] += mortar.dofs;
-    making = std::max(making, nonmortar.nodes * (nonmortar.nodes + 2 * mortar.nodes));
   }
   double solving = conditions * conditions;
   double largest = 0;
@@ -63,7 +65,7 @@ double memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vec
     largest = std::max(largest, m * m);
   }
   solving += std::max(conditions * conditions, largest);
-  return sizeof(double) * (need + std::max(making, solving));
+  return sizeof(double) * (need + solving);
 }
 
 double memoryNeed(const Model& model) {
@@ -71,10 +73,7 @@ double memoryNeed(const Model& model) {
   for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
   std::vector<ContactPair> pairs;
   for (const ContactInterface& interface : model.interfaces) pairs.push_back(interface.pair());
-  double betweenVertices = 0;
-  for (const Body& body : model.bodies)
-    betweenVertices += needOf(body.nodes()) - needOf(body.mesh().vertices.size());
-  return memoryNeed(meshes, pairs) + sizeof(double) * betweenVertices;
+  return memoryNeed(meshes, pairs, model.bodies.front().degree());
 }
 
 double availableMemory() {
@@ -100,8 +99,9 @@ std::string aboutMemory(double bytes) {
   return text;
 }
 
-void requireMemory(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs) {
-  const double need = memoryNeed(meshes, pairs);
+void requireMemory(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs,
+                   int degree) {
+  const double need = memoryNeed(meshes, pairs, degree);
   const double available = availableMemory();
   if (need <= available) return;
   throw FaultError("the run needs " + aboutMemory(need) + " of memory, expected at most the " +

@@ -14,8 +14,9 @@
 
 namespace mortier {
 
-/// \param meshes  of all bodies. \returns the peak [bytes]; within a factor of two of what runs take.
-double memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs);
+/// \param meshes  of all bodies; \param degree  of the displacements. \returns the peak [bytes]; within a factor of two of what runs take.
+double memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs,
+                  int degree);
 
 double memoryNeed(const Model& model);
 
@@ -23,7 +24,8 @@ double memoryNeed(const Model& model);
 double availableMemory();
 
 /// \throws FaultError with both numbers where a run needs more than there is.
-void requireMemory(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs);
+void requireMemory(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs,
+                   int degree);
 
 /// "about 130 MiB", "about 290 GiB".
 std::string aboutMemory(double bytes);

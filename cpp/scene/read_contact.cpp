@@ -55,7 +55,9 @@ ContactDescription readContact(const Node& node, const SceneDescription& scene) 
   ContactDescription contact;
   contact.where = node.where;
   readSides(table, scene, contact);
-  contact.variant = static_cast<CouplingKind>(table.oneOf("variant", couplingWords, 1));
+  const auto variant = scene.degree == 1 ? CouplingKind::mortar : CouplingKind::weighted;
+  contact.variant =
+      static_cast<CouplingKind>(table.oneOf("variant", couplingWords, static_cast<int>(variant)));
   contact.initial = static_cast<InitialGap>(table.oneOf("initial", initialWords, 0));
   if (const Node* gap = table.find("gap")) {
     contact.gap = table.expression("gap");

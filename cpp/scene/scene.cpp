@@ -104,7 +104,6 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   for (const Node* quantity : root.tables("quantity")) {
     scene.quantities.push_back(readQuantity(*quantity, scene));
   }
-  if (scene.degree == 2 && !scene.contacts.empty()) root.reject("degree", "1 where bodies are in contact");
   return scene;
 }
 

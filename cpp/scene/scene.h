@@ -70,7 +70,7 @@ struct ContactDescription {
   bool sidesGiven = true;  ///< otherwise which one is nonmortar is left to the program (scene/sides.h)
   bool otherSide = false;  ///< where it is left to the program: the one that it would not choose
   std::string choice;      ///< why the nonmortar side is that one, where the program has chosen
-  CouplingKind variant = CouplingKind::mortar;
+  CouplingKind variant = CouplingKind::mortar;  ///< by default `weighted` where displacements are quadratic
   InitialGap initial = InitialGap::asMeshed;
   std::optional<Expression> gap;  ///< in x, y [m]
   std::string where;

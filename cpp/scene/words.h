@@ -9,7 +9,7 @@
 namespace mortier {
 
 inline const Keys planeWords{"stress", "strain"};                                           // Plane
-inline const Keys couplingWords{"interpolation", "mortar"};                                 // CouplingKind
+inline const Keys couplingWords{"interpolation", "mortar", "weighted"};                     // CouplingKind
 inline const Keys initialWords{"as-meshed", "close", "reject"};                             // InitialGap
 inline const Keys projectionWords(std::begin(projectionNames), std::end(projectionNames));  // Projection
 inline const Keys schemeWords{"backward-euler", "crank-nicolson", "sdirk2"};                // Scheme

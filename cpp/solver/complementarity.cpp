@@ -23,7 +23,7 @@ std::vector<char> idleConditions(const Matrix& W) {
   return idle;
 }
 
-ContactSolution solveRegular(Pivoting& pivoting, const ContactProblem& problem,
+ContactSolution solveRegular(ProximalContact& contact, const ContactProblem& problem,
                              const std::vector<char>& active) {
   constexpr int repetitions = 12;
   constexpr double balanced = 1e-14;
@@ -34,20 +34,21 @@ ContactSolution solveRegular(Pivoting& pivoting, const ContactProblem& problem,
   solution.rigid = Vector::Zero(problem.G.cols());
   Vector z0 = solution.rigid;
   for (int repetition = 0; repetition < repetitions; ++repetition) {
-    if (!pivoting.run(z0, solution)) {
-      if (pivoting.capped()) solution.outcome = ContactSolution::Outcome::capped;
+    contact.centre(z0);
+    if (!pivot(contact, solution)) {
+      if (contact.capped()) solution.outcome = ContactSolution::Outcome::capped;
       return solution;
     }
     const double imbalance =
-        problem.G.cols() == 0 ? 0 : pivoting.imbalance(solution, Vector::Zero(solution.change.size()));
+        problem.G.cols() == 0 ? 0 : contact.imbalance(solution, Vector::Zero(solution.change.size()));
     if (imbalance <= balanced) break;
     z0 = solution.rigid;
-    if (repetition > 1 && imbalance > slow) pivoting.soften();
+    if (repetition > 1 && imbalance > slow) contact.soften();
   }
   constexpr double hopeless = 1e-6;
-  if (problem.G.cols() > 0 && pivoting.imbalance(solution, pivoting.usualForces(solution)) > hopeless)
+  if (problem.G.cols() > 0 && contact.imbalance(solution, contact.usualForces(solution)) > hopeless)
     solution.outcome =
-        pivoting.leaves(solution) ? ContactSolution::Outcome::unbalanced : ContactSolution::Outcome::cycled;
+        contact.leaves(solution) ? ContactSolution::Outcome::unbalanced : ContactSolution::Outcome::cycled;
   else
     solution.outcome = ContactSolution::Outcome::solved;
   return solution;
@@ -67,18 +68,18 @@ ContactSolution solveRedundant(const ContactProblem& problem, const std::vector<
   solution.active = active;
   Vector before = Vector::Zero(slack.size());
   Vector term;
-  std::optional<Pivoting> pivoting;
+  std::optional<ProximalContact> contact;
   double weightOfFactor = 0;
   int pivots = 0;
   for (int repetition = 0; repetition < repetitions; ++repetition) {
     if (weight != weightOfFactor) {
       term = weight * problem.W.diagonal();
       regular.W.diagonal() = problem.W.diagonal() + term;
-      pivoting.emplace(regular, idle, slack, p0, balance, work);
+      contact.emplace(regular, idle, slack, p0, balance, work);
       weightOfFactor = weight;
     }
-    pivoting->restart(slack - term.cwiseProduct(before));
-    solution = solveRegular(*pivoting, regular, solution.active);
+    contact->restart(slack - term.cwiseProduct(before));
+    solution = solveRegular(*contact, regular, solution.active);
     pivots += solution.pivots;
     solution.pivots = pivots;
     if (solution.outcome != ContactSolution::Outcome::solved) break;
@@ -139,11 +140,13 @@ ContactSolution solveContact(const ContactProblem& problem, const Vector& fullSl
     if (idle[i] != 0) active[i] = 0;
   const auto idles = static_cast<int>(std::count(idle.begin(), idle.end(), 1));
   ContactSolution solution;
+  int pivots = 0;
   bool dependent = false;
   if (idles == 0 || problem.G.cols() == 0) {
-    Pivoting pivoting(problem, idle, slack, p0, balance, work);
-    solution = solveRegular(pivoting, problem, active);
-    dependent = pivoting.redundant();
+    ProximalContact contact(problem, idle, slack, p0, balance, work);
+    solution = solveRegular(contact, problem, active);
+    dependent = contact.redundant();
+    pivots = solution.pivots;
   }
   if (dependent || (idles > 0 && problem.G.cols() > 0)) {
     ContactProblem regular = problem;
@@ -151,11 +154,13 @@ ContactSolution solveContact(const ContactProblem& problem, const Vector& fullSl
       if (idle[i] != 0) regular.W(i, i) = problem.W.diagonal().maxCoeff();
     for (const double weight : {1e-9, 1e-8, 1e-7}) {
       solution = solveRedundant(regular, idle, slack, p0, balance, active, weight, work);
+      pivots += solution.pivots;
       if (solution.outcome != ContactSolution::Outcome::cycled) break;
     }
   }
   // The motion along which bodies leave is told without it.
   if (solution.outcome != ContactSolution::Outcome::unbalanced) solution.rigid += moved;
+  solution.pivots = pivots;
   solution.idle = idles;
   solution.dependent = dependent;
   solution.work = work.done / work.factorisation;

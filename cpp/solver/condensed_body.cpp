@@ -46,8 +46,8 @@ double CondensedBody::linearise(const Matrix& stress0, const Matrix* shift, Body
 double CondensedBody::residualScale(const Matrix& stress0, const BodyIterate& iterate) const {
   // The rounding of the law is a part of the stresses that are there, which may be far beyond yield.
   const double before = stress0.cwiseAbs().maxCoeff();
-  if (!body_.material().linear())
-    return std::max({body_.material().stressScale(), before, iterate.stress.cwiseAbs().maxCoeff()});
+  if (const double scale = body_.material().stressScale(); scale > 0)
+    return std::max({scale, before, iterate.stress.cwiseAbs().maxCoeff()});
   // What rounding of the displacement makes of a rigid motion: tolerances of 1e-10 times this part are 1e-14
   // of E |du|/L.
   constexpr double rigidPart = 1e-4;

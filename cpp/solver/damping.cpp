@@ -10,16 +10,16 @@ namespace {
 struct Damper {
   const Model& model;
   std::vector<Matrix> moduli = {};
-  std::vector<Matrix> strain0 = {};
+  std::vector<Matrix> lastStrain = {};
 
-  /// E (strain - strain0)/delta in the plane; nothing where the law is linear.
+  /// E (strain - lastStrain)/delta in the plane; nothing where the law is linear.
   [[nodiscard]] Matrix stress(size_t body, const Matrix& strain, double delta) const {
     Matrix result = Matrix::Zero(strain.rows(), strain.cols());
     if (model.bodies[body].material().linear()) return result;
     for (int i = 0; i < strain.cols(); ++i) {
       const std::array<double, 9> D = moduliAt(moduli[body], i);
       result.col(i).head<3>() = Eigen::Map<const Eigen::Matrix3d>(D.data()) *
-                                (strain.col(i) - strain0[body].col(i)).head<3>() / delta;
+                                (strain.col(i) - lastStrain[body].col(i)).head<3>() / delta;
     }
     return result;
   }
@@ -86,7 +86,7 @@ StepOutcome restOfDampedMotion(StepSystem& system, const Step& step, int maxIter
   const StepSystem::Linearised elastic = system.linearise(step, at, 0, false);
   for (size_t b = 0; b < at.bodies.size(); ++b) {
     damper.moduli.push_back(elastic.law(static_cast<int>(b)).moduli);
-    damper.strain0.push_back(at.bodies[b].strain);
+    damper.lastStrain.push_back(at.bodies[b].strain);
   }
   for (double delta = 1; total.iterations < maxIterations && delta > shortest;) {
     Iterate next = at;
@@ -96,7 +96,7 @@ StepOutcome restOfDampedMotion(StepSystem& system, const Step& step, int maxIter
     }
     at = std::move(next);
     const double damping = damper.largest(at, delta);
-    for (size_t b = 0; b < at.bodies.size(); ++b) damper.strain0[b] = at.bodies[b].strain;
+    for (size_t b = 0; b < at.bodies.size(); ++b) damper.lastStrain[b] = at.bodies[b].strain;
     delta *= longer;
     if (!(damping <= nearRest)) continue;
     solution = at;

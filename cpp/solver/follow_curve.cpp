@@ -116,8 +116,11 @@ class Curve {
                                         const Direction& along) const {
     std::vector<Matrix> flow;
     for (size_t b = 0; b < place.iterate.bodies.size(); ++b) {
+      const auto& [increment, stress, strain] = place.iterate.bodies[b];
+      Matrix whole;
+      if (step_.strain0(b) != nullptr) whole = *step_.strain0(b) + strain;
       Matrix rate;
-      system_.model().bodies[b].material().viscoplasticRate(place.iterate.bodies[b].stress, rate);
+      system_.model().bodies[b].material().viscoplasticRate(stress, rate, &whole);
       flow.push_back(std::numbers::ln10 * weightAt(place) * rate);
     }
     Direction result{tangent.respond(flow, place.iterate.active), 1};

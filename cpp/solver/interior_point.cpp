@@ -15,7 +15,7 @@ class Paths {
     for (size_t b = 0; b < model.bodies.size(); ++b) {
       const Material& material = model.bodies[b].material();
       const Matrix& stress0 = step.state0.bodies[b].stress;
-      paths_.push_back(material.interiorPath(step.data.weight, stress0));
+      paths_.push_back(material.interiorPath(step.data.weight, stress0, step.strain0(b)));
       if (!paths_[b]) continue;
       const double flow = paths_[b]->flowAtTwiceYield();
       points_ += paths_[b]->points();

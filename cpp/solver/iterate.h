@@ -22,9 +22,14 @@ struct Step {
   const State& state0;
   const StepData& data;
   const std::vector<Vector>& loads;  ///< per body, nodal forces (dofs) at t1 [N/m]
+  std::vector<Matrix> strains0;      ///< per body, B u0 + shift; empty where its law does not depend on it
 
   [[nodiscard]] const Matrix* shift(size_t body) const {
     return data.shift.empty() ? nullptr : &data.shift[body];
+  }
+  /// What the strain of an iterate is added to for the total strain; null where the law does not depend on that.
+  [[nodiscard]] const Matrix* strain0(size_t body) const {
+    return strains0[body].size() == 0 ? nullptr : &strains0[body];
   }
 };
 

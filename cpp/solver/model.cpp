@@ -20,7 +20,8 @@ void addInterface(Model& model, const ContactPair& pair, InterfaceOptions option
   const Body& mortar = model.bodies[pair.mortar.body];
   options.nonmortarHeld = [&](int node, const Point& n) { return holds(nonmortar, node, n); };
   options.mortarHeld = [&](int node, const Point& n) { return holds(mortar, node, n); };
-  model.interfaces.emplace_back(pair, nonmortar.mesh(), mortar.mesh(), options);
+  model.interfaces.emplace_back(pair, ContactMesh{nonmortar.mesh(), nonmortar.elementNodes()},
+                                ContactMesh{mortar.mesh(), mortar.elementNodes()}, options);
 }
 
 }  // namespace mortier

@@ -123,8 +123,8 @@ StepOutcome penaltyDuality(StepSystem& system, const Step& step, Iterate& iterat
   const StepSystem::LawOf regularised = [&](int b) -> BodyLaw {
     return {[&, b](const BodyIterate& body, Linearisation& result, int begin, int end) {
       return model.bodies[b].material().regularise(
-          {step.data.weight, step.state0.bodies[b].stress, body.strain}, body.stress, penalty[b],
-          2 * relaxation, result, begin, end);
+          {step.data.weight, step.state0.bodies[b].stress, body.strain, false, step.strain0(b)}, body.stress,
+          penalty[b], 2 * relaxation, result, begin, end);
     }};
   };
   Restarts restarts;

@@ -1,243 +1,36 @@
 #include "solver/pivoting.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/interrupt.h"
 
 namespace mortier {
 namespace {
 
-/// Values below this part of the largest are rounding.
-constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+using Signs = ProximalContact::Signs;
 
-/// How a proximal term is weakened from one repetition to the next, and down to which weight.
-constexpr double softer = 1e-2;
-constexpr double softest = 1e-13;
-
-}  // namespace
-
-Work::Work(const ContactProblem& problem) {
-  constexpr double alwaysAllowed = 1e8;  // small problems end by the number of their pivots
-  const auto n = static_cast<double>(problem.W.rows());
-  factorisation = n * n * n / (problem.symmetric ? 3 : 1.5);
-  limit = workLimit * factorisation + alwaysAllowed;
-}
-
-Pivoting::Pivoting(const ContactProblem& problem, const std::vector<char>& idle, const Vector& slack,
-                   const Vector& p0, const Vector& balance, Work& work)
-    : problem_(problem),
-      idle_(idle),
-      slack_(slack),
-      p0_(p0),
-      balance_(balance),
-      work_(work),
-      factor_(problem.W, problem.symmetric, work.done) {
-  // The proximal weight against the stiffness that all nodes together give to rigid motions.
-  if (problem.G.cols() == 0) return;
-  redundant_ = !factor_.take(std::vector<char>(slack.size(), 1));
-  if (redundant_) return;
-  Matrix solved = problem.G;
-  factor_.solve(solved);
-  stiffness_ = (problem.G.transpose() * solved).diagonal().maxCoeff();
-  restart(slack);
-}
-
-void Pivoting::restart(const Vector& slack) {
-  slack_ = slack;
-  proximal_ = problem_.proximal * stiffness_;
-  // Where a body has to travel until contact closes, weak enough that the load takes it there.
-  constexpr double farther = 10;
-  const double open = slack.size() > 0 ? slack.maxCoeff() : 0;
-  const double load = (balance_ + problem_.G.transpose() * p0_).lpNorm<Eigen::Infinity>();
-  if (open > 0 && load > 0) proximal_ = std::min(proximal_, load / (farther * open));
-}
-
-void Pivoting::soften() {
-  proximal_ = std::max(softer * proximal_, std::min(proximal_, softest * stiffness_));
-}
-
-bool Pivoting::run(const Vector& z0, ContactSolution& solution) {
-  constexpr size_t faster = 2;
-  constexpr size_t slower = 4;
-  const auto n = static_cast<int>(slack_.size());
-  pivotsLeft_ = 20 * n + 100;
-  Signs best;
-  size_t atOnce = n;
-  if (!dropPulls(z0, solution, best)) return false;
-  while (!best.overlaps.empty()) {
-    const std::vector<char> before = solution.active;
-    const std::vector<int> chosen = deepest(best, atOnce);
-    for (const int i : chosen) solution.active[i] = 1;
-    Signs next;
-    if (!dropPulls(z0, solution, next)) return false;
-    if (isBetter(next, best)) {
-      best = std::move(next);
-      atOnce = faster * chosen.size();
-      continue;
-    }
-    solution.active = before;
-    atOnce = std::max<size_t>(1, chosen.size() / slower);
-    if (chosen.size() > 1) continue;
-    if (problem_.symmetric)
-      descend(z0, chosen.front(), best.force, solution);
-    else
-      closeOne(z0, chosen.front(), solution);
-    if (!dropPulls(z0, solution, best)) return false;
-  }
-  return true;
-}
-
-/// Drops forces that pull until none is left; where no overlap is either, with factors of the set itself.
-bool Pivoting::dropPulls(const Vector& z0, ContactSolution& solution, Signs& signs) {
-  while (!redundant_ && !capped()) {
-    stopIfInterrupted();
-    if (!solveOn(z0, solution)) return false;
-    signs = signsOf(solution);
-    for (const int i : signs.pulls) solution.active[i] = 0;
-    if (!signs.pulls.empty()) continue;
-    if (!signs.overlaps.empty() || factor_.fresh()) return true;
-    redundant_ = !factor_.refactor(solution.active);
-  }
-  return false;
+/// How deep a set overlaps, as the energy that closing each condition by itself would bring.
+double depthOf(const Signs& signs, const Matrix& W) {
+  double sum = 0;
+  for (const int i : signs.overlaps) sum += signs.slack[i] * signs.slack[i] / W(i, i);
+  return sum;
 }
 
 /// Whether sets on which no force pulls come nearer to the solution. Where W is symmetric that is by the energy
 /// 1/2 p'W p + s0'p, whose change is half of s_old'p_new - s_new'p_old, otherwise by the number of overlaps.
-bool Pivoting::isBetter(const Signs& next, const Signs& best) const {
+bool isBetter(const Signs& next, const Signs& best, bool symmetric) {
   if (next.overlaps.empty()) return true;
-  if (!problem_.symmetric) return next.overlaps.size() < best.overlaps.size();
+  if (!symmetric) return next.overlaps.size() < best.overlaps.size();
   return best.slack.dot(next.force) < next.slack.dot(best.force);
-}
-
-Vector Pivoting::usualForces(const ContactSolution& solution) const {
-  constexpr double roundingOfGaps = 1e-8;  // an imbalance of 1e-6 of that is rounding
-  Vector usual = Vector::Constant(slack_.size(), problem_.force);
-  const double largest = slack_.cwiseAbs().maxCoeff();
-  for (Eigen::Index i = 0; i < usual.size(); ++i)
-    if (solution.active[i] != 0 && idle_[i] == 0)
-      usual[i] = std::max(usual[i], roundingOfGaps * largest / problem_.W(i, i));
-  return usual;
-}
-
-double Pivoting::imbalance(const ContactSolution& solution, const Vector& usual) const {
-  const Vector rest = balance_ - problem_.G.transpose() * solution.change;
-  const Vector forces = p0_.cwiseAbs() + (p0_ + solution.change).cwiseAbs() + usual;
-  const double scale =
-      balance_.cwiseAbs().maxCoeff() + (problem_.G.cwiseAbs().transpose() * forces).maxCoeff();
-  return scale > 0 ? rest.cwiseAbs().maxCoeff() / scale : 0;
-}
-
-bool Pivoting::leaves(const ContactSolution& solution) const {
-  constexpr double negligible = 1e-6;
-  const Vector closing = problem_.G * solution.rigid;
-  const double work = (balance_ + problem_.G.transpose() * p0_).dot(solution.rigid);
-  return closing.maxCoeff() <= negligible * closing.cwiseAbs().maxCoeff() && work > 0;
-}
-
-Vector Pivoting::compliance(const Vector& p) {
-  // Four columns at a time: each reads and writes the sum once.
-  const Matrix& W = problem_.W;
-  std::vector<Eigen::Index> loaded;
-  for (Eigen::Index i = 0; i < p.size(); ++i)
-    if (p[i] != 0) loaded.push_back(i);
-  work_.done += 2 * static_cast<double>(W.rows()) * static_cast<double>(loaded.size());
-  Vector sum = Vector::Zero(p.size());
-  size_t k = 0;
-  for (; k + 4 <= loaded.size(); k += 4) {
-    const Eigen::Index* j = &loaded[k];
-    sum += p[j[0]] * W.col(j[0]) + p[j[1]] * W.col(j[1]) + p[j[2]] * W.col(j[2]) + p[j[3]] * W.col(j[3]);
-  }
-  for (; k < loaded.size(); ++k) sum += p[loaded[k]] * W.col(loaded[k]);
-  return sum;
-}
-
-/// x_A and z of  W_AA x_A - G_A z = f_A,  G_A' x_A + proximal z = h.  \param f  becomes x, zero off A.
-Vector Pivoting::solveBordered(const std::vector<char>& active, const Vector& h, Vector& f) {
-  const Matrix& G = problem_.G;
-  redundant_ = redundant_ || !factor_.take(active);
-  Matrix solved(f.size(), 1 + G.cols());
-  solved << f, G;
-  factor_.solve(solved);
-  f = solved.col(0);
-  if (G.cols() == 0) return Vector(0);
-  // Motions that move no condition of A have the proximal term alone, however weak it is beside the rounding of the others.
-  constexpr double heldFraction = 1e-14;
-  Matrix closed = G;
-  for (Eigen::Index i = 0; i < closed.rows(); ++i)
-    if (active[i] == 0) closed.row(i).setZero();
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(closed.transpose() * closed);
-  const auto loose = (eigen.eigenvalues().array() <= heldFraction * G.squaredNorm()).count();
-  const Matrix free = eigen.eigenvectors().leftCols(loose);
-  const Matrix held = eigen.eigenvectors().rightCols(G.cols() - loose);
-  // Rows off A are zero in what is solved.
-  const Matrix forces = solved.rightCols(G.cols()) * held;
-  Matrix stiffness = held.transpose() * G.transpose() * forces;
-  stiffness.diagonal().array() += proximal_;
-  const Vector z = stiffness.partialPivLu().solve(held.transpose() * (h - G.transpose() * f));
-  f += forces * z;
-  return held * z + free * (free.transpose() * h / proximal_);
-}
-
-/// p = 0 off the active set, s = 0 on it. \returns false where that is redundant.
-bool Pivoting::solveOn(const Vector& z0, ContactSolution& solution) {
-  ++solution.pivots;
-  --pivotsLeft_;
-  Vector off = -p0_;
-  for (Eigen::Index i = 0; i < off.size(); ++i)
-    if (solution.active[i] != 0) off[i] = 0;
-  solution.change = -slack_ - compliance(off);
-  solution.rigid = solveBordered(solution.active, balance_ - problem_.G.transpose() * off + proximal_ * z0,
-                                 solution.change);
-  solution.change += off;
-  if (redundant_ || factor_.fresh()) return !redundant_;
-  // Updated factors have more rounding; once is enough to take it out.
-  Vector rest = -slackOf(solution);
-  const Vector unbalanced =
-      balance_ - problem_.G.transpose() * solution.change - proximal_ * (solution.rigid - z0);
-  solution.rigid += solveBordered(solution.active, unbalanced, rest);
-  solution.change += rest;
-  return true;
-}
-
-Vector Pivoting::slackOf(const ContactSolution& solution) {
-  Vector s = slack_ + compliance(solution.change);
-  if (problem_.G.cols() > 0) s -= problem_.G * solution.rigid;
-  return s;
-}
-
-/// Signs are judged against rounding, slacks as the forces that would close them.
-Pivoting::Signs Pivoting::signsOf(const ContactSolution& solution) {
-  Signs signs{slackOf(solution), p0_ + solution.change, {}, {}};
-  Vector& s = signs.slack;
-  Vector& p = signs.force;
-  double largest = 0;
-  for (Eigen::Index i = 0; i < s.size(); ++i)
-    if (idle_[i] == 0)
-      largest = std::max({largest, std::abs(p[i]), std::abs(p0_[i]), std::abs(slack_[i]) / problem_.W(i, i)});
-  const Vector depth = s.cwiseQuotient(problem_.W.diagonal());
-  double noise = rounding * largest;  // the depth of closed conditions is nothing else
-  for (Eigen::Index i = 0; i < s.size(); ++i)
-    if (idle_[i] == 0 && solution.active[i] != 0) noise = std::max(noise, 2 * std::abs(depth[i]));
-  for (Eigen::Index i = 0; i < s.size(); ++i) {
-    if (idle_[i] != 0) continue;
-    if (solution.active[i] != 0 && !(p[i] >= -rounding * largest)) signs.pulls.push_back(static_cast<int>(i));
-    if (solution.active[i] == 0 && !(depth[i] >= -noise)) signs.overlaps.push_back(static_cast<int>(i));
-  }
-  for (Eigen::Index i = 0; i < s.size(); ++i) {
-    if (solution.active[i] != 0) s[i] = 0;
-    p[i] = std::max(p[i], 0.0);
-  }
-  return signs;
 }
 
 /// Of each run of neighbours that overlap the deepest: closing all would make most of them pull. At most `count`, the deepest
 /// ones.
-std::vector<int> Pivoting::deepest(const Signs& signs, size_t count) const {
-  const Vector depth = signs.slack.cwiseQuotient(problem_.W.diagonal());
+std::vector<int> deepest(const Signs& signs, const Matrix& W, size_t count) {
+  const Vector depth = signs.slack.cwiseQuotient(W.diagonal());
   std::vector<int> result;
   for (size_t k = 0; k < signs.overlaps.size(); ++k) {
     const int i = signs.overlaps[k];
@@ -253,14 +46,72 @@ std::vector<int> Pivoting::deepest(const Signs& signs, size_t count) const {
   return result;
 }
 
+/// Drops forces that pull until none is left. Where contact peels off from the ends of closed runs that would be one node at a
+/// time: after a few solves neighbours are dropped too, twice as many each time, until some of them overlap, which are closed
+/// again.
+class Peeling {
+ public:
+  void drop(const Signs& signs, std::vector<char>& active) {
+    constexpr int patience = 3;
+    if (++rounds_ > patience) width_ = std::max(1, std::min(2 * width_, widest_));
+    for (const int i : signs.pulls) active[i] = 0;
+    const auto n = static_cast<int>(active.size());
+    for (const int i : signs.pulls)
+      for (const int side : {-1, 1})
+        for (int j = i + side; j >= 0 && j < n && std::abs(j - i) < width_ && active[j] != 0; j += side) {
+          active[j] = 0;
+          beside_.push_back(j);
+        }
+  }
+  /// \returns whether too many were dropped.
+  bool takeBack(const Signs& signs, std::vector<char>& active) {
+    constexpr int narrower = 4;
+    bool any = false;
+    for (const int i : beside_) {
+      if (!std::binary_search(signs.overlaps.begin(), signs.overlaps.end(), i)) continue;
+      active[i] = 1;
+      any = true;
+    }
+    beside_.clear();
+    if (!any) return false;
+    widest_ = width_ / narrower;
+    width_ = 1;
+    rounds_ = 0;
+    return true;
+  }
+
+ private:
+  int rounds_ = 0;
+  int width_ = 1;
+  int widest_ = std::numeric_limits<int>::max() / 2;
+  std::vector<int> beside_;
+};
+
+/// \returns the signs of a set on which no force pulls; where nothing overlaps either, with factors of the set itself. Nothing
+/// where the work ends.
+bool dropPulls(ProximalContact& contact, ContactSolution& solution, Signs& signs) {
+  Peeling peeling;
+  while (!contact.redundant() && !contact.capped()) {
+    stopIfInterrupted();
+    if (!contact.solveOn(solution)) return false;
+    signs = contact.signsOf(solution);
+    if (peeling.takeBack(signs, solution.active)) continue;
+    peeling.drop(signs, solution.active);
+    if (!signs.pulls.empty()) continue;
+    if (!signs.overlaps.empty() || contact.fresh()) return true;
+    if (!contact.refactor(solution.active)) return false;
+  }
+  return false;
+}
+
 /// Closes an overlap of a set on which the forces p push; of those that would pull, the one that is reached first is dropped,
 /// and so on: the energy falls (Lawson and Hanson 1974).
-void Pivoting::descend(const Vector& z0, int chosen, Vector p, ContactSolution& solution) {
+void descend(ProximalContact& contact, int chosen, Vector p, ContactSolution& solution) {
   solution.active[chosen] = 1;
-  while (!capped()) {
+  while (!contact.capped()) {
     stopIfInterrupted();
-    if (!solveOn(z0, solution)) return;
-    const Vector towards = p0_ + solution.change - p;
+    if (!contact.solveOn(solution)) return;
+    const Vector towards = contact.p0() + solution.change - p;
     double length = 1;
     int first = -1;
     for (int i = 0; i < p.size(); ++i) {
@@ -276,41 +127,75 @@ void Pivoting::descend(const Vector& z0, int chosen, Vector p, ContactSolution& 
 }
 
 /// Closes an overlap of a set whose forces all push; no sign that is right becomes wrong.
-void Pivoting::closeOne(const Vector& z0, int chosen, ContactSolution& solution) {
-  if (!solveOn(z0, solution)) return;
-  Vector p = p0_ + solution.change;
-  Vector s = slackOf(solution);
-  const auto diagonal = problem_.W.diagonal();
-  while (!capped()) {
+void closeOne(ProximalContact& contact, int chosen, ContactSolution& solution) {
+  if (!contact.solveOn(solution)) return;
+  Vector p = contact.p0() + solution.change;
+  Vector s = contact.slack();
+  const Vector diagonal = contact.problem().W.diagonal();
+  ProximalContact::Growth rate;
+  while (!contact.capped()) {
     stopIfInterrupted();
-    ++solution.pivots;
-    --pivotsLeft_;
-    Vector rate = -problem_.W.col(chosen);
-    const Vector motion = solveBordered(solution.active, -problem_.G.row(chosen).transpose(), rate);
-    if (redundant_) return;
-    rate[chosen] = 1;
-    Vector opening = compliance(rate);
-    if (motion.size() > 0) opening -= problem_.G * motion;
-    const double least = rounding * std::max(rate.cwiseAbs().maxCoeff(),
-                                             opening.cwiseQuotient(diagonal).cwiseAbs().maxCoeff());
-    double length = opening[chosen] > 0 ? -s[chosen] / opening[chosen] : INFINITY;
+    if (!contact.grow(chosen, solution, rate)) return;
+    const double least =
+        ProximalContact::rounding *
+        std::max(rate.force.cwiseAbs().maxCoeff(), rate.slack.cwiseQuotient(diagonal).cwiseAbs().maxCoeff());
+    double length = rate.slack[chosen] > 0 ? -s[chosen] / rate.slack[chosen] : INFINITY;
     int next = chosen;
     for (int i = 0; i < p.size(); ++i) {
-      if (i == chosen || idle_[i] != 0) continue;
+      if (i == chosen || contact.idle(i)) continue;
       const bool active = solution.active[i] != 0;
-      const double fall = active ? -rate[i] : -opening[i] / diagonal[i];
+      const double fall = active ? -rate.force[i] : -rate.slack[i] / diagonal[i];
       const double value = active ? p[i] : s[i] / diagonal[i];
       if (!(fall > least) || (!active && value < 0) || !(std::max(value, 0.0) < length * fall)) continue;
       length = std::max(value, 0.0) / fall;
       next = i;
     }
     if (!std::isfinite(length)) return;
-    p += length * rate;
-    s += length * opening;
+    p += length * rate.force;
+    s += length * rate.slack;
     solution.active[next] = solution.active[next] != 0 ? 0 : 1;
     if (next == chosen) return;
     (solution.active[next] != 0 ? s : p)[next] = 0;
   }
+}
+
+}  // namespace
+
+bool pivot(ProximalContact& contact, ContactSolution& solution) {
+  constexpr size_t faster = 2;
+  constexpr size_t slower = 4;
+  constexpr double shallower = 0.9;
+  const ContactProblem& problem = contact.problem();
+  Signs best;
+  if (!dropPulls(contact, solution, best)) return false;
+  size_t atOnce = solution.active.size();
+  double least = depthOf(best, problem.W);
+  bool pressed = 2 * best.overlaps.size() > solution.active.size();  // most of what closes may stay closed
+  while (!best.overlaps.empty()) {
+    const std::vector<char> before = solution.active;
+    const std::vector<int> chosen = pressed ? best.overlaps : deepest(best, problem.W, atOnce);
+    for (const int i : chosen) solution.active[i] = 1;
+    Signs next;
+    if (!dropPulls(contact, solution, next)) return false;
+    // A set that overlaps less than any before is taken however its energy: that happens a few times only.
+    const double depth = depthOf(next, problem.W);
+    if (depth < shallower * least || isBetter(next, best, problem.symmetric)) {
+      least = std::min(least, depth);
+      best = std::move(next);
+      atOnce = faster * chosen.size();
+      pressed = false;
+      continue;
+    }
+    solution.active = before;
+    if (!pressed) atOnce = std::max<size_t>(1, chosen.size() / slower);
+    if (std::exchange(pressed, false) || chosen.size() > 1) continue;
+    if (problem.symmetric)
+      descend(contact, chosen.front(), best.force, solution);
+    else
+      closeOne(contact, chosen.front(), solution);
+    if (!dropPulls(contact, solution, best)) return false;
+  }
+  return true;
 }
 
 }  // namespace mortier

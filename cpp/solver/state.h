@@ -74,7 +74,7 @@ struct StepReport {
   int joined = 0;
   int left = 0;
   double penetration = 0;   ///< integral of the positive part of the jump, all interfaces [m^2]
-  double maxPressure = 0;   ///< largest contact pressure M^-1 p [Pa]
+  double maxPressure = 0;   ///< largest contact pressure W^-1 p [Pa]
   double contactForce = 0;  ///< sum of nodal contact forces p >= 0, all interfaces: no resultant [N/m]
   double resultantX = 0;    ///< resultant of the contact forces on the nonmortar bodies, all interfaces [N/m]
   double resultantY = 0;

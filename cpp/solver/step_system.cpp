@@ -1,6 +1,7 @@
 #include "solver/step_system.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/worst.h"
@@ -46,6 +47,20 @@ StepSystem::StepSystem(const Model& model, const SolverOptions& options)
   requireHeld();
 }
 
+Step StepSystem::step(const State& state0, const StepData& data) {
+  Step step{state0, data, loadsAt(data.time), std::vector<Matrix>(model_.bodies.size())};
+  for (size_t b = 0; b < model_.bodies.size(); ++b) {
+    const Body& body = model_.bodies[b];
+    if (!body.material().ofStrain()) continue;
+    Matrix& strain = step.strains0[b];
+    strain.resize(body.material().components(), body.points());
+    body.strain({state0.bodies[b].displacement, Vector::Zero(body.dofs())}, nullptr, strain, 0,
+                body.points());
+    if (const Matrix* shift = step.shift(b)) strain += *shift;
+  }
+  return step;
+}
+
 const std::vector<Vector>& StepSystem::loadsAt(double time) {
   for (size_t i = 0; i < loads_.size(); ++i)
     if (loads_[i].time == time) {
@@ -86,9 +101,10 @@ StepSystem::Linearised StepSystem::linearise(const Step& step, Iterate& iterate,
 BodyLaw StepSystem::law(const Step& step, int body, double weight, bool anticipate) const {
   const Material& material = model_.bodies[body].material();
   const Matrix& stress0 = step.state0.bodies[body].stress;
+  const Matrix* strain0 = step.strain0(body);
   return {[=, &material, &stress0](const BodyIterate& iterate, Linearisation& result, int begin, int end) {
-    return material.linearise({weight, stress0, iterate.strain, anticipate}, iterate.stress, result, begin,
-                              end);
+    return material.linearise({weight, stress0, iterate.strain, anticipate, strain0}, iterate.stress, result,
+                              begin, end);
   }};
 }
 
@@ -169,11 +185,13 @@ ContactSolution StepSystem::Condensed::solveContact() const {
 bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iterate,
                                    StepOutcome& outcome) && {
   if (contact.outcome == ContactSolution::Outcome::cycled)
-    return outcome.fail(Reason::contact, "the contact problem of the linearised step has no solution");
-  if (contact.outcome == ContactSolution::Outcome::capped)
     return outcome.fail(Reason::contact,
-                        "the contact problem of the linearised step was given up after the work of " +
-                            std::to_string(static_cast<int>(workLimit)) + " factorisations");
+                        "no solution of the contact problem of the linearised step was found");
+  if (contact.outcome == ContactSolution::Outcome::capped)
+    return outcome.fail(Reason::contact, "the contact problem of the linearised step was given up after " +
+                                             std::to_string(contact.pivots) + " active sets, the work of " +
+                                             std::to_string(std::lround(contact.work)) +
+                                             " dense factorisations");
   if (contact.outcome == ContactSolution::Outcome::unbalanced)
     return outcome.fail(Reason::unheld, "contact cannot hold " + system_->describeRigid(contact.rigid));
   system_->forEachBody([&](int b) {

@@ -53,9 +53,7 @@ class StepSystem {
   [[nodiscard]] const SolverOptions& options() const { return options_; }
 
   /// A step from a state; good until two other times are asked for.
-  [[nodiscard]] Step step(const State& state0, const StepData& data) {
-    return {state0, data, loadsAt(data.time)};
-  }
+  [[nodiscard]] Step step(const State& state0, const StepData& data);
   /// Nodal forces of all bodies at a time.
   const std::vector<Vector>& loadsAt(double time);
 

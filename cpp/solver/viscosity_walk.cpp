@@ -42,6 +42,7 @@ StepOutcome lowerViscosity(StepSystem& system, const Step& step, ViscosityWalk& 
     const bool last = place.decades == 0;
     const int iterations =
         std::min(last ? lastIterations : stageIterations, maxIterations - total.iterations);
+    const int before = total.iterations;
     total.follow(newton(system, step, step.data.weight * std::pow(10, place.decades),
                         {iterations, last ? system.options().tolerance : walk.tolerance, true},
                         place.iterate));
@@ -54,6 +55,7 @@ StepOutcome lowerViscosity(StepSystem& system, const Step& step, ViscosityWalk& 
       if (places.size() > 2 * stagesBack + 1) places.erase(places.begin() + 1);
       continue;
     }
+    if (total.iterations == before) ++total.iterations;  // not even begun: that must end as well
     walk.tolerance = std::max(finestTolerance, walk.tolerance / 10);
     walk.pace = std::max(finestPace, walk.pace / closer);
     for (int i = 0; i < stagesBack && places.size() > 1; ++i) places.pop_back();

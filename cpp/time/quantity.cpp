@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "mesh/boundary_line.h"
 
@@ -52,16 +53,21 @@ std::map<int, Wrench> reactions(const Model& model, const State& state, int b) {
     }
     for (int i = 0; i < support.count; ++i)
       result[body.conditions().displacements[support.conditions[i]].label].add(
-          body.mesh().vertices[support.node], along[i] * support.directions[i]);
+          body.elementNodes().places[support.node], along[i] * support.directions[i]);
   }
   return result;
 }
 
 Wrench contactOn(const Model& model, const State& state, int body, int label) {
   const Vector forces = contactForces(model, state, body, label);
+  const ElementNodes& nodes = model.bodies[body].elementNodes();
+  const std::vector<int>& labels = model.bodies[body].mesh().boundaryLabels;
   Wrench result;
-  for (int v : verticesOn(model.bodies[body].mesh(), label))
-    result.add(model.bodies[body].mesh().vertices[v], -forces.segment<2>(2 * v));
+  std::vector<char> counted(nodes.count(), 0);
+  for (const BoundaryStretch& stretch : nodes.boundary)
+    for (const int node : stretch.nodes)
+      if (labels[stretch.edge] == label && std::exchange(counted[node], 1) == 0)
+        result.add(nodes.places[node], -forces.segment<2>(2 * node));
   return result;
 }
 

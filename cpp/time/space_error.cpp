@@ -73,7 +73,7 @@ void SpaceErrorEstimator::addGaps(size_t interface, const State& state,
                                   std::vector<ErrorEstimate>& estimates) const {
   const ContactInterface& contact = model_.interfaces[interface];
   const auto& [nonmortar, mortar, coupling] = contact.pair();
-  if (coupling != CouplingKind::mortar) return;
+  if (coupling == CouplingKind::interpolation) return;
   for (const GapSquare& square :
        contact.gapSquares(state.contactForce[interface], state.bodies[nonmortar.body].displacement,
                           state.bodies[mortar.body].displacement)) {

@@ -3,6 +3,7 @@
 
 #include <complex>
 
+#include "fem/element.h"
 #include "material/plane_strain.h"
 #include "theory/scenes.h"
 
@@ -50,10 +51,12 @@ class HalfOpenContact {
   }
 
   /// The part of it that is modelled, [-0.9, 1.1] x [0, 1], loaded in proportion to time.
-  [[nodiscard]] Body body(int cells) const {
+  [[nodiscard]] Body body(int cells, int degree = 1) const {
     const double lower = mirrored_ ? -1 : 0;
-    return body(crissCrossMesh(
-        {.lower = {-0.9, lower}, .upper = {1.1, lower + 1}, .cellsX = cells, .cellsY = (cells + 1) / 2}));
+    return body(
+        crissCrossMesh(
+            {.lower = {-0.9, lower}, .upper = {1.1, lower + 1}, .cellsX = cells, .cellsY = (cells + 1) / 2}),
+        degree);
   }
 
   /// The same on a mesh of it.
@@ -84,26 +87,32 @@ class HalfOpenContact {
   /// Energy of the stress error and of the exact stress, by four times four midpoint triangles with the three
   /// edge midpoints of each: far finer than the error that is measured.
   void addEnergies(const Body& body, const Matrix& stress, double& error, double& norm) const {
-    constexpr int cuts = 4;
-    for (int i = 0; i < body.points(); ++i) {
-      const auto& t = body.mesh().triangles[i];
-      const Point& a = body.mesh().vertices[t[0]];
-      const Point u = (body.mesh().vertices[t[1]] - a) / cuts;
-      const Point v = (body.mesh().vertices[t[2]] - a) / cuts;
-      const double weight = body.weights()[i] / (cuts * cuts);
-      const auto add = [&](double s, double r) {
-        const Point x = a + s * u + r * v;
-        const Eigen::Vector3d exact = fromCartesian(this->stress(x.x(), x.y()));
-        error += weight * complementaryEnergy(stress.col(i).head<3>() - exact, elasticity_, plane_);
-        norm += weight * complementaryEnergy(exact, elasticity_, plane_);
-      };
-      // Centroids of the pieces.
-      for (int j = 0; j < cuts; ++j)
-        for (int k = 0; j + k < cuts; ++k) {
-          add(j + 1.0 / 3, k + 1.0 / 3);
-          if (j + k + 1 < cuts) add(j + 2.0 / 3, k + 2.0 / 3);
-        }
-    }
+    withElement(body.degree(), [&](auto element) {
+      using Element = decltype(element);
+      constexpr int cuts = 4;
+      for (size_t t = 0; t < body.mesh().triangles.size(); ++t) {
+        const auto first = static_cast<Eigen::Index>(t) * Element::points;
+        double area = 0;
+        for (int q = 0; q < Element::points; ++q) area += body.weights()[first + q];
+        const auto add = [&](double s, double r) {
+          const Barycentric at{1 - (s + r) / cuts, s / cuts, r / cuts};
+          Point x = Point::Zero();
+          for (int a = 0; a < 3; ++a) x += at[a] * body.mesh().vertices[body.mesh().triangles[t][a]];
+          Eigen::Vector3d difference = -fromCartesian(this->stress(x.x(), x.y()));
+          norm += area / (cuts * cuts) * complementaryEnergy(difference, elasticity_, plane_);
+          const auto shapes = Element::stressShapes(at);
+          for (int q = 0; q < Element::points; ++q)
+            difference += shapes[q] * stress.col(first + q).template head<3>();
+          error += area / (cuts * cuts) * complementaryEnergy(difference, elasticity_, plane_);
+        };
+        // Centroids of the pieces.
+        for (int j = 0; j < cuts; ++j)
+          for (int k = 0; j + k < cuts; ++k) {
+            add(j + 1.0 / 3, k + 1.0 / 3);
+            if (j + k + 1 < cuts) add(j + 2.0 / 3, k + 2.0 / 3);
+          }
+      }
+    });
   }
 
  private:

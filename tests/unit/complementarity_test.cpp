@@ -258,6 +258,18 @@ TEST(Complementarity, anyLoadOnManyNodesTakesTheWorkOfAFewFactorisations) {
     }
 }
 
+// A beam on an edge that peels off: one node after the other would be let go, each with a solve.
+TEST(Complementarity, contactPeelsOffInFewSets) {
+  constexpr int n = 300;
+  const ContactProblem problem{patterns::compliance(patterns::Line::thinBeam, n), true, Matrix(n, 0)};
+  Vector load = Vector::Constant(n, -1);
+  load.head(n / 2).setOnes();
+  const ContactSolution solution =
+      solveContact(problem, -problem.W * load, Vector::Zero(n), Vector(0), std::vector<char>(n, 1));
+  EXPECT_EQ(solution.outcome, Outcome::solved);
+  EXPECT_LE(solution.pivots, 40);
+}
+
 // Not a P-matrix: pivoting goes round, and says that it was stopped and not that there is no solution.
 TEST(Complementarity, workThatHasNoEndIsCutOff) {
   constexpr int n = 300;

@@ -7,11 +7,27 @@
 #include <random>
 
 #include "unit/random_trace.h"
+#include "unit/straight_lines.h"
 
 namespace mortier {
 namespace {
 
 constexpr CouplingKind kinds[] = {CouplingKind::interpolation, CouplingKind::mortar};
+
+/// Rows along the y axis: C u = B u1 - A u2 of the components along the normal.
+struct Scalar {
+  std::vector<int> nodes;
+  Matrix mass, B, A;
+};
+
+Scalar scalar(CouplingKind kind, const Trace& nonmortar, const Trace& mortar, int degree = 1) {
+  const Coupling coupling = couple(kind, straightPart(nonmortar, degree), straightFacing(mortar, degree));
+  const auto alongY = [](const Matrix& C) {
+    EXPECT_EQ(C(Eigen::all, Eigen::seq(0, Eigen::last, 2)).cwiseAbs().sum(), 0);
+    return Matrix(C(Eigen::all, Eigen::seq(1, Eigen::last, 2)));
+  };
+  return {coupling.nodes, Matrix(coupling.mass), -alongY(Matrix(coupling.C1)), alongY(Matrix(coupling.C2))};
+}
 
 /// The accuracy asked of what the couplings reproduce, for values of order one.
 constexpr double reproduced = 1e-14;
@@ -36,19 +52,25 @@ double rowSumError(const Matrix& A) {
 TEST(Coupling, threeAndThreeNodesGiveExactFractions) {
   const Trace nonmortar{0, 1.0 / 2, 1};
   const Trace mortar{0, 1.0 / 3, 1};
-  const Coupling coupling = couple(CouplingKind::mortar, nonmortar, mortar);
-  const Matrix M{{2, 1, 0}, {1, 4, 1}, {0, 1, 2}};
-  const Matrix D{{56, 51, 1}, {16, 138, 62}, {0, 27, 81}};
+  const Scalar projection = scalar(CouplingKind::mortar, nonmortar, mortar);
+  const Matrix W{{2, 1, 0}, {1, 4, 1}, {0, 1, 2}};
+  const Matrix M{{56, 51, 1}, {16, 138, 62}, {0, 27, 81}};
   const Matrix A{{30, 9, -3}, {-4, 33, 7}, {2, -3, 37}};
   constexpr double rounding = 1e-15;
-  EXPECT_EQ(coupling.nodes, (std::vector<int>{0, 1, 2}));
-  EXPECT_LE((Matrix(coupling.M) - M / 12).cwiseAbs().maxCoeff(), rounding);
-  EXPECT_LE((Matrix(coupling.D) - D / 432).cwiseAbs().maxCoeff(), rounding);
-  EXPECT_LE((coupling.A - A / 36).cwiseAbs().maxCoeff(), rounding);
+  EXPECT_EQ(projection.nodes, (std::vector<int>{0, 1, 2}));
+  EXPECT_LE((projection.mass - W / 12).cwiseAbs().maxCoeff(), rounding);
+  EXPECT_EQ(projection.B, Matrix::Identity(3, 3));
+  EXPECT_LE((projection.A - A / 36).cwiseAbs().maxCoeff(), rounding);
 
   const Matrix interpolated{{1, 0, 0}, {0, 0.75, 0.25}, {0, 0, 1}};
-  EXPECT_LE((couple(CouplingKind::interpolation, nonmortar, mortar).A - interpolated).cwiseAbs().maxCoeff(),
+  EXPECT_LE((scalar(CouplingKind::interpolation, nonmortar, mortar).A - interpolated).cwiseAbs().maxCoeff(),
             rounding);
+
+  const Scalar means = scalar(CouplingKind::weighted, nonmortar, mortar);
+  const Vector w = Vector{{3, 6, 3}} / 12;
+  EXPECT_LE((means.mass - Matrix(w.asDiagonal())).cwiseAbs().maxCoeff(), rounding);
+  EXPECT_LE((w.asDiagonal() * means.B - W / 12).cwiseAbs().maxCoeff(), rounding);
+  EXPECT_LE((w.asDiagonal() * means.A - M / 432).cwiseAbs().maxCoeff(), rounding);
 }
 
 TEST(Coupling, reproducesConstantsAndLinearFunctions) {
@@ -60,7 +82,7 @@ TEST(Coupling, reproducesConstantsAndLinearFunctions) {
     const Trace nonmortar = randomTrace(random, elements(random), 0, 1, grading);
     const Trace mortar = randomTrace(random, elements(random), 0, 1, grading);
     for (const CouplingKind kind : kinds) {
-      const Coupling coupling = couple(kind, nonmortar, mortar);
+      const Scalar coupling = scalar(kind, nonmortar, mortar);
       ASSERT_EQ(coupling.A.rows(), static_cast<Eigen::Index>(nonmortar.size()));
       const double linear = (coupling.A * asVector(mortar) - asVector(nonmortar)).cwiseAbs().maxCoeff();
       worst = std::max({worst, linear, rowSumError(coupling.A)});
@@ -71,7 +93,7 @@ TEST(Coupling, reproducesConstantsAndLinearFunctions) {
   std::cout << "constants and linear functions on 1000 random pairs: error at most " << worst << "\n";
 }
 
-// M A = D: the projection of a mortar function differs from it by something orthogonal to the nonmortar
+// D A = M: the projection of a mortar function differs from it by something orthogonal to the nonmortar
 // functions.
 TEST(Coupling, mortarIsTheProjection) {
   std::mt19937 random(2);
@@ -79,7 +101,7 @@ TEST(Coupling, mortarIsTheProjection) {
   for (int trial = 0; trial < 50; ++trial) {
     const Trace nonmortar = randomTrace(random, 7, 0, 1, 5);
     const Trace mortar = randomTrace(random, 10, 0, 1, 5);
-    const Coupling coupling = couple(CouplingKind::mortar, nonmortar, mortar);
+    const Scalar coupling = scalar(CouplingKind::mortar, nonmortar, mortar);
     Vector v(mortar.size());
     for (double& x : v) x = value(random);
     const Vector projection = coupling.A * v;
@@ -106,7 +128,7 @@ TEST(Coupling, interpolationTakesTheValuesAtTheNodes) {
   for (int trial = 0; trial < 100; ++trial) {
     const Trace nonmortar = randomTrace(random, 17, 0, 1, 10);
     const Trace mortar = randomTrace(random, 11, -0.1, 0.8, 10);
-    const Coupling coupling = couple(CouplingKind::interpolation, nonmortar, mortar);
+    const Scalar coupling = scalar(CouplingKind::interpolation, nonmortar, mortar);
     Vector v(mortar.size());
     for (double& x : v) x = value(random);
     const Vector values = coupling.A * v;
@@ -122,9 +144,39 @@ TEST(Coupling, matchingTracesGiveTheIdentity) {
   for (const int elements : {1, 2, 9, 50}) {
     const Trace trace = randomTrace(random, elements, -2, 3, 20);
     for (const CouplingKind kind : kinds) {
-      const Matrix A = couple(kind, trace, trace).A;
+      const Matrix A = scalar(kind, trace, trace).A;
       EXPECT_LE((A - Matrix::Identity(A.rows(), A.cols())).cwiseAbs().maxCoeff(), reproduced);
     }
+  }
+}
+
+// Quadratic functions too, where both traces are quadratic; the means see them alike.
+TEST(Coupling, quadraticTracesReproduceQuadraticFunctions) {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> elements(1, 30);
+  const auto valuesOn = [](const Trace& trace, auto f) {
+    const SmoothPart part = straightPart(trace, 2);
+    Vector values(part.traceNodes());
+    for (int i = 0; i < values.size(); ++i) {
+      const auto vertices = static_cast<int>(trace.size());
+      values[i] = f((i < vertices ? part.points[i] : part.middlePoints[i - vertices]).x());
+    }
+    return values;
+  };
+  for (int trial = 0; trial < 100; ++trial) {
+    const Trace nonmortar = randomTrace(random, elements(random), 0, 1, 20);
+    const Trace mortar = randomTrace(random, elements(random), 0, 1, 20);
+    for (const CouplingKind kind :
+         {CouplingKind::interpolation, CouplingKind::mortar, CouplingKind::weighted})
+      for (const int power : {0, 1, 2}) {
+        const auto f = [&](double s) { return std::pow(s, power); };
+        const Scalar coupling = scalar(kind, nonmortar, mortar, 2);
+        const auto rows = kind == CouplingKind::weighted ? nonmortar.size() : 2 * nonmortar.size() - 1;
+        ASSERT_EQ(coupling.nodes.size(), rows);
+        ASSERT_EQ(coupling.A.rows(), static_cast<Eigen::Index>(rows));
+        const Vector jump = coupling.B * valuesOn(nonmortar, f) - coupling.A * valuesOn(mortar, f);
+        ASSERT_LE(jump.cwiseAbs().maxCoeff(), 10 * reproduced) << static_cast<int>(kind) << " " << power;
+      }
   }
 }
 
@@ -149,13 +201,13 @@ TEST(Coupling, partialOverlapReproducesConstants) {
   }
   for (const auto& [mortar, nodes] : cases)
     for (const CouplingKind kind : kinds) {
-      const Coupling coupling = couple(kind, nonmortar, mortar);
+      const Scalar coupling = scalar(kind, nonmortar, mortar);
       ASSERT_EQ(coupling.nodes, nodes);
       EXPECT_LE(rowSumError(coupling.A), reproduced) << mortar.front() << " to " << mortar.back();
       EXPECT_LE(coupling.A.cwiseAbs().maxCoeff(), 2) << mortar.front() << " to " << mortar.back();
     }
-  EXPECT_TRUE(couple(CouplingKind::mortar, nonmortar, {0.3, 0.4}).nodes.empty());
-  EXPECT_TRUE(couple(CouplingKind::mortar, nonmortar, {1.1, 2}).nodes.empty());
+  EXPECT_TRUE(scalar(CouplingKind::mortar, nonmortar, {0.3, 0.4}).nodes.empty());
+  EXPECT_TRUE(scalar(CouplingKind::mortar, nonmortar, {1.1, 2}).nodes.empty());
 }
 
 TEST(Coupling, nodesCloserThanRoundingDoNoHarm) {
@@ -166,7 +218,7 @@ TEST(Coupling, nodesCloserThanRoundingDoNoHarm) {
     const Trace ends{shift, 0.25, 0.5 + shift, 0.75, 1 - shift};
     for (const CouplingKind kind : kinds)
       for (const Trace& mortar : {inside, ends}) {
-        const Coupling coupling = couple(kind, nonmortar, mortar);
+        const Scalar coupling = scalar(kind, nonmortar, mortar);
         ASSERT_EQ(coupling.A.rows(), 5);
         EXPECT_LE(rowSumError(coupling.A), reproduced);
         EXPECT_LE((coupling.A - Matrix::Identity(5, 5)).cwiseAbs().maxCoeff(), 20 * close);

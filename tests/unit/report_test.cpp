@@ -54,6 +54,32 @@ TEST(Fields, cellsShowCartesianComponentsAndFlow) {
   EXPECT_EQ(cellFields(blocks.model.bodies[1], blocks.state.bodies[1]).viscoplastic, std::vector<int>(4, 0));
 }
 
+TEST(Accuracy, ofTheRunIsThatOfAStateWhichHasItsLargestEnergy) {
+  constexpr double same =
+      1e-3;  // one is over the energy of the recovered stress, the other over that of the run
+  Blocks blocks;
+  for (BodyState& body : blocks.state.bodies)
+    for (Eigen::Index i = 0; i < body.stress.cols(); ++i) body.stress(1, i) += 0.1 * static_cast<double>(i);
+  double energy = 0;
+  for (size_t b = 0; b < 2; ++b) {
+    const Body& body = blocks.model.bodies[b];
+    Matrix strain;
+    body.material().elasticStrain(blocks.state.bodies[b].stress, strain);
+    for (int i = 0; i < body.points(); ++i)
+      energy += body.weights()[i] * strain.col(i).dot(blocks.state.bodies[b].stress.col(i)) / 2;
+  }
+  Peaks peaks;
+  peaks.energy.raise(energy, 0.25);
+  AccuracyMemory none;
+  const Accuracy accuracy = AccuracyRecord(blocks.model, none).atEnd(blocks.state, peaks);
+  EXPECT_GT(accuracy.all, 0.01);
+  EXPECT_NEAR(accuracy.largest, accuracy.all, same * accuracy.all);
+  // A quarter of the largest energy of the run: half the error, over that.
+  peaks.energy.value *= 4;
+  EXPECT_NEAR(AccuracyRecord(blocks.model, none).atEnd(blocks.state, peaks).largest, accuracy.all / 2,
+              same * accuracy.all);
+}
+
 TEST_F(Output, fieldsNameEveryBodyAndStep) {
   const Blocks blocks;
   Fields fields(path, blocks.model);

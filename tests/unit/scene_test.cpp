@@ -167,6 +167,8 @@ TEST_F(SceneFiles, sidesInAnyOrderAndInitialDistances) {
   const std::string both = "nonmortar = " + upper + "\nmortar = " + lower + "\n";
   const ContactInterface given = model(both + "gap = \"0.25*x^2\"").interfaces[0];
   EXPECT_LE((given.initialDistance() - Vector{{0, 0.0625, 0.25}}).cwiseAbs().maxCoeff(), 1e-16);
+  const ContactInterface alongY = model(both + "gap = \"0.5 + y\"").interfaces[0];  // the line is y = 0
+  EXPECT_LE((alongY.initialDistance() - Vector::Constant(3, 0.5)).cwiseAbs().maxCoeff(), 1e-15);
   EXPECT_EQ(model(both + "initial = \"close\"").interfaces[0].initialDistance().cwiseAbs().maxCoeff(), 0);
   const auto refused = [&](const std::string& contact) { return messageOf([&] { return model(contact); }); };
   EXPECT_NE(refused(both + "sides = [" + upper + ", " + lower + "]").find("beside sides"), std::string::npos);

@@ -154,6 +154,19 @@ TEST(StepSystem, whyAStepIsNotSolvedIsToldByItsReason) {
   }
 }
 
+TEST(StepSystem, aStepThatCannotEvenBeginEnds) {
+  Model model;
+  model.bodies.emplace_back(
+      "square", crissCrossMesh({{0, 0}, {1, 1}, 2, 2}),
+      perzynaMaterial({3e11, 0.3}, {10, 0.05, Projection::elasticity}),
+      Conditions{{{4, alongX, constant(0)}, {1, alongY, constant(0)}, {3, alongY, constant(NAN)}}, {}, {}});
+  const State state0 = initialState(model);
+  StepSystem system(model, {});
+  Iterate iterate = startingIterate(state0);
+  const StepOutcome outcome = solveStep(system, state0, {1, 1, {}}, iterate, Effort::all);
+  EXPECT_EQ(outcome.reason, Reason::unconverged);
+}
+
 TEST(StepSystem, restIsFoundOnlyWhereNothingChanges) {
   const Model model = squares(elasticMaterial({100, 0.3}));
   StepSystem system(model, {});

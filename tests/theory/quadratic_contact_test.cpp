@@ -1,0 +1,199 @@
+// Contact of bodies whose displacements are quadratic: patch tests, linear pressures, the note's test, a known end of
+// contact, curves.
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <numbers>
+#include <random>
+
+#include "material/perzyna.h"
+#include "theory/half_open_contact.h"
+
+namespace mortier {
+namespace {
+
+using namespace scenes;
+
+constexpr int quadratic = 2;
+constexpr CouplingKind projections[] = {CouplingKind::mortar, CouplingKind::weighted};
+
+std::string wordOf(CouplingKind kind) {
+  return kind == CouplingKind::weighted ? "weighted" : nameOf(kind);
+}
+
+/// A square with its nodes moved at random, those of its sides along them.
+TriangleMesh shaken(double lowerY, int cells, unsigned seed) {
+  TriangleMesh mesh = square(lowerY, cells);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> shift(-0.2 / cells, 0.2 / cells);
+  for (Point& x : mesh.vertices) {
+    if (x.x() != 0 && x.x() != 1) x.x() += shift(random);
+    if (x.y() != lowerY && x.y() != lowerY + 1) x.y() += shift(random);
+  }
+  validate(mesh);
+  return mesh;
+}
+
+/// The stress s22 = -(1 + slope x) and nothing else, turned by an angle: pressure on y = 0 that is linear along it, where
+/// u2 = 0 whatever the stiffness.
+struct LinearPressure {
+  double slope = 0;
+  double degrees = 0;
+  int degree = quadratic;
+
+  [[nodiscard]] Eigen::Matrix2d turn() const {
+    const double angle = degrees * std::numbers::pi / 180;
+    return Eigen::Matrix2d{{std::cos(angle), -std::sin(angle)}, {std::sin(angle), std::cos(angle)}};
+  }
+  [[nodiscard]] Point displacement(const Point& x, const Elasticity& elasticity) const {
+    const Point local = turn().transpose() * x;
+    const double along = local.x();
+    const double y = local.y();
+    const double u1 = elasticity.poisson * (along + slope * along * along / 2) + slope * y * y / 2;
+    return turn() * Point(u1, -(1 + slope * along) * y) / elasticity.young;
+  }
+  [[nodiscard]] Eigen::Vector3d stress(const Point& x) const {
+    const double pressure = 1 + slope * (turn().transpose() * x).x();
+    const Eigen::Matrix2d s = turn() * Eigen::Vector2d(0, -pressure).asDiagonal() * turn().transpose();
+    return fromCartesian({s(0, 0), s(1, 1), s(0, 1)});
+  }
+  [[nodiscard]] Body body(const char* name, TriangleMesh mesh, const Elasticity& elasticity, int held) const {
+    for (Point& x : mesh.vertices) x = turn() * x;
+    Conditions conditions;
+    for (const int c : {0, 1})
+      conditions.displacements.push_back({held, c, [*this, elasticity, c](double x, double y, double t) {
+                                            return t * displacement({x, y}, elasticity)[c];
+                                          }});
+    return {name, std::move(mesh), elasticMaterial(elasticity), std::move(conditions), degree};
+  }
+  /// The largest error of a stress component at any point, and of a nodal pressure, over the largest pressure.
+  [[nodiscard]] double error(int upperCells, int lowerCells, double contrast, CouplingKind coupling,
+                             int nonmortar) const {
+    const Model model =
+        contactModel(body("upper", shaken(0, upperCells, 1), {1, 0.3}, top),
+                     body("lower", shaken(-1, lowerCells, 2), {contrast, 0.2}, bottom), coupling, nonmortar);
+    const auto [state, report] = run(model, 1, 1);
+    EXPECT_EQ(report.status, Status::converged) << report.reason;
+    double largest = 0;
+    for (size_t b = 0; b < 2; ++b) {
+      const std::vector<Point> places = model.bodies[b].places();
+      for (size_t i = 0; i < places.size(); ++i)
+        largest =
+            std::max(largest, (state.bodies[b].stress.col(static_cast<Eigen::Index>(i)) - stress(places[i]))
+                                  .cwiseAbs()
+                                  .maxCoeff());
+    }
+    const ContactInterface& interface = model.interfaces[0];
+    const Vector pressure = interface.contactPressure(state.contactForce[0]);
+    for (int i = 0; i < interface.rows(); ++i) {
+      const Point& x = model.bodies[nonmortar].elementNodes().places[interface.nonmortarNodes()[i]];
+      largest = std::max(largest, std::abs(pressure[i] - 1 - slope * (turn().transpose() * x).x()));
+    }
+    return largest / (1 + slope);
+  }
+};
+
+constexpr std::array<std::array<int, 2>, 4> counts{{{5, 7}, {7, 5}, {4, 13}, {1, 3}}};
+
+TEST(QuadraticContact, constantPressureIsExact) {
+  constexpr double reproduced = 1e-12;
+  for (const CouplingKind kind : projections)
+    for (const int degree : {1, quadratic}) {
+      double worst = 0;
+      for (const auto& [upper, lower] : counts)
+        for (const int nonmortar : {upperBody, lowerBody})
+          for (const double turned : {0.0, 37.0}) {
+            const LinearPressure patch{0, turned, degree};
+            worst = std::max(worst, patch.error(upper, lower, 1, kind, nonmortar));
+          }
+      std::cout << wordOf(kind) << ", degree " << degree << ": constant stress, error at most " << worst
+                << "\n";
+      EXPECT_LE(worst, reproduced) << wordOf(kind) << ", degree " << degree;
+    }
+}
+
+TEST(QuadraticContact, linearPressureIsExact) {
+  constexpr double reproduced = 1e-11;
+  for (const CouplingKind kind : projections) {
+    double worst = 0;
+    for (const auto& [upper, lower] : counts)
+      for (const int nonmortar : {upperBody, lowerBody})
+        for (const double turned : {0.0, 37.0})
+          for (const double contrast : {1.0, 100.0})
+            worst = std::max(worst, LinearPressure{2, turned}.error(upper, lower, contrast, kind, nonmortar));
+    std::cout << wordOf(kind) << ": linear stress, error at most " << worst << "\n";
+    EXPECT_LE(worst, reproduced) << wordOf(kind);
+  }
+  // Interpolation has no such stress, as with linear traces.
+  EXPECT_GE(LinearPressure({2, 0}).error(5, 7, 1, CouplingKind::interpolation, upperBody), 1e-3);
+}
+
+// The stress stays uniform, whatever flows.
+TEST(QuadraticContact, notesTestIsExact) {
+  constexpr double reproduced = 1e-9;
+  const Function load = [](double, double, double t) { return -10 * t; };
+  for (const CouplingKind kind : projections)
+    for (const Projection projection : {Projection::elasticity, Projection::frobenius}) {
+      const auto material = perzynaMaterial(noteElasticity, noteLaw(projection));
+      Body upper("upper", square(0, 4), material, {{{left, 0, constant(0)}}, {{top, 1, load}}, {}},
+                 quadratic);
+      Body lower("lower", square(-1, 6), material,
+                 {{{left, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}}, quadratic);
+      const Model model = contactModel(std::move(upper), std::move(lower), kind, upperBody);
+      const auto [state, report] = run(model, 1, 10);
+      ASSERT_EQ(report.status, Status::converged) << report.reason;
+      EXPECT_LE(vonMisesRange(state).distance(10), 10 * reproduced) << wordOf(kind);
+      EXPECT_LE(interpenetration(model, state),
+                reproduced * state.bodies[0].displacement.cwiseAbs().maxCoeff());
+    }
+}
+
+/// Energy errors of the contact with a known end, of both bodies together.
+struct KnownEnd {
+  double error = 0;
+  double unknowns = 0;
+  double leastPressure = 0;
+};
+
+KnownEnd knownEnd(int cells, int degree, CouplingKind kind, int nonmortar, double contrast) {
+  const HalfOpenContact above({1, 0.3}, false);
+  const HalfOpenContact below({contrast, 0.2}, true);
+  const Model model =
+      contactModel(above.body(cells, degree), below.body(3 * cells / 2 + 1, degree), kind, nonmortar);
+  const auto [state, report] = run(model, 1, 1);
+  EXPECT_EQ(report.status, Status::converged) << report.reason;
+  KnownEnd result;
+  double error = 0;
+  double norm = 0;
+  above.addEnergies(model.bodies[0], state.bodies[0].stress, error, norm);
+  below.addEnergies(model.bodies[1], state.bodies[1].stress, error, norm);
+  result.error = std::sqrt(error / norm);
+  for (const Body& body : model.bodies) result.unknowns += body.freeDofs();
+  const Vector pressure = model.interfaces[0].contactPressure(state.contactForce[0]);
+  result.leastPressure = pressure.minCoeff() / pressure.maxCoeff();
+  return result;
+}
+
+TEST(QuadraticContact, knownEndIsOfHigherOrder) {
+  constexpr double leastOrder = 0.6;  // in unknowns; 3/4 by theory
+  for (const CouplingKind kind : projections)
+    for (const int nonmortar : {upperBody, lowerBody})
+      for (const double contrast : {1.0, 1e3}) {
+        std::vector<double> size;
+        std::vector<double> error;
+        for (const int cells : {8, 12, 16, 24, 32, 48}) {
+          const KnownEnd solved = knownEnd(cells, quadratic, kind, nonmortar, contrast);
+          size.push_back(1 / solved.unknowns);
+          error.push_back(solved.error);
+          EXPECT_GE(solved.leastPressure, kind == CouplingKind::weighted ? 0 : -1);
+        }
+        std::cout << wordOf(kind) << ", nonmortar " << (nonmortar == upperBody ? "coarse" : "fine")
+                  << ", contrast " << contrast << ": order in unknowns " << fittedOrder(size, error) << ", "
+                  << 1 / size.back() << " unknowns, error " << error.back() << "\n";
+        EXPECT_GE(fittedOrder(size, error), leastOrder)
+            << wordOf(kind) << " " << nonmortar << " " << contrast;
+      }
+}
+
+}  // namespace
+}  // namespace mortier
