@@ -34,16 +34,6 @@ TEST(Adapted, contactWithAKnownEnd) {
                       adapt(halfOpen(cells, contrast, nonmortar), 0.05), 0.05);
 }
 
-TEST(Adapted, contactWithAKnownEndAtDegreeTwo) {
-  for (const double contrast : {1e-6, 1.0, 1e3, 1e6})
-    for (const int nonmortar : {upperBody, lowerBody})
-      for (const auto& cells : {std::pair(4, 5), std::pair(4, 13), std::pair(13, 4)})
-        expectReached("degree 2, E 1:" + std::to_string(contrast) +
-                          (nonmortar == upperBody ? ", upper" : ", lower") + " nonmortar, cells " +
-                          std::to_string(cells.first) + ":" + std::to_string(cells.second),
-                      adapt(halfOpen(cells, contrast, nonmortar, 2), 0.003), 0.003);
-}
-
 TEST(Adapted, cornerOfAnLAtEitherDegree) {
   for (const auto& [degree, accuracy] : {std::pair(1, 0.1), std::pair(1, 0.05), std::pair(2, 0.01)})
     expectReached("L, degree " + std::to_string(degree), adapt(lShape(1, degree), accuracy), accuracy);
