@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
     for (const int nonmortar : {upperBody, lowerBody}) {
       const std::string name = "end of contact, E 1:" + std::to_string(static_cast<int>(contrast)) +
                                (nonmortar == upperBody ? "" : ", swapped");
-      row(name.c_str(), halfOpen({4, 5}, contrast, nonmortar), least);
+      for (const int degree : {1, 2}) row(name.c_str(), halfOpen({4, 5}, contrast, nonmortar, degree), least);
     }
   return 0;
 }

@@ -94,6 +94,13 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   }
   for (const Node* contact : root.tables("contact")) {
     scene.contacts.push_back(readContact(*contact, scene));
+    if (scene.accuracy.energy > 0 && scene.degree == 2 &&
+        scene.contacts.back().variant == CouplingKind::mortar) {
+      throw InputError(
+          scene.contacts.back().where +
+          ": contact: variant = \"mortar\", expected weighted beside accuracy and degree = 2: with no "
+          "other does the estimate know the contact line");
+    }
     if (scene.accuracy.energy > 0 && scene.contacts.back().variant == CouplingKind::interpolation) {
       throw InputError(
           scene.contacts.back().where +

@@ -151,12 +151,13 @@ steps = 1
 
     def test_what_cannot_be_is_refused(self):
         for setting, message in (("contact.variant=interpolation", "expected mortar beside accuracy"),
+                                 ("degree=2 contact.variant=mortar", "expected weighted beside accuracy and degree = 2"),
                                  ("time.scheme=crank-nicolson", "expected it only beside time.scheme"),
                                  ("solver.method=penalty-duality", "expected it only beside solver.method"),
                                  ("accuracy.energy=1.5", "0 < energy < 1"), ("accuracy.max_unknowns=-1", "max_unknowns > 0")):
             with self.subTest(setting):
                 self.write(PUNCH)
-                errors = self.mortier("run", "scene.toml", "--set", setting, code=2).stderr
+                errors = self.mortier("run", "scene.toml", "--set", *setting.split(), code=2).stderr
                 self.assertIn(message, errors)
                 self.assertEqual(self.names("."), ["scene.toml"])
 

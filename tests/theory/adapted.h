@@ -115,7 +115,7 @@ inline KnownProblem halfOpen(std::pair<int, int> cells, double contrast, int non
   problem.meshes = {upper.body(cells.first).mesh(), lower.body(cells.second).mesh()};
   problem.model = [=](std::vector<TriangleMesh> meshes) {
     return contactModel(upper.body(std::move(meshes[0]), degree), lower.body(std::move(meshes[1]), degree),
-                        CouplingKind::mortar, nonmortar);
+                        degree == 1 ? CouplingKind::mortar : CouplingKind::weighted, nonmortar);
   };
   problem.stress = {[=](const Point& x) { return upper.stress(x.x(), x.y()); },
                     [=](const Point& x) { return lower.stress(x.x(), x.y()); }};
