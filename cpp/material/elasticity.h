@@ -32,7 +32,7 @@ class ElasticLaw {
 
   static bool symmetric() { return true; }
   static double stressScale() { return 0; }
-  static double complianceRatio(double /*weight*/) { return 0; }
+  static double stiffness(double /*weight*/) { return 0; }
   template <class Scalar>
   static bool flows(const std::array<Scalar, 3>& /*stress*/) {
     return false;

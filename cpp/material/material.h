@@ -114,7 +114,7 @@ class Material {
   /// The stress that residuals are measured against [Pa]; 0 where the law has none.
   [[nodiscard]] virtual double stressScale() const = 0;
   /// Viscous over elastic compliance, theta e, for a step of `weight` [-].
-  [[nodiscard]] virtual double complianceRatio(double weight) const = 0;
+  [[nodiscard]] virtual double stiffness(double weight) const = 0;
   /// Whether the stress of a point is on or beyond yield.
   [[nodiscard]] virtual bool flows(const Matrix& stress, int point) const = 0;
 

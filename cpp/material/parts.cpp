@@ -75,9 +75,9 @@ class Parts final : public Material {
     return std::any_of(materials_.begin(), materials_.end(), [](const auto& m) { return m->ofStrain(); });
   }
   [[nodiscard]] double stressScale() const override { return stressScale_; }
-  [[nodiscard]] double complianceRatio(double weight) const override {
+  [[nodiscard]] double stiffness(double weight) const override {
     double largest = 0;
-    for (const auto& material : materials_) largest = std::max(largest, material->complianceRatio(weight));
+    for (const auto& material : materials_) largest = std::max(largest, material->stiffness(weight));
     return largest;
   }
   [[nodiscard]] bool flows(const Matrix& stress, int point) const override {

@@ -39,7 +39,7 @@ class PerzynaLaw {
 
   [[nodiscard]] bool symmetric() const { return symmetric_; }
   [[nodiscard]] double stressScale() const { return law_.yieldStress; }
-  [[nodiscard]] double complianceRatio(double weight) const { return theta(weight) * std::max(e_[0], e_[1]); }
+  [[nodiscard]] double stiffness(double weight) const { return theta(weight) * std::max(e_[0], e_[1]); }
   template <class Scalar>
   [[nodiscard]] auto flows(const std::array<Scalar, 3>& stress) const {
     return domain_.yields(stress);

@@ -75,7 +75,7 @@ class InPlaneStrain {
 
   [[nodiscard]] bool symmetric() const { return law_.symmetric(); }
   [[nodiscard]] double stressScale() const { return law_.stressScale(); }
-  [[nodiscard]] double complianceRatio(double weight) const { return law_.complianceRatio(weight); }
+  [[nodiscard]] double stiffness(double weight) const { return law_.stiffness(weight); }
   [[nodiscard]] double outOfPlane(const Eigen::Vector3d& stress) const {
     return poisson_ * std::numbers::sqrt2 * stress[0];
   }

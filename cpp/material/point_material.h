@@ -4,7 +4,7 @@
 //   static constexpr bool linear, ofStrain;       its moduli depend on nothing; G depends on the total strain
 //   bool symmetric() const;                       whether its moduli are, whatever the stress
 //   double stressScale() const;                   [Pa], 0 for none
-//   double complianceRatio(double weight) const;        viscous over elastic compliance [-]
+//   double stiffness(double weight) const;        viscous over elastic compliance [-]
 //   PointAnswer linearise(PointStep) const;       s + H^-1 r, H^-1 r and H^-1; r and H as in material.h
 //   PointAnswer regularise(PointStep, Lanes penalty) const;     t - s and D
 //   Lanes penalty(stress) const;
@@ -62,7 +62,7 @@ class PointMaterial final : public Material {
   [[nodiscard]] bool linear() const override { return Law::linear; }
   [[nodiscard]] bool ofStrain() const override { return Law::ofStrain; }
   [[nodiscard]] double stressScale() const override { return law_.stressScale(); }
-  [[nodiscard]] double complianceRatio(double weight) const override { return law_.complianceRatio(weight); }
+  [[nodiscard]] double stiffness(double weight) const override { return law_.stiffness(weight); }
   [[nodiscard]] bool flows(const Matrix& stress, int point) const override {
     std::array<double, n> s;
     for (size_t k = 0; k < n; ++k) s[k] = stress(static_cast<Eigen::Index>(k), point);

@@ -20,7 +20,7 @@ class Paths {
       const double flow = paths_[b]->flowAtTwiceYield();
       points_ += paths_[b]->points();
       flow_ = std::max(flow_, flow);
-      yieldStrain_ = std::min(yieldStrain_, flow / (1 + material.complianceRatio(step.data.weight)));
+      yieldStrain_ = std::min(yieldStrain_, flow / (1 + material.stiffness(step.data.weight)));
       // Stresses that are there may be far beyond yield already.
       overstress_ = std::max(overstress_, stress0.cwiseAbs().maxCoeff() / material.stressScale());
     }

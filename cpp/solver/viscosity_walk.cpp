@@ -10,11 +10,11 @@ namespace mortier {
 // Less than half a decade a stage: longer ones jump off the curve.
 ViscosityWalk::ViscosityWalk(const Model& model, const Step& step)
     : pace(0.4), tolerance(0.3), roughest(0.3) {
-  constexpr double firstRatio = 0.3;
-  double ratio = 0;
+  constexpr double firstStiffness = 0.3;
+  double stiffness = 0;
   for (const Body& body : model.bodies)
-    ratio = std::max(ratio, body.material().complianceRatio(step.data.weight));
-  places.push_back({-(std::log10(ratio / firstRatio) + pace), startingIterate(step.state0)});
+    stiffness = std::max(stiffness, body.material().stiffness(step.data.weight));
+  places.push_back({-(std::log10(stiffness / firstStiffness) + pace), startingIterate(step.state0)});
 }
 
 ViscosityWalk::Place ViscosityWalk::startOfCurve() const {

@@ -31,7 +31,7 @@ class Relaxing {
 
   [[nodiscard]] bool symmetric() const { return false; }
   [[nodiscard]] double stressScale() const { return 0; }
-  [[nodiscard]] double complianceRatio(double weight) const { return weight / eta_ / C_.norm(); }
+  [[nodiscard]] double stiffness(double weight) const { return weight / eta_ / C_.norm(); }
   template <class Scalar>
   [[nodiscard]] bool flows(const std::array<Scalar, n>& /*stress*/) const {
     return true;
