@@ -50,7 +50,9 @@ struct Solved {
   StepOutcome outcome = solveStep(system, state0, data, iterate);
   std::vector<Vector> loads{model.bodies[0].load(1), model.bodies[1].load(1)};
 
-  [[nodiscard]] Certificate certificate() const { return system.certify({state0, data, loads}, iterate, 0); }
+  [[nodiscard]] Certificate certificate() const {
+    return system.certify({state0, data, loads, {}}, iterate, 0);
+  }
 };
 
 TEST(Certificate, ofASolutionIsRounding) {
