@@ -57,9 +57,11 @@ ResolvedScene Rounds::scene() const {
 
 Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
   constexpr double short_ = 2;
+  constexpr double stalled = 0.9;
   constexpr int often = 2;
   const double asked = description_.accuracy.energy;
   const double ofMeshes = asked - timeShare();
+  const double before = meshError_;
   double sum = 0;
   for (const Vector& error : result.errors) sum += error.sum();
   meshError_ = result.energy > 0 ? std::sqrt(sum / result.energy) : 0;
@@ -74,7 +76,9 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
     return Verdict::goOn;
   }
 
-  shortfalls_ = aim_ > 0 && meshError_ > short_ * aim_ ? shortfalls_ + 1 : 0;
+  // On coarse meshes a round may fall short and go on all the same.
+  const bool fell = meshError_ < stalled * before;
+  shortfalls_ = aim_ > 0 && meshError_ > short_ * aim_ && !fell ? shortfalls_ + 1 : 0;
   if (shortfalls_ >= often) return stop("the error does not fall as it should");
   const double excess = meshError_ / (careful * ofMeshes);
   const double toCome = std::max(1.0, std::round(std::log(excess) / std::log(reachOfARound)));
