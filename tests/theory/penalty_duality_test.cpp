@@ -44,6 +44,8 @@ double difference(const State& a, const State& b) {
 
 void expectSameAsNewton(const Model& model, int steps) {
   constexpr double asked = 1e-8;  // measured: 2e-11
+  constexpr double complementarity =
+      1e-12;  // it is reached by iteration, not by a set that is exact; measured: 2e-13
   const Result newton = run(model, 1, steps);
   const Result duality = run(model, 1, steps, penaltyDuality());
   ASSERT_EQ(newton.report.status, Status::converged) << newton.report.reason;
@@ -52,7 +54,7 @@ void expectSameAsNewton(const Model& model, int steps) {
   EXPECT_EQ(duality.report.rejected, 0) << "cut steps have another answer";
   EXPECT_LE(difference(duality.state, newton.state), asked);
   EXPECT_LE(duality.report.worst.forceBalance, hardcases::forceBalanceLimit);
-  EXPECT_LE(duality.report.worst.complementarity, hardcases::complementarityLimit);
+  EXPECT_LE(duality.report.worst.complementarity, complementarity);
   EXPECT_LE(duality.report.worst.materialResidual, hardcases::materialResidualLimit);
   std::cout << "N = " << steps << ": Newton " << newton.report.iterations << ", penalty-duality "
             << duality.report.iterations << " iterations, difference "
