@@ -68,13 +68,15 @@ AdaptedMeshes::AdaptedMeshes(const std::vector<TriangleMesh>& meshes, int degree
   }
 }
 
-void AdaptedMeshes::cut(Adapted& body, const std::vector<char>& marked, std::vector<double>* byVertex) {
+std::vector<int> AdaptedMeshes::cut(Adapted& body, const std::vector<char>& marked,
+                                    std::vector<double>* byVertex) {
   RefinedMesh refined = bisect(body.mesh, body.curves, marked);
   body.mesh = std::move(refined.mesh);
   body.curves = std::move(refined.curves);
   offCurve_ += refined.offCurve;
-  if (byVertex == nullptr) return;
-  for (const auto& [a, b] : refined.cutEdges) byVertex->push_back(((*byVertex)[a] + (*byVertex)[b]) / 2);
+  if (byVertex != nullptr)
+    for (const auto& [a, b] : refined.cutEdges) byVertex->push_back(((*byVertex)[a] + (*byVertex)[b]) / 2);
+  return std::move(refined.parents);
 }
 
 void AdaptedMeshes::refineAll() {
@@ -125,6 +127,10 @@ void AdaptedMeshes::cutToSize(Adapted& body, const Vector& reduction, std::vecto
       ++around[v];
     }
   for (size_t v = 0; v < vertices; ++v) logArea[v] /= around[v];
+  // The mean at a vertex hides a triangle that is alone with its error: of those that make half of it each counts.
+  std::vector<double> own(marked.size(), std::numeric_limits<double>::infinity());
+  for (size_t t = 0; t < marked.size(); ++t)
+    if (marked[t] != 0) own[t] = logOf(t) + 2 * std::log(reduction[static_cast<Eigen::Index>(t)]);
   // A triangle is half as large when it is cut: from there on, cutting it is nearer to what it should be.
   const double slack = std::log(2.0) / 2;
   for (bool first = true;; first = false) {
@@ -132,12 +138,14 @@ void AdaptedMeshes::cutToSize(Adapted& body, const Vector& reduction, std::vecto
     bool any = false;
     for (size_t t = 0; t < marked.size(); ++t) {
       const auto& [a, b, c] = body.mesh.triangles[t];
-      const bool large = logOf(t) > (logArea[a] + logArea[b] + logArea[c]) / 3 + slack;
+      const bool large = logOf(t) > std::min((logArea[a] + logArea[b] + logArea[c]) / 3, own[t]) + slack;
       marked[t] = large || (first && marked[t] != 0) ? 1 : 0;
       any = any || marked[t] != 0;
     }
     if (!any) return;
-    cut(body, marked, &logArea);
+    std::vector<double> ofParts;
+    for (const int parent : cut(body, marked, &logArea)) ofParts.push_back(own[parent]);
+    own = std::move(ofParts);
     marked.clear();
   }
 }

@@ -43,7 +43,9 @@ class AdaptedMeshes {
     std::vector<double> rate;   ///< s; infinite where it is not known
   };
   void learnRates(Adapted& body, const Vector& error) const;
-  void cut(Adapted& body, const std::vector<char>& marked, std::vector<double>* byVertex = nullptr);
+  /// \returns the triangle of which each new one is a part
+  std::vector<int> cut(Adapted& body, const std::vector<char>& marked,
+                       std::vector<double>* byVertex = nullptr);
   void cutToSize(Adapted& body, const Vector& reduction, std::vector<char> marked);
   void cutAtSingularities(Adapted& body, double allowed);
 

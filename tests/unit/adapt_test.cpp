@@ -122,6 +122,39 @@ std::vector<Vector> cornerErrors(const TriangleMesh& mesh, double s) {
   return {errors};
 }
 
+TEST(AdaptedMeshes, aTriangleThatIsAloneWithItsErrorIsCutToItsSize) {
+  // Degree 2: the square of its error falls like the square of its area.
+  for (const int reach : {8, 64, 1024}) {
+    AdaptedMeshes meshes({square(8)}, 2);
+    const TriangleMesh before = meshes.mesh(0);
+    const auto triangles = static_cast<Eigen::Index>(before.triangles.size());
+    Vector error = Vector::Constant(triangles, 1e-12);
+    const int alone = 100;
+    error[alone] = 1;
+    meshes.refine({error}, std::sqrt(1.0 / reach));
+    const double area = doubleArea(before, alone);
+    const double wanted = area / std::sqrt(double(reach));
+    const TriangleMesh& after = meshes.mesh(0);
+    const auto inside = [&](const Point& x) {
+      for (int k = 0; k < 3; ++k) {
+        const Point& a = before.vertices[before.triangles[alone][k]];
+        const Point& b = before.vertices[before.triangles[alone][(k + 1) % 3]];
+        if ((b - a).x() * (x - a).y() - (b - a).y() * (x - a).x() < 0) return false;
+      }
+      return true;
+    };
+    int parts = 0;
+    for (size_t t = 0; t < after.triangles.size(); ++t) {
+      Point middle = Point::Zero();
+      for (const int v : after.triangles[t]) middle += after.vertices[v] / 3;
+      if (!inside(middle)) continue;
+      ++parts;
+      EXPECT_LE(doubleArea(after, static_cast<int>(t)), 1.5 * wanted);
+    }
+    EXPECT_GE(parts, std::sqrt(double(reach)) / 1.5);
+  }
+}
+
 TEST(AdaptedMeshes, trianglesAtAnUnboundedStressAreCutInLayers) {
   const auto smallest = [](double s) {
     AdaptedMeshes meshes({square(4)}, 2);
