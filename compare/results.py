@@ -33,8 +33,9 @@ FINAL = ("time", "von_mises_min", "von_mises_max", "interpenetration", "contact_
 class Body:
     displacement: np.ndarray  # vertices x 2 [m]
     stress: np.ndarray  # triangles x 3: s11, s22, s12 [Pa]; x 4 in plane strain, s33
-    points: np.ndarray = None  # vertices x 2, as meshed [m]; None where the code does not write it
-    triangles: np.ndarray = None  # triangles x 3, vertex numbers
+    points: np.ndarray = None  # vertices x 2, as meshed [m]; behind them the middles of quadratic triangles; None where the
+    # code does not write it
+    triangles: np.ndarray = None  # triangles x 3, numbers of the corners
     cells: dict = field(default_factory=dict)  # name -> all values by triangle that the code writes
 
     @property
@@ -261,8 +262,9 @@ def read_vtu(path):
     try:
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):  # it prints as well
             mesh = meshio.read(path)
+        triangles = mesh.cells_dict.get("triangle", mesh.cells_dict.get("triangle6"))[:, :3]
         return Body(mesh.point_data["displacement"][:, :2], mesh.cell_data["stress"][0], mesh.points[:, :2],
-                    mesh.cells_dict.get("triangle", mesh.cells_dict.get("triangle6")), {name: values[0] for name, values in mesh.cell_data.items()})
+                    triangles, {name: values[0] for name, values in mesh.cell_data.items()})
     except (Exception, SystemExit) as error:  # meshio ends the process on some faults
         raise ResultError(f"{path}: cannot be read: {error!r}") from error
 

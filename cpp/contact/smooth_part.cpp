@@ -83,6 +83,10 @@ void setCurvedNormals(SmoothPart& part) {
     part.normals.front() = part.normals.back() = outward(tangent(n - 1, 0));
     return;
   }
+  if (n == 1) {  // a bent element between two corners
+    for (const int end : {0, 1}) part.normals[end] = outward(part.tangentAt(0, end).normalized());
+    return;
+  }
   const auto reflected = [&](const Point& normal, int element) {
     const Point e = outward(part.direction(element));
     return Point((2 * e.dot(normal) * e - normal).normalized());

@@ -139,6 +139,15 @@ class Pictures(InSharedFolder):
             body.stress = 0 * body.stress
         self.assertIsNone(result.stuck(run))
 
+    def test_quadratic_displacements(self):
+        solve(self.folder, "quadratic", "output.every=1", "degree=2")
+        self.assertEqual(len(self.plot("quadratic", "mortar")), len(NAMES))
+        for name in ("u", "s12", "error"):
+            self.plot("quadratic", "--only", "fields", "--field", name, "--out", f"quadratic-{name}.png")
+            self.assertGreater(colours(self.folder / f"quadratic-{name}.png"), 20, name)
+        code, told, errors = view(self.folder, "report", "quadratic")
+        self.assertEqual((code, errors), (0, ""))
+
     def test_results_without_contact(self):
         solve(self.folder, "cook", scene="cook")
         self.assertEqual(sorted(self.plot("cook")), ["cook.plots/fields.png", "cook.plots/fields.svg", "cook.plots/history.png",
