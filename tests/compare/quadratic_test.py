@@ -5,6 +5,7 @@ import unittest
 import meshio
 import numpy as np
 
+from scenes import HELD_AND_PRESSED
 from support import ROOT, InFolder
 
 COOK = 23.9618  # deflection of Cook's membrane, of elements of second order on 64 cells (cook_test.cpp)
@@ -123,16 +124,7 @@ class InContact(InFolder):
         self.assertEqual(len(self.read("out/contact.csv").splitlines()) - 1, 7 * 7)
 
     def test_forces_of_quantities_balance(self):
-        self.write(TWO_BLOCKS + """
-[[quantity]]
-name = "held"
-reaction = { body = "lower", label = 1 }
-component = "y"
-[[quantity]]
-name = "pressed"
-contact_force = { body = "lower", label = 3 }
-component = "y"
-""")
+        self.write(TWO_BLOCKS + HELD_AND_PRESSED)
         quantities = self.summary()["quantities"]
         self.assertAlmostEqual(quantities["held"]["value"], -quantities["pressed"]["value"], delta=1e-11)
 

@@ -30,6 +30,18 @@ end = 1
 steps = 4
 """
 
+# To be added to it: what the ground carries, and what comes through the contact.
+HELD_AND_PRESSED = """
+[[quantity]]
+name = "held"
+reaction = { body = "lower", label = 1 }
+component = "y"
+[[quantity]]
+name = "pressed"
+contact_force = { body = "lower", label = 3 }
+component = "y"
+"""
+
 # The next two hold every key of a scene between them.
 CONTACT_KEYS = """\
 title = "expressions, interpolation, sides swapped"

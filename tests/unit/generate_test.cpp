@@ -10,24 +10,12 @@
 
 #include "base/error.h"
 #include "mesh/boundary_line.h"
+#include "unit/mesh_measures.h"
 
 namespace mortier {
 namespace {
 
 constexpr Cut cuts[] = {Cut::rising, Cut::falling, Cut::both};
-
-double area(const TriangleMesh& mesh) {
-  double sum = 0;
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) sum += doubleArea(mesh, t) / 2;
-  return sum;
-}
-
-double worstAspect(const TriangleMesh& mesh) {
-  double worst = 0;
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
-    worst = std::max(worst, aspectRatio(mesh, t));
-  return worst;
-}
 
 /// Every edge of one triangle only is labelled: no hole where blocks meet.
 bool closedByLabels(const TriangleMesh& mesh) {

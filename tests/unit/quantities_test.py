@@ -7,18 +7,10 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "compare"))
 
-from scenes import TWO_BLOCKS  # noqa: E402
+from scenes import HELD_AND_PRESSED, TWO_BLOCKS  # noqa: E402
 from support import OfTwoBlocks, mortier  # noqa: E402
 
-ASKED = """
-[[quantity]]
-name = "held"
-reaction = { body = "lower", label = 1 }
-component = "y"
-[[quantity]]
-name = "pressed"
-contact_force = { body = "lower", label = 3 }
-component = "y"
+ASKED = HELD_AND_PRESSED + """\
 [[quantity]]
 name = "turns"
 reaction = { body = "lower", label = 1 }

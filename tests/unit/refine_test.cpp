@@ -9,22 +9,10 @@
 
 #include "mesh/boundary_line.h"
 #include "mesh/generate.h"
+#include "unit/mesh_measures.h"
 
 namespace mortier {
 namespace {
-
-double area(const TriangleMesh& mesh) {
-  double sum = 0;
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) sum += doubleArea(mesh, t) / 2;
-  return sum;
-}
-
-double worstAspect(const TriangleMesh& mesh) {
-  double worst = 0;
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
-    worst = std::max(worst, aspectRatio(mesh, t));
-  return worst;
-}
 
 /// Conforming, triangles counterclockwise, every edge of one triangle labelled, as it was before.
 void expectSound(TriangleMesh mesh) {
