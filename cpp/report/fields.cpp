@@ -129,7 +129,8 @@ void writeCellData(VtuFile& file, const Body& body, const BodyState& state, cons
   };
   file.array("stress", flat(fields.stress), components, named({"s11", "s22", "s12", "s33"}));
   if (fields.stressAtPoints.rows() > components)
-    file.array("stress_at_points", flat(fields.stressAtPoints), static_cast<int>(fields.stressAtPoints.rows()));
+    file.array("stress_at_points", flat(fields.stressAtPoints),
+               static_cast<int>(fields.stressAtPoints.rows()));
   file.array("von_mises", flat(fields.vonMises), 1);
   file.array("viscoplastic_strain", flat(fields.viscoplasticStrain), components,
              named({"e11", "e22", "e12", "e33"}));
