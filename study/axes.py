@@ -17,14 +17,17 @@ CODES = ("mortier", "freefem", "getfem", "calculix")
 
 def check_axis(table, axis, values, levels):
     expected = AXES.get(axis, (axis, "values"))[1]
-    tests = {"integers >= 1": is_count(1), "integers >= 0": is_count(0), "numbers > 0": lambda v: is_number(v) and v > 0,
+    tests = {"integers >= 1": is_count(1), "integers >= 0": is_count(0),
+             "numbers > 0": lambda v: is_number(v) and v > 0,
              "strings": is_text, "booleans": lambda v: isinstance(v, bool),
              "values": lambda v: is_number(v) or isinstance(v, bool) or is_shown(v)}
     for value in values:
         if not tests[expected](value):
             raise table.fault(axis, value, expected)
         if axis == "level" and value >= levels:
-            raise table.fault(axis, value, f"a level below {levels} (the levels of [mesh])" if levels else "a table [mesh]")
+            raise table.fault(axis, value,
+                              f"a level below {levels} (the levels of [mesh])"
+                              if levels else "a table [mesh]")
         if axis == "code" and value not in CODES:
             raise table.fault(axis, value, "one of " + ", ".join(CODES))
 
@@ -44,7 +47,8 @@ def read_axes(table, levels, single):
     for axis, value in flattened(table.values):
         if axis not in AXES and "." not in axis:
             near = difflib.get_close_matches(axis, AXES, 1)
-            raise StudyError(f"{table.lines.place(f'{table.path}.{axis}')}: {table.words}: unknown axis {axis}, "
+            raise StudyError(f"{table.lines.place(f'{table.path}.{axis}')}: {table.words}: unknown "
+                             f"axis {axis}, "
                              + (f"did you mean {near[0]}? Expected" if near else "expected")
                              + f" one of {', '.join(AXES)}, or a dotted key of the scene")
         if not is_shown(axis):

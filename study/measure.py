@@ -1,4 +1,5 @@
-"""Errors of a run: norms of fields against an exact solution or a finer run, relative to the size of the latter."""
+"""Errors of a run: norms of fields against an exact solution or a finer run,
+relative to the size of the latter."""
 import numpy as np
 from matplotlib.tri import Triangulation
 
@@ -58,7 +59,8 @@ class Sampled:
         corners = body.triangles[self.triangles(name, points)]
         a, b, c = (body.points[corners[..., i]] for i in range(3))
         det = cross(b - a, c - a)
-        weights = np.stack([cross(b - points, c - points), cross(c - points, a - points), cross(a - points, b - points)], -1)
+        weights = np.stack([cross(b - points, c - points), cross(c - points, a - points),
+                            cross(a - points, b - points)], -1)
         return np.einsum("...i,...ij->...j", weights / det[..., None], body.displacement[corners])
 
 
@@ -86,15 +88,17 @@ def energy_density(stress, young, poisson):
 
 
 def completed(stress, components, poisson):
-    """An exact stress of the plane with the s33 that plane strain of an elastic body has, where it is asked for."""
+    """An exact stress of the plane with the s33 that plane strain of an elastic body has,
+    where it is asked for."""
     if stress.shape[-1] == components:
         return stress
     return np.concatenate([stress, poisson * (stress[..., :1] + stress[..., 1:2])], -1)
 
 
 def same_mesh(a, b):
-    return a.triangles.shape == b.triangles.shape and a.points.shape == b.points.shape and \
-        np.array_equal(a.triangles, b.triangles) and np.abs(a.points - b.points).max() <= SAME * np.ptp(b.points)
+    return (a.triangles.shape == b.triangles.shape and a.points.shape == b.points.shape
+            and np.array_equal(a.triangles, b.triangles)
+            and np.abs(a.points - b.points).max() <= SAME * np.ptp(b.points))
 
 
 def field_error(quantity, run, truth, materials):
@@ -154,12 +158,14 @@ def pressure_error(run, truth):
 
 
 def pressure_line(run):
-    """Arc length, pressure and position of the nonmortar nodes in order; M^-1 p where a code gives forces only."""
+    """Arc length, pressure and position of the nonmortar nodes in order;
+    M^-1 p where a code gives forces only."""
     if run.contact is None:
         raise RunFailure("no contact pressure in this result")
     position = run.contact.position  # the nodes stand in the order of the line, the one body to its left
     across = position[-1] - position[0]
-    order = slice(None, None, -1 if across[np.abs(across).argmax()] < 0 else 1)  # the same whichever body that is
+    # the same whichever body that is
+    order = slice(None, None, -1 if across[np.abs(across).argmax()] < 0 else 1)
     position = position[order]
     steps = np.hypot(*np.diff(position, axis=0).T)
     if run.contact.interface is not None:  # several lines have nothing between them

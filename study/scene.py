@@ -31,7 +31,8 @@ def load(path, settings=()):
 
 
 def take_sides(document, script):
-    """The sides of every contact as the program decided them: it names them in the script that it wrote for FreeFEM."""
+    """The sides of every contact as the program decided them:
+    it names them in the script that it wrote for FreeFEM."""
     rows = re.search(r"^int\[int, int\] contact = \[(.*)\];$", script, re.MULTILINE)
     for contact, row in zip(document["contact"], re.findall(r"\[([^\[\]]+)\]", rows[1])):
         first, first_label, second, second_label = map(int, row.split(","))
@@ -57,7 +58,8 @@ def change(table, path, value):
     if isinstance(inside, dict):
         change(inside, rest, value)
         return
-    chosen = [each for i, each in enumerate(inside) if rest[0] in (str(each.get("name", each.get("label", i))),)]
+    chosen = [each for i, each in enumerate(inside)
+              if rest[0] in (str(each.get("name", each.get("label", i))),)]
     for each in chosen or inside:
         change(each, rest[1:] if chosen else rest, value)
 

@@ -34,7 +34,8 @@ class Fields {
   Fields(std::string folder, const Model& model, std::vector<KeptFields> kept = {})
       : folder_(std::move(folder)), model_(model), kept_(std::move(kept)), synced_(kept_.size()) {}
   /// Writes <body>_<step>.vtu for every body; large ones while the run goes on, from a copy of the state.
-  /// \throws OutputError, also when a field is not finite, at the latest in the next call of any function here.
+  /// \throws OutputError, also when a field is not finite,
+  /// at the latest in the next call of any function here.
   void add(const State& state, int step);
   /// Brings everything to the disk. \returns what is written so far. \throws OutputError
   const std::vector<KeptFields>& sync();
