@@ -55,7 +55,8 @@ install_missing() {
   echo "${missing[*]}"
   quietly "${as_root[@]}" apt-get update -q || die "apt-get update failed; is there a network?"
   quietly "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-    apt-get install -y -q --no-install-recommends "${missing[@]}" || die "apt-get could not install: ${missing[*]}"
+    apt-get install -y -q --no-install-recommends "${missing[@]}" ||
+    die "apt-get could not install: ${missing[*]}"
   mapfile -t missing < <(missing_packages)
   [ "${#missing[@]}" -eq 0 ] || die "still missing: ${missing[*]}"
 }
@@ -72,7 +73,9 @@ jobs_at_once() {
 
 build() {
   local options=(-DCMAKE_BUILD_TYPE=Release) folder="$root/build"
-  case $root in *[\"\;\$\\]*) die "CMake cannot build in $root: expected a path without \" ; \$ and \\" ;; esac
+  case $root in
+    *[\"\;\$\\]*) die "CMake cannot build in $root: expected a path without \" ; \$ and \\" ;;
+  esac
   # A build folder that came from elsewhere knows the wrong paths.
   local cache=$folder/CMakeCache.txt
   if [ -f "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then

@@ -7,7 +7,8 @@ from problems import StudyError
 from table import COSTS, DONE, number
 
 ROUNDING = 1e-11  # relative errors below are rounding and tell no order
-RUNNING = ("steps", "tolerance", "accuracy", "level")  # the first that varies is the one along which orders are fitted
+# the first of these axes that varies is the one along which orders are fitted
+RUNNING = ("steps", "tolerance", "accuracy", "level")
 LAST = 3  # points that an extrapolation goes by
 
 
@@ -20,11 +21,13 @@ class Series:
     rows: list
 
     def values(self, column):
-        return np.array([number(row, column) if number(row, column) is not None else np.nan for row in self.rows])
+        return np.array([number(row, column) if number(row, column) is not None else np.nan
+                         for row in self.rows])
 
     def label(self, shown):
         """The sweep and those fixed axes that tell its series apart."""
-        return ", ".join([self.sweep, *(value_text(axis, self.fixed[axis]) for axis in shown.get(self.sweep, ()))])
+        return ", ".join([self.sweep,
+                          *(value_text(axis, self.fixed[axis]) for axis in shown.get(self.sweep, ()))])
 
 
 def value_text(axis, value):
@@ -44,7 +47,8 @@ def series_of(plan, rows):
             fixed = {each: str(row[each]) for each in axes if each != axis}
             groups.setdefault(tuple(fixed.items()), []).append(row)
         for fixed, members in groups.items():
-            members.sort(key=lambda row: (number(row, axis) is None, number(row, axis) or 0, str(row.get(axis, ""))))
+            members.sort(key=lambda row: (number(row, axis) is None, number(row, axis) or 0,
+                                          str(row.get(axis, ""))))
             result.append(Series(sweep.name, dict(fixed), axis, members))
     return result
 
@@ -86,7 +90,8 @@ def slope(x, y):
 
 
 def order(series, error):
-    """Order of an error in what the running axis refines: (order, points, in what); None where there is none."""
+    """Order of an error in what the running axis refines: (order, points, in what);
+    None where there is none."""
     y = series.values(f"error {error}")
     if series.axis == "steps":
         found = slope(series.values("steps"), y)
@@ -169,7 +174,8 @@ def comparisons(plan, series):
 
 
 def words(side):
-    return side["sweep"] + "".join(f", {value_text(axis, value)}" for axis, value in side.items() if axis != "sweep")
+    return side["sweep"] + "".join(f", {value_text(axis, value)}" for axis, value in side.items()
+                                   if axis != "sweep")
 
 
 def comparison_text(each, costs, reason):

@@ -1,4 +1,5 @@
-"""Runs a case in one of the codes; whatever the code, the answer is a results.Run (compare/results.py) with points.
+"""Runs a case in one of the codes; whatever the code,
+the answer is a results.Run (compare/results.py) with points.
 
 Environment: MORTIER, the program; FREEFEM (FreeFem++-nw), CCX (ccx): the other codes' programs.
 """
@@ -56,7 +57,8 @@ def run(case, scene, meshes, folder, timeout=None, repeat=1):
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     settings = settings_of(case, meshes)
-    solve = {"mortier": run_mortier, "freefem": run_freefem, "getfem": run_getfem, "calculix": run_calculix}[case.code]
+    solve = {"mortier": run_mortier, "freefem": run_freefem, "getfem": run_getfem,
+             "calculix": run_calculix}[case.code]
     costs = []
     try:
         for _ in range(repeat):
@@ -77,11 +79,13 @@ def set_option(settings):
 def run_mortier(case, scene, settings, folder, timeout):
     out = folder / "result"
     threads = str(case["threads"] or 1)
-    cost, _ = measured([MORTIER, "run", scene, "--quiet", "--threads", threads, "--out", out, *set_option(settings)],
+    cost, _ = measured([MORTIER, "run", scene, "--quiet", "--threads", threads, "--out", out,
+                        *set_option(settings)],
                        timeout, environment={"OPENBLAS_NUM_THREADS": threads})
     run_ = results.read_mortier(out)
     summary = run_.summary
-    return Outcome(run_, cost, summary["triangles"], summary["dofs"], summary["steps"], summary["newton_iterations"])
+    return Outcome(run_, cost, summary["triangles"], summary["dofs"], summary["steps"],
+                   summary["newton_iterations"])
 
 
 def run_freefem(case, scene, settings, folder, timeout):
@@ -138,7 +142,8 @@ def run_calculix(case, scene, settings, folder, timeout):
 
 
 def run_peer(program, case, scene, settings, folder, timeout):
-    """A code that reads the scene itself; it writes its fields into arrays and says what its solver alone cost."""
+    """A code that reads the scene itself; it writes its fields into arrays and says what its solver alone
+    cost."""
     checked = folder / "checked.edp"
     measured([MORTIER, "freefem", scene, checked, *set_option(settings)], timeout)  # the scene is sound
     document = scenes.load(scene, settings)
@@ -190,7 +195,7 @@ def make_meshes(plan, folder):
             cells = level["cells"]
             cells = f"{cells[0]},{cells[1]}" if isinstance(cells, list) else str(cells)
             corners = [",".join(map(repr, level[corner])) for corner in ("lower", "upper")]
-            measured([MORTIER, "mesh", level["kind"], "--cells", cells, f"--lower={corners[0]}", f"--upper={corners[1]}",
-                      path])
+            measured([MORTIER, "mesh", level["kind"], "--cells", cells, f"--lower={corners[0]}",
+                      f"--upper={corners[1]}", path])
             files[body].append(path)
     return files

@@ -1,11 +1,13 @@
-// A scene solved again and again, on meshes that are refined by the error of the round before and with steps to match, until
-// the estimated error is what was asked for. With E the error of the meshes over 0.85 of what is asked of it,
+// A scene solved again and again, on meshes that are refined by the error of the round before and with steps
+// to match, until the estimated error is what was asked for.
+// With E the error of the meshes over 0.85 of what is asked of it,
 //
 //   k = max(1, round(log E / log 4))   rounds are to come, each of which divides it by  min(E^(1/k), 8):
 //
-// equal reaches avoid the dear case, a mesh that misses by a little and is solved again at the same size. Where bodies flow a
-// part of what is asked is that of the steps in time (0.2 of degree 1, 0.3 of degree 2); before the last round steps are as
-// good as the meshes deserve. One round of refinement is made at least: on the first meshes an estimate is not trusted.
+// equal reaches avoid the dear case, a mesh that misses by a little and is solved again at the same size.
+// Where bodies flow a part of what is asked is that of the steps in time (0.2 of degree 1, 0.3 of degree 2);
+// before the last round steps are as good as the meshes deserve. One round of refinement is made at least: on
+// the first meshes an estimate is not trusted.
 #pragma once
 
 #include <string>

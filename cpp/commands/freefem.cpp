@@ -61,8 +61,8 @@ bool isRoller(const ConditionDescription& condition) {
          (condition.component == alongNormal || condition.component == alongTangent);
 }
 
-/// Loads by the rules that mortier takes (docs/theory.md), for they decide what nodal forces are; with quadratic
-/// displacements by FreeFEM's own of degree 5. A macro must not be empty.
+/// Loads by the rules that mortier takes (docs/theory.md), for they decide what nodal forces are; with
+/// quadratic displacements by FreeFEM's own of degree 5. A macro must not be empty.
 void writeConditions(std::ostream& out, const BodyDescription& body, int number, int degree) {
   const std::string n = std::to_string(number);
   std::ostringstream supports;

@@ -36,8 +36,8 @@ namespace mortier {
 
 namespace {
 
-/// The first Ctrl-C ends the run with a checkpoint of its last step; a second one kills, and so does the first where a library
-/// would not hear of it (before the first step).
+/// The first Ctrl-C ends the run with a checkpoint of its last step; a second one kills, and so does the
+/// first where a library would not hear of it (before the first step).
 void onInterrupt(int signal) {
   if (inDeafCall()) {
     constexpr char text[] = "mortier: interrupted before the first step; nothing was written\n";
@@ -99,7 +99,8 @@ void warnOf(const Faults& faults) {
     if (fault.kind->severity == Severity::warning) warn(fault.place + ": " + withRemedy(fault));
 }
 
-/// Beside the times of the scene, what its steps need to know of its data where they are chosen by their error.
+/// Beside the times of the scene, what its steps need to know of its data where they are chosen by their
+/// error.
 void lookAhead(SceneDescription& scene, const Model& model) {
   if (!(scene.time.tolerance > 0)) return;
   LoadCourses loads = loadCourses(scene, model);

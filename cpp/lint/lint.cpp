@@ -47,7 +47,8 @@ std::string whereIn(const Node& node, const std::vector<std::string>& keys) {
   return at->where;
 }
 
-/// How deep the bodies of a contact overlap, as meshed or as its gap says: what is pressed together is no accident.
+/// How deep the bodies of a contact overlap, as meshed or as its gap says:
+/// what is pressed together is no accident.
 double interferenceOf(const ContactDescription& contact, const LintInput& input) {
   const auto side = [&](const SideDescription& description) {
     return ContactSide{bodyIndex(input.scene, description.body), description.label};
@@ -84,8 +85,8 @@ void runChecks(const LintInput& input, Faults& faults) {
   }
 }
 
-/// Where contact alone holds bodies, whether it does: as the first step begins, and elastically at some times of the run.
-/// What contact can balance depends on no material.
+/// Where contact alone holds bodies, whether it does: as the first step begins, and elastically at some times
+/// of the run. What contact can balance depends on no material.
 void requireHeld(const SceneDescription& scene, const Model& model) {
   StepSystem system(model, scene.solver);
   if (!system.contactHolds()) return;

@@ -13,8 +13,8 @@ namespace mortier {
 
 namespace {
 
-/// A .vtu file: the arrays are described first, their bytes follow in one appended block, the last array first:
-/// meshio renames offsets as it reads and must not meet a new one before an old one of the same value.
+/// A .vtu file: the arrays are described first, their bytes follow in one appended block, the last array
+/// first: meshio renames offsets as it reads and must not meet a new one before an old one of the same value.
 class VtuFile {
  public:
   explicit VtuFile(std::string path) : path_(std::move(path)), file_(path_) {

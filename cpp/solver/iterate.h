@@ -27,7 +27,8 @@ struct Step {
   [[nodiscard]] const Matrix* shift(size_t body) const {
     return data.shift.empty() ? nullptr : &data.shift[body];
   }
-  /// What the strain of an iterate is added to for the total strain; null where the law does not depend on that.
+  /// What the strain of an iterate is added to for the total strain;
+  /// null where the law does not depend on that.
   [[nodiscard]] const Matrix* strain0(size_t body) const {
     return strains0[body].size() == 0 ? nullptr : &strains0[body];
   }

@@ -10,7 +10,8 @@
 // with (contact) kept as it is: each body is condensed to its contact dofs, and the complementarity problem
 // is solved there. A linear solve goes from one type to the next, and only so:
 //
-//   StepSystem -linearise-> Linearised -factorise-> Factorised -condense-> Condensed -solveContact, expand-> iterate
+//   StepSystem -linearise-> Linearised -factorise-> Factorised -condense-> Condensed -solveContact,
+//   expand-> iterate
 //
 // Each is good until the next linearise().
 #pragma once

@@ -27,10 +27,11 @@ class StepTaker {
   StepOutcome guard(const StepOutcome& before, Effort effort = Effort::usual);
   /// Whether that was done.
   [[nodiscard]] bool guarded() const { return guarded_; }
-  /// Error of the viscoplastic strain (exact less computed, per body) that the last attempt makes on its way from the
-  /// state (step_error.cpp).
+  /// Error of the viscoplastic strain (exact less computed, per body) that the last attempt makes on its way
+  /// from the state (step_error.cpp).
   std::vector<Matrix> localError();
-  /// Displacement and stress of it at the end of the attempt, the overstress included that later steps forget.
+  /// Displacement and stress of it at the end of the attempt,
+  /// the overstress included that later steps forget.
   [[nodiscard]] const std::vector<Response>& errorAtEnd() const { return reached_; }
   /// What an error of the viscoplastic strain at the start of the attempt has become at its end.
   std::vector<Matrix> carried(const std::vector<Matrix>& strain);
@@ -38,8 +39,8 @@ class StepTaker {
   std::vector<Response> response(const std::vector<Matrix>& strain);
   /// By how much the stress of the attempt is not what the step before leads to expect; no displacement.
   [[nodiscard]] std::vector<Response> surprise() const;
-  /// Where points began to flow on the way, about what their stress is wrong by at its end: the stages that come before see
-  /// no flow, the others only its last direction. No displacement.
+  /// Where points began to flow on the way, about what their stress is wrong by at its end: the stages that
+  /// come before see no flow, the others only its last direction. No displacement.
   [[nodiscard]] std::vector<Response> turn() const;
   /// The fraction of the attempt at which the first point flows, where none did at its start; 1 if none does.
   [[nodiscard]] double onset() const;

@@ -81,10 +81,11 @@ class Accuracy(InFolder):
             self.assertAlmostEqual(again["final"][key] / summary["final"][key], 1, delta=1e-9)
 
     def test_the_option_is_the_key(self):
-        _, summary = self.run_scene(PUNCH[:PUNCH.index("[accuracy]")], "--accuracy", "0.15", "--max-unknowns", "1e5",
-                                    "--max-seconds", "100")
+        _, summary = self.run_scene(PUNCH[:PUNCH.index("[accuracy]")], "--accuracy", "0.15", "--max-unknowns",
+                                    "1e5", "--max-seconds", "100")
         self.assertEqual(summary["accuracy"]["asked"], 0.15)
-        self.assertEqual(summary["settings"], ["accuracy.energy=0.15", "accuracy.max_unknowns=1e5", "accuracy.max_seconds=100"])
+        self.assertEqual(summary["settings"], ["accuracy.energy=0.15", "accuracy.max_unknowns=1e5",
+                                               "accuracy.max_seconds=100"])
 
     def test_what_is_not_reached_is_said(self):
         done, summary = self.run_scene(PUNCH, "--accuracy", "0.001", "--max-unknowns", "2000", code=1)
@@ -105,8 +106,10 @@ class Accuracy(InFolder):
         self.assertAlmostEqual(summary["tolerance"], 0.02, delta=1e-15)
 
     def test_a_constant_stress_is_exact_after_one_refinement(self):
-        scene = TWO_BLOCKS.replace('"upper.mesh"', '{ shape = "rectangle", lower = [0, 0], upper = [1, 1], cells = 3 }')
-        scene = scene.replace('"lower.mesh"', '{ shape = "rectangle", lower = [0, -1], upper = [1, 0], cells = 4 }')
+        scene = TWO_BLOCKS.replace('"upper.mesh"', '{ shape = "rectangle", lower = [0, 0], upper = [1, '
+                                                   '1], cells = 3 }')
+        scene = scene.replace('"lower.mesh"', '{ shape = "rectangle", lower = [0, -1], upper = [1, '
+                                              '0], cells = 4 }')
         _, summary = self.run_scene(scene, "--accuracy", "0.01")
         self.assertEqual(len(summary["rounds"]), 2)
         self.assertEqual(summary["accuracy"]["mesh"], 0)
@@ -151,10 +154,12 @@ steps = 1
 
     def test_what_cannot_be_is_refused(self):
         for setting, message in (("contact.variant=interpolation", "expected mortar beside accuracy"),
-                                 ("degree=2 contact.variant=mortar", "expected weighted beside accuracy and degree = 2"),
+                                 ("degree=2 contact.variant=mortar",
+                                  "expected weighted beside accuracy and degree = 2"),
                                  ("time.scheme=crank-nicolson", "expected it only beside time.scheme"),
                                  ("solver.method=penalty-duality", "expected it only beside solver.method"),
-                                 ("accuracy.energy=1.5", "0 < energy < 1"), ("accuracy.max_unknowns=-1", "max_unknowns > 0")):
+                                 ("accuracy.energy=1.5", "0 < energy < 1"),
+                                 ("accuracy.max_unknowns=-1", "max_unknowns > 0")):
             with self.subTest(setting):
                 self.write(PUNCH)
                 errors = self.mortier("run", "scene.toml", "--set", *setting.split(), code=2).stderr
@@ -166,9 +171,12 @@ steps = 1
         for bad, message in (('shape = "circle", cells = 1', 'shape = "circle", expected'),
                              ('shape = "rectangle"', "cells is missing"),
                              ('shape = "rectangle", cells = 1.5', "expected N or [N, M], integers >= 1"),
-                             ('shape = "rectangle", cells = 1, radius = 2', "radius = 2, expected of a mesh of shape rectangle"),
-                             ('shape = "rectangle", cells = 1, upper = [-1, 1]', "expected finite numbers with lower < upper"),
-                             ('shape = "quadrilateral", cells = 1, corners = [[0, 0], [1, 0]]', "expected four corners"),
+                             ('shape = "rectangle", cells = 1, radius = 2',
+                              "radius = 2, expected of a mesh of shape rectangle"),
+                             ('shape = "rectangle", cells = 1, upper = [-1, 1]',
+                              "expected finite numbers with lower < upper"),
+                             ('shape = "quadrilateral", cells = 1, corners = [[0, 0], [1, 0]]',
+                              "expected four corners"),
                              ('shape = "annulus", cells = 4, span = "most"', "span = \"most\", expected"),
                              ('file = "a.mesh", cells = 1', "cells = 1, expected it beside shape")):
             with self.subTest(bad):
@@ -180,14 +188,16 @@ steps = 1
     def test_a_stopped_run_begins_its_rounds_again(self):
         self.write(PUNCH)
         self.mortier("run", "scene.toml", "--out", "whole", "--accuracy", "0.02")
-        run = subprocess.Popen([PROGRAM, "run", "scene.toml", "--out", "out", "--accuracy", "0.02"], cwd=self.folder,
-                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        run = subprocess.Popen([PROGRAM, "run", "scene.toml", "--out", "out", "--accuracy", "0.02"],
+                               cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         limit = time.time() + 60
-        while not list(self.folder.glob("out.tmp-*/checkpoint")) and time.time() < limit and run.poll() is None:
+        while not list(
+            self.folder.glob("out.tmp-*/checkpoint")) and time.time() < limit and run.poll() is None:
             time.sleep(0.002)
         run.send_signal(signal.SIGKILL)
         run.wait()
-        done = subprocess.run([PROGRAM, "run", "--restart", "out"], cwd=self.folder, capture_output=True, text=True)
+        done = subprocess.run([PROGRAM, "run", "--restart", "out"], cwd=self.folder, capture_output=True,
+                              text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("the rounds begin again", done.stderr)
         for name in ("history.csv", "contact.csv", "punch.mesh", "block.mesh"):

@@ -245,8 +245,8 @@ TEST(ErrorControl, noStepJumpsOverCyclesOrOverTheLoadAtTheStart) {
     }
 }
 
-// With interpolation the triangles along the interface yield one after the other. A step over the first of them that ends
-// among them knows only the last direction of their flow.
+// With interpolation the triangles along the interface yield one after the other. A step over the first of
+// them that ends among them knows only the last direction of their flow.
 TEST(ErrorControl, theFirstStepThatFlowsIsAsGoodAsTheToleranceAsks) {
   for (const timecases::Case& each : timecases::cases(timecases::Size::small)) {
     if (each.name != "8 low waves, hard, interpolation, sdirk2") continue;

@@ -1,5 +1,5 @@
-// Contact of bodies whose displacements are quadratic: patch tests, linear pressures, the note's test, a known end of
-// contact, curves.
+// Contact of bodies whose displacements are quadratic: patch tests, linear pressures, the note's test, a
+// known end of contact, curves.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -34,8 +34,8 @@ TriangleMesh shaken(double lowerY, int cells, unsigned seed) {
   return mesh;
 }
 
-/// The stress s22 = -(1 + slope x) and nothing else, turned by an angle: pressure on y = 0 that is linear along it, where
-/// u2 = 0 whatever the stiffness.
+/// The stress s22 = -(1 + slope x) and nothing else, turned by an angle: pressure on y = 0 that is linear
+/// along it, where u2 = 0 whatever the stiffness.
 struct LinearPressure {
   double slope = 0;
   double degrees = 0;
@@ -66,7 +66,8 @@ struct LinearPressure {
                                           }});
     return {name, std::move(mesh), elasticMaterial(elasticity), std::move(conditions), degree};
   }
-  /// The largest error of a stress component at any point, and of a nodal pressure, over the largest pressure.
+  /// The largest error of a stress component at any point, and of a nodal pressure,
+  /// over the largest pressure.
   [[nodiscard]] double error(int upperCells, int lowerCells, double contrast, CouplingKind coupling,
                              int nonmortar) const {
     const Model model =
@@ -255,7 +256,8 @@ Fit shrinkFit(int cells, int degree, Edges edges, CouplingKind kind, bool shaftN
   return fit;
 }
 
-// Straight edges stand for the arcs in their distances, but not in what they do: quadratic conditions see that.
+// Straight edges stand for the arcs in their distances, but not in what they do:
+// quadratic conditions see that.
 TEST(QuadraticContact, curvedLines) {
   constexpr double balanced = 1e-13;
   struct Case {

@@ -135,7 +135,8 @@ TEST_F(SceneFiles, sidesAreDecidedInOnePlace) {
     }
 }
 
-// Names of conditions, regions and sides become the numbers of the mesh; what it does not have, one that no mesh has.
+// Names of conditions, regions and sides become the numbers of the mesh; what it does not have,
+// one that no mesh has.
 TEST_F(SceneFiles, labelsAreNumbersOnceResolved) {
   SceneDescription scene = readScene(path());
   TriangleMesh mesh = crissCrossMesh({{0, 0}, {1, 1}, 2, 2});
