@@ -33,8 +33,8 @@ FINAL = ("time", "von_mises_min", "von_mises_max", "interpenetration", "contact_
 class Body:
     displacement: np.ndarray  # vertices x 2 [m]
     stress: np.ndarray  # triangles x 3: s11, s22, s12 [Pa]; x 4 in plane strain, s33
-    # vertices x 2, as meshed [m]; behind them the middles of quadratic triangles; None where the code does not
-    # write it
+    # vertices x 2, as meshed [m]; behind them the middles of quadratic triangles; None where the code does
+    # not write it
     points: np.ndarray = None
     triangles: np.ndarray = None  # triangles x 3, numbers of the corners
     elements: np.ndarray = None  # triangles x 6, middles behind corners; None where triangles are linear

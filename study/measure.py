@@ -104,7 +104,7 @@ def between_points(at):
 
 
 def quadrature(body):
-    """Points, triangles x 7 x 2, and weights, triangles x 7; curved sides are mapped as the displacement is."""
+    """Points, triangles x 7 x 2, and weights, triangles x 7; curved sides are mapped as displacements are."""
     corners = body.points[nodes_of(body)]
     points = np.einsum("qi,tij->tqj", shapes(body, POINTS), corners)
     tangents = np.einsum("qdi,tij->tqdj", slopes(body, POINTS), corners)

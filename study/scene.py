@@ -115,8 +115,8 @@ class Mesh:
         return np.array(line)
 
     def with_middles(self):
-        """Points of quadratic triangles, with straight sides: the vertices, then the middles as triangles name
-        their sides 0-1, 1-2, 2-0 first; and triangles x 6."""
+        """Points of quadratic triangles, with straight sides: the vertices, then the middles as triangles
+        name their sides 0-1, 1-2, 2-0 first; and triangles x 6."""
         sides = np.sort(np.stack([self.triangles, np.roll(self.triangles, -1, 1)], -1).reshape(-1, 2), 1)
         _, first, number = np.unique(sides, axis=0, return_index=True, return_inverse=True)
         order = np.argsort(first)

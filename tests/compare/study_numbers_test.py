@@ -30,8 +30,8 @@ def square(cells):
 
 
 def quadratic(cells, rise=0.0):
-    """The same square of quadratic triangles, its upper side a parabola that is so much higher in the middle of
-    every element, with u = (x^2, x y) at the nodes and s = (2 x + y, 1 - x, y) at the points."""
+    """The same square of quadratic triangles, its upper side a parabola that is so much higher in the middle
+    of every element, with u = (x^2, x y) at the nodes and s = (2 x + y, 1 - x, y) at the points."""
     body = square(cells).bodies["b"]
     mesh = scene.Mesh.__new__(scene.Mesh)
     mesh.points, mesh.triangles = body.points, body.triangles
