@@ -33,10 +33,12 @@ FINAL = ("time", "von_mises_min", "von_mises_max", "interpenetration", "contact_
 class Body:
     displacement: np.ndarray  # vertices x 2 [m]
     stress: np.ndarray  # triangles x 3: s11, s22, s12 [Pa]; x 4 in plane strain, s33
-    # vertices x 2, as meshed [m]; behind them the middles of quadratic triangles; None where the
+    # vertices x 2, as meshed [m]; behind them the middles of quadratic triangles; None where the code does
+    # not write it
     points: np.ndarray = None
-    # code does not write it
     triangles: np.ndarray = None  # triangles x 3, numbers of the corners
+    elements: np.ndarray = None  # triangles x 6, middles behind corners; None where triangles are linear
+    stress_at_points: np.ndarray = None  # triangles x 3 points x components [Pa]; of quadratic ones only
     cells: dict = field(default_factory=dict)  # name -> all values by triangle that the code writes
 
     @property
@@ -152,6 +154,10 @@ def read_freefem(folder):
     bodies = {b["name"]: Body(read_table(folder / f"{b['name']}.displacement.txt", 2),
                               read_table(folder / f"{b['name']}.stress.txt", 3, 4))
               for b in body_list(folder, summary)}
+    for name, body in bodies.items():
+        if (path := folder / f"{name}.stress_at_points.txt").exists():
+            table = read_table(path, 9, 12)
+            body.stress_at_points = table.reshape(len(table), 3, -1)
     table = read_table(folder / "contact.txt", 5)
     contact = Contact(table[:, 0].astype(int), table[:, 1:3], table[:, 3], table[:, 4])
     return finished(Run("FreeFEM", folder, bodies, contact, summary))
@@ -270,9 +276,14 @@ def read_vtu(path):
         # it prints as well
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
             mesh = meshio.read(path)
-        triangles = mesh.cells_dict.get("triangle", mesh.cells_dict.get("triangle6"))[:, :3]
-        return Body(mesh.point_data["displacement"][:, :2], mesh.cell_data["stress"][0], mesh.points[:, :2],
-                    triangles, {name: values[0] for name, values in mesh.cell_data.items()})
+        elements = mesh.cells_dict.get("triangle", mesh.cells_dict.get("triangle6"))
+        cells = {name: values[0] for name, values in mesh.cell_data.items()}
+        body = Body(mesh.point_data["displacement"][:, :2], cells["stress"], mesh.points[:, :2],
+                    elements[:, :3], cells=cells)
+        if elements.shape[1] == 6 and "stress_at_points" in cells:
+            body.elements = elements
+            body.stress_at_points = cells["stress_at_points"].reshape(len(elements), 3, -1)
+        return body
     except (Exception, SystemExit) as error:  # meshio ends the process on some faults
         raise ResultError(f"{path}: cannot be read: {error!r}") from error
 

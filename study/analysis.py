@@ -7,8 +7,8 @@ from problems import StudyError
 from table import COSTS, DONE, number
 
 ROUNDING = 1e-11  # relative errors below are rounding and tell no order
-# axes along which orders are fitted; others only when they alone vary
-RUNNING = ("level", "steps", "tolerance")
+# the first of these axes that varies is the one along which orders are fitted
+RUNNING = ("steps", "tolerance", "accuracy", "level")
 LAST = 3  # points that an extrapolation goes by
 
 
@@ -41,8 +41,7 @@ def series_of(plan, rows):
         mine = [row for row in rows if row["sweep"] == sweep.name and row["status"] == DONE]
         axes = list(dict.fromkeys(axis for case in sweep.cases for axis, _ in case.values))
         several = [axis for axis in axes if len({dict(case.values)[axis] for case in sweep.cases}) > 1]
-        axis = next((each for each in ("steps", "tolerance", "level") if each in several),
-                    several[0] if several else "")
+        axis = next((each for each in RUNNING if each in several), several[0] if several else "")
         groups = {}
         for row in mine:
             fixed = {each: str(row[each]) for each in axes if each != axis}
@@ -97,9 +96,9 @@ def order(series, error):
     if series.axis == "steps":
         found = slope(series.values("steps"), y)
         return found and (-found[0], found[1], "k")
-    if series.axis == "tolerance":
-        found = slope(series.values("tolerance"), y)
-        return found and (found[0], found[1], "tolerance")
+    if series.axis in ("tolerance", "accuracy"):
+        found = slope(series.values(series.axis), y)
+        return found and (found[0], found[1], series.axis)
     if series.axis == "level":  # h as dofs^(-1/2)
         found = slope(series.values("dofs"), y)
         return found and (-2 * found[0], found[1], "h")

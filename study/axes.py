@@ -9,7 +9,8 @@ AXES = {
     "steps": ("time.steps", "integers >= 1"), "tolerance": ("time.tolerance", "numbers > 0"),
     "scheme": ("time.scheme", "strings"), "variant": ("contact.variant", "strings"),
     "projection": ("body.material.projection", "strings"), "linear": ("solver.linear", "strings"),
-    "swap": ("contact.swap", "booleans"),
+    "swap": ("contact.swap", "booleans"), "degree": ("degree", "1 or 2"),
+    "accuracy": ("accuracy.energy", "numbers > 0"),
     "level": (None, "integers >= 0"), "code": (None, "strings"), "threads": (None, "integers >= 1"),
 }
 CODES = ("mortier", "freefem", "getfem", "calculix")
@@ -18,7 +19,7 @@ CODES = ("mortier", "freefem", "getfem", "calculix")
 def check_axis(table, axis, values, levels):
     expected = AXES.get(axis, (axis, "values"))[1]
     tests = {"integers >= 1": is_count(1), "integers >= 0": is_count(0),
-             "numbers > 0": lambda v: is_number(v) and v > 0,
+             "numbers > 0": lambda v: is_number(v) and v > 0, "1 or 2": lambda v: is_count(1)(v) and v <= 2,
              "strings": is_text, "booleans": lambda v: isinstance(v, bool),
              "values": lambda v: is_number(v) or isinstance(v, bool) or is_shown(v)}
     for value in values:

@@ -91,6 +91,8 @@ def run_mortier(case, scene, settings, folder, timeout):
 def run_freefem(case, scene, settings, folder, timeout):
     if case["tolerance"]:
         raise RunFailure("the FreeFEM script takes equal steps only")
+    if case["accuracy"]:
+        raise RunFailure("the FreeFEM script refines no meshes")
     script = folder / "scene.edp"
     measured([MORTIER, "freefem", scene, script, *set_option(settings)], timeout)
     if shutil.which(FREEFEM) is None:
@@ -105,8 +107,10 @@ def run_freefem(case, scene, settings, folder, timeout):
 
 def add_points(run_, document):
     for body in document["body"]:
-        mesh = scenes.Mesh(body["mesh"])
-        run_.bodies[body["name"]].points, run_.bodies[body["name"]].triangles = mesh.points, mesh.triangles
+        mesh, ours = scenes.Mesh(body["mesh"]), run_.bodies[body["name"]]
+        ours.points, ours.triangles = mesh.points, mesh.triangles
+        if ours.stress_at_points is not None:
+            ours.points, ours.elements = mesh.with_middles()
 
 
 def outcome_of(run_, cost, steps, iterations):
@@ -115,13 +119,23 @@ def outcome_of(run_, cost, steps, iterations):
     return Outcome(run_, cost, triangles, dofs, steps, iterations)
 
 
+def require_plain(case):
+    """What the other codes do not know."""
+    if case["tolerance"] or case["scheme"] not in (None, "backward-euler"):
+        raise RunFailure("takes equal steps of backward Euler only")
+    if case["accuracy"] or (case["degree"] or 1) > 1:
+        raise RunFailure("takes linear triangles of the meshes as they are only")
+
+
 def run_getfem(case, scene, settings, folder, timeout):
+    require_plain(case)
     if not any((Path(path) / "getfem").is_dir() for path in (*sys.path, "/usr/lib/python3/dist-packages")):
         raise RunFailure("GetFEM is not installed (Debian package python3-getfem)")
     return run_peer("getfem_code.py", case, scene, settings, folder, timeout)
 
 
 def run_calculix(case, scene, settings, folder, timeout):
+    require_plain(case)
     if shutil.which(os.environ.get("CCX", "ccx")) is None:
         raise RunFailure("CalculiX is not installed (Debian package calculix-ccx)")
     return run_peer("calculix_code.py", case, scene, settings, folder, timeout)
@@ -130,8 +144,6 @@ def run_calculix(case, scene, settings, folder, timeout):
 def run_peer(program, case, scene, settings, folder, timeout):
     """A code that reads the scene itself; it writes its fields into arrays and says what its solver alone
     cost."""
-    if case["tolerance"] or case["scheme"] not in (None, "backward-euler"):
-        raise RunFailure("takes equal steps of backward Euler only")
     checked = folder / "checked.edp"
     measured([MORTIER, "freefem", scene, checked, *set_option(settings)], timeout)  # the scene is sound
     document = scenes.load(scene, settings)

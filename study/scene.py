@@ -114,6 +114,18 @@ class Mesh:
             seen.add(onward[0])
         return np.array(line)
 
+    def with_middles(self):
+        """Points of quadratic triangles, with straight sides: the vertices, then the middles as triangles
+        name their sides 0-1, 1-2, 2-0 first; and triangles x 6."""
+        sides = np.sort(np.stack([self.triangles, np.roll(self.triangles, -1, 1)], -1).reshape(-1, 2), 1)
+        _, first, number = np.unique(sides, axis=0, return_index=True, return_inverse=True)
+        order = np.argsort(first)
+        place = np.empty(len(first), int)
+        place[order] = np.arange(len(first))
+        middles = self.points[sides[np.sort(first)]].mean(1)
+        elements = np.column_stack([self.triangles, len(self.points) + place[number.reshape(-1, 3)]])
+        return np.concatenate([self.points, middles]), elements
+
     def areas(self):
         a, b, c = (self.points[self.triangles[:, i]] for i in range(3))
         return ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2

@@ -93,7 +93,7 @@ void requireHeld(const SceneDescription& scene, const Model& model) {
   constexpr int count = 16;
   const TimePlan& plan = scene.time;
   const State begin = initialState(model);
-  const double first = plan.end / std::max(plan.steps, 1);
+  const double first = plan.end / (plan.steps > 0 ? plan.steps : 100);
   for (int i = 0; i <= count; ++i) {
     const double time = i == 0 ? first : plan.end * i / count;
     Iterate iterate = startingIterate(begin);
@@ -193,7 +193,7 @@ Faults lintResolved(const ResolvedScene& resolved, const std::vector<std::string
 }
 
 void lintModel(const SceneDescription& scene, const Model& model, Faults& faults) {
-  if (scene.time.tolerance > 0) return;  // steps see what there is
+  if (scene.time.controlled()) return;  // steps see what there is
   for (const std::string& warning : loadsBetweenSteps(scene, model)) {
     const auto [place, text] = splitPlace(warning);
     faults.add("load-between-steps", place, text);

@@ -32,6 +32,19 @@ class Check(InFolder):
                 done = mortier("check", scene, "--json")
                 self.assertEqual((done.returncode, json.loads(done.stdout)["faults"]), (0, []))
 
+    def test_steps_that_an_error_chooses_have_none_of_the_faults_of_equal_ones(self):
+        text = (ROOT / "scenes/compression.toml").read_text()
+        text = text.replace("../shared-meshes", str(ROOT / "shared-meshes"))
+        for key, line in (("every", "every = 50"), ("steps", "tolerance = 1e-3")):
+            text = re.sub(rf"^{key} = .*$", line, text, flags=re.M)
+        text = text.replace('ty = "-10*t"', 'ty = { time = [0, 0.123, 1], value = [0, -1.23, -10] }')
+        self.assertNotIn("steps =", text)
+        (self.folder / "scene.toml").write_text(text)
+        done = mortier("check", self.folder / "scene.toml")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("0 errors, 0 warnings", done.stdout)
+        self.assertIn("time: steps chosen by an error in time of 0.001, backward-euler", done.stdout)
+
     def test_each_seeded_fault_is_named(self):
         kinds = {kind["id"]: kind for kind in catalogue()}
         for identifier, place, scene, seed in FAULTS:

@@ -11,6 +11,7 @@ import analysis
 import measure
 import process
 import results
+import scene
 from expressions import Expression
 from problems import RunFailure
 
@@ -26,6 +27,24 @@ def square(cells):
                               np.zeros(len(triangles))])
     return results.Run("test", Path("."), {"b": results.Body(points * [1, 2], stress, points, triangles)},
                        None, {})
+
+
+def quadratic(cells, rise=0.0):
+    """The same square of quadratic triangles, its upper side a parabola that is so much higher in the middle
+    of every element, with u = (x^2, x y) at the nodes and s = (2 x + y, 1 - x, y) at the points."""
+    body = square(cells).bodies["b"]
+    mesh = scene.Mesh.__new__(scene.Mesh)
+    mesh.points, mesh.triangles = body.points, body.triangles
+    body.points, body.elements = mesh.with_middles()
+    upper = np.flatnonzero(body.points[:, 1] > 1 - 1e-9)
+    body.points[upper[upper >= (cells + 1)**2], 1] += rise
+    x, y = body.points.T
+    body.displacement = np.column_stack([x**2, x * y])
+    interior = measure.shapes(body, np.full((3, 3), 1 / 6) + np.eye(3) / 2)
+    x, y = np.einsum("qi,tij->jtq", interior, body.points[body.elements])
+    body.stress_at_points = np.stack([2 * x + y, 1 - x, y], -1)
+    body.stress = body.stress_at_points.mean(1)
+    return results.Run("test", Path("."), {"b": body}, None, {})
 
 
 class Norms(unittest.TestCase):
@@ -44,6 +63,23 @@ class Norms(unittest.TestCase):
         error = measure.field_error("energy", square(4), self.exact(s11="x", s22="1", s12="0"),
                                     self.MATERIALS)
         self.assertAlmostEqual(error, np.sqrt(1 / 16 / 18 / (1 / 3 + 1 - 0.25)), places=12)
+
+    def test_quadratic_displacements_and_linear_stresses_are_exact(self):
+        run = quadratic(3)
+        for quantity, exact in (("displacement", {"ux": "x^2", "uy": "x*y"}),
+                                ("energy", {"s11": "2*x + y", "s22": "1 - x", "s12": "y"})):
+            with self.subTest(quantity):
+                def error(truth, quantity=quantity):
+                    return measure.field_error(quantity, run, truth, self.MATERIALS)
+                self.assertLess(error(self.exact(**exact)), 1e-14)
+                self.assertLess(error(quadratic(2)), 1e-13)
+                # The mean alone does not do: the fields are not constant.
+                other = {name: text.replace("x", "0.5") for name, text in exact.items()}
+                self.assertGreater(error(self.exact(**other)), 0.1)
+
+    def test_area_below_a_parabola(self):
+        _, weights = measure.quadrature(quadratic(2, rise=0.06).bodies["b"])
+        self.assertAlmostEqual(weights.sum(), 1 + 2 / 3 * 0.06, places=14)
 
     def test_energy_norm_in_plane_strain(self):
         # The same with s33 = nu (s11 + s22), which the exact field is given: s11 and s22 count 1 - nu^2,

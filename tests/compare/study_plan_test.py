@@ -30,18 +30,20 @@ WRONG = [  # what is changed in SPACE, and the message that comes with exit code
     ("s22 = \"-10*t\"", "s22 = \"__import__('os')\"", "study.toml:8: exact: s22 = "),
     ("s22 = \"-10*t\"", "s22 = \"(1\"", "study.toml:8: exact: s22 = \"(1\", expected"),
     ("s22 = \"-10*t\", ", "", "study.toml:8: exact: s22 is missing"),
-    ("[[sweep]]\n", "[[sweep]]\nlevl = 1\n", "study.toml:10: sweep sweep 0: unknown axis levl, did "
-                                             "you mean level?"),
-    ("level = [0, 1, 2]", "level = [0, 1, 3]", "study.toml:11: sweep sweep 0: level = 3, expected a "
-                                               "level below 3"),
-    ("level = [0, 1, 2]", "level = []", "study.toml:11: sweep sweep 0: level = [], expected one "
-                                        "value or more"),
-    ("level = [0, 1, 2]", "steps = [1.5]", "study.toml:11: sweep sweep 0: steps = 1.5, expected "
-                                           "integers >= 1"),
-    ("level = [0, 1, 2]", "code = \"abaqus\"", "study.toml:11: sweep sweep 0: code = \"abaqus\", expected "
-                                               "one of mortier"),
-    ("level = [0, 1, 2]", "steps = 2\ntolerance = 1e-3", "study.toml:12: sweep sweep 0: steps and tolerance, "
-                                                         "expected one"),
+    ("[[sweep]]\n", "[[sweep]]\nlevl = 1\n",
+     "study.toml:10: sweep sweep 0: unknown axis levl, did you mean level?"),
+    ("level = [0, 1, 2]", "level = [0, 1, 3]",
+     "study.toml:11: sweep sweep 0: level = 3, expected a level below 3"),
+    ("level = [0, 1, 2]", "level = []",
+     "study.toml:11: sweep sweep 0: level = [], expected one value or more"),
+    ("level = [0, 1, 2]", "steps = [1.5]",
+     "study.toml:11: sweep sweep 0: steps = 1.5, expected integers >= 1"),
+    ("level = [0, 1, 2]", "degree = [1, 3]", "study.toml:11: sweep sweep 0: degree = 3, expected 1 or 2"),
+    ("level = [0, 1, 2]", "accuracy = 0", "study.toml:11: sweep sweep 0: accuracy = 0, expected numbers > 0"),
+    ("level = [0, 1, 2]", "code = \"abaqus\"",
+     "study.toml:11: sweep sweep 0: code = \"abaqus\", expected one of mortier"),
+    ("level = [0, 1, 2]", "steps = 2\ntolerance = 1e-3",
+     "study.toml:12: sweep sweep 0: steps and tolerance, expected one"),
     ("[[sweep]]", "[swep]", "study.toml:9: unknown key swep, did you mean sweep?"),
     ("[[sweep]]\n", "[[compare]]\nerror = \"u\"\n[[sweep]]\n",
      "study.toml:10: compare 0: error = \"u\", expected the name of an error"),

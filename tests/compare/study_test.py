@@ -100,6 +100,44 @@ class Studies(StudyTest):
         self.assertAlmostEqual(finest["mortar"] / 1.546e-2, 1, delta=5e-3)
         self.assertAlmostEqual(finest["interpolation"] / 1.963e-2, 1, delta=5e-3)
 
+    def test_quadratic_and_adapted_meshes_on_contact_with_a_known_end(self):
+        text = (STUDIES / "accuracy.toml").read_text()
+        text = text[:text.index("[[sweep]]")].replace('"../exact-contact', f'"{STUDIES.parent}/exact-contact')
+        output = self.run_study(text + """
+[[sweep]]
+name = "uniform"
+degree = [1, 2]
+level = [1, 2, 3]
+[[sweep]]
+name = "adapted"
+degree = 2
+level = 0
+accuracy = [0.03, 0.003]
+[[sweep]]
+name = "codes"
+degree = 2
+level = 2
+code = ["freefem", "calculix"]
+[[compare]]
+error = "energy"
+at = 3e-3
+dear = { sweep = "uniform", degree = 1 }
+cheap = "adapted"
+""")
+        *rows, freefem, calculix = self.rows()
+        self.assert_order("uniform, degree 1", "energy", 0.9, 1.05, "h")
+        self.assert_order("uniform, degree 2", "energy", 1.2, 1.8, "h")
+        for row in rows:
+            self.assertEqual(row["status"], "done", row["reason"])
+            if row["accuracy"]:
+                self.assertLess(float(row["error energy"]), float(row["accuracy"]))
+        same = next(row for row in rows if (row["degree"], row["level"]) == ("2", "2"))
+        self.assertEqual(same["dofs"], freefem["dofs"])
+        self.assertAlmostEqual(float(freefem["error energy"]) / float(same["error energy"]), 1, delta=1e-4)
+        self.assertEqual(calculix["reason"], "takes linear triangles of the meshes as they are only")
+        ratio = re.search(r"dofs .* = (\S+) times", output)
+        self.assertGreater(float(ratio[1]), 100)
+
     # ---- restart, failures, files ----
     def test_finished_runs_are_kept(self):
         text = SPACE.replace("[0, 1, 2]", "[0, 1]")
