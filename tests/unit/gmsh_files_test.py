@@ -74,9 +74,7 @@ name = "plate"
 mesh = "a.msh"
 material = { young = 100, poisson = 0 }
 boundary = [ { label = "left", ux = 0 }, { label = 1, uy = 0 }, { label = "top", pressure = 6 } ]
-[[body.region]]
-label = "right half"
-material = { young = 100, poisson = 0, viscosity = 1, yield_stress = 50 }
+region = [ {label = "right half", material = {young = 100, poisson = 0, viscosity = 1, yield_stress = 50}} ]
 [time]
 end = 1
 steps = 1
@@ -265,13 +263,11 @@ every = 1
                 ("left", "left", None),
                 ("label = \"left\"", "label = \"lft\"",
                  'scene.toml:6: error: body plate: no edge of a.msh has label "lft"; there are: 1 '
-                 'bottom, 2 right, '
-                 '3 "top" top, 4 "left" left; take one of the labels there are, or label the edges '
-                 '[missing-label]'),
+                 'bottom, 2 right, 3 "top" top, 4 "left" left; take one of the labels there are, '
+                 'or label the edges [missing-label]'),
                 ("\"right half\"", "\"half\"",
                  'scene.toml:7: error: body plate: no triangle of a.msh is in region "half"; there are: 1, 2 '
-                 '"right half"; '
-                 'take one of the regions there are, or label the triangles [missing-region]')]:
+                 '"right half"; take one of the regions there are, or label the triangles [missing-region]')]:
             self.write(SCENE.replace(old, new, 1))
             lines = mortier("check", "scene.toml", cwd=self.folder).stdout.splitlines()
             self.assertEqual([line for line in lines if "error: " in line], [message] if message else [])

@@ -66,8 +66,8 @@ class HostileText(support.OfTwoBlocks):
                 self.write(TWO_BLOCKS.replace("upper.mesh", written))
                 shown = name.replace("\n", "?")
                 self.reject(f'scene.toml:5: body upper: mesh = "{shown}", expected at most 250 printable '
-                            'ASCII characters '
-                            'without " and \\ (all that a FreeFEM string can hold)', "freefem", "scene.toml")
+                            'ASCII characters without " and \\ (all that a FreeFEM string can hold)',
+                            "freefem", "scene.toml")
         self.write(TWO_BLOCKS)
         for name in (f"a\n{RUN}.toml", f"a\r{RUN}.toml", "é.toml"):
             name = name.replace("/", ":")
