@@ -266,6 +266,15 @@ class Theory(unittest.TestCase):
                 checked += 1
         self.assertGreater(checked, 30)
 
+    def test_words_of_the_glossary_are_in_the_code(self):
+        files = (ROOT / "cpp").rglob("*.*")
+        identifiers = set(re.findall(r"\w+", "\n".join(path.read_text() for path in files)))
+        rows = [line.split("|") for line in (ROOT / "docs" / "glossary.md").read_text().splitlines()]
+        names = [name for row in rows if len(row) == 6 for name in re.findall(r"`([\w:]+)`", row[3])]
+        self.assertGreater(len(names), 40)
+        for name in names:
+            self.assertLessEqual(set(name.split("::")), identifiers, name)
+
     def test_a_step_is_told_in_the_order_of_its_calls(self):
         text = (ROOT / "docs" / "theory.md").read_text()
         chapter = text.partition("## solver: one step\n")[2].partition("\n## ")[0]
