@@ -24,8 +24,8 @@
 //   Phi^-1 D u1 = n . u1 at the nodes + Phi^-1 int chi (n . u1 - sum chi_i n_i . u1_i) ds,
 //
 // where the second term is zero on straight parts and sparse everywhere: of Phi^-1 D and Phi^-1 M only the
-// latter is dense by nature, and its entries fall off from the node that is faced by a factor of about four a
-// node.
+// latter is dense, and its entries decay by a factor of about four a node with the distance from the node
+// that is faced.
 //
 // Whatever the rule, each Gauss point adds a pair of opposite forces along the line through x1 and x2, and
 // shape functions reproduce both places: every row balances in force and moment (docs/theory.md).

@@ -4,10 +4,10 @@
 //   (x1(s) - x2) x n = 0,      n ~ R1 n1(s) - R2 n2(x2),
 //
 // n1, n2 the outward normals of both bodies and R1, R2 the radii of curvature of the lines there. Where a
-// curve meets a straight line that is the straight one's normal, where two curves meet the normal of the
-// tangent plane of Hertz's theory, to second order in the width of contact over the radius; and it does not
-// depend on which side is nonmortar. A straight part sees along its own normal, everything by the normals of
-// the part where its partner has a corner (a corner has the radius 0).
+// curve meets a straight line, n is the normal of the straight line; where two curves meet, n is the normal
+// of the tangent plane of Hertz's theory, to second order in the width of contact over the radius. It does
+// not depend on which side is nonmortar. A straight part has n = n1. At a corner of the mortar line, whose
+// radius is 0, n = n1 too.
 //
 // The abscissae s of the mortar nodes make the common refinement of two curves that of two traces
 // (segments.h). Past the ends of the part the first and last element go on straight with the normal of the

@@ -86,7 +86,7 @@ class Planner {
           "any of them may open");
     }
     add("contact", false, "a bilateral tie where nothing opens",
-        "nothing to save: contact that keeps its active set costs what a tie would, docs/check.md");
+        "it would save no time: contact that keeps its active set costs what a tie would, docs/check.md");
   }
 
   void planMemory() {

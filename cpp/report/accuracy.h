@@ -22,7 +22,7 @@ struct Accuracy {
   double time = 0;         ///< of the last state [s]
 };
 
-/// What a run has estimated so far.
+/// The estimates of a run so far.
 struct AccuracyMemory {
   double energy = 0;  ///< elastic energy when it was estimated last [J/m]
   double error = 0;   ///< largest integral of e : E^-1 e [J/m]

@@ -46,7 +46,7 @@ class Log {
   void print(const std::string& text);
   /// Prints the row of a step.
   void step(const StepReport& report);
-  /// Takes the progress bar away.
+  /// Removes the progress bar.
   void finish() { progress_.clear(); }
 
  private:

@@ -27,7 +27,7 @@ class Controller {
   /// A few large steps of backward Euler to the end and back: only they tell how large the displacements of
   /// this run will be, of which early ones may be a tiny part. Makes the first guess of the error of a step.
   void pilot(StepTaker& taker, State& state);
-  /// Makes ready for a run from the beginning.
+  /// Prepares a run from the beginning.
   void begin(const State& state);
   /// Takes one step, or reports why there is none.
   void advance(StepTaker& taker, const State& state, StepReport& report);
@@ -39,7 +39,7 @@ class Controller {
 
  private:
   static constexpr double largestFactor = 5;
-  /// Of an attempt that converged.
+  /// What is known of an attempt that converged.
   struct Judgement {
     std::vector<Matrix> strain;     ///< its error (StepTaker::localError)
     double size = 0;                ///< of that, relative

@@ -266,6 +266,28 @@ class Theory(unittest.TestCase):
                 checked += 1
         self.assertGreater(checked, 30)
 
+    def test_words_of_the_glossary_are_in_the_code(self):
+        files = (ROOT / "cpp").rglob("*.*")
+        identifiers = set(re.findall(r"\w+", "\n".join(path.read_text() for path in files)))
+        rows = [line.split("|") for line in (ROOT / "docs" / "glossary.md").read_text().splitlines()]
+        names = [name for row in rows if len(row) == 6 for name in re.findall(r"`([\w:]+)`", row[3])]
+        self.assertGreater(len(names), 40)
+        for name in names:
+            self.assertLessEqual(set(name.split("::")), identifiers, name)
+
+    def test_a_step_is_told_in_the_order_of_its_calls(self):
+        text = (ROOT / "docs" / "theory.md").read_text()
+        chapter = text.partition("## solver: one step\n")[2].partition("\n## ")[0]
+        told = re.findall(r"^\*\*(\d+)\. `(\w+)`", chapter, re.M)
+        self.assertEqual([int(number) for number, _ in told], list(range(1, len(told) + 1)))
+        self.assertLessEqual(len(told), 8)
+        solver = ROOT / "cpp" / "solver"
+        called = [name for _, name in told]
+        self.assertEqual(called[:2], ["solveStep", "newton"])
+        self.assertIn("newton(", (solver / "solve_step.cpp").read_text())
+        words = re.findall(r"(\w+)\(", (solver / "newton.cpp").read_text())
+        self.assertEqual(list(dict.fromkeys(word for word in words if word in called)), called[1:])
+
 
 if __name__ == "__main__":
     unittest.main()

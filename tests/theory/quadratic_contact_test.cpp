@@ -4,10 +4,10 @@
 
 #include <iostream>
 #include <numbers>
-#include <random>
 
 #include "material/perzyna.h"
 #include "theory/half_open_contact.h"
+#include "theory/shaken_square.h"
 
 namespace mortier {
 namespace {
@@ -19,19 +19,6 @@ constexpr CouplingKind projections[] = {CouplingKind::mortar, CouplingKind::weig
 
 std::string wordOf(CouplingKind kind) {
   return kind == CouplingKind::weighted ? "weighted" : nameOf(kind);
-}
-
-/// A square with its nodes moved at random, those of its sides along them.
-TriangleMesh shaken(double lowerY, int cells, unsigned seed) {
-  TriangleMesh mesh = square(lowerY, cells);
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> shift(-0.2 / cells, 0.2 / cells);
-  for (Point& x : mesh.vertices) {
-    if (x.x() != 0 && x.x() != 1) x.x() += shift(random);
-    if (x.y() != lowerY && x.y() != lowerY + 1) x.y() += shift(random);
-  }
-  validate(mesh);
-  return mesh;
 }
 
 /// The stress s22 = -(1 + slope x) and nothing else, turned by an angle: pressure on y = 0 that is linear
@@ -70,9 +57,9 @@ struct LinearPressure {
   /// over the largest pressure.
   [[nodiscard]] double error(int upperCells, int lowerCells, double contrast, CouplingKind coupling,
                              int nonmortar) const {
-    const Model model =
-        contactModel(body("upper", shaken(0, upperCells, 1), {1, 0.3}, top),
-                     body("lower", shaken(-1, lowerCells, 2), {contrast, 0.2}, bottom), coupling, nonmortar);
+    const Model model = contactModel(body("upper", shakenSquare(0, upperCells, 1), {1, 0.3}, top),
+                                     body("lower", shakenSquare(-1, lowerCells, 2), {contrast, 0.2}, bottom),
+                                     coupling, nonmortar);
     const auto [state, report] = run(model, 1, 1);
     EXPECT_EQ(report.status, Status::converged) << report.reason;
     double largest = 0;
