@@ -127,7 +127,8 @@ void AdaptedMeshes::cutToSize(Adapted& body, const Vector& reduction, std::vecto
       ++around[v];
     }
   for (size_t v = 0; v < vertices; ++v) logArea[v] /= around[v];
-  // The mean at a vertex hides a triangle that is alone with its error: of those that make half of it each counts.
+  // The mean at a vertex hides a triangle that is alone with its error:
+  // of those that make half of it each counts.
   std::vector<double> own(marked.size(), std::numeric_limits<double>::infinity());
   for (size_t t = 0; t < marked.size(); ++t)
     if (marked[t] != 0) own[t] = logOf(t) + 2 * std::log(reduction[static_cast<Eigen::Index>(t)]);

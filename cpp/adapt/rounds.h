@@ -1,11 +1,13 @@
-// A scene solved again and again, on meshes that are refined by the error of the round before and with steps to match, until
-// the estimated error is what was asked for. With E the error of the meshes over 0.85 of what is asked of it,
+// A scene solved again and again, on meshes that are refined by the error of the round before and with steps
+// to match, until the estimated error is what was asked for.
+// With E the error of the meshes over 0.85 of what is asked of it,
 //
 //   k = max(1, round(log E / log 4))   rounds are to come, each of which divides it by  min(E^(1/k), 8):
 //
-// equal reaches avoid the dear case, a mesh that misses by a little and is solved again at the same size. Where bodies flow a
-// part of what is asked is that of the steps in time (0.2 of degree 1, 0.3 of degree 2); before the last round steps are as
-// good as the meshes deserve. One round of refinement is made at least: on the first meshes an estimate is not trusted.
+// equal factors avoid the costly case of a mesh that misses by a little and is solved again at the same size.
+// Where bodies flow, the steps in time get a part of what is asked (0.2 at degree 1, 0.3 at degree 2); before
+// the last round their error is in proportion to that of the meshes. There is one round of refinement at
+// least, as an estimate on the first meshes is not trusted.
 #pragma once
 
 #include <string>
@@ -33,17 +35,18 @@ class Rounds {
   enum class Verdict { goOn, reached, notReached };
   /// \param seconds  wall time of all so far. Where it goes on, the meshes of the next round are made.
   Verdict judge(const RoundResult& result, double seconds);
-  /// Why it is not reached.
+  /// Why the accuracy is not reached.
   [[nodiscard]] const std::string& reason() const { return reason_; }
   /// Of the last round, relative.
   [[nodiscard]] double meshError() const { return meshError_; }
-  /// What spoils the estimate beside plan/estimate_doubts.h.
+  /// Doubts about the estimate beside those of plan/estimate_doubts.h.
   [[nodiscard]] std::vector<std::string> doubts() const;
 
  private:
   Verdict stop(const std::string& reason);
   [[nodiscard]] double timeShare() const;
-  bool refine(const RoundResult& result, double aim, double seconds);
+  /// \param cost  what a round on the present meshes takes [s]
+  bool refine(const RoundResult& result, double aim, double cost, double seconds);
 
   SceneDescription description_;
   AdaptedMeshes meshes_;

@@ -95,6 +95,11 @@ Solved solve(Solving solving) {
     log.finish();
     if (!hasCheckpoint(folder)) throw;
     throw OutputError(error.what() + solving.again);
+  } catch (const TimeIsUp&) {
+    report = keptMemory.run;
+    report.status = Status::failed;
+    report.reason = timeIsUp;
+    state = keptState;
   } catch (const Interrupted&) {
     log.finish();
     const bool begun = last.step > 0 || keptMemory.controller.trial > 1;

@@ -1,4 +1,4 @@
-// What the reports say of a run that its model does not know: words of the scene. Reports know no scenes.
+// Facts of the scene that reports show and the model does not have, so that reports need not know scenes.
 #pragma once
 
 #include <string>
@@ -38,6 +38,7 @@ struct RunFacts {
   double accuracy = 0;               ///< asked for, relative, in the energy norm; 0: none
   bool reached = false;              ///< that
   std::vector<RoundFacts> rounds;    ///< none where no accuracy is asked for
+  size_t best = 0;                   ///< the round of the result, from 0
   std::vector<Quantity> quantities;  ///< that the scene asks for
   std::vector<std::string>
       doubts;  ///< where the estimate of the accuracy is known to be wrong, and by how much

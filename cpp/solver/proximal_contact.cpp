@@ -68,8 +68,8 @@ bool ProximalContact::solveOn(ContactSolution& solution) {
   solution.change = -slack_ - compliance(off);
   solution.rigid = solve(balance_ - problem_.G.transpose() * off + proximal_ * z0_, solution.change);
   solution.change += off;
-  // The forces that a slack needs by itself, and those of a motion, may be far larger than both together. What rounding leaves of
-  // them is solved for again while it becomes less.
+  // The forces that a slack needs by itself, and those of a motion, may be far larger than both together.
+  // What rounding leaves of them is solved for again while it becomes less.
   constexpr int corrections = 4;
   double before = INFINITY;
   for (int k = 0;; ++k) {
@@ -189,7 +189,8 @@ bool ProximalContact::take(const std::vector<char>& active) {
   if (G.cols() == 0 || redundant_) return !redundant_;
   forces_ = G;
   factor_.solve(forces_);
-  // Motions that move no condition of A have the proximal term alone, however weak it is beside the rounding of the others.
+  // Motions that move no condition of A have the proximal term alone,
+  // however weak it is beside the rounding of the others.
   constexpr double heldFraction = 1e-14;
   Matrix closed = G;
   for (Eigen::Index i = 0; i < closed.rows(); ++i)

@@ -124,8 +124,9 @@ bool Controller::beginAgain(State& state) {
   return true;
 }
 
-/// Adds the error of the step to what has been carried to its end. Flow does not amplify errors: where the linearised
-/// step does, points that flow and points that do not lie side by side, and the error is taken on as it was.
+/// Adds the error of the step to what has been carried to its end. Flow does not amplify errors: where the
+/// linearised step does, points that flow and points that do not lie side by side,
+/// and the error is taken on as it was.
 void Controller::add(StepTaker& taker, std::vector<Matrix> local, double size) {
   ControllerMemory& own = memory_.controller;
   const std::vector<Matrix> before = std::exchange(own.strain, std::move(local));
@@ -143,7 +144,8 @@ void Controller::add(StepTaker& taker, std::vector<Matrix> local, double size) {
 
 Controller::Judgement Controller::judge(StepTaker& taker, double t0, double t1) const {
   Judgement result{taker.localError()};
-  // In the middle of a loading most of the error of an overstress is forgotten in the next step; at a stop it is there.
+  // In the middle of a loading most of the error of an overstress is forgotten in the next step;
+  // at a stop it is there.
   ErrorNorms norms = measure_.sizeOf(t1 < stopAfter(t0) ? taker.response(result.strain) : taker.errorAtEnd());
   // Stages miss what the flow, and so the stress, changes by between them.
   double change = 0;
@@ -168,7 +170,8 @@ double Controller::leastStep(double t) const {
   return little * std::max(std::abs(t), little * (plan_.end - memory_.begin));
 }
 
-/// Whether the first points to flow turn by more than a step may miss. Where most flow the turn is behind them.
+/// Whether the first points to flow turn by more than a step may miss.
+/// Where most flow the turn is behind them.
 bool Controller::turnsTooFar(const StepTaker& taker) const {
   constexpr double most = 0.5;
   const double flowing = taker.flowingAtEnd();
@@ -195,8 +198,8 @@ StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort e
       return outcome;
     }
   }
-  // What is too long without the guard is too long with it, whose steps are of the first order; but where the data turn to
-  // rest they are exact.
+  // What is too long without the guard is too long with it, whose steps are of the first order; but where the
+  // data turn to rest they are exact.
   const bool turns = t0 == memory_.begin || std::binary_search(stops_.begin(), stops_.end(), t0);
   if ((!judgement.good && !turns) || !taker.turned()) return outcome;
   outcome = taker.guard(outcome, effort);

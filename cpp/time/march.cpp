@@ -75,7 +75,7 @@ double secondsSince(Clock::time_point begin) {
 void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& plan, StepTaker& taker,
         Controller& controller, const Observer& observer) {
   RunReport& run = memory.run;
-  const bool controlled = plan.tolerance > 0;
+  const bool controlled = plan.controlled();
   while (run.status == Status::converged && (controlled ? state.time < plan.end : run.steps < plan.steps)) {
     const auto begin = Clock::now();
     StepReport report;
@@ -154,7 +154,7 @@ RunReport march(const Model& model, State& state, const TimePlan& plan, const So
 
 RunReport march(const Model& model, State& state, MarchMemory& memory, const TimePlan& plan,
                 const SolverOptions& options, const Observer& observer) {
-  const bool controlled = plan.tolerance > 0;
+  const bool controlled = plan.controlled();
   const bool begun = memory.run.steps > 0 || memory.controller.trial > 0;
   if (!begun) memory.begin = state.time;
   if (!begun && controlled) prepare(model, state, memory, plan, options);

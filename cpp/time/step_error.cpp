@@ -101,8 +101,8 @@ std::vector<Matrix> StepTaker::throughStages(const std::vector<std::vector<Matri
   return error;
 }
 
-/// Where some points flow and others do not, stresses turn sharply between the stages and the polynomial through them is
-/// no guide: no point misses more than a part of what it flows.
+/// Where some points flow and others do not, stresses turn sharply between the stages and the polynomial
+/// through them is no guide: no point misses more than a part of what it flows.
 void StepTaker::limit(const Fields& rates, Fields& missed) const {
   constexpr double largest = 0.3;
   const double k = t1_ - state_.time;
@@ -211,7 +211,8 @@ std::vector<Response> StepTaker::turn() const {
 
 double StepTaker::onset() const {
   constexpr int halvings = 12;
-  // The polynomial through the stages knows how the load bends, the stress before the first flow how it would go on.
+  // The polynomial through the stages knows how the load bends,
+  // the stress before the first flow how it would go on.
   const std::vector<Matrix> expected = onwards();
   const auto anyFlows = [&](size_t b, const Matrix& stress) {
     for (int i = 0; i < model_.bodies[b].points(); ++i)

@@ -245,8 +245,8 @@ TEST(ErrorControl, noStepJumpsOverCyclesOrOverTheLoadAtTheStart) {
     }
 }
 
-// With interpolation the triangles along the interface yield one after the other. A step over the first of them that ends
-// among them knows only the last direction of their flow.
+// With interpolation the triangles along the interface yield one after the other. A step over the first of
+// them that ends among them knows only the last direction of their flow.
 TEST(ErrorControl, theFirstStepThatFlowsIsAsGoodAsTheToleranceAsks) {
   for (const timecases::Case& each : timecases::cases(timecases::Size::small)) {
     if (each.name != "8 low waves, hard, interpolation, sdirk2") continue;
@@ -413,8 +413,8 @@ double pressure(const State& state) {
 }
 
 // The stress relaxes 1500 times within the run: it is the viscosity times the rate, and the error of backward
-// Euler that of half a step later. An estimate that takes what a steady course repeats for no error at all, or
-// adds up what relaxes, is far off.
+// Euler that of half a step later. An estimate that takes what a steady course repeats for no error at all,
+// or adds up what relaxes, is far off.
 TEST(ErrorControl, backwardEulerKnowsItsErrorWhereStressesFollowAtOnce) {
   constexpr double end = 10;
   constexpr double tolerance = 5e-3;
@@ -479,7 +479,8 @@ TEST(ErrorControl, anOverlapActsInTheFirstMoment) {
   EXPECT_LE(run.steps, 300);
 }
 
-// The top jumps in the middle of the run, and the stress relaxes in less than doubles tell two times apart by.
+// The top jumps in the middle of the run, and the stress relaxes in less than doubles tell two times apart
+// by.
 TEST(ErrorControl, whatTimeDoesNotResolveIsNotTriedAgain) {
   constexpr double tolerance = 1e-3;
   const auto jump = [](double t) { return t < 0.5 ? 0.0 : -1e-12; };
