@@ -119,12 +119,6 @@ void writeCells(VtuFile& file, const ElementNodes& nodes) {
   file.shut("Cells");
 }
 
-/// (p, q, r) or (p, q, r, s33) by the axes.
-PointVector allCartesian(PointVector s) {
-  s.head<3>() = toCartesian(s.head<3>());
-  return s;
-}
-
 void writeCellData(VtuFile& file, const Body& body, const BodyState& state, const ErrorEstimate& estimate) {
   const CellFields fields = cellFields(body, state);
   file.open("CellData", "Scalars=\"von_mises\"");
@@ -138,12 +132,6 @@ void writeCellData(VtuFile& file, const Body& body, const BodyState& state, cons
     file.array("stress_at_points", flat(fields.stressAtPoints),
                static_cast<int>(fields.stressAtPoints.rows()));
   file.array("von_mises", flat(fields.vonMises), 1);
-  if (body.degree() > 1) {  // what a mean cannot tell
-    Matrix stress(components, state.stress.cols());
-    for (Eigen::Index i = 0; i < stress.cols(); ++i) stress.col(i) = allCartesian(state.stress.col(i));
-    const auto points = static_cast<int>(stress.cols() / fields.stress.cols());
-    file.array("stress_at_points", flat(stress), points * components);
-  }
   file.array("viscoplastic_strain", flat(fields.viscoplasticStrain), components,
              named({"e11", "e22", "e12", "e33"}));
   file.integers("Int32", "viscoplastic", fields.viscoplastic);
@@ -151,6 +139,12 @@ void writeCellData(VtuFile& file, const Body& body, const BodyState& state, cons
   const double energy = estimate.energy > 0 ? estimate.energy : 1;
   file.array("error", flat((estimate.error / energy).cwiseSqrt()), 1);
   file.shut("CellData");
+}
+
+/// (p, q, r) or (p, q, r, s33) by the axes.
+PointVector allCartesian(PointVector s) {
+  s.head<3>() = toCartesian(s.head<3>());
+  return s;
 }
 
 }  // namespace
