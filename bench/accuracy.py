@@ -15,9 +15,10 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "compare"))
-import codes  # noqa: E402
-from stress_error import summary, true_error  # noqa: E402
+sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "study")]
+import measure  # noqa: E402
+import results  # noqa: E402
+from codes import MORTIER  # noqa: E402
 
 CONTRASTS = (1e-6, 1e-3, 1.0, 1e3, 1e6)
 
@@ -149,23 +150,25 @@ def cases():
 
 
 def solve(scene, folder, accuracy, degree):
-    """summary.json; where it is not reached too."""
+    """The result; where the accuracy is not reached too."""
     path = folder.with_suffix(".toml")
     path.write_text(f"degree = {degree}\n" + scene)
-    subprocess.run([codes.MORTIER, "run", path, "--quiet", "--out", folder, "--accuracy", repr(accuracy)], check=False,
-                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    return summary(folder)
+    subprocess.run([MORTIER, "run", path, "--quiet", "--out", folder, "--accuracy", repr(accuracy)],
+                   check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    return results.read_mortier(folder, failed=True)
 
 
 def measured(scene, bodies, accuracy, degree, finer):
     """Unknowns, true error, estimate, overhead, whether it was reached."""
     with tempfile.TemporaryDirectory() as place:
-        got = solve(scene, Path(place) / "asked", accuracy, degree)
-        better = solve(scene, Path(place) / "better", accuracy / finer, degree)
-        error = true_error(Path(place) / "asked", Path(place) / "better", bodies)
+        run = solve(scene, Path(place) / "asked", accuracy, degree)
+        finer_run = solve(scene, Path(place) / "better", accuracy / finer, degree)
+        error = measure.field_error("energy", run, finer_run, bodies)
+    got, better = run.summary, finer_run.summary
     work = [each["steps"] * each["unknowns"]**1.2 for each in got["rounds"]]
     estimate = got["accuracy"]["mesh"] + got["accuracy"]["time"]
-    return got["free_dofs"], error, estimate, sum(work) / work[-1], got["accuracy"]["reached"] and better["accuracy"]["reached"]
+    reached = got["accuracy"]["reached"] and better["accuracy"]["reached"]
+    return got["free_dofs"], error, estimate, sum(work) / work[-1], reached
 
 
 def main():
