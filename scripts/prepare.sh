@@ -11,7 +11,8 @@ packages=(
   libtomlplusplus-dev libmuparser-dev                      # scenes
   libgmsh-dev                                              # meshes other than Medit's
   libcli11-dev nlohmann-json3-dev                          # command line, summaries
-  libgtest-dev libbenchmark-dev groff-base zsh             # tests, benchmarks
+  libgtest-dev libbenchmark-dev groff-base zsh fish        # tests, benchmarks
+  dpkg-dev file                                            # packaging
   freefem++                                                # the other code
   python3 python3-numpy python3-matplotlib python3-meshio  # comparison and pictures
 )

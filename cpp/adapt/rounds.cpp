@@ -45,7 +45,7 @@ Rounds::Rounds(ResolvedScene scene)
 double Rounds::timeShare() const {
   if (!flows(description_)) return 0;
   const double share = (description_.degree == 1 ? 0.2 : 0.3) * description_.accuracy.energy;
-  return description_.time.tolerance > 0 ? std::min(share, description_.time.tolerance) : share;
+  return description_.time.controlled() ? std::min(share, description_.time.tolerance) : share;
 }
 
 ResolvedScene Rounds::scene() const {
@@ -83,16 +83,20 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
   const double excess = meshError_ / (careful * ofMeshes);
   const double toCome = std::max(1.0, std::round(std::log(excess) / std::log(reachOfARound)));
   const double factor = std::clamp(std::pow(excess, -1 / toCome), 1.0 / 8, 1.0);
+  double cost = result.seconds;
   if (timeTolerance_ > 0) {
     constexpr double part = 0.4;
+    const double order = description_.time.scheme == Scheme::backwardEuler ? 1 : 2;
+    const double steps = timeTolerance_;
     timeTolerance_ =
         toCome > 1 ? std::max(timeShare(), std::min(timeTolerance_, part * meshError_)) : timeShare();
+    cost *= std::pow(steps / timeTolerance_, 1 / order);  // as steps get shorter
   }
-  return refine(result, factor * meshError_, seconds) ? Verdict::goOn : Verdict::notReached;
+  return refine(result, factor * meshError_, cost, seconds) ? Verdict::goOn : Verdict::notReached;
 }
 
-bool Rounds::refine(const RoundResult& result, double aim, double seconds) {
-  constexpr double cost = 1.2;  // seconds grow like this power of the unknowns
+bool Rounds::refine(const RoundResult& result, double aim, double cost, double seconds) {
+  constexpr double power = 1.2;  // seconds grow like this power of the unknowns
   constexpr double gain = 0.9;
   const AccuracyGoal& goal = description_.accuracy;
   const size_t bodies = description_.bodies.size();
@@ -106,7 +110,7 @@ bool Rounds::refine(const RoundResult& result, double aim, double seconds) {
     else
       meshes_.refineAll();
     const int nodes = nodesOf(meshes_, bodies, description_.degree);
-    const double expected = result.seconds * std::pow(double(nodes) / before, cost);
+    const double expected = cost * std::pow(double(nodes) / before, power);
     const bool small = 2.0 * nodes <= goal.maxUnknowns;
     if (small && seconds + expected <= goal.maxSeconds) {
       aim_ = aim;

@@ -45,7 +45,8 @@ class Rounds {
  private:
   Verdict stop(const std::string& reason);
   [[nodiscard]] double timeShare() const;
-  bool refine(const RoundResult& result, double aim, double seconds);
+  /// \param cost  what a round on the present meshes takes [s]
+  bool refine(const RoundResult& result, double aim, double cost, double seconds);
 
   SceneDescription description_;
   AdaptedMeshes meshes_;

@@ -171,7 +171,7 @@ void requireKnown(const SceneDescription& scene) {
   if (scene.time.scheme != Scheme::backwardEuler) {
     refuse(scene.path + ": scheme = " + word(scene.time.scheme), "backward-euler");
   }
-  if (scene.time.tolerance > 0) {
+  if (scene.time.controlled()) {
     refuse(scene.path + ": tolerance = " + shortest(scene.time.tolerance), "equal steps");
   }
   for (const BodyDescription& body : scene.bodies) {

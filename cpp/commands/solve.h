@@ -32,6 +32,9 @@ class Checkpoints {
   RunIdentity identity_;
 };
 
+/// Why a run whose time is over has stopped.
+constexpr const char* timeIsUp = "max_seconds are over";
+
 struct Solving {
   const SceneDescription& scene;
   const Model& model;

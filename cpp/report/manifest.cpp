@@ -123,6 +123,8 @@ bool isResultName(const std::string& name) {
 }
 
 bool isWorkName(const std::string& name) {
+  const fs::path path(name);
+  if (path.extension() == keptSuffix) return isResultName(path.stem().string());
   return name == checkpointName || name == previousCheckpointName || isUnderWay(name, checkpointName) ||
          name == manifestName || isUnderWay(name, manifestName);
 }

@@ -21,6 +21,8 @@ struct Manifest {
 };
 
 constexpr const char* manifestName = "manifest.json";
+/// Ends the name of a file's copy that is kept while another result is tried.
+constexpr const char* keptSuffix = ".kept";
 
 /// \throws OutputError
 void writeManifest(const std::string& folder, const Manifest& manifest);
@@ -37,8 +39,8 @@ bool matches(const std::string& path, const FileRecord& record, bool whole = tru
 /// Whether all of its files are as they were written.
 bool isSound(const std::string& folder, const Manifest& manifest);
 
-/// Names that a run gives to its files; those that no result keeps are the lock, checkpoints and files under
-/// way.
+/// Names that a run gives to its files; those that no result keeps are the lock, checkpoints, files under
+/// way and copies.
 bool isResultName(const std::string& name);
 bool isWorkName(const std::string& name);
 

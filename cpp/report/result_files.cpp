@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "base/error.h"
+
 namespace mortier {
 
 void removeFields(const std::string& folder, const FilesSoFar& files, const FilesSoFar& kept) {
@@ -9,6 +11,33 @@ void removeFields(const std::string& folder, const FilesSoFar& files, const File
   for (size_t i = kept.fields.size(); i < files.fields.size(); ++i)
     for (const auto& [name, record] : files.fields[i].files)
       std::filesystem::remove(std::filesystem::path(folder) / name, none);
+}
+
+namespace {
+
+/// What it does to a file and its copy. \throws OutputError
+template <class Does>
+void withCopies(const std::string& folder, const std::map<std::string, FileRecord>& files, Does does) {
+  for (const auto& [name, record] : files) {
+    const std::filesystem::path path = std::filesystem::path(folder) / name;
+    std::error_code error;
+    does(path, path.string() + keptSuffix, error);
+    if (error) throw OutputError(path.string() + ": cannot be kept: " + error.message());
+  }
+}
+
+}  // namespace
+
+void keepAside(const std::string& folder, const std::map<std::string, FileRecord>& files) {
+  withCopies(folder, files, [](const auto& path, const auto& copy, std::error_code& error) {
+    std::filesystem::copy_file(path, copy, std::filesystem::copy_options::overwrite_existing, error);
+  });
+}
+
+void bringBack(const std::string& folder, const std::map<std::string, FileRecord>& files) {
+  withCopies(folder, files, [](const auto& path, const auto& copy, std::error_code& error) {
+    std::filesystem::rename(copy, path, error);
+  });
 }
 
 ResultFiles::ResultFiles(const std::string& folder, const Model& model,

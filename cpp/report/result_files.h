@@ -20,6 +20,12 @@ struct FilesSoFar {
 /// Takes the fields away that are in `files` and not in `kept`.
 void removeFields(const std::string& folder, const FilesSoFar& files, const FilesSoFar& kept);
 
+/// Copies files of a result to names of their own beside them, which no result keeps.
+/// \throws OutputError
+void keepAside(const std::string& folder, const std::map<std::string, FileRecord>& files);
+/// Gives them their names again.
+void bringBack(const std::string& folder, const std::map<std::string, FileRecord>& files);
+
 class ResultFiles {
  public:
   /// \param every  keep fields and contact of the steps 0, k, 2k, ... beside the last one; 0: the last one

@@ -38,6 +38,7 @@ struct RunFacts {
   double accuracy = 0;               ///< asked for, relative, in the energy norm; 0: none
   bool reached = false;              ///< that
   std::vector<RoundFacts> rounds;    ///< none where no accuracy is asked for
+  size_t best = 0;                   ///< the round of the result, from 0
   std::vector<Quantity> quantities;  ///< that the scene asks for
   std::vector<std::string>
       doubts;  ///< where the estimate of the accuracy is known to be wrong, and by how much

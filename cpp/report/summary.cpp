@@ -192,7 +192,8 @@ FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const 
   if (facts.accuracy > 0) {
     json["accuracy"]["asked"] = facts.accuracy;
     json["accuracy"]["reached"] = facts.reached;
-    json["accuracy"]["mesh"] = facts.rounds.empty() ? accuracy.largest : facts.rounds.back().mesh;
+    json["accuracy"]["mesh"] = facts.rounds.empty() ? accuracy.largest : facts.rounds[facts.best].mesh;
+    if (!facts.rounds.empty()) json["accuracy"]["round"] = facts.best + 1;
     json["accuracy"]["time"] = report.timeError;
     json["rounds"] = rounds(facts);
   }

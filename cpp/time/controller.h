@@ -51,7 +51,8 @@ class Controller {
   StepOutcome attempt(StepTaker& taker, double t0, double t1, Effort effort, int onsets,
                       Judgement& judgement);
   [[nodiscard]] bool turnsTooFar(const StepTaker& taker) const;
-  [[nodiscard]] double leastStep() const;
+  [[nodiscard]] double leastStep(double t) const;
+  [[nodiscard]] bool crawls(double t, double k) const;
   [[nodiscard]] double nextTime(double t, double k) const;
   [[nodiscard]] double stopAfter(double t) const;
   void add(StepTaker& taker, std::vector<Matrix> local, double size);
@@ -61,6 +62,7 @@ class Controller {
   ErrorMeasure measure_;
   std::vector<double> nodes_;  ///< stage times of the scheme
   std::vector<double> stops_;  ///< breaks and the end
+  double before_ = 0;
   double unseen_ = 0;          ///< part of a datum's range that a step may miss
 };
 

@@ -145,15 +145,12 @@ std::vector<Response> StepTaker::response(const std::vector<Matrix>& strain) {
   return system_.respond(strain, solutions_.back().active);
 }
 
-std::vector<Response> StepTaker::surprise() const {
-  const double ratio = memory_.increments.empty() ? 0 : (t1_ - state_.time) / memory_.timeStep;
-  std::vector<Response> surprise;
-  for (size_t b = 0; b < model_.bodies.size(); ++b) {
-    Matrix stress = solutions_.back().bodies[b].stress - state_.bodies[b].stress;
-    if (ratio > 0) stress -= ratio * memory_.increments.back()[b].stress;
-    surprise.push_back({Vector::Zero(state_.bodies[b].displacement.size()), std::move(stress)});
-  }
-  return surprise;
+std::vector<Response> StepTaker::change(size_t stage) const {
+  std::vector<Response> change;
+  for (size_t b = 0; b < model_.bodies.size(); ++b)
+    change.push_back({Vector::Zero(state_.bodies[b].displacement.size()),
+                      solutions_[stage].bodies[b].stress - state_.bodies[b].stress});
+  return change;
 }
 
 double StepTaker::share(const Matrix& (*stressOf)(const StepTaker&, size_t)) const {

@@ -37,8 +37,9 @@ class StepTaker {
   std::vector<Matrix> carried(const std::vector<Matrix>& strain);
   /// What displacement and stress make of an error of the viscoplastic strain at the end of the attempt.
   std::vector<Response> response(const std::vector<Matrix>& strain);
-  /// By how much the stress of the attempt is not what the step before leads to expect; no displacement.
-  [[nodiscard]] std::vector<Response> surprise() const;
+  /// What the stress changes by from the start of the attempt to one of its stages; no displacement.
+  [[nodiscard]] std::vector<Response> change(size_t stage) const;
+  [[nodiscard]] size_t stages() const { return tableau_.stages.size(); }
   /// Where points began to flow during the attempt, about the error of their stress at its end: stages before
   /// that see no flow, the others only its last direction. No displacement.
   [[nodiscard]] std::vector<Response> turn() const;

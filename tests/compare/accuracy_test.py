@@ -97,6 +97,40 @@ class Accuracy(InFolder):
         self.assertGreater(summary["accuracy"]["mesh"], 0.001)
         self.assertEqual(self.names("."), ["out", "scene.toml"])
 
+    def test_a_round_that_cannot_be_solved_leaves_the_best_result(self):
+        # With one iteration a step coarse meshes are solved and finer ones are not.
+        self.write(PUNCH + "[output]\nevery = 1\n")
+        done = self.mortier("run", "scene.toml", "--out", "out", "--accuracy", "0.01",
+                            "--set", "solver.max_iterations=1", code=1)
+        summary = json.loads(self.read("out/summary.json"))
+        accuracy, rounds = summary["accuracy"], summary["rounds"]
+        self.assertRegex(done.stderr,
+                         f"accuracy 0.01 not reached: round {len(rounds) + 1}: step 1 .* did not converge")
+        self.assertGreater(len(rounds), 1)
+        self.assertFalse(accuracy["reached"])
+        self.assertEqual(accuracy["round"], len(rounds))
+        self.assertEqual(accuracy["mesh"], rounds[-1]["mesh"])
+        self.assertEqual(summary["free_dofs"], rounds[-1]["unknowns"])
+        self.assertEqual(self.names("."), ["out", "scene.toml"])
+        self.assertEqual(sorted(json.loads(self.read("out/manifest.json"))["files"]),
+                         [name for name in self.names("out") if name not in ("manifest.json", "run.lock")])
+        # It is whole: the refined meshes give the same files.
+        self.write(PUNCH[:PUNCH.index("[accuracy]")] + "[output]\nevery = 1\n", "plain.toml")
+        self.mortier("run", "plain.toml", "--out", "again", "--set", "body.punch.mesh=out/punch.mesh",
+                     "body.block.mesh=out/block.mesh", "solver.max_iterations=1")
+        for name in ("history.csv", "contact.csv", "fields.pvd"):
+            self.assertEqual(self.read(f"out/{name}"), self.read(f"again/{name}"))
+
+    def test_a_round_stops_when_the_time_is_over(self):
+        self.write(FLOWING.replace("cells = 1", "cells = 150"))
+        begin = time.time()
+        done = self.mortier("run", "scene.toml", "--out", "out", "--set", "accuracy.max_seconds=1",
+                            "time.tolerance=1e-7", "time.scheme=sdirk2", code=1)
+        self.assertLess(time.time() - begin, 30)
+        self.assertIn("max_seconds are over; the state after step", done.stderr)
+        self.assertEqual(self.names("."), ["out.failed", "scene.toml"])
+        self.assertFalse(json.loads(self.read("out.failed/summary.json"))["accuracy"]["reached"])
+
     def test_bodies_that_flow_get_their_steps_too(self):
         _, summary = self.run_scene(FLOWING)
         accuracy = summary["accuracy"]

@@ -114,6 +114,33 @@ class Install(InSharedFolder):
         self.addCleanup(zsh.close)
         self.check_completion(lambda *words: zsh.complete("mortier", *words))
 
+    def fish(self, *words):
+        """What fish offers after these words."""
+        script = self.prefix / "share/fish/vendor_completions.d/mortier.fish"
+        line = " ".join([str(self.prefix / "bin/mortier"), *words])
+        text = f'source "{script}"; complete -C "{line}"'
+        return sorted(each.split("\t")[0].rstrip("/") for each in
+                      output("fish", "--no-config", "-c", text, cwd=self.folder).splitlines())
+
+    def test_completion_of_fish(self):
+        self.check_completion(self.fish)
+
+    def test_package_of_debian(self):
+        output("cpack", "-G", "DEB", "-B", self.folder / "packages", cwd=BUILD)
+        package, = (self.folder / "packages").glob("*.deb")
+        facts = output("dpkg-deb", "--info", package)
+        for name in ("libcholmod", "libumfpack", "libopenblas", "libmuparser"):
+            self.assertRegex(facts, rf"\n Depends: [^\n]*{name}")
+        self.assertRegex(facts, r"\n Recommends: [^\n]*python3-meshio")
+        root = self.folder / "root"
+        output("dpkg-deb", "-x", package, root)
+        self.assertTrue((root / "usr/share/doc/mortier/copyright").is_file())
+        program = root / "usr/bin/mortier"
+        output(program, "run", ROOT / "scenes/compression.toml", "--quiet", "--out", "packed", "--set",
+               "time.steps=2", cwd=self.folder)
+        self.assertIn("packed.plots/fields.svg", output(program, "plot", "packed", cwd=self.folder))
+        self.assertTrue((root / "usr/share/mortier/freefem/coupling.idp").is_file())
+
     def check_completion(self, complete):
         def stated(*path):
             return sorted(re.findall(r"^  (?:-h,)?(--[a-z-]+)", output(PROGRAM, *path, "--help"), re.M))

@@ -1,6 +1,8 @@
 // Whoever asks for it stops every loop that may last.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "base/interrupt.h"
 #include "linear/condensing_solver.h"
 #include "theory/scenes.h"
@@ -34,6 +36,23 @@ TEST_F(Interruption, stopsAFactorisation) {
     EXPECT_THROW(solver->factorise(std::vector<double>(body.pattern().entries(), 0)), Interrupted);
     interruption::requested = false;
   }
+}
+
+TEST_F(Interruption, aTimeLimitStopsWhatTakesLongerAndNothingAfterIt) {
+  State state = initialState(model_);
+  const TimePlan plan{.end = 1, .steps = 2};
+  const auto none = [](const State&, const StepReport&) {};
+  {
+    const TimeLimit over(0);
+    EXPECT_THROW(march(model_, state, plan, {}, none), TimeIsUp);
+  }
+  for (const double seconds : {1e3, double(INFINITY)}) {
+    const TimeLimit limit(seconds);
+    state = initialState(model_);
+    EXPECT_EQ(march(model_, state, plan, {}, none).status, Status::converged);
+  }
+  state = initialState(model_);
+  EXPECT_EQ(march(model_, state, plan, {}, none).status, Status::converged);
 }
 
 // Between two steps, in the middle of one with every method, and while the scales of the error are found.

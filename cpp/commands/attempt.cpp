@@ -1,0 +1,91 @@
+#include "commands/attempt.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "commands/version.h"
+#include "linear/versions.h"
+#include "plan/loads.h"
+#include "scene/build.h"
+#include "scene/build_quantities.h"
+#include "scene/load_courses.h"
+#include "scene/versions.h"
+
+namespace mortier {
+namespace {
+
+std::string joinedOnce(std::vector<std::string> words) {
+  std::sort(words.begin(), words.end());
+  words.erase(std::unique(words.begin(), words.end()), words.end());
+  std::string text;
+  for (const std::string& each : words) {
+    text += (text.empty() ? "" : ", ") + each;
+  }
+  return text.empty() ? "none" : text;
+}
+
+RunFacts factsOf(const SceneDescription& scene, const AttemptOptions& options) {
+  RunFacts facts;
+  facts.sceneText = options.sceneText;
+  facts.accuracy = scene.accuracy.energy;
+  facts.scene = scene.path;
+  facts.title = scene.title;
+  facts.plane = word(scene.plane);
+  facts.settings = options.settings;
+  facts.scheme = word(scene.time.scheme);
+  facts.plannedSteps = scene.time.steps;
+  facts.tolerance = scene.time.tolerance;
+  facts.threads = options.threads;
+  facts.versions = {{"mortier", version}, {"compiler", __VERSION__}};
+  for (const auto& libraries : {linearLibraries(), sceneLibraries()})
+    facts.versions.insert(facts.versions.end(), libraries.begin(), libraries.end());
+  std::vector<std::string> projections;
+  for (const BodyDescription& body : scene.bodies)
+    for (const MaterialDescription* material : materialsOf(body))
+      if (material->viscoplasticity) projections.push_back(word(material->viscoplasticity->projection));
+  std::vector<std::string> nonmortars;
+  for (const ContactDescription& contact : scene.contacts) {
+    facts.variants.push_back(word(contact.variant));
+    facts.choices.push_back(contact.choice);
+    nonmortars.push_back(contact.nonmortar.body);
+  }
+  facts.contact = joinedOnce(facts.variants);
+  facts.nonmortar = joinedOnce(nonmortars);
+  facts.projection = joinedOnce(projections);
+  return facts;
+}
+
+/// Beside the times of the scene, what its steps need to know of its data where they are chosen by their
+/// error.
+void lookAhead(SceneDescription& scene, const Model& model) {
+  if (!scene.time.controlled()) return;
+  LoadCourses loads = loadCourses(scene, model);
+  scene.time.breaks = std::move(loads.breaks);
+  scene.time.data = std::move(loads.data);
+}
+
+}  // namespace
+
+Attempt::Attempt(ResolvedScene scene, const AttemptOptions& options) : resolved(std::move(scene)) {
+  SceneDescription& description = resolved.description;
+  model = std::make_unique<Model>(buildModel(resolved));
+  description.solver.threads = options.threads;
+  facts = factsOf(description, options);
+  facts.quantities = buildQuantities(description, *model);
+  lookAhead(description, *model);
+  state = initialState(*model);
+}
+
+int Attempt::unknowns() const {
+  int unknowns = 0;
+  for (const Body& body : model->bodies) unknowns += body.freeDofs();
+  return unknowns;
+}
+
+size_t Attempt::triangles() const {
+  size_t triangles = 0;
+  for (const Body& body : model->bodies) triangles += body.mesh().triangles.size();
+  return triangles;
+}
+
+}  // namespace mortier

@@ -1,0 +1,39 @@
+// A scene and all that comes of it: its model, what is reported of it, and what was found. A run is one of
+// them, or a round of a run that refines its meshes.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands/solve.h"
+#include "scene/resolve.h"
+
+namespace mortier {
+
+struct AttemptOptions {
+  std::vector<std::string> settings;  ///< key=value
+  int threads = 1;
+  std::string sceneText;
+};
+
+/// Its members refer to each other.
+struct Attempt {
+  ResolvedScene resolved;
+  std::unique_ptr<Model> model;
+  RunFacts facts;
+  State state;  ///< the first one
+  Solved solved;
+
+  /// \throws InputError, UnheldBodyError
+  Attempt(ResolvedScene scene, const AttemptOptions& options);
+  Attempt(const Attempt&) = delete;
+  Attempt& operator=(const Attempt&) = delete;
+
+  [[nodiscard]] const SceneDescription& scene() const { return resolved.description; }
+  /// Of all bodies.
+  [[nodiscard]] int unknowns() const;
+  [[nodiscard]] size_t triangles() const;
+};
+
+}  // namespace mortier

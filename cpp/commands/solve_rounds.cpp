@@ -1,0 +1,95 @@
+#include "commands/solve_rounds.h"
+
+#include <filesystem>
+#include <new>
+#include <utility>
+
+#include "adapt/error_history.h"
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "report/clock.h"
+#include "scene/initial_equilibrium.h"
+
+namespace mortier {
+namespace {
+
+void clearFields(const std::string& folder, const std::map<std::string, FileRecord>& files) {
+  std::error_code none;  // what stays is no part of the result
+  for (const auto& [name, record] : files)
+    if (std::filesystem::path(name).extension() == ".vtu")  // others are written anew
+      std::filesystem::remove(std::filesystem::path(folder) / name, none);
+}
+
+/// What its own data cannot explain: it may go on without the round. \returns the reason, empty where there
+/// is none
+std::string failureOf(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const InputError& error) {
+    return error.what();
+  } catch (const UnheldBodyError& error) {
+    return error.what();
+  } catch (const TimeIsUp&) {
+    return timeIsUp;
+  } catch (const std::bad_alloc&) {
+    return "there is no memory for it";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string solveRounds(Rounds& rounds, std::unique_ptr<Attempt>& attempt, const AttemptOptions& options,
+                        const std::string& folder, Log& log, const SolveAttempt& solve) {
+  const TimeLimit limit(attempt->scene().accuracy.maxSeconds - processSeconds());
+  std::vector<RoundFacts> done;
+  Rounds::Verdict verdict = Rounds::Verdict::goOn;
+  double begin = 0;
+  const auto march = [&](Attempt& round) {
+    ErrorHistory errors(*round.model);
+    round.facts.rounds = done;
+    solve(round, [&](const State& at, const StepReport& report) { errors.add(at, report); });
+    if (round.solved.report.status != Status::converged) return;
+    const double end = processSeconds();
+    const double time = round.solved.report.timeError;
+    verdict = rounds.judge({errors.errors(), errors.energy(), time, end - begin}, end);
+    round.facts.best = done.size();
+    done.push_back({round.triangles(), round.unknowns(), round.solved.report.steps, rounds.meshError(), time,
+                    end - begin});
+    log.print(logRound(done));
+    begin = end;
+  };
+  const auto error = [&](const Attempt& of) { return done[of.facts.best].mesh + done[of.facts.best].time; };
+
+  march(*attempt);
+  if (attempt->solved.report.status != Status::converged) return "";
+  std::unique_ptr<Attempt> best = std::move(attempt);
+  std::string shortfall;
+  bool aside = false;  // where the best one's files are
+  while (verdict == Rounds::Verdict::goOn && shortfall.empty()) {
+    if (!aside) keepAside(folder, best->solved.files);
+    if (!aside) clearFields(folder, best->solved.files);
+    aside = true;
+    shortfall = failureOf([&] {
+      attempt = std::make_unique<Attempt>(rounds.scene(), options);
+      findInitialEquilibrium(attempt->scene(), *attempt->model, attempt->state);
+      march(*attempt);
+    });
+    if (shortfall.empty()) shortfall = attempt->solved.report.reason;
+    if (!shortfall.empty()) {
+      shortfall = "round " + std::to_string(done.size() + 1) + ": " + shortfall;
+    } else if (verdict == Rounds::Verdict::reached || error(*attempt) <= error(*best)) {
+      best = std::move(attempt);
+      aside = false;
+    } else {
+      clearFields(folder, attempt->solved.files);
+    }
+  }
+  if (verdict == Rounds::Verdict::notReached) shortfall = rounds.reason();
+  if (aside) bringBack(folder, best->solved.files);
+  best->facts.rounds = std::move(done);
+  attempt = std::move(best);
+  return shortfall;
+}
+
+}  // namespace mortier
