@@ -1,4 +1,4 @@
-"""Loads and supports that have no finite value at some time inside a run: they are named, with point and time."""
+"""Loads and supports that are not finite at some time inside a run are named, with point and time."""
 import json
 import unittest
 
