@@ -1,198 +1,65 @@
 #!/usr/bin/python3
 """Whether `mortier run --accuracy` keeps what it says, against far better solutions of the same scenes.
 
-    bench/accuracy.py [PART ...] [--least 0.01] [--finer 6] [--degree 2]
+    bench/accuracy.py [PART ...] [--times 0.5] [--finer 6] [--degree 2]
+    bench/accuracy.py --orders
 
-Each scene is solved for an accuracy, and for one that is --finer times better: the true error is the difference of the stresses
-at the end of the run, in the energy norm. A row per scene: unknowns, true error over what was asked, estimate over true error,
-work of all rounds over the last one's (unknowns to the power 1.2, times steps). Words that names must have a PART of.
+Each scene is solved for an accuracy, and for one that is --finer times better: the true error is the difference of
+the stresses at the end of the run, in the energy norm. A row per scene: unknowns, true error over what was asked,
+estimate over true error, work of all rounds over the last one's (unknowns to the power 1.2, times steps). With
+words, only scenes whose names have one. --orders: a thick cylinder of which a part flows, on equal cells, by
+degree: order in unknowns, and what 1e-3 takes.
 """
 import argparse
 import statistics
-import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT / "compare"), str(ROOT / "study")]
-import measure  # noqa: E402
-import results  # noqa: E402
-from codes import MORTIER  # noqa: E402
-
-CONTRASTS = (1e-6, 1e-3, 1.0, 1e3, 1e6)
+sys.path.insert(0, str(ROOT / "compare"))
+from accuracies import cases, fitted, flow_orders, measured  # noqa: E402
 
 
-def body(name, shape, material, boundary):
-    return f"[[body]]\nname = \"{name}\"\nmesh = {{ {shape} }}\nmaterial = {{ {material} }}\nboundary = [ {boundary} ]\n"
-
-
-def rectangle(lower, upper, cells):
-    return f'shape = "rectangle", lower = {lower}, upper = {upper}, cells = {cells}'
-
-
-def ring(inner, outer, cells):
-    return f'shape = "annulus", inner = {inner}, outer = {outer}, cells = {cells}, span = "quarter"'
-
-
-def elastic(young, poisson=0.3):
-    return f"young = {young!r}, poisson = {poisson}"
-
-
-def flowing(young, viscosity=1.0, yield_stress=1.0, more=""):
-    return elastic(young) + f", viscosity = {viscosity}, yield_stress = {yield_stress}" + more
-
-
-def contact(nonmortar, mortar, more=""):
-    one, two = (f'{{ body = "{name}", label = {label} }}' for name, label in (nonmortar, mortar))
-    return f"[contact]\nnonmortar = {one}\nmortar = {two}\n{more}"
-
-
-def either(swapped, one, two, more=""):
-    return contact(two, one, more) if swapped else contact(one, two, more)
-
-
-ONE_STEP = "[time]\nend = 1\nsteps = 1\n"
-SECOND_ORDER = '[time]\nend = 1\nsteps = 10\nscheme = "sdirk2"\n'
-HELD = "{ label = 1, ux = 0, uy = 0 }"
-ROLLERS = "{ label = 3, uy = 0 }, { label = 4, ux = 0 }"
-
-
-def blocks(young, swapped):
-    """A block on a wider one, pressed unevenly: contact ends at corners of the upper one or before."""
-    return (body("upper", rectangle([0, 0], [1, 1], [3, 3]), elastic(young), '{ label = 3, ux = 0, uy = "-0.02*(1 + 0.3*x)" }') +
-            body("lower", rectangle([-1, -1], [2, 0], [5, 2]), elastic(1.0, 0.25), HELD) +
-            either(swapped, ("upper", 1), ("lower", 3)) + ONE_STEP)
-
-
-def pressed(young, swapped):
-    """Blocks of one width under a pressure that varies."""
-    return (body("upper", rectangle([0, 0], [1, 1], [2, 2]), elastic(young),
-                 '{ label = 4, ux = 0 }, { label = 3, ty = "-1 - 0.8*cos(pi*x)" }') +
-            body("lower", rectangle([0, -1], [1, 0], [3, 3]), elastic(1.0), '{ label = 1, uy = 0 }, { label = 4, ux = 0 }') +
-            either(swapped, ("upper", 1), ("lower", 3)) + ONE_STEP)
-
-
-def disc(young, swapped, plane):
-    """Hertz: the end of contact is found."""
-    return (f'plane = "{plane}"\n' +
-            body("disc", 'shape = "halfdisc", lowest = [0, 0], radius = 1, core = 0.3, cells = 2', elastic(young),
-                 '{ label = 2, ux = 0, uy = -0.01 }') +
-            body("block", rectangle([-2, -2], [2, 0], [5, 3]), elastic(1.0), HELD) +
-            either(swapped, ("disc", 1), ("block", 3)) + ONE_STEP)
-
-
-def shrink(young, swapped):
-    """A ring in a ring that is too narrow for it, turned up by a load."""
-    return (body("inner", ring(1, 2.002, [4, 2]), elastic(young), ROLLERS + ', { label = 1, pressure = "0.001*x" }') +
-            body("outer", ring(2, 3, [5, 2]), elastic(1.0), ROLLERS) +
-            either(swapped, ("inner", 2), ("outer", 1)) + ONE_STEP)
-
-
-def lame(plane, load):
-    return (f'plane = "{plane}"\n' +
-            body("ring", ring(1, 2, [3, 2]), elastic(1.0), ROLLERS + f", {{ {load} }}") + ONE_STEP)
-
-
-def cylinder(pressure, viscosity):
-    return ('plane = "strain"\n' +
-            body("ring", ring(1, 2, [3, 2]), flowing(100.0, viscosity),
-                 ROLLERS + f', {{ label = 1, pressure = "{pressure}*t" }}') + SECOND_ORDER)
-
-
-def ramp(plane, young, load, more=""):
-    return (f'plane = "{plane}"\n' +
-            body("square", rectangle([0, 0], [1, 1], [2, 2]), flowing(young, 1.0, 1.0, more),
-                 f'{{ label = 1, uy = 0 }}, {{ label = 4, ux = 0 }}, {{ label = 3, ty = "{load}" }}') + SECOND_ORDER)
-
-
-def flowing_blocks(contrast, swapped, plane="stress"):
-    return (f'plane = "{plane}"\n' +
-            body("upper", rectangle([0, 0], [1, 1], [2, 2]), flowing(100.0 * contrast),
-                 '{ label = 4, ux = 0 }, { label = 3, ty = "-t*(1 + 0.8*cos(pi*x))" }') +
-            body("lower", rectangle([0, -1], [1, 0], [3, 3]), flowing(100.0),
-                 '{ label = 1, uy = 0 }, { label = 4, ux = 0 }') +
-            either(swapped, ("upper", 1), ("lower", 3)) + SECOND_ORDER)
-
-
-def cases():
-    """name -> scene, materials by body (young, poisson), accuracies."""
-    found = {}
-    for contrast in CONTRASTS:
-        for swapped in (False, True):
-            side = ", swapped" if swapped else ""
-            found[f"punch edge {contrast:g}{side}"] = (blocks(contrast, swapped),
-                                                       {"upper": (contrast, 0.3), "lower": (1.0, 0.25)}, 0.03)
-            found[f"pressed {contrast:g}{side}"] = (pressed(contrast, swapped), {"upper": (contrast, 0.3), "lower": (1.0, 0.3)},
-                                                    0.01)
-    for contrast in (1e-3, 1.0, 1e3):
-        for swapped in (False, True):
-            side = ", swapped" if swapped else ""
-            plane = "strain" if swapped else "stress"
-            found[f"disc {contrast:g}{side}"] = (disc(contrast, swapped, plane), {"disc": (contrast, 0.3), "block": (1.0, 0.3)},
-                                                 0.03)
-            found[f"shrink fit {contrast:g}{side}"] = (shrink(contrast, swapped), {"inner": (contrast, 0.3),
-                                                                                   "outer": (1.0, 0.3)}, 0.01)
-    for plane in ("stress", "strain"):
-        for name, load in (("pressure", "label = 1, pressure = 1"), ("shear", 'label = 2, tx = "x*y"'),
-                           ("pull", 'label = 2, tx = "x"')):
-            found[f"ring {plane} {name}"] = (lame(plane, load), {"ring": (1.0, 0.3)}, 0.01)
-    for pressure, viscosity in ((0.75, 1.0), (1.2, 1.0), (1.2, 0.1)):
-        found[f"flow cylinder {pressure} {viscosity}"] = (cylinder(pressure, viscosity), {"ring": (100.0, 0.3)}, 0.02)
-    for plane in ("stress", "strain"):
-        for load in ("-2*t*(1 + 0.5*x)", "-4*t*x*x"):
-            found[f"flow square {plane} {load}"] = (ramp(plane, 100.0, load), {"square": (100.0, 0.3)}, 0.02)
-    for contrast in (1e-3, 1.0, 1e3):
-        for swapped in (False, True):
-            found[f"flow blocks {contrast:g}{', swapped' if swapped else ''}"] = (
-                flowing_blocks(contrast, swapped), {"upper": (100.0 * contrast, 0.3), "lower": (100.0, 0.3)}, 0.03)
-    return found
-
-
-def solve(scene, folder, accuracy, degree):
-    """The result; where the accuracy is not reached too."""
-    path = folder.with_suffix(".toml")
-    path.write_text(f"degree = {degree}\n" + scene)
-    subprocess.run([MORTIER, "run", path, "--quiet", "--out", folder, "--accuracy", repr(accuracy)],
-                   check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    return results.read_mortier(folder, failed=True)
-
-
-def measured(scene, bodies, accuracy, degree, finer):
-    """Unknowns, true error, estimate, overhead, whether it was reached."""
-    with tempfile.TemporaryDirectory() as place:
-        run = solve(scene, Path(place) / "asked", accuracy, degree)
-        finer_run = solve(scene, Path(place) / "better", accuracy / finer, degree)
-        error = measure.field_error("energy", run, finer_run, bodies)
-    got, better = run.summary, finer_run.summary
-    work = [each["steps"] * each["unknowns"]**1.2 for each in got["rounds"]]
-    estimate = got["accuracy"]["mesh"] + got["accuracy"]["time"]
-    reached = got["accuracy"]["reached"] and better["accuracy"]["reached"]
-    return got["free_dofs"], error, estimate, sum(work) / work[-1], reached
+def orders():
+    found = flow_orders({1: [4, 8, 16, 32], 2: [2, 4, 8, 16]}, 40)
+    takes = {}
+    for degree, (unknowns, errors) in found.items():
+        order, unknowns_of = fitted(unknowns, errors)
+        takes[degree] = unknowns_of(1e-3)
+        rows = ", ".join(f"{n} {error:.2e}" for n, error in zip(unknowns, errors))
+        print(f"degree {degree}: order {order:.2f} in unknowns, "
+              f"{takes[degree]:.3g} unknowns for 1e-3 ({rows})")
+    print(f"degree 1 over degree 2 at 1e-3: {takes[1] / takes[2]:.0f}")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("parts", nargs="*")
     parser.add_argument("--finer", type=float, default=6)
-    parser.add_argument("--times", type=float, default=1, help="what the accuracies of the scenes are multiplied by")
+    parser.add_argument("--times", type=float, default=1,
+                        help="what the accuracies of the scenes are multiplied by")
     parser.add_argument("--degree", type=int, default=2)
+    parser.add_argument("--orders", action="store_true")
     options = parser.parse_args()
+    if options.orders:
+        orders()
+        return
     print(f"{'':<36} {'asked':>8} {'unknowns':>9} {'error/asked':>12} {'estimate/error':>15} {'overhead':>9}")
     rows = []
     for name, (scene, bodies, accuracy) in cases().items():
         if options.parts and not any(part in name for part in options.parts):
             continue
         accuracy *= options.times
-        unknowns, error, estimate, overhead, reached = measured(scene, bodies, accuracy, options.degree, options.finer)
+        unknowns, error, estimate, overhead, reached = measured(scene, bodies, accuracy, options.degree,
+                                                                options.finer)
         rows.append((error / accuracy, estimate / error, overhead, reached))
-        print(f"{name:<36} {accuracy:8.3g} {unknowns:9} {error / accuracy:12.3g} {estimate / error:15.2f} {overhead:9.2f}"
-              f"{'' if reached else '  not reached'}", flush=True)
+        print(f"{name:<36} {accuracy:8.3g} {unknowns:9} {error / accuracy:12.3g} {estimate / error:15.2f} "
+              f"{overhead:9.2f}{'' if reached else '  not reached'}", flush=True)
     below = sum(row[0] <= 1 and row[3] for row in rows)
     ratios, overheads = [row[1] for row in rows], [row[2] for row in rows]
-    print(f"{len(rows)} cases, {below} below what was asked; estimate over true error {min(ratios):.2f} to {max(ratios):.2f}, "
-          f"{sum(0.9 <= ratio <= 1.3 for ratio in ratios)} within 0.9 and 1.3; overhead: median {statistics.median(overheads):.2f}, "
-          f"worst {max(overheads):.2f}")
+    print(f"{len(rows)} cases, {below} below what was asked; estimate over true error {min(ratios):.2f} to "
+          f"{max(ratios):.2f}, {sum(0.9 <= ratio <= 1.3 for ratio in ratios)} within 0.9 and 1.3; "
+          f"overhead: median {statistics.median(overheads):.2f}, worst {max(overheads):.2f}")
 
 
 if __name__ == "__main__":
