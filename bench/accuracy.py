@@ -5,10 +5,10 @@
     bench/accuracy.py --orders
 
 Each scene is solved for an accuracy, and for one that is --finer times better: the true error is the
-difference of the stresses at the end of the run, in the energy norm. A row per scene: unknowns, true error over what was
-asked, estimate over true error, work of all rounds over the last one's (unknowns to the power 1.2, times
-steps). With words, only scenes whose names have one. --orders: a thick cylinder of which a part flows, on equal cells,
-by degree: order in unknowns, and what 1e-3 takes.
+difference of the stresses at the end of the run, in the energy norm. A row per scene: unknowns, true error
+over what was asked, estimate over true error, work of all rounds over the last one's (unknowns to the power
+1.2, times steps). With words, only scenes whose names have one. --orders: a thick cylinder of which a part
+flows, on equal cells, by degree: order in unknowns, and what 1e-3 takes.
 """
 import argparse
 import statistics
