@@ -64,8 +64,22 @@ class Sampled:
                          self.bodies[name].displacement[nodes_of(self.bodies[name])[found]])
 
     def barycentric(self, name, points, found):
-        """By the corners: sides that are curved are taken as straight."""
+        """Of points in the triangles in which they are; in curved ones by Newton's method."""
         body = self.bodies[name]
+        at = self.by_corners(body, points, found)
+        if body.elements is None:
+            return at
+        nodes = body.points[body.elements[found]]
+        for _ in range(4):
+            miss = points - np.einsum("...i,...ij->...j", shapes(body, at), nodes)
+            tangents = np.einsum("...di,...ij->...jd", slopes(body, at), nodes)
+            step = np.linalg.solve(tangents, miss[..., None])[..., 0]
+            at = at + np.concatenate([step, -step.sum(-1, keepdims=True)], -1)
+        return at
+
+    @staticmethod
+    def by_corners(body, points, found):
+        """The same where sides are straight."""
         a, b, c = (body.points[body.triangles[found][..., i]] for i in range(3))
         weights = np.stack([cross(b - points, c - points), cross(c - points, a - points),
                             cross(a - points, b - points)], -1)

@@ -21,6 +21,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 LABELS = ("unit", "theory", "compare")
+LOADED = {"FAILING_CALLS": "failing-calls", "DEAF_METIS": "deaf-metis"}  # libraries that scripts load
 LIMIT = 120  # seconds of a processor that a process of a test may take
 
 def faults():
@@ -114,14 +115,14 @@ class Tree:
         script = self.script(test)
         if script:
             command = ["/usr/bin/python3", script, "-f"]
-            if not self.make("mortier") or not self.make("failing-calls"):
+            if not all(map(self.make, ("mortier", *LOADED.values()))):
                 return "does not compile"
         elif not self.make(test):
             return "does not compile"
         else:
             command = [self.build / "tests" / test, "--gtest_fail_fast", "--gtest_brief=1"]
-        environment = dict(os.environ, MORTIER=str(self.build / "mortier"), MORTIER_ROOT=str(self.source),
-                           FAILING_CALLS=str(self.build / "tests/libfailing-calls.so"))
+        environment = dict(os.environ, MORTIER=str(self.build / "mortier"), MORTIER_ROOT=str(self.source))
+        environment |= {name: str(self.build / f"tests/lib{target}.so") for name, target in LOADED.items()}
         begin = time.monotonic()
         process = subprocess.Popen(command, cwd=self.build, env=environment, start_new_session=True,
                                    stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,

@@ -11,6 +11,10 @@ namespace {
 constexpr double unknownRate = std::numeric_limits<double>::infinity();
 /// The largest reduction of a size in one round.
 constexpr double least = 1.0 / 8;
+/// Stresses are unbounded where errors fall like this power of the area, or more slowly; a slower one is not
+/// believed.
+constexpr double bounded = 1.1;
+constexpr double slowest = 0.2;
 
 /// c by halving: the sum grows with it.
 double scaleOfSizes(const std::vector<Vector>& errors, double aim, int degree) {
@@ -83,12 +87,24 @@ void AdaptedMeshes::refineAll() {
   for (Adapted& body : bodies_) cut(body, std::vector<char>(body.mesh.triangles.size(), 1));
 }
 
+void AdaptedMeshes::learn(const std::vector<Vector>& errors) {
+  for (size_t b = 0; b < bodies_.size(); ++b) learnRates(bodies_[b], errors[b]);
+}
+
+double AdaptedMeshes::unseen() const {
+  double sum = 0;
+  for (const Adapted& body : bodies_)
+    for (size_t v = 0; v < body.rate.size(); ++v)
+      if (body.rate[v] < bounded) sum += body.error[v] / (std::pow(4, std::max(body.rate[v], slowest)) - 1);
+  return sum;
+}
+
 void AdaptedMeshes::refine(const std::vector<Vector>& errors, double aim) {
   constexpr double negligible = 0.01;
   const double c = scaleOfSizes(errors, aim, degree_);
   const std::vector<std::vector<char>> marked = halfOfTheError(errors);
+  learn(errors);
   for (size_t b = 0; b < bodies_.size(); ++b) {
-    learnRates(bodies_[b], errors[b]);
     Vector reduction = Vector::Ones(errors[b].size());
     for (Eigen::Index t = 0; t < reduction.size(); ++t)
       if (errors[b][t] > 0)
@@ -152,8 +168,6 @@ void AdaptedMeshes::cutToSize(Adapted& body, const Vector& reduction, std::vecto
 }
 
 void AdaptedMeshes::cutAtSingularities(Adapted& body, double allowed) {
-  constexpr double bounded = 1.1;
-  constexpr double slowest = 0.2;
   constexpr int most = 10;
   for (size_t v = 0; v < body.rate.size(); ++v) {
     if (!(body.rate[v] < bounded)) continue;

@@ -29,6 +29,12 @@ class AdaptedMeshes {
   [[nodiscard]] const std::vector<std::string>& polygons(size_t body) const { return bodies_[body].polygons; }
   [[nodiscard]] int offCurve() const { return offCurve_; }
 
+  /// How the errors eta_T^2 [J/m] by bodies and triangles have fallen since the last call, at each vertex.
+  void learn(const std::vector<Vector>& errors);
+  /// What estimates do not see of unbounded stresses, as far as rates are known. At a vertex where the error
+  /// goes like area^s, a mesh of half the size takes 1 - 4^-s of it away, and that is what a field recovered
+  /// from this mesh tells: in all it is 1/(1 - 4^-s) times as large [J/m].
+  [[nodiscard]] double unseen() const;
   /// \param errors  eta_T^2 [J/m] by bodies and triangles  \param aim  what the root of their sum shall
   /// become
   void refine(const std::vector<Vector>& errors, double aim);

@@ -10,6 +10,8 @@
 namespace mortier {
 namespace {
 
+constexpr double least =
+    0.9;  // of the error, what its estimate may be: it is to be below this part of what is asked
 constexpr double careful = 0.85;     // aims are this part of what is asked
 constexpr double reachOfARound = 4;  // by which a round divides the error, about
 
@@ -59,18 +61,21 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
   constexpr double short_ = 2;
   constexpr double stalled = 0.9;
   constexpr int often = 2;
+  constexpr double first = 0.5;
   const double asked = description_.accuracy.energy;
-  const double ofMeshes = asked - timeShare();
+  const double ofMeshes = least * asked - timeShare();
   const double before = meshError_;
   double sum = 0;
   for (const Vector& error : result.errors) sum += error.sum();
   meshError_ = result.energy > 0 ? std::sqrt(sum / result.energy) : 0;
   ++done_;
-  if (done_ > 1 && meshError_ + result.time <= asked) return Verdict::reached;
+  meshes_.learn(result.errors);
+  const double trusted = result.energy > 0 ? std::sqrt((sum + meshes_.unseen()) / result.energy) : 0;
+  if (done_ > 1 && trusted + result.time <= least * asked) return Verdict::reached;
 
   // The steps alone are too long.
   const bool lastSteps = timeTolerance_ <= timeShare();
-  if (done_ > 1 && meshError_ <= ofMeshes) {
+  if (done_ > 1 && trusted <= ofMeshes) {
     if (lastSteps) return stop("the error of the steps, " + percent(result.time) + ", does not fall");
     timeTolerance_ = timeShare();
     return Verdict::goOn;
@@ -80,9 +85,9 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
   const bool fell = meshError_ < stalled * before;
   shortfalls_ = aim_ > 0 && meshError_ > short_ * aim_ && !fell ? shortfalls_ + 1 : 0;
   if (shortfalls_ >= often) return stop("the error does not fall as it should");
-  const double excess = meshError_ / (careful * ofMeshes);
+  const double excess = meshError_ / (careful / least * ofMeshes);
   const double toCome = std::max(1.0, std::round(std::log(excess) / std::log(reachOfARound)));
-  const double factor = std::clamp(std::pow(excess, -1 / toCome), 1.0 / 8, 1.0);
+  const double factor = std::clamp(std::pow(excess, -1 / toCome), 1.0 / 8, done_ == 1 ? first : careful);
   double cost = result.seconds;
   if (timeTolerance_ > 0) {
     constexpr double part = 0.4;

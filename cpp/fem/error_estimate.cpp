@@ -92,6 +92,8 @@ class Fits {
   }
 
   /// Of the value at a place, by least squares; of the mean where the points do not determine the polynomial.
+  /// Quadratic ones count a point by the inverse square of its distance from the vertex: on meshes that are
+  /// graded towards an unbounded stress, points that are far off would have as much to say as those nearby.
   const std::vector<double>& fit(const Point& vertex, const Point& place) {
     constexpr double degenerate = 1e-10;
     double size = 0;
@@ -102,17 +104,19 @@ class Fits {
     forEachSample([&](const Point& sample) { size = std::max(size, (sample - vertex).squaredNorm()); });
     size = std::sqrt(size);
     basis_.clear();
+    counts_.clear();
     Eigen::Matrix<double, terms, terms> normal = Eigen::Matrix<double, terms, terms>::Zero();
     forEachSample([&](const Point& sample) {
+      counts_.push_back(Element::points > 1 ? size * size / (sample - vertex).squaredNorm() : 1);
       basis_.push_back(termsAt((sample - vertex) / size));
-      normal += basis_.back() * basis_.back().transpose();
+      normal += counts_.back() * basis_.back() * basis_.back().transpose();
     });
     const auto n = static_cast<double>(basis_.size());
     const Eigen::LDLT<Eigen::Matrix<double, terms, terms>> factor(normal);
     weights_.assign(basis_.size(), 1 / n);
-    if (factor.vectorD().minCoeff() < degenerate * n) return weights_;
+    if (factor.vectorD().minCoeff() < degenerate * normal(0, 0)) return weights_;
     const Terms value = factor.solve(termsAt((place - vertex) / size));
-    for (size_t i = 0; i < basis_.size(); ++i) weights_[i] = value.dot(basis_[i]);
+    for (size_t i = 0; i < basis_.size(); ++i) weights_[i] = counts_[i] * value.dot(basis_[i]);
     return weights_;
   }
 
@@ -123,6 +127,7 @@ class Fits {
   std::vector<int> patch_;
   std::vector<int> corners_;
   std::vector<Terms> basis_;
+  std::vector<double> counts_;
   std::vector<double> weights_;
 };
 

@@ -17,6 +17,7 @@ void AccuracyRecord::prepare() {
 
 void AccuracyRecord::add(const State& state, const StepReport& report, bool kept) {
   constexpr double often = 2;
+  if (report.step == 0) return;  // a given state: what overlaps in it is pressed apart in the first step
   if (!kept && !(report.energy > often * memory_.energy)) return;
   prepare();
   memory_.energy = std::max(memory_.energy, report.energy);

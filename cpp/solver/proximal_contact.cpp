@@ -91,7 +91,9 @@ bool ProximalContact::grow(int condition, ContactSolution& solution, Growth& gro
   --pivotsLeft_;
   if (!take(solution.active)) return false;
   growth.force = -problem_.W.col(condition);
-  const Vector motion = solve(-problem_.G.row(condition).transpose(), growth.force);
+  // A row of a matrix without columns has no address.
+  const Vector drive = problem_.G.cols() > 0 ? Vector(-problem_.G.row(condition).transpose()) : Vector();
+  const Vector motion = solve(drive, growth.force);
   growth.force[condition] = 1;
   growth.slack = compliance(growth.force);
   if (motion.size() > 0) growth.slack -= problem_.G * motion;

@@ -40,8 +40,8 @@ class StepTaker {
   /// What the stress changes by from the start of the attempt to one of its stages; no displacement.
   [[nodiscard]] std::vector<Response> change(size_t stage) const;
   [[nodiscard]] size_t stages() const { return tableau_.stages.size(); }
-  /// Where points began to flow on the way, about what their stress is wrong by at its end: the stages that
-  /// come before see no flow, the others only its last direction. No displacement.
+  /// Where points began to flow during the attempt, about the error of their stress at its end: stages before
+  /// that see no flow, the others only its last direction. No displacement.
   [[nodiscard]] std::vector<Response> turn() const;
   /// The fraction of the attempt at which the first point flows, where none did at its start; 1 if none does.
   [[nodiscard]] double onset() const;

@@ -77,6 +77,15 @@ class Norms(unittest.TestCase):
                 other = {name: text.replace("x", "0.5") for name, text in exact.items()}
                 self.assertGreater(error(self.exact(**other)), 0.1)
 
+    def test_places_in_curved_triangles(self):
+        sampled = measure.Sampled(quadratic(2, rise=0.06))
+        body = sampled.bodies["b"]
+        at = np.random.default_rng(1).dirichlet([1, 1, 1], (len(body.elements), 20))
+        places = np.einsum("tqi,tij->tqj", measure.shapes(body, at), body.points[body.elements])
+        found = np.broadcast_to(np.arange(len(body.elements))[:, None], at.shape[:2])
+        self.assertLess(np.abs(sampled.barycentric("b", places, found) - at).max(), 1e-13)
+        self.assertGreater(np.abs(sampled.by_corners(body, places, found) - at).max(), 1e-3)
+
     def test_area_below_a_parabola(self):
         _, weights = measure.quadrature(quadratic(2, rise=0.06).bodies["b"])
         self.assertAlmostEqual(weights.sum(), 1 + 2 / 3 * 0.06, places=14)

@@ -34,11 +34,11 @@ inline void addEnergies(const Body& body, const Matrix& stress,
     constexpr int cuts = 4;
     const TriangleMesh& mesh = body.mesh();
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const auto& [i, j, k] = mesh.triangles[t];
+      const std::array<int, 3>& v = mesh.triangles[t];
       const double weight = doubleArea(mesh, static_cast<int>(t)) / 2 / (cuts * cuts);
       const auto add = [&](double r, double s) {
         const Barycentric b{1 - (r + s) / cuts, r / cuts, s / cuts};
-        const Point x = b[0] * mesh.vertices[i] + b[1] * mesh.vertices[j] + b[2] * mesh.vertices[k];
+        const Point x = b[0] * mesh.vertices[v[0]] + b[1] * mesh.vertices[v[1]] + b[2] * mesh.vertices[v[2]];
         const auto L = Element::stressShapes(b);
         Eigen::Vector3d own = Eigen::Vector3d::Zero();
         for (int q = 0; q < Element::points; ++q)

@@ -58,6 +58,11 @@ TEST_F(PlanFiles, loadsAreSizedByTractionAndByStrain) {
   EXPECT_EQ(nominalStress(description, data, 0), 2);  // the traction
   EXPECT_EQ(nominalStress(description, data, 2), 2);  // 100 * 0.02 / 1, the same
   EXPECT_EQ(nominalStress(description, data, 4), 4);
+  // A traction on the left, where x = 0, and a force: its size over the extent, which is 1.
+  const SceneDescription along = scene({"body.upper.boundary.4.ty=-3*y", "body.lower.force.x=t*(x-2*y)"});
+  const std::vector<SampledDatum> varying = dataOf(along, blocks);
+  EXPECT_EQ(nominalStress(along, varying, 0), 3);
+  EXPECT_NEAR(nominalStress(along, varying, 4), 12, 1e-12);  // at (1, -1)
   EXPECT_EQ(std::count_if(data.begin(), data.end(),
                           [&](const SampledDatum& datum) { return changesInTime(datum, description.time); }),
             1);
@@ -88,6 +93,8 @@ TEST_F(PlanFiles, stepsAtRestAndTheOnesThatAreTaken) {
   const SceneDescription still = scene({"body.lower.boundary.1.uy=0"});
   EXPECT_TRUE(says(planOf(still, modelOf(still)), true, "one step"));
   EXPECT_TRUE(says(planOf(still, modelOf(still)), false, "the other 3 steps"));
+  const SceneDescription firstOnly = scene({"body.lower.boundary.1.uy=0", "body.upper.boundary.4.ux=0.01*t"});
+  EXPECT_TRUE(says(planOf(firstOnly, modelOf(firstOnly)), true, "4 steps of 0.5 s"));
   const SceneDescription flowing =
       scene({"body.upper.material={ young = 100, poisson = 0.3, viscosity = 1, yield_stress = 50 }"});
   EXPECT_TRUE(says(planOf(flowing, modelOf(flowing)), false, "flow, unless"));

@@ -1,0 +1,211 @@
+"""Scenes on which `mortier run --accuracy` is held against far better solutions of the same scenes: the true
+error is the difference of the stresses at the end of the run, in the energy norm.
+"""
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+import codes
+import results
+
+sys.path.append(str(Path(__file__).resolve().parent.parent / "study"))
+from measure import field_error  # noqa: E402
+
+CONTRASTS = (1e-6, 1e-3, 1.0, 1e3, 1e6)
+
+
+def body(name, shape, material, boundary):
+    return (f"[[body]]\nname = \"{name}\"\nmesh = {{ {shape} }}\nmaterial = {{ {material} }}\n"
+            f"boundary = [ {boundary} ]\n")
+
+
+def rectangle(lower, upper, cells):
+    return f'shape = "rectangle", lower = {lower}, upper = {upper}, cells = {cells}'
+
+
+def ring(inner, outer, cells):
+    return f'shape = "annulus", inner = {inner}, outer = {outer}, cells = {cells}, span = "quarter"'
+
+
+def elastic(young, poisson=0.3):
+    return f"young = {young!r}, poisson = {poisson}"
+
+
+def flowing(young, viscosity=1.0, yield_stress=1.0, more=""):
+    return elastic(young) + f", viscosity = {viscosity}, yield_stress = {yield_stress}" + more
+
+
+def contact(nonmortar, mortar, more=""):
+    one, two = (f'{{ body = "{name}", label = {label} }}' for name, label in (nonmortar, mortar))
+    return f"[contact]\nnonmortar = {one}\nmortar = {two}\n{more}"
+
+
+def either(swapped, one, two, more=""):
+    return contact(two, one, more) if swapped else contact(one, two, more)
+
+
+ONE_STEP = "[time]\nend = 1\nsteps = 1\n"
+SECOND_ORDER = '[time]\nend = 1\nsteps = 10\nscheme = "sdirk2"\n'
+HELD = "{ label = 1, ux = 0, uy = 0 }"
+ROLLERS = "{ label = 3, uy = 0 }, { label = 4, ux = 0 }"
+
+
+def blocks(young, swapped, cells):
+    """A block on a wider one, pressed unevenly: contact ends at corners of the upper one, which face nodes of
+    six cells."""
+    return (body("upper", rectangle([0, 0], [1, 1], [3, 3]), elastic(young),
+                 '{ label = 3, ux = 0, uy = "-0.02*t*(1 + 0.3*x)" }') +
+            body("lower", rectangle([-1, -1], [2, 0], [cells, 2]), elastic(1.0, 0.25), HELD) +
+            either(swapped, ("upper", 1), ("lower", 3)) + ONE_STEP)
+
+
+def pressed(young, swapped):
+    """Blocks of one width under a pressure that varies."""
+    return (body("upper", rectangle([0, 0], [1, 1], [2, 2]), elastic(young),
+                 '{ label = 4, ux = 0 }, { label = 3, ty = "-1 - 0.8*cos(pi*x)" }') +
+            body("lower", rectangle([0, -1], [1, 0], [3, 3]), elastic(1.0), HELD) +
+            either(swapped, ("upper", 1), ("lower", 3)) + ONE_STEP)
+
+
+def disc(young, swapped, plane):
+    """Hertz: the end of contact is found."""
+    return (f'plane = "{plane}"\n' +
+            body("disc", 'shape = "halfdisc", lowest = [0, 0], radius = 1, core = 0.3, cells = 2',
+                 elastic(young),
+                 '{ label = 2, ux = 0, uy = "-0.01*t" }') +
+            body("block", rectangle([-2, -2], [2, 0], [5, 3]), elastic(1.0), HELD) +
+            either(swapped, ("disc", 1), ("block", 3)) + ONE_STEP)
+
+
+def shrink(young, swapped):
+    """A ring in a ring that is too narrow for it, turned up by a load."""
+    return (body("inner", ring(1, 2.002, [4, 2]), elastic(young),
+                 ROLLERS + ', { label = 1, pressure = "0.001*x" }') +
+            body("outer", ring(2, 3, [5, 2]), elastic(1.0), ROLLERS) +
+            either(swapped, ("inner", 2), ("outer", 1)) + ONE_STEP)
+
+
+def lame(plane, load):
+    return (f'plane = "{plane}"\n' +
+            body("ring", ring(1, 2, [3, 2]), elastic(1.0), ROLLERS + f", {{ {load} }}") + ONE_STEP)
+
+
+def cylinder(pressure, viscosity):
+    return ('plane = "strain"\n' +
+            body("ring", ring(1, 2, [3, 2]), flowing(100.0, viscosity),
+                 ROLLERS + f', {{ label = 1, pressure = "{pressure}*t" }}') + SECOND_ORDER)
+
+
+def ramp(plane, young, load, more=""):
+    return (f'plane = "{plane}"\n' +
+            body("square", rectangle([0, 0], [1, 1], [2, 2]), flowing(young, 1.0, 1.0, more),
+                 f'{{ label = 1, uy = 0 }}, {{ label = 4, ux = 0 }}, {{ label = 3, ty = "{load}" }}') +
+            SECOND_ORDER)
+
+
+def flowing_blocks(contrast, swapped, plane="stress"):
+    return (f'plane = "{plane}"\n' +
+            body("upper", rectangle([0, 0], [1, 1], [2, 2]), flowing(100.0 * contrast),
+                 '{ label = 4, ux = 0 }, { label = 3, ty = "-t*(1 + 0.8*cos(pi*x))" }') +
+            body("lower", rectangle([0, -1], [1, 0], [3, 3]), flowing(100.0),
+                 '{ label = 1, uy = 0 }, { label = 4, ux = 0 }') +
+            either(swapped, ("upper", 1), ("lower", 3)) + SECOND_ORDER)
+
+
+def cases():
+    """name -> scene, materials by body (young, poisson), accuracy."""
+    found = {}
+
+    def add(name, scene, accuracy, **materials):
+        found[name] = scene, {body: (each, 0.3) if isinstance(each, float) else each
+                              for body, each in materials.items()}, accuracy
+    sides = ((False, ""), (True, ", swapped"))
+    for contrast in CONTRASTS:
+        for swapped, side in sides:
+            for cells, where in ((6, "at nodes"), (5, "between nodes")):
+                add(f"punch edge {where} {contrast:g}{side}", blocks(contrast, swapped, cells), 0.03,
+                    upper=contrast, lower=(1.0, 0.25))
+            add(f"pressed {contrast:g}{side}", pressed(contrast, swapped), 0.01, upper=contrast, lower=1.0)
+    for contrast in (1e-3, 1.0, 1e3):
+        for swapped, side in sides:
+            plane = "strain" if swapped else "stress"
+            add(f"disc {contrast:g}{side}", disc(contrast, swapped, plane), 0.03, disc=contrast, block=1.0)
+            add(f"shrink fit {contrast:g}{side}", shrink(contrast, swapped), 0.01, inner=contrast, outer=1.0)
+    for plane in ("stress", "strain"):
+        for name, load in (("pressure", "label = 1, pressure = 1"), ("shear", 'label = 2, tx = "x*y"'),
+                           ("pull", 'label = 2, tx = "x"')):
+            add(f"ring {plane} {name}", lame(plane, load), 0.01, ring=1.0)
+    for pressure, viscosity in ((0.75, 1.0), (1.2, 1.0), (1.2, 0.1)):
+        add(f"flow cylinder {pressure} {viscosity}", cylinder(pressure, viscosity), 0.02, ring=100.0)
+    for plane in ("stress", "strain"):
+        for load in ("-2*t*(1 + 0.5*x)", "-4*t*x*x"):
+            add(f"flow square {plane} {load}", ramp(plane, 100.0, load), 0.02, square=100.0)
+    for contrast in (1e-3, 1.0, 1e3):
+        for swapped, side in sides:
+            add(f"flow blocks {contrast:g}{side}", flowing_blocks(contrast, swapped), 0.03,
+                upper=100.0 * contrast, lower=100.0)
+    return found
+
+
+def solve(scene, folder, accuracy, degree):
+    """The result; where the accuracy is not reached too."""
+    path = folder.with_suffix(".toml")
+    path.write_text(f"degree = {degree}\n" + scene)
+    subprocess.run([codes.MORTIER, "run", path, "--quiet", "--out", folder, "--accuracy", repr(accuracy)],
+                   check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    return results.read_mortier(folder, failed=True)
+
+
+def measured(scene, bodies, accuracy, degree, finer):
+    """Unknowns, true error, estimate, overhead, whether it was reached."""
+    with tempfile.TemporaryDirectory() as place:
+        run = solve(scene, Path(place) / "asked", accuracy, degree)
+        told, rounds = run.summary["accuracy"], run.summary["rounds"]
+        estimate = told["mesh"] + told["time"]
+        better = solve(scene, Path(place) / "better", min(accuracy, estimate) / finer, degree)
+        error = field_error("energy", run, better, bodies)
+    work = [each["steps"] * each["unknowns"]**1.2 for each in rounds]
+    reached = told["reached"] and better.summary["accuracy"]["reached"]
+    return run.summary["free_dofs"], error, estimate, sum(work) / work[-1], reached
+
+
+FLOW_STEPS = 20
+FLOW_BODIES = {"ring": (100.0, 0.3)}
+
+
+def flowing_ring(cells, degree):
+    """A thick cylinder of which a part flows, on equal cells, with equal steps."""
+    return (f'plane = "strain"\ndegree = {degree}\n' +
+            body("ring", ring(1, 2, [2 * cells, cells]), flowing(100.0),
+                 ROLLERS + ', { label = 1, pressure = "0.75*t" }') +
+            f"[time]\nend = 1\nsteps = {FLOW_STEPS}\n")
+
+
+def flow_orders(cells, better):
+    """Unknowns and errors by degree on meshes of ever more cells across, against quadratic displacements on
+    `better` cells. Steps are the same: the error is that of the meshes.
+
+    cells: degree -> list
+    """
+    found = {}
+    with tempfile.TemporaryDirectory() as place:
+        def run(count, degree):
+            folder = Path(place) / f"{degree}-{count}"
+            folder.with_suffix(".toml").write_text(flowing_ring(count, degree))
+            codes.call([codes.MORTIER, "run", folder.with_suffix(".toml"), "--quiet", "--out", folder])
+            return results.read_mortier(folder)
+        best = run(better, 2)
+        for degree, counts in cells.items():
+            runs = [run(count, degree) for count in counts]
+            found[degree] = (np.array([each.summary["free_dofs"] for each in runs]),
+                             np.array([field_error("energy", each, best, FLOW_BODIES) for each in runs]))
+    return found
+
+
+def fitted(unknowns, errors):
+    """Order of the errors in the unknowns, and a function that tells how many unknowns an error takes."""
+    order, constant = np.polyfit(np.log(unknowns), np.log(errors), 1)
+    return order, lambda error: float(np.exp((np.log(error) - constant) / order))
