@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "adapt/facing_corners.h"
+
 namespace mortier {
 namespace {
 
@@ -85,6 +87,14 @@ std::vector<int> AdaptedMeshes::cut(Adapted& body, const std::vector<char>& mark
 
 void AdaptedMeshes::refineAll() {
   for (Adapted& body : bodies_) cut(body, std::vector<char>(body.mesh.triangles.size(), 1));
+}
+
+void AdaptedMeshes::faceCorners(size_t body, int label, size_t otherBody, int otherLabel) {
+  Adapted& one = bodies_[body];
+  Adapted& other = bodies_[otherBody];
+  const std::vector<Point> corners = cornersOf(one.mesh, label);
+  cutFacing(one.mesh, one.curves, label, cornersOf(other.mesh, otherLabel));
+  cutFacing(other.mesh, other.curves, otherLabel, corners);
 }
 
 void AdaptedMeshes::learn(const std::vector<Vector>& errors) {

@@ -114,6 +114,10 @@ bool Rounds::refine(const RoundResult& result, double aim, double cost, double s
       meshes_.refine(result.errors, aim * std::sqrt(result.energy));
     else
       meshes_.refineAll();
+    if (done_ == 1)
+      for (const ContactDescription& contact : description_.contacts)
+        meshes_.faceCorners(bodyIndex(description_, contact.nonmortar.body), contact.nonmortar.label,
+                            bodyIndex(description_, contact.mortar.body), contact.mortar.label);
     const int nodes = nodesOf(meshes_, bodies, description_.degree);
     const double expected = cost * std::pow(double(nodes) / before, power);
     const bool small = 2.0 * nodes <= goal.maxUnknowns;

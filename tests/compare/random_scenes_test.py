@@ -39,8 +39,9 @@ class RandomScenes(unittest.TestCase):
         self.assertGreater(sum(result["code"] == 0 for result in results), COUNT * 3 // 4)
 
     def test_what_is_not_solved_has_its_own_reason_soon(self):
-        for seed, reason in ((CRAWLING, "at the pace of the steps that can be solved max_steps = 100000"),
-                             (UNLOADED, "Newton's method did not converge in 7 iterations, .* force balance")):
+        reasons = {CRAWLING: "at the pace of the steps that can be solved max_steps = 100000",
+                   UNLOADED: "Newton's method did not converge in 7 iterations, .* force balance"}
+        for seed, reason in reasons.items():
             result, = explore(PROGRAM, seed, 1, SECONDS)
             with self.subTest(seed=seed):
                 self.assertIn(result["code"], (0, 1), result["told"])

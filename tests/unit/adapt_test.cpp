@@ -5,6 +5,7 @@
 
 #include "adapt/adapted_meshes.h"
 #include "adapt/curves.h"
+#include "adapt/facing_corners.h"
 #include "adapt/rounds.h"
 #include "mesh/boundary_line.h"
 #include "mesh/shape.h"
@@ -181,6 +182,36 @@ ResolvedScene sceneOf(double accuracy) {
 RoundResult resultOf(const Rounds& rounds, double error) {
   const auto triangles = static_cast<Eigen::Index>(rounds.scene().meshes[0].triangles.size());
   return {{Vector::Constant(triangles, error * error / static_cast<double>(triangles))}, 1, 0, 1};
+}
+
+TEST(FacingCorners, linesGetVerticesWhereCornersFaceTheInsideOfAnEdge) {
+  TriangleMesh wide = rectangleMesh({.lower = {-1, -1}, .upper = {1, 0}, .cellsX = 2, .cellsY = 1});
+  const TriangleMesh narrow = rectangleMesh({.lower = {-0.01, 0}, .upper = {0.25, 1}});
+  const std::vector<Point> corners = cornersOf(narrow, 1);
+  ASSERT_EQ(corners.size(), 2U);
+  const size_t before = wide.vertices.size();
+  const size_t triangles = wide.triangles.size();
+  cutFacing(wide, {}, 3, corners);  // the corner at -0.01 is next to a vertex
+  ASSERT_EQ(wide.vertices.size(), before + 1);
+  EXPECT_EQ(wide.triangles.size(), triangles + 1);
+  EXPECT_EQ(wide.vertices.back(), Point(0.25, 0));
+  EXPECT_EQ(verticesOn(wide, 3).size(), 4U);
+  EXPECT_NO_THROW(validate(wide));
+  double area = 0;
+  for (size_t t = 0; t < wide.triangles.size(); ++t) area += doubleArea(wide, static_cast<int>(t)) / 2;
+  EXPECT_NEAR(area, 2, 1e-14);
+  // What is curved, or far away, stays.
+  const size_t now = wide.vertices.size();
+  cutFacing(wide, {}, 3, {{-0.5, 3}});
+  CurvedEdges curves;
+  for (const auto& edge : edgesOn(wide, 3)) curves[edge] = 0.1;
+  cutFacing(wide, curves, 3, {{-0.5, 0}});
+  EXPECT_EQ(wide.vertices.size(), now);
+}
+
+TEST(FacingCorners, roundLinesHaveNone) {
+  EXPECT_TRUE(cornersOf(annulusMesh({{0, 0}, 1, 2, 4, 24, 3}), 2).empty());
+  EXPECT_EQ(cornersOf(annulusMesh({{0, 0}, 1, 2, 1, 6, 3}), 2).size(), 2U);
 }
 
 TEST(Rounds, oneRefinementIsMadeBeforeAnEstimateIsTrusted) {

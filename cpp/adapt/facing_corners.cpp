@@ -1,0 +1,100 @@
+#include "adapt/facing_corners.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "mesh/boundary_line.h"
+
+namespace mortier {
+namespace {
+
+struct Cut {
+  size_t edge = 0;  ///< of the boundary
+  Point at;
+};
+
+/// Where the nearest edge of the line is to be cut.
+std::optional<Cut> cutAt(const TriangleMesh& mesh, const CurvedEdges& curves, int label, const Point& place) {
+  constexpr double nextToAVertex = 0.1;
+  double least = std::numeric_limits<double>::infinity();
+  std::optional<Cut> cut;
+  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
+    if (mesh.boundaryLabels[e] != label) continue;
+    const auto& [a, b] = mesh.boundaryEdges[e];
+    const Point along = mesh.vertices[b] - mesh.vertices[a];
+    const double part = (place - mesh.vertices[a]).dot(along) / along.squaredNorm();
+    const Point at = mesh.vertices[a] + std::clamp(part, 0.0, 1.0) * along;
+    const double distance = (place - at).norm();
+    if (distance >= least) continue;
+    least = distance;
+    const bool curved = curves.count({a, b}) > 0 || curves.count({b, a}) > 0 ||
+                        (!mesh.edgeMiddles.empty() && mesh.edgeMiddles[e].allFinite());
+    const bool apart = distance > along.norm();
+    if (curved || apart || part < nextToAVertex || part > 1 - nextToAVertex)
+      cut.reset();
+    else
+      cut = Cut{e, at};
+  }
+  return cut;
+}
+
+/// Turned so that its longest side is its base, from the first vertex to the second.
+std::array<int, 3> onItsLongestSide(const TriangleMesh& mesh, std::array<int, 3> triangle) {
+  const auto side = [&](int k) {
+    return (mesh.vertices[triangle[(k + 1) % 3]] - mesh.vertices[triangle[k]]).squaredNorm();
+  };
+  const int longest = side(0) >= side(1) && side(0) >= side(2) ? 0 : (side(1) >= side(2) ? 1 : 2);
+  std::rotate(triangle.begin(), triangle.begin() + longest, triangle.end());
+  return triangle;
+}
+
+void apply(TriangleMesh& mesh, const Cut& cut) {
+  const auto [a, b] = mesh.boundaryEdges[cut.edge];
+  const auto m = static_cast<int>(mesh.vertices.size());
+  mesh.vertices.push_back(cut.at);
+  mesh.boundaryEdges[cut.edge] = {a, m};
+  mesh.boundaryEdges.push_back({m, b});
+  mesh.boundaryLabels.push_back(mesh.boundaryLabels[cut.edge]);
+  if (!mesh.edgeMiddles.empty()) mesh.edgeMiddles.push_back(mesh.edgeMiddles[cut.edge]);
+  for (size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const std::array<int, 3> old = mesh.triangles[t];
+      if (old[k] != a || old[(k + 1) % 3] != b) continue;
+      const int c = old[(k + 2) % 3];
+      mesh.triangles[t] = onItsLongestSide(mesh, {a, m, c});
+      mesh.triangles.push_back(onItsLongestSide(mesh, {m, b, c}));
+      mesh.regions.push_back(mesh.regions[t]);
+      return;
+    }
+}
+
+}  // namespace
+
+std::vector<Point> cornersOf(const TriangleMesh& mesh, int label) {
+  constexpr double sharpTurn = 2 * M_PI / 9;  // as where conditions are placed (contact/smooth_part.h)
+  const BoundaryLine line = boundaryLine(mesh, label);
+  std::vector<Point> corners;
+  const size_t n = line.points.size();
+  for (size_t i = 0; i < n; ++i) {
+    const bool end = i == 0 || i + 1 == n;
+    if (end && line.closed && i + 1 == n) continue;
+    if (end && !line.closed) {
+      corners.push_back(line.points[i]);
+      continue;
+    }
+    const Point before = line.points[i] - line.points[i == 0 ? n - 2 : i - 1];
+    const Point after = line.points[i + 1] - line.points[i];
+    const double turn = std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after));
+    if (std::abs(turn) > sharpTurn) corners.push_back(line.points[i]);
+  }
+  return corners;
+}
+
+void cutFacing(TriangleMesh& mesh, const CurvedEdges& curves, int label, const std::vector<Point>& places) {
+  for (const Point& place : places)
+    if (const std::optional<Cut> cut = cutAt(mesh, curves, label, place)) apply(mesh, *cut);
+}
+
+}  // namespace mortier
