@@ -97,5 +97,11 @@ TEST(Courses, ofATableEveryPulseIsSeen) {
   EXPECT_NEAR(unseen(course, {1}, 0, 1), 1, 1e-6);
 }
 
+TEST(Courses, theEndsOfTheRunAreNoBreaksOfATable) {
+  const Course course = tableCourse([](double t) { return t; }, {0, 0.25, 1, 2}, 0, 1);
+  EXPECT_EQ(course.breaks, (Times{0.25}));
+  EXPECT_EQ(course.times, (Times{0, 0.25, 1}));
+}
+
 }  // namespace
 }  // namespace mortier

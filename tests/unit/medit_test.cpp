@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -129,6 +130,17 @@ TEST(Medit, namesTheLineOfAFault) {
     const std::string message = messageOf([&] { readMedit(file.path); });
     EXPECT_EQ(message.find(file.path + fault.message), 0u) << message << "\nexpected " << fault.message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+// What is kept of a mesh is looked up by its vertices: they must be there.
+TEST(Medit, namesAVertexThatIsNotThereWhereARegionIsAskedFor) {
+  for (const auto& [from, to, message] :
+       {std::array{"1 2 3 7", "1 2 9 7", ":15: triangle 1 (1 2 9), expected vertices from 1 to 4"},
+        std::array{"1 3 4 8", "1 3 9 8", ":16: triangle 2 (1 3 9), expected vertices from 1 to 4"},
+        std::array{"1 2 1\n", "1 9 1\n", ":11: edge 1 (1 9), expected vertices from 1 to 4"}}) {
+    const TemporaryFile file(replaced(square, from, to));
+    EXPECT_EQ(messageOf([&] { readMedit(file.path, {"7"}); }).find(file.path + message), 0u) << message;
   }
 }
 
