@@ -1,7 +1,7 @@
 // What an accuracy costs on meshes that are refined for it, where the exact error is known:
 //   adapted [least accuracy]
-// True error over what was asked, estimate over true error, work of all rounds over that of the last one (unknowns to the
-// power 1.2), and the order of the true error in unknowns.
+// True error over what was asked, estimate over true error, work of all rounds over that of the last one
+// (unknowns to the power 1.2), and the order of the true error in unknowns.
 #include <cstdio>
 #include <cstdlib>
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Estimated over true error of the stress (energy norm), where the exact stress is known: pure bending, and the note's
-compression with interpolation. The table of docs/theory.md.
+"""Estimated over true error of the stress (energy norm), where the exact stress is known: pure bending, and
+the note's compression with interpolation. The table of docs/theory.md.
 
     bench/estimate.py
 """
@@ -25,7 +25,8 @@ def energy(stress, young, nu):
     """s : E^-1 s of each row (s11, s22, s12; s33)."""
     s33 = stress[:, 3] if stress.shape[1] > 3 else np.zeros(len(stress))
     s11, s22, s12 = stress[:, :3].T
-    return (s11**2 + s22**2 + s33**2 - 2 * nu * (s11 * s22 + s22 * s33 + s11 * s33) + 2 * (1 + nu) * s12**2) / young
+    return (s11**2 + s22**2 + s33**2 - 2 * nu * (s11 * s22 + s22 * s33 + s11 * s33)
+            + 2 * (1 + nu) * s12**2) / young
 
 
 def effectivity(folder, exact, young, nu):
@@ -49,12 +50,14 @@ def bending(folder, plane, nu, cut, cells, length):
             f"{length},0.5", folder / "b.mesh")
     lateral = (nu * (1 + nu) if plane == "strain" else nu) / 2
     (folder / "b.toml").write_text(
-        f'plane = "{plane}"\n[[body]]\nname = "b"\nmesh = "b.mesh"\nmaterial = {{ young = 1, poisson = {nu} }}\n'
+        f'plane = "{plane}"\n[[body]]\nname = "b"\nmesh = "b.mesh"\n'
+        f'material = {{ young = 1, poisson = {nu} }}\n'
         f'boundary = [ {{ label = 4, ux = 0, uy = "-{lateral}*y^2*t" }}, {{ label = 2, tx = "y*t" }} ]\n'
         "[time]\nend = 1\nsteps = 1\n")
     mortier("run", folder / "b.toml", "--out", folder / "b", "--quiet")
     across = nu if plane == "strain" else 0
-    return effectivity(folder / "b", lambda x: np.column_stack([x[1], 0 * x[1], 0 * x[1], across * x[1]]), 1, nu)
+    return effectivity(folder / "b", lambda x: np.column_stack([x[1], 0 * x[1], 0 * x[1], across * x[1]]), 1,
+                       nu)
 
 
 def compression(folder, upper, lower, swap, elastic):
@@ -65,7 +68,8 @@ def compression(folder, upper, lower, swap, elastic):
     settings += ["body.material={ young = 3e11, poisson = 0.3 }"] if elastic else []
     mortier("run", ROOT / "scenes/compression.toml", "--out", folder / "c", "--quiet", "--set", *settings,
             "contact.variant=interpolation", f"contact.swap={swap}", f"time.steps={1 if elastic else 20}")
-    return effectivity(folder / "c", lambda x: np.column_stack([0 * x[1], 0 * x[1] - 10, 0 * x[1]]), 3e11, 0.3)
+    return effectivity(folder / "c", lambda x: np.column_stack([0 * x[1], 0 * x[1] - 10, 0 * x[1]]), 3e11,
+                       0.3)
 
 
 def main():
@@ -75,21 +79,25 @@ def main():
             for nu in (0.3, 0.45, 0.49, 0.499, 0.4999):
                 for n in (4, 8, 16, 32):
                     true, ratio = bending(folder, "strain", nu, cut, (2 * n, n), 2)
-                    print(f"bending, plane strain, {cut:<6} nu {nu:<6} {n:2} cells: error {true:.3f}, estimate {ratio:.2f} of it")
+                    print(f"bending, plane strain, {cut:<6} nu {nu:<6} {n:2} cells: error {true:.3f}, "
+                          f"estimate {ratio:.2f} of it")
             for n in (1, 2, 3, 4, 8):
                 for length, aspect in ((2, 1), (10, 1), (10, 4)):
-                    true, ratio = bending(folder, "stress", 0.3, cut, (max(1, length * n // aspect), n), length)
-                    print(f"bending, plane stress, {cut:<6} {n} cells, length {length:2}, aspect {aspect}: error {true:.3f}, "
-                          f"estimate {ratio:.2f} of it")
+                    true, ratio = bending(folder, "stress", 0.3, cut, (max(1, length * n // aspect), n),
+                                          length)
+                    print(f"bending, plane stress, {cut:<6} {n} cells, length {length:2}, aspect {aspect}: "
+                          f"error {true:.3f}, estimate {ratio:.2f} of it")
         for upper, lower in ((7, 8), (9, 4), (5, 13), (6, 16), (20, 23)):
             for swap in ("false", "true"):
                 for elastic in (True, False):
                     true, ratio = compression(folder, upper, lower, swap, elastic)
-                    print(f"interpolation {upper}:{lower}, swap {swap:<5} {'elastic' if elastic else 'flowing'}: "
-                          f"error {true:.4f}, estimate {ratio:.2f} of it")
+                    print(f"interpolation {upper}:{lower}, swap {swap:<5} "
+                          f"{'elastic' if elastic else 'flowing'}: error {true:.4f}, estimate "
+                          f"{ratio:.2f} of it")
         for elastic in (True, False):
             true, ratio = compression(folder, 2, 50, "false", elastic)
-            print(f"interpolation 2:50, {'elastic' if elastic else 'flowing'}: error {true:.4f}, estimate {ratio:.2f} of it")
+            print(f"interpolation 2:50, {'elastic' if elastic else 'flowing'}: error {true:.4f}, estimate "
+                  f"{ratio:.2f} of it")
 
 
 if __name__ == "__main__":

@@ -4,8 +4,8 @@
     bench/figures.py                    # about ten minutes on a quiet machine with 10 GB of memory
     bench/figures.py --no-million       # without 1e6 triangles: about three minutes, 2 GB
 
---cpu takes processor time, all that is left to trust on a machine that others use. --rounds N changes the five
-measurements whose median counts; FreeFEM, where it is installed, is measured once.
+--cpu takes processor time, all that is left to trust on a machine that others use. --rounds N changes the
+five measurements whose median counts; FreeFEM, where it is installed, is measured once.
 """
 import argparse
 import resource
@@ -67,8 +67,8 @@ def output_of_every_step(folder, rounds, cpu):
         seconds = {0: [], 1: []}
         for _ in range(max(1, rounds // 2)):
             for every in seconds:
-                run = [codes.MORTIER, "run", codes.COMPRESSION, "--quiet", "--out", folder / "run", "--set", *settings,
-                       f"body.material.projection={projection}", f"output.every={every}"]
+                run = [codes.MORTIER, "run", codes.COMPRESSION, "--quiet", "--out", folder / "run", "--set",
+                       *settings, f"body.material.projection={projection}", f"output.every={every}"]
                 seconds[every].append(seconds_of(lambda: codes.call(run), cpu))
         share = statistics.median(seconds[1]) / statistics.median(seconds[0]) - 1
         row(f"10 output of every step over the run, 1e5, {projection}", share, 0.15)

@@ -40,7 +40,8 @@ def measure():
         for name, settings, scene in runs():
             scalars = run_mortier(Path(folder) / "run", settings, scene).scalars
             noise = NOISE * displacement_scale(scalars)
-            table[name] = {key: rounded(value) if abs(value) > noise else 0.0 for key, value in scalars.items()}
+            table[name] = {key: rounded(value) if abs(value) > noise else 0.0
+                           for key, value in scalars.items()}
     return table
 
 

@@ -1,19 +1,25 @@
-"""Scenes on which `mortier run --accuracy` is held against far better solutions of the same scenes: the true error is the
-difference of the stresses at the end of the run, in the energy norm.
+"""Scenes on which `mortier run --accuracy` is held against far better solutions of the same scenes: the true
+error is the difference of the stresses at the end of the run, in the energy norm.
 """
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
-import codes
 import numpy as np
-from stress_error import summary, true_error
+
+import codes
+import results
+
+sys.path.append(str(Path(__file__).resolve().parent.parent / "study"))
+from measure import field_error  # noqa: E402
 
 CONTRASTS = (1e-6, 1e-3, 1.0, 1e3, 1e6)
 
 
 def body(name, shape, material, boundary):
-    return f"[[body]]\nname = \"{name}\"\nmesh = {{ {shape} }}\nmaterial = {{ {material} }}\nboundary = [ {boundary} ]\n"
+    return (f"[[body]]\nname = \"{name}\"\nmesh = {{ {shape} }}\nmaterial = {{ {material} }}\n"
+            f"boundary = [ {boundary} ]\n")
 
 
 def rectangle(lower, upper, cells):
@@ -48,8 +54,10 @@ ROLLERS = "{ label = 3, uy = 0 }, { label = 4, ux = 0 }"
 
 
 def blocks(young, swapped, cells):
-    """A block on a wider one, pressed unevenly: contact ends at corners of the upper one, which face nodes of six cells."""
-    return (body("upper", rectangle([0, 0], [1, 1], [3, 3]), elastic(young), '{ label = 3, ux = 0, uy = "-0.02*t*(1 + 0.3*x)" }') +
+    """A block on a wider one, pressed unevenly: contact ends at corners of the upper one, which face nodes of
+    six cells."""
+    return (body("upper", rectangle([0, 0], [1, 1], [3, 3]), elastic(young),
+                 '{ label = 3, ux = 0, uy = "-0.02*t*(1 + 0.3*x)" }') +
             body("lower", rectangle([-1, -1], [2, 0], [cells, 2]), elastic(1.0, 0.25), HELD) +
             either(swapped, ("upper", 1), ("lower", 3)) + ONE_STEP)
 
@@ -65,7 +73,8 @@ def pressed(young, swapped):
 def disc(young, swapped, plane):
     """Hertz: the end of contact is found."""
     return (f'plane = "{plane}"\n' +
-            body("disc", 'shape = "halfdisc", lowest = [0, 0], radius = 1, core = 0.3, cells = 2', elastic(young),
+            body("disc", 'shape = "halfdisc", lowest = [0, 0], radius = 1, core = 0.3, cells = 2',
+                 elastic(young),
                  '{ label = 2, ux = 0, uy = "-0.01*t" }') +
             body("block", rectangle([-2, -2], [2, 0], [5, 3]), elastic(1.0), HELD) +
             either(swapped, ("disc", 1), ("block", 3)) + ONE_STEP)
@@ -73,7 +82,8 @@ def disc(young, swapped, plane):
 
 def shrink(young, swapped):
     """A ring in a ring that is too narrow for it, turned up by a load."""
-    return (body("inner", ring(1, 2.002, [4, 2]), elastic(young), ROLLERS + ', { label = 1, pressure = "0.001*x" }') +
+    return (body("inner", ring(1, 2.002, [4, 2]), elastic(young),
+                 ROLLERS + ', { label = 1, pressure = "0.001*x" }') +
             body("outer", ring(2, 3, [5, 2]), elastic(1.0), ROLLERS) +
             either(swapped, ("inner", 2), ("outer", 1)) + ONE_STEP)
 
@@ -92,7 +102,8 @@ def cylinder(pressure, viscosity):
 def ramp(plane, young, load, more=""):
     return (f'plane = "{plane}"\n' +
             body("square", rectangle([0, 0], [1, 1], [2, 2]), flowing(young, 1.0, 1.0, more),
-                 f'{{ label = 1, uy = 0 }}, {{ label = 4, ux = 0 }}, {{ label = 3, ty = "{load}" }}') + SECOND_ORDER)
+                 f'{{ label = 1, uy = 0 }}, {{ label = 4, ux = 0 }}, {{ label = 3, ty = "{load}" }}') +
+            SECOND_ORDER)
 
 
 def flowing_blocks(contrast, swapped, plane="stress"):
@@ -105,58 +116,60 @@ def flowing_blocks(contrast, swapped, plane="stress"):
 
 
 def cases():
-    """name -> scene, materials by body (young, poisson), accuracies."""
+    """name -> scene, materials by body (young, poisson), accuracy."""
     found = {}
+
+    def add(name, scene, accuracy, **materials):
+        found[name] = scene, {body: (each, 0.3) if isinstance(each, float) else each
+                              for body, each in materials.items()}, accuracy
+    sides = ((False, ""), (True, ", swapped"))
     for contrast in CONTRASTS:
-        for swapped in (False, True):
-            side = ", swapped" if swapped else ""
+        for swapped, side in sides:
             for cells, where in ((6, "at nodes"), (5, "between nodes")):
-                found[f"punch edge {where} {contrast:g}{side}"] = (
-                    blocks(contrast, swapped, cells), {"upper": (contrast, 0.3), "lower": (1.0, 0.25)}, 0.03)
-            found[f"pressed {contrast:g}{side}"] = (pressed(contrast, swapped), {"upper": (contrast, 0.3), "lower": (1.0, 0.3)},
-                                                    0.01)
+                add(f"punch edge {where} {contrast:g}{side}", blocks(contrast, swapped, cells), 0.03,
+                    upper=contrast, lower=(1.0, 0.25))
+            add(f"pressed {contrast:g}{side}", pressed(contrast, swapped), 0.01, upper=contrast, lower=1.0)
     for contrast in (1e-3, 1.0, 1e3):
-        for swapped in (False, True):
-            side = ", swapped" if swapped else ""
+        for swapped, side in sides:
             plane = "strain" if swapped else "stress"
-            found[f"disc {contrast:g}{side}"] = (disc(contrast, swapped, plane), {"disc": (contrast, 0.3), "block": (1.0, 0.3)},
-                                                 0.03)
-            found[f"shrink fit {contrast:g}{side}"] = (shrink(contrast, swapped), {"inner": (contrast, 0.3),
-                                                                                   "outer": (1.0, 0.3)}, 0.01)
+            add(f"disc {contrast:g}{side}", disc(contrast, swapped, plane), 0.03, disc=contrast, block=1.0)
+            add(f"shrink fit {contrast:g}{side}", shrink(contrast, swapped), 0.01, inner=contrast, outer=1.0)
     for plane in ("stress", "strain"):
         for name, load in (("pressure", "label = 1, pressure = 1"), ("shear", 'label = 2, tx = "x*y"'),
                            ("pull", 'label = 2, tx = "x"')):
-            found[f"ring {plane} {name}"] = (lame(plane, load), {"ring": (1.0, 0.3)}, 0.01)
+            add(f"ring {plane} {name}", lame(plane, load), 0.01, ring=1.0)
     for pressure, viscosity in ((0.75, 1.0), (1.2, 1.0), (1.2, 0.1)):
-        found[f"flow cylinder {pressure} {viscosity}"] = (cylinder(pressure, viscosity), {"ring": (100.0, 0.3)}, 0.02)
+        add(f"flow cylinder {pressure} {viscosity}", cylinder(pressure, viscosity), 0.02, ring=100.0)
     for plane in ("stress", "strain"):
         for load in ("-2*t*(1 + 0.5*x)", "-4*t*x*x"):
-            found[f"flow square {plane} {load}"] = (ramp(plane, 100.0, load), {"square": (100.0, 0.3)}, 0.02)
+            add(f"flow square {plane} {load}", ramp(plane, 100.0, load), 0.02, square=100.0)
     for contrast in (1e-3, 1.0, 1e3):
-        for swapped in (False, True):
-            found[f"flow blocks {contrast:g}{', swapped' if swapped else ''}"] = (
-                flowing_blocks(contrast, swapped), {"upper": (100.0 * contrast, 0.3), "lower": (100.0, 0.3)}, 0.03)
+        for swapped, side in sides:
+            add(f"flow blocks {contrast:g}{side}", flowing_blocks(contrast, swapped), 0.03,
+                upper=100.0 * contrast, lower=100.0)
     return found
 
 
 def solve(scene, folder, accuracy, degree):
-    """summary.json; where it is not reached too."""
+    """The result; where the accuracy is not reached too."""
     path = folder.with_suffix(".toml")
     path.write_text(f"degree = {degree}\n" + scene)
-    subprocess.run([codes.MORTIER, "run", path, "--quiet", "--out", folder, "--accuracy", repr(accuracy)], check=False,
-                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    return summary(folder)
+    subprocess.run([codes.MORTIER, "run", path, "--quiet", "--out", folder, "--accuracy", repr(accuracy)],
+                   check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    return results.read_mortier(folder, failed=True)
 
 
 def measured(scene, bodies, accuracy, degree, finer):
     """Unknowns, true error, estimate, overhead, whether it was reached."""
     with tempfile.TemporaryDirectory() as place:
-        got = solve(scene, Path(place) / "asked", accuracy, degree)
-        estimate = got["accuracy"]["mesh"] + got["accuracy"]["time"]
+        run = solve(scene, Path(place) / "asked", accuracy, degree)
+        told, rounds = run.summary["accuracy"], run.summary["rounds"]
+        estimate = told["mesh"] + told["time"]
         better = solve(scene, Path(place) / "better", min(accuracy, estimate) / finer, degree)
-        error = true_error(Path(place) / "asked", Path(place) / "better", bodies)
-    work = [each["steps"] * each["unknowns"]**1.2 for each in got["rounds"]]
-    return got["free_dofs"], error, estimate, sum(work) / work[-1], got["accuracy"]["reached"] and better["accuracy"]["reached"]
+        error = field_error("energy", run, better, bodies)
+    work = [each["steps"] * each["unknowns"]**1.2 for each in rounds]
+    reached = told["reached"] and better.summary["accuracy"]["reached"]
+    return run.summary["free_dofs"], error, estimate, sum(work) / work[-1], reached
 
 
 FLOW_STEPS = 20
@@ -166,14 +179,16 @@ FLOW_BODIES = {"ring": (100.0, 0.3)}
 def flowing_ring(cells, degree):
     """A thick cylinder of which a part flows, on equal cells, with equal steps."""
     return (f'plane = "strain"\ndegree = {degree}\n' +
-            body("ring", ring(1, 2, [2 * cells, cells]), flowing(100.0), ROLLERS + ', { label = 1, pressure = "0.75*t" }') +
+            body("ring", ring(1, 2, [2 * cells, cells]), flowing(100.0),
+                 ROLLERS + ', { label = 1, pressure = "0.75*t" }') +
             f"[time]\nend = 1\nsteps = {FLOW_STEPS}\n")
 
 
 def flow_orders(cells, better):
-    """Unknowns and errors by degree on meshes of ever more cells across, against quadratic displacements on `better` cells.
+    """Unknowns and errors by degree on meshes of ever more cells across, against quadratic displacements on
+    `better` cells. Steps are the same: the error is that of the meshes.
 
-    cells: degree -> list. Steps are the same: the error is that of the meshes.
+    cells: degree -> list
     """
     found = {}
     with tempfile.TemporaryDirectory() as place:
@@ -181,12 +196,12 @@ def flow_orders(cells, better):
             folder = Path(place) / f"{degree}-{count}"
             folder.with_suffix(".toml").write_text(flowing_ring(count, degree))
             codes.call([codes.MORTIER, "run", folder.with_suffix(".toml"), "--quiet", "--out", folder])
-            return folder
+            return results.read_mortier(folder)
         best = run(better, 2)
         for degree, counts in cells.items():
-            folders = [run(count, degree) for count in counts]
-            found[degree] = (np.array([summary(folder)["free_dofs"] for folder in folders]),
-                             np.array([true_error(folder, best, FLOW_BODIES) for folder in folders]))
+            runs = [run(count, degree) for count in counts]
+            found[degree] = (np.array([each.summary["free_dofs"] for each in runs]),
+                             np.array([field_error("energy", each, best, FLOW_BODIES) for each in runs]))
     return found
 
 

@@ -1,4 +1,5 @@
-"""Both codes on a list of cases: a row each, printed as it is done. matrix.py and oracle.py say which cases."""
+"""Both codes on a list of cases: a row each, printed as it is done.
+matrix.py and oracle.py say which cases."""
 import json
 import tempfile
 from pathlib import Path
@@ -17,8 +18,10 @@ def compare_runs(folder, settings, scene=COMPRESSION):
         return {"agree": False, "verdict": f"FAILED: {error}"}
     verdict = compare(ours, theirs)
     return {"agree": verdict.agrees, "verdict": str(verdict), "displacement": verdict.norm("displacement "),
-            "stress": verdict.norm("stress"), "force": verdict.norm("contact force"), "gap": verdict.norm("contact gap"),
-            "mortier_s": ours.wall_time, "freefem_s": theirs.wall_time, "ratio": theirs.wall_time / ours.wall_time,
+            "stress": verdict.norm("stress"), "force": verdict.norm("contact force"),
+            "gap": verdict.norm("contact gap"),
+            "mortier_s": ours.wall_time, "freefem_s": theirs.wall_time,
+            "ratio": theirs.wall_time / ours.wall_time,
             "mortier_iterations": ours.summary["newton_iterations"],
             "freefem_iterations": theirs.summary["newton_iterations"]}
 
@@ -36,7 +39,8 @@ def compare_all(header, cases, row_of, text_of, keep=None):
 
 
 def add_options(parser):
-    parser.add_argument("--only", nargs="+", default=[], metavar="WORD", help="cases that contain all of these words")
+    parser.add_argument("--only", nargs="+", default=[], metavar="WORD",
+                        help="cases that contain all of these words")
     parser.add_argument("--keep", metavar="DIR", help="keeps the run folders there")
     parser.add_argument("--json", metavar="FILE", help="writes the rows as JSON")
 

@@ -1,4 +1,5 @@
-"""The cases in which the codes are compared: the note's test on every shared pair of meshes, and the scenes."""
+"""The cases in which the codes are compared: the note's test on every shared pair of meshes,
+and the scenes."""
 import itertools
 import re
 from dataclasses import dataclass
@@ -80,19 +81,21 @@ class SceneCase:
 
 # The scenes that FreeFEM solves as they stand, or with these settings.
 SCENES = {
-    "sloped": (), "broken-line": (), "stack": (), "exact-contact": (), "punch": (), "eccentric-punch": (), "receding": (),
-    "turned": (), "cut-ring": (), "hertz": (), "ring": (), "thick-cylinder": (),
+    "sloped": (), "broken-line": (), "stack": (), "exact-contact": (), "punch": (), "eccentric-punch": (),
+    "receding": (), "turned": (), "cut-ring": (), "hertz": (), "ring": (), "thick-cylinder": (),
     "open-close": ("time.scheme=backward-euler",),
 }
 # Those that it does not, and why (the beginning of what mortier freefem says behind the scene's name).
 UNKNOWN_TO_FREEFEM = {"cook": "no contact interface"}
-HELD = ("body.top.boundary.4.uy=-1e-4*t", "body.middle.boundary.4.uy=-1e-4*t*(1+y)", "body.bottom.boundary.4.uy=0")
+HELD = ("body.top.boundary.4.uy=-1e-4*t", "body.middle.boundary.4.uy=-1e-4*t*(1+y)",
+        "body.bottom.boundary.4.uy=0")
 SOFT = "body.material={young=100, poisson=0.3, viscosity=1, yield_stress=1}"  # Newton's method is at ease
 
 
 def scene_cases():
     """Every scene with both variants, and changes of them for what no scene has."""
-    return ([SceneCase(name, variant, changes=changes) for name, changes in SCENES.items() for variant in VARIANTS] + [
+    return ([SceneCase(name, variant, changes=changes) for name, changes in SCENES.items()
+             for variant in VARIANTS] + [
         SceneCase("sloped", "interpolation", "sides swapped, parted by a parabola",
                   ("contact.swap=true", "contact.gap=1e-5*x^2+2e-6")),
         SceneCase("punch", "mortar", "sides swapped: overlap in part", ("contact.swap=true",)),
@@ -117,9 +120,11 @@ def scene_cases():
         # Quadratic displacements
         SceneCase("compression", "interpolation", "quadratic", ("degree=2", "time.steps=4")),
         SceneCase("compression", "weighted", "quadratic", ("degree=2", "time.steps=4", "contact.swap=true")),
-        SceneCase("sloped", "weighted", "quadratic, parted by a parabola", ("degree=2", "contact.gap=1e-5*x^2+2e-6")),
+        SceneCase("sloped", "weighted", "quadratic, parted by a parabola",
+                  ("degree=2", "contact.gap=1e-5*x^2+2e-6")),
         SceneCase("sloped", "mortar", "quadratic, plane strain", ("degree=2", 'plane="strain"')),
-        SceneCase("stack", "weighted", "quadratic, held on the left up to the contact lines", ("degree=2", *HELD)),
+        SceneCase("stack", "weighted", "quadratic, held on the left up to the contact lines",
+                  ("degree=2", *HELD)),
         SceneCase("hertz", "weighted", "quadratic", ("degree=2",)),
         SceneCase("ring", "mortar", "quadratic", ("degree=2",)),
         SceneCase("thick-cylinder", "weighted", "quadratic", ("degree=2",)),

@@ -40,7 +40,8 @@ def call(command, cwd=ROOT):
 
 
 def run_mortier(folder, settings=(), scene=COMPRESSION, cwd=ROOT):
-    """Solves a scene with mortier; settings are KEY=VALUE. Paths of the scene and in settings begin at cwd."""
+    """Solves a scene with mortier; settings are KEY=VALUE.
+    Paths of the scene and in settings begin at cwd."""
     _, seconds = call([MORTIER, "run", scene, "--quiet", "--out", folder, *set_option(settings)], cwd)
     run = results.read_mortier(folder)
     run.wall_time = seconds

@@ -1,4 +1,5 @@
-"""How the commands of mortier that are written in Python end: one line on what stopped them, and the exit code."""
+"""How the commands of mortier that are written in Python end: one line on what stopped them,
+and the exit code."""
 import importlib
 import signal
 import sys
@@ -29,7 +30,8 @@ def require(*modules):
         try:
             importlib.import_module(module)
         except ImportError as error:
-            raise Failure(f"the Python module {module} is missing (Debian package python3-{module})") from error
+            raise Failure(
+                f"the Python module {module} is missing (Debian package python3-{module})") from error
 
 
 def interrupt(*_):
@@ -37,7 +39,8 @@ def interrupt(*_):
 
 
 def code_of(command, where, expected, kept, place=""):
-    """The exit code of command(), 0 where it returns none. Messages but those on a wrong input begin with `where`.
+    """The exit code of command(), 0 where it returns none.
+    Messages but those on a wrong input begin with `where`.
 
     expected: what the input should be, where it is nested too deeply; kept: what is left by a command that is
     interrupted; place: what cannot be written, where the system does not name it.

@@ -4,8 +4,9 @@
     compare/figures.py MORTAR INTERPOLATION --out DIR [--overview FILE.png]
 
 figure-1-mortar, figure-2-interpolation: deformed meshes with von Mises stress, both on one scale; under them
-the contact line magnified. figure-3-contact-line: contact pressure and gap along Gamma_C, and the exact pressure.
---overview writes one small picture with both variants side by side. `mortier plot` draws the same of any run.
+the contact line magnified. figure-3-contact-line: contact pressure and gap along Gamma_C, and the exact
+pressure. --overview writes one small picture with both variants side by side.
+`mortier plot` draws the same of any run.
 """
 import sys
 from pathlib import Path
@@ -55,7 +56,8 @@ def main():
                 path.write_bytes(images.picture(figure, kind))
                 print(path)
         if arguments.overview:
-            arguments.overview.write_bytes(images.small(images.picture(pictures.fields(views, **style), "png", dpi=80)))
+            arguments.overview.write_bytes(images.small(images.picture(pictures.fields(views, **style), "png",
+                                                                       dpi=80)))
             print(arguments.overview)
     return 0
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The gallery: scenes with numbers that theory knows, and their pictures (docs/gallery.md).
 
-    compare/gallery.py                runs every scene of it, prints the numbers, draws docs/images/gallery/*.png
+    compare/gallery.py                runs all its scenes, prints the numbers, draws docs/images/gallery/*.png
     compare/gallery.py punch cook     these only
     compare/gallery.py --out DIR      pictures go elsewhere
 
@@ -44,8 +44,8 @@ class Entry:
 
 
 def end_of_contact(run, side):
-    """Where the bodies part, on the left (-1) or the right (1). Beyond it the gap grows with the power 3/2 of the
-    distance, so its power 2/3 is continued back by a line from the second and third node off contact."""
+    """Where the bodies part, on the left (-1) or the right (1). Beyond it the gap grows with the power 3/2 of
+    the distance, so its power 2/3 is continued back by a line from the second and third node off contact."""
     x, gap = side * run.contact.position[:, 0], run.contact.gap
     order = np.argsort(x)
     beyond = [i for i in order if x[i] > x[run.contact.force > 0].max()]
@@ -122,21 +122,24 @@ GALLERY = [
                           "half of the last digit of the value for 32 cells a side")], 0.3),
     Entry("stack", [Number("1 + stress error", lambda run: worst_stress(run, np.array([0, -10, 0])), 1, 1e-10,
                            EXACT_STRESS)], 300),
-    Entry("sloped", [Number("1 + stress error", lambda run: worst_stress(run, np.array([-10, -10, 0])), 1, 1e-10,
-                            EXACT_STRESS)], 300),
-    Entry("broken-line", [Number("1 + stress error", lambda run: worst_stress(run, np.array([-10, -10, 0])), 1, 1e-10,
-                                 EXACT_STRESS)], 3000),
-    Entry("turned", [Number("1 + stress error", lambda run: worst_stress(run, TURNED), 1, 1e-10, EXACT_STRESS)], 0.3),
+    Entry("sloped", [Number("1 + stress error", lambda run: worst_stress(run, np.array([-10, -10, 0])), 1,
+                            1e-10, EXACT_STRESS)], 300),
+    Entry("broken-line", [Number("1 + stress error", lambda run: worst_stress(run, np.array([-10, -10, 0])),
+                                 1, 1e-10, EXACT_STRESS)], 3000),
+    Entry("turned", [Number("1 + stress error", lambda run: worst_stress(run, TURNED), 1, 1e-10,
+                            EXACT_STRESS)], 0.3),
     Entry("cut-ring", [Number("contact force", lambda run: run.scalars["contact_force"], 0.644067796610, 2e-4,
-                              "falls as h^2: 3.1e-4, 6.0e-5, 1.6e-5 with 15, 30, 60 edges of the quarter circle")], 10),
-    Entry("exact-contact", [Number("contact force", lambda run: run.scalars["contact_force"], 0.769126488659, 1e-3,
-                                   "the force converges with order 2 at least; 32 cells on 49")], 0.05),
+                              "falls as h^2: 3.1e-4, 6.0e-5, 1.6e-5 with 15, 30, 60 edges of the "
+                              "quarter circle")], 10),
+    Entry("exact-contact", [Number("contact force", lambda run: run.scalars["contact_force"], 0.769126488659,
+                                   1e-3, "the force converges with order 2 at least; 32 cells on 49")], 0.05),
     Entry("hertz", [Number("peak pressure over sqrt(F E*/(pi R))", hertz_peak, 1, 2e-2,
                            "half-width 0.13 R, where Hertz takes parabolas; the mesh")], 1,
           ((-25, 25), (-25, 18))),
     Entry("receding", [Number("half-width of contact", lambda run: end_of_contact(run, 1), 1.324165, 1e-2,
                               "the mesh: an element at the end of contact is 0.08"),
-                       Number("p(0)/P", receding_pressure, 0.713081, 1e-2, "the mesh, and the width of the load")],
+                       Number("p(0)/P", receding_pressure, 0.713081, 1e-2,
+                              "the mesh, and the width of the load")],
           0.05, ((0, 4), (-2, 1.1))),
     Entry("open-close", [Number("gap at t = 3 s", gap_at_three, 0.04, 1e-6,
                                 "the stress that has not yet relaxed at t = 2 s")], 1),
@@ -146,9 +149,11 @@ GALLERY = [
                            "the force of the unbounded pressure at the edges takes a fine mesh")], 10,
           ((-3, 3), (-2.5, 1.2))),
     Entry("thick-cylinder", [Number("radial velocity on the inner circle", creep_rate, 0.02664150516, 3e-3,
-                                     "falls as h^2: 5.9e-3, 1.5e-3, 3.7e-4 with 18, 36, 72 edges of the liner")], 1),
+                                     "falls as h^2: 5.9e-3, 1.5e-3, 3.7e-4 with 18, 36, 72 edges "
+                                     "of the liner")], 1),
     Entry("eccentric-punch", [Number("eccentricity over a at lift-off", lift_off, 0.5, 4e-2,
-                                     "the edge node has a mean of the pressure beside it: 0.518, 0.508 with 26, 52 cells")],
+                                     "the edge node has a mean of the pressure beside it: 0.518, 0.508 with "
+                                     "26, 52 cells")],
           10, ((-3, 3), (-2.5, 1.2))),
 ]
 
@@ -195,8 +200,9 @@ def main():
             for number in entry.numbers:
                 miss = not error(number, run) <= number.tolerance
                 missed += miss
-                print(f"{entry.scene:16} {number.quantity:42} {number.measure(run):14.9g} {number.theory:14.9g} "
-                      f"{error(number, run):8.1e} {number.tolerance:8.0e}{'  missed' if miss else ''}")
+                print(f"{entry.scene:16} {number.quantity:42} {number.measure(run):14.9g} "
+                      f"{number.theory:14.9g} {error(number, run):8.1e} "
+                      f"{number.tolerance:8.0e}{'  missed' if miss else ''}")
     return 1 if missed else 0
 
 

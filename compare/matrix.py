@@ -15,7 +15,8 @@ import results
 
 CASE = ("pair", "projection", "variant", "nonmortar", "steps")
 HEADER = (f"{'pair':<5} {'projection':<11} {'variant':<13} {'nonmortar':<9} {'steps':>5}  "
-          f"{'displacement':>12} {'stress':>8} {'force':>8}  {'mortier[s]':>10} {'FreeFEM[s]':>10} {'ratio':>6}  verdict")
+          f"{'displacement':>12} {'stress':>8} {'force':>8}  {'mortier[s]':>10} {'FreeFEM[s]':>10} "
+          f"{'ratio':>6}  verdict")
 
 
 def compare_case(case, folder):

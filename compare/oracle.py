@@ -12,8 +12,8 @@ from both import add_options, chosen, compare_all, compare_runs, finish
 from cases import scene_cases
 import results
 
-HEADER = (f"{'scene':<15} {'variant':<13} {'what':<42} {'displacement':>12} {'stress':>8} {'force':>8} {'gap':>8}  "
-          f"{'mortier[s]':>10} {'FreeFEM[s]':>10}  verdict")
+HEADER = (f"{'scene':<15} {'variant':<13} {'what':<42} {'displacement':>12} {'stress':>8} {'force':>8} "
+          f"{'gap':>8}  {'mortier[s]':>10} {'FreeFEM[s]':>10}  verdict")
 
 
 def compare_case(case, folder):
@@ -23,8 +23,8 @@ def compare_case(case, folder):
 def row_text(case, row):
     text = f"{case.name:<15} {case.variant:<13} {case.what:<42} "
     if "stress" in row:
-        text += (f"{row['displacement']:>12.1e} {row['stress']:>8.1e} {row['force']:>8.1e} {row['gap']:>8.1e}  "
-                 f"{row['mortier_s']:>10.2f} {row['freefem_s']:>10.2f}  ")
+        text += (f"{row['displacement']:>12.1e} {row['stress']:>8.1e} {row['force']:>8.1e} "
+                 f"{row['gap']:>8.1e}  {row['mortier_s']:>10.2f} {row['freefem_s']:>10.2f}  ")
     return text + row["verdict"]
 
 

@@ -17,7 +17,8 @@ def same_meshes(first, second):
     if set(first.bodies) != set(second.bodies):
         return False
     pairs = [(body, second.bodies[name]) for name, body in first.bodies.items()]
-    return all(b.points is None or np.array_equal(a.points, b.points) and np.array_equal(a.triangles, b.triangles)
+    return all(b.points is None or np.array_equal(a.points, b.points)
+               and np.array_equal(a.triangles, b.triangles)
                for a, b in pairs)
 
 
@@ -36,7 +37,8 @@ class Sampled:
 
 
 def compare_elsewhere(first, second, within):
-    """The verdict on a run of mortier and a result on other meshes; bodies that only the first has are left out.
+    """The verdict on a run of mortier and a result on other meshes;
+    bodies that only the first has are left out.
 
     Fields: root mean square of the difference over a body, relative to that of the field over all bodies.
     """
@@ -81,8 +83,8 @@ def areas_of(corners):
 
 
 def located(body, points, name):
-    """The triangle of each point, the nearest one where it is outside; and whether it is inside, or outside by no
-    more than NEAR of that triangle."""
+    """The triangle of each point, the nearest one where it is outside; and whether it is inside, or outside
+    by no more than NEAR of that triangle."""
     from matplotlib.tri import Triangulation
 
     try:
@@ -113,7 +115,8 @@ def read_vtu_of(path):
     import meshio
 
     try:
-        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):  # it prints
+        # it prints
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
             mesh = meshio.read(path)
     except (Exception, SystemExit) as error:  # meshio ends the process on some faults
         raise results.ResultError(f"{path}: cannot be read: {error!r}") from error
@@ -132,8 +135,8 @@ def read_vtu_of(path):
         raise results.ResultError(f"{path}: no triangles and no quadrangles")
     displacement = np.asarray(mesh.point_data["displacement"], float)
     if displacement.ndim != 2 or displacement.shape[1] < 2:
-        raise results.ResultError(f"{path}: displacement of shape {displacement.shape}, expected two or three "
-                                  "components")
+        raise results.ResultError(f"{path}: displacement of shape {displacement.shape}, expected "
+                                  "two or three components")
     stress = np.concatenate(stresses) if stresses else None
     body = results.Body(displacement[:, :2], stress, mesh.points[:, :2], np.concatenate(triangles))
     for what in ("displacement", "points", "stress"):

@@ -33,9 +33,12 @@ FINAL = ("time", "von_mises_min", "von_mises_max", "interpenetration", "contact_
 class Body:
     displacement: np.ndarray  # vertices x 2 [m]
     stress: np.ndarray  # triangles x 3: s11, s22, s12 [Pa]; x 4 in plane strain, s33
-    points: np.ndarray = None  # vertices x 2, as meshed [m]; behind them the middles of quadratic triangles; None where the
-    # code does not write it
+    # vertices x 2, as meshed [m]; behind them the middles of quadratic triangles; None where the code does
+    # not write it
+    points: np.ndarray = None
     triangles: np.ndarray = None  # triangles x 3, numbers of the corners
+    elements: np.ndarray = None  # triangles x 6, middles behind corners; None where triangles are linear
+    stress_at_points: np.ndarray = None  # triangles x 3 points x components [Pa]; of quadratic ones only
     cells: dict = field(default_factory=dict)  # name -> all values by triangle that the code writes
 
     @property
@@ -76,7 +79,8 @@ def read(folder):
 
 
 def read_mortier(folder, step=None, failed=False):
-    """A kept step of a run of mortier, the last one where none is named; failed: of a run that stopped early as well."""
+    """A kept step of a run of mortier, the last one where none is named; failed:
+    of a run that stopped early as well."""
     folder = Path(folder)
     summary = read_summary(folder, failed)
     tables = contact_tables(folder)
@@ -99,7 +103,8 @@ def kept_steps(folder):
     path = Path(folder) / "fields.pvd"
     try:
         entries = list(xml.parse(path).getroot().iter("DataSet"))
-        kept = {int(re.search(r"_(\d+)\.vtu$", entry.get("file"))[1]): float(entry.get("timestep")) for entry in entries}
+        kept = {int(re.search(r"_(\d+)\.vtu$", entry.get("file"))[1]): float(entry.get("timestep"))
+                for entry in entries}
     except (OSError, xml.ParseError, TypeError, ValueError) as error:
         raise ResultError(f"{path}: {error}") from error
     if not kept or not np.isfinite(list(kept.values())).all():
@@ -122,8 +127,8 @@ def contact_tables(folder):
 def contact_of(rows):
     def column(name):
         return np.array([float(row[name]) for row in rows])
-    return Contact(column("vertex").astype(int), np.column_stack([column("x"), column("y")]), column("gap"), column("force"),
-                   column("pressure"), column("interface").astype(int))
+    return Contact(column("vertex").astype(int), np.column_stack([column("x"), column("y")]), column("gap"),
+                   column("force"), column("pressure"), column("interface").astype(int))
 
 
 def read_history(folder):
@@ -131,7 +136,8 @@ def read_history(folder):
     path = Path(folder) / "history.csv"
     rows = read_csv(path)
     try:
-        history = {name: [row[name] for row in rows] if name == "rung" else np.array([float(row[name]) for row in rows])
+        history = {name: [row[name] for row in rows] if name == "rung"
+                   else np.array([float(row[name]) for row in rows])
                    for name in (rows[0] if rows else ())}
     except (KeyError, TypeError, ValueError) as error:
         raise ResultError(f"{path}: {error!r}, expected a table of mortier run") from error
@@ -146,7 +152,12 @@ def read_freefem(folder):
     folder = Path(folder)
     summary = read_summary(folder)
     bodies = {b["name"]: Body(read_table(folder / f"{b['name']}.displacement.txt", 2),
-                              read_table(folder / f"{b['name']}.stress.txt", 3, 4)) for b in body_list(folder, summary)}
+                              read_table(folder / f"{b['name']}.stress.txt", 3, 4))
+              for b in body_list(folder, summary)}
+    for name, body in bodies.items():
+        if (path := folder / f"{name}.stress_at_points.txt").exists():
+            table = read_table(path, 9, 12)
+            body.stress_at_points = table.reshape(len(table), 3, -1)
     table = read_table(folder / "contact.txt", 5)
     contact = Contact(table[:, 0].astype(int), table[:, 1:3], table[:, 3], table[:, 4])
     return finished(Run("FreeFEM", folder, bodies, contact, summary))
@@ -217,14 +228,16 @@ def read_summary(folder, failed=False):
     """failed: a run that stopped early will do."""
     path = Path(folder) / "summary.json"
     try:
-        summary = json.loads(path.read_text(encoding="utf-8"), parse_constant=lambda word: not_finite(path, word))
+        summary = json.loads(path.read_text(encoding="utf-8"),
+                             parse_constant=lambda word: not_finite(path, word))
     except OSError as error:
         raise ResultError(f"{path}: cannot be read: {error.strerror}") from error
     except (ValueError, RecursionError) as error:
         raise ResultError(f"{path}: {error}") from error
     if not isinstance(summary, dict) or not isinstance(summary.get("steps", 0), int):
         raise ResultError(f"{path}: no summary of a run")
-    if summary.get("status") != "converged" and not (failed and summary.get("status") in ("failed", "unheld")):
+    if summary.get("status") != "converged" and not (failed
+                                                     and summary.get("status") in ("failed", "unheld")):
         raise ResultError(f"{path}: status {summary.get('status')}, expected converged")
     return summary
 
@@ -260,11 +273,17 @@ def read_vtu(path):
     if not Path(path).exists():
         raise ResultError(f"{path}: no such file")
     try:
-        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):  # it prints as well
+        # it prints as well
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
             mesh = meshio.read(path)
-        triangles = mesh.cells_dict.get("triangle", mesh.cells_dict.get("triangle6"))[:, :3]
-        return Body(mesh.point_data["displacement"][:, :2], mesh.cell_data["stress"][0], mesh.points[:, :2],
-                    triangles, {name: values[0] for name, values in mesh.cell_data.items()})
+        elements = mesh.cells_dict.get("triangle", mesh.cells_dict.get("triangle6"))
+        cells = {name: values[0] for name, values in mesh.cell_data.items()}
+        body = Body(mesh.point_data["displacement"][:, :2], cells["stress"], mesh.points[:, :2],
+                    elements[:, :3], cells=cells)
+        if elements.shape[1] == 6 and "stress_at_points" in cells:
+            body.elements = elements
+            body.stress_at_points = cells["stress_at_points"].reshape(len(elements), 3, -1)
+        return body
     except (Exception, SystemExit) as error:  # meshio ends the process on some faults
         raise ResultError(f"{path}: cannot be read: {error!r}") from error
 
@@ -282,7 +301,8 @@ def require_mesh(folder, name, body):
         raise ResultError(f"{folder}: body {name}: a triangle of vertices that there are not")
     for each, values in body.cells.items():
         if len(values) != len(body.triangles):
-            raise ResultError(f"{folder}: body {name}: {each} of {len(values)} triangles, expected {len(body.triangles)}")
+            raise ResultError(f"{folder}: body {name}: {each} of {len(values)} triangles, expected "
+                              f"{len(body.triangles)}")
         require_finite(folder, f"{each} of {name}", values)
 
 

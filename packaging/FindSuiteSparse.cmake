@@ -10,5 +10,6 @@ find_package_handle_standard_args(SuiteSparse REQUIRED_VARS CHOLMOD_LIBRARY UMFP
 if(SuiteSparse_FOUND AND NOT TARGET SuiteSparse::SuiteSparse)
   add_library(SuiteSparse::SuiteSparse INTERFACE IMPORTED)
   target_include_directories(SuiteSparse::SuiteSparse SYSTEM INTERFACE ${SUITESPARSE_INCLUDE})
-  target_link_libraries(SuiteSparse::SuiteSparse INTERFACE ${CHOLMOD_LIBRARY} ${UMFPACK_LIBRARY} ${OPENBLAS_LIBRARY})
+  target_link_libraries(SuiteSparse::SuiteSparse INTERFACE ${CHOLMOD_LIBRARY} ${UMFPACK_LIBRARY}
+                                                           ${OPENBLAS_LIBRARY})
 endif()

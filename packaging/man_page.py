@@ -11,7 +11,8 @@ ENDING = """\
 .SH FILES
 .TP
 .B out/NAME
-result of the scene NAME.toml: fields.pvd and .vtu files (ParaView), contact.csv, history.csv, summary.json, manifest.json
+result of the scene NAME.toml: fields.pvd and .vtu files (ParaView), contact.csv, history.csv, summary.json,
+manifest.json
 .TP
 .B DIR.failed
 last good state of a run that stopped at a step that cannot be solved
@@ -25,8 +26,8 @@ where two results differ, of mortier compare
 .B DIR.tmp\\-PID
 what a run has written so far, with its checkpoints
 .SH EXIT STATUS
-0 done; 1 a step cannot be solved, output cannot be written, or the run was interrupted; 2 wrong input; 3 nothing holds a
-body.
+0 done; 1 a step cannot be solved, output cannot be written, or the run was interrupted; 2 wrong input;
+3 nothing holds a body.
 """
 
 
@@ -55,7 +56,8 @@ def body(lines):
         elif line.endswith(":") and not line.startswith(" "):
             page += [".PP", ".I " + escaped(line)]
         elif tagged and not line.startswith("   "):
-            page += [".TP", ".B " + escaped(tagged.group(1))] + ([escaped(tagged.group(2))] if tagged.group(2) else [])
+            page += [".TP", ".B " + escaped(tagged.group(1))] + ([escaped(tagged.group(2))] if tagged.group(2)
+                                                                 else [])
         elif line.strip():
             page += ([] if line.startswith(" ") else [".PP"]) + [escaped(line.strip())]
     return page
@@ -72,9 +74,11 @@ def sections(program, *command):
 
 def main():
     program, output = sys.argv[1:]
-    version = subprocess.run([program, "--version"], stdout=subprocess.PIPE, check=True, text=True).stdout.split()[-1]
+    version = subprocess.run([program, "--version"], stdout=subprocess.PIPE, check=True,
+                             text=True).stdout.split()[-1]
     page = [f'.TH MORTIER 1 "" "mortier {version}"', ".SH NAME",
-            "mortier \\- contact of elastic and viscoplastic bodies on meshes that do not match", *sections(program)]
+            "mortier \\- contact of elastic and viscoplastic bodies on meshes that do not match",
+            *sections(program)]
     with open(output, "w") as file:
         file.write("\n".join(page) + "\n" + ENDING)
 

@@ -22,7 +22,8 @@ _mortier() {
   if [[ $current == -* ]]; then
     words=$(grep -oE '^  +(-h,)?--[a-z-]+' <<<"$text" | grep -oE -- '--[a-z-]+')
   elif [[ -z $words ]]; then
-    mapfile -t COMPREPLY < <(compgen -d -S / -- "$current"; compgen -f -X '!*.@(toml|mesh|msh|geo|edp)' -- "$current")
+    mapfile -t COMPREPLY < <(compgen -d -S / -- "$current"
+                             compgen -f -X '!*.@(toml|mesh|msh|geo|edp)' -- "$current")
     compopt -o nospace 2>/dev/null
     return
   fi

@@ -1,9 +1,9 @@
 #!/bin/bash
-# Runs commands in a bare Debian 12, on a copy of the last commit, as a new user would: a package that they forget to
-# install is missing there, whatever this machine has.
+# Runs commands in a bare Debian 12, on a copy of the last commit, as a new user would: a package that they
+# forget to install is missing there, whatever this machine has.
 #   scripts/bare_debian.sh COMMAND...     e.g. scripts/bare_debian.sh ./demo ./check
-# As root; installs debootstrap where it is missing. Exit code 125 where there can be no bare Debian here, with the
-# reason; otherwise that of the first command that fails.
+# As root; installs debootstrap where it is missing. Exit code 125 where there can be no bare Debian here,
+# with the reason; otherwise that of the first command that fails.
 set -u -o pipefail
 repository=$(cd "$(dirname "$(readlink -f "$0")")/.." && pwd)
 impossible() { echo "no bare Debian: $*" >&2; exit 125; }
@@ -12,7 +12,8 @@ if [ "${1:-}" != --inside ]; then
   [ $# -gt 0 ] || { echo "usage: scripts/bare_debian.sh COMMAND..." >&2; exit 2; }
   [ "$(id -u)" -eq 0 ] || impossible "only root can make one"
   if ! command -v debootstrap >/dev/null; then
-    { apt-get update -q && DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends debootstrap; } \
+    { apt-get update -q &&
+      DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends debootstrap; } \
       >/dev/null 2>&1 || impossible "debootstrap is missing and cannot be installed"
   fi
   root=$(mktemp -d)

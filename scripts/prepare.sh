@@ -11,7 +11,8 @@ packages=(
   libtomlplusplus-dev libmuparser-dev                      # scenes
   libgmsh-dev                                              # meshes other than Medit's
   libcli11-dev nlohmann-json3-dev                          # command line, summaries
-  libgtest-dev libbenchmark-dev groff-base zsh             # tests, benchmarks
+  libgtest-dev libbenchmark-dev groff-base zsh fish        # tests, benchmarks
+  dpkg-dev file                                            # packaging
   freefem++                                                # the other code
   python3 python3-numpy python3-matplotlib python3-meshio  # comparison and pictures
 )
@@ -55,7 +56,8 @@ install_missing() {
   echo "${missing[*]}"
   quietly "${as_root[@]}" apt-get update -q || die "apt-get update failed; is there a network?"
   quietly "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-    apt-get install -y -q --no-install-recommends "${missing[@]}" || die "apt-get could not install: ${missing[*]}"
+    apt-get install -y -q --no-install-recommends "${missing[@]}" ||
+    die "apt-get could not install: ${missing[*]}"
   mapfile -t missing < <(missing_packages)
   [ "${#missing[@]}" -eq 0 ] || die "still missing: ${missing[*]}"
 }
@@ -72,7 +74,9 @@ jobs_at_once() {
 
 build() {
   local options=(-DCMAKE_BUILD_TYPE=Release) folder="$root/build"
-  case $root in *[\"\;\$\\]*) die "CMake cannot build in $root: expected a path without \" ; \$ and \\" ;; esac
+  case $root in
+    *[\"\;\$\\]*) die "CMake cannot build in $root: expected a path without \" ; \$ and \\" ;;
+  esac
   # A build folder that came from elsewhere knows the wrong paths.
   local cache=$folder/CMakeCache.txt
   if [ -f "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then

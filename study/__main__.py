@@ -1,7 +1,7 @@
 """mortier study STUDY.toml: error against cost over a sweep of runs (docs/study.md).
 
-Exit codes: 0 done (runs that failed are rows with their reason), 1 no run has a result, or output cannot be written,
-2 wrong input.
+Exit codes: 0 done (runs that failed are rows with their reason), 1 no run has a result, or output cannot be
+written, 2 wrong input.
 """
 import argparse
 import os
@@ -19,7 +19,8 @@ from problems import RunFailure  # noqa: E402
 def arguments():
     parser = argparse.ArgumentParser(prog="mortier study", description=__doc__.splitlines()[0])
     parser.add_argument("study", metavar="STUDY", help="study, a TOML file")
-    parser.add_argument("--out", type=Path, metavar="DIR", help="folder of the result (default: out/ and the study's name)")
+    parser.add_argument("--out", type=Path, metavar="DIR",
+                        help="folder of the result (default: out/ and the study's name)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N",
                         help="runs at once (default: one a processor; wall times count only with 1)")
     parser.add_argument("--quiet", action="store_true", help="prints nothing but errors")
@@ -51,14 +52,16 @@ def study(given, say):
         # 3. What they say.
         series, levels = analysis.series_of(plan, rows), analysis.along_levels(plan, rows)
         made, files = pictures.draw(plan, series)
-        folder.put_own({**files, "report.html": report.page(plan, rows, series, levels, made, files).encode()})
+        folder.put_own({**files, "report.html": report.page(plan, rows, series, levels, made,
+                                                            files).encode()})
         for label, error, order, step, runs in report.order_rows(plan, [*series, *levels]):
             say(f"order {order} in {step:<9} {error}: {label} ({runs} runs)")
         for found in analysis.comparisons(plan, series):
             for line in analysis.comparison_text(*found):
                 say(line)
         failed = sum(row["status"] != table.DONE for row in rows)
-        say(f"{out}/report.html: {len(rows)} runs" + (f", {failed} without a result (reasons in study.csv)" if failed else ""))
+        say(f"{out}/report.html: {len(rows)} runs" + (f", {failed} without a result (reasons in study.csv)"
+                                                      if failed else ""))
         if failed == len(rows):
             raise RunFailure(f"no run has a result (reasons in {out}/study.csv)")
 

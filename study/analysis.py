@@ -7,7 +7,8 @@ from problems import StudyError
 from table import COSTS, DONE, number
 
 ROUNDING = 1e-11  # relative errors below are rounding and tell no order
-RUNNING = ("level", "steps", "tolerance")  # axes along which orders are fitted; others only when they alone vary
+# the first of these axes that varies is the one along which orders are fitted
+RUNNING = ("steps", "tolerance", "accuracy", "level")
 LAST = 3  # points that an extrapolation goes by
 
 
@@ -20,11 +21,13 @@ class Series:
     rows: list
 
     def values(self, column):
-        return np.array([number(row, column) if number(row, column) is not None else np.nan for row in self.rows])
+        return np.array([number(row, column) if number(row, column) is not None else np.nan
+                         for row in self.rows])
 
     def label(self, shown):
         """The sweep and those fixed axes that tell its series apart."""
-        return ", ".join([self.sweep, *(value_text(axis, self.fixed[axis]) for axis in shown.get(self.sweep, ()))])
+        return ", ".join([self.sweep,
+                          *(value_text(axis, self.fixed[axis]) for axis in shown.get(self.sweep, ()))])
 
 
 def value_text(axis, value):
@@ -38,13 +41,14 @@ def series_of(plan, rows):
         mine = [row for row in rows if row["sweep"] == sweep.name and row["status"] == DONE]
         axes = list(dict.fromkeys(axis for case in sweep.cases for axis, _ in case.values))
         several = [axis for axis in axes if len({dict(case.values)[axis] for case in sweep.cases}) > 1]
-        axis = next((each for each in ("steps", "tolerance", "level") if each in several), several[0] if several else "")
+        axis = next((each for each in RUNNING if each in several), several[0] if several else "")
         groups = {}
         for row in mine:
             fixed = {each: str(row[each]) for each in axes if each != axis}
             groups.setdefault(tuple(fixed.items()), []).append(row)
         for fixed, members in groups.items():
-            members.sort(key=lambda row: (number(row, axis) is None, number(row, axis) or 0, str(row.get(axis, ""))))
+            members.sort(key=lambda row: (number(row, axis) is None, number(row, axis) or 0,
+                                          str(row.get(axis, ""))))
             result.append(Series(sweep.name, dict(fixed), axis, members))
     return result
 
@@ -86,14 +90,15 @@ def slope(x, y):
 
 
 def order(series, error):
-    """Order of an error in what the running axis refines: (order, points, in what); None where there is none."""
+    """Order of an error in what the running axis refines: (order, points, in what);
+    None where there is none."""
     y = series.values(f"error {error}")
     if series.axis == "steps":
         found = slope(series.values("steps"), y)
         return found and (-found[0], found[1], "k")
-    if series.axis == "tolerance":
-        found = slope(series.values("tolerance"), y)
-        return found and (found[0], found[1], "tolerance")
+    if series.axis in ("tolerance", "accuracy"):
+        found = slope(series.values(series.axis), y)
+        return found and (found[0], found[1], series.axis)
     if series.axis == "level":  # h as dofs^(-1/2)
         found = slope(series.values("dofs"), y)
         return found and (-2 * found[0], found[1], "h")
@@ -169,7 +174,8 @@ def comparisons(plan, series):
 
 
 def words(side):
-    return side["sweep"] + "".join(f", {value_text(axis, value)}" for axis, value in side.items() if axis != "sweep")
+    return side["sweep"] + "".join(f", {value_text(axis, value)}" for axis, value in side.items()
+                                   if axis != "sweep")
 
 
 def comparison_text(each, costs, reason):

@@ -9,7 +9,8 @@ AXES = {
     "steps": ("time.steps", "integers >= 1"), "tolerance": ("time.tolerance", "numbers > 0"),
     "scheme": ("time.scheme", "strings"), "variant": ("contact.variant", "strings"),
     "projection": ("body.material.projection", "strings"), "linear": ("solver.linear", "strings"),
-    "swap": ("contact.swap", "booleans"),
+    "swap": ("contact.swap", "booleans"), "degree": ("degree", "1 or 2"),
+    "accuracy": ("accuracy.energy", "numbers > 0"),
     "level": (None, "integers >= 0"), "code": (None, "strings"), "threads": (None, "integers >= 1"),
 }
 CODES = ("mortier", "freefem", "getfem", "calculix")
@@ -17,14 +18,17 @@ CODES = ("mortier", "freefem", "getfem", "calculix")
 
 def check_axis(table, axis, values, levels):
     expected = AXES.get(axis, (axis, "values"))[1]
-    tests = {"integers >= 1": is_count(1), "integers >= 0": is_count(0), "numbers > 0": lambda v: is_number(v) and v > 0,
+    tests = {"integers >= 1": is_count(1), "integers >= 0": is_count(0),
+             "numbers > 0": lambda v: is_number(v) and v > 0, "1 or 2": lambda v: is_count(1)(v) and v <= 2,
              "strings": is_text, "booleans": lambda v: isinstance(v, bool),
              "values": lambda v: is_number(v) or isinstance(v, bool) or is_shown(v)}
     for value in values:
         if not tests[expected](value):
             raise table.fault(axis, value, expected)
         if axis == "level" and value >= levels:
-            raise table.fault(axis, value, f"a level below {levels} (the levels of [mesh])" if levels else "a table [mesh]")
+            raise table.fault(axis, value,
+                              f"a level below {levels} (the levels of [mesh])"
+                              if levels else "a table [mesh]")
         if axis == "code" and value not in CODES:
             raise table.fault(axis, value, "one of " + ", ".join(CODES))
 
@@ -44,7 +48,8 @@ def read_axes(table, levels, single):
     for axis, value in flattened(table.values):
         if axis not in AXES and "." not in axis:
             near = difflib.get_close_matches(axis, AXES, 1)
-            raise StudyError(f"{table.lines.place(f'{table.path}.{axis}')}: {table.words}: unknown axis {axis}, "
+            raise StudyError(f"{table.lines.place(f'{table.path}.{axis}')}: {table.words}: unknown "
+                             f"axis {axis}, "
                              + (f"did you mean {near[0]}? Expected" if near else "expected")
                              + f" one of {', '.join(AXES)}, or a dotted key of the scene")
         if not is_shown(axis):

@@ -1,8 +1,9 @@
-"""A scene in CalculiX (ccx): elastic bodies as a slab one wedge (C3D6) thick that is free to thin, which is plane stress;
-frictionless face-to-face penalty contact, the slave side nonmortar. Its own solver, one increment a step.
+"""A scene in CalculiX (ccx): elastic bodies as a slab one wedge (C3D6) thick that is free to thin, which is
+plane stress; frictionless face-to-face penalty contact, the slave side nonmortar. Its own solver,
+one increment a step.
 
-What it cannot express: Perzyna's law with the note's projections (its viscoplastic laws are others), and contact
-without a penalty between linear wedges (its mortar needs quadratic ones). Its tables carry 7 digits.
+What it cannot express: Perzyna's law with the note's projections (its viscoplastic laws are others), and
+contact without a penalty between linear wedges (its mortar needs quadratic ones). Its tables carry 7 digits.
 Environment: CCX, the program.
 """
 import os
@@ -36,7 +37,8 @@ def solve(problem):
     cost, output = measured([os.environ.get("CCX", "ccx"), "problem"])
     if "*ERROR" in output:
         raise RunFailure(output[output.index("*ERROR"):].splitlines()[0])
-    u, s = read_tables(Path("problem.dat"), count, sum(len(b.mesh.triangles) for b in problem.bodies.values()))
+    u, s = read_tables(Path("problem.dat"), count,
+                       sum(len(b.mesh.triangles) for b in problem.bodies.values()))
     displacements, stresses, done = {}, {}, 0
     for name, body in problem.bodies.items():
         rows = slice(first[name], first[name] + len(body.mesh.points))
@@ -50,7 +52,8 @@ def solve(problem):
 
 def largest_load(problem):
     return max((np.abs(value(*body.mesh.points[body.mesh.nodes_of(label)].T, problem.end)).max()
-                for body in problem.bodies.values() for label, _, value in body.tractions), default=1.0) or 1.0
+                for body in problem.bodies.values() for label, _, value in body.tractions),
+               default=1.0) or 1.0
 
 
 def write_input(problem, first, count, thickness, young, load):
@@ -69,18 +72,22 @@ def write_input(problem, first, count, thickness, young, load):
         label = problem.nonmortar_label if name == problem.nonmortar else problem.mortar_label
         surfaces[name] = faces(body.mesh, label, element)
         element += len(corners)
-        lines += [f"*MATERIAL, NAME=M{k}", "*ELASTIC", f"{body.young / young * YOUNG:{REAL}}, {body.poisson:{REAL}}",
+        lines += [f"*MATERIAL, NAME=M{k}", "*ELASTIC",
+                  f"{body.young / young * YOUNG:{REAL}}, {body.poisson:{REAL}}",
                   f"*SOLID SECTION, ELSET=BODY{k}, MATERIAL=M{k}"]
     for name, word in ((problem.nonmortar, "SLAVE"), (problem.mortar, "MASTER")):
         lines += [f"*SURFACE, NAME={word}, TYPE=ELEMENT", *surfaces[name]]
-    lines += ["*SURFACE INTERACTION, NAME=TOUCH", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", f"{PENALTY * YOUNG:{REAL}}",
-              f"*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE, ADJUST={1e-6 * thickness:.3e}", "SLAVE, MASTER"]
+    lines += ["*SURFACE INTERACTION, NAME=TOUCH", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR",
+              f"{PENALTY * YOUNG:{REAL}}",
+              f"*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE, ADJUST={1e-6 * thickness:.3e}",
+              "SLAVE, MASTER"]
     lines.append("*BOUNDARY")
     lines += [f"{i + 1}, 3, 3" for i in range(count)]
     for step in range(1, problem.steps + 1):
         time = problem.end * step / problem.steps
         lines += ["*STEP, INC=1000", "*STATIC", "1., 1."]
-        lines += ["*BOUNDARY", *supports(problem, first, count, time, young / YOUNG * LOAD / load), "*CLOAD, OP=NEW"]
+        lines += ["*BOUNDARY", *supports(problem, first, count, time, young / YOUNG * LOAD / load),
+                  "*CLOAD, OP=NEW"]
         lines += loads(problem, first, count, time, thickness, LOAD / load)
         if step == problem.steps:
             lines += ["*NODE PRINT, NSET=ALL", "U"]
@@ -107,7 +114,8 @@ def supports(problem, first, count, time, factor):
             nodes = body.mesh.nodes_of(label)
             for node, u in zip(nodes.tolist(), value(*body.mesh.points[nodes].T, time).tolist()):
                 given[first[name] + node + 1, component + 1] = u * factor
-    return [f"{node + layer * count}, {dof}, {dof}, {u:{REAL}}" for (node, dof), u in given.items() for layer in (0, 1)]
+    return [f"{node + layer * count}, {dof}, {dof}, {u:{REAL}}" for (node, dof), u in given.items()
+            for layer in (0, 1)]
 
 
 def loads(problem, first, count, time, thickness, factor):
@@ -121,7 +129,8 @@ def loads(problem, first, count, time, thickness, factor):
                 for node, f in ((i, h * (2 * a + b) / 6), (j, h * (a + 2 * b) / 6)):
                     key = first[name] + node + 1, component + 1
                     total[key] = total.get(key, 0.0) + f * thickness / 2 * factor
-    return [f"{node + layer * count}, {dof}, {f:{REAL}}" for (node, dof), f in total.items() for layer in (0, 1)]
+    return [f"{node + layer * count}, {dof}, {f:{REAL}}" for (node, dof), f in total.items()
+            for layer in (0, 1)]
 
 
 def read_tables(path, count, triangles):

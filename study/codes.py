@@ -1,4 +1,5 @@
-"""Runs a case in one of the codes; whatever the code, the answer is a results.Run (compare/results.py) with points.
+"""Runs a case in one of the codes; whatever the code,
+the answer is a results.Run (compare/results.py) with points.
 
 Environment: MORTIER, the program; FREEFEM (FreeFem++-nw), CCX (ccx): the other codes' programs.
 """
@@ -56,7 +57,8 @@ def run(case, scene, meshes, folder, timeout=None, repeat=1):
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     settings = settings_of(case, meshes)
-    solve = {"mortier": run_mortier, "freefem": run_freefem, "getfem": run_getfem, "calculix": run_calculix}[case.code]
+    solve = {"mortier": run_mortier, "freefem": run_freefem, "getfem": run_getfem,
+             "calculix": run_calculix}[case.code]
     costs = []
     try:
         for _ in range(repeat):
@@ -77,16 +79,20 @@ def set_option(settings):
 def run_mortier(case, scene, settings, folder, timeout):
     out = folder / "result"
     threads = str(case["threads"] or 1)
-    cost, _ = measured([MORTIER, "run", scene, "--quiet", "--threads", threads, "--out", out, *set_option(settings)],
+    cost, _ = measured([MORTIER, "run", scene, "--quiet", "--threads", threads, "--out", out,
+                        *set_option(settings)],
                        timeout, environment={"OPENBLAS_NUM_THREADS": threads})
     run_ = results.read_mortier(out)
     summary = run_.summary
-    return Outcome(run_, cost, summary["triangles"], summary["dofs"], summary["steps"], summary["newton_iterations"])
+    return Outcome(run_, cost, summary["triangles"], summary["dofs"], summary["steps"],
+                   summary["newton_iterations"])
 
 
 def run_freefem(case, scene, settings, folder, timeout):
     if case["tolerance"]:
         raise RunFailure("the FreeFEM script takes equal steps only")
+    if case["accuracy"]:
+        raise RunFailure("the FreeFEM script refines no meshes")
     script = folder / "scene.edp"
     measured([MORTIER, "freefem", scene, script, *set_option(settings)], timeout)
     if shutil.which(FREEFEM) is None:
@@ -101,8 +107,10 @@ def run_freefem(case, scene, settings, folder, timeout):
 
 def add_points(run_, document):
     for body in document["body"]:
-        mesh = scenes.Mesh(body["mesh"])
-        run_.bodies[body["name"]].points, run_.bodies[body["name"]].triangles = mesh.points, mesh.triangles
+        mesh, ours = scenes.Mesh(body["mesh"]), run_.bodies[body["name"]]
+        ours.points, ours.triangles = mesh.points, mesh.triangles
+        if ours.stress_at_points is not None:
+            ours.points, ours.elements = mesh.with_middles()
 
 
 def outcome_of(run_, cost, steps, iterations):
@@ -111,22 +119,31 @@ def outcome_of(run_, cost, steps, iterations):
     return Outcome(run_, cost, triangles, dofs, steps, iterations)
 
 
+def require_plain(case):
+    """What the other codes do not know."""
+    if case["tolerance"] or case["scheme"] not in (None, "backward-euler"):
+        raise RunFailure("takes equal steps of backward Euler only")
+    if case["accuracy"] or (case["degree"] or 1) > 1:
+        raise RunFailure("takes linear triangles of the meshes as they are only")
+
+
 def run_getfem(case, scene, settings, folder, timeout):
+    require_plain(case)
     if not any((Path(path) / "getfem").is_dir() for path in (*sys.path, "/usr/lib/python3/dist-packages")):
         raise RunFailure("GetFEM is not installed (Debian package python3-getfem)")
     return run_peer("getfem_code.py", case, scene, settings, folder, timeout)
 
 
 def run_calculix(case, scene, settings, folder, timeout):
+    require_plain(case)
     if shutil.which(os.environ.get("CCX", "ccx")) is None:
         raise RunFailure("CalculiX is not installed (Debian package calculix-ccx)")
     return run_peer("calculix_code.py", case, scene, settings, folder, timeout)
 
 
 def run_peer(program, case, scene, settings, folder, timeout):
-    """A code that reads the scene itself; it writes its fields into arrays and says what its solver alone cost."""
-    if case["tolerance"] or case["scheme"] not in (None, "backward-euler"):
-        raise RunFailure("takes equal steps of backward Euler only")
+    """A code that reads the scene itself; it writes its fields into arrays and says what its solver alone
+    cost."""
     checked = folder / "checked.edp"
     measured([MORTIER, "freefem", scene, checked, *set_option(settings)], timeout)  # the scene is sound
     document = scenes.load(scene, settings)
@@ -178,7 +195,7 @@ def make_meshes(plan, folder):
             cells = level["cells"]
             cells = f"{cells[0]},{cells[1]}" if isinstance(cells, list) else str(cells)
             corners = [",".join(map(repr, level[corner])) for corner in ("lower", "upper")]
-            measured([MORTIER, "mesh", level["kind"], "--cells", cells, f"--lower={corners[0]}", f"--upper={corners[1]}",
-                      path])
+            measured([MORTIER, "mesh", level["kind"], "--cells", cells, f"--lower={corners[0]}",
+                      f"--upper={corners[1]}", path])
             files[body].append(path)
     return files

@@ -6,8 +6,8 @@ from problems import StudyError
 from study_file import is_number, is_text
 
 FIELDS = {"energy": ("s11", "s22", "s12"), "displacement": ("ux", "uy"), "pressure": ("p",)}
-SCALARS = ("von_mises_min", "von_mises_max", "interpenetration", "contact_force", "active_nodes", "displacement_min_x",
-           "displacement_min_y", "displacement_max_x", "displacement_max_y")
+SCALARS = ("von_mises_min", "von_mises_max", "interpenetration", "contact_force", "active_nodes",
+           "displacement_min_x", "displacement_min_y", "displacement_max_x", "displacement_max_y")
 
 
 @dataclass
@@ -31,7 +31,8 @@ def expression(table, key, value, names):
     try:
         return Expression(value, names)
     except ValueError as error:
-        raise table.fault(key, value, f"a number or an expression in {', '.join(['x, y, t', *names])} ({error})") from error
+        expected = f"a number or an expression in {', '.join(['x, y, t', *names])} ({error})"
+        raise table.fault(key, value, expected) from error
 
 
 def read_errors(top, bodies, names):
@@ -61,10 +62,12 @@ def read_exact(table, quantity, bodies, names):
     tables = {"": table}
     if each_body:
         if missing := [body for body in bodies if body not in table.values]:
-            raise StudyError(f"{table.lines.place(table.path)}: {table.words}: {missing[0]} is missing, expected every body")
+            raise StudyError(f"{table.lines.place(table.path)}: {table.words}: {missing[0]} is missing, "
+                             "expected every body")
         tables = {body: table.table(body) for body in bodies}
     exact = {}
     for body, inner in tables.items():
-        exact[body] = {c: expression(inner, c, inner.take(c, "an expression", lambda v: True), names) for c in components}
+        exact[body] = {c: expression(inner, c, inner.take(c, "an expression", lambda v: True), names)
+                       for c in components}
         inner.finish()
     return exact

@@ -6,8 +6,8 @@ import numpy as np
 
 FUNCTIONS = {name: getattr(np, name) for name in ("sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "log10",
                                                   "sqrt", "abs", "sign", "rint")}
-FUNCTIONS |= {"asin": np.arcsin, "acos": np.arccos, "atan": np.arctan, "atan2": np.arctan2, "asinh": np.arcsinh,
-              "acosh": np.arccosh, "atanh": np.arctanh, "log": np.log, "ln": np.log,
+FUNCTIONS |= {"asin": np.arcsin, "acos": np.arccos, "atan": np.arctan, "atan2": np.arctan2,
+              "asinh": np.arcsinh, "acosh": np.arccosh, "atanh": np.arctanh, "log": np.log, "ln": np.log,
               "min": lambda *a: np.minimum.reduce(np.broadcast_arrays(*a)),
               "max": lambda *a: np.maximum.reduce(np.broadcast_arrays(*a)), "where": np.where}
 OPERATORS = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
@@ -17,7 +17,8 @@ OPERATORS = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mu
 
 
 class Expression:
-    """A number or a text; `names` are what it may use beside x, y, t and pi. ValueError where it is neither."""
+    """A number or a text; `names` are what it may use beside x, y, t and pi.
+    ValueError where it is neither."""
 
     def __init__(self, value, names=()):
         if isinstance(value, bool) or not isinstance(value, (int, float, str)):
@@ -42,8 +43,8 @@ class Expression:
             elif isinstance(node, ast.Constant):
                 if isinstance(node.value, bool) or not isinstance(node.value, (int, float)):
                     raise ValueError(f"unexpected {node.value!r}")
-            elif not isinstance(node, (ast.BinOp, ast.UnaryOp, ast.Compare, ast.BoolOp, ast.expr_context, ast.operator,
-                                       ast.unaryop, ast.cmpop, ast.boolop)):
+            elif not isinstance(node, (ast.BinOp, ast.UnaryOp, ast.Compare, ast.BoolOp, ast.expr_context,
+                                       ast.operator, ast.unaryop, ast.cmpop, ast.boolop)):
                 raise ValueError(f"unexpected {type(node).__name__.lower()}")
         try:  # functions know how many values they take
             self(np.zeros(1), np.zeros(1), 0.0, **{name: np.zeros(1) for name in names})
@@ -111,7 +112,8 @@ def evaluate(node, names):
     if isinstance(node, ast.Call):
         return FUNCTIONS[node.func.id](*(evaluate(each, names) for each in node.args))
     if isinstance(node, ast.BinOp):
-        return OPERATORS[type(node.op)](np.asarray(evaluate(node.left, names), float), evaluate(node.right, names))
+        return OPERATORS[type(node.op)](np.asarray(evaluate(node.left, names), float),
+                                        evaluate(node.right, names))
     if isinstance(node, ast.UnaryOp):
         return OPERATORS[type(node.op)](evaluate(node.operand, names))
     if isinstance(node, ast.BoolOp):

@@ -1,7 +1,8 @@
 """The folder of a study: what is in it and not the study's own is left as it is.
 
-study.csv is known by its header; manifest.json records the pictures and the page with their checksums. All that passes
-(meshes, runs, files that are just written) is in mortier-work-PID, which the next study takes away after a kill.
+study.csv is known by its header; manifest.json records the pictures and the page with their checksums. All
+that passes (meshes, runs, files that are just written) is in mortier-work-PID,
+which the next study takes away after a kill.
 """
 import fcntl
 import hashlib
@@ -28,12 +29,14 @@ class Folder:
             raise StudyError(f"--out {path}: a link to nothing, expected a folder of a study or a new one")
         for each in (self.path, self.path / "study.csv"):
             if each.exists() and each.is_dir() != (each == self.path):
-                raise StudyError(f"--out {path}: {each} is in the way, expected a folder of a study or a new one")
+                raise StudyError(f"--out {path}: {each} is in the way, expected a folder of a study "
+                                 "or a new one")
         csv = self.path / "study.csv"
         if self.path.exists() and any(not works(each) for each in self.path.iterdir()) and not csv.exists():
             raise StudyError(f"--out {path}: holds other files, expected a folder of a study or a new one")
         if csv.exists() and not table.is_study(csv):
-            raise StudyError(f"--out {path}: study.csv is not one of mortier study, expected a folder of a study or a new one")
+            raise StudyError(f"--out {path}: study.csv is not one of mortier study, expected a folder of a "
+                             "study or a new one")
         self.path.mkdir(parents=True, exist_ok=True)
         self.lock = os.open(self.path, os.O_RDONLY | os.O_DIRECTORY)
         try:
@@ -86,7 +89,8 @@ class Folder:
         """name -> checksums of what may stand there."""
         try:
             record = json.loads((self.path / RECORD).read_text(encoding="utf-8"))
-            files = {name: list(map(str, sums)) for name, sums in record["files"].items() if Path(name).name == name}
+            files = {name: list(map(str, sums)) for name, sums in record["files"].items()
+                     if Path(name).name == name}
             if record["format"] == FORMAT:
                 return files
         except FileNotFoundError:
@@ -101,7 +105,8 @@ class Folder:
 
     def is_own(self, name, record):
         path = self.path / name
-        return path.is_file() and not path.is_symlink() and checksum(path.read_bytes()) in record.get(name, ())
+        return (path.is_file() and not path.is_symlink()
+                and checksum(path.read_bytes()) in record.get(name, ()))
 
 
 def checksum(data):
@@ -113,7 +118,8 @@ def exists(path):
 
 
 def works(path):
-    return re.fullmatch(r"mortier-work-\d+", path.name) is not None and path.is_dir() and not path.is_symlink() and \
+    return re.fullmatch(r"mortier-work-\d+",
+                        path.name) is not None and path.is_dir() and not path.is_symlink() and \
         all(each.name in PASSING for each in path.iterdir())
 
 

@@ -1,9 +1,10 @@
-"""A scene in GetFEM (python3-getfem), through its own bricks: P1, contact by the nodal brick (variant interpolation) or
-the integral brick with a fine quadrature (variant mortar: the nearest that it has), Alart-Curnier's augmented
-Lagrangian, its own Newton's method.
+"""A scene in GetFEM (python3-getfem), through its own bricks: P1, contact by the nodal brick (variant
+interpolation) or the integral brick with a fine quadrature (variant mortar: the nearest that it has),
+Alart-Curnier's augmented Lagrangian, its own Newton's method.
 
-Solved with E = 1 and loads over the largest one: GetFEM stops at an absolute residual. The viscoplastic law is written
-in its assembly language, with the stress and the multiplier of the projection as unknowns beside the displacement.
+Solved with E = 1 and loads over the largest one: GetFEM stops at an absolute residual. The viscoplastic law
+is written in its assembly language, with the stress and the multiplier of the projection as unknowns beside
+the displacement.
 """
 import getfem as gf
 import numpy as np
@@ -21,7 +22,8 @@ class GetfemBody:
         self.body = body
         points, triangles = body.mesh.points, body.mesh.triangles
         self.mesh = gf.Mesh("empty", 2)
-        self.mesh.add_convex(gf.GeoTrans("GT_PK(2,1)"), np.ascontiguousarray(points[triangles].transpose(2, 1, 0)))
+        self.mesh.add_convex(gf.GeoTrans("GT_PK(2,1)"),
+                             np.ascontiguousarray(points[triangles].transpose(2, 1, 0)))
         self.scalar = self.fem(1, "FEM_PK(2,1)")
         self.vector = self.fem(2, "FEM_PK(2,1)")
         nodes = self.scalar.basic_dof_nodes()
@@ -73,7 +75,8 @@ def solve(problem):
             m, g = f"m{i}_{k}", f"g{i}_{k}"
             model.add_filtered_fem_variable(m, body.scalar, FIRST_LABEL + label)
             model.add_fem_data(g, body.scalar)
-            model.add_linear_term(rule, f"({u}({component + 1}) - {g})*Test_{m} + {m}*Test_{u}({component + 1})",
+            model.add_linear_term(rule,
+                                  f"({u}({component + 1}) - {g})*Test_{m} + {m}*Test_{u}({component + 1})",
                                   FIRST_LABEL + label)
             set_load.append((g, body, value, young / load))
         for k, (label, component, value) in enumerate(given.tractions):
@@ -92,15 +95,18 @@ def solve(problem):
         for name, body, value, factor in set_load:
             points = body.body.mesh.points
             model.set_variable(name, body.nodal(value(points[:, 0], points[:, 1], time) * factor))
-        done, converged = model.solve("max_res", RESIDUAL, "max_iter", ITERATIONS) if not problem.flows else law.step(model)
+        done, converged = model.solve("max_res", RESIDUAL, "max_iter",
+                                      ITERATIONS) if not problem.flows else law.step(model)
         iterations += done
         if not converged:
             raise RunFailure(f"step {step}: no convergence in {done} iterations")
-    displacements = {name: body.displacement(model.variable(f"u{i}")) for i, (name, body) in enumerate(bodies.items())}
+    displacements = {name: body.displacement(model.variable(f"u{i}"))
+                     for i, (name, body) in enumerate(bodies.items())}
     displacements = {name: u * load / young for name, u in displacements.items()}
     if problem.flows:
         return displacements, law.stresses(model), {"iterations": iterations}
-    stresses = {name: body.elastic_stress(body.strain(displacements[name])) for name, body in problem.bodies.items()}
+    stresses = {name: body.elastic_stress(body.strain(displacements[name]))
+                for name, body in problem.bodies.items()}
     return displacements, stresses, {"iterations": iterations}
 
 
@@ -121,11 +127,13 @@ def add_contact(model, bodies, problem):
     model.add_initialized_data("r", [1.0])
     if problem.variant == "interpolation":
         rules = [gf.MeshIm(each.mesh, gf.Integ("IM_TRIANGLE(4)")) for each in (first, second)]
-        model.add_nodal_contact_between_nonmatching_meshes_brick(*rules, f"u{slave}", f"u{master}", "p", "r", *regions)
+        model.add_nodal_contact_between_nonmatching_meshes_brick(*rules, f"u{slave}", f"u{master}", "p", "r",
+                                                                 *regions)
     else:
         rule = gf.MeshIm(first.mesh, gf.Integ("IM_STRUCTURED_COMPOSITE(IM_TRIANGLE(4),8)"))
         model.add_filtered_fem_variable("p", first.scalar, regions[0])
-        model.add_integral_contact_between_nonmatching_meshes_brick(rule, f"u{slave}", f"u{master}", "p", "r", *regions)
+        model.add_integral_contact_between_nonmatching_meshes_brick(rule, f"u{slave}", f"u{master}", "p", "r",
+                                                                    *regions)
     # A body that contact alone holds: begin with every node pressed.
     model.set_variable("p", np.full(len(model.variable("p")), -1e-3))
 

@@ -1,11 +1,12 @@
-"""Perzyna's law with the note's projections on top of GetFEM, backward Euler: mixed Newton in Python, each linearised step
-assembled and solved with its contact by GetFEM's bricks.
+"""Perzyna's law with the note's projections on top of GetFEM, backward Euler: mixed Newton in Python, each
+linearised step assembled and solved with its contact by GetFEM's bricks.
 
-GetFEM's own Newton was tried first, with the law in its assembly language. The displacement form does not converge at
-first yield; with the stress and the multiplier as unknowns its linear solvers fail (MUMPS) or do not end (SuperLU).
+GetFEM's own Newton was tried first, with the law in its assembly language. The displacement form does not
+converge at first yield; with the stress and the multiplier as unknowns its linear solvers fail (MUMPS) or do
+not end (SuperLU).
 
-With p, q, r = (s11 + s22)/sqrt2, (s11 - s22)/sqrt2, sqrt2 s12, e the eigenvalues of the elasticity tensor over E, and
-displacements scaled by E:
+With p, q, r = (s11 + s22)/sqrt2, (s11 - s22)/sqrt2, sqrt2 s12, e the eigenvalues of the elasticity tensor
+over E, and displacements scaled by E:
     r = eps(du) - (s - s0)/e - theta E (s - P_B s),   H = 1/e + theta E (1 - P_B'),   s <- s + H^-1 (r + B d)
 Where that does not end, theta is raised in half decades from 1e-8 of its value.
 """

@@ -1,7 +1,8 @@
 """launch.py FD COMMAND...: runs a command and writes `code wall processor memory` to the file descriptor.
 
-A process counts the memory of the one that started it, before it becomes a program of its own, into its peak; this
-one is small. Standard input is a pipe of the study: when it ends, the study was killed, and so is the command.
+A process counts the memory of the one that started it, before it becomes a program of its own, into its peak;
+this one is small. Standard input is a pipe of the study: when it ends, the study was killed,
+and so is the command.
 """
 import os
 import select
@@ -24,5 +25,6 @@ except OSError:  # an old system, which cannot wait for both
 _, status, usage = os.wait4(pid, 0)
 seconds = time.perf_counter() - begin
 code = os.waitstatus_to_exitcode(status)
-os.write(report, f"{code} {seconds!r} {usage.ru_utime + usage.ru_stime!r} {usage.ru_maxrss / 1024!r}".encode())
+os.write(report,
+         f"{code} {seconds!r} {usage.ru_utime + usage.ru_stime!r} {usage.ru_maxrss / 1024!r}".encode())
 sys.exit(code if 0 <= code < 256 else 1)

@@ -1,4 +1,5 @@
-"""Errors of a run: norms of fields against an exact solution or a finer run, relative to the size of the latter."""
+"""Errors of a run: norms of fields against an exact solution or a finer run,
+relative to the size of the latter."""
 import numpy as np
 from matplotlib.tri import Triangulation
 
@@ -51,30 +52,77 @@ class Sampled:
         return found.reshape(points.shape[:-1])
 
     def stress(self, name, points):
-        return self.bodies[name].stress[self.triangles(name, points)]
+        body, found = self.bodies[name], self.triangles(name, points)
+        if body.stress_at_points is None:
+            return body.stress[found]
+        return np.einsum("...i,...ij->...j", between_points(self.barycentric(name, points, found)),
+                         body.stress_at_points[found])
 
     def displacement(self, name, points):
+        found = self.triangles(name, points)
+        return np.einsum("...i,...ij->...j", shapes(self.bodies[name], self.barycentric(name, points, found)),
+                         self.bodies[name].displacement[nodes_of(self.bodies[name])[found]])
+
+    def barycentric(self, name, points, found):
+        """Of points in the triangles in which they are; in curved ones by Newton's method."""
         body = self.bodies[name]
-        corners = body.triangles[self.triangles(name, points)]
-        a, b, c = (body.points[corners[..., i]] for i in range(3))
-        det = cross(b - a, c - a)
-        weights = np.stack([cross(b - points, c - points), cross(c - points, a - points), cross(a - points, b - points)], -1)
-        return np.einsum("...i,...ij->...j", weights / det[..., None], body.displacement[corners])
+        at = self.by_corners(body, points, found)
+        if body.elements is None:
+            return at
+        nodes = body.points[body.elements[found]]
+        for _ in range(4):
+            miss = points - np.einsum("...i,...ij->...j", shapes(body, at), nodes)
+            tangents = np.einsum("...di,...ij->...jd", slopes(body, at), nodes)
+            step = np.linalg.solve(tangents, miss[..., None])[..., 0]
+            at = at + np.concatenate([step, -step.sum(-1, keepdims=True)], -1)
+        return at
+
+    @staticmethod
+    def by_corners(body, points, found):
+        """The same where sides are straight."""
+        a, b, c = (body.points[body.triangles[found][..., i]] for i in range(3))
+        weights = np.stack([cross(b - points, c - points), cross(c - points, a - points),
+                            cross(a - points, b - points)], -1)
+        return weights / cross(b - a, c - a)[..., None]
 
 
 def cross(a, b):
     return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
 
 
-def areas(body):
-    a, b, c = (body.points[body.triangles[:, i]] for i in range(3))
-    return cross(b - a, c - a) / 2
+def nodes_of(body):
+    return body.triangles if body.elements is None else body.elements
+
+
+def shapes(body, at):
+    """Shape functions of the displacement at barycentric coordinates, ... x nodes of a triangle."""
+    if body.elements is None:
+        return at
+    return np.concatenate([at * (2 * at - 1), 4 * at * np.roll(at, -1, -1)], -1)
+
+
+def slopes(body, at):
+    """Their derivatives by the first two barycentric coordinates, of which the third is what is left,
+    ... x 2 x nodes."""
+    corners = np.broadcast_to(np.array([[1.0, 0, -1], [0, 1, -1]]), (*at.shape[:-1], 2, 3))
+    if body.elements is None:
+        return corners
+    at = at[..., None, :]
+    middles = 4 * (corners * np.roll(at, -1, -1) + at * np.roll(corners, -1, -1))
+    return np.concatenate([corners * (4 * at - 1), middles], -1)
+
+
+def between_points(at):
+    """Weights of a stress that is linear, by its values at the points 2/3, 1/6, 1/6."""
+    return 2 * at - 1 / 3
 
 
 def quadrature(body):
-    """Points, triangles x 7 x 2, and weights, triangles x 7."""
-    points = np.einsum("qi,tij->tqj", POINTS, body.points[body.triangles])
-    return points, areas(body)[:, None] * WEIGHTS
+    """Points, triangles x 7 x 2, and weights, triangles x 7; curved sides are mapped as displacements are."""
+    corners = body.points[nodes_of(body)]
+    points = np.einsum("qi,tij->tqj", shapes(body, POINTS), corners)
+    tangents = np.einsum("qdi,tij->tqdj", slopes(body, POINTS), corners)
+    return points, cross(tangents[..., 0, :], tangents[..., 1, :]) / 2 * WEIGHTS
 
 
 def energy_density(stress, young, poisson):
@@ -86,15 +134,17 @@ def energy_density(stress, young, poisson):
 
 
 def completed(stress, components, poisson):
-    """An exact stress of the plane with the s33 that plane strain of an elastic body has, where it is asked for."""
+    """An exact stress of the plane with the s33 that plane strain of an elastic body has,
+    where it is asked for."""
     if stress.shape[-1] == components:
         return stress
     return np.concatenate([stress, poisson * (stress[..., :1] + stress[..., 1:2])], -1)
 
 
 def same_mesh(a, b):
-    return a.triangles.shape == b.triangles.shape and a.points.shape == b.points.shape and \
-        np.array_equal(a.triangles, b.triangles) and np.abs(a.points - b.points).max() <= SAME * np.ptp(b.points)
+    return (a.triangles.shape == b.triangles.shape and a.points.shape == b.points.shape
+            and np.array_equal(a.triangles, b.triangles)
+            and np.abs(a.points - b.points).max() <= SAME * np.ptp(b.points))
 
 
 def field_error(quantity, run, truth, materials):
@@ -127,9 +177,11 @@ def field_error(quantity, run, truth, materials):
 
 
 def on_quadrature(body, attribute):
-    if attribute == "stress":
+    if attribute == "displacement":
+        return np.einsum("qi,tij->tqj", shapes(body, POINTS), body.displacement[nodes_of(body)])
+    if body.stress_at_points is None:
         return np.repeat(body.stress[:, None], len(POINTS), 1)
-    return np.einsum("qi,tij->tqj", POINTS, body.displacement[body.triangles])
+    return np.einsum("qi,tij->tqj", between_points(POINTS), body.stress_at_points)
 
 
 def pressure_error(run, truth):
@@ -154,12 +206,14 @@ def pressure_error(run, truth):
 
 
 def pressure_line(run):
-    """Arc length, pressure and position of the nonmortar nodes in order; M^-1 p where a code gives forces only."""
+    """Arc length, pressure and position of the nonmortar nodes in order;
+    M^-1 p where a code gives forces only."""
     if run.contact is None:
         raise RunFailure("no contact pressure in this result")
     position = run.contact.position  # the nodes stand in the order of the line, the one body to its left
     across = position[-1] - position[0]
-    order = slice(None, None, -1 if across[np.abs(across).argmax()] < 0 else 1)  # the same whichever body that is
+    # the same whichever body that is
+    order = slice(None, None, -1 if across[np.abs(across).argmax()] < 0 else 1)
     position = position[order]
     steps = np.hypot(*np.diff(position, axis=0).T)
     if run.contact.interface is not None:  # several lines have nothing between them

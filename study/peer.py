@@ -89,7 +89,8 @@ class Problem:
         if normal @ inside > 0:
             normal = -normal  # outward of the nonmortar body
         s, t = position @ along, across @ along
-        far = np.column_stack([np.interp(s, t, (displacements[self.mortar][line] + across)[:, c]) for c in (0, 1)])
+        far = np.column_stack([np.interp(s, t, (displacements[self.mortar][line] + across)[:, c])
+                               for c in (0, 1)])
         gap = (far - position - displacements[self.nonmortar][nodes]) @ normal
         force = -body.nodal_forces(stresses[self.nonmortar])[nodes] @ normal
         return nodes, position, gap, force

@@ -1,5 +1,6 @@
-"""The projection on the elastic domain in the basis p, q, r = (s11 + s22)/sqrt2, (s11 - s22)/sqrt2, sqrt2 s12, for all
-triangles at once: B is A . s^2 <= limit^2, and P_B s = s/(1 + m b), b = A over the weights of the norm.
+"""The projection on the elastic domain in the basis p, q, r = (s11 + s22)/sqrt2, (s11 - s22)/sqrt2, sqrt2
+s12, for all triangles at once: B is A . s^2 <= limit^2, and P_B s = s/(1 + m b),
+b = A over the weights of the norm.
 """
 import numpy as np
 
@@ -20,5 +21,6 @@ def project(s, b, limit):
     d = 1 / (1 + m[:, None] * b)
     slope = (A * b * s**2 * d**3).sum(1) + 1e-300
     derivative = d[:, :, None] * np.eye(3)
-    derivative -= np.where(beyond, 1 / slope, 0)[:, None, None] * (b * s * d**2)[:, :, None] * (A * s * d**2)[:, None, :]
+    inverse = np.where(beyond, 1 / slope, 0)
+    derivative -= inverse[:, None, None] * (b * s * d**2)[:, :, None] * (A * s * d**2)[:, None, :]
     return s * (m[:, None] * b) * d, derivative  # no difference: theta E is 1e8

@@ -41,7 +41,8 @@ def draw(plan, series):
                     name = f"{stem}-{cost.replace('_', '-')}"
                     for kind in ("svg", "png"):
                         picture = io.BytesIO()
-                        figure.savefig(picture, format=kind, metadata={"Date": None} if kind == "svg" else None)
+                        figure.savefig(picture, format=kind,
+                                       metadata={"Date": None} if kind == "svg" else None)
                         files[f"{name}.{kind}"] = picture.getvalue()
                     plt.close(figure)
                     made.append((f"{error.name} against {AXES[cost]}", name))
@@ -67,7 +68,8 @@ def work_precision(series, error, cost):
             label += f": order {found[0]:.2f} in {found[2]}"
         if found := slope(x, y):
             label += f", slope {found[0]:.2f}"
-        axes.plot(x[by_cost], y[by_cost], color=COLOURS[i % len(COLOURS)], marker=MARKERS[(i // 2) % len(MARKERS)],
+        axes.plot(x[by_cost], y[by_cost], color=COLOURS[i % len(COLOURS)],
+                  marker=MARKERS[(i // 2) % len(MARKERS)],
                   ls="-" if i < len(COLOURS) else "--", lw=1.2, ms=5, mfc="white",
                   label=f" {label}" if label.startswith("_") else label)  # else the legend leaves it out
     points = np.array([point for _, x, y in data for point in zip(x, y)])

@@ -106,17 +106,19 @@ def read(path):
     if reference is not None:
         reference = read_axes(reference, levels, single=True)
     elif missing := [error for error in errors if error.exact is None]:
-        raise StudyError(f"{lines.place('error')}: error {missing[0].name}: exact is missing, expected exact or a table "
-                         "[reference]")
+        raise StudyError(f"{lines.place('error')}: error {missing[0].name}: exact is missing, expected "
+                         "exact or a table [reference]")
     sweeps = [read_sweep(each, i, levels, lines) for i, each in enumerate(top.tables("sweep", required=True))]
     names = [sweep.name for sweep in sweeps]
     for i, name in enumerate(names):
         if name in names[:i]:
-            raise StudyError(f"{lines.place(f'sweep.{i}.name')}: sweep {i}: name = {text(name)}, expected a name of its own")
+            raise StudyError(f"{lines.place(f'sweep.{i}.name')}: sweep {i}: name = {text(name)}, expected a "
+                             "name of its own")
     comparisons = [read_comparison(each, errors, names) for each in top.tables("compare")]
     plan = Plan(path, title, scene, meshes, sweeps, errors, reference, comparisons, let, timeout, repeat)
     decides = {key: document.get(key) for key in ("mesh", "error", "reference", "let", "repeat", "timeout")}
-    files = [scene, *(scene.parent / str(body.get("mesh", "")) for body in tomllib.loads(scene.read_text(encoding="utf-8"))["body"]),
+    files = [scene, *(scene.parent / str(body.get("mesh", ""))
+                      for body in tomllib.loads(scene.read_text(encoding="utf-8"))["body"]),
              *(file for each in meshes.values() for file in each if isinstance(file, Path))]
     digest = hashlib.sha256(json.dumps(decides, sort_keys=True, default=str).encode())
     for file in files:
@@ -128,14 +130,16 @@ def read(path):
 def bodies_of(scene, lines):
     try:
         document = tomllib.loads(scene.read_text(encoding="utf-8"))
-        if not all(is_text(body["name"]) and isinstance(body.get("mesh", ""), str) for body in document["body"]):
+        if not all(is_text(body["name"]) and isinstance(body.get("mesh", ""), str)
+                   for body in document["body"]):
             raise ValueError
         return [body["name"] for body in document["body"]]
     except OSError as error:
         raise StudyError(f"{lines.place('scene')}: scene = \"{scene}\", expected the file of a scene "
                          f"({error.strerror})") from error
     except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise StudyError(f"{lines.place('scene')}: scene = \"{scene}\", expected a scene (docs/scene.md)") from error
+        raise StudyError(
+            f"{lines.place('scene')}: scene = \"{scene}\", expected a scene (docs/scene.md)") from error
 
 
 def read_meshes(table, bodies, folder):
@@ -148,7 +152,8 @@ def read_meshes(table, bodies, folder):
             place = table.lines.place(f"mesh.{name}")
             raise StudyError(f"{place}: mesh: {name}, expected one of the bodies {', '.join(bodies)}")
         value = table.take(name, "{ kind, cells, lower, upper } or a list of files",
-                           lambda v: isinstance(v, dict) or (isinstance(v, list) and v and all(map(is_text, v))))
+                           lambda v: isinstance(v, dict) or (isinstance(v, list) and v
+                                                             and all(map(is_text, v))))
         if isinstance(value, list):
             meshes[name] = [folder / file for file in value]
             for file in meshes[name]:
@@ -158,19 +163,22 @@ def read_meshes(table, bodies, folder):
             meshes[name] = generated(Table(value, table.lines, f"mesh.{name}", f"mesh {name}"))
     lengths = {len(each) for each in meshes.values()}
     if len(lengths) > 1:
-        raise StudyError(f"{table.lines.place('mesh')}: mesh: {', '.join(f'{k}: {len(v)}' for k, v in meshes.items())} "
-                         "levels, expected as many for each body")
+        raise StudyError(f"{table.lines.place('mesh')}: mesh: "
+                         f"{', '.join(f'{k}: {len(v)}' for k, v in meshes.items())} levels, expected as many "
+                         "for each body")
     return meshes, lengths.pop()
 
 
 def generated(table):
     def is_cells(value):
-        return is_count(1)(value) or (isinstance(value, list) and len(value) == 2 and all(map(is_count(1), value)))
+        return is_count(1)(value) or (isinstance(value, list) and len(value) == 2
+                                      and all(map(is_count(1), value)))
 
     def is_point(value):
         return isinstance(value, list) and len(value) == 2 and all(map(is_number, value))
     kind = table.take("kind", "one of " + ", ".join(KINDS), lambda v: v in KINDS, "crisscross")
-    cells = table.take("cells", "a list of N or [NX, NY], one a level", lambda v: isinstance(v, list) and v and
+    cells = table.take("cells", "a list of N or [NX, NY], one a level",
+                       lambda v: isinstance(v, list) and v and
                        all(map(is_cells, v)))
     lower = table.take("lower", "[X, Y]", is_point)
     upper = table.take("upper", "[X, Y]", is_point)
@@ -183,8 +191,8 @@ def read_sweep(table, index, levels, lines):
     table.words = f"sweep {name}"
     axes = read_axes(table, levels, single=False)
     if "steps" in axes and "tolerance" in axes:
-        raise StudyError(f"{lines.place(f'sweep.{index}.tolerance')}: {table.words}: steps and tolerance, expected one of "
-                         "them (steps are chosen by the tolerance)")
+        raise StudyError(f"{lines.place(f'sweep.{index}.tolerance')}: {table.words}: steps and tolerance, "
+                         "expected one of them (steps are chosen by the tolerance)")
     cases = [Case(tuple(sorted(zip(axes, values)))) for values in itertools.product(*axes.values())]
     return Sweep(name, cases)
 
@@ -195,7 +203,8 @@ def read_comparison(table, errors, sweeps):
     at = table.take("at", "a number > 0", lambda v: is_number(v) and v > 0)
     sides = []
     for side in ("dear", "cheap"):
-        value = table.take(side, "a sweep, or { sweep, and values of its axes }", lambda v: is_text(v) or isinstance(v, dict))
+        value = table.take(side, "a sweep, or { sweep, and values of its axes }",
+                           lambda v: is_text(v) or isinstance(v, dict))
         value = {"sweep": value} if isinstance(value, str) else dict(flattened(value))
         if value.get("sweep") not in sweeps:
             raise table.fault(side, value.get("sweep", value), "one of the sweeps " + ", ".join(sweeps))

@@ -28,8 +28,8 @@ class Cost:
 
 
 def measured(command, timeout=None, cwd=None, environment=None):
-    """Runs a command to its end: its cost and its output. RunFailure with its reason when it fails, Stopped when the
-    study is stopped."""
+    """Runs a command to its end: its cost and its output. RunFailure with its reason when it fails, Stopped
+    when the study is stopped."""
     command = [str(word) for word in command]
     read_end, write_end = os.pipe()
     try:
@@ -68,7 +68,8 @@ def measured(command, timeout=None, cwd=None, environment=None):
     if late.is_set():
         raise RunFailure(f"stopped after {timeout:g} s")
     if len(facts) != 4 or facts[0] != "0":
-        raise RunFailure(last_words(output) or f"{command[0]} ended with code {facts[0] if facts else process.returncode}")
+        raise RunFailure(last_words(output)
+                         or f"{command[0]} ended with code {facts[0] if facts else process.returncode}")
     return Cost(*map(float, facts[1:])), output
 
 

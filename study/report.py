@@ -11,13 +11,15 @@ from problems import shown
 STYLE = """body{font:15px/1.5 system-ui,sans-serif;color:#222;max-width:62em;margin:2em auto;padding:0 1em}
 h1{font-size:1.5em}h2{font-size:1.15em;margin-top:2em}img{max-width:100%;height:auto}
 table{border-collapse:collapse;font-size:12.5px;display:block;overflow-x:auto;white-space:nowrap}
-td,th{padding:2px 9px;text-align:right;border-bottom:1px solid #ddd}td:first-child,th:first-child{text-align:left}
+td,th{padding:2px 9px;text-align:right;border-bottom:1px solid #ddd}
+td:first-child,th:first-child{text-align:left}
 th{background:#f5f5f5}tr.failed td{color:#a11}td.reason{text-align:left;white-space:normal;min-width:20em}
 pre{background:#f7f7f7;padding:.8em;overflow-x:auto;font-size:12.5px}small{color:#666}"""
 
 
 def cells(values, tag="td", kind=""):
-    return f"<tr{f' class={kind}' if kind else ''}>" + "".join(f"<{tag}>{html.escape(shown(v))}</{tag}>" for v in values) \
+    return f"<tr{f' class={kind}' if kind else ''}>" + "".join(f"<{tag}>{html.escape(shown(v))}</{tag}>"
+                                                               for v in values) \
         + "</tr>"
 
 
@@ -49,12 +51,15 @@ def page(plan, rows, series, levels, pictures, files):
     """pictures: (title, name); files: their bytes by name."""
     failed = [row for row in rows if row["status"] != table.DONE]
     parts = [f"<!DOCTYPE html><html lang=en><meta charset=utf-8><title>{html.escape(plan.title)}</title>"
-             f"<style>{STYLE}</style><h1>{html.escape(plan.title)}</h1><p><small>{html.escape(shown(plan.path.name))}, scene "
+             f"<style>{STYLE}</style><h1>{html.escape(plan.title)}</h1>"
+             f"<p><small>{html.escape(shown(plan.path.name))}, scene "
              f"{html.escape(shown(plan.scene.name))}; {len(rows)} runs, {len(failed)} without a result; "
-             f"{html.escape(machine())}, up to {html.escape(shown(max((str(row.get('at_once', 1)) for row in rows), default=1)))} runs at once, "
-             f"each figure the median of {plan.repeat}.</small></p>"]
+             f"{html.escape(machine())}, up to "
+             f"{html.escape(shown(max((str(row.get('at_once', 1)) for row in rows), default=1)))} runs at "
+             f"once, each figure the median of {plan.repeat}.</small></p>"]
     if plan.comparisons:
-        lines = [line for found in analysis.comparisons(plan, series) for line in analysis.comparison_text(*found)]
+        lines = [line for found in analysis.comparisons(plan, series)
+                 for line in analysis.comparison_text(*found)]
         parts.append("<h2>Cost at equal error</h2><pre>" + html.escape("\n".join(lines)) + "</pre>")
     for title, name in pictures:
         picture = base64.b64encode(files[f"{name}.svg"]).decode()
@@ -63,8 +68,9 @@ def page(plan, rows, series, levels, pictures, files):
     parts.append("<h2>Fitted orders</h2><table>" + cells(("series", "error", "order", "in", "runs"), "th"))
     parts += [cells(row) for row in order_rows(plan, [*series, *levels])]
     columns = [c for c in table.columns(plan) if c not in ("key", "at_once")]
-    parts.append("</table><p><small>Least squares in logarithms; h is taken as dofs^(-1/2); relative errors below "
-                 f"{analysis.ROUNDING:g} are left out.</small></p><h2>Runs</h2><table>" + cells(columns, "th"))
+    parts.append("</table><p><small>Least squares in logarithms; h is taken as dofs^(-1/2); relative "
+                 f"errors below {analysis.ROUNDING:g} are left out.</small></p><h2>Runs</h2><table>"
+                 + cells(columns, "th"))
     for row in rows:
         parts.append(cells((short(c, row.get(c, "")) for c in columns),
                            kind="failed" if row["status"] != table.DONE else ""))

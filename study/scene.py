@@ -31,7 +31,8 @@ def load(path, settings=()):
 
 
 def take_sides(document, script):
-    """The sides of every contact as the program decided them: it names them in the script that it wrote for FreeFEM."""
+    """The sides of every contact as the program decided them:
+    it names them in the script that it wrote for FreeFEM."""
     rows = re.search(r"^int\[int, int\] contact = \[(.*)\];$", script, re.MULTILINE)
     for contact, row in zip(document["contact"], re.findall(r"\[([^\[\]]+)\]", rows[1])):
         first, first_label, second, second_label = map(int, row.split(","))
@@ -57,7 +58,8 @@ def change(table, path, value):
     if isinstance(inside, dict):
         change(inside, rest, value)
         return
-    chosen = [each for i, each in enumerate(inside) if rest[0] in (str(each.get("name", each.get("label", i))),)]
+    chosen = [each for i, each in enumerate(inside)
+              if rest[0] in (str(each.get("name", each.get("label", i))),)]
     for each in chosen or inside:
         change(each, rest[1:] if chosen else rest, value)
 
@@ -111,6 +113,18 @@ class Mesh:
             line.append(onward[0])
             seen.add(onward[0])
         return np.array(line)
+
+    def with_middles(self):
+        """Points of quadratic triangles, with straight sides: the vertices, then the middles as triangles
+        name their sides 0-1, 1-2, 2-0 first; and triangles x 6."""
+        sides = np.sort(np.stack([self.triangles, np.roll(self.triangles, -1, 1)], -1).reshape(-1, 2), 1)
+        _, first, number = np.unique(sides, axis=0, return_index=True, return_inverse=True)
+        order = np.argsort(first)
+        place = np.empty(len(first), int)
+        place[order] = np.arange(len(first))
+        middles = self.points[sides[np.sort(first)]].mean(1)
+        elements = np.column_stack([self.triangles, len(self.points) + place[number.reshape(-1, 3)]])
+        return np.concatenate([self.points, middles]), elements
 
     def areas(self):
         a, b, c = (self.points[self.triangles[:, i]] for i in range(3))

@@ -1,4 +1,5 @@
-"""The file of a study: its tables, from which keys are taken one by one, and the lines on which they stand."""
+"""The file of a study: its tables, from which keys are taken one by one,
+and the lines on which they stand."""
 import difflib
 import json
 import re
@@ -55,7 +56,8 @@ class Table:
         if key not in self.values:
             if default is REQUIRED:
                 place = self.lines.place(self.path)
-                raise StudyError(f"{place}: {self.words + ': ' if self.words else ''}{key} is missing, expected {expected}")
+                raise StudyError(f"{place}: {self.words + ': ' if self.words else ''}{key} is missing, "
+                                 f"expected {expected}")
             return default
         value = self.values.pop(key)
         if not test(value):
@@ -81,7 +83,8 @@ class Table:
             near = difflib.get_close_matches(key, self.known, 1)
             place = self.lines.place(f"{self.path}.{key}".strip("."))
             subject = f"{self.words}: " if self.words else ""
-            raise StudyError(f"{place}: {subject}unknown key {key}, " + (f"did you mean {near[0]}? Expected" if near
+            raise StudyError(f"{place}: {subject}unknown key {key}, " + (f"did you mean {near[0]}? Expected"
+                                                                         if near
                              else "expected") + f" one of {', '.join(self.known)}")
 
 

@@ -28,7 +28,8 @@ class Runner:
         if not open_cases:
             return self.rows
         self.meshes = codes.make_meshes(self.plan, self.folder.passing("meshes"))
-        needed = list(dict.fromkeys(self.reference_of(case) for case in open_cases)) if self.plan.reference is not None \
+        needed = list(dict.fromkeys(self.reference_of(case)
+                                    for case in open_cases)) if self.plan.reference is not None \
             else []
         self.each(needed, self.solve_reference)
         self.each(open_cases, self.solve)
@@ -55,7 +56,8 @@ class Runner:
 
     def solve_reference(self, case):
         try:
-            outcome = codes.run(case, self.plan.scene, self.meshes, self.folder.passing("runs") / f"reference-{self.plan.key(case)}")
+            outcome = codes.run(case, self.plan.scene, self.meshes,
+                                self.folder.passing("runs") / f"reference-{self.plan.key(case)}")
             self.references[case] = outcome.run
             self.say(f"reference  {case}: {outcome.cost.wall_time:.2f} s")
         except RunFailure as error:
@@ -67,10 +69,12 @@ class Runner:
         row = {"key": key, **dict(case.values), "at_once": self.jobs}
         folder = self.folder.passing("runs") / key
         try:
-            outcome = codes.run(case, self.plan.scene, self.meshes, folder, self.plan.timeout, self.plan.repeat)
+            outcome = codes.run(case, self.plan.scene, self.meshes, folder, self.plan.timeout,
+                                self.plan.repeat)
             row |= {"triangles": outcome.triangles, "dofs": outcome.dofs, "time_steps": outcome.steps,
                     "iterations": outcome.iterations, "wall_time[s]": f"{outcome.cost.wall_time:.4f}",
-                    "processor_time[s]": f"{outcome.cost.processor_time:.4f}", "memory[MiB]": f"{outcome.cost.memory:.1f}"}
+                    "processor_time[s]": f"{outcome.cost.processor_time:.4f}",
+                    "memory[MiB]": f"{outcome.cost.memory:.1f}"}
             row |= self.errors(case, outcome.run)
             row |= {"status": table.DONE}
         except RunFailure as error:
@@ -83,7 +87,8 @@ class Runner:
         words = ", ".join(f"{name.removeprefix('error ')} {float(value):.2e}" for name, value in row.items()
                           if name.startswith("error "))
         self.say(f"{done:>4}/{len(self.plan.cases())}  {case}: "
-                 + (f"{words}; {row['wall_time[s]']} s" if row["status"] == table.DONE else f"failed: {row['reason']}"))
+                 + (f"{words}; {row['wall_time[s]']} s" if row["status"] == table.DONE
+                    else f"failed: {row['reason']}"))
 
     def errors(self, case, run):
         settings = codes.settings_of(case, self.meshes)
@@ -93,6 +98,7 @@ class Runner:
             truth = self.references[self.reference_of(case)]
             if isinstance(truth, RunFailure):
                 raise RunFailure(f"the reference run failed: {truth}")
-        return {f"error {each.name}": repr(measure.error_of(each, run, truth, scenes.materials(document), self.plan.let,
+        return {f"error {each.name}": repr(measure.error_of(each, run, truth, scenes.materials(document),
+                                                            self.plan.let,
                                                            float(document["time"]["end"])))
                 for each in self.plan.errors}

@@ -5,10 +5,10 @@ from pathlib import Path
 
 from problems import StudyError
 
-COSTS = {"wall_time": "wall_time[s]", "processor_time": "processor_time[s]", "memory": "memory[MiB]", "dofs": "dofs",
-         "iterations": "iterations"}
-AFTER = ("status", "reason", "triangles", "dofs", "time_steps", "iterations", "wall_time[s]", "processor_time[s]",
-         "memory[MiB]", "at_once")
+COSTS = {"wall_time": "wall_time[s]", "processor_time": "processor_time[s]", "memory": "memory[MiB]",
+         "dofs": "dofs", "iterations": "iterations"}
+AFTER = ("status", "reason", "triangles", "dofs", "time_steps", "iterations", "wall_time[s]",
+         "processor_time[s]", "memory[MiB]", "at_once")
 DONE = "done"
 FAILED = "failed"
 
@@ -39,7 +39,8 @@ def read(path):
 
 def is_done(row):
     values = [column for column in row if column in COSTS.values() or str(column).startswith("error ")]
-    return row.get("status") == DONE and None not in row and all(row[each] == "" or number(row, each) is not None
+    return row.get("status") == DONE and None not in row and all(row[each] == ""
+                                                                 or number(row, each) is not None
                                                                   for each in values)
 
 

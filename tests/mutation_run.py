@@ -3,10 +3,10 @@
 
     tests/mutation_run.py [--only TEXT] [--first N] [--labels unit,theory,compare] [--folder DIR]
 
-The faults stand in tests/mutations.txt. Everything happens on a copy of the tracked files in DIR, with a build folder
-that is kept. A fault costs the files that hold it, and each test is linked when its turn comes. Only tests are run that
-use the layer of the fault, unit tests that include it first, until one fails, crashes or computes for more than two
-minutes. In the end those that did must pass without a fault.
+The faults stand in tests/mutations.txt. Everything happens on a copy of the tracked files in DIR, with a
+build folder that is kept. A fault costs the files that hold it, and each test is linked when its turn comes.
+Only tests are run that use the layer of the fault, unit tests that include it first, until one fails, crashes
+or computes for more than two minutes. In the end those that did must pass without a fault.
 """
 import argparse
 import os
@@ -21,6 +21,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 LABELS = ("unit", "theory", "compare")
+LOADED = {"FAILING_CALLS": "failing-calls", "DEAF_METIS": "deaf-metis"}  # libraries that scripts load
 LIMIT = 120  # seconds of a processor that a process of a test may take
 
 def faults():
@@ -43,11 +44,13 @@ class Tree:
 
     def __init__(self, folder, labels):
         self.source, self.build = folder, folder / "build"
-        listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+        listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True,
+                                text=True).stdout
         names = [name for name in listed.split("\0") if name and (ROOT / name).is_file()]
         for name in names:
             self.refresh(name)
-        for old in [path for part in ("cpp", "tests") for path in (self.source / part).rglob("*") if path.is_file()]:
+        for old in [path for part in ("cpp", "tests") for path in (self.source / part).rglob("*")
+                    if path.is_file()]:
             if str(old.relative_to(self.source)) not in names:
                 old.unlink()
         self.tests = {path.stem: label for label in labels
@@ -57,7 +60,8 @@ class Tree:
         self.run("cmake", "-S", self.source, "-B", self.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release")
 
     def refresh(self, name):
-        """The file as it is in the tree; one that is the same keeps its time, so that nothing is built again."""
+        """The file as it is in the tree; one that is the same keeps its time,
+        so that nothing is built again."""
         target, content = self.source / name, (ROOT / name).read_bytes()
         if not target.is_file() or target.read_bytes() != content:
             target.parent.mkdir(parents=True, exist_ok=True)
@@ -111,17 +115,18 @@ class Tree:
         script = self.script(test)
         if script:
             command = ["/usr/bin/python3", script, "-f"]
-            if not self.make("mortier") or not self.make("failing-calls"):
+            if not all(map(self.make, ("mortier", *LOADED.values()))):
                 return "does not compile"
         elif not self.make(test):
             return "does not compile"
         else:
             command = [self.build / "tests" / test, "--gtest_fail_fast", "--gtest_brief=1"]
-        environment = dict(os.environ, MORTIER=str(self.build / "mortier"), MORTIER_ROOT=str(self.source),
-                           FAILING_CALLS=str(self.build / "tests/libfailing-calls.so"))
+        environment = dict(os.environ, MORTIER=str(self.build / "mortier"), MORTIER_ROOT=str(self.source))
+        environment |= {name: str(self.build / f"tests/lib{target}.so") for name, target in LOADED.items()}
         begin = time.monotonic()
         process = subprocess.Popen(command, cwd=self.build, env=environment, start_new_session=True,
-                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL,
                                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT)))
         try:
             status = process.wait(30 * LIMIT)
@@ -160,11 +165,15 @@ class Tree:
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--only", metavar="TEXT", default="", help="faults with this in their file, text or change")
-    parser.add_argument("--first", type=int, default=1, metavar="N", help="number of the first fault that is injected")
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--only", metavar="TEXT", default="",
+                        help="faults with this in their file, text or change")
+    parser.add_argument("--first", type=int, default=1, metavar="N",
+                        help="number of the first fault that is injected")
     parser.add_argument("--labels", default=",".join(LABELS), help="of the tests that may see a fault (all)")
-    parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "build-mutations", help="build-mutations/")
+    parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "build-mutations",
+                        help="build-mutations/")
     options = parser.parse_args()
     tree = Tree(options.folder.resolve(), options.labels.split(","))
     by_test, missed, broken = {}, [], []
@@ -194,7 +203,8 @@ def main():
             print(f"{test} {failure} without a fault: what it saw does not count")
             missed += names
     total = len(missed) + sum(len(names) for names in by_test.values() if not set(names) & set(missed))
-    print(f"\n{total - len(missed)} of {total} faults are seen ({100 - 100 * len(missed) / max(total, 1):.1f} %)")
+    print(f"\n{total - len(missed)} of {total} faults are seen "
+          f"({100 - 100 * len(missed) / max(total, 1):.1f} %)")
     for name in missed:
         print(f"not seen  {name}")
     return 1 if missed or broken else 0

@@ -23,7 +23,8 @@ def numbers(count):
         except ValueError:
             values = []
         if len(values) != count or not all(map(math.isfinite, values)):
-            raise argparse.ArgumentTypeError(f"{text}: expected {count} numbers" if count > 1 else f"{text}: expected a number")
+            raise argparse.ArgumentTypeError(f"{text}: expected {count} numbers"
+                                             if count > 1 else f"{text}: expected a number")
         return values
     return read
 
@@ -76,7 +77,8 @@ def plot(given):
     if given.window and not (given.window[0] < given.window[1] and given.window[2] < given.window[3]):
         raise Wrong("--window: expected XMIN,XMAX,YMIN,YMAX, each minimum below its maximum")
     if given.animate and max(len(result.kept) for result in results) < 2:
-        raise Wrong(f"{given.results[0]}: --animate: one step was kept only (mortier run --set output.every=1 keeps all)")
+        raise Wrong(f"{given.results[0]}: --animate: one step was kept only (mortier run --set "
+                    "output.every=1 keeps all)")
     folder = given.out or files.beside(given.results, ".plots")
     single = folder.suffix[1:] if folder.suffix in (".png", ".svg", ".gif") else None
     if single == "gif" and not given.animate:
@@ -89,16 +91,19 @@ def plot(given):
     made = {}
     with pictures.plt.rc_context(pictures.STYLE):
         if given.animate:
-            made[folder if single else folder / "animation.gif"] = images.animation(results, given.field, scale, given.window)
+            made[folder if single else folder / "animation.gif"] = images.animation(results, given.field,
+                                                                                    scale, given.window)
         wanted = [] if given.animate and (single or not given.only) else [given.only] if given.only else \
             ["fields"] if single else PICTURES
         for name in wanted:
             figure = {"fields": lambda: pictures.fields(views, given.field, scale, given.window),
-                      "contact": lambda: pictures.contact(views), "history": lambda: pictures.history(views)}[name]()
+                      "contact": lambda: pictures.contact(views),
+                      "history": lambda: pictures.history(views)}[name]()
             if figure is None:
                 if given.only:
                     raise Wrong(f"{given.results[0]}: nothing to draw: "
-                                    f"{'no contact' if name == 'contact' else 'fewer than two steps'} in this run")
+                                    f"{'no contact' if name == 'contact' else 'fewer than two steps'} in "
+                                    "this run")
                 continue
             for kind in (single,) if single else ("png", "svg"):
                 made[folder if single else folder / f"{name}.{kind}"] = images.picture(figure, kind)
@@ -131,7 +136,8 @@ def compare(given):
     if given.within is not None and not given.within > 0:
         raise Wrong("--within: expected a number above 0")
     if given.accept and (given.against or given.picture or given.within is not None):
-        raise Wrong("--accept: keeps a result and compares nothing, expected no --against, --within or --picture")
+        raise Wrong("--accept: keeps a result and compares nothing, expected no --against, --within "
+                    "or --picture")
     if given.within is not None and not given.against:
         raise Wrong("--within: for --against only; both codes agree to rounding")
     if given.picture and given.picture.suffix not in (".png", ".svg"):
@@ -146,7 +152,8 @@ def compare(given):
 def last_words(text):
     """The messages of a run that failed, which is the program itself: as they are."""
     lines = text.strip().splitlines()
-    return "".join(f"{line}\n" for line in [each for each in lines if each.startswith("mortier: ")] or lines[-8:])
+    return "".join(f"{line}\n" for line in [each for each in lines if each.startswith("mortier: ")]
+                   or lines[-8:])
 
 
 def view(given):

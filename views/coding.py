@@ -1,8 +1,8 @@
 """Fields as few bytes: decimals of a fixed place, predicted, deflated. views/page/data.js reads them back.
 
-An array of numbers becomes integers times 10^e, with so many digits for its largest value; what is kept is what a
-prediction misses: from the number before it, from the same place one step earlier, or from two steps as if they went
-on. Signs are folded into the last bit
+An array of numbers becomes integers times 10^e, with so many digits for its largest value; what is kept is
+what a prediction misses: from the number before it, from the same place one step earlier, or from two steps
+as if they went on. Signs are folded into the last bit
 (0, -1, 1, -2, ... become 0, 1, 2, 3, ...) and bytes of the same weight stand together.
 """
 import base64
@@ -65,14 +65,16 @@ class Block:
                 if (last_but_one := self.back(2, e)) is not None:
                     tries.append((ONWARD, 2 * last - last_but_one))
         packed = [(*folded(q - prediction), how) for how, prediction in tries]
-        data, weights, how = min(packed, key=lambda each: len(deflated(each[0], 1))) if len(packed) > 1 else packed[0]
+        data, weights, how = (min(packed, key=lambda each: len(deflated(each[0], 1)))
+                              if len(packed) > 1 else packed[0])
         self.integers.append((q, e))
         self.forms.append([e, how, weights])
         self.parts.append(data)
         return q, e
 
     def back(self, steps, e):
-        """The integers of the same array so many steps earlier, times 10^e here; None where they are too different."""
+        """The integers of the same array so many steps earlier, times 10^e here;
+        None where they are too different."""
         block = self.earlier if steps == 1 else self.earlier and self.earlier.earlier
         if block is None:
             return None

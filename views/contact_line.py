@@ -1,7 +1,8 @@
 """The line of contact of an interface, and what lies about it in coordinates of that line.
 
-Abscissa: the length along the nonmortar line as meshed, or x or y where that grows along the whole line. Ordinate: the
-distance from it, the nonmortar body above. On a straight line this is a rotation; on a curve it is the curve unrolled.
+Abscissa: the length along the nonmortar line as meshed, or x or y where that grows along the whole line.
+Ordinate: the distance from it, the nonmortar body above. On a straight line this is a rotation; on a curve it
+is the curve unrolled.
 """
 import numpy as np
 
@@ -17,8 +18,8 @@ def boundary_edges(triangles):
 
 class ContactLine:
     def __init__(self, run, nonmortar, mortar, rows, scale=1.0):
-        """rows: of run.contact, the nodes of the line in its order, the nonmortar body to the left; scale: of the
-        displacements in the traces of both sides."""
+        """rows: of run.contact, the nodes of the line in its order, the nonmortar body to the left; scale: of
+        the displacements in the traces of both sides."""
         self.scale = scale
         self.nonmortar, self.mortar = nonmortar, mortar
         across = run.contact.position[rows[-1]] - run.contact.position[rows[0]]
@@ -34,7 +35,8 @@ class ContactLine:
                 self.abscissa, self.name = values, name
                 break
         contact = run.contact
-        self.gap, self.force, self.pressure = contact.gap[self.rows], contact.force[self.rows], contact.pressure[self.rows]
+        self.gap, self.force, self.pressure = contact.gap[self.rows], contact.force[
+            self.rows], contact.pressure[self.rows]
 
         # Segments of the polygon, and normals at its nodes: the mean of those beside a node.
         ends = np.flatnonzero(np.diff(self.lengths) > 0)
@@ -55,13 +57,14 @@ class ContactLine:
         self.nonmortar_trace = self.placed(self.points, moved)
         vertices, corners = np.unique(edges, return_inverse=True)
         points, theirs = other.points[vertices], other.displacement[vertices]
-        self.mortar_trace = self.placed(points, theirs)[corners.reshape(-1, 2)] if len(edges) else np.zeros((0, 2, 2))
+        self.mortar_trace = (self.placed(points, theirs)[corners.reshape(-1, 2)]
+                             if len(edges) else np.zeros((0, 2, 2)))
         self.jump = self.jump_along(moved, points, theirs) if len(edges) else None
 
     def jump_along(self, ours, points, theirs):
-        """Abscissae, and there the gap between the nodes of both sides, where they coincide as meshed: u1.n1 + u2.n2 with
-        its sign turned, exact, for both traces are linear between the abscissae. None where they do not coincide, or
-        where the scene gives another distance than that as meshed."""
+        """Abscissae, and there the gap between the nodes of both sides, where they coincide as meshed:
+        u1.n1 + u2.n2 with its sign turned, exact, for both traces are linear between the abscissae. None
+        where they do not coincide, or where the scene gives another distance than that as meshed."""
         length, foot, _, normal, _ = self.frame(points)
         small = 1e-9 * self.lengths[-1]
         if np.abs(((points - foot) * normal).sum(-1)).max() > small:
@@ -71,12 +74,14 @@ class ContactLine:
         at = at[(at >= length.min()) & (at <= length.max()) & (at >= 0) & (at <= self.lengths[-1])]
         gap = np.interp(at, length[order], (theirs * normal).sum(-1)[order]) - \
             np.interp(at, self.lengths, (ours * self.normals).sum(-1))
-        if len(at) < 2 or abs(np.median(np.interp(self.lengths, at, gap) - self.gap)) > 0.5 * np.ptp(gap) + small:
+        if len(at) < 2 or abs(np.median(np.interp(self.lengths, at,
+                                                  gap) - self.gap)) > 0.5 * np.ptp(gap) + small:
             return None
         return np.interp(at, self.lengths, self.abscissa), gap
 
     def nearest(self, points):
-        """Segment and position on it, 0 to 1, of the nearest point of the line; and whether it is beyond an end."""
+        """Segment and position on it, 0 to 1, of the nearest point of the line;
+        and whether it is beyond an end."""
         relative = points[:, None, :] - self.start
         position = np.clip((relative * self.along).sum(-1) / self.length, 0, 1)
         offset = relative - (position * self.length)[..., None] * self.along
@@ -88,7 +93,8 @@ class ContactLine:
         return segment, position[each, segment], beyond
 
     def frame(self, points):
-        """Length along the line, point on it, unit tangent and normal out of the nonmortar body, for points near it."""
+        """Length along the line, point on it, unit tangent and normal out of the nonmortar body,
+        for points near it."""
         segment, position, beyond = self.nearest(points)
         node = self.segments[segment]
         normal = (1 - position)[:, None] * self.normals[node] + position[:, None] * self.normals[node + 1]
@@ -106,8 +112,10 @@ class ContactLine:
         length, foot, tangent, normal, _ = self.frame(points)
         distance = ((points - foot) * normal).sum(-1)
         x = np.interp(length, self.lengths, self.abscissa)
-        x += np.where(length < 0, length, 0) + np.where(length > self.lengths[-1], length - self.lengths[-1], 0)
-        return np.stack([x + (displacement * tangent).sum(-1), -distance - (displacement * normal).sum(-1)], 1)
+        beyond = length - self.lengths[-1]
+        x += np.where(length < 0, length, 0) + np.where(beyond > 0, beyond, 0)
+        return np.stack([x + (displacement * tangent).sum(-1), -distance - (displacement * normal).sum(-1)],
+                        1)
 
     def facing_edges(self, other):
         """Boundary edges of the mortar body that face the line, as pairs of vertices."""
@@ -121,13 +129,15 @@ class ContactLine:
             return edges
         ends = other.points[edges]
         vector = ends[:, 1] - ends[:, 0]
-        outward = np.stack([vector[:, 1], -vector[:, 0]], 1) / np.maximum(np.hypot(*vector.T), 1e-300)[:, None]
+        outward = np.stack([vector[:, 1], -vector[:, 0]], 1) / np.maximum(np.hypot(*vector.T),
+                                                                          1e-300)[:, None]
         _, foot, _, normal, beyond = self.frame(ends.mean(1))
         near = np.hypot(*(ends.mean(1) - foot).T) < reach
         return edges[((outward * normal).sum(-1) < FACING) & near & ~beyond]
 
     def window(self):
-        """The part of the line that is worth a closer look: contact and half its width beside it, or all of it."""
+        """The part of the line that is worth a closer look: contact and half its width beside it,
+        or all of it."""
         low, high = self.abscissa[0], self.abscissa[-1]
         active = self.abscissa[self.force > 0]
         if len(active):

@@ -1,6 +1,7 @@
 """Files that the program writes beside a result: whole or not at all, and never in place of a file of others.
 
-Each carries a seal, the SHA-256 of the rest: what has another one, or none, was made or changed by somebody else.
+Each carries a seal, the SHA-256 of the rest: what has another one, or none,
+was made or changed by somebody else.
 """
 import hashlib
 import os
@@ -41,7 +42,8 @@ def put(files):
     """path -> bytes: all of them, or where one cannot be written none that was not there before."""
     for path in files:
         if (path.exists() or path.is_symlink()) and not is_own(path):
-            raise Wrong(f"{path}: in the way, and no file of mortier or changed since; expected another --out")
+            raise Wrong(f"{path}: in the way, and no file of mortier or changed since; expected "
+                        "another --out")
     new = {}
     try:
         for path, data in files.items():

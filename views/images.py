@@ -39,7 +39,8 @@ def animation(results, field_name, scale, window):
 
 
 def gif(frames):
-    """Frames, PNG each, to one GIF: of three seconds or 12 frames a second, and two seconds for the last one."""
+    """Frames, PNG each, to one GIF: of three seconds or 12 frames a second,
+    and two seconds for the last one."""
     opened = [Image.open(io.BytesIO(frame)).convert("RGB") for frame in frames]
     palette = opened[-1].quantize(255)
     first, *others = [each.quantize(palette=palette, dither=Image.Dither.NONE) for each in opened]
@@ -65,5 +66,6 @@ def small(png, width=None):
     out, image = io.BytesIO(), Image.open(io.BytesIO(png)).convert("RGB")
     if width and image.width > width:
         image = image.resize((width, round(image.height * width / image.width)), Image.Resampling.LANCZOS)
-    image.quantize(255, Image.Quantize.MAXCOVERAGE, kmeans=2, dither=Image.Dither.NONE).save(out, "png", optimize=True)
+    image.quantize(255, Image.Quantize.MAXCOVERAGE, kmeans=2,
+                   dither=Image.Dither.NONE).save(out, "png", optimize=True)
     return out.getvalue()

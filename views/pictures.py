@@ -16,24 +16,27 @@ from runs import natural_scale  # noqa: E402
 
 INK, MUTED, MESH, GRID = "#222222", "#777777", "#55555a", "#dddddd"
 NONMORTAR, MORTAR = "#b0128a", "#0b7a3b"
-OF_RUNS = [("#0072b2", "o", 2.6), ("#d55e00", "s", 1.4), ("#009e73", "^", 1.2), ("#cc79a7", "D", 1.0)]  # colour, marker, width
+# colour, marker, width
+OF_RUNS = [("#0072b2", "o", 2.6), ("#d55e00", "s", 1.4), ("#009e73", "^", 1.2), ("#cc79a7", "D", 1.0)]
 COLOURS, SIGNED_COLOURS = "viridis", "RdBu_r"
 STYLE = {
     "font.family": "DejaVu Sans", "font.size": 9, "axes.titlesize": 10.5, "axes.labelsize": 9,
     "text.color": INK, "axes.labelcolor": INK, "xtick.color": INK, "ytick.color": INK,
     "axes.edgecolor": MUTED, "axes.linewidth": 0.7, "xtick.labelsize": 8, "ytick.labelsize": 8,
-    "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True, "grid.color": GRID, "grid.linewidth": 0.6,
-    "legend.fontsize": 8, "legend.frameon": False, "savefig.dpi": 150, "svg.hashsalt": "mortier", "svg.fonttype": "path",
-    "text.parse_math": False,  # titles and names are shown as they are
+    "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True, "grid.color": GRID,
+    "grid.linewidth": 0.6,
+    "legend.fontsize": 8, "legend.frameon": False, "savefig.dpi": 150, "svg.hashsalt": "mortier",
+    "svg.fonttype": "path", "text.parse_math": False,  # titles and names are shown as they are
 }
 FINE = 20_000  # triangles of a body
 ROUNDING = 1e-9  # of the largest value: what is less apart has one colour
-HISTORY = ("contact_force", "max_pressure", "von_mises_max", "displacement_max", "elastic_energy", "penetration",
-           "viscoplastic_fraction")
+HISTORY = ("contact_force", "max_pressure", "von_mises_max", "displacement_max", "elastic_energy",
+           "penetration", "viscoplastic_fraction")
 OF_A_FAILED_RUN = ("iterations", "material_residual", "force_balance")
-NOT_DRAWN = {"step", "time", "time_step", "estimate", "rejections", "guarded", "rung", "iterations", "factorisations", "active",
-             "joined", "left", "contact_resultant_x", "contact_resultant_y", "force_balance", "material_residual",
-             "gap_on_active", "sign", "complementarity", "open_penetration", "rounding"}
+NOT_DRAWN = {"step", "time", "time_step", "estimate", "rejections", "guarded", "rung", "iterations",
+             "factorisations", "active",
+             "joined", "left", "contact_resultant_x", "contact_resultant_y", "force_balance",
+             "material_residual", "gap_on_active", "sign", "complementarity", "open_penetration", "rounding"}
 
 
 @dataclass
@@ -62,7 +65,8 @@ def labelled(words, unit):
 
 
 def colours_of(field, values):
-    """Norm, colours and whether the scale ends below the largest value: a corner must not take all the colours."""
+    """Norm, colours and whether the scale ends below the largest value:
+    a corner must not take all the colours."""
     values = np.concatenate(values)
     low, high = values.min(), values.max()
     size = max(abs(low), abs(high))
@@ -90,23 +94,24 @@ def draw_bodies(axes, run, scale=1.0, values=None, norm=None, colours=None, by_v
         width = edge if edge is not None else min(0.3, 30 / np.sqrt(len(body.triangles)) / 10)
         if values is None:
             paint = np.full(len(body.triangles), 0.25 if i % 2 else 0.1)
-            axes.tripcolor(x, y, body.triangles, facecolors=paint, cmap="Greys", vmin=0, vmax=1, edgecolors=MESH,
-                           linewidth=max(width, 0.15))
+            axes.tripcolor(x, y, body.triangles, facecolors=paint, cmap="Greys", vmin=0, vmax=1,
+                           edgecolors=MESH, linewidth=max(width, 0.15))
         elif by_vertex:
-            axes.tripcolor(x, y, body.triangles, values[name], cmap=colours, norm=norm, shading="gouraud", rasterized=True)
+            axes.tripcolor(x, y, body.triangles, values[name], cmap=colours, norm=norm, shading="gouraud",
+                           rasterized=True)
             axes.triplot(x, y, body.triangles, color=MESH, lw=width)
         else:
             fine = len(body.triangles) > FINE  # edges would cover the colours
             axes.tripcolor(x, y, body.triangles, facecolors=values[name], cmap=colours, norm=norm,
-                           edgecolors="face" if fine else MESH, linewidth=0 if fine else width, rasterized=fine,
-                           antialiased=not fine)
+                           edgecolors="face" if fine else MESH, linewidth=0 if fine else width,
+                           rasterized=fine, antialiased=not fine)
 
 
 def draw_as_meshed(axes, run):
     """Outlines of the bodies as meshed, dashed."""
     for body in run.bodies.values():
-        axes.add_collection(LineCollection(body.points[boundary_edges(body.triangles)], colors=MUTED, linewidths=0.6,
-                                           linestyles=[(0, (4, 3))], zorder=3), autolim=False)
+        axes.add_collection(LineCollection(body.points[boundary_edges(body.triangles)], colors=MUTED,
+                                           linewidths=0.6, linestyles=[(0, (4, 3))], zorder=3), autolim=False)
 
 
 def draw_whole(axes, view, scale, window, field, values, norm, colours):
@@ -122,7 +127,8 @@ def draw_whole(axes, view, scale, window, field, values, norm, colours):
 
 def whole_window(views, scale):
     """What holds all bodies, deformed and as meshed, with a margin."""
-    points = np.concatenate([p for body in bodies_of(views) for p in (body.points, body.points + scale * body.displacement)])
+    points = np.concatenate([p for body in bodies_of(views)
+                             for p in (body.points, body.points + scale * body.displacement)])
     low, high = points.min(0), points.max(0)
     margin = 0.03 * (high - low).max()
     return low[0] - margin, high[0] + margin, low[1] - margin, high[1] + margin
@@ -165,8 +171,8 @@ def draw_magnified(axes, view, line, window, field, values, norm, colours):
         if field.by_vertex:
             axes.tripcolor(*placed.T, corners[sound], values[name][vertices], shading="gouraud", **style)
         else:
-            axes.tripcolor(*placed.T, corners[sound], facecolors=values[name][triangles[sound]], edgecolors=MESH,
-                           linewidth=0.3, **style)
+            axes.tripcolor(*placed.T, corners[sound], facecolors=values[name][triangles[sound]],
+                           edgecolors=MESH, linewidth=0.3, **style)
     hatch_penetration(axes, line)
     for edge in line.mortar_trace:
         axes.plot(*edge.T, color=MORTAR, lw=1.6, zorder=5, marker="s", ms=3.2, mfc="white")
@@ -182,18 +188,19 @@ def hatch_penetration(axes, line):
     across = line.mortar_trace.reshape(-1, 2)
     across = across[np.argsort(across[:, 0], kind="stable")]
     x = np.union1d(line.nonmortar_trace[:, 0], across[:, 0])
-    x = x[(x >= max(line.nonmortar_trace[0, 0], across[0, 0])) & (x <= min(line.nonmortar_trace[-1, 0], across[-1, 0]))]
+    x = x[(x >= max(line.nonmortar_trace[0, 0], across[0, 0])) & (x <= min(line.nonmortar_trace[-1, 0],
+                                                                           across[-1, 0]))]
     if len(x) < 2 or (np.diff(line.nonmortar_trace[:, 0]) < 0).any():
         return
     above, below = np.interp(x, *line.nonmortar_trace.T), np.interp(x, *across.T)
     if np.max(below - above) > ROUNDING * np.ptp(x):
-        axes.fill_between(x, above, below, where=below > above, interpolate=True, facecolor="none", edgecolor=INK,
-                          hatch="//////", linewidth=0, zorder=4)
+        axes.fill_between(x, above, below, where=below > above, interpolate=True, facecolor="none",
+                          edgecolor=INK, hatch="//////", linewidth=0, zorder=4)
 
 
 def fields(views, field_name="von_mises", scale=None, window=None, norm=None, colours=None, strips=True):
-    """One column a view: the deformed bodies, under them their lines of contact magnified. norm, colours: in place of
-    those that the values suggest."""
+    """One column a view: the deformed bodies, under them their lines of contact magnified. norm, colours: in
+    place of those that the values suggest."""
     field, values, cut = None, [None] * len(views), False
     if field_name != "none":
         field = views[0].result.fields(views[0].run)[field_name]
@@ -202,7 +209,8 @@ def fields(views, field_name="von_mises", scale=None, window=None, norm=None, co
         cut = natural[2] and norm is None
         norm, colours = norm or natural[0], colours or natural[1]
     scale = scale if scale is not None else natural_scale(bodies_of(views))
-    alike = all(list(each.run.bodies) == list(views[0].run.bodies) for each in views)  # else each has a window of its own
+    # else each has a window of its own
+    alike = all(list(each.run.bodies) == list(views[0].run.bodies) for each in views)
     windows = [window or whole_window(views if alike else [each], scale) for each in views]
     window = windows[0]
     lines = [each.result.lines(each.run, min(scale, 1.0))[:3] if strips else [] for each in views]
@@ -210,7 +218,8 @@ def fields(views, field_name="von_mises", scale=None, window=None, norm=None, co
     aspect = (window[3] - window[2]) / (window[1] - window[0])
     width = 4.2 if len(views) > 1 else min(5.6, max(3.6, 4.6 / aspect))
     heights = [min(max(width * aspect, 1.2), 9), *[0.42 * width] * rows]
-    figure = plt.figure(figsize=(len(views) * width + 1.3, sum(heights) + 0.55 + 0.35 * rows), layout="constrained")
+    figure = plt.figure(figsize=(len(views) * width + 1.3, sum(heights) + 0.55 + 0.35 * rows),
+                        layout="constrained")
     grid = figure.add_gridspec(1 + rows, len(views), height_ratios=heights)
     whole = []
     for i, (each, value) in enumerate(zip(views, values)):
@@ -225,10 +234,11 @@ def fields(views, field_name="von_mises", scale=None, window=None, norm=None, co
             shared = strip_window([of_run[k] for of_run in lines if len(of_run) > k] if alike else [line])
             draw_magnified(below, each, line, shared, field, value, norm, colours)
             below.set_ylabel("stretched")
-            below.set_title(f"contact: {line.nonmortar} (nonmortar, circles), {line.mortar} (squares)", loc="left", fontsize=8)
+            below.set_title(f"contact: {line.nonmortar} (nonmortar, circles), {line.mortar} (squares)",
+                            loc="left", fontsize=8)
     if field is not None:
-        figure.colorbar(ScalarMappable(norm, colours), ax=whole, label=labelled(field.words, field.unit), shrink=0.9,
-                        extend=("both" if field.signed else "max") if cut else "neither")
+        figure.colorbar(ScalarMappable(norm, colours), ax=whole, label=labelled(field.words, field.unit),
+                        shrink=0.9, extend=("both" if field.signed else "max") if cut else "neither")
     return figure
 
 
@@ -247,17 +257,19 @@ def mark_failure(axes, view, scale, name, triangle):
     """A circle where the last good state is closest to what the step could not follow."""
     body = view.run.bodies[name]
     corners = body.triangles[triangle]
-    axes.plot(*(body.points[corners] + scale * body.displacement[corners]).mean(0), marker="o", ms=16, mfc="none",
-              mec="#d00000", mew=1.8, zorder=9, clip_on=False)
+    axes.plot(*(body.points[corners] + scale * body.displacement[corners]).mean(0), marker="o", ms=16,
+              mfc="none", mec="#d00000", mew=1.8, zorder=9, clip_on=False)
 
 
 def contact(views, exact=None):
-    """Pressure and gap along the line of every interface, all views in one. exact: a pressure to draw beside them."""
+    """Pressure and gap along the line of every interface, all views in one. exact:
+    a pressure to draw beside them."""
     lines = [each.result.lines(each.run) for each in views]
     n = max(map(len, lines))
     if n == 0:
         return None
-    figure, axes = plt.subplots(2, n, figsize=(1.2 + 5.2 * n, 5.6), sharex="col", squeeze=False, layout="constrained")
+    figure, axes = plt.subplots(2, n, figsize=(1.2 + 5.2 * n, 5.6), sharex="col", squeeze=False,
+                                layout="constrained")
     for i, (each, of_view) in enumerate(zip(views, lines)):
         colour, marker, width = OF_RUNS[i % len(OF_RUNS)]
         style = {"color": colour, "marker": marker, "ms": 4.5, "mfc": "white", "lw": width}
@@ -289,7 +301,8 @@ def contact(views, exact=None):
     axes[0, 0].set_ylabel(labelled("contact pressure", views[0].result.stress_unit))
     axes[1, 0].set_ylabel(labelled("gap, marks: as the nodes see it", views[0].result.length_unit))
     words = time_words(views[0].result, views[0].step)
-    figure.suptitle(f"{views[0].result.title}, {words}" if len(views) == 1 else words, x=0.02, ha="left", fontsize=10.5)
+    figure.suptitle(f"{views[0].result.title}, {words}" if len(views) == 1 else words, x=0.02, ha="left",
+                    fontsize=10.5)
     return figure
 
 
@@ -303,7 +316,8 @@ def shown_beside(name, names):
 
 
 def history(views):
-    """Columns of history.csv against time, those that a scene adds too; of a failed run how hard its steps were as well."""
+    """Columns of history.csv against time, those that a scene adds too;
+    of a failed run how hard its steps were as well."""
     more = [name.split("[")[0] for name in views[0].result.history]
     columns = [*HISTORY, *[c for c in more if c not in NOT_DRAWN and c not in HISTORY],
                *[c for c in OF_A_FAILED_RUN if any(each.result.failed for each in views)]]
@@ -316,15 +330,16 @@ def history(views):
     if not shown or max(map(len, times)) < 2:
         return None
     rows = (len(shown) + 1) // 2
-    figure, axes = plt.subplots(rows, 2, figsize=(9.2, 0.6 + 1.9 * rows), sharex=True, squeeze=False, layout="constrained")
+    figure, axes = plt.subplots(rows, 2, figsize=(9.2, 0.6 + 1.9 * rows), sharex=True, squeeze=False,
+                                layout="constrained")
     for name, each in zip(shown, axes.flat):
         for i, (view, time) in enumerate(zip(views, times)):
             values = view.result.history.get(name)
             if values is None or not len(values):
                 continue
             colour, marker, width = OF_RUNS[i % len(OF_RUNS)]
-            each.plot(time, values, color=colour, lw=max(width, 1.2), marker=marker if len(time) < 60 else None, ms=3,
-                      label=label_of(view, views))
+            each.plot(time, values, color=colour, lw=max(width, 1.2),
+                      marker=marker if len(time) < 60 else None, ms=3, label=label_of(view, views))
         if name.split("[")[0] in ("material_residual", "force_balance") and all(
                 (view.result.history[name] > 0).any() for view in views if name in view.result.history):
             each.set_yscale("log")

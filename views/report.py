@@ -1,7 +1,7 @@
 """mortier report: results as one HTML file that needs nothing else and no network.
 
-The file holds data, a program and its looks (views/page). Text of the user's is in the data only, where no HTML is read, and
-is shown as text; a policy in the page lets the browser run nothing but the one program.
+The file holds data, a program and its looks (views/page). Text of the user's is in the data only, where no
+HTML is read, and is shown as text; a policy in the page lets the browser run nothing but the one program.
 """
 import base64
 import hashlib
@@ -20,7 +20,8 @@ from runs import extent, natural_scale
 
 PAGE = Path(__file__).resolve().parent / "page"
 PROGRAM = ("data.js", "controls.js", "bodies.js", "charts.js", "page.js")  # one after the other, one function
-TRIANGLES = 600_000  # of all kept steps together: beyond that steps are left out, so that the page stays small
+# of all kept steps together: beyond that steps are left out, so that the page stays small
+TRIANGLES = 600_000
 MANY = 200_000  # of the same: beyond that numbers have a digit less
 HISTORY_ROWS = 1500  # of a longer history some are left out
 SCENE_LETTERS = 200_000
@@ -47,7 +48,8 @@ def mesh_block(body):
         block.add(body.points[:, c], 7)
     first = body.triangles[:, 0]
     edges = boundary_edges(body.triangles)
-    for numbers in (first, body.triangles[:, 1] - first, body.triangles[:, 2] - first, edges[:, 0], edges[:, 1]):
+    for numbers in (first, body.triangles[:, 1] - first, body.triangles[:, 2] - first, edges[:, 0],
+                    edges[:, 1]):
         add_integers(block, numbers)
     add_integers(block, body.cells.get("region", np.zeros(len(body.triangles))))
     return block, len(edges)
@@ -60,7 +62,8 @@ def add_integers(block, numbers):
 
 
 def step_block(result, run, fields, earlier, many):
-    """The arrays of every body: ux, uy, the stress, von Mises stress predicted from it, and the rest by triangle."""
+    """The arrays of every body: ux, uy, the stress, von Mises stress predicted from it,
+    and the rest by triangle."""
     block = Block(earlier)
     values = {name: result.values(run, fields[name]) for name in order_of(fields)}
     for body in run.bodies:
@@ -75,7 +78,8 @@ def step_block(result, run, fields, earlier, many):
                 stress.append(found)
     ranges = {}
     for name in [*order_of(fields), "u"]:
-        numbers = np.concatenate(list((values[name] if name in values else result.values(run, fields["u"])).values()))
+        numbers = np.concatenate(list((values[name] if name in values
+                                       else result.values(run, fields["u"])).values()))
         top = np.percentile(np.abs(numbers) if fields[name].signed else numbers, 99.5)
         ranges[name] = [float(f"{each:.6g}") for each in (numbers.min(), numbers.max(), top)]
     return block, ranges
@@ -105,8 +109,8 @@ def run_data(result, share):
     bodies = []
     for name, body in first.bodies.items():
         block, edges = mesh_block(body)
-        bodies.append({"name": name, "vertices": len(body.points), "triangles": len(body.triangles), "edges": edges,
-                       "mesh": block.json()})
+        bodies.append({"name": name, "vertices": len(body.points), "triangles": len(body.triangles),
+                       "edges": edges, "mesh": block.json()})
     steps, lines, earlier, ranges = [], [], None, []
     for step, time in kept:
         run = result.at(step)
@@ -117,17 +121,19 @@ def run_data(result, share):
         for k, line in enumerate(result.lines(run)):
             if k == len(lines):
                 lines.append({"nonmortar": line.nonmortar, "mortar": line.mortar, "name": line.name,
-                              "x": numbers(line.abscissa, 7), "vertex": line.vertices.tolist(), "length": float(line.lengths[-1]),
-                              "steps": []})
+                              "x": numbers(line.abscissa, 7), "vertex": line.vertices.tolist(),
+                              "length": float(line.lengths[-1]), "steps": []})
             jump = line.jump if line.jump is not None and len(line.jump[0]) * len(kept) < 200_000 else None
-            lines[k]["steps"].append({"pressure": numbers(line.pressure), "gap": numbers(line.gap), "force": numbers(line.force),
+            lines[k]["steps"].append({"pressure": numbers(line.pressure), "gap": numbers(line.gap),
+                                      "force": numbers(line.force),
                                       "jump": [numbers(each) for each in jump] if jump is not None else None})
-    listed = [{"name": name, "words": field.words, "unit": field.unit, "vertex": field.by_vertex, "signed": field.signed}
+    listed = [{"name": name, "words": field.words, "unit": field.unit, "vertex": field.by_vertex,
+               "signed": field.signed}
               for name, field in fields.items()]
     return {"name": result.name, "title": result.title, "failed": result.reason if result.failed else None,
             "units": {"length": result.length_unit, "stress": result.stress_unit, "time": result.time_unit},
-            "keptSteps": len(result.kept), "bodies": bodies, "fields": listed, "order": order_of(fields), "steps": steps,
-            "ranges": ranges, "lines": lines, "scale": natural_scale(first.bodies.values()),
+            "keptSteps": len(result.kept), "bodies": bodies, "fields": listed, "order": order_of(fields),
+            "steps": steps, "ranges": ranges, "lines": lines, "scale": natural_scale(first.bodies.values()),
             "extent": extent(first.bodies.values()), "history": history_of(result), **words_of(result)}
 
 
@@ -135,7 +141,8 @@ def history_of(result):
     rows = len(next(iter(result.history.values()), []))
     every = max(1, -(-rows // HISTORY_ROWS))
     chosen = sorted({*range(0, rows, every), rows - 1}) if rows else []
-    return {"every": every, "columns": {name: numbers(values[chosen]) for name, values in result.history.items()
+    return {"every": every,
+            "columns": {name: numbers(values[chosen]) for name, values in result.history.items()
                                         if name != "rung" and len(values)}}
 
 
@@ -145,17 +152,21 @@ def words_of(result):
 
     def flat(value, name=""):
         if isinstance(value, dict):
-            return [pair for key, each in value.items() for pair in flat(each, f"{name}, {key}" if name else str(key))]
+            return [pair for key, each in value.items()
+                    for pair in flat(each, f"{name}, {key}" if name else str(key))]
         if isinstance(value, list):
             return [(name, "; ".join(str(each) for each in value) or "none")]
         return [(name, value)]
 
-    facts = {key: summary[key] for key in ("plane", "scheme", "steps", "contact", "nonmortar", "projection", "triangles", "nodes",
-                                           "dofs", "newton_iterations", "rejected_attempts", "guarded_steps", "rungs",
-                                           "settings") if key in summary}
+    facts = {key: summary[key] for key in ("plane", "scheme", "steps", "contact", "nonmortar", "projection",
+                                           "triangles", "nodes",
+                                           "dofs", "newton_iterations", "rejected_attempts", "guarded_steps",
+                                           "rungs", "settings") if key in summary}
     facts["materials"] = {body["name"]: body.get("material", "") for body in summary["bodies"]}
-    tables = {"Run": facts, "At the end": summary.get("final", {}), "Largest of the run": summary.get("peaks", {}),
-              "Verification (worst step)": summary.get("verification", {}), "Estimated accuracy": summary.get("accuracy", {})}
+    tables = {"Run": facts, "At the end": summary.get("final", {}),
+              "Largest of the run": summary.get("peaks", {}),
+              "Verification (worst step)": summary.get("verification", {}),
+              "Estimated accuracy": summary.get("accuracy", {})}
     scene = summary.get("scene_text")
     return {"tables": {name: [[shown(key, 200), shown(value, 500)] for key, value in flat(table)]
                        for name, table in tables.items()},
@@ -164,17 +175,21 @@ def words_of(result):
 
 
 def plan_of(summary):
-    """What mortier check says was modelled and left out; None where the scene is no longer that of the run."""
+    """What mortier check says was modelled and left out;
+    None where the scene is no longer that of the run."""
     path, text, settings = (summary.get(key) for key in ("scene", "scene_text", "settings"))
     program = os.environ.get("MORTIER")
     if not (program and isinstance(path, str) and isinstance(text, str) and isinstance(settings, list)):
         return None
     try:
         file = Path(path)
-        if not file.is_file() or file.stat().st_size > 4 * SCENE_LETTERS or file.read_bytes().decode(errors="replace") != text:
+        if not file.is_file() or file.stat().st_size > 4 * SCENE_LETTERS or file.read_bytes().decode(
+            errors="replace") != text:
             return None
-        words = [program, "check", os.path.abspath(path), "--json", *(["--set", *map(str, settings)] if settings else [])]
-        done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, timeout=120, check=False)
+        words = [program, "check", os.path.abspath(path), "--json",
+                 *(["--set", *map(str, settings)] if settings else [])]
+        done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, timeout=120,
+                              check=False)
         return [[bool(each["modelled"]), *(shown(each[key], 500) for key in ("part", "what", "why"))]
                 for each in json.loads(done.stdout)["plan"]]
     except (OSError, ValueError, KeyError, TypeError, subprocess.SubprocessError):
@@ -188,8 +203,10 @@ def page(results):
     text = json.dumps(data, separators=(",", ":"), allow_nan=False)
     text = text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")  # no HTML in it
     parts = "".join((PAGE / name).read_text(encoding="utf-8") for name in PROGRAM)
-    program = (f'"use strict";\n(async () => {{\n{parts}}})().catch(error => {{\n  document.getElementById("page").prepend('
-               "`This page cannot be drawn: ${error}. It needs a browser of 2023 or later.`);\n  throw error;\n});\n")
+    program = (f'"use strict";\n(async () => {{\n{parts}}})().catch(error => {{\n'
+               '  document.getElementById("page").prepend('
+               "`This page cannot be drawn: ${error}. It needs a browser of 2023 or later.`);\n"
+               "  throw error;\n});\n")
     looks = (PAGE / "page.css").read_text(encoding="utf-8")
     policy = f"default-src 'none'; script-src '{digest(program)}'; style-src '{digest(looks)}'; img-src data:"
     return ("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -197,8 +214,9 @@ def page(results):
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
             "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n"
             f"<title>{html.escape(', '.join(titles))}</title>\n<style>{looks}</style>\n</head>\n<body>\n"
-            "<noscript>This page draws with JavaScript, which is switched off.</noscript>\n<main id=\"page\"></main>\n"
-            f"<script type=\"application/json\" id=\"data\">{text}</script>\n<script>{program}</script>\n</body>\n</html>\n")
+            "<noscript>This page draws with JavaScript, which is switched off.</noscript>\n"
+            f"<main id=\"page\"></main>\n<script type=\"application/json\" id=\"data\">{text}</script>\n"
+            f"<script>{program}</script>\n</body>\n</html>\n")
 
 
 def digest(text):

@@ -32,13 +32,16 @@ class Result:
             raise results.ResultError(f"{folder}: no such folder, expected a result of mortier run")
         self.summary = results.read_summary(self.folder, failed=True)
         if self.summary.get("code") == "FreeFEM":
-            raise results.ResultError(f"{folder}: a result of FreeFEM, which holds no meshes; expected one of mortier run")
+            raise results.ResultError(f"{folder}: a result of FreeFEM, which holds no meshes; expected one "
+                                      "of mortier run")
         self.bodies = [body["name"] for body in results.body_list(self.folder, self.summary)]
         self.interfaces = self.summary.get("interfaces")
         if not isinstance(self.interfaces, list) or not all(
-                isinstance(each, dict) and each.get("nonmortar") in self.bodies and each.get("mortar") in self.bodies
+                isinstance(each, dict) and each.get("nonmortar") in self.bodies
+                and each.get("mortar") in self.bodies
                 for each in self.interfaces):
-            raise results.ResultError(f"{self.folder / 'summary.json'}: interfaces of bodies that there are not")
+            raise results.ResultError(f"{self.folder / 'summary.json'}: interfaces of bodies that "
+                                      "there are not")
         self.kept = results.kept_steps(self.folder)
         self.tables = results.contact_tables(self.folder)
         self.history = results.read_history(self.folder)
@@ -102,8 +105,8 @@ class Result:
             for each, vertex in zip(contact.interface, contact.vertex):
                 if not (0 <= each < len(self.interfaces) and
                         0 <= vertex < len(run.bodies[self.interfaces[each]["nonmortar"]].points)):
-                    raise results.ResultError(f"{self.folder / 'contact.csv'}: interface {each}, vertex {vertex}: "
-                                              "there is no such node")
+                    raise results.ResultError(f"{self.folder / 'contact.csv'}: interface {each}, "
+                                              f"vertex {vertex}: there is no such node")
             results.require_finite(self.folder, "contact pressures", contact.pressure)
             self.steps_read = {step: run}  # the last one only: a run of many steps need not fit in memory
         return self.steps_read[step]
@@ -120,25 +123,29 @@ class Result:
     def fields(self, run):
         """name -> Field, of those that every body has."""
         stress, length = self.stress_unit, self.length_unit
-        made = [Field("von_mises", "von Mises stress", stress, False, False, lambda body: body.cells["von_mises"])]
+        made = [Field("von_mises", "von Mises stress", stress, False, False,
+                      lambda body: body.cells["von_mises"])]
         components = min(body.stress.shape[1] for body in run.bodies.values())
         for c in range(components):
-            made.append(Field(STRESSES[c], f"stress {STRESSES[c]}", stress, False, True, lambda body, c=c: body.stress[:, c]))
+            made.append(Field(STRESSES[c], f"stress {STRESSES[c]}", stress, False, True,
+                              lambda body, c=c: body.stress[:, c]))
         made += [Field("u", "displacement", length, True, False, lambda body: np.hypot(*body.displacement.T)),
                  Field("ux", "displacement x", length, True, True, lambda body: body.displacement[:, 0]),
                  Field("uy", "displacement y", length, True, True, lambda body: body.displacement[:, 1])]
         for c in range(components):
             made.append(Field(STRAINS[c], f"viscoplastic strain {STRAINS[c]}", "", False, True,
-                              lambda body, c=c: body.cells["viscoplastic_strain"].reshape(len(body.triangles), -1)[:, c]))
-        made += [Field("viscoplastic", "beyond yield", "", False, False, lambda body: body.cells["viscoplastic"].astype(float)),
+                              lambda body, c=c: body.cells["viscoplastic_strain"].reshape(len(body.triangles),
+                                                                                          -1)[:, c]))
+        made += [Field("viscoplastic", "beyond yield", "", False, False,
+                       lambda body: body.cells["viscoplastic"].astype(float)),
                  Field("error", "estimated error of the stress, share of the triangle", "", False, False,
                        lambda body: body.cells["error"]),
                  Field("region", "region", "", False, False, lambda body: body.cells["region"].astype(float))]
         return {field.name: field for field in made}
 
     def stuck(self, run):
-        """Body, triangle and words of the place to look at where a run stopped early: the largest stress of the last good
-        state, beyond yield where anything flows; None before there is any."""
+        """Body, triangle and words of the place to look at where a run stopped early: the largest stress of
+        the last good state, beyond yield where anything flows; None before there is any."""
         found = []
         for name, body in run.bodies.items():
             flows = body.cells.get("viscoplastic", np.zeros(len(body.triangles)))
@@ -149,19 +156,21 @@ class Result:
         if not stress > 0:
             return None
         where = run.bodies[name].points[run.bodies[name].triangles[triangle]].mean(0)
-        return name, triangle, (f"largest stress{' beyond yield' if flows else ''}, {name}, triangle {triangle} at "
-                                f"({where[0]:.4g}, {where[1]:.4g})")
+        return name, triangle, (f"largest stress{' beyond yield' if flows else ''}, {name}, triangle "
+                                f"{triangle} at ({where[0]:.4g}, {where[1]:.4g})")
 
     def values(self, run, field):
         """Body name -> values; ResultError where a body has none."""
         try:
             found = {name: np.asarray(field.values(body), float) for name, body in run.bodies.items()}
         except (KeyError, IndexError, ValueError, TypeError) as error:
-            raise results.ResultError(f"{self.folder}: no field {field.name} in the .vtu files: {error!r}") from error
+            raise results.ResultError(
+                f"{self.folder}: no field {field.name} in the .vtu files: {error!r}") from error
         for name, values in found.items():
             body = run.bodies[name]
             if values.shape != (len(body.points if field.by_vertex else body.triangles),):
-                raise results.ResultError(f"{self.folder}: body {name}: {field.name} has the wrong shape {values.shape}")
+                raise results.ResultError(f"{self.folder}: body {name}: {field.name} has the wrong shape "
+                                          f"{values.shape}")
         return found
 
 
@@ -172,8 +181,8 @@ def extent(bodies):
 
 
 def natural_scale(bodies):
-    """1 where displacements can be seen as they are; else the 1, 2 or 5 times a power of ten that makes the largest
-    some 5 % of the bodies."""
+    """1 where displacements can be seen as they are; else the 1, 2 or 5 times a power of ten that makes the
+    largest some 5 % of the bodies."""
     ratio = max(np.abs(body.displacement).max() for body in bodies) / extent(bodies)
     if not 0 < ratio < 1e300 or 0.01 <= ratio <= 0.5:
         return 1.0

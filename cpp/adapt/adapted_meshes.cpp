@@ -13,7 +13,8 @@ namespace {
 constexpr double unknownRate = std::numeric_limits<double>::infinity();
 /// The largest reduction of a size in one round.
 constexpr double least = 1.0 / 8;
-/// Stresses are unbounded where errors fall like this power of the area, or more slowly; a slower one is not believed.
+/// Stresses are unbounded where errors fall like this power of the area, or more slowly; a slower one is not
+/// believed.
 constexpr double bounded = 1.1;
 constexpr double slowest = 0.2;
 
@@ -152,7 +153,8 @@ void AdaptedMeshes::cutToSize(Adapted& body, const Vector& reduction, std::vecto
       ++around[v];
     }
   for (size_t v = 0; v < vertices; ++v) logArea[v] /= around[v];
-  // The mean at a vertex hides a triangle that is alone with its error: of those that make half of it each counts.
+  // The mean at a vertex hides a triangle that is alone with its error:
+  // of those that make half of it each counts.
   std::vector<double> own(marked.size(), std::numeric_limits<double>::infinity());
   for (size_t t = 0; t < marked.size(); ++t)
     if (marked[t] != 0) own[t] = logOf(t) + 2 * std::log(reduction[static_cast<Eigen::Index>(t)]);

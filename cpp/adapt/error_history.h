@@ -1,5 +1,5 @@
-// The error of the meshes over a run, by triangles: what meshes are refined by. One mesh serves all times, so that of each
-// triangle is the largest that it had at any time.
+// The error of the meshes over a run, by triangles: what meshes are refined by. One mesh serves all times, so
+// that of each triangle is the largest that it had at any time.
 #pragma once
 
 #include <vector>
@@ -14,8 +14,8 @@ class ErrorHistory {
   /// Of a state of the run, in their order; the initial state (step 0) begins anew.
   void add(const State& state, const StepReport& report);
 
-  /// By bodies and triangles [J/m]: the shares, whose sum is the largest error of any state, squared. 0 where that is nothing
-  /// but rounding.
+  /// By bodies and triangles [J/m]: the shares, whose sum is the largest error of any state, squared. 0 where
+  /// that is nothing but rounding.
   [[nodiscard]] std::vector<Vector> errors() const;
   /// The largest energy of the recovered stress of any state [J/m].
   [[nodiscard]] double energy() const { return energy_; }

@@ -47,7 +47,7 @@ Rounds::Rounds(ResolvedScene scene)
 double Rounds::timeShare() const {
   if (!flows(description_)) return 0;
   const double share = (description_.degree == 1 ? 0.2 : 0.3) * description_.accuracy.energy;
-  return description_.time.tolerance > 0 ? std::min(share, description_.time.tolerance) : share;
+  return description_.time.controlled() ? std::min(share, description_.time.tolerance) : share;
 }
 
 ResolvedScene Rounds::scene() const {

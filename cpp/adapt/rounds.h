@@ -1,13 +1,14 @@
-// A scene solved again and again, on meshes that are refined by the error of the round before and with steps to match, until
-// the estimated error is what was asked for. With E the error of the meshes over 0.85 of what is asked of it,
+// A scene solved again and again, on meshes that are refined by the error of the round before and with steps
+// to match, until the estimated error is what was asked for.
+// With E the error of the meshes over 0.85 of what is asked of it,
 //
 //   k = max(1, round(log E / log 4))   rounds are to come, each of which divides it by  min(E^(1/k), 8):
 //
-// equal reaches avoid the dear case, a mesh that misses by a little and is solved again at the same size. Where bodies flow a
-// part of what is asked is that of the steps in time (0.2 of degree 1, 0.3 of degree 2); before the last round steps are as
-// good as the meshes deserve. One round of refinement is made at least, which is to
-// halve the error: on the first meshes an estimate is not trusted, and no rate is known. Where stresses are unbounded what it
-// does not see is added before it is believed (adapt/adapted_meshes.h).
+// equal reaches avoid the dear case, a mesh that misses by a little and is solved again at the same size.
+// Where bodies flow a part of what is asked is that of the steps in time (0.2 of degree 1, 0.3 of degree 2);
+// before the last round steps are as good as the meshes deserve. One round of refinement is made at least,
+// which is to halve the error: on the first meshes an estimate is not trusted, and no rate is known. Where
+// stresses are unbounded what it does not see is added before it is believed (adapt/adapted_meshes.h).
 #pragma once
 
 #include <string>
@@ -35,11 +36,11 @@ class Rounds {
   enum class Verdict { goOn, reached, notReached };
   /// \param seconds  wall time of all so far. Where it goes on, the meshes of the next round are made.
   Verdict judge(const RoundResult& result, double seconds);
-  /// Why it is not reached.
+  /// Why the accuracy is not reached.
   [[nodiscard]] const std::string& reason() const { return reason_; }
   /// Of the last round, relative.
   [[nodiscard]] double meshError() const { return meshError_; }
-  /// What spoils the estimate beside plan/estimate_doubts.h.
+  /// Doubts about the estimate beside those of plan/estimate_doubts.h.
   [[nodiscard]] std::vector<std::string> doubts() const;
 
  private:

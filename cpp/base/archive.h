@@ -1,5 +1,5 @@
-// Plain data to bytes and back, member by member: an archive calls visitMembers(archive, value) for the
-// members of what is no number, text, matrix, list or map of those. Bytes are those of this machine.
+// Plain data to bytes and back. Numbers, texts, matrices, lists and maps are known; for any other type the
+// archive calls visitMembers(archive, value), which names the members. Bytes are in this machine's order.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace mortier {
 template <class T>
 concept PlainValue = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-/// Puts values into a string of bytes.
+/// Writes values into a string of bytes.
 class ArchiveWriter {
  public:
   std::string bytes;
@@ -72,7 +72,7 @@ class ArchiveWriter {
   }
 };
 
-/// Takes them out again. \throws InputError where they do not fit.
+/// Reads them from it. \throws InputError where the bytes do not match the types.
 class ArchiveReader {
  public:
   explicit ArchiveReader(std::string_view bytes) : bytes_(bytes) {}

@@ -1,4 +1,4 @@
-// FNV-1a of 64 bits, of bytes that come bit by bit: tells accidental damage.
+// The FNV-1a checksum (64 bits) of bytes that are added in pieces. It detects accidental damage.
 #pragma once
 
 #include <cstdint>

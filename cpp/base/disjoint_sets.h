@@ -1,4 +1,4 @@
-// Sets of numbers that are joined two by two; the smallest of its numbers stands for a set (Galler and
+// Disjoint sets of numbers, joined two at a time; the smallest number of a set represents it (Galler and
 // Fischer 1964).
 #pragma once
 

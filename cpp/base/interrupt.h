@@ -1,5 +1,5 @@
-// Stopping a long computation: whoever wants it stopped says so, a signal handler too, or sets a time at which it
-// is to stop; loops that may last ask.
+// Stopping a long computation: any code, a signal handler included, may set a flag, or a time at which it is
+// to stop, and loops that take long check both.
 #pragma once
 
 #include <atomic>
@@ -31,8 +31,8 @@ inline void requestInterrupt() {
   interruption::requested = true;
 }
 
-/// Lives around a long call of a library that asks nothing, where no file is being written and no step of a
-/// run is done: a signal that finds it may end the process.
+/// Marks a long call into a library that does not check the flag. No file is being written meanwhile and no
+/// step of a run is finished, so that a signal may end the process.
 struct DeafCall {
   DeafCall() { ++interruption::deafCalls; }
   ~DeafCall() { --interruption::deafCalls; }

@@ -24,7 +24,7 @@ class Threads {
 
   [[nodiscard]] int count() const;
 
-  // An item may itself call these; threads that are idle then join in. An exception of any item is thrown on.
+  // `work` may call these functions too; idle threads then help. An exception that it throws is thrown here.
 
   /// Calls work(i) for i in [0, n), in any order.
   void forEach(int n, const Work& work);

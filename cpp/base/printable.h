@@ -7,8 +7,8 @@
 
 namespace mortier {
 
-/// What is no visible character of UTF-8 (control characters, those that turn the direction of writing,
-/// broken bytes) becomes `?`. Of more than `most` bytes, the middle is left out.
+/// Everything but visible UTF-8 characters (control characters, those that turn the direction of writing,
+/// broken bytes) becomes `?`. A text of more than `most` bytes is shown without its middle.
 std::string printable(std::string_view text, size_t most = 2000);
 
 }  // namespace mortier

@@ -24,7 +24,7 @@ struct TwoPartVector {
     return *this;
   }
 
-  /// The component of the vector at rows i, i + 1 along a unit vector; that across it stays.
+  /// The component of the vector at rows i, i + 1 along a unit vector; the one across it stays.
   void setAlong(Eigen::Index i, const Point& direction, double value) {
     high.segment<2>(i) += (value - direction.dot(high.segment<2>(i))) * direction;
     low.segment<2>(i) -= direction.dot(low.segment<2>(i)) * direction;

@@ -7,7 +7,7 @@
 
 namespace mortier {
 
-/// The largest of values that are 0 or more, 0 of none. A NaN is worse than any number and stays.
+/// The largest of some values >= 0; 0 where there are none. A NaN is worse than any number and stays.
 class Worst {
  public:
   void add(double value) {

@@ -55,9 +55,10 @@ RunFacts factsOf(const SceneDescription& scene, const AttemptOptions& options) {
   return facts;
 }
 
-/// Beside the times of the scene, what its steps need to know of its data where they are chosen by their error.
+/// Beside the times of the scene, what its steps need to know of its data where they are chosen by their
+/// error.
 void lookAhead(SceneDescription& scene, const Model& model) {
-  if (!(scene.time.tolerance > 0)) return;
+  if (!scene.time.controlled()) return;
   LoadCourses loads = loadCourses(scene, model);
   scene.time.breaks = std::move(loads.breaks);
   scene.time.data = std::move(loads.data);

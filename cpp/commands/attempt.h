@@ -1,5 +1,5 @@
-// A scene and all that comes of it: its model, what is reported of it, and what was found. A run is one of them, or a round of a
-// run that refines its meshes.
+// A scene and all that comes of it: its model, what is reported of it, and what was found. A run is one of
+// them, or a round of a run that refines its meshes.
 #pragma once
 
 #include <memory>

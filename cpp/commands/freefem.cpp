@@ -61,8 +61,8 @@ bool isRoller(const ConditionDescription& condition) {
          (condition.component == alongNormal || condition.component == alongTangent);
 }
 
-/// Loads by the rules that mortier takes (docs/theory.md), for they decide what nodal forces are; with quadratic
-/// displacements by FreeFEM's own of degree 5. A macro must not be empty.
+/// Loads by the rules that mortier takes (docs/theory.md), for they decide what nodal forces are; with
+/// quadratic displacements by FreeFEM's own of degree 5. A macro must not be empty.
 void writeConditions(std::ostream& out, const BodyDescription& body, int number, int degree) {
   const std::string n = std::to_string(number);
   std::ostringstream supports;
@@ -171,7 +171,7 @@ void requireKnown(const SceneDescription& scene) {
   if (scene.time.scheme != Scheme::backwardEuler) {
     refuse(scene.path + ": scheme = " + word(scene.time.scheme), "backward-euler");
   }
-  if (scene.time.tolerance > 0) {
+  if (scene.time.controlled()) {
     refuse(scene.path + ": tolerance = " + shortest(scene.time.tolerance), "equal steps");
   }
   for (const BodyDescription& body : scene.bodies) {

@@ -28,8 +28,8 @@ namespace mortier {
 
 namespace {
 
-/// The first Ctrl-C ends the run with a checkpoint of its last step; a second one kills, and so does the first where a library
-/// would not hear of it (before the first step).
+/// The first Ctrl-C ends the run with a checkpoint of its last step; a second one kills, and so does the
+/// first where a library would not hear of it (before the first step).
 void onInterrupt(int signal) {
   if (inDeafCall()) {
     constexpr char text[] = "mortier: interrupted before the first step; nothing was written\n";

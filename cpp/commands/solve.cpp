@@ -30,8 +30,11 @@ void Checkpoints::write(const FilesSoFar& empty, const FilesSoFar& files, const 
 }
 
 Solved solve(Solving solving) {
-  const auto& [scene, model, facts, folder, log] =
-      std::tie(solving.scene, solving.model, solving.facts, solving.folder, solving.log);
+  const SceneDescription& scene = solving.scene;
+  const Model& model = solving.model;
+  const RunFacts& facts = solving.facts;
+  const std::string& folder = solving.folder;
+  Log& log = solving.log;
   Solved solved;
   StepReport& last = solved.last;
   State& state = solved.state;

@@ -47,8 +47,8 @@ struct Solving {
   Checkpoints& checkpoints;
   std::string again;     ///< how a run that is interrupted goes on
   Observer alsoObserve;  ///< called with every state
-  bool onlyTheStart =
-      false;  ///< a run that is stopped begins anew: there is one checkpoint, of the initial state of the first round
+  /// A run that is stopped begins anew: there is one checkpoint, of the initial state of the first round.
+  bool onlyTheStart = false;
 };
 
 struct Solved {

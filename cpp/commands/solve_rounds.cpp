@@ -20,7 +20,8 @@ void clearFields(const std::string& folder, const std::map<std::string, FileReco
       std::filesystem::remove(std::filesystem::path(folder) / name, none);
 }
 
-/// What its own data cannot explain: it may go on without the round. \returns the reason, empty where there is none
+/// What its own data cannot explain: it may go on without the round. \returns the reason, empty where there
+/// is none
 std::string failureOf(const std::function<void()>& work) {
   try {
     work();

@@ -1,5 +1,5 @@
-// The rounds of a run that is to have an accuracy (adapt/rounds.h), and the best of them: a round that comes out worse, cannot
-// be solved, or is not done when the time is over, leaves the best one's result as it was.
+// The rounds of a run that is to have an accuracy (adapt/rounds.h), and the best of them: a round that comes
+// out worse, cannot be solved, or is not done when the time is over, leaves the best one's result as it was.
 #pragma once
 
 #include <functional>
@@ -13,8 +13,8 @@ namespace mortier {
 
 using SolveAttempt = std::function<void(Attempt& attempt, Observer alsoObserve)>;
 
-/// \param attempt  in: the first round; out: that of the least error, whose files are in `folder`. Where the first one cannot
-/// be solved, it.
+/// \param attempt  in: the first round; out: that of the least error, whose files are in `folder`. Where the
+/// first one cannot be solved, it.
 /// \param options  of every round
 /// \returns why the accuracy is not reached; empty where it is, and where the first round cannot be solved.
 /// \throws OutputError, InterruptedError, and what the first round throws

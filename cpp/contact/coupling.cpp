@@ -77,7 +77,8 @@ void addEntries(int row, const EdgeNodes& nodes, const EdgeValues& values, const
         entries.emplace_back(row, 2 * nodes[k] + c, value);
 }
 
-/// Gauss's rule of four points on every segment: calls at(segment, rows, s, values of the row functions, weight).
+/// Gauss's rule of four points on every segment: calls at(segment, rows, s,
+/// values of the row functions, weight).
 template <class At>
 void atGaussPoints(const SmoothPart& part, const FacingLine& mortar, const Rows& rows, At at) {
   constexpr std::array<double, 4> places{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,

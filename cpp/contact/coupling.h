@@ -1,31 +1,34 @@
 // How a part of the nonmortar line sees the mortar line: rows of C, one per trace node with a condition.
 //
-// x1(s) sees the mortar point x2(s) along the direction n(s) (facing_line.h). With the jump j(s) = n . (u1(x1) - u2(x2)),
-// traces sum phi_k u1_k and sum psi_l u2_l of the elements, and row functions chi_i,
+// x1(s) sees the mortar point x2(s) along the direction n(s) (facing_line.h). With the jump
+// j(s) = n . (u1(x1) - u2(x2)), traces sum phi_k u1_k and sum psi_l u2_l of the elements,
+// and row functions chi_i,
 //
 //   interpolation  (C u)_i = j(s_i)
 //   mortar         C u = Phi^-1 int chi j ds,   Phi_ij = int chi_i chi_j ds:   the L2 projection of the jump
 //   weighted       C u = w^-1 int chi j ds,   w_i = int chi_i ds:          its means
 //
-// so that the nodal forces of the pressure sum pi_i chi_i are Phi pi, or w pi; w is Phi lumped. In the field's words
-// C u = Phi^-1 (D u1 - M u2), D_ik = int chi_i n phi_k the matrix of the nonmortar side and M_il = int chi_i n psi_l that of
-// the mortar side (the note writes D for the latter, and M for Phi). chi are the shape functions phi; with `weighted` they are the
-// hat functions of the vertices, whatever the degree, and p >= 0 says that the pressure is so at every point.
+// so that the nodal forces of the pressure sum pi_i chi_i are Phi pi, or w pi; w is Phi lumped. In the
+// field's words C u = Phi^-1 (D u1 - M u2), D_ik = int chi_i n phi_k the matrix of the nonmortar side and
+// M_il = int chi_i n psi_l that of the mortar side (the note writes D for the latter, and M for Phi). chi are
+// the shape functions phi; with `weighted` they are the hat functions of the vertices, whatever the degree,
+// and p >= 0 says that the pressure is so at every point.
 //
-// Integrals are Gauss's on the common refinement, exact where the part is straight (quadrature on the elements of one
-// side would fail the patch test). Where only one vertex of an element has a row (the mortar side ends inside the
-// element, or the other vertex is merged into it), its chi goes on as 1: constants are still reproduced, and Phi stays
-// well conditioned however small the piece.
+// Integrals are Gauss's on the common refinement, exact where the part is straight (quadrature on the
+// elements of one side would fail the patch test). Where only one vertex of an element has a row (the mortar
+// side ends inside the element, or the other vertex is merged into it), its chi goes on as 1: constants are
+// still reproduced, and Phi stays well conditioned however small the piece.
 //
 // The projection is taken of the difference from the motion of the row's own node along its own n_i,
 //
 //   Phi^-1 D u1 = n . u1 at the nodes + Phi^-1 int chi (n . u1 - sum chi_i n_i . u1_i) ds,
 //
-// where the second term is zero on straight parts and sparse everywhere: of Phi^-1 D and Phi^-1 M only the latter is dense by
-// nature, and its entries fall off from the node that is faced by a factor of about four a node.
+// where the second term is zero on straight parts and sparse everywhere: of Phi^-1 D and Phi^-1 M only the
+// latter is dense, and its entries decay by a factor of about four a node with the distance from the node
+// that is faced.
 //
-// Whatever the rule, each Gauss point adds a pair of opposite forces along the line through x1 and x2, and shape functions
-// reproduce both places: every row balances in force and moment (docs/theory.md).
+// Whatever the rule, each Gauss point adds a pair of opposite forces along the line through x1 and x2, and
+// shape functions reproduce both places: every row balances in force and moment (docs/theory.md).
 //
 // Example (tests/unit/coupling_test.cpp): nonmortar nodes 0, 1/2, 1 and mortar nodes 0, 1/3, 1 give
 //   D = Phi = 1/12 [2 1 0; 1 4 1; 0 1 2],   M = 1/432 [56 51 1; 16 138 62; 0 27 81],
@@ -57,8 +60,8 @@ inline int rowDegree(CouplingKind kind, int traceDegree) {
 }
 
 /// \param distance  of the bodies, where x1(s) sees
-/// \param merged  vertices of the part without a row of their own (empty: none). No rows when no vertex lies within the
-/// overlap.
+/// \param merged  vertices of the part without a row of their own (empty: none). No rows when no vertex lies
+/// within the overlap.
 Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
                 const DistanceAt& distance = distanceOfCurves, const std::vector<char>& merged = {});
 

@@ -1,8 +1,8 @@
 // A line of elements as contact sees it: places, abscissae, and the displacement trace on it.
 //
-// An element runs between two vertices. Its trace is linear, or quadratic with a node in the middle: then the element is
-// straight, or bent through the place of that node (isoparametric), and its abscissa runs with the parameter. Nodes are
-// counted along the line, the vertices first, then the middles.
+// An element runs between two vertices. Its trace is linear, or quadratic with a node in the middle: then the
+// element is straight, or bent through the place of that node (isoparametric), and its abscissa runs with the
+// parameter. Nodes are counted along the line, the vertices first, then the middles.
 #pragma once
 
 #include <vector>

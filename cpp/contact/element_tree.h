@@ -1,4 +1,5 @@
-// Boxes around the elements of a polygonal line in a binary tree: what is near a point is found in logarithmic time.
+// Boxes around the elements of a polygonal line in a binary tree: what is near a point is found in
+// logarithmic time.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +14,8 @@ class ElementTree {
   /// Of the elements between each point and the next.
   explicit ElementTree(const std::vector<Point>& points);
 
-  /// Calls visit(element) for all elements that may be closer to x than `bound`, nearer boxes first. A visit may
-  /// lower the bound [m].
+  /// Calls visit(element) for all elements that may be closer to x than `bound`, nearer boxes first. A visit
+  /// may lower the bound [m].
   template <class Visit>
   void near(const Point& x, const double& bound, Visit visit) const {
     near(x, x, bound, visit);

@@ -49,7 +49,8 @@ struct MortarNode {
   double smooth = 1;
 };
 
-/// (x1 - x2) x n at a part xi of an element of the part; it falls along the part where the lines face each other.
+/// (x1 - x2) x n at a part xi of an element of the part;
+/// it falls along the part where the lines face each other.
 double crossProduct(const SmoothPart& part, int element, double xi, const MortarNode& node) {
   const double s = part.s[element] + xi * (part.s[element + 1] - part.s[element]);
   const Point n = directionOf(part.normalAt(element, s), part.curvatureAt(element, s), node.normal,
@@ -304,8 +305,8 @@ Sight see(const SmoothPart& part, const FacingLine& mortar, const Segment& segme
     const Point n1 = part.normalAt(e, s);
     const double curvature1 = part.curvatureAt(e, s);
     const auto between = [](const auto& ends, double xi) { return (1 - xi) * ends[0] + xi * ends[1]; };
-    // The direction depends on the point that is seen, hardly where the lines are close. Whatever is left of the
-    // iteration, the point is on the line along the direction in the end.
+    // The direction depends on the point that is seen, hardly where the lines are close. Whatever is left of
+    // the iteration, the point is on the line along the direction in the end.
     seen = partSeen(mortar, j, x, n1);
     for (int k = 0; k < 50; ++k) {
       const double xi = std::clamp(seen, 0.0, 1.0);

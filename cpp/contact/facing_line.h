@@ -1,16 +1,17 @@
-// The mortar line as a part of the nonmortar line sees it. A point x1(s) of the part sees the point x2 of the mortar
-// line along the direction of contact n,
+// The mortar line as a part of the nonmortar line sees it. A point x1(s) of the part sees the point x2 of the
+// mortar line along the direction of contact n,
 //
 //   (x1(s) - x2) x n = 0,      n ~ R1 n1(s) - R2 n2(x2),
 //
-// n1, n2 the outward normals of both bodies and R1, R2 the radii of curvature of the lines there. Where a curve meets
-// a straight line that is the straight one's normal, where two curves meet the normal of the tangent plane of Hertz's
-// theory, to second order in the width of contact over the radius; and it does not depend on which side is nonmortar.
-// A straight part sees along its own normal, everything by the normals of the part where its partner has a corner
-// (a corner has the radius 0).
+// n1, n2 the outward normals of both bodies and R1, R2 the radii of curvature of the lines there. Where a
+// curve meets a straight line, n is the normal of the straight line; where two curves meet, n is the normal
+// of the tangent plane of Hertz's theory, to second order in the width of contact over the radius. It does
+// not depend on which side is nonmortar. A straight part has n = n1. At a corner of the mortar line, whose
+// radius is 0, n = n1 too.
 //
-// The abscissae s of the mortar nodes make the common refinement of two curves that of two traces (segments.h).
-// Past the ends of the part the first and last element go on straight with the normal of the end.
+// The abscissae s of the mortar nodes make the common refinement of two curves that of two traces
+// (segments.h). Past the ends of the part the first and last element go on straight with the normal of the
+// end.
 #pragma once
 
 #include <array>
@@ -46,12 +47,13 @@ struct FacingLine : ElementLine {
   [[nodiscard]] bool empty() const { return nodes.size() < 2; }
 };
 
-/// The stretch of the mortar line that faces the part: the abscissae ascend and the normals make an angle of 120
-/// degrees at least. Of several the nearest one. It ends with the first node beyond the part. Empty when nothing faces it.
+/// The stretch of the mortar line that faces the part: the abscissae ascend and the normals make an angle of
+/// 120 degrees at least. Of several the nearest one. It ends with the first node beyond the part. Empty when
+/// nothing faces it.
 FacingLine facingLine(const SmoothPart& part, const MortarLine& mortar);
 
-/// What x1(s) sees: a pair of points, and the direction of the line through both, so that opposite forces along it
-/// have no moment.
+/// What x1(s) sees: a pair of points, and the direction of the line through both, so that opposite forces
+/// along it have no moment.
 struct Sight {
   EdgeValues phi;       ///< shape functions of the nonmortar element at x1
   EdgeValues psi;       ///< of the mortar element at x2; linear in s where the part is straight

@@ -3,15 +3,16 @@
 //
 //   C u = C1 u1 + C2 u2,      g = C u - g0 <= 0,   p >= 0,   p g = 0
 //
-// One row per nonmortar node (vertex, with linear row functions) that faces the mortar side (one per adjacent part at a corner), along the direction of
-// contact there: coupling.h, facing_line.h. g0 is the distance along it of the curves that the two lines stand for
-// (arcs.h), of the lines as meshed where these are not known. The solver sees the two sparse matrices and g0, nothing
-// of geometry.
+// One row per nonmortar node (vertex, with linear row functions) that faces the mortar side (one per adjacent
+// part at a corner), along the direction of contact there: coupling.h, facing_line.h. g0 is the distance
+// along it of the curves that the two lines stand for (arcs.h), of the lines as meshed where these are not
+// known. The solver sees the two sparse matrices and g0, nothing of geometry.
 //
 // A nonmortar node at an end of Gamma_C whose normal motion is prescribed, while its neighbour's is not, has
-// no row of its own: its row function goes to the neighbour, so that Dirichlet conditions may reach to the end of
-// Gamma_C and there are not more conditions than nodes that can move. With interpolation the row is left out where the
-// mortar side is held there too. Where the trace is quadratic and row functions are linear there are nodes enough.
+// no row of its own: its row function goes to the neighbour, so that Dirichlet conditions may reach to the
+// end of Gamma_C and there are not more conditions than nodes that can move. With interpolation the row is
+// left out where the mortar side is held there too. Where the trace is quadratic and row functions are linear
+// there are nodes enough.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -72,8 +73,8 @@ class ContactInterface {
                    const InterfaceOptions& options = {});
 
   [[nodiscard]] const ContactPair& pair() const { return pair_; }
-  /// Numbers of the nonmortar nodes that carry a condition, along the line; one row of C each. A node at a corner
-  /// comes twice.
+  /// Numbers of the nonmortar nodes that carry a condition, along the line; one row of C each. A node at a
+  /// corner comes twice.
   [[nodiscard]] const std::vector<int>& nonmortarNodes() const { return nonmortarNodes_; }
   /// Numbers of the nodes of the mortar line, the vertices first.
   [[nodiscard]] const std::vector<int>& mortarNodes() const { return mortarNodes_; }
@@ -86,10 +87,11 @@ class ContactInterface {
   [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
   /// Held end nodes of the nonmortar line that have no condition: merged into their neighbours, or left out.
   [[nodiscard]] int heldEnds() const { return heldEnds_; }
-  /// By how much the lines may be off the curves behind them where these are not known and the distance is that as
-  /// meshed: the largest sagitta [m].
+  /// By how much the lines may be off the curves behind them where these are not known and the distance is
+  /// that as meshed: the largest sagitta [m].
   [[nodiscard]] double sagitta() const { return sagitta_; }
-  /// The sharpest turn of a line whose nodes lie on a circle, but too far apart to stand for it; 0 where neither does [rad].
+  /// The sharpest turn of a line whose nodes lie on a circle, but too far apart to stand for it; 0 where
+  /// neither does [rad].
   [[nodiscard]] double polygonTurn() const { return polygonTurn_; }
   /// Share of the shorter line that faces the other.
   [[nodiscard]] double overlap() const { return overlap_; }
@@ -113,8 +115,8 @@ class ContactInterface {
   [[nodiscard]] double deepestOverlap(const Vector& uNonmortar, const Vector& uMortar) const {
     return penetration_.deepest(uNonmortar, uMortar);
   }
-  /// What nodal forces p [N/m] leave of the gap between the nodes: its square where they press, that of the overlap
-  /// elsewhere.
+  /// What nodal forces p [N/m] leave of the gap between the nodes: its square where they press, that of the
+  /// overlap elsewhere.
   [[nodiscard]] std::vector<GapSquare> gapSquares(const Vector& p, const Vector& uNonmortar,
                                                   const Vector& uMortar) const;
 

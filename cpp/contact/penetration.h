@@ -1,8 +1,8 @@
 // The note's measure of interpenetration, the integral over Gamma_C of ((u1 - u2).n - g0)_+, on the common
-// refinement. Between its points the jump of linear traces is taken as linear (of curves in two halves), that of
-// quadratic ones as the parabola through its value in the middle too: exact where the nonmortar line is straight. And
-// the squares of the jump, element by element, by which an estimate of the error tells what contact leaves between the
-// nodes.
+// refinement. Between its points the jump of linear traces is taken as linear (of curves in two halves), that
+// of quadratic ones as the parabola through its value in the middle too: exact where the nonmortar line is
+// straight. And the squares of the jump, element by element, by which an estimate of the error tells what
+// contact leaves between the nodes.
 #pragma once
 
 #include <array>
@@ -26,10 +26,11 @@ class PenetrationIntegral {
   void add(const SmoothPart& part, const FacingLine& mortar, const DistanceAt& distance);
   /// Displacements by dofs of the two bodies [m]. \returns [m^2]
   [[nodiscard]] double of(const Vector& uNonmortar, const Vector& uMortar) const;
-  /// The largest jump at a point of the common refinement or in the middle between two, 0 where all are negative [m].
+  /// The largest jump at a point of the common refinement or in the middle between two,
+  /// 0 where all are negative [m].
   [[nodiscard]] double deepest(const Vector& uNonmortar, const Vector& uMortar) const;
-  /// The integral of the squared jump where a vertex of the nonmortar element is `pressed`, of its squared positive part
-  /// elsewhere.
+  /// The integral of the squared jump where a vertex of the nonmortar element is `pressed`, of its squared
+  /// positive part elsewhere.
   [[nodiscard]] std::vector<GapSquare> squares(const Vector& uNonmortar, const Vector& uMortar,
                                                const std::function<bool(int vertex)>& pressed) const;
 

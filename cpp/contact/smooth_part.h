@@ -9,8 +9,8 @@
 // which is exact on a circle; at an end the neighbour's normal is reflected in that of the element.
 // Between nodes the normal is interpolated linearly and made a unit vector.
 //
-// A node is a corner where the line turns by more than 40 degrees (a polygon of less than nine edges is one, and no
-// circle, even where its vertices lie on one), or by more than one degree with a
+// A node is a corner where the line turns by more than 40 degrees (a polygon of less than nine edges is one,
+// and no circle, even where its vertices lie on one), or by more than one degree with a
 // curvature (turn over length) more than four times that of both neighbours: a curve that a mesh resolves
 // turns about as much at every node, a broken line at few. At a corner two parts meet, and its node gets one
 // condition from each, along the normal of each.

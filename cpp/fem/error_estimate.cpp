@@ -91,9 +91,9 @@ class Fits {
     return end - corners_.begin() == static_cast<std::ptrdiff_t>(patch_.size()) + 1;
   }
 
-  /// Of the value at a place, by least squares; of the mean where the points do not determine the polynomial. Quadratic ones count
-  /// a point by the inverse square of its distance from the vertex: on meshes that are graded towards an unbounded stress, points that are far
-  /// off would have as much to say as those nearby.
+  /// Of the value at a place, by least squares; of the mean where the points do not determine the polynomial.
+  /// Quadratic ones count a point by the inverse square of its distance from the vertex: on meshes that are
+  /// graded towards an unbounded stress, points that are far off would have as much to say as those nearby.
   const std::vector<double>& fit(const Point& vertex, const Point& place) {
     constexpr double degenerate = 1e-10;
     double size = 0;

@@ -1,8 +1,8 @@
 // How far the stress of a body is from the exact one, estimated from itself (Zienkiewicz and Zhu, Int. J.
 // Numer. Methods Engrg. 33, 1992): stresses of triangles are best at their quadrature points, so a polynomial
-// of the degree of the displacements, fitted to those around a vertex, is a better stress there; what
-// triangles lack to the continuous field of these values is the estimate. It knows the error of the mesh, not
-// that of the steps in time.
+// of the degree of the displacements, fitted to those around a vertex, is a better stress there. The estimate
+// is the difference of the stress from the continuous field of these values. It has the error of the mesh,
+// not that of the steps in time.
 #pragma once
 
 #include <vector>

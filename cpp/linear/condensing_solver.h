@@ -1,4 +1,4 @@
-// The one interface behind which linear algebra stands. A sparse system with some equations kept,
+// The interface of all sparse linear algebra. A sparse system with some equations kept,
 //   K = [K_bb K_bk; K_kb K_kk],
 // is factorised in its interior b only; what contact needs of it is the Schur complement on the kept
 // equations,
@@ -24,7 +24,7 @@ class CondensingSolver {
   virtual bool factorise(const std::vector<double>& values) = 0;
   /// S (kept x kept, in the order in which the kept equations were given), all of it also where symmetric.
   [[nodiscard]] virtual const Matrix& schurComplement() const = 0;
-  /// The same, taken over: it is gone until the next factorise().
+  /// The same, moved out: the solver has it no longer until the next factorise().
   [[nodiscard]] virtual Matrix takeSchurComplement() = 0;
   /// f (equations) in place: its kept part becomes f_k - K_kb K_bb^-1 f_b, its interior whatever expand()
   /// needs.

@@ -14,7 +14,7 @@ bool partialCholesky(double* panel, int n, int pivots, double* update);
 /// pivot block is singular.
 bool partialLU(double* panel, int n, int pivots, double* upper, double* update, int* interchange);
 
-/// One thread in BLAS: bodies and runs are what is done side by side.
+/// Lets BLAS use one thread: bodies and pieces of the factorisation are what runs in parallel.
 void useOneThread();
 
 /// Interchanges the first n entries of x as partialLU told.

@@ -1,4 +1,4 @@
-// What the linter names. Every kind of fault has an id, a severity and a remedy; docs/check.md lists them
+// What the linter reports. Every kind of fault has an id, a severity and a remedy; docs/check.md lists them
 // all.
 #pragma once
 
@@ -37,7 +37,7 @@ struct Fault {
   size_t more = 0;      ///< faults of this kind that are counted only, in the last one that is told
 };
 
-/// Of each kind some are told, and how many more there are.
+/// A list of faults: some of each kind, and the number of further ones.
 class Faults {
  public:
   /// \param allowed  ids of warnings that are not to be named.

@@ -47,7 +47,8 @@ std::string whereIn(const Node& node, const std::vector<std::string>& keys) {
   return at->where;
 }
 
-/// How deep the bodies of a contact overlap, as meshed or as its gap says: what is pressed together is no accident.
+/// How deep the bodies of a contact overlap, as meshed or as its gap says:
+/// what is pressed together is no accident.
 double interferenceOf(const ContactDescription& contact, const LintInput& input) {
   const auto side = [&](const SideDescription& description) {
     return ContactSide{bodyIndex(input.scene, description.body), description.label};
@@ -84,15 +85,15 @@ void runChecks(const LintInput& input, Faults& faults) {
   }
 }
 
-/// Where contact alone holds bodies, whether it does: as the first step begins, and elastically at some times of the run.
-/// What contact can balance depends on no material.
+/// Where contact alone holds bodies, whether it does: as the first step begins, and elastically at some times
+/// of the run. What contact can balance depends on no material.
 void requireHeld(const SceneDescription& scene, const Model& model) {
   StepSystem system(model, scene.solver);
   if (!system.contactHolds()) return;
   constexpr int count = 16;
   const TimePlan& plan = scene.time;
   const State begin = initialState(model);
-  const double first = plan.end / std::max(plan.steps, 1);
+  const double first = plan.end / (plan.steps > 0 ? plan.steps : 100);
   for (int i = 0; i <= count; ++i) {
     const double time = i == 0 ? first : plan.end * i / count;
     Iterate iterate = startingIterate(begin);
@@ -192,7 +193,7 @@ Faults lintResolved(const ResolvedScene& resolved, const std::vector<std::string
 }
 
 void lintModel(const SceneDescription& scene, const Model& model, Faults& faults) {
-  if (scene.time.tolerance > 0) return;  // steps see what there is
+  if (scene.time.controlled()) return;  // steps see what there is
   for (const std::string& warning : loadsBetweenSteps(scene, model)) {
     const auto [place, text] = splitPlace(warning);
     faults.add("load-between-steps", place, text);

@@ -39,14 +39,14 @@ struct LintReport {
 /// Everything. \throws nothing that a scene could cause: errors become faults.
 LintReport lint(const std::string& scene, const std::vector<std::string>& settings);
 
-/// What is found in a scene that is resolved, without building or solving anything: what `lint` finds too,
-/// word for word.
+/// The faults of a resolved scene that are found without building or solving anything; `lint` reports the
+/// same ones, word for word.
 Faults lintResolved(const ResolvedScene& resolved, const std::vector<std::string>& settings);
 
-/// What the model tells.
+/// The faults that only the model shows.
 void lintModel(const SceneDescription& scene, const Model& model, Faults& faults);
 
-/// What initial equilibrium told, if anything (scene/initial_equilibrium.h).
+/// The message of the initial equilibrium, if any (scene/initial_equilibrium.h).
 void lintSettling(const SceneDescription& scene, const std::string& doubt, Faults& faults);
 
 // What the linter looks for, one file each.

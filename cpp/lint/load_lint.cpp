@@ -108,7 +108,7 @@ void checkKinks(const LintInput& input, const SampledDatum& datum, Faults& fault
     if (kink <= 0) continue;
     if (kink > time.end * (1 + onStep))
       late.push_back(kink);
-    else if (std::abs(kink / step - std::round(kink / step)) > onStep)
+    else if (!time.controlled() && std::abs(kink / step - std::round(kink / step)) > onStep)
       between.push_back(kink);
   }
   if (!late.empty())
@@ -160,7 +160,7 @@ void lintLoads(const LintInput& input, Faults& faults) {
     return;
   }
   const bool elastic = std::none_of(input.scene.bodies.begin(), input.scene.bodies.end(), flows);
-  if (elastic && !changes && time.steps > 1)
+  if (elastic && !changes && !time.controlled() && time.steps > 1)
     faults.add("constant-loads", input.where({"time", "steps"}),
                "nothing depends on time: of " + std::to_string(time.steps) + " steps the first one says all");
 }

@@ -53,12 +53,45 @@ void checkElasticity(const PlacedMaterial& material, Plane plane, double nominal
                    shortest(std::round(100 * nominal / e.young)) + " %");
 }
 
+/// Equal steps, and how far each goes beside the yield stress and the time of relaxation.
+void checkSteps(const LintInput& input, const PlacedMaterial& material, double largest, double afterFirstStep,
+                double firstYield, Faults& faults) {
+  constexpr double far = 3;
+  constexpr double tooStiff = 1e13;
+  const Viscoplasticity& flow = *material.description.viscoplasticity;
+  const TimePlan& time = input.scene.time;
+  const std::string& subject = material.subject;
+  const double step = time.end / time.steps;
+  const double relaxation =
+      2 * flow.viscosity / relaxingModulus(material.description.elasticity, input.scene.plane);
+  if (step > tooStiff * relaxation)
+    faults.add("viscosity-small", material.where("viscosity"),
+               subject + "a step is " + shortest(step / relaxation) +
+                   " relaxation times long, more than doubles resolve");
+  if (afterFirstStep > far * flow.yieldStress)
+    faults.add("yields-at-once", input.where({"time", "steps"}),
+               subject + "the first step goes to " + shortest(afterFirstStep) +
+                   " Pa, with yield_stress = " + shortest(flow.yieldStress) + " Pa");
+  constexpr int few = 10;
+  if (time.scheme == Scheme::backwardEuler && largest > flow.yieldStress && time.steps < few)
+    faults.add("few-steps-across-yield", input.where({"time", "steps"}),
+               subject + "backward-euler is of first order, " + std::to_string(time.steps) +
+                   " steps across yield leave an error of about " + shortest(std::round(100.0 / time.steps)) +
+                   " %");
+  const bool hard =
+      std::any_of(input.scene.contacts.begin(), input.scene.contacts.end(),
+                  [](const ContactDescription& c) { return c.variant == CouplingKind::interpolation; });
+  constexpr double lands = 1e-9;
+  if (hard && firstYield > 0 && std::abs(firstYield / step - std::round(firstYield / step)) < lands)
+    faults.add("lands-on-yield", input.where({"time", "steps"}),
+               subject + "a step ends at t = " + shortest(firstYield) +
+                   " s, where the traction reaches the yield stress");
+}
+
 void checkFlow(const LintInput& input, const PlacedMaterial& material, double largest, double afterFirstStep,
                double firstYield, Faults& faults) {
   constexpr double unreachable = 20;
-  constexpr double far = 3;
   constexpr double frozen = 1e-3;
-  constexpr double tooStiff = 1e13;
   constexpr double plastic = 0.1;
   const Viscoplasticity& flow = *material.description.viscoplasticity;
   const double e = relaxingModulus(material.description.elasticity, input.scene.plane);
@@ -77,33 +110,12 @@ void checkFlow(const LintInput& input, const PlacedMaterial& material, double la
                subject + yield + ", the loads are at most of the order of " + shortest(largest) + " Pa");
     return;
   }
-  const double step = time.end / time.steps;
   const double relaxation = 2 * flow.viscosity / e;
   if (time.end < frozen * relaxation)
     faults.add("viscosity-large", material.where("viscosity"),
                subject + "relaxes in 2 viscosity/E = " + shortest(relaxation) + " s, the run ends at " +
                    shortest(time.end) + " s: nothing has time to flow");
-  if (step > tooStiff * relaxation)
-    faults.add("viscosity-small", material.where("viscosity"),
-               subject + "a step is " + shortest(step / relaxation) +
-                   " relaxation times long, more than doubles resolve");
-  if (afterFirstStep > far * flow.yieldStress)
-    faults.add("yields-at-once", input.where({"time", "steps"}),
-               subject + "the first step goes to " + shortest(afterFirstStep) + " Pa, with " + yield);
-  constexpr int few = 10;
-  if (time.scheme == Scheme::backwardEuler && largest > flow.yieldStress && time.steps < few)
-    faults.add("few-steps-across-yield", input.where({"time", "steps"}),
-               subject + "backward-euler is of first order, " + std::to_string(time.steps) +
-                   " steps across yield leave an error of about " + shortest(std::round(100.0 / time.steps)) +
-                   " %");
-  const bool hard =
-      std::any_of(input.scene.contacts.begin(), input.scene.contacts.end(),
-                  [](const ContactDescription& c) { return c.variant == CouplingKind::interpolation; });
-  constexpr double lands = 1e-9;
-  if (hard && firstYield > 0 && std::abs(firstYield / step - std::round(firstYield / step)) < lands)
-    faults.add("lands-on-yield", input.where({"time", "steps"}),
-               subject + "a step ends at t = " + shortest(firstYield) +
-                   " s, where the traction reaches the yield stress");
+  if (!time.controlled()) checkSteps(input, material, largest, afterFirstStep, firstYield, faults);
 }
 
 /// The first time at which the largest traction reaches the yield stress; 0 where it does not.
@@ -138,7 +150,8 @@ void lintMaterials(const LintInput& input, Faults& faults) {
   const TimePlan& time = input.scene.time;
   double largest = 0;
   for (const double t : trialTimes(time)) largest = std::max(largest, nominalStress(input.scene, data, t));
-  const double afterFirstStep = nominalStress(input.scene, data, time.end / time.steps);
+  const double afterFirstStep =
+      time.controlled() ? 0 : nominalStress(input.scene, data, time.end / time.steps);
   double stiffest = 0;
   for (size_t b = 0; b < input.scene.bodies.size(); ++b) {
     double onBody = 0;

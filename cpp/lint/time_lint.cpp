@@ -8,7 +8,8 @@ void lintTime(const LintInput& input, Faults& faults) {
   constexpr int few = 20;
   constexpr double large = 4e9;  // bytes
   const SceneDescription& scene = input.scene;
-  if (scene.every > scene.time.steps)
+  const bool equalSteps = !scene.time.controlled();
+  if (equalSteps && scene.every > scene.time.steps)
     faults.add("output-every", input.where({"output", "every"}),
                "every = " + std::to_string(scene.every) + " with " + std::to_string(scene.time.steps) +
                    " steps keeps the first and the last state only");
@@ -27,7 +28,7 @@ void lintTime(const LintInput& input, Faults& faults) {
     if (mesh != nullptr)
       bytes += 8.0 * (6.0 * static_cast<double>(mesh->vertices.size()) +
                       11.0 * static_cast<double>(mesh->triangles.size()));
-  const int kept = scene.every > 0 ? 1 + scene.time.steps / scene.every : 1;
+  const int kept = equalSteps && scene.every > 0 ? 1 + scene.time.steps / scene.every : 1;
   if (bytes * kept > large)
     faults.add("output-large", input.where({"output", "every"}),
                std::to_string(kept) + " kept states, about " + shortest(std::round(bytes * kept / 1e8) / 10) +

@@ -14,13 +14,13 @@
 
 namespace mortier {
 
-/// Some points of a body on their path. All of its points are handed over.
+/// Some points of a body on their central path. Fields hold all points of the body.
 class InteriorPath {
  public:
   virtual ~InteriorPath() = default;
   /// The strain (elastic and viscoplastic) that an overstress of one yield stress makes in the step [-].
   [[nodiscard]] virtual double flowAtTwiceYield() const = 0;
-  /// Begins without stress, at the centre that belongs to a flow [-].
+  /// Starts without stress, at the place of the central path where the flow is this large [-].
   virtual void begin(double flow) = 0;
 
   /// Sum of x o y over all points: mu times their number on the path, y as a strain [-].
@@ -30,8 +30,8 @@ class InteriorPath {
   /// Linearises at the iterate, whose strain (minus shift) is given: predictor and moduli of the stress. Aims
   /// at mu = `target`; `correct` takes in what was neglected by the last direction.
   virtual void linearise(const Matrix& strain, double target, bool correct, Linearisation& result) = 0;
-  /// The direction in which a change of strain takes the points. \returns the largest step along it that none
-  /// of them bars [-].
+  /// The direction in which a change of strain takes the points. \returns the largest step along it at which
+  /// all of them stay inside their cones [-].
   virtual double direct(const Matrix& strainChange) = 0;
   /// Goes `step` along the last direction; `stress` follows.
   virtual void advance(double step, Matrix& stress) = 0;
@@ -50,7 +50,7 @@ struct ConeLaw {
 
 std::unique_ptr<InteriorPath> conePath(const ConeLaw& law, const Matrix& stress0, std::vector<int> points);
 
-/// Points without a path of their own follow Newton's method; they bar no step and count as none.
+/// For laws without a central path: their points take Newton's step. They limit no step; points() is 0.
 std::unique_ptr<InteriorPath> newtonPath(const Material& material, const PathStart& start,
                                          std::vector<int> points);
 

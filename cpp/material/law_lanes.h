@@ -1,4 +1,4 @@
-// What laws are written with that are evaluated for eight points at once.
+// Vectors and matrices for laws that are evaluated at eight points at once.
 #pragma once
 
 #include "base/lanes.h"

@@ -18,8 +18,8 @@ struct MaterialStep {
   double weight = 0;      ///< time step times the scheme's diagonal coefficient [s]
   const Matrix& stress0;  ///< components x points, at the start of the step [Pa]
   const Matrix& strain;   ///< components x points, total strain increment minus the scheme's shift [-]
-  /// Judge yielding by the stress plus a part of what the strain still asks for: slower where bodies flow,
-  /// but it holds where triangles sit on the yield surface.
+  /// Judge yielding by the stress plus a part of the change that the strain still asks for: Newton's method
+  /// is slower where bodies flow, but converges where triangles are on the yield surface.
   bool anticipate = false;
   /// What `strain` is added to, to give the total strain eps; needed where the law depends on that [-].
   const Matrix* strain0 = nullptr;
@@ -50,7 +50,7 @@ struct Linearisation {
   int elastic = 0;  ///< points at which the moduli are those of elasticity, as far as they were counted
 };
 
-/// What the linearisation of a range of points says beside the fields.
+/// What linearising a range of points returns beside the fields.
 struct LawReport {
   double change = 0;  ///< the largest change of stress that the law asks for [Pa]; NaN where any is
   int elastic = 0;    ///< points of the range if the moduli of all of them are those of elasticity, else 0
@@ -99,7 +99,7 @@ class InteriorPath;
 class Material {
  public:
   virtual ~Material() = default;
-  /// Of each part.
+  /// One for each part of the body.
   [[nodiscard]] virtual std::vector<LawDescription> laws() const = 0;
   /// Number of stress components: those of the plane, and one beyond it.
   [[nodiscard]] virtual int components() const = 0;
@@ -147,7 +147,7 @@ class Material {
   void viscoplasticRate(const Matrix& stress, Matrix& rate, const Matrix* strain = nullptr) const;
   /// E^-1 s [-], components x points.
   void elasticStrain(const Matrix& stress, Matrix& strain) const;
-  /// Nothing where no point has one. \pre as MaterialStep
+  /// The path of all points; null where none has a central path. It keeps references to its arguments.
   [[nodiscard]] std::unique_ptr<InteriorPath> interiorPath(double weight, const Matrix& stress0,
                                                            const Matrix* strain0 = nullptr) const;
 };

@@ -13,7 +13,7 @@
 
 namespace mortier {
 
-/// What vanishes across the plane.
+/// Which component across the plane is zero.
 enum class Plane { stress, strain };
 
 /// A stress or a strain; Scalar is a number or a batch of them.

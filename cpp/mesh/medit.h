@@ -1,5 +1,5 @@
-// Medit .mesh files (ASCII, in a plane), as FreeFEM and Gmsh read and write them; coordinates survive bit by bit.
-// The format has no names for labels. They stand in lines after its End, which other readers do not see:
+// Medit .mesh files (ASCII, in a plane), as FreeFEM and Gmsh read and write them; coordinates survive bit by
+// bit. The format has no names for labels. They stand in lines after its End, which other readers do not see:
 //   # label 3 = top
 //   # region 1 = punch
 #pragma once
@@ -12,12 +12,13 @@
 namespace mortier {
 
 /// Reads and validates. Vertices, Edges and Triangles are kept (vertex labels are not); sections that only
-/// guide a mesher (Corners, RequiredVertices, ...) are skipped. Of the regions those that are named (mesh/regions.h), all
-/// where none is. A third coordinate must be the same everywhere. \throws InputError `file:line: ...` on
-/// anything that is not a sound mesh, unknown keywords and a missing End included.
+/// guide a mesher (Corners, RequiredVertices, ...) are skipped. Of the regions those that are named
+/// (mesh/regions.h), all where none is. A third coordinate must be the same everywhere. \throws InputError
+/// `file:line: ...` on anything that is not a sound mesh, unknown keywords and a missing End included.
 TriangleMesh readMedit(const std::string& path, const std::vector<std::string>& regions = {});
 
-/// Writes the names of labels too, and each coordinate with the fewest digits (17 at most) that read back as the same bits.
+/// Writes the names of labels too, and each coordinate with the fewest digits (17 at most) that read back as
+/// the same bits.
 /// \throws OutputError when the file cannot be written.
 void writeMedit(const TriangleMesh& mesh, const std::string& path);
 

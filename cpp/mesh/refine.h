@@ -1,7 +1,7 @@
-// Triangles cut in two, and their neighbours with them until no vertex lies inside an edge: newest-vertex bisection
-// (Mitchell 1989; Funken, Praetorius and Wissgott 2011). A triangle a, b, c is cut from c to the middle m of its base
-// a-b, which makes c, a, m and b, c, m: their bases are the sides opposite of the new vertex. However often that is done,
-// the triangles of one first triangle have four shapes at most.
+// Triangles cut in two, and their neighbours with them until no vertex lies inside an edge: newest-vertex
+// bisection (Mitchell 1989; Funken, Praetorius and Wissgott 2011). A triangle a, b, c is cut from c to the
+// middle m of its base a-b, which makes c, a, m and b, c, m: their bases are the sides opposite of the new
+// vertex. However often that is done, the triangles of one first triangle have four shapes at most.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace mortier {
 
-/// The curvature of the arc behind an edge, by its vertices in their order [1/m]: positive where the arc is to the right of
-/// the edge. Edges that are not listed are straight.
+/// The curvature of the arc behind an edge, by its vertices in their order [1/m]: positive where the arc is
+/// to the right of the edge. Edges that are not listed are straight.
 using CurvedEdges = std::map<std::array<int, 2>, double>;
 
 struct RefinedMesh {
@@ -24,12 +24,12 @@ struct RefinedMesh {
   int offCurve = 0;  ///< new vertices that stayed on the chord: on the arc, a triangle would turn over
 };
 
-/// Turns the vertices of every triangle so that its longest side is the base; of equal ones that with the larger vertex
-/// numbers, so that two triangles choose alike.
+/// Turns the vertices of every triangle so that its longest side is the base; of equal ones that with the
+/// larger vertex numbers, so that two triangles choose alike.
 void chooseBases(TriangleMesh& mesh);
 
-/// Cuts the triangles that are marked, and as many more as it takes. New vertices of curved edges are put onto their
-/// arcs. Regions, labels, names and the middles of edges go on.
+/// Cuts the triangles that are marked, and as many more as it takes. New vertices of curved edges are put
+/// onto their arcs. Regions, labels, names and the middles of edges go on.
 /// \param marked  by triangle
 RefinedMesh bisect(const TriangleMesh& mesh, const CurvedEdges& curves, const std::vector<char>& marked);
 

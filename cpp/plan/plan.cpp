@@ -86,7 +86,7 @@ class Planner {
           "any of them may open");
     }
     add("contact", false, "a bilateral tie where nothing opens",
-        "nothing to save: contact that keeps its active set costs what a tie would, docs/check.md");
+        "it would save no time: contact that keeps its active set costs what a tie would, docs/check.md");
   }
 
   void planMemory() {
@@ -102,12 +102,14 @@ class Planner {
                                      [&](const SampledDatum& datum) { return changesInTime(datum, time); });
     if (elastic && !changes) {
       add("time", true, "one step", "nothing depends on time");
-      if (time.steps > 1)
+      if (!time.controlled() && time.steps > 1)
         add("time", false, "the other " + std::to_string(time.steps - 1) + " steps", "they are at rest");
       return;
     }
-    const std::string steps = std::to_string(time.steps) + (time.steps == 1 ? " step" : " steps");
-    add("time", true, steps + " of " + shortest(time.end / time.steps) + " s, " + word(time.scheme),
+    const std::string equal = std::to_string(time.steps) + (time.steps == 1 ? " step" : " steps") + " of " +
+                              shortest(time.end / time.steps) + " s, ";
+    const std::string chosen = "steps chosen by an error in time of " + shortest(time.tolerance) + ", ";
+    add("time", true, (time.controlled() ? chosen : equal) + word(time.scheme),
         changes ? "loads change" : "bodies flow");
   }
 

@@ -10,8 +10,8 @@
 
 namespace mortier {
 
-/// Estimated errors of the stress, relative, in the energy norm [-]. They are those of the meshes; what the steps in
-/// time add is not in them. Errors that are nothing but rounding are 0.
+/// Estimated errors of the stress, relative, in the energy norm [-]. They are those of the meshes; what the
+/// steps in time add is not in them. Errors that are nothing but rounding are 0.
 struct Accuracy {
   double all = 0;              ///< of the last state, over its own stress
   std::vector<double> bodies;  ///< the same of each body
@@ -22,15 +22,15 @@ struct Accuracy {
   double time = 0;         ///< of the last state [s]
 };
 
-/// What a run has estimated so far.
+/// The estimates of a run so far.
 struct AccuracyMemory {
   double energy = 0;  ///< elastic energy when it was estimated last [J/m]
   double error = 0;   ///< largest integral of e : E^-1 e [J/m]
   double time = 0;    ///< and when [s]
 };
 
-/// Estimates the last state, those that are kept, and on the way those at which the elastic energy has doubled: so a run
-/// that ends unloaded has an estimate of its loaded states too.
+/// Estimates the last state, those that are kept, and on the way those at which the elastic energy has
+/// doubled: so a run that ends unloaded has an estimate of its loaded states too.
 class AccuracyRecord {
  public:
   /// \param memory  of an earlier part of the run; kept up to date.

@@ -1,5 +1,5 @@
-// Checkpoints: all that it takes to go on with a run as if it had never stopped, in one binary file. A file
-// is written as a whole or not at all, the one before it is kept, and a checksum tells a damaged one.
+// Checkpoints: all data that a run needs to resume as if it had not stopped, in one binary file. A file is
+// written as a whole or not at all, the one before it is kept, and a checksum detects damage.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace mortier {
 
-/// What was asked for. A run goes on only with the same scene, settings and meshes.
+/// What the run was asked for. It resumes only with the same scene, settings and meshes.
 struct RunIdentity {
   std::string workingFolder;          ///< in which paths were meant
   std::string scene;                  ///< path, as given

@@ -1,5 +1,6 @@
-// contact.csv: per kept step and nonmortar node its place as meshed, gap [m], positive where the bodies are apart, nodal force
-// p [N/m], pressure Phi^-1 p [Pa], and whether it is active (p > 0). Vertices and interfaces count from 0.
+// contact.csv: per kept step and nonmortar node its place as meshed, gap [m], positive where the bodies are
+// apart, nodal force p [N/m], pressure Phi^-1 p [Pa], and whether it is active (p > 0). Vertices and
+// interfaces count from 0.
 #pragma once
 
 #include "report/output_file.h"

@@ -13,8 +13,8 @@ namespace mortier {
 
 namespace {
 
-/// A .vtu file: the arrays are described first, their bytes follow in one appended block, the last array first:
-/// meshio renames offsets as it reads and must not meet a new one before an old one of the same value.
+/// A .vtu file: the arrays are described first, their bytes follow in one appended block, the last array
+/// first: meshio renames offsets as it reads and must not meet a new one before an old one of the same value.
 class VtuFile {
  public:
   explicit VtuFile(std::string path) : path_(std::move(path)), file_(path_) {
@@ -119,12 +119,6 @@ void writeCells(VtuFile& file, const ElementNodes& nodes) {
   file.shut("Cells");
 }
 
-/// (p, q, r) or (p, q, r, s33) by the axes.
-PointVector allCartesian(PointVector s) {
-  s.head<3>() = toCartesian(s.head<3>());
-  return s;
-}
-
 void writeCellData(VtuFile& file, const Body& body, const BodyState& state, const ErrorEstimate& estimate) {
   const CellFields fields = cellFields(body, state);
   file.open("CellData", "Scalars=\"von_mises\"");
@@ -134,13 +128,10 @@ void writeCellData(VtuFile& file, const Body& body, const BodyState& state, cons
     return names;
   };
   file.array("stress", flat(fields.stress), components, named({"s11", "s22", "s12", "s33"}));
+  if (fields.stressAtPoints.rows() > components)
+    file.array("stress_at_points", flat(fields.stressAtPoints),
+               static_cast<int>(fields.stressAtPoints.rows()));
   file.array("von_mises", flat(fields.vonMises), 1);
-  if (body.degree() > 1) {  // what a mean cannot tell
-    Matrix stress(components, state.stress.cols());
-    for (Eigen::Index i = 0; i < stress.cols(); ++i) stress.col(i) = allCartesian(state.stress.col(i));
-    const auto points = static_cast<int>(stress.cols() / fields.stress.cols());
-    file.array("stress_at_points", flat(stress), points * components);
-  }
   file.array("viscoplastic_strain", flat(fields.viscoplasticStrain), components,
              named({"e11", "e22", "e12", "e33"}));
   file.integers("Int32", "viscoplastic", fields.viscoplastic);
@@ -150,17 +141,26 @@ void writeCellData(VtuFile& file, const Body& body, const BodyState& state, cons
   file.shut("CellData");
 }
 
+/// (p, q, r) or (p, q, r, s33) by the axes.
+PointVector allCartesian(PointVector s) {
+  s.head<3>() = toCartesian(s.head<3>());
+  return s;
+}
+
 }  // namespace
 
 CellFields cellFields(const Body& body, const BodyState& state) {
   const auto cells = static_cast<Eigen::Index>(body.mesh().triangles.size());
   const Eigen::Index pointsPerCell = state.stress.cols() / cells;
-  CellFields fields{Matrix::Zero(state.stress.rows(), cells), Vector::Zero(cells),
-                    Matrix::Zero(state.stress.rows(), cells), std::vector<int>(cells, 0)};
+  const Eigen::Index components = state.stress.rows();
+  CellFields fields{Matrix::Zero(components, cells), Matrix(components * pointsPerCell, cells),
+                    Vector::Zero(cells), Matrix::Zero(components, cells), std::vector<int>(cells, 0)};
   const double weight = 1.0 / static_cast<double>(pointsPerCell);
   for (Eigen::Index point = 0; point < state.stress.cols(); ++point) {
     const Eigen::Index cell = point / pointsPerCell;
-    fields.stress.col(cell) += weight * allCartesian(state.stress.col(point));
+    const PointVector stress = allCartesian(state.stress.col(point));
+    fields.stress.col(cell) += weight * stress;
+    fields.stressAtPoints.col(cell).segment(components * (point % pointsPerCell), components) = stress;
     fields.vonMises[cell] += weight * vonMises(state.stress.col(point));
     fields.viscoplasticStrain.col(cell) += weight * allCartesian(state.viscoplasticStrain.col(point));
     if (body.material().flows(state.stress, static_cast<int>(point))) fields.viscoplastic[cell] = 1;

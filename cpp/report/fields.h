@@ -3,7 +3,8 @@
 //   cells:  stress (s11, s22, s12) [Pa], von_mises [Pa], viscoplastic_strain (e11, e22, e12) [-],
 //           viscoplastic (1 where the stress is beyond yield), region (label of the triangle),
 //           error (estimated, of the stress: share of the triangle in the energy norm of its body) [-]
-// Points and cells are numbered as in the mesh, from 0. A cell with several material points shows their mean.
+// Points and cells are numbered as in the mesh, from 0. A cell with several material points shows their mean,
+// and stress_at_points (the components at each point, one point after the other) [Pa].
 #pragma once
 
 #include <future>
@@ -34,7 +35,8 @@ class Fields {
   Fields(std::string folder, const Model& model, std::vector<KeptFields> kept = {})
       : folder_(std::move(folder)), model_(model), kept_(std::move(kept)), synced_(kept_.size()) {}
   /// Writes <body>_<step>.vtu for every body; large ones while the run goes on, from a copy of the state.
-  /// \throws OutputError, also when a field is not finite, at the latest in the next call of any function here.
+  /// \throws OutputError, also when a field is not finite,
+  /// at the latest in the next call of any function here.
   void add(const State& state, int step);
   /// Brings everything to the disk. \returns what is written so far. \throws OutputError
   const std::vector<KeptFields>& sync();
@@ -57,6 +59,7 @@ class Fields {
 /// What is shown of one body's cells; one column (or entry) a triangle.
 struct CellFields {
   Matrix stress;              ///< s11, s22, s12, in plane strain s33 [Pa]
+  Matrix stressAtPoints;      ///< the same at the material points, one point below the other [Pa]
   Vector vonMises;            ///< [Pa]
   Matrix viscoplasticStrain;  ///< e11, e22, e12, in plane strain e33 [-]
   std::vector<int> viscoplastic;

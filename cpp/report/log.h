@@ -25,11 +25,14 @@ std::string logTrial(double error, double tolerance);
 std::string logStatus(const RunReport& report, const std::string& folder);
 /// How well the equations hold in the worst step.
 std::string logVerification(const Certificate& worst);
-/// How far the steps of a run in which they are chosen are from the exact ones, and whether the tolerance is met.
+/// How far the steps of a run in which they are chosen are from the exact ones,
+/// and whether the tolerance is met.
 std::string logTimeError(const RunFacts& facts, const RunReport& report);
-/// How far stresses are from the exact ones, by their own estimate: those of the last step, and the largest of the run.
+/// How far stresses are from the exact ones, by their own estimate: those of the last step,
+/// and the largest of the run.
 std::string logAccuracy(const RunFacts& facts, const Model& model, const Accuracy& accuracy);
-/// The largest values of the run where the last step does not have them, and what no small strain is any more.
+/// The largest values of the run where the last step does not have them,
+/// and what no small strain is any more.
 std::string logPeaks(const Peaks& peaks, const StepReport& last);
 /// The quantities of the scene at the end of the run; nothing where there are none.
 std::string logQuantities(const std::vector<Quantity>& quantities, const std::vector<double>& values);
@@ -43,7 +46,7 @@ class Log {
   void print(const std::string& text);
   /// Prints the row of a step.
   void step(const StepReport& report);
-  /// Takes the progress bar away.
+  /// Removes the progress bar.
   void finish() { progress_.clear(); }
 
  private:

@@ -14,7 +14,7 @@ class Progress {
 
   /// Draws the bar for a run that has reached `time` [s of the model].
   void show(double time);
-  /// Takes it away, so that a line can be printed.
+  /// Removes it, so that a line can be printed.
   void clear();
 
  private:

@@ -46,8 +46,8 @@ std::filesystem::path putInPlace(const ResultPlace& place, const std::filesystem
 /// Steps 3 and 4. \param target  has just been put in place  \param name  of its folder before that
 void finish(const ResultPlace& place, const std::filesystem::path& target, const std::string& name);
 
-/// What killed runs left is brought to its end: complete results are put in place, what cannot be gone on
-/// with goes.
+/// Clears up after killed runs: complete results are put in place, those that cannot be resumed are
+/// deleted.
 /// \throws InputError  a living process writes there.
 struct LeftBehind {
   std::vector<std::filesystem::path> stopped;  ///< temporary folders with a checkpoint, the latest first
@@ -55,7 +55,7 @@ struct LeftBehind {
 };
 LeftBehind clearUp(const ResultPlace& place);
 
-/// Takes away what the program has in a folder of its own, and the folder. Files of others move into `heir`;
+/// Deletes the files of the program in a folder, and the folder. Files of others move into `heir`;
 /// where that is no result, they stay.
 void discard(const ResultPlace& place, const std::filesystem::path& folder,
              const std::filesystem::path& heir);

@@ -1,4 +1,4 @@
-// What the reports say of a run that its model does not know: words of the scene. Reports know no scenes.
+// Facts of the scene that reports show and the model does not have, so that reports need not know scenes.
 #pragma once
 
 #include <string>

@@ -5,6 +5,7 @@
 #include "fem/element.h"
 #include "material/parts.h"
 #include "scene/check_data.h"
+#include "scene/finite_value.h"
 
 namespace mortier {
 
@@ -44,7 +45,7 @@ std::shared_ptr<const Material> buildMaterial(const BodyDescription& body, const
 void addInitialStress(const StressDescription& stress, std::optional<int> region, Conditions& conditions) {
   for (size_t c = 0; c < stress.size(); ++c) {
     if (stress[c]) {
-      conditions.initialStresses.push_back({static_cast<int>(c), region, stress[c]->value});
+      conditions.initialStresses.push_back({static_cast<int>(c), region, finiteValue(*stress[c])});
     }
   }
 }
@@ -57,17 +58,17 @@ Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescri
   std::vector<const ConditionDescription*> displacements;
   for (const ConditionDescription& c : body.conditions) {
     if (c.kind == ConditionDescription::Kind::displacement) {
-      conditions.displacements.push_back({c.label, c.component, c.value.value});
+      conditions.displacements.push_back({c.label, c.component, finiteValue(c.value)});
       displacements.push_back(&c);
     } else {
-      conditions.tractions.push_back({c.label, c.component, c.value.value});
+      conditions.tractions.push_back({c.label, c.component, finiteValue(c.value)});
     }
   }
   requireFiniteData(body, mesh, times);
   requireOneDisplacement(Supports(mesh, conditions.displacements), displacements, mesh, times);
   for (const int c : {0, 1}) {
     if (body.force[c]) {
-      conditions.forces.push_back({c, body.force[c]->value});
+      conditions.forces.push_back({c, finiteValue(*body.force[c])});
     }
   }
   addInitialStress(body.initialStress, std::nullopt, conditions);

@@ -8,8 +8,9 @@
 #include <memory>
 #include <numbers>
 
-#include "base/error.h"
+#include "base/datum_error.h"
 #include "scene/document.h"
+#include "scene/finite_value.h"
 
 namespace mortier {
 
@@ -148,16 +149,22 @@ Expression parseExpression(const std::string& text, std::string where) {
   }
 }
 
+Function finiteValue(const Expression& expression) {
+  return [value = expression.value, where = expression.where](double x, double y, double t) {
+    const double result = value(x, y, t);
+    if (!std::isfinite(result)) {
+      throw DatumError(where + ", expected a finite number, is " + shortest(result) +
+                       " at x = " + shortest(x) + ", y = " + shortest(y) + ", t = " + shortest(t));
+    }
+    return result;
+  };
+}
+
 void requireFinite(const Expression& expression, const std::vector<Point>& points,
                    const std::vector<double>& times) {
+  const Function value = finiteValue(expression);
   for (const double t : times) {
-    for (const Point& p : points) {
-      const double value = expression.value(p[0], p[1], t);
-      if (!std::isfinite(value)) {
-        throw InputError(expression.where + ", expected a finite number, is " + shortest(value) +
-                         " at x = " + shortest(p[0]) + ", y = " + shortest(p[1]) + ", t = " + shortest(t));
-      }
-    }
+    for (const Point& p : points) value(p[0], p[1], t);
   }
 }
 

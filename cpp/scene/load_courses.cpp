@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "mesh/boundary_line.h"
+#include "scene/finite_value.h"
 
 namespace mortier {
 namespace {
@@ -59,8 +60,8 @@ std::string text(const char* pattern, double a, double b) {
   return buffer;
 }
 
-Course courseAt(const Expression& expression, const Point& p, double end) {
-  const auto datum = [value = expression.value, p](double t) { return value(p[0], p[1], t); };
+Course courseAt(const Expression& expression, const Function& value, const Point& p, double end) {
+  const auto datum = [value, p](double t) { return value(p[0], p[1], t); };
   if (!expression.breaks.empty()) return tableCourse(datum, expression.breaks, 0, end);
   Course course = resolve(datum, 0, end);
   if (!course.resolved)
@@ -78,7 +79,7 @@ LoadCourses loadCourses(const SceneDescription& scene, const Model& model) {
   loads.breaks = scene.time.breaks;
   forEachDatum(scene, model, [&](const Expression& expression, const std::vector<Point>& points) {
     for (const Point& p : points) {
-      Course course = courseAt(expression, p, scene.time.end);
+      Course course = courseAt(expression, finiteValue(expression), p, scene.time.end);
       loads.breaks.insert(loads.breaks.end(), course.breaks.begin(), course.breaks.end());
       loads.data.push_back(std::move(course));
     }
@@ -96,7 +97,7 @@ std::vector<std::string> loadsBetweenSteps(const SceneDescription& scene, const 
     double most = much;
     std::string warning;
     for (const Point& p : points) {
-      const Course course = courseAt(expression, p, scene.time.end);
+      const Course course = courseAt(expression, expression.value, p, scene.time.end);
       // Of many steps most have no sample inside.
       double last = -1;
       for (const double t : course.times) {

@@ -16,7 +16,7 @@ struct LoadCourses {
 };
 
 /// Tables tell all of their kinks; expressions are tried at points where they act.
-/// \throws InputError naming a datum that varies faster than can be sampled, and the point.
+/// \throws InputError naming a datum that varies faster than can be sampled, or is not finite, and the point.
 LoadCourses loadCourses(const SceneDescription& scene, const Model& model);
 
 /// A warning for each datum that passes, within one of the equal steps of the scene, through values far

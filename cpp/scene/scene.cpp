@@ -46,7 +46,7 @@ void readOptions(const TableReader& root, SceneDescription& scene) {
     const TableReader solver(*node, "solver", "solver");
     scene.solver.tolerance = solver.number("tolerance", between(0, 1), scene.solver.tolerance);
     scene.solver.method = static_cast<Method>(solver.oneOf("method", methodWords, 0));
-    if (scene.time.tolerance > 0 && scene.solver.method != Method::newton) {
+    if (scene.time.controlled() && scene.solver.method != Method::newton) {
       solver.reject("method", "newton beside time.tolerance: the error is estimated with its tangent");
     }
     scene.solver.maxIterations = solver.integer("max_iterations", 1, defaultIterations(scene.solver.method));

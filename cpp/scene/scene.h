@@ -1,5 +1,5 @@
-// A scene as written: what docs/scene.md documents, validated key by key. resolve.h decides what it leaves to its meshes,
-// build.h turns it into a Model.
+// A scene as written: what docs/scene.md documents, validated key by key. resolve.h decides what it leaves to
+// its meshes, build.h turns it into a Model.
 #pragma once
 
 #include <array>

@@ -1,10 +1,10 @@
-// Solves with those rows and columns of a matrix W that belong to a set A, while A changes. W_BB is factorised for a
-// base set B. For an A that differs from B by the added conditions J and the removed ones R,
+// Solves with those rows and columns of a matrix W that belong to a set A, while A changes. W_BB is
+// factorised for a base set B. For an A that differs from B by the added conditions J and the removed ones R,
 //   [W_BB  W_BJ  E_R] [x_B]   [f_B]
 //   [W_JB  W_JJ   0 ] [x_J] = [f_J],
 //   [E_R'   0     0 ] [ y ]   [ 0 ]
-// so that each change of A costs one solve with W_BB, and not a factorisation (Gill, Murray, Saunders and Wright 1990). Where
-// A has moved far from B, it becomes the new base.
+// so that each change of A costs one solve with W_BB, and not a factorisation (Gill, Murray, Saunders and
+// Wright 1990). Where A has moved far from B, it becomes the new base.
 #pragma once
 
 #include <Eigen/LU>

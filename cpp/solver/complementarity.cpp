@@ -56,7 +56,8 @@ ContactSolution solveRegular(ProximalContact& contact, const ContactProblem& pro
 
 /// Conditions that say the same twice leave the forces undetermined and W singular: a proximal term on dp
 /// makes it regular, repeated until it no longer acts.
-/// \param weakest  weight of the term. The smaller, the fewer repetitions, and the more rounding in the signs of forces.
+/// \param weakest  weight of the term. The smaller, the fewer repetitions,
+/// and the more rounding in the signs of forces.
 ContactSolution solveRedundant(const ContactProblem& problem, const std::vector<char>& idle,
                                const Vector& slack, const Vector& p0, const Vector& balance,
                                const std::vector<char>& active, double weakest, Work& work) {
@@ -119,8 +120,8 @@ int dependentConditions(const Matrix& W) {
 
 ContactSolution solveContact(const ContactProblem& problem, const Vector& fullSlack, const Vector& p0,
                              const Vector& balance, std::vector<char> active) {
-  // A gap or an overlap that rigid motions take away is taken first: beside stiff bodies it is so many forces that those
-  // of the load would be lost in its rounding.
+  // A gap or an overlap that rigid motions take away is taken first: beside stiff bodies it is so many forces
+  // that those of the load would be lost in its rounding.
   Vector slack = fullSlack;
   Vector moved = Vector::Zero(problem.G.cols());
   if (moved.size() > 0 && slack.size() > 0) {

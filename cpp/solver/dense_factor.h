@@ -1,5 +1,6 @@
-// Factors of a dense matrix, made in its own memory: Cholesky's where it is symmetric, else LU with row interchanges, by
-// panels of columns, so that an interruption is heard between any two blocks of a large matrix.
+// Factors of a dense matrix, made in its own memory: Cholesky's where it is symmetric, else LU with row
+// interchanges, by panels of columns, so that an interruption is heard between any two blocks of a large
+// matrix.
 #pragma once
 
 #include "base/types.h"
@@ -15,7 +16,8 @@ class DenseFactor {
   void clear() { factor_.resize(0, 0); }
   /// x becomes the solution for the right-hand sides x (rows x any).
   void solve(Matrix& x) const;
-  /// Least pivot over what stood in its place before elimination: over the diagonal, or the largest entry of the column.
+  /// Least pivot over what stood in its place before elimination: over the diagonal,
+  /// or the largest entry of the column.
   [[nodiscard]] double leastPivot() const { return leastPivot_; }
   [[nodiscard]] Eigen::Index rows() const { return factor_.rows(); }
 

@@ -1,4 +1,4 @@
-// The data of a step, and its unknowns on the way to their values.
+// The data of a step, and its unknowns during the iteration.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ struct StepData {
   bool startSolved = false;   ///< the start of the step is the solution of the one before
 };
 
-/// The same with where it begins.
+/// The same with the state at its start.
 struct Step {
   const State& state0;
   const StepData& data;
@@ -27,7 +27,8 @@ struct Step {
   [[nodiscard]] const Matrix* shift(size_t body) const {
     return data.shift.empty() ? nullptr : &data.shift[body];
   }
-  /// What the strain of an iterate is added to for the total strain; null where the law does not depend on that.
+  /// What the strain of an iterate is added to for the total strain;
+  /// null where the law does not depend on that.
   [[nodiscard]] const Matrix* strain0(size_t body) const {
     return strains0[body].size() == 0 ? nullptr : &strains0[body];
   }
@@ -57,7 +58,7 @@ ActiveSets startingSets(const State& state0);
 /// Nothing moved yet, contact forces and active sets as in `state0`.
 Iterate startingIterate(const State& state0);
 
-/// The increment takes the prescribed displacements of t1.
+/// Puts the change of the prescribed displacements up to t1 into the increment.
 void prescribe(const Model& model, const Step& step, Iterate& iterate);
 
 /// iterate.bodies[body].strain becomes B du - shift.
@@ -69,7 +70,7 @@ std::vector<Vector> displacements(const State& state0, const Iterate& iterate);
 /// g = C (u0 + du) - g0 per interface: the gap of the state and what the increments add.
 std::vector<Vector> gaps(const Model& model, const State& state0, const Iterate& iterate);
 
-/// Those of a solution: 0 where it is active, whatever rounding left there.
+/// The gaps of a solution: exactly 0 on active nodes, in place of what rounding left there.
 std::vector<Vector> solvedGaps(const Model& model, const State& state0, const Iterate& solution);
 
 /// Whether any point of the state flows.

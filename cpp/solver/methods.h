@@ -7,8 +7,8 @@
 
 namespace mortier {
 
-/// Solved without a linear solve, where no load and no support changes and nothing flows: the state must
-/// solve the step as it is.
+/// For a step in which no load and no support changes and nothing flows: checks that the state solves the
+/// step as it is, without a linear solve.
 StepOutcome rest(StepSystem& system, const Step& step, Iterate& iterate);
 
 struct NewtonLimits {
@@ -23,7 +23,7 @@ struct NewtonLimits {
 StepOutcome newton(StepSystem& system, const Step& step, double weight, const NewtonLimits& limits,
                    Iterate& iterate);
 
-/// The law is followed along its central path (material/interior_path.h), contact exact in every linear
+/// Follows the law along its central path (material/interior_path.h); contact is exact in every linear
 /// solve.
 StepOutcome interiorPoint(StepSystem& system, const Step& step, int maxIterations, Iterate& iterate);
 

@@ -41,7 +41,7 @@ struct SolverOptions {
   /// Leave out what changes nothing: factors of bodies in which nothing flows, steps in which nothing
   /// happens.
   bool reduce = true;
-  // Where two methods begin; what they end in does not depend on it.
+  // Where two methods begin; their results do not depend on it.
   double proximalWeight = 1e-9;  ///< solver/complementarity.h [-]
   double firstOverstress = 100;  ///< of the interior point method, in yield stresses, far beyond any [-]
 };

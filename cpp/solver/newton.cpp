@@ -37,8 +37,8 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
     if (!std::move(condensed).expand(contact, iterate, outcome)) return outcome;
 
     linearised = system.linearise(step, iterate, weight, limits.anticipate);
-    // A stress that was far off the law has come back by cancellation. What that rounds stays in stiff triangles, unseen by the
-    // residual, until an iteration has nothing to cancel.
+    // A stress that was far off the law has come back by cancellation. What that rounds stays in stiff
+    // triangles, unseen by the residual, until an iteration has nothing to cancel.
     if (!(linearised.residual() <= limits.tolerance) || residual > cancelling) continue;
     const Certificate certificate = system.certify(step, iterate, linearised.residual());
     if (certificate.forceBalance <= std::max(balanceTolerance, limits.tolerance * 1e-2)) {

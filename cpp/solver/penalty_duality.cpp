@@ -10,7 +10,7 @@
 // gives the next du, s and p. It converges linearly for every D > 0, omega > 0 and 0 < a < 1 where the law is
 // monotone (Lions and Mercier 1979), the faster the nearer D^-1 is to the slope of the law and omega to that
 // of the bodies:
-//   D^-1  = E^-1 + penalty weight/(2 lambda), penalty the geometric mean of the slopes of the flow (choosePenalty),
+//   D^-1  = E^-1 + penalty weight/(2 lambda), penalty the geometric mean of the slopes of flow,
 //   omega = 1/sqrt(least times largest eigenvalue of the contact compliance W),
 // which have the units that they need. Where convergence is slow the penalties are chosen again for the
 // stress reached, ever more rarely, so that they become constant.

@@ -19,16 +19,17 @@ double depthOf(const Signs& signs, const Matrix& W) {
   return sum;
 }
 
-/// Whether sets on which no force pulls come nearer to the solution. Where W is symmetric that is by the energy
-/// 1/2 p'W p + s0'p, whose change is half of s_old'p_new - s_new'p_old, otherwise by the number of overlaps.
+/// Whether sets on which no force pulls come nearer to the solution. Where W is symmetric that is by the
+/// energy 1/2 p'W p + s0'p, whose change is half of s_old'p_new - s_new'p_old,
+/// otherwise by the number of overlaps.
 bool isBetter(const Signs& next, const Signs& best, bool symmetric) {
   if (next.overlaps.empty()) return true;
   if (!symmetric) return next.overlaps.size() < best.overlaps.size();
   return best.slack.dot(next.force) < next.slack.dot(best.force);
 }
 
-/// Of each run of neighbours that overlap the deepest: closing all would make most of them pull. At most `count`, the deepest
-/// ones.
+/// Of each run of neighbours that overlap the deepest: closing all would make most of them pull. At most
+/// `count`, the deepest ones.
 std::vector<int> deepest(const Signs& signs, const Matrix& W, size_t count) {
   const Vector depth = signs.slack.cwiseQuotient(W.diagonal());
   std::vector<int> result;
@@ -46,9 +47,9 @@ std::vector<int> deepest(const Signs& signs, const Matrix& W, size_t count) {
   return result;
 }
 
-/// Drops forces that pull until none is left. Where contact peels off from the ends of closed runs that would be one node at a
-/// time: after a few solves neighbours are dropped too, twice as many each time, until some of them overlap, which are closed
-/// again.
+/// Drops forces that pull until none is left. Where contact peels off from the ends of closed runs that would
+/// be one node at a time: after a few solves neighbours are dropped too, twice as many each time, until some
+/// of them overlap, which are closed again.
 class Peeling {
  public:
   void drop(const Signs& signs, std::vector<char>& active) {
@@ -87,8 +88,8 @@ class Peeling {
   std::vector<int> beside_;
 };
 
-/// \returns the signs of a set on which no force pulls; where nothing overlaps either, with factors of the set itself. Nothing
-/// where the work ends.
+/// \returns the signs of a set on which no force pulls; where nothing overlaps either, with factors of the
+/// set itself. Nothing where the work ends.
 bool dropPulls(ProximalContact& contact, ContactSolution& solution, Signs& signs) {
   Peeling peeling;
   while (!contact.redundant() && !contact.capped()) {
@@ -104,8 +105,8 @@ bool dropPulls(ProximalContact& contact, ContactSolution& solution, Signs& signs
   return false;
 }
 
-/// Closes an overlap of a set on which the forces p push; of those that would pull, the one that is reached first is dropped,
-/// and so on: the energy falls (Lawson and Hanson 1974).
+/// Closes an overlap of a set on which the forces p push; of those that would pull, the one that is reached
+/// first is dropped, and so on: the energy falls (Lawson and Hanson 1974).
 void descend(ProximalContact& contact, int chosen, Vector p, ContactSolution& solution) {
   solution.active[chosen] = 1;
   while (!contact.capped()) {

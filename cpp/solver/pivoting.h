@@ -5,8 +5,8 @@
 
 namespace mortier {
 
-/// From the set in `solution` to one where no force pulls and nothing overlaps. \returns false after all work that is allowed, or
-/// where a matrix is redundant. \throws Interrupted
+/// From the set in `solution` to one where no force pulls and nothing overlaps. \returns false after all work
+/// that is allowed, or where a matrix is redundant. \throws Interrupted
 bool pivot(ProximalContact& contact, ContactSolution& solution);
 
 }  // namespace mortier

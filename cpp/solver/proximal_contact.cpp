@@ -68,8 +68,8 @@ bool ProximalContact::solveOn(ContactSolution& solution) {
   solution.change = -slack_ - compliance(off);
   solution.rigid = solve(balance_ - problem_.G.transpose() * off + proximal_ * z0_, solution.change);
   solution.change += off;
-  // The forces that a slack needs by itself, and those of a motion, may be far larger than both together. What rounding leaves of
-  // them is solved for again while it becomes less.
+  // The forces that a slack needs by itself, and those of a motion, may be far larger than both together.
+  // What rounding leaves of them is solved for again while it becomes less.
   constexpr int corrections = 4;
   double before = INFINITY;
   for (int k = 0;; ++k) {
@@ -91,7 +91,9 @@ bool ProximalContact::grow(int condition, ContactSolution& solution, Growth& gro
   --pivotsLeft_;
   if (!take(solution.active)) return false;
   growth.force = -problem_.W.col(condition);
-  const Vector motion = solve(-problem_.G.row(condition).transpose(), growth.force);
+  // A row of a matrix without columns has no address.
+  const Vector drive = problem_.G.cols() > 0 ? Vector(-problem_.G.row(condition).transpose()) : Vector();
+  const Vector motion = solve(drive, growth.force);
   growth.force[condition] = 1;
   growth.slack = compliance(growth.force);
   if (motion.size() > 0) growth.slack -= problem_.G * motion;
@@ -189,7 +191,8 @@ bool ProximalContact::take(const std::vector<char>& active) {
   if (G.cols() == 0 || redundant_) return !redundant_;
   forces_ = G;
   factor_.solve(forces_);
-  // Motions that move no condition of A have the proximal term alone, however weak it is beside the rounding of the others.
+  // Motions that move no condition of A have the proximal term alone,
+  // however weak it is beside the rounding of the others.
   constexpr double heldFraction = 1e-14;
   Matrix closed = G;
   for (Eigen::Index i = 0; i < closed.rows(); ++i)

@@ -1,5 +1,5 @@
-// The contact problem of complementarity.h where W is regular, on one active set after the other. The balance is held by a
-// proximal term on the rigid motions,
+// The contact problem of complementarity.h where W is regular, on one active set after the other. The balance
+// is held by a proximal term on the rigid motions,
 //   s = s0 + W dp - G z,   p = p0 + dp,   G' dp + proximal (z - z0) = r,   s_A = 0,   p = 0 off A.
 #pragma once
 
@@ -48,7 +48,8 @@ class ProximalContact {
   };
   /// Judged against rounding, slacks as the forces that would close them.
   [[nodiscard]] Signs signsOf(const ContactSolution& solution) const;
-  /// By how much all forces and slacks grow with the force of one inactive condition, the active ones staying closed [-, s/p].
+  /// By how much all forces and slacks grow with the force of one inactive condition, the active ones staying
+  /// closed [-, s/p].
   struct Growth {
     Vector force, slack;
   };

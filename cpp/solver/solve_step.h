@@ -1,4 +1,4 @@
-// One time step solved: what is tried in turn.
+// Solves one time step; the methods that are tried in turn.
 #pragma once
 
 #include "solver/step_system.h"

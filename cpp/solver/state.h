@@ -23,7 +23,7 @@ struct State {
   std::vector<Vector> gap;
 };
 
-/// What of the solver itself a run must know to go on, per body; empty before the first step.
+/// The state of the solver itself that a run needs to resume, per body; empty before the first step.
 struct SolverMemory {
   std::vector<char> libraries;       ///< whether SuiteSparse has taken over
   std::vector<char> elasticFactors;  ///< whether the factors are those of elasticity
@@ -52,7 +52,7 @@ struct SpecialConditions {
 
 enum class Status { converged, failed, unheld };
 
-/// What a step took, in the order of what it costs (docs/theory.md).
+/// The method that solved a step, in the order of cost (docs/theory.md).
 enum class Rung { rest, newton, continuation, interiorPoint, path, damping, penaltyDuality, cut };
 
 /// As in history.csv and summary.json.

@@ -10,7 +10,8 @@
 // with (contact) kept as it is: each body is condensed to its contact dofs, and the complementarity problem
 // is solved there. A linear solve goes from one type to the next, and only so:
 //
-//   StepSystem -linearise-> Linearised -factorise-> Factorised -condense-> Condensed -solveContact, expand-> iterate
+//   StepSystem -linearise-> Linearised -factorise-> Factorised -condense-> Condensed -solveContact,
+//   expand-> iterate
 //
 // Each is good until the next linearise().
 #pragma once
@@ -34,7 +35,7 @@ namespace mortier {
 /// Force balance asked of a converged step; far above rounding, far below what any result shows.
 constexpr double balanceTolerance = 1e-11;
 
-/// What a body answers to an error of its strain.
+/// How a body responds to an error of its strain.
 struct Response {
   Vector displacement;  ///< by dofs [m]
   Matrix stress;        ///< components x points [Pa]
@@ -52,7 +53,7 @@ class StepSystem {
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] const SolverOptions& options() const { return options_; }
 
-  /// A step from a state; good until two other times are asked for.
+  /// The data of a step from a state; valid until loads at two other times have been asked for.
   [[nodiscard]] Step step(const State& state0, const StepData& data);
   /// Nodal forces of all bodies at a time.
   const std::vector<Vector>& loadsAt(double time);
@@ -61,14 +62,14 @@ class StepSystem {
   using LawOf = std::function<BodyLaw(int body)>;
   class Linearised;
   Linearised linearise(const Step& step, Iterate& iterate, const LawOf& lawOf);
-  /// That of the material, with this weight [s].
+  /// The law of the material, with this weight [s].
   [[nodiscard]] BodyLaw law(const Step& step, int body, double weight, bool anticipate) const;
   Linearised linearise(const Step& step, Iterate& iterate, double weight, bool anticipate);
 
   class Factorised;
   class Condensed;
 
-  /// The residuals of an iterate; the law as it was linearised last.
+  /// The residuals of an iterate, with the law as it was linearised last.
   [[nodiscard]] Certificate certify(const Step& step, const Iterate& iterate, double materialResidual) const;
 
   /// Factorised::respond with the last tangent, factorised anew where points began or ceased to flow since.
@@ -82,17 +83,17 @@ class StepSystem {
   [[nodiscard]] bool contactHolds() const { return contact_.G.cols() > 0; }
   /// Whether every tangent is symmetric: a step minimises a convex energy.
   [[nodiscard]] bool uniqueSolutions() const { return uniqueSolutions_; }
-  /// What was met among the contact conditions so far.
+  /// The special contact conditions that were found so far.
   [[nodiscard]] const SpecialConditions& special() const { return special_; }
 
-  /// Vectors of all interfaces as one, and one of all conditions by interface.
+  /// One vector of all conditions from those of the interfaces, and the reverse.
   [[nodiscard]] Vector joined(const std::vector<Vector>& parts) const;
   [[nodiscard]] std::vector<Vector> parted(const Vector& all) const;
 
   void forEachBody(const Threads::Work& work) { threads_.forEach(static_cast<int>(bodies_.size()), work); }
-  /// From now on CHOLMOD or UMFPACK.
+  /// Uses CHOLMOD or UMFPACK from now on.
   void useLibraries();
-  /// What of the solver itself a run must know to go on from here as if it had not stopped.
+  /// The state of the solver itself that a run needs to resume as if it had not stopped.
   [[nodiscard]] SolverMemory memory() const;
   void resume(const SolverMemory& memory);
 
@@ -126,12 +127,12 @@ class StepSystem {
 class StepSystem::Linearised {
  public:
   Linearised(StepSystem& system, double residual, Key /*key*/) : system_(&system), residual_(residual) {}
-  /// Of the material, scaled; NaN when any stress is.
+  /// The material residual, scaled; NaN where any stress is NaN.
   [[nodiscard]] double residual() const { return residual_; }
   [[nodiscard]] const Linearisation& law(int body) const { return system_->bodies_[body].law(); }
-  /// Nothing, and the reason, where a tangent is singular.
+  /// Empty where a tangent is singular; `outcome` then has the reason.
   [[nodiscard]] std::optional<Factorised> factorise(StepOutcome& outcome) const;
-  /// The factors of the linearisation before, whose tangent is the same.
+  /// Takes the factors of the linearisation before, which had the same tangent.
   [[nodiscard]] Factorised keepFactors() const;
 
  private:
@@ -142,7 +143,7 @@ class StepSystem::Linearised {
 class StepSystem::Factorised {
  public:
   Factorised(StepSystem& system, Key /*key*/) : system_(&system) {}
-  /// What the loads leave over, condensed to the contact conditions.
+  /// Condenses the forces that are out of balance to the contact conditions.
   [[nodiscard]] Condensed condense(const Step& step, const Iterate& iterate) const;
   [[nodiscard]] const ContactProblem& contact() const { return system_->contact_; }
   /// With these contacts kept closed and the others open:
@@ -160,8 +161,8 @@ class StepSystem::Condensed {
  public:
   Condensed(StepSystem& system, Key /*key*/) : system_(&system) {}
   [[nodiscard]] ContactSolution solveContact() const;
-  /// The iterate goes to the solution of the linear solve: displacement, stress, contact.
-  /// \returns false, and the reason, where there is none.
+  /// Moves the iterate (displacement, stress, contact) to the solution of the linear solve.
+  /// \returns false where there is none; `outcome` then has the reason.
   bool expand(const ContactSolution& contact, Iterate& iterate, StepOutcome& outcome) &&;
 
   Vector slack;              ///< g0 - C u at dp = 0

@@ -1,11 +1,11 @@
 // The solutions of a step for every viscosity, from that of almost elastic bodies to its own. Where a step
-// has several solutions, the one at the end of this way is meant (docs/theory.md).
+// has several solutions, the one at the end of this curve is taken (docs/theory.md).
 //
 // The law of the step with 10^decades weight in place of weight has, for decades -> -infinity, the one
 // solution of an elastic step. From there a curve of solutions leads to decades = 0, but `decades` may go up
-// and down along it. It is gone along by natural steps, in which decades rises, and where they do not get on,
-// because the curve turns back, by pseudo-arclength (Keller 1977; Allgower and Georg 1990), from the last
-// place that is on the curve for certain.
+// and down along it. The curve is followed by natural steps, which raise `decades`. Where they fail, because
+// the curve turns back, it is followed by pseudo-arclength (Keller 1977; Allgower and Georg 1990), from the
+// last place that is on the curve for certain.
 #pragma once
 
 #include <vector>
@@ -22,8 +22,8 @@ struct ViscosityWalk {
     double decades = 0;
     Iterate iterate;
   };
-  /// The last place if the way to it was gone with care, or the first. Steps that are solved roughly may jump
-  /// off the curve.
+  /// Where to follow the curve from: the last place if all steps to it were solved accurately, else the first
+  /// one. Steps that are solved roughly may jump off the curve.
   [[nodiscard]] Place startOfCurve() const;
 
   std::vector<Place> places;  ///< the start, which is not solved, and the last ones that are
@@ -34,16 +34,16 @@ struct ViscosityWalk {
       turns;  ///< where the curve turned back, in decades of the viscosity over that of the step
 };
 
-/// Natural steps: each is begun from the last and solved roughly. Where one fails, the walk goes back by two
-/// and on more closely.
+/// Natural steps: each starts from the place before and is solved roughly. Where one fails, the walk goes two
+/// places back and takes shorter steps.
 StepOutcome lowerViscosity(StepSystem& system, const Step& step, ViscosityWalk& walk, int maxIterations,
                            Iterate& solution);
 
-/// Follows the curve as such. Its direction in an iterate is the response of the step to the flow,
+/// Follows the curve by its arclength. Its direction at an iterate is the response of the step to the flow,
 ///   d(stress, displacement)/d decades = respond(log(10) weight G(s)),
-/// and forwards is where it came from the place before. A step along it predicts in that direction, and
-/// Newton's method corrects in the plane across it, the viscosity an unknown. The curve has a corner wherever
-/// a triangle begins or ceases to flow: steps become short before sharp ones.
+/// and forwards is the sense in which the last step was taken. A step predicts in that direction, and
+/// Newton's method corrects in the plane across it, with the viscosity as an unknown. The curve has a corner
+/// wherever a triangle begins or ceases to flow: steps become short before sharp ones.
 StepOutcome followCurve(StepSystem& system, const Step& step, ViscosityWalk& walk, int maxIterations,
                         Iterate& solution);
 

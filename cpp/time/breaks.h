@@ -1,5 +1,5 @@
-// Data in time, looked at before a run: kinks and jumps, where steps chosen by their error end, and samples
-// so dense that a step which would jump over a part of a datum is seen.
+// Data in time are sampled before a run, to find their kinks and jumps, where steps chosen by their error
+// end, and to recognise a step that would skip a part of a datum.
 #pragma once
 
 #include <functional>

@@ -5,11 +5,14 @@
 #include <sstream>
 #include <utility>
 
+#include "base/datum_error.h"
+
 namespace mortier {
 namespace {
 
 constexpr double safety = 0.9;
 constexpr int mostOnsets = 6;  // attempts that may be told to end on the onset of flow
+constexpr int trials = 5;
 constexpr double leastFactor = 0.2;
 constexpr double failureFactor = 0.25;
 constexpr double aim = 0.7;         // of the tolerance
@@ -66,13 +69,17 @@ void Controller::pilot(StepTaker& taker, State& state) {
   ErrorNorms largest = measure_.sizeOf(state);
   const double k = (plan_.end - state.time) / steps;
   const double often = std::exchange(unseen_, coarse);
-  while (state.time < plan_.end) {
-    const StepOutcome outcome = taker.attempt(nextTime(state.time, k), Scheme::backwardEuler);
-    memory_.run.iterations += outcome.iterations;
-    memory_.run.factorisations += outcome.factorisations;
-    if (!outcome.converged()) break;
-    taker.commit();
-    largest = larger(largest, measure_.sizeOf(state));
+  try {
+    while (state.time < plan_.end) {
+      const StepOutcome outcome = taker.attempt(nextTime(state.time, k), Scheme::backwardEuler);
+      memory_.run.iterations += outcome.iterations;
+      memory_.run.factorisations += outcome.factorisations;
+      if (!outcome.converged()) break;
+      taker.commit();
+      largest = larger(largest, measure_.sizeOf(state));
+    }
+  } catch (const DatumError&) {
+    // The run ends there as well, and says so.
   }
   unseen_ = often;
   state = before;
@@ -103,21 +110,23 @@ void Controller::begin(const State& state) {
 }
 
 bool Controller::beginAgain(State& state) {
-  constexpr int trials = 5;
   constexpr double least = 1e-4;  // by which the error of a step changes at once
   ControllerMemory& own = memory_.controller;
   own.scale = own.largest;
-  if (worst() <= plan_.tolerance || own.trial == trials) return false;
+  if (worst() <= plan_.tolerance || own.trial >= trials) return false;
   const double order = plan_.scheme == Scheme::backwardEuler ? 1 : 2;
   const double next = order == 1 ? 0.8 : aim;  // many small steps are the easier to foresee
   own.local *= std::max(least, std::pow(next * plan_.tolerance / worst(), (order + 1) / order));
+  // So many steps cannot be wrong by more in all.
+  own.local = std::max(own.local, aim * plan_.tolerance / plan_.maxSteps);
   state = own.start;
   begin(State(state));
   return true;
 }
 
-/// Adds the error of the step to what has been carried to its end. Flow does not amplify errors: where the linearised
-/// step does, points that flow and points that do not lie side by side, and the error is taken on as it was.
+/// Adds the error of the step to what has been carried to its end. Flow does not amplify errors: where the
+/// linearised step does, points that flow and points that do not lie side by side,
+/// and the error is taken on as it was.
 void Controller::add(StepTaker& taker, std::vector<Matrix> local, double size) {
   ControllerMemory& own = memory_.controller;
   const std::vector<Matrix> before = std::exchange(own.strain, std::move(local));
@@ -135,24 +144,34 @@ void Controller::add(StepTaker& taker, std::vector<Matrix> local, double size) {
 
 Controller::Judgement Controller::judge(StepTaker& taker, double t0, double t1) const {
   Judgement result{taker.localError()};
-  // In the middle of a loading most of the error of an overstress is forgotten in the next step; at a stop it is there.
+  // In the middle of a loading most of the error of an overstress is forgotten in the next step;
+  // at a stop it is there.
   ErrorNorms norms = measure_.sizeOf(t1 < stopAfter(t0) ? taker.response(result.strain) : taker.errorAtEnd());
-  norms.stress = std::min(norms.stress, measure_.sizeOf(taker.surprise()).stress);
+  // Stages miss what the flow, and so the stress, changes by between them.
+  double change = 0;
+  for (size_t i = 0; i < taker.stages(); ++i)
+    change = std::max(change, measure_.sizeOf(taker.change(i)).stress);
+  if (norms.stress > change) {
+    for (Matrix& strain : result.strain) strain *= change / norms.stress;
+    norms.stress = change;
+  }
   const ControllerMemory& own = memory_.controller;
   result.size = relative(norms, own.scale);
   const double error = result.size / own.local;
   result.factor = std::clamp(safety * std::pow(error, -1.0 / taker.errorOrder()), leastFactor, largestFactor);
   constexpr double rounding = 1.5;  // of times: the shortest step may come out a little longer
-  result.good = error <= 1 || t1 - t0 <= rounding * leastStep();
+  result.good = error <= 1 || t1 - t0 <= rounding * leastStep(t0);
   return result;
 }
 
-double Controller::leastStep() const {
+/// What time resolves at t. Relaxation may begin at once, and take no more of the run than that.
+double Controller::leastStep(double t) const {
   constexpr double little = 1e-12;
-  return little * (plan_.end - memory_.begin);
+  return little * std::max(std::abs(t), little * (plan_.end - memory_.begin));
 }
 
-/// Whether the first points to flow turn by more than a step may miss. Where most flow the turn is behind them.
+/// Whether the first points to flow turn by more than a step may miss.
+/// Where most flow the turn is behind them.
 bool Controller::turnsTooFar(const StepTaker& taker) const {
   constexpr double most = 0.5;
   const double flowing = taker.flowingAtEnd();
@@ -179,13 +198,22 @@ StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort e
       return outcome;
     }
   }
-  // What is too long without the guard is too long with it, whose steps are of the first order; but where the data turn to
-  // rest they are exact.
+  // What is too long without the guard is too long with it, whose steps are of the first order; but where the
+  // data turn to rest they are exact.
   const bool turns = t0 == memory_.begin || std::binary_search(stops_.begin(), stops_.end(), t0);
   if ((!judgement.good && !turns) || !taker.turned()) return outcome;
   outcome = taker.guard(outcome, effort);
   if (outcome.converged()) judgement = judge(taker, t0, t1);
   return outcome;
+}
+
+/// Whether methods fail all the time, and steps as short as the last one would not reach the end.
+bool Controller::crawls(double t, double k) const {
+  constexpr int many = 100;
+  constexpr int often = 4;  // one step in so many
+  const auto cut = memory_.run.rungs.find(nameOf(Rung::cut));
+  return cut != memory_.run.rungs.end() && cut->second >= many && often * cut->second >= memory_.run.steps &&
+         plan_.end - t > k * plan_.maxSteps;
 }
 
 void Controller::advance(StepTaker& taker, const State& state, StepReport& report) {
@@ -218,22 +246,28 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
       // The end of equilibrium is approached as closely as the tolerance asks.
       if (outcome.unheld() && k <= plan_.tolerance * (plan_.end - memory_.begin))
         return giveUp(Status::unheld, t1, outcome.detail);
+      if (crawls(state.time, k))
+        return giveUp(Status::failed, t1,
+                      "at the pace of the steps that can be solved max_steps = " +
+                          std::to_string(plan_.maxSteps) + " would not reach the end: " + outcome.detail);
       if (++failures == patience)
         return giveUp(outcome.unheld() ? Status::unheld : Status::failed, t1, outcome.detail);
       own.timeStep = failureFactor * k;
       continue;
     }
     failures = 0;
+    // No trial makes the shortest steps more accurate.
+    if (judgement.good && judgement.size > plan_.tolerance) own.trial = std::max(own.trial, trials);
     const double factor = judgement.factor;
     if (!judgement.good) {
       ++report.rejections;
-      own.timeStep = std::max(leastStep(), k * factor);
+      own.timeStep = std::max(leastStep(state.time), k * factor);
       continue;
     }
     // A step that was only shortened to end on a stop tells nothing against a longer one.
     const bool shortened = k < own.timeStep && factor >= 1;
     const double grown = (report.rejections > 0 ? std::min(factor, 1.0) : factor) * k;
-    own.timeStep = std::max(leastStep(), shortened ? std::max(grown, own.timeStep) : grown);
+    own.timeStep = std::max(leastStep(t1), shortened ? std::max(grown, own.timeStep) : grown);
     if (outcome.rung != Rung::rest) add(taker, std::move(judgement.strain), judgement.size);
     taker.commit();
     const ErrorNorms reached = measure_.sizeOf(state);

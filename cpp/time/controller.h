@@ -1,8 +1,12 @@
-// Steps chosen by their error. `tolerance` is the error in time of every step of the run, relative to the largest
-// displacement and stress of the run. What the error of one step may be follows from it by trial: a run is tried with a
-// guess, its error estimated (step_taker.h), and begun again with a smaller one until that meets the tolerance; with N steps of a scheme of order p both errors are linked by  global ~ local^(p/(p+1)).  Within a run
+// Steps chosen by their error. `tolerance` is the error in time of every step of the run, relative to the
+// largest displacement and stress of the run. What the error of one step may be follows from it by trial: a
+// run is tried with a guess, its error estimated (step_taker.h), and begun again with a smaller one until
+// that meets the tolerance; with N steps of a scheme of order p both errors are linked by
+//   global ~ local^(p/(p+1)).
+// Within a run
 //   k <- k 0.9 (error/local)^(-1/(p+1)),  by a factor between 1/5 and 5,
-// and a step with a larger error is rejected. Steps end on the breaks of the plan and jump over no part of its data.
+// and a step with a larger error is rejected. Steps end on the breaks of the plan and jump over no part of
+// its data.
 #pragma once
 
 #include <vector>
@@ -20,21 +24,22 @@ class Controller {
  public:
   Controller(const Model& model, const TimePlan& plan, MarchMemory& memory);
 
-  /// A few large steps of backward Euler to the end and back: only they tell how large the displacements of this run will
-  /// be, of which early ones may be a tiny part. Makes the first guess of the error of a step.
+  /// A few large steps of backward Euler to the end and back: only they tell how large the displacements of
+  /// this run will be, of which early ones may be a tiny part. Makes the first guess of the error of a step.
   void pilot(StepTaker& taker, State& state);
-  /// Makes ready for a run from the beginning.
+  /// Prepares a run from the beginning.
   void begin(const State& state);
   /// Takes one step, or reports why there is none.
   void advance(StepTaker& taker, const State& state, StepReport& report);
-  /// Goes back to the beginning with another guess, unless the run as it ended meets the tolerance or was the last trial.
+  /// Goes back to the beginning with another guess, unless the run as it ended meets the tolerance or was the
+  /// last trial.
   bool beginAgain(State& state);
   /// The error of the worst step so far over the largest displacement and stress so far.
   [[nodiscard]] double worst() const;
 
  private:
   static constexpr double largestFactor = 5;
-  /// Of an attempt that converged.
+  /// What is known of an attempt that converged.
   struct Judgement {
     std::vector<Matrix> strain;     ///< its error (StepTaker::localError)
     double size = 0;                ///< of that, relative
@@ -46,7 +51,8 @@ class Controller {
   StepOutcome attempt(StepTaker& taker, double t0, double t1, Effort effort, int onsets,
                       Judgement& judgement);
   [[nodiscard]] bool turnsTooFar(const StepTaker& taker) const;
-  [[nodiscard]] double leastStep() const;
+  [[nodiscard]] double leastStep(double t) const;
+  [[nodiscard]] bool crawls(double t, double k) const;
   [[nodiscard]] double nextTime(double t, double k) const;
   [[nodiscard]] double stopAfter(double t) const;
   void add(StepTaker& taker, std::vector<Matrix> local, double size);
@@ -56,6 +62,7 @@ class Controller {
   ErrorMeasure measure_;
   std::vector<double> nodes_;  ///< stage times of the scheme
   std::vector<double> stops_;  ///< breaks and the end
+  double before_ = 0;
   double unseen_ = 0;          ///< part of a datum's range that a step may miss
 };
 

@@ -7,7 +7,7 @@
 
 namespace mortier {
 
-/// The bodies give way elastically: with the loads and supports of the state's time,
+/// Lets the bodies deform elastically: with the loads and supports of the state's time,
 ///   E^-1 (s - s0) = B u,   sum |T| B' s + C'p = F,   g <= 0, p >= 0, p g = 0,
 /// which changes nothing where s0 is in equilibrium already. Where that is impossible the state is left
 /// alone.

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "base/datum_error.h"
 #include "time/controller.h"
 #include "time/initial_balance.h"
 #include "time/measure.h"
@@ -74,19 +75,25 @@ double secondsSince(Clock::time_point begin) {
 void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& plan, StepTaker& taker,
         Controller& controller, const Observer& observer) {
   RunReport& run = memory.run;
-  const bool controlled = plan.tolerance > 0;
+  const bool controlled = plan.controlled();
   while (run.status == Status::converged && (controlled ? state.time < plan.end : run.steps < plan.steps)) {
     const auto begin = Clock::now();
     StepReport report;
     report.step = run.steps + 1;
     const ActiveSets before = startingSets(state);
-    if (controlled) {
-      controller.advance(taker, state, report);
-      run.timeError = controller.worst();
-    } else {
-      report.time = memory.begin + (plan.end - memory.begin) * report.step / plan.steps;
-      report.timeStep = report.time - state.time;
-      advance(taker, state, report.time, report);
+    try {
+      if (controlled) {
+        controller.advance(taker, state, report);
+        run.timeError = controller.worst();
+      } else {
+        report.time = memory.begin + (plan.end - memory.begin) * report.step / plan.steps;
+        report.timeStep = report.time - state.time;
+        advance(taker, state, report.time, report);
+      }
+    } catch (const DatumError& error) {
+      // Shorter steps would end before it, but none beyond.
+      report.status = Status::failed;
+      report.reason = "step " + std::to_string(report.step) + ": " + error.what();
     }
     run.solveSeconds += secondsSince(begin);
     add(report, run);
@@ -99,13 +106,19 @@ void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& p
   }
 }
 
+/// Whether no load, no support and no overlap moves the bodies in the first moment.
+bool balanced(const Model& model, const State& state) {
+  for (size_t b = 0; b < model.bodies.size(); ++b)
+    if (!model.bodies[b].load(state.time).isZero(0) || !state.bodies[b].displacement.isZero(0)) return false;
+  return std::all_of(state.gap.begin(), state.gap.end(),
+                     [](const Vector& gap) { return (gap.array() <= 0).all(); });
+}
+
 /// Makes ready for steps chosen by their error: loads of the first moment act, and their scales are found.
 void prepare(const Model& model, State& state, MarchMemory& memory, const TimePlan& plan,
              const SolverOptions& options) {
   const auto begin = Clock::now();
-  const auto loaded = [&](const Body& body) { return !body.load(state.time).isZero(0); };
-  if (std::any_of(model.bodies.begin(), model.bodies.end(), loaded))
-    memory.run.iterations += balanceElastically(model, state, options).iterations;
+  if (!balanced(model, state)) memory.run.iterations += balanceElastically(model, state, options).iterations;
   StepTaker taker(model, state, memory, Scheme::backwardEuler, options);
   Controller controller(model, plan, memory);
   controller.pilot(taker, state);
@@ -141,7 +154,7 @@ RunReport march(const Model& model, State& state, const TimePlan& plan, const So
 
 RunReport march(const Model& model, State& state, MarchMemory& memory, const TimePlan& plan,
                 const SolverOptions& options, const Observer& observer) {
-  const bool controlled = plan.tolerance > 0;
+  const bool controlled = plan.controlled();
   const bool begun = memory.run.steps > 0 || memory.controller.trial > 0;
   if (!begun) memory.begin = state.time;
   if (!begun && controlled) prepare(model, state, memory, plan, options);

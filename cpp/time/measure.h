@@ -1,4 +1,4 @@
-// What is reported of a state.
+// The values that a step report gives of a state.
 #pragma once
 
 #include "solver/iterate.h"
@@ -17,7 +17,7 @@ void raise(Peaks& peaks, const StepReport& report);
 /// Resultant of nodal contact forces on the nonmortar body [N/m].
 Point resultant(const ContactInterface& interface, const Vector& force);
 
-/// Fills what became of the active sets in a step.
+/// Counts how the active sets changed in a step.
 void compareActive(const ActiveSets& before, const ActiveSets& after, StepReport& report);
 
 /// The larger of each residual.

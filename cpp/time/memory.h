@@ -1,5 +1,5 @@
-// What a march carries from step to step beside the State. State and memory together are all that it takes to
-// go on from a step as if it had never stopped; both are plain data.
+// What a march carries from step to step beside the State. With state and memory a march that was stopped
+// resumes as if it had not been; both are plain data.
 #pragma once
 
 #include <vector>
@@ -10,13 +10,13 @@
 
 namespace mortier {
 
-/// What a body moved and took up between the start of a step and one of its stages.
+/// The change of displacement and stress of a body from the start of a step to one of its stages.
 struct BodyIncrement {
   TwoPartVector displacement;  ///< by dofs [m]
   Matrix stress;               ///< components x points [Pa]
 };
 
-/// Of an error in time, or what it is measured by (error_norms.h).
+/// The norms of an error in time, or of what it is compared with (error_norms.h).
 struct ErrorNorms {
   double stress = 0;        ///< energy norm [sqrt(J/m)]
   double displacement = 0;  ///< mean over the bodies [m]

@@ -18,6 +18,8 @@ struct TimePlan {
   std::vector<double> breaks = {};
   /// Data in time: no step chosen by its error jumps over a part of one.
   std::vector<Course> data = {};
+  /// Whether steps are chosen by their error; otherwise they are equal.
+  [[nodiscard]] bool controlled() const { return tolerance > 0; }
 };
 
 }  // namespace mortier

@@ -73,7 +73,8 @@ void SpaceErrorEstimator::addGaps(size_t interface, const State& state,
                                   std::vector<ErrorEstimate>& estimates) const {
   const ContactInterface& contact = model_.interfaces[interface];
   const auto& [nonmortar, mortar, coupling] = contact.pair();
-  // Forces that are conditions on projections of quadratic traces have a pressure that does not vanish outside contact.
+  // Forces that are conditions on projections of quadratic traces have a pressure that does not vanish
+  // outside contact.
   const bool bounded = coupling == CouplingKind::weighted ||
                        (coupling == CouplingKind::mortar && model_.bodies[nonmortar.body].degree() == 1);
   if (!bounded) return;

@@ -1,6 +1,6 @@
-// The error of the meshes in a state: that of the stress of each body (fem/error_estimate.h), and what contact leaves between
-// its nodes. Recovery is blind to the latter: a soft body pressed by a wrong pressure has smooth stresses. With e the
-// error, p and g the pressure and the gap, h at the meshes,
+// The error of the meshes in a state: that of the stress of each body (fem/error_estimate.h), and what
+// contact leaves between its nodes. Recovery is blind to the latter: a soft body pressed by a wrong pressure
+// has smooth stresses. With e the error, p and g the pressure and the gap, h at the meshes,
 //
 //   a(e, e) = (bodies) + <p - p_h, g - g_h>,       <p - p_h, g - g_h> <= <p_h - p, g_h>,
 //
@@ -8,8 +8,9 @@
 //
 //   integral of E* g^2/h where p_h > 0, of E* (g_+)^2/h elsewhere,       1/E* = 1/E1 + 1/E2,
 //
-// h the edge of the nonmortar triangle, to whose error they are added. Where bodies have flowed, the gap closes under less stress: E* is
-// then that of strain over stress, and the energy that of elasticity, K^2/E* in place of E*.
+// h the edge of the nonmortar triangle, to whose error they are added. Where bodies have flowed, the gap
+// closes under less stress: E* is then that of strain over stress, and the energy that of elasticity,
+// K^2/E* in place of E*.
 #pragma once
 
 #include <vector>
@@ -26,8 +27,8 @@ class SpaceErrorEstimator {
   explicit SpaceErrorEstimator(const Model& model);
   /// By bodies.
   [[nodiscard]] std::vector<ErrorEstimate> operator()(const State& state) const;
-  /// The energy norm, squared, of the stresses of a body that the rounding of displacements makes: strains of `displacement`
-  /// [m] times epsilon over the size of a triangle [J/m].
+  /// The energy norm, squared, of the stresses of a body that the rounding of displacements makes: strains of
+  /// `displacement` [m] times epsilon over the size of a triangle [J/m].
   [[nodiscard]] double roundingOf(size_t body, double displacement) const;
 
  private:

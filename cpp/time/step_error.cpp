@@ -101,8 +101,8 @@ std::vector<Matrix> StepTaker::throughStages(const std::vector<std::vector<Matri
   return error;
 }
 
-/// Where some points flow and others do not, stresses turn sharply between the stages and the polynomial through them is
-/// no guide: no point misses more than a part of what it flows.
+/// Where some points flow and others do not, stresses turn sharply between the stages and the polynomial
+/// through them is no guide: no point misses more than a part of what it flows.
 void StepTaker::limit(const Fields& rates, Fields& missed) const {
   constexpr double largest = 0.3;
   const double k = t1_ - state_.time;
@@ -145,15 +145,12 @@ std::vector<Response> StepTaker::response(const std::vector<Matrix>& strain) {
   return system_.respond(strain, solutions_.back().active);
 }
 
-std::vector<Response> StepTaker::surprise() const {
-  const double ratio = memory_.increments.empty() ? 0 : (t1_ - state_.time) / memory_.timeStep;
-  std::vector<Response> surprise;
-  for (size_t b = 0; b < model_.bodies.size(); ++b) {
-    Matrix stress = solutions_.back().bodies[b].stress - state_.bodies[b].stress;
-    if (ratio > 0) stress -= ratio * memory_.increments.back()[b].stress;
-    surprise.push_back({Vector::Zero(state_.bodies[b].displacement.size()), std::move(stress)});
-  }
-  return surprise;
+std::vector<Response> StepTaker::change(size_t stage) const {
+  std::vector<Response> change;
+  for (size_t b = 0; b < model_.bodies.size(); ++b)
+    change.push_back({Vector::Zero(state_.bodies[b].displacement.size()),
+                      solutions_[stage].bodies[b].stress - state_.bodies[b].stress});
+  return change;
 }
 
 double StepTaker::share(const Matrix& (*stressOf)(const StepTaker&, size_t)) const {
@@ -214,7 +211,8 @@ std::vector<Response> StepTaker::turn() const {
 
 double StepTaker::onset() const {
   constexpr int halvings = 12;
-  // The polynomial through the stages knows how the load bends, the stress before the first flow how it would go on.
+  // The polynomial through the stages knows how the load bends,
+  // the stress before the first flow how it would go on.
   const std::vector<Matrix> expected = onwards();
   const auto anyFlows = [&](size_t b, const Matrix& stress) {
     for (int i = 0; i < model_.bodies[b].points(); ++i)

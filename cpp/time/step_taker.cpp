@@ -82,8 +82,8 @@ void StepTaker::shiftOf(const Stage& stage, double k) {
   }
 }
 
-/// In steady flow the last increments, scaled to the step, are a good guess; a hard step before makes them a bad
-/// one.
+/// In steady flow the last increments, scaled to the step, are a good guess; a hard step before makes them a
+/// bad one.
 Iterate StepTaker::guess(size_t stage, double k) const {
   constexpr double sameStep = 1e-9;
   Iterate iterate = startingIterate(state_);
@@ -106,8 +106,8 @@ std::vector<Matrix> StepTaker::startingRates() const {
   return rates;
 }
 
-/// From the strain that elasticity leaves: from the stress, its rounding times theta would strain the next stage
-/// (Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.8).
+/// From the strain that elasticity leaves: from the stress, its rounding times theta would strain the next
+/// stage (Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.8).
 std::vector<Matrix> StepTaker::ratesOf(const Iterate& stage, double weight) const {
   std::vector<Matrix> rates(model_.bodies.size());
   for (size_t b = 0; b < rates.size(); ++b) {

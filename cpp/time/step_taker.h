@@ -23,23 +23,25 @@ class StepTaker {
   StepOutcome attempt(double t1, Scheme scheme, Effort effort = Effort::usual);
   /// Whether the last attempt, which converged, needs the guard.
   [[nodiscard]] bool turned() const;
-  /// Does it again as two half steps of backward Euler. \returns the outcome, the work of `before` included
+  /// Repeats it as two half steps of backward Euler. \returns the outcome, the work of `before` included
   StepOutcome guard(const StepOutcome& before, Effort effort = Effort::usual);
   /// Whether that was done.
   [[nodiscard]] bool guarded() const { return guarded_; }
-  /// Error of the viscoplastic strain (exact less computed, per body) that the last attempt makes on its way from the
-  /// state (step_error.cpp).
+  /// Error of the viscoplastic strain (exact less computed, per body) that the last attempt makes on its way
+  /// from the state (step_error.cpp).
   std::vector<Matrix> localError();
-  /// Displacement and stress of it at the end of the attempt, the overstress included that later steps forget.
+  /// Displacement and stress of it at the end of the attempt,
+  /// the overstress included that later steps forget.
   [[nodiscard]] const std::vector<Response>& errorAtEnd() const { return reached_; }
   /// What an error of the viscoplastic strain at the start of the attempt has become at its end.
   std::vector<Matrix> carried(const std::vector<Matrix>& strain);
   /// What displacement and stress make of an error of the viscoplastic strain at the end of the attempt.
   std::vector<Response> response(const std::vector<Matrix>& strain);
-  /// By how much the stress of the attempt is not what the step before leads to expect; no displacement.
-  [[nodiscard]] std::vector<Response> surprise() const;
-  /// Where points began to flow on the way, about what their stress is wrong by at its end: the stages that come before see
-  /// no flow, the others only its last direction. No displacement.
+  /// What the stress changes by from the start of the attempt to one of its stages; no displacement.
+  [[nodiscard]] std::vector<Response> change(size_t stage) const;
+  [[nodiscard]] size_t stages() const { return tableau_.stages.size(); }
+  /// Where points began to flow during the attempt, about the error of their stress at its end: stages before
+  /// that see no flow, the others only its last direction. No displacement.
   [[nodiscard]] std::vector<Response> turn() const;
   /// The fraction of the attempt at which the first point flows, where none did at its start; 1 if none does.
   [[nodiscard]] double onset() const;
@@ -49,9 +51,9 @@ class StepTaker {
   [[nodiscard]] double flowingAtEnd() const;
   /// Power of the step with which the local error falls.
   [[nodiscard]] int errorOrder() const { return tableau_.errorOrder; }
-  /// What was met among the contact conditions so far.
+  /// The special contact conditions that were found so far.
   [[nodiscard]] const SpecialConditions& special() const { return system_.special(); }
-  /// Takes the last attempt over.
+  /// Makes the result of the last attempt the state.
   void commit();
   /// Active sets of the last step.
   [[nodiscard]] const ActiveSets& active() const { return active_; }

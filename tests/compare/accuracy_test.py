@@ -81,10 +81,11 @@ class Accuracy(InFolder):
             self.assertAlmostEqual(again["final"][key] / summary["final"][key], 1, delta=1e-9)
 
     def test_the_option_is_the_key(self):
-        _, summary = self.run_scene(PUNCH[:PUNCH.index("[accuracy]")], "--accuracy", "0.15", "--max-unknowns", "1e5",
-                                    "--max-seconds", "100")
+        _, summary = self.run_scene(PUNCH[:PUNCH.index("[accuracy]")], "--accuracy", "0.15", "--max-unknowns",
+                                    "1e5", "--max-seconds", "100")
         self.assertEqual(summary["accuracy"]["asked"], 0.15)
-        self.assertEqual(summary["settings"], ["accuracy.energy=0.15", "accuracy.max_unknowns=1e5", "accuracy.max_seconds=100"])
+        self.assertEqual(summary["settings"], ["accuracy.energy=0.15", "accuracy.max_unknowns=1e5",
+                                               "accuracy.max_seconds=100"])
 
     def test_what_is_not_reached_is_said(self):
         done, summary = self.run_scene(PUNCH, "--accuracy", "0.001", "--max-unknowns", "2000", code=1)
@@ -99,10 +100,12 @@ class Accuracy(InFolder):
     def test_a_round_that_cannot_be_solved_leaves_the_best_result(self):
         # With one iteration a step coarse meshes are solved and finer ones are not.
         self.write(PUNCH + "[output]\nevery = 1\n")
-        done = self.mortier("run", "scene.toml", "--out", "out", "--accuracy", "0.01", "--set", "solver.max_iterations=1", code=1)
+        done = self.mortier("run", "scene.toml", "--out", "out", "--accuracy", "0.01",
+                            "--set", "solver.max_iterations=1", code=1)
         summary = json.loads(self.read("out/summary.json"))
         accuracy, rounds = summary["accuracy"], summary["rounds"]
-        self.assertRegex(done.stderr, f"accuracy 0.01 not reached: round {len(rounds) + 1}: step 1 .* did not converge")
+        self.assertRegex(done.stderr,
+                         f"accuracy 0.01 not reached: round {len(rounds) + 1}: step 1 .* did not converge")
         self.assertGreater(len(rounds), 1)
         self.assertFalse(accuracy["reached"])
         self.assertEqual(accuracy["round"], len(rounds))
@@ -121,8 +124,8 @@ class Accuracy(InFolder):
     def test_a_round_stops_when_the_time_is_over(self):
         self.write(FLOWING.replace("cells = 1", "cells = 150"))
         begin = time.time()
-        done = self.mortier("run", "scene.toml", "--out", "out", "--set", "accuracy.max_seconds=1", "time.tolerance=1e-7",
-                            "time.scheme=sdirk2", code=1)
+        done = self.mortier("run", "scene.toml", "--out", "out", "--set", "accuracy.max_seconds=1",
+                            "time.tolerance=1e-7", "time.scheme=sdirk2", code=1)
         self.assertLess(time.time() - begin, 30)
         self.assertIn("max_seconds are over; the state after step", done.stderr)
         self.assertEqual(self.names("."), ["out.failed", "scene.toml"])
@@ -137,8 +140,10 @@ class Accuracy(InFolder):
         self.assertAlmostEqual(summary["tolerance"], 0.02, delta=1e-15)
 
     def test_a_constant_stress_is_exact_after_one_refinement(self):
-        scene = TWO_BLOCKS.replace('"upper.mesh"', '{ shape = "rectangle", lower = [0, 0], upper = [1, 1], cells = 3 }')
-        scene = scene.replace('"lower.mesh"', '{ shape = "rectangle", lower = [0, -1], upper = [1, 0], cells = 4 }')
+        scene = TWO_BLOCKS.replace('"upper.mesh"', '{ shape = "rectangle", lower = [0, 0], upper = [1, '
+                                                   '1], cells = 3 }')
+        scene = scene.replace('"lower.mesh"', '{ shape = "rectangle", lower = [0, -1], upper = [1, '
+                                              '0], cells = 4 }')
         _, summary = self.run_scene(scene, "--accuracy", "0.01")
         self.assertEqual(len(summary["rounds"]), 2)
         self.assertEqual(summary["accuracy"]["mesh"], 0)
@@ -183,10 +188,12 @@ steps = 1
 
     def test_what_cannot_be_is_refused(self):
         for setting, message in (("contact.variant=interpolation", "expected mortar beside accuracy"),
-                                 ("degree=2 contact.variant=mortar", "expected weighted beside accuracy and degree = 2"),
+                                 ("degree=2 contact.variant=mortar",
+                                  "expected weighted beside accuracy and degree = 2"),
                                  ("time.scheme=crank-nicolson", "expected it only beside time.scheme"),
                                  ("solver.method=penalty-duality", "expected it only beside solver.method"),
-                                 ("accuracy.energy=1.5", "0 < energy < 1"), ("accuracy.max_unknowns=-1", "max_unknowns > 0")):
+                                 ("accuracy.energy=1.5", "0 < energy < 1"),
+                                 ("accuracy.max_unknowns=-1", "max_unknowns > 0")):
             with self.subTest(setting):
                 self.write(PUNCH)
                 errors = self.mortier("run", "scene.toml", "--set", *setting.split(), code=2).stderr
@@ -198,9 +205,12 @@ steps = 1
         for bad, message in (('shape = "circle", cells = 1', 'shape = "circle", expected'),
                              ('shape = "rectangle"', "cells is missing"),
                              ('shape = "rectangle", cells = 1.5', "expected N or [N, M], integers >= 1"),
-                             ('shape = "rectangle", cells = 1, radius = 2', "radius = 2, expected of a mesh of shape rectangle"),
-                             ('shape = "rectangle", cells = 1, upper = [-1, 1]', "expected finite numbers with lower < upper"),
-                             ('shape = "quadrilateral", cells = 1, corners = [[0, 0], [1, 0]]', "expected four corners"),
+                             ('shape = "rectangle", cells = 1, radius = 2',
+                              "radius = 2, expected of a mesh of shape rectangle"),
+                             ('shape = "rectangle", cells = 1, upper = [-1, 1]',
+                              "expected finite numbers with lower < upper"),
+                             ('shape = "quadrilateral", cells = 1, corners = [[0, 0], [1, 0]]',
+                              "expected four corners"),
                              ('shape = "annulus", cells = 4, span = "most"', "span = \"most\", expected"),
                              ('file = "a.mesh", cells = 1', "cells = 1, expected it beside shape")):
             with self.subTest(bad):
@@ -212,14 +222,16 @@ steps = 1
     def test_a_stopped_run_begins_its_rounds_again(self):
         self.write(PUNCH)
         self.mortier("run", "scene.toml", "--out", "whole", "--accuracy", "0.02")
-        run = subprocess.Popen([PROGRAM, "run", "scene.toml", "--out", "out", "--accuracy", "0.02"], cwd=self.folder,
-                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        run = subprocess.Popen([PROGRAM, "run", "scene.toml", "--out", "out", "--accuracy", "0.02"],
+                               cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         limit = time.time() + 60
-        while not list(self.folder.glob("out.tmp-*/checkpoint")) and time.time() < limit and run.poll() is None:
+        while not list(
+            self.folder.glob("out.tmp-*/checkpoint")) and time.time() < limit and run.poll() is None:
             time.sleep(0.002)
         run.send_signal(signal.SIGKILL)
         run.wait()
-        done = subprocess.run([PROGRAM, "run", "--restart", "out"], cwd=self.folder, capture_output=True, text=True)
+        done = subprocess.run([PROGRAM, "run", "--restart", "out"], cwd=self.folder, capture_output=True,
+                              text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("the rounds begin again", done.stderr)
         for name in ("history.csv", "contact.csv", "punch.mesh", "block.mesh"):

@@ -1,4 +1,5 @@
-"""Headless Chromium for tests, driven over WebDriver by the standard library alone (Debian's chromium-driver)."""
+"""Headless Chromium for tests, driven over WebDriver by the standard library alone (Debian's
+chromium-driver)."""
 import base64
 import json
 import shutil
@@ -10,7 +11,8 @@ import urllib.error
 import urllib.request
 
 NEEDED = "the tests of mortier report need Debian's chromium and chromium-driver (scripts/prepare.sh)"
-LOCAL = urllib.request.build_opener(urllib.request.ProxyHandler({}))  # whatever the proxies of this machine are
+# whatever the proxies of this machine are
+LOCAL = urllib.request.build_opener(urllib.request.ProxyHandler({}))
 ELEMENT = "element-6066-11e4-a52e-4f735466cecf"
 
 
@@ -23,11 +25,13 @@ class Browser:
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             port = free.getsockname()[1]
-        self.process = subprocess.Popen([program, f"--port={port}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.process = subprocess.Popen([program, f"--port={port}"], stdout=subprocess.DEVNULL,
+                                        stderr=subprocess.DEVNULL)
         self.address = f"http://127.0.0.1:{port}/session"
-        options = ["--headless=new", "--remote-debugging-pipe", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars",
-                   "--force-device-scale-factor=1", f"--user-data-dir={self.folder.name}", f"--window-size={width},{height}",
-                   *(["--force-dark-mode"] if dark else [])]
+        options = ["--headless=new", "--remote-debugging-pipe", "--no-sandbox", "--disable-gpu",
+                   "--disable-dev-shm-usage", "--hide-scrollbars",
+                   "--force-device-scale-factor=1", f"--user-data-dir={self.folder.name}",
+                   f"--window-size={width},{height}", *(["--force-dark-mode"] if dark else [])]
         capabilities = {"alwaysMatch": {"browserName": "chrome", "goog:loggingPrefs": {"browser": "ALL"},
                                         "goog:chromeOptions": {"args": options}}}
         for _ in range(100):
@@ -39,12 +43,14 @@ class Browser:
                     raise AssertionError(error.read().decode()) from error
                 time.sleep(0.1)
         self.address += f"/{self.session}"
-        self.cdp("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
+        self.cdp("Emulation.setEmulatedMedia",
+                 features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
         self.size(width, height)
 
     def send(self, method, path, body=None):
         data = None if body is None else json.dumps(body).encode()
-        request = urllib.request.Request(self.address + path, data, {"Content-Type": "application/json"}, method=method)
+        request = urllib.request.Request(self.address + path, data, {"Content-Type": "application/json"},
+                                         method=method)
         with LOCAL.open(request, timeout=120) as answer:
             return json.loads(answer.read())["value"]
 
@@ -52,10 +58,12 @@ class Browser:
         return self.send("POST", "/goog/cdp/execute", {"cmd": command, "params": parameters})
 
     def size(self, width, height):
-        self.cdp("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=width < 600)
+        self.cdp("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1,
+                 mobile=width < 600)
 
     def open(self, path):
-        """Opens a page of mortier report and waits until it can be used; milliseconds from navigation to that."""
+        """Opens a page of mortier report and waits until it can be used;
+        milliseconds from navigation to that."""
         self.send("POST", "/url", {"url": path.resolve().as_uri()})
         for _ in range(600):
             if ready := self.run("return document.documentElement.dataset.ready"):
@@ -81,7 +89,8 @@ class Browser:
     def point(self, x, y):
         """Moves the mouse to a place of the window."""
         move = {"type": "pointerMove", "duration": 0, "x": round(x), "y": round(y)}
-        self.send("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"},
+        self.send("POST", "/actions",
+                  {"actions": [{"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"},
                                                     "actions": [move]}]})
 
     def picture(self):

@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
-"""Every call to the file system of a run or a restart fails once, or the process is killed there (tests/faults).
+"""Every call to the file system of a run or a restart fails once,
+or the process is killed there (tests/faults).
 
-call_sweep.py [--part K/N] [--mortier PROGRAM] [--calls failing_calls.so]    prints what was found, ends with 1 if anything was
+call_sweep.py [--part K/N] [--mortier PROGRAM] [--calls failing_calls.so]
 
-After each fault: no file of others is lost or changed, and the result is whole, the old one or the new one. After the next
-command for the same folder: the new result is in place, with every file of others, and nothing else is left. That command is
-run once for all faults that leave the same files.
+Prints what was found, ends with 1 if anything was.
+
+After each fault: no file of others is lost or changed, and the result is whole, the old one or the new one.
+After the next command for the same folder: the new result is in place, with every file of others, and nothing
+else is left. That command is run once for all faults that leave the same files.
 """
 import argparse
 import json
@@ -27,7 +30,8 @@ FAILS = [*RUN, "solver.max_iterations=1", "solver.tolerance=1e-30"]
 RESTART = ["run", "--restart", "out/r", "--quiet", "--checkpoint", "0"]
 # Of others; what stands in out/r may move with the result.
 INSIDE = {"notes.txt": "a", "mine.vtu": "b", "checkpoint.txt": "c", "other_000001.vtu": "d", "sub/deep": "e"}
-BESIDE = {"r.tmp-2024/summary.json": "f", "r.failed.txt": "g", "r.tmp-1": "h", "r.mortier-7/x": "i", "rr/history.csv": "j"}
+BESIDE = {"r.tmp-2024/summary.json": "f", "r.failed.txt": "g", "r.tmp-1": "h", "r.mortier-7/x": "i",
+          "rr/history.csv": "j"}
 
 
 class Sweep:
@@ -39,7 +43,8 @@ class Sweep:
         base = self.folder / "base"
         base.mkdir()
         self.run(base, ["mesh", "crisscross", "--cells", "3", "upper.mesh"])
-        self.run(base, ["mesh", "crisscross", "--cells", "4,2", "--lower", "0,-1", "--upper", "1,0", "lower.mesh"])
+        self.run(base, ["mesh", "crisscross", "--cells", "4,2", "--lower", "0,-1", "--upper", "1,0",
+                        "lower.mesh"])
         (base / "scene.toml").write_text(TWO_BLOCKS)
         self.copy("base", "whole", RUN)
         self.copy("base", "old", [*RUN, "time.steps=2"])
@@ -55,7 +60,8 @@ class Sweep:
         # what is begun, its command, the one after it
         self.cases = {"fresh": ("base", RUN, RUN), "over an old result": ("old", RUN, RUN),
                       "after a failed run": ("failed", RUN, RUN), "that fails": ("old", FAILS, RUN),
-                      "restart": ("base-stopped", RESTART, RESTART), "restart over an old result": ("old-stopped", RESTART, RESTART),
+                      "restart": ("base-stopped", RESTART, RESTART),
+                      "restart over an old result": ("old-stopped", RESTART, RESTART),
                       "anew instead of a restart": ("old-stopped", RUN, RUN)}
 
     def fresh_stopped(self, name, at):
@@ -81,8 +87,8 @@ class Sweep:
                        "ASAN_OPTIONS": "verify_asan_link_order=0:detect_leaks=0"}
         environment["LD_PRELOAD"] = self.calls
         try:
-            return subprocess.run([self.program, *command], cwd=folder, env=environment, capture_output=True, text=True,
-                                  errors="replace", timeout=120)
+            return subprocess.run([self.program, *command], cwd=folder, env=environment, capture_output=True,
+                                  text=True, errors="replace", timeout=120)
         except subprocess.TimeoutExpired:
             return subprocess.CompletedProcess(command, 124, "", "does not end")
 
@@ -107,24 +113,29 @@ class Sweep:
         done = self.run(folder, command, FAULT_AT=at, FAULT_HOW=how)
         place = f"run {name}, call {at}: {how}"
         self.others = not begin.startswith("base")
-        faults = [*self.lost(folder), *self.ended(done), *(self.not_whole(folder / "out/r") if self.others else [])]
+        faults = [*self.lost(folder), *self.ended(done),
+                  *(self.not_whole(folder / "out/r") if self.others else [])]
         if done.returncode == 0:
             faults += self.not_new(folder)
         left = (tuple(after), self.state(folder))
         if not faults and left in self.seen:
             return done
         next_ = self.run(folder, after)
-        # A restart finds nothing to go on with where the result is complete already, or where no step had been kept.
-        if next_.returncode == 2 and after == RESTART and "no stopped run" in next_.stderr and not self.not_new(folder):
+        # A restart finds nothing to go on with where the result is complete already,
+        # or where no step had been kept.
+        if (next_.returncode == 2 and after == RESTART and "no stopped run" in next_.stderr
+                and not self.not_new(folder)):
             pass
         elif next_.returncode != 0:
             faults.append(f"next command: {next_.returncode} {next_.stderr}")
         faults += [f"after the next command: {each}" for each in
-                   [*self.lost(folder), *self.not_whole(folder / "out/r"), *self.not_new(folder), *self.left(folder)]]
+                   [*self.lost(folder), *self.not_whole(folder / "out/r"), *self.not_new(folder),
+                    *self.left(folder)]]
         if not faults:
             self.seen.add(left)
         else:
-            self.findings.append(f"{place}: {done.returncode} {done.stderr.strip()}\n  " + "\n  ".join(faults))
+            self.findings.append(f"{place}: {done.returncode} {done.stderr.strip()}\n  "
+                                 + "\n  ".join(faults))
             print(self.findings[-1], flush=True)
         return done
 
@@ -163,7 +174,8 @@ class Sweep:
         try:
             manifest = json.loads((result / "manifest.json").read_text())
             return [f"{name} is not what the manifest says" for name, entry in manifest["files"].items()
-                    if (result / name).stat().st_size != entry["bytes"] or fnv1a((result / name).read_bytes()) != entry["fnv1a"]]
+                    if (result / name).stat().st_size != entry["bytes"]
+                    or fnv1a((result / name).read_bytes()) != entry["fnv1a"]]
         except (OSError, ValueError, KeyError) as error:
             return [f"no whole result: {error}"]
 

@@ -1,5 +1,5 @@
-"""mortier check: each fault that it knows, seeded into a sound scene (seeded/), is named with its place and its remedy;
-sound scenes pass in silence."""
+"""mortier check: each fault that it knows, seeded into a sound scene (seeded/), is named with its place and
+its remedy; sound scenes pass in silence."""
 import json
 import re
 import unittest
@@ -32,6 +32,19 @@ class Check(InFolder):
                 done = mortier("check", scene, "--json")
                 self.assertEqual((done.returncode, json.loads(done.stdout)["faults"]), (0, []))
 
+    def test_steps_that_an_error_chooses_have_none_of_the_faults_of_equal_ones(self):
+        text = (ROOT / "scenes/compression.toml").read_text()
+        text = text.replace("../shared-meshes", str(ROOT / "shared-meshes"))
+        for key, line in (("every", "every = 50"), ("steps", "tolerance = 1e-3")):
+            text = re.sub(rf"^{key} = .*$", line, text, flags=re.M)
+        text = text.replace('ty = "-10*t"', 'ty = { time = [0, 0.123, 1], value = [0, -1.23, -10] }')
+        self.assertNotIn("steps =", text)
+        (self.folder / "scene.toml").write_text(text)
+        done = mortier("check", self.folder / "scene.toml")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("0 errors, 0 warnings", done.stdout)
+        self.assertIn("time: steps chosen by an error in time of 0.001, backward-euler", done.stdout)
+
     def test_each_seeded_fault_is_named(self):
         kinds = {kind["id"]: kind for kind in catalogue()}
         for identifier, place, scene, seed in FAULTS:
@@ -55,7 +68,8 @@ class Check(InFolder):
         self.assertGreaterEqual(len(seeded), 40)
 
     def test_errors_are_those_of_run(self):
-        """What check calls an error a run refuses with the same exit code; what it lets pass, a run begins."""
+        """What check calls an error a run refuses with the same exit code; what it lets pass,
+        a run begins."""
         severities = {kind["id"]: kind["severity"] for kind in catalogue()}
         for identifier, _, scene, seed in FAULTS:
             with self.subTest(fault=identifier):
@@ -68,7 +82,8 @@ class Check(InFolder):
 
     def test_run_warns_as_check_does(self):
         """The same warnings in the same words, each once."""
-        quick = {"load-on-contact", "support-on-contact", "sliver", "initial-stress", "load-between-steps", "body-alone",
+        quick = {"load-on-contact", "support-on-contact", "sliver", "initial-stress", "load-between-steps",
+                 "body-alone",
                  "unused-label", "interpolation-unmatched", "poisson-negative", "large-displacement"}
         for identifier, _, scene, seed in FAULTS:
             if identifier not in quick:
@@ -122,8 +137,10 @@ class Check(InFolder):
         self.assertIn(("time", True, "one step", "nothing depends on time"), elastic)
         self.assertIn(("time", False, "the other 49 steps", "they are at rest"), elastic)
         growing = plan(Case(ELASTIC), "--set", "time.steps=50", "body.upper.boundary.ty=\"-t\"")
-        self.assertIn(("time", True, "loads change"), [(part, modelled, why) for part, modelled, _, why in growing])
-        self.assertIn(("body upper", True, "linear: one Cholesky factor for the whole run", "it is elastic"), elastic)
+        self.assertIn(("time", True, "loads change"),
+                      [(part, modelled, why) for part, modelled, _, why in growing])
+        self.assertIn(("body upper", True, "linear: one Cholesky factor for the whole run", "it is elastic"),
+                      elastic)
 
 
 if __name__ == "__main__":

@@ -29,7 +29,8 @@ class Comparison(InFolder):
         self.assertTrue(verdict.agrees, str(verdict))
 
     def test_elastic_bodies_agree(self):
-        settings = ["body.material={young=2e11, poisson=0.25}", "contact.variant=interpolation", "time.steps=2"]
+        settings = ["body.material={young=2e11, poisson=0.25}", "contact.variant=interpolation",
+                    "time.steps=2"]
         verdict = compare(run_mortier(self.folder / "mortier", settings),
                           run_freefem(self.folder / "freefem", settings))
         # An elastic body has no projection; FreeFEM's data name one that does nothing.

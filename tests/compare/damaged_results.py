@@ -1,9 +1,11 @@
 #!/usr/bin/python3
-"""Results with seeded damage through mortier plot and mortier report: a picture or one line, never a fault of the program.
+"""Results with seeded damage through mortier plot and mortier report: a picture or one line,
+never a fault of the program.
 
     tests/compare/damaged_results.py [--count 300] [--seed 1]
 
-Each case spoils one file (mutators.py, or a value of summary.json) and draws. tests/compare/plot_test.py does a few.
+Each case spoils one file (mutators.py, or a value of summary.json) and draws.
+tests/compare/plot_test.py does a few.
 """
 import argparse
 import collections
@@ -17,9 +19,11 @@ from pathlib import Path
 from mutators import OF_MESHES
 from views_support import solve, view
 
-VALUES = [None, [], {}, "x", "", -1, 0, 1e308, 1e-320, 3.5, True, 10**30, [[]], [1], {"a": 1}, "\0<b>", "../x"]
+VALUES = [None, [], {}, "x", "", -1, 0, 1e308, 1e-320, 3.5, True, 10**30, [[]], [1], {"a": 1}, "\0<b>",
+          "../x"]
 COMMANDS = [("report", "run"), ("report", "run"), ("plot", "run", "--only", "fields", "--out", "x.svg"),
-            ("plot", "run", "--only", "contact", "--out", "x.svg"), ("plot", "run", "--only", "history", "--out", "x.svg")]
+            ("plot", "run", "--only", "contact", "--out", "x.svg"),
+            ("plot", "run", "--only", "history", "--out", "x.svg")]
 
 
 def places(value):
@@ -43,7 +47,8 @@ def explore(folder, seed, count):
     """Faults as text, and how often each exit code came."""
     rng, faults, codes = random.Random(seed), [], collections.Counter()
     solve(folder, "run", "output.every=2", "contact.variant=interpolation")
-    sound = {path.name: path.read_bytes() for path in sorted((folder / "run").iterdir()) if path.name != "manifest.json"}
+    sound = {path.name: path.read_bytes() for path in sorted((folder / "run").iterdir())
+             if path.name != "manifest.json"}
     for case in range(count):
         name, command = rng.choice(list(sound)), rng.choice(COMMANDS)
         (folder / "run" / name).write_bytes(spoiled(name, sound[name], rng))
@@ -61,7 +66,8 @@ def explore(folder, seed, count):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=300)
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()

@@ -13,7 +13,8 @@ from pathlib import Path
 from support import PROGRAM, ROOT, InFolder, InSharedFolder
 
 TUTORIAL = ROOT / "docs" / "tutorial.md"
-PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md")), ROOT / "freefem" / "README.md"]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md")),
+         ROOT / "freefem" / "README.md"]
 LABELS = {"unit", "theory", "compare"}
 # Files that an example takes for granted, and the command that makes them.
 PREPARED = {"finer.mesh": "mesh crisscross --cells 12 finer.mesh"}
@@ -25,14 +26,15 @@ def blocks(page):
 
 
 def is_command(line):
-    return re.match(r"(\w+=\S+ )*(\./|build[\w-]*/|compare/|tests/|bench/|mortier |cmake |ctest |ninja |FreeFem\S* )", line)
+    return re.match(r"(\w+=\S+ )*(\./|build[\w-]*/|compare/|tests/|bench/|mortier |cmake |ctest |ninja "
+                    r"|FreeFem\S* )", line)
 
 
 def commands():
     """(page, command) of every line of a block that begins with a command; comments left out."""
     for page in PAGES:
         for language, text in blocks(page):
-            lines = [line for line in text.splitlines() if line.strip()]
+            lines = [line for line in re.sub(r"\\\n\s*", "", text).splitlines() if line.strip()]
             if language in ("", "sh", "bash") and is_command(lines[0]):
                 for line in lines:
                     for command in re.sub(r"\s+#.*", "", line).split("&&"):
@@ -50,7 +52,8 @@ def mentioned():
 
 
 def run(words, folder, expected=0):
-    done = subprocess.run(list(map(str, words)), cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    done = subprocess.run(list(map(str, words)), cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True)
     assert done.returncode == expected, f"{words}: exit code {done.returncode}\n{done.stdout[-2000:]}"
     return done.stdout
 
@@ -69,7 +72,8 @@ class Tutorial(InFolder):
                 self.assertEqual(program, "mortier")
                 told[command] = run([PROGRAM, *words], self.folder)
         self.assertIn("0 errors, 0 warnings", told["mortier check press.toml"])
-        # What the page shows, but for times, which are measured, and the last digits, which meshes of another Gmsh change.
+        # What the page shows, but for times, which are measured, and the last digits,
+        # which meshes of another Gmsh change.
         shown = re.search(r"force (-?[\d.]+) N/m", TUTORIAL.read_text())[1]
         found = re.search(r"force (-?[\d.]+) N/m", told["mortier run press.toml --accuracy 0.02"])[1]
         self.assertAlmostEqual(float(found), float(shown), delta=1e-3 * abs(float(shown)))
@@ -127,7 +131,8 @@ class Commands(InSharedFolder):
             self.check_labels(words)
 
     def check_mortier(self, words):
-        if words[0] == "study" or "--restart" in words:  # long, or after a run that was stopped: tests of their own
+        # long, or after a run that was stopped: tests of their own
+        if words[0] == "study" or "--restart" in words:
             self.check_options(words)
         else:
             run([PROGRAM, *words], self.folder)
@@ -146,7 +151,8 @@ class Commands(InSharedFolder):
         for option, value in zip(words, words[1:]):
             if option == "--preset":
                 presets = json.loads((ROOT / "CMakePresets.json").read_text())
-                kinds = {"cmake": "buildPresets" if "--build" in words else "configurePresets", "ctest": "testPresets"}
+                kinds = {"cmake": "buildPresets" if "--build" in words else "configurePresets",
+                         "ctest": "testPresets"}
                 self.assertIn(value, [preset["name"] for preset in presets[kinds[words[0]]]])
         self.check_labels(words)
         for option, value in zip(words, words[1:]):
@@ -177,7 +183,8 @@ class Commands(InSharedFolder):
         if kind == "tests":
             sources = list((ROOT / "tests").rglob(f"{name}.cpp"))
         else:
-            sources = [path for path in (ROOT / "bench").rglob("*.cpp") if path.stem in (name, name.removeprefix("bench_"))]
+            sources = [path for path in (ROOT / "bench").rglob("*.cpp")
+                       if path.stem in (name, name.removeprefix("bench_"))]
         self.assertEqual(len(sources), 1, f"{program}: {len(sources)} sources")
         for word in words:
             if word.startswith("--gtest_filter="):
@@ -242,7 +249,8 @@ class Theory(unittest.TestCase):
     def test_names_exist(self):
         text = (ROOT / "docs" / "theory.md").read_text()
         prose = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
-        files = {str(path.relative_to(ROOT / "cpp")): path for path in (ROOT / "cpp").rglob("*") if path.is_file()}
+        files = {str(path.relative_to(ROOT / "cpp")): path for path in (ROOT / "cpp").rglob("*")
+                 if path.is_file()}
         names = {path.name for path in files.values()}
         identifiers = set(re.findall(r"\w+", "\n".join(path.read_text() for path in files.values())))
         checked = 0
@@ -257,6 +265,28 @@ class Theory(unittest.TestCase):
                     continue
                 checked += 1
         self.assertGreater(checked, 30)
+
+    def test_words_of_the_glossary_are_in_the_code(self):
+        files = (ROOT / "cpp").rglob("*.*")
+        identifiers = set(re.findall(r"\w+", "\n".join(path.read_text() for path in files)))
+        rows = [line.split("|") for line in (ROOT / "docs" / "glossary.md").read_text().splitlines()]
+        names = [name for row in rows if len(row) == 6 for name in re.findall(r"`([\w:]+)`", row[3])]
+        self.assertGreater(len(names), 40)
+        for name in names:
+            self.assertLessEqual(set(name.split("::")), identifiers, name)
+
+    def test_a_step_is_told_in_the_order_of_its_calls(self):
+        text = (ROOT / "docs" / "theory.md").read_text()
+        chapter = text.partition("## solver: one step\n")[2].partition("\n## ")[0]
+        told = re.findall(r"^\*\*(\d+)\. `(\w+)`", chapter, re.M)
+        self.assertEqual([int(number) for number, _ in told], list(range(1, len(told) + 1)))
+        self.assertLessEqual(len(told), 8)
+        solver = ROOT / "cpp" / "solver"
+        called = [name for _, name in told]
+        self.assertEqual(called[:2], ["solveStep", "newton"])
+        self.assertIn("newton(", (solver / "solve_step.cpp").read_text())
+        words = re.findall(r"(\w+)\(", (solver / "newton.cpp").read_text())
+        self.assertEqual(list(dict.fromkeys(word for word in words if word in called)), called[1:])
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-"""Faults of the environment and of the input: no room, no reader, folders that vanish, kill -9, a thousand broken scenes."""
+"""Faults of the environment and of the input: no room, no reader, folders that vanish, kill -9,
+a thousand broken scenes."""
 import os
 import re
 import resource
@@ -29,8 +30,8 @@ def vanish(path):
 class Environment(OfTwoBlocks):
     def begin(self, *arguments):
         """A long run, once it has made its folder and some steps."""
-        process = subprocess.Popen([PROGRAM, "run", "scene.toml", *LONG, *arguments], cwd=self.folder, text=True,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        process = subprocess.Popen([PROGRAM, "run", "scene.toml", *LONG, *arguments], cwd=self.folder,
+                                   text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.addCleanup(process.kill)
         for line in process.stdout:
             if line.split()[0] == "3":
@@ -49,9 +50,11 @@ class Environment(OfTwoBlocks):
 
     def test_scenes_hold_every_key(self):
         tables = re.search(r"tables = \{(.*?)\n  \};", (ROOT / "cpp/scene/schema.cpp").read_text(), re.S)[1]
-        keys = {key for inner in re.findall(r"\{\"[\w.]*\", \{(.*?)\}\}", tables, re.S) for key in re.findall(r"\w+", inner)}
+        keys = {key for inner in re.findall(r"\{\"[\w.]*\", \{(.*?)\}\}", tables, re.S)
+                for key in re.findall(r"\w+", inner)}
         self.assertGreater(len(keys), 40)
-        written = set(re.findall(r"\w+(?= = )|(?<=\[)\w+|(?<=\.)\w+(?=\])", CONTACT_KEYS + BODY_KEYS + GEOMETRY_KEYS + SHAPE_KEYS + ONE_BODY))
+        written = set(re.findall(r"\w+(?= = )|(?<=\[)\w+|(?<=\.)\w+(?=\])",
+                                 CONTACT_KEYS + BODY_KEYS + GEOMETRY_KEYS + SHAPE_KEYS + ONE_BODY))
         self.assertEqual(keys - written, set())
 
     def test_mutated_scenes_and_meshes(self):
@@ -71,21 +74,26 @@ class Environment(OfTwoBlocks):
                 self.assertIn("cannot be written: File too large", done.stderr)
                 self.assertEqual(self.read("out/scene/summary.json"), before)
                 self.assertEqual(self.names("out"), ["scene"])
-        self.mortier("run", "scene.toml", "--quiet", "--set", "output.every=1", preexec_fn=limit_files(largest))
+        self.mortier("run", "scene.toml", "--quiet", "--set", "output.every=1",
+                     preexec_fn=limit_files(largest))
 
     def test_room_that_comes_back(self):
         steps = ["--set", "time.steps=300"]
         self.mortier("run", "scene.toml", "--quiet", *steps, "--out", "out/whole")
-        done = self.mortier("run", "scene.toml", "--quiet", *steps, "--checkpoint", "0", code=1, preexec_fn=limit_files(30000))
-        self.assertIn("history.csv: cannot be written: File too large; mortier run --restart out/scene goes on", done.stderr)
+        done = self.mortier("run", "scene.toml", "--quiet", *steps, "--checkpoint", "0", code=1,
+                            preexec_fn=limit_files(30000))
+        self.assertIn("history.csv: cannot be written: File too large; mortier run --restart "
+                      "out/scene goes on", done.stderr)
         self.mortier("run", "--restart", "out/scene", "--quiet")
         for name in ("history.csv", "contact.csv", "upper_000300.vtu", "lower_000300.vtu", "fields.pvd"):
-            self.assertEqual(*((self.folder / "out" / run / name).read_bytes() for run in ("whole", "scene")), name)
+            self.assertEqual(*((self.folder / "out" / run / name).read_bytes() for run in ("whole", "scene")),
+                             name)
 
     def test_no_room_for_a_mesh_or_a_script(self):
         before = (self.folder / "upper.mesh").read_bytes()
         for size in [0, 1, 100, 1000]:
-            self.mortier("mesh", "crisscross", "--cells", "9", "upper.mesh", code=1, preexec_fn=limit_files(size))
+            self.mortier("mesh", "crisscross", "--cells", "9", "upper.mesh", code=1,
+                         preexec_fn=limit_files(size))
             self.mortier("freefem", "scene.toml", "new.edp", code=1, preexec_fn=limit_files(size))
         self.assertEqual((self.folder / "upper.mesh").read_bytes(), before)
         self.assertEqual(self.names(), ["lower.mesh", "scene.toml", "upper.mesh"])
@@ -94,7 +102,8 @@ class Environment(OfTwoBlocks):
         self.mortier("mesh", "crisscross", "--cells", "2", "/dev/full", code=1)
         self.mortier("freefem", "scene.toml", "/dev/full", code=1)
         with open("/dev/full", "w") as full:
-            for arguments in (["mesh", "info", "upper.mesh"], ["freefem", "scene.toml"], ["run", "scene.toml"]):
+            for arguments in (["mesh", "info", "upper.mesh"], ["freefem", "scene.toml"],
+                              ["run", "scene.toml"]):
                 done = self.mortier(*arguments, code=1, stdout=full)
                 self.assertIn("standard output: cannot be written: No space left on device", done.stderr)
         require_whole(self.folder / "out/scene")
@@ -122,7 +131,8 @@ class Environment(OfTwoBlocks):
         (self.folder / "dangling").symlink_to("nothing")
         (self.folder / "mine.failed").symlink_to("nothing")
         self.write("{}", "closed/out/summary.json")
-        program = shutil.copy(PROGRAM, self.folder)  # where every user reaches it, wherever the build is and whatever the umask
+        # where every user reaches it, wherever the build is and whatever the umask
+        program = shutil.copy(PROGRAM, self.folder)
         run = [program, "run", "scene.toml", "--quiet", "--set", "time.steps=1000000", "--out"]
         user = {}
         if os.geteuid() == 0:  # as a user who owns nothing of it
@@ -135,11 +145,15 @@ class Environment(OfTwoBlocks):
         else:
             (self.folder / "shared/theirs").chmod(0o555)
             (self.folder / "closed").chmod(0o555)
-        for out, reason in (("dangling", "a link to nothing"), ("mine", "mine.failed: exists and is no result"),
-                            (".", "the current folder"), ("..", "the current folder"), (str(self.folder), "the current folder"),
-                            ("shared/theirs", "shared/theirs: cannot be replaced"), ("closed/new", "Permission denied")):
+        for out, reason in (("dangling", "a link to nothing"),
+                            ("mine", "mine.failed: exists and is no result"),
+                            (".", "the current folder"), ("..", "the current folder"),
+                            (str(self.folder), "the current folder"),
+                            ("shared/theirs", "shared/theirs: cannot be replaced"),
+                            ("closed/new", "Permission denied")):
             with self.subTest(out=out):
-                done = subprocess.run([*run, out], cwd=self.folder, capture_output=True, text=True, timeout=60, **user)
+                done = subprocess.run([*run, out], cwd=self.folder, capture_output=True, text=True,
+                                      timeout=60, **user)
                 self.assertIn(done.returncode, (1, 2), done.stderr)
                 self.assertIn(reason, done.stderr)
                 self.assertEqual(done.stderr.count("\n"), 1)
@@ -161,11 +175,13 @@ class Environment(OfTwoBlocks):
 
     def test_two_processes_at_once(self):
         for _ in range(10):
-            runs = [subprocess.Popen([PROGRAM, "run", "scene.toml", "--quiet", "--set", f"time.steps={steps}"], text=True,
+            runs = [subprocess.Popen([PROGRAM, "run", "scene.toml", "--quiet", "--set",
+                                      f"time.steps={steps}"], text=True,
                                      cwd=self.folder, stderr=subprocess.PIPE) for steps in (1, 2, 3, 4)]
             for process in runs:
                 errors = process.communicate(timeout=60)[1]
-                self.assertTrue(process.returncode == 0 or (process.returncode == 2 and ": in use, " in errors), errors)
+                self.assertTrue(process.returncode == 0 or (process.returncode == 2
+                                                            and ": in use, " in errors), errors)
             self.assertIn(0, [process.returncode for process in runs])
             require_whole(self.folder / "out/scene")
             self.assertEqual(self.names("out"), ["scene"])

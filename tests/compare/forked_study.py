@@ -1,4 +1,5 @@
-"""mortier study in forks of a process that has read all its modules: a study of small runs takes 0.1 s instead of 2."""
+"""mortier study in forks of a process that has read all its modules:
+a study of small runs takes 0.1 s instead of 2."""
 import ctypes
 import importlib.util
 import os
@@ -11,15 +12,16 @@ from support import PROGRAM, ROOT
 
 
 def drawn(plan, series):
-    """In place of pictures.draw, which takes most of the time and writes nothing: the same answer with empty pictures."""
+    """In place of pictures.draw, which takes most of the time and writes nothing:
+    the same answer with empty pictures."""
     names = [f"{error.name}-size" for error in plan.errors]
     stems = sys.modules["pictures"].stems(names)
     return [*zip(names, stems)], {f"{stem}.svg": b"<svg/>" for stem in stems}
 
 
 class ForkedStudy:
-    """\"errors\" and \"calls\" are files in the folder. Faults (tests/faults) need LD_PRELOAD=CALLS and FAULT_FOLDER="" from the
-    start of this process."""
+    """\"errors\" and \"calls\" are files in the folder. Faults (tests/faults) need LD_PRELOAD=CALLS and
+    FAULT_FOLDER="" from the start of this process."""
 
     def __init__(self, folder):
         self.errors, self.shared = folder / "errors", folder / "calls"
@@ -45,8 +47,8 @@ class ForkedStudy:
                 signal.alarm(120)
                 sys.argv = ["study", study, "--out", out, "--jobs", "1", "--quiet"]
                 if faulty:
-                    os.environ.update(LD_PRELOAD=CALLS, FAULT_SHARED=str(self.shared), FAULT_FOLDER=str(folder), FAULT_AT=str(at),
-                                      FAULT_HOW=how)
+                    os.environ.update(LD_PRELOAD=CALLS, FAULT_SHARED=str(self.shared),
+                                      FAULT_FOLDER=str(folder), FAULT_AT=str(at), FAULT_HOW=how)
                     calls = ctypes.CDLL(CALLS)
                     calls.faults_begin(at, how.encode(), str(folder).encode(), str(self.shared).encode())
                 code = self.program.main()

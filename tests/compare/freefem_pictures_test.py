@@ -1,4 +1,5 @@
-"""The FreeFEM scripts draw what they solve: -ps FILE on any scene that mortier freefem writes, with steps and meshes changed."""
+"""The FreeFEM scripts draw what they solve: -ps FILE on any scene that mortier freefem writes,
+with steps and meshes changed."""
 import re
 import unittest
 
@@ -11,7 +12,8 @@ from codes import FREEFEM, call
 
 def triangles(text):
     """Filled triangles of a PostScript file of FreeFEM; the squares of its legend are left out."""
-    found = [np.array(points.split(), float).reshape(-1, 2) for points in re.findall(r"^bF ([\d. -]+) eF", text, re.M)]
+    found = [np.array(points.split(), float).reshape(-1, 2)
+             for points in re.findall(r"^bF ([\d. -]+) eF", text, re.M)]
     return np.array([each for each in found if len(each) == 3])
 
 
@@ -20,8 +22,8 @@ class Pictures(InFolder):
         script, picture = self.folder / "scene.edp", self.folder / "a.ps"
         done = mortier("freefem", ROOT / scene, script, cwd=ROOT)
         self.assertEqual(done.returncode, 0, done.stderr)
-        output, _ = call([FREEFEM, "-nw", "-nw", "-ne", "-v", "0", script, "-quiet", "-out", self.folder / "out",
-                          "-ps", picture, *words])
+        output, _ = call([FREEFEM, "-nw", "-nw", "-ne", "-v", "0", script, "-quiet", "-out",
+                          self.folder / "out", "-ps", picture, *words])
         return picture.read_text(errors="replace"), output
 
     def test_scenes(self):
@@ -45,7 +47,8 @@ class Pictures(InFolder):
             moved.append(mesh.points[:, :2] + np.loadtxt(self.folder / "out" / f"{name}.displacement.txt"))
             middles.append(moved[-1][mesh.cells_dict["triangle"]].mean(1))
         moved, middles = np.concatenate(moved), np.concatenate(middles)
-        # The drawing is the plane, scaled and shifted, its points whole numbers: every triangle is there, at its place.
+        # The drawing is the plane, scaled and shifted, its points whole numbers: every triangle is there,
+        # at its place.
         self.assertEqual(len(drawn), len(middles))
         corners = drawn.reshape(-1, 2)
         scale = np.ptp(corners, axis=0) / np.ptp(moved, axis=0)
@@ -57,7 +60,8 @@ class Pictures(InFolder):
     def test_pressure_and_other_meshes(self):
         """The note's test: the pressure is 10 at every node with the projection; other meshes draw more."""
         sizes = []
-        for words in (("-steps", 4), ("-steps", 3, "-mesh1", "fine.mesh"), ("-steps", 4, "-variant", "interpolation")):
+        for words in (("-steps", 4), ("-steps", 3, "-mesh1", "fine.mesh"),
+                      ("-steps", 4, "-variant", "interpolation")):
             if "fine.mesh" in words:
                 mortier("mesh", "crisscross", "--cells", "12", self.folder / "fine.mesh")
                 words = [self.folder / word if word == "fine.mesh" else word for word in words]

@@ -52,8 +52,8 @@ class Gallery(InFolder):
     def test_page_shows_every_scene(self):
         for entry in GALLERY:
             with self.subTest(entry.scene):
-                section = re.search(rf"^## [^\n]*\n(?:(?!^## ).)*scenes/{entry.scene}\.toml.*?(?=^## |\Z)", PAGE,
-                                    re.M | re.S)
+                section = re.search(rf"^## [^\n]*\n(?:(?!^## ).)*scenes/{entry.scene}\.toml.*?(?=^## |\Z)",
+                                    PAGE, re.M | re.S)
                 self.assertIsNotNone(section, "no section names the scene")
                 self.assertIn(f"images/gallery/{entry.scene}.png", section[0])
                 for number in entry.numbers:

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """Scenes whose every string is hostile, through run, check, freefem (FreeFEM runs what is written) and study.
 
-hostile_sweep.py [--count N] [--seed N] [--browser PROGRAM]    prints what was found, ends with 1 if anything was
+hostile_sweep.py [--count N] [--seed N] [--browser PROGRAM]
 
-Every exit code is a documented one, every message short lines of visible UTF-8; no command in a string is run and no file
-is written outside of what was asked for. With a browser (Debian's chromium) each page of a study is opened in it: it asks for
-nothing but the page, as it would if anything in the page ran or was loaded.
+Prints what was found, ends with 1 if anything was.
+
+Every exit code is a documented one, every message short lines of visible UTF-8; no command in a string is run
+and no file is written outside of what was asked for. With a browser (Debian's chromium) each page of a study
+is opened in it: it asks for nothing but the page, as it would if anything in the page ran or was loaded.
 """
 import argparse
 import http.server
@@ -23,14 +25,18 @@ from forked_study import ForkedStudy
 from scenes import TWO_BLOCKS
 from support import PROGRAM
 
-PIECES = ['"', "'", "\\", "\n", "\r", "\t", "\0", "\x1b[2J", "\x7f", "\x0b", "\u0085", "\u2028", "\u202e", "\ufeff", "//", "/*", "*/",
-          "#", "$", "`touch ran`", "$(touch ran)", ";", '");exec("touch ran");//', "\nexec(\"touch ran\");//", "\rexec(\"touch ran\");//",
-          'include "ran"', "<script>fetch('/ran')</script>", "<img src=/ran onerror=fetch('/ran')>", "\" onerror=fetch('/ran') src=\"/ran",
-          "</title><script src=/ran></script>", "<svg onload=fetch('/ran')>", "<base href=/ran/><iframe src=javascript:fetch('/ran')>",
-          "&lt;script&gt;", "&amp;", "-->", "]]>", "$\\frac{1}$", "$", "%s%n", "{}", "../ran", "/tmp/ran", "--out", "-", "=", "a", "é",
-          "日本", "𝄞", "e\u0301", "x" * 300, " ", "0", "macro ran() exec("]
-WORDS = {"title": '"two blocks"', "body": '"upper"', "mesh": '"upper.mesh"', "load": '"-10*t"', "projection": '"elasticity"',
-         "key": "poisson = 0.3, v"}
+PIECES = ['"', "'", "\\", "\n", "\r", "\t", "\0", "\x1b[2J", "\x7f", "\x0b", "\u0085", "\u2028", "\u202e",
+          "\ufeff", "//", "/*", "*/",
+          "#", "$", "`touch ran`", "$(touch ran)", ";", '");exec("touch ran");//', "\nexec(\"touch ran\");//",
+          "\rexec(\"touch ran\");//",
+          'include "ran"', "<script>fetch('/ran')</script>", "<img src=/ran onerror=fetch('/ran')>",
+          "\" onerror=fetch('/ran') src=\"/ran",
+          "</title><script src=/ran></script>", "<svg onload=fetch('/ran')>",
+          "<base href=/ran/><iframe src=javascript:fetch('/ran')>",
+          "&lt;script&gt;", "&amp;", "-->", "]]>", "$\\frac{1}$", "$", "%s%n", "{}", "../ran", "/tmp/ran",
+          "--out", "-", "=", "a", "é", "日本", "𝄞", "e\u0301", "x" * 300, " ", "0", "macro ran() exec("]
+WORDS = {"title": '"two blocks"', "body": '"upper"', "mesh": '"upper.mesh"', "load": '"-10*t"',
+         "projection": '"elasticity"', "key": "poisson = 0.3, v"}
 STUDY = """title = {}
 scene = {}
 [[error]]
@@ -60,7 +66,8 @@ class Sweep:
         self.folder.mkdir()
         self.codes, self.findings, self.pages = Counter(), [], []
         for name, corners in (("upper", ("0,0", "1,1")), ("lower", ("0,-1", "1,0"))):
-            self.run("mesh", "crisscross", "--cells", "1", f"--lower={corners[0]}", f"--upper={corners[1]}", f"{name}.mesh")
+            self.run("mesh", "crisscross", "--cells", "1", f"--lower={corners[0]}", f"--upper={corners[1]}",
+                     f"{name}.mesh")
         self.freefem = shutil.which("FreeFem++-nw")
         self.study = ForkedStudy(Path(folder))
         self.study.errors.touch()
@@ -87,7 +94,8 @@ class Sweep:
             return self.tell(f"{command}: no UTF-8", seed, scene)
         if any(len(line) > 5000 or not line.isprintable() or "Traceback" in line for line in lines):
             self.tell(f"{command}: {lines}", seed, scene)
-        if command != "check" and code != 0 and sum(1 for line in lines if line and ": warning: " not in line) != 1:
+        if command != "check" and code != 0 and sum(1 for line in lines if line
+                                                    and ": warning: " not in line) != 1:
             self.tell(f"{command}: not one line: {lines}", seed, scene)
 
     @staticmethod
@@ -113,11 +121,14 @@ class Sweep:
         (self.folder / name).write_text(scene)
         setting = self.text(rng)
         option = ["--set", f"title={setting}"] if rng.random() < 0.3 and "\0" not in setting else []
-        for command in (["check", name], ["run", name, "--quiet", "--out", "out/r"], ["freefem", name, "scene.edp"]):
+        for command in (["check", name], ["run", name, "--quiet", "--out", "out/r"],
+                        ["freefem", name, "scene.edp"]):
             done = self.run(*command, *option)
-            self.judge(command[0], done.returncode, done.stderr + (done.stdout if command[0] == "check" else b""), seed, scene)
+            self.judge(command[0], done.returncode,
+                       done.stderr + (done.stdout if command[0] == "check" else b""), seed, scene)
         if (self.folder / "scene.edp").exists() and self.freefem:
-            done = subprocess.run([self.freefem, "-nw", "-ne", "-v", "0", "scene.edp", "-quiet", "-out", "out/f"], cwd=self.folder,
+            done = subprocess.run([self.freefem, "-nw", "-ne", "-v", "0", "scene.edp", "-quiet", "-out",
+                                   "out/f"], cwd=self.folder,
                                   capture_output=True)
             self.codes["FreeFEM", done.returncode] += 1
             if done.returncode != 0:
@@ -139,8 +150,10 @@ class Sweep:
         title, error, sweep, value = visible if rng.random() < 0.8 else texts
         if rng.random() < 0.7:  # of a scene that can be solved
             (self.folder / scene).write_text(TWO_BLOCKS.replace("steps = 4", "steps = 1"))
-        axis, values = ("title", toml(value)) if rng.random() < 0.5 else ("steps", "1, 2" if pictures else "1")
-        (self.folder / "study").write_text(STUDY.format(toml(title), toml(scene), toml(error), toml(sweep), axis, values))
+        axis, values = ("title", toml(value)) if rng.random() < 0.5 else ("steps",
+                                                                          "1, 2" if pictures else "1")
+        (self.folder / "study").write_text(STUDY.format(toml(title), toml(scene), toml(error), toml(sweep),
+                                                        axis, values))
         code, told, _ = self.study.run(self.folder, "study", "out/s", pictures)
         self.judge("study", code, told, seed, (self.folder / "study").read_text())
         if (self.folder / "out/s/report.html").exists():
@@ -176,8 +189,10 @@ class Sweep:
             asked.clear()
             what = "all-" if batch else "control-"
             with tempfile.TemporaryDirectory() as profile:
-                process = subprocess.Popen([browser, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={profile}",
-                                            "--remote-debugging-port=0", f"http://127.0.0.1:{server.server_port}/{what}"],
+                process = subprocess.Popen([browser, "--headless", "--no-sandbox", "--disable-gpu",
+                                            f"--user-data-dir={profile}",
+                                            "--remote-debugging-port=0",
+                                            f"http://127.0.0.1:{server.server_port}/{what}"],
                                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
                 done.wait(300)
                 process.terminate()
@@ -187,7 +202,8 @@ class Sweep:
             if not batch and "/ran" not in more:
                 self.tell("the browser runs nothing: nothing is tested", 0, "")
             elif batch and (more or len(loaded) != len(batch) or not done.is_set()):
-                self.tell(f"the browser opened {len(loaded)} of {len(batch)} pages and asked for {sorted(more)}", batch[0], "")
+                self.tell(f"the browser opened {len(loaded)} of {len(batch)} pages and asked for "
+                          f"{sorted(more)}", batch[0], "")
             opened += len(loaded)
         server.shutdown()
         return opened
@@ -204,7 +220,8 @@ def main():
         for i in range(given.count):
             sweep.try_one(given.seed + i, pictures=i % 20 == 0)
         opened = sweep.open_pages(given.browser) if given.browser else 0
-    print(f"{given.count} scenes, {len(sweep.pages)} pages, {opened} opened, {len(sweep.findings)} findings; " + ", ".join(
+    print(f"{given.count} scenes, {len(sweep.pages)} pages, {opened} opened, {len(sweep.findings)} findings; "
+          + ", ".join(
         f"{command} {code}: {n}" for (command, code), n in sorted(sweep.codes.items())))
     return 1 if sweep.findings else 0
 

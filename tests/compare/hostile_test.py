@@ -1,4 +1,5 @@
-"""Scenes whose every string is hostile: nothing runs, nothing is written outside (a part of hostile_sweep.py)."""
+"""Scenes whose every string is hostile: nothing runs, nothing is written outside (a part of
+hostile_sweep.py)."""
 import tempfile
 import unittest
 

@@ -12,8 +12,8 @@ BUILD = Path(PROGRAM).parent
 
 
 def output(*command, **options):
-    done = subprocess.run([str(each) for each in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          timeout=600, **options)
+    done = subprocess.run([str(each) for each in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True, timeout=600, **options)
     if done.returncode != 0:
         raise AssertionError(f"{command}: exit code {done.returncode}\n{done.stdout[-4000:]}")
     return done.stdout
@@ -43,9 +43,10 @@ class Install(InSharedFolder):
         self.addCleanup(package.rename, self.prefix)
         build = self.folder / "examples"
         # The generator of this build: CMake's default one need not be installed.
-        generator = re.search(r"^CMAKE_GENERATOR:INTERNAL=(.+)$", (BUILD / "CMakeCache.txt").read_text(), re.M).group(1)
-        output("cmake", "-S", ROOT / "examples", "-B", build, "-G", generator, f"-DCMAKE_PREFIX_PATH={package}",
-               "-DCMAKE_BUILD_TYPE=Release")
+        generator = re.search(r"^CMAKE_GENERATOR:INTERNAL=(.+)$", (BUILD / "CMakeCache.txt").read_text(),
+                              re.M).group(1)
+        output("cmake", "-S", ROOT / "examples", "-B", build, "-G", generator,
+               f"-DCMAKE_PREFIX_PATH={package}", "-DCMAKE_BUILD_TYPE=Release")
         output("cmake", "--build", build)
         commands = (build / "CMakeFiles/press.dir/flags.make", build / "build.ninja")
         text = "".join(path.read_text() for path in commands if path.exists())
@@ -56,17 +57,21 @@ class Install(InSharedFolder):
         rows = [line.split() for line in output(build / "press", scene, *settings).splitlines()]
         self.assertEqual(len(rows), 21)
         for time, _, force in rows:
-            self.assertAlmostEqual(float(force), 10 * float(time), places=9)  # the traction is 10 t on a side of length 1
+            # the traction is 10 t on a side of length 1
+            self.assertAlmostEqual(float(force), 10 * float(time), places=9)
         # The same as the installed program's.
-        output(package / "bin/mortier", "run", scene, "--quiet", "--out", self.folder / "result", "--set", *settings)
+        output(package / "bin/mortier", "run", scene, "--quiet", "--out", self.folder / "result", "--set",
+               *settings)
         history = list(csv.DictReader((self.folder / "result/history.csv").read_text().splitlines()))
         for row, (_, _, force) in zip(history, rows[1:]):
             self.assertAlmostEqual(float(row["contact_force[N/m]"]), float(force), delta=1e-14 * float(force))
 
     def test_pictures_and_reports_of_the_installed_program(self):
         program = self.prefix / "bin/mortier"
-        output(program, "run", ROOT / "scenes/compression.toml", "--quiet", "--out", "drawn", "--set", "time.steps=2", cwd=self.folder)
-        text = output(program, "plot", "drawn", cwd=self.folder) + output(program, "report", "drawn", cwd=self.folder)
+        output(program, "run", ROOT / "scenes/compression.toml", "--quiet", "--out", "drawn", "--set",
+               "time.steps=2", cwd=self.folder)
+        text = output(program, "plot", "drawn", cwd=self.folder) + output(program, "report", "drawn",
+                                                                          cwd=self.folder)
         self.assertIn("drawn.plots/fields.svg", text)
         self.assertGreater((self.folder / "drawn.html").stat().st_size, 20000)
 
@@ -108,6 +113,33 @@ class Install(InSharedFolder):
         zsh = ZshSession(self.folder, self.prefix / "bin", self.prefix / "share/zsh/site-functions")
         self.addCleanup(zsh.close)
         self.check_completion(lambda *words: zsh.complete("mortier", *words))
+
+    def fish(self, *words):
+        """What fish offers after these words."""
+        script = self.prefix / "share/fish/vendor_completions.d/mortier.fish"
+        line = " ".join([str(self.prefix / "bin/mortier"), *words])
+        text = f'source "{script}"; complete -C "{line}"'
+        return sorted(each.split("\t")[0].rstrip("/") for each in
+                      output("fish", "--no-config", "-c", text, cwd=self.folder).splitlines())
+
+    def test_completion_of_fish(self):
+        self.check_completion(self.fish)
+
+    def test_package_of_debian(self):
+        output("cpack", "-G", "DEB", "-B", self.folder / "packages", cwd=BUILD)
+        package, = (self.folder / "packages").glob("*.deb")
+        facts = output("dpkg-deb", "--info", package)
+        for name in ("libcholmod", "libumfpack", "libopenblas", "libmuparser"):
+            self.assertRegex(facts, rf"\n Depends: [^\n]*{name}")
+        self.assertRegex(facts, r"\n Recommends: [^\n]*python3-meshio")
+        root = self.folder / "root"
+        output("dpkg-deb", "-x", package, root)
+        self.assertTrue((root / "usr/share/doc/mortier/copyright").is_file())
+        program = root / "usr/bin/mortier"
+        output(program, "run", ROOT / "scenes/compression.toml", "--quiet", "--out", "packed", "--set",
+               "time.steps=2", cwd=self.folder)
+        self.assertIn("packed.plots/fields.svg", output(program, "plot", "packed", cwd=self.folder))
+        self.assertTrue((root / "usr/share/mortier/freefem/coupling.idp").is_file())
 
     def check_completion(self, complete):
         def stated(*path):

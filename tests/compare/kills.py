@@ -3,8 +3,8 @@
 
 kills.py [--kills N] [--rounds N] [--seed N]    prints what was found, ends with 1 if anything was
 
-After a kill the next command ends in the bytes of a run that was not killed, files of others stay, and nothing is left. Of
-several processes at once each ends with its result or with "in use".
+After a kill the next command ends in the bytes of a run that was not killed, files of others stay, and
+nothing is left. Of several processes at once each ends with its result or with "in use".
 """
 import argparse
 import random
@@ -20,24 +20,30 @@ from call_sweep import RESTART, RUN, Sweep
 class Kills(Sweep):
     def kill_one(self, rng):
         """One run or restart, killed up to three times on its way."""
-        begin, command = rng.choice([("base", RUN), ("old", RUN), ("failed", RUN), ("base-stopped", RESTART), ("old-stopped", RESTART)])
+        begin, command = rng.choice([("base", RUN), ("old", RUN), ("failed", RUN), ("base-stopped", RESTART),
+                                     ("old-stopped", RESTART)])
         self.others = not begin.startswith("base")
         folder = self.copy(begin, "tried")
         for _ in range(rng.randrange(1, 4)):
-            process = subprocess.Popen([self.program, *command], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            process = subprocess.Popen([self.program, *command], cwd=folder, stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.DEVNULL)
             time.sleep(rng.expovariate(1 / self.seconds))
             process.send_signal(signal.SIGKILL)
             process.wait()
             self.killed += process.returncode == -signal.SIGKILL
-            self.expect(f"{begin}, killed", [*self.lost(folder), *(self.not_whole(folder / "out/r") if self.others else [])])
+            self.expect(f"{begin}, killed",
+                        [*self.lost(folder), *(self.not_whole(folder / "out/r") if self.others else [])])
         done = self.run(folder, command)
         complete = command == RESTART and done.returncode == 2 and "no stopped run" in done.stderr
-        self.expect(f"{begin}, next command", [*([] if done.returncode == 0 or complete else [done.stderr]), *self.lost(folder),
-                                               *self.not_new(folder), *self.not_whole(folder / "out/r"), *self.left(folder)])
+        self.expect(f"{begin}, next command", [*([] if done.returncode == 0 or complete else [done.stderr]),
+                                               *self.lost(folder),
+                                               *self.not_new(folder), *self.not_whole(folder / "out/r"),
+                                               *self.left(folder)])
 
     def round(self, processes=4):
         folder, self.others = self.folder / "tried", True
-        runs = [subprocess.Popen([self.program, *RUN], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        runs = [subprocess.Popen([self.program, *RUN], cwd=folder, stdout=subprocess.DEVNULL,
+                                 stderr=subprocess.PIPE, text=True)
                 for _ in range(processes)]
         faults = []
         for process in runs:
@@ -45,8 +51,8 @@ class Kills(Sweep):
             if not (process.returncode == 0 or (process.returncode == 2 and ": in use, " in errors)):
                 faults.append(f"{process.returncode} {errors}")
             self.refused += process.returncode != 0
-        self.expect("several at once", [*faults, *self.lost(folder), *self.not_new(folder), *self.not_whole(folder / "out/r"),
-                                        *self.left(folder)])
+        self.expect("several at once", [*faults, *self.lost(folder), *self.not_new(folder),
+                                        *self.not_whole(folder / "out/r"), *self.left(folder)])
 
     def expect(self, what, faults):
         if faults:
@@ -75,7 +81,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         kills = Kills(folder)
         kills.explore_all(given.kills, given.rounds, given.seed)
-    print(f"{kills.killed} kills, {given.rounds} rounds of 4 processes ({kills.refused} refused), {len(kills.findings)} findings")
+    print(f"{kills.killed} kills, {given.rounds} rounds of 4 processes ({kills.refused} refused), "
+          f"{len(kills.findings)} findings")
     return 1 if kills.findings else 0
 
 

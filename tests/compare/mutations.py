@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Hostile input: sound scenes and meshes with seeded faults, and what the program makes of them.
 
-Whatever it is given, mortier must end by itself with exit code 0, 1, 2 or 3, say why in one line of printable text,
-leave a whole result or none, and write no number that is not finite.
+Whatever it is given, mortier must end by itself with exit code 0, 1, 2 or 3, say why in one line of printable
+text, leave a whole result or none, and write no number that is not finite.
 
 Usage: mutations.py [--count 1000] [--first 0] [--mortier build/mortier] [--seconds 60] [--patience 2]
 Case N is the same on every machine: mutations.py --first N --count 1 --keep FOLDER shows it.
@@ -48,7 +48,8 @@ class Cases:
         """The text of a sound mesh."""
         key = kind, cells, lower, upper
         if key not in self.meshes:
-            subprocess.run([self.program, "mesh", kind, "--cells", cells, "--lower", lower, "--upper", upper, "new.mesh"],
+            subprocess.run([self.program, "mesh", kind, "--cells", cells, "--lower", lower, "--upper", upper,
+                            "new.mesh"],
                            cwd=folder, check=True, stdout=subprocess.DEVNULL)
             self.meshes[key] = (folder / "new.mesh").read_bytes()
             (folder / "new.mesh").unlink()
@@ -59,7 +60,8 @@ class Cases:
         rng = random.Random(number)
         files = {"scene.toml": rng.choice([TWO_BLOCKS, CONTACT_KEYS, BODY_KEYS, ONE_BODY]).encode()}
         kind = rng.choice(["rectangle", "crisscross"])
-        for name, cells, lower, upper in (("upper.mesh", "2", "0,0", "1,1"), ("lower.mesh", "3,2", "0,-1", "1,0")):
+        for name, cells, lower, upper in (("upper.mesh", "2", "0,0", "1,1"),
+                                          ("lower.mesh", "3,2", "0,-1", "1,0")):
             files[name] = self.mesh(folder, kind, cells, lower, upper)
         target = rng.choice(["scene.toml", "scene.toml", "upper.mesh", "lower.mesh"])
         mutations = OF_SCENES if target == "scene.toml" else OF_MESHES
@@ -88,13 +90,14 @@ class Cases:
         return code
 
     def run(self, folder, *arguments):
-        process = subprocess.Popen([self.program, *arguments], cwd=folder, env=self.environment, stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE)
+        process = subprocess.Popen([self.program, *arguments], cwd=folder, env=self.environment,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         command, long = " ".join(arguments), False
         try:
             err = process.communicate(timeout=self.patience)[1]
         except subprocess.TimeoutExpired:
-            # A scene may ask for 2^31 steps. It is no hang where each step ends: the first one after Ctrl-C is the last.
+            # A scene may ask for 2^31 steps. It is no hang where each step ends:
+            # the first one after Ctrl-C is the last.
             long = True
             process.send_signal(signal.SIGINT)
             try:
@@ -112,7 +115,8 @@ class Cases:
         if code not in (0, 1, 2, 3):
             raise Fault(f"{command}: exit code {code}\n{err.decode(errors='replace')[-4000:]}")
         is_check = arguments[0] == "check"
-        if (len(told) != (0 if code == 0 else 1) and not is_check) or any(byte < 32 and byte != 10 for byte in err):
+        if (len(told) != (0 if code == 0 else 1) and not is_check) or any(byte < 32 and byte != 10
+                                                                          for byte in err):
             raise Fault(f"{command}: exit code {code}, expected one printable line, got {err!r}")
         if not long and code != 0 and not is_check and not err.endswith(b"\n"):
             raise Fault(f"{command}: a line without end: {err!r}")
@@ -161,7 +165,8 @@ def explore(program, first, count, seconds=60, patience=2, keep=None):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--mortier", default=os.environ.get("MORTIER", "build/mortier"))
     parser.add_argument("--count", type=int, default=1000)
     parser.add_argument("--first", type=int, default=0)

@@ -1,12 +1,18 @@
-"""Ways to spoil a scene or a mesh: each makes of a file's bytes, with a generator of random numbers, other bytes."""
+"""Ways to spoil a scene or a mesh: each makes of a file's bytes, with a generator of random numbers,
+other bytes."""
 import re
 
-NUMBERS = ["nan", "inf", "-inf", "1e400", "-1e400", "1e308", "1e-320", "-0", "-0.0", "0", "-1", "0.5", "1e12", "2147483647",
-           "2147483648", "-2147483649", "9223372036854775807", "99999999999999999999999", "1e9", "0x7fffffff", "1_000",
+NUMBERS = ["nan", "inf", "-inf", "1e400", "-1e400", "1e308", "1e-320", "-0", "-0.0", "0", "-1", "0.5", "1e12",
+           "2147483647",
+           "2147483648", "-2147483649", "9223372036854775807", "99999999999999999999999", "1e9", "0x7fffffff",
+           "1_000",
            "0.30000000000000004", "--3", "3e", "+", ".", "1979-05-27T07:32:00Z", "true", "\"7\"", "[1]", "{}"]
-EXPRESSIONS = ["\"" + "(" * 3000 + "t" + ")" * 3000 + "\"", "\"" + "-" * 20000 + "t\"", "\"1/(t-0.5)\"", "\"sqrt(-t)\"",
-               "\"0/0\"", "\"t,t\"", "\"t=1\"", "\"" + "sin(" * 500 + "t" + ")" * 500 + "\"", "\"x^9999\"", "\"\\u0000t\"",
-               "\"\\u001b[31mt\"", "\"t ? t : \"", "\"" + "t?t:" * 2000 + "t\"", "\"" + "t+" * 50000 + "t\"", "\"\""]
+EXPRESSIONS = ["\"" + "(" * 3000 + "t" + ")" * 3000 + "\"", "\"" + "-" * 20000 + "t\"", "\"1/(t-0.5)\"",
+               "\"sqrt(-t)\"",
+               "\"0/0\"", "\"t,t\"", "\"t=1\"", "\"" + "sin(" * 500 + "t" + ")" * 500 + "\"", "\"x^9999\"",
+               "\"\\u0000t\"",
+               "\"\\u001b[31mt\"", "\"t ? t : \"", "\"" + "t?t:" * 2000 + "t\"", "\"" + "t+" * 50000 + "t\"",
+               "\"\""]
 NUMBER = re.compile(rb"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
 
@@ -80,7 +86,8 @@ def noise(text, rng):
 
 def nest(text, rng):
     depth = rng.choice([50, 1000, 100000])
-    return text + rng.choice([b"\na = " + b"[" * depth, b"\na = " + b"{a=" * depth, b"\n[" + b"a." * depth + b"a]\n",
+    return text + rng.choice([b"\na = " + b"[" * depth, b"\na = " + b"{a=" * depth,
+                              b"\n[" + b"a." * depth + b"a]\n",
                               b"\na." + b"a." * depth + b"a = 1\n", b"\n" + b"[" * depth + b"\n"])
 
 
@@ -96,6 +103,7 @@ def endings(text, rng):
     return text.replace(b"\n", rng.choice([b"\r\n", b"\r", b"\x00\n", b" ", b"\n\n"]))
 
 
-OF_MESHES = [flip_bytes, truncate, lines(delete_line), lines(repeat_line), lines(swap_lines), replace_number, replace_number,
+OF_MESHES = [flip_bytes, truncate, lines(delete_line), lines(repeat_line), lines(swap_lines), replace_number,
+             replace_number,
            scale_number, scale_number, swap_tokens, swap_tokens, binary, noise, endings]
 OF_SCENES = OF_MESHES + [nest, replace_expression, replace_expression]

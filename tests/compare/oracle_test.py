@@ -1,4 +1,5 @@
-"""mortier and FreeFEM agree on the scenes; faults of the FreeFEM method that the compression test does not see are caught."""
+"""mortier and FreeFEM agree on the scenes; faults of the FreeFEM method that the compression test does not
+see are caught."""
 import shutil
 import tempfile
 import unittest
@@ -13,7 +14,8 @@ from oracle import compare_scenes
 from scenes import GEOMETRY_KEYS, PARTS_GEO
 
 COMPRESSION = SceneCase("compression", "interpolation", changes=(
-    "time.steps=3", "body.upper.mesh=shared-meshes/block-upper-3.mesh", "body.lower.mesh=shared-meshes/block-lower-5.mesh"))
+    "time.steps=3", "body.upper.mesh=shared-meshes/block-upper-3.mesh",
+    "body.lower.mesh=shared-meshes/block-lower-5.mesh"))
 
 
 class Oracle(unittest.TestCase):
@@ -48,58 +50,70 @@ class Oracle(unittest.TestCase):
             self.assertRegex(done.stderr, rf"\Amortier: [^\n]*: {reason}[^\n]*\n\Z")
 
 
-# Fault, file, right words, wrong words, scene and what tells its case, what then differs (empty: or FreeFEM gives up).
+# Fault, file, right words, wrong words, scene and what tells its case, what then differs (empty:
+# or FreeFEM gives up).
 FAULTS = [
-    ("normals mirrored", "supports", "dx = dy; dy = -tx;", "dx = dy; dy = tx;", "turned", "as it stands", "displacement"),
-    ("normal for tangent", "supports", "rollerAlong(r) == normal", "rollerAlong(r) == tangent", "turned", "sheared", ""),
-    ("normals of sides on a circle", "supports", "cos(40*pi/180)", "2", "cut-ring", "as it stands", "displacement"),
-    ("no circle at the end of a roller", "supports", "&& smooth(v, to, b)", "&& false", "cut-ring", "normal and",
+    ("normals mirrored", "supports", "dx = dy; dy = -tx;", "dx = dy; dy = tx;", "turned", "as it stands",
      "displacement"),
-    ("rollers do not move", "loop", "g0(nc + i) = rowValue(i);", "g0(nc + i) = 0;", "turned", "bent", "displacement"),
+    ("normal for tangent", "supports", "rollerAlong(r) == normal", "rollerAlong(r) == tangent", "turned",
+     "sheared", ""),
+    ("normals of sides on a circle", "supports", "cos(40*pi/180)", "2", "cut-ring", "as it stands",
+     "displacement"),
+    ("no circle at the end of a roller", "supports", "&& smooth(v, to, b)", "&& false", "cut-ring",
+     "normal and", "displacement"),
+    ("rollers do not move", "loop", "g0(nc + i) = rowValue(i);", "g0(nc + i) = 0;", "turned", "bent",
+     "displacement"),
     ("one roller at a corner", "supports", "hold(v, dx, dy);\n", "hold(v, dx, dy); held(v) = 2;\n", "turned",
      "as it stands", ""),
     ("normal of a level line", "coupling", "normalX(i) = side*dy/length; normalY(i) = -side*dx/length;",
      "normalX(i) = 0; normalY(i) = -side;", "sloped", "as it stands", ""),
-    ("falling lines that rise", "coupling", "dx = cx; dy = cy;", "dx = cx; dy = abs(cy);", "broken-line", "as it stands", ""),
-    ("one normal for each element", "coupling", "real ax = phi*nx(e1) + (1 - phi)*nx(e1 + 1)", "real ax = nx(e1)", "ring",
-     "mortar as it stands", "displacement"),
+    ("falling lines that rise", "coupling", "dx = cx; dy = cy;", "dx = cx; dy = abs(cy);", "broken-line",
+     "as it stands", ""),
+    ("one normal for each element", "coupling", "real ax = phi*nx(e1) + (1 - phi)*nx(e1 + 1)",
+     "real ax = nx(e1)", "ring", "mortar as it stands", "displacement"),
     ("normal of the chord at the end of a curve", "coupling", "if (flat) {", "if (flat || i == 0) {", "ring",
      "mortar as it stands", "displacement"),
-    ("direction of the nonmortar normal", "coupling", "wa = kb, wb = ka;", "wa = 1, wb = 0;", "hertz", "mortar as it stands",
-     "displacement"),
-    ("direction of the mean normal", "coupling", "wa = kb, wb = ka;", "wa = 1, wb = 1;", "hertz", "mortar as it stands",
-     "displacement"),
-    ("distance of the polygon", "coupling", "- toCircle(circle1, x1, y1, nHereX, nHereY)", "", "hertz", "mortar as it stands",
-     "displacement"),
-    ("distance of the other polygon", "coupling", "- toCircle(circle2, x2, y2, -nHereX, -nHereY)", "- 0.", "hertz",
-     "sides swapped", "displacement"),
-    ("two Gauss points", "coupling", "[sqrt(3./7 + 2./7*sqrt(6./5)), sqrt(3./7 - 2./7*sqrt(6./5))]", "[sqrt(1./3), sqrt(1./3)]",
-     "hertz", "mortar as it stands", "displacement"),
-    ("mortar point by the abscissa", "coupling", "psi = cross(", "psi = (s2(e2 + 1) - s)/(s2(e2 + 1) - s2(e2)) + 0*cross(",
+    ("direction of the nonmortar normal", "coupling", "wa = kb, wb = ka;", "wa = 1, wb = 0;", "hertz",
+     "mortar as it stands", "displacement"),
+    ("direction of the mean normal", "coupling", "wa = kb, wb = ka;", "wa = 1, wb = 1;", "hertz",
+     "mortar as it stands", "displacement"),
+    ("distance of the polygon", "coupling", "- toCircle(circle1, x1, y1, nHereX, nHereY)", "", "hertz",
+     "mortar as it stands", "displacement"),
+    ("distance of the other polygon", "coupling", "- toCircle(circle2, x2, y2, -nHereX, -nHereY)", "- 0.",
+     "hertz", "sides swapped", "displacement"),
+    ("two Gauss points", "coupling", "[sqrt(3./7 + 2./7*sqrt(6./5)), sqrt(3./7 - 2./7*sqrt(6./5))]",
+     "[sqrt(1./3), sqrt(1./3)]", "hertz", "mortar as it stands", "displacement"),
+    ("mortar point by the abscissa", "coupling", "psi = cross(",
+     "psi = (s2(e2 + 1) - s)/(s2(e2 + 1) - s2(e2)) + 0*cross(",
      "ring", "mortar as it stands", "displacement"),
-    ("curved lines end with the mesh", "coupling", "if (a == b) xi = ", "if (a == b) xi = 0*", "hertz", "as it stands", ""),
-    ("row functions end with the hats", "coupling", "row(e1 + 1) < 0 ? 1. : phi, ", "phi, ", "punch", "sides swapped",
-     "displacement"),
-    ("conditions at held ends", "coupling", "faces = faces && !", "faces = faces || false && !", "stack", "mortar held", ""),
-    ("no conditions at held ends", "coupling", '(variant != "interpolation" || mortarHeld)', "true", "stack", "interpolation held",
-     ""),
-    ("given distance not read", "coupling", 'given(c) && variant != "weighted" ? givenGap(c, vn(first + r)) : R(r, last)', "R(r, last)", "sloped", "parted",
+    ("curved lines end with the mesh", "coupling", "if (a == b) xi = ", "if (a == b) xi = 0*", "hertz",
+     "as it stands", ""),
+    ("row functions end with the hats", "coupling", "row(e1 + 1) < 0 ? 1. : phi, ", "phi, ", "punch",
+     "sides swapped", "displacement"),
+    ("conditions at held ends", "coupling", "faces = faces && !", "faces = faces || false && !", "stack",
+     "mortar held", ""),
+    ("no conditions at held ends", "coupling", '(variant != "interpolation" || mortarHeld)', "true", "stack",
+     "interpolation held", ""),
+    ("given distance not read", "coupling", 'given(c) && variant != "weighted" ? givenGap(c, vn(first + r)) '
+                                            ': R(r, last)', "R(r, last)", "sloped", "parted",
      "displacement"),
     ("given distance not in the interpenetration", "coupling", "cutGap(cuts) += N1(k)*givenGap(c, node)",
      "cutGap(cuts) += 0*givenGap(c, node)", "sloped", "parted", "interpenetration"),
-    ("another rule for tractions", "bodies", "qf1pElump", "qf1pE", "exact-contact", "as it stands", "displacement"),
-    ("another rule for body forces", "bodies", "qf2pT)(load)", "qf1pT)(load)", "turned", "bent", "displacement"),
-    ("stress out of the plane in no yield condition", "bodies", "real ap = inStrain ? 1.5 : 0.5", "real ap = 0.5",
-     "thick-cylinder", "mortar as it stands", "displacement"),
-    ("stress out of the plane of its deviator only", "loop", '" " << (v - 2*P)/sqrt(6.)', '" " << -2*P/sqrt(6.)',
-     "thick-cylinder", "mortar as it stands", "stress"),
+    ("another rule for tractions", "bodies", "qf1pElump", "qf1pE", "exact-contact", "as it stands",
+     "displacement"),
+    ("another rule for body forces", "bodies", "qf2pT)(load)", "qf1pT)(load)", "turned", "bent",
+     "displacement"),
+    ("stress out of the plane in no yield condition", "bodies", "real ap = inStrain ? 1.5 : 0.5",
+     "real ap = 0.5", "thick-cylinder", "mortar as it stands", "displacement"),
+    ("stress out of the plane of its deviator only", "loop", '" " << (v - 2*P)/sqrt(6.)',
+     '" " << -2*P/sqrt(6.)', "thick-cylinder", "mortar as it stands", "stress"),
     ("moduli of plane stress", "bodies", "if (inStrain) { eP[b] = eQ[b]; ", "if (inStrain) { ",
      "turned", "plane strain", "displacement"),
     ("pressure forgotten from step to step", "loop", "sr0 = sr; sv0 = sv;", "sr0 = sr;", "thick-cylinder",
      "mortar as it stands", ""),
     ("contact that pulls", "contact", "p(i) < -tinyForce", "false", "open-close", "as it stands", ""),
-    ("third body as the second", "bodies", "eP[b] = young[b]", "eP[b] = young[min(b, 1)]", "stack", "as it stands",
-     "displacement"),
+    ("third body as the second", "bodies", "eP[b] = young[b]", "eP[b] = young[min(b, 1)]", "stack",
+     "as it stands", "displacement"),
 ]
 
 
@@ -116,16 +130,19 @@ class FaultsOfTheMethod(support.InSharedFolder):
                 path.write_text(path.read_text().replace(right, wrong, 1))
                 case = next(case for case in scene_cases() if case.name == scene and what in str(case))
                 self.assertEqual(self.verdict(COMPRESSION, method), "agree")
-                self.assertRegex(self.verdict(case, method), rf"\ADIFFER: .*{quantity}" if quantity else r"\A(DIFFER|FAILED): ")
+                self.assertRegex(self.verdict(case, method),
+                                 rf"\ADIFFER: .*{quantity}" if quantity else r"\A(DIFFER|FAILED): ")
 
     ours = {}  # runs of mortier, by case
 
     def verdict(self, case, method):
         """On FreeFEM's run with this method, in words."""
         if case not in self.ours:
-            self.ours[case] = run_mortier(self.folder / f"mortier-{len(self.ours)}", case.settings, case.scene)
+            self.ours[case] = run_mortier(self.folder / f"mortier-{len(self.ours)}", case.settings,
+                                          case.scene)
         try:
-            return str(compare(self.ours[case], run_freefem(self.folder / "freefem", case.settings, case.scene, method)))
+            return str(compare(self.ours[case], run_freefem(self.folder / "freefem", case.settings,
+                                                            case.scene, method)))
         except RunError as error:
             return f"FAILED: {error}"
 

@@ -32,11 +32,13 @@ class Output(support.InSharedFolder):
             np.testing.assert_array_equal(mesh.cells_dict["triangle"], medit.cells_dict["triangle"])
             self.assertEqual(set(mesh.point_data), {"displacement"})
             self.assertEqual(set(mesh.cell_data),
-                             {"stress", "von_mises", "viscoplastic_strain", "viscoplastic", "region", "error"})
+                             {"stress", "von_mises", "viscoplastic_strain", "viscoplastic", "region",
+                              "error"})
             triangles = len(mesh.cells_dict["triangle"])
             self.assertEqual(mesh.point_data["displacement"].shape, (len(mesh.points), 3))
             for key, shape in (("stress", (triangles, 3)), ("viscoplastic_strain", (triangles, 3)),
-                               ("von_mises", (triangles,)), ("viscoplastic", (triangles,)), ("error", (triangles,))):
+                               ("von_mises", (triangles,)), ("viscoplastic", (triangles,)),
+                               ("error", (triangles,))):
                 self.assertEqual(mesh.cell_data[key][0].shape, shape, key)
             s11, s22, s12 = mesh.cell_data["stress"][0].T
             np.testing.assert_allclose(mesh.cell_data["von_mises"][0],
@@ -93,8 +95,8 @@ class Output(support.InSharedFolder):
 
     def test_figures(self):
         out = self.folder / "figures"
-        status, output = support.script("figures.py", self.folder / "mortier-mortar", self.run_folder, "--out",
-                                        out)
+        status, output = support.script("figures.py", self.folder / "mortier-mortar", self.run_folder,
+                                        "--out", out)
         self.assertEqual(status, 0, output)
         for name in ("figure-1-mortar", "figure-2-interpolation", "figure-3-contact-line"):
             self.assertEqual((out / f"{name}.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")

@@ -1,4 +1,5 @@
-"""bench/peers and the drivers of other codes: what is installed solves the small problems, what is not says so."""
+"""bench/peers and the drivers of other codes: what is installed solves the small problems,
+what is not says so."""
 import json
 import os
 import subprocess
@@ -20,9 +21,10 @@ STRESS_ERROR = {("mortier", "mortar"): 1e-12, ("FreeFEM", "mortar"): 1e-12, ("Ge
 
 class Peers(InFolder):
     def test_small_problems(self):
-        done = subprocess.run([sys.executable, str(ROOT / "bench" / "peers"), "--small", "--problems", "patch",
-                               "separation", "--json", str(self.folder / "rows.json")], capture_output=True, text=True,
-                              env={**os.environ, "MORTIER": PROGRAM})
+        done = subprocess.run([sys.executable, str(ROOT / "bench" / "peers"), "--small", "--problems",
+                               "patch",
+                               "separation", "--json", str(self.folder / "rows.json")], capture_output=True,
+                              text=True, env={**os.environ, "MORTIER": PROGRAM})
         self.assertEqual(done.returncode, 0, done.stderr)
         rows = json.loads(self.read("rows.json"))
         self.assertEqual(len(rows), 14)
@@ -37,11 +39,14 @@ class Peers(InFolder):
                 if row["problem"] == "patch" and row["coupling"] == "mortar":
                     self.assertLess(row["error"], STRESS_ERROR[row["code"], "mortar"])
                 elif row["problem"] == "patch":  # every code finds the same wrong stress
-                    self.assertAlmostEqual(row["error"] / errors["patch", "mortier", "interpolation"], 1, places=6)
+                    self.assertAlmostEqual(row["error"] / errors["patch", "mortier", "interpolation"], 1,
+                                           places=6)
                 else:  # the opening at the far end; a penalty is not exact
                     allowed = 1e-2 if row["code"] == "CalculiX" else 5e-3
-                    self.assertAlmostEqual(row["error"] / errors["separation", "mortier", "mortar"], 1, delta=5 * allowed)
-        self.assertLess(abs(errors["separation", "FreeFEM", "mortar"] / errors["separation", "mortier", "mortar"] - 1), 1e-9)
+                    self.assertAlmostEqual(row["error"] / errors["separation", "mortier", "mortar"], 1,
+                                           delta=5 * allowed)
+        self.assertLess(abs(errors["separation", "FreeFEM", "mortar"]
+                            / errors["separation", "mortier", "mortar"] - 1), 1e-9)
 
 
 class Drivers(InFolder):
@@ -66,10 +71,12 @@ class Drivers(InFolder):
         text = (ROOT / "scenes" / "compression.toml").read_text()
         begin, end = text.index("nonmortar ="), text.index("\n", text.index("\nmortar =") + 1)
         sides = 'sides = [ { body = "upper", label = 1 }, { body = "lower", label = 3 } ]'
-        self.write((text[:begin] + sides + text[end:]).replace("../shared-meshes", str(ROOT / "shared-meshes")), "sides.toml")
+        self.write((text[:begin] + sides + text[end:]).replace("../shared-meshes",
+                                                               str(ROOT / "shared-meshes")), "sides.toml")
         for swap, nonmortar in (("false", ("lower", 3)), ("true", ("upper", 1))):
             settings = [f"contact.swap={swap}"]
-            script = subprocess.run([PROGRAM, "freefem", "sides.toml", "--set", *settings], capture_output=True, text=True,
+            script = subprocess.run([PROGRAM, "freefem", "sides.toml", "--set", *settings],
+                                    capture_output=True, text=True,
                                     cwd=self.folder, env={**os.environ, "PWD": str(self.folder)})
             self.assertEqual(script.returncode, 0, script.stderr)
             document = scene.load(self.folder / "sides.toml", settings)
@@ -79,7 +86,8 @@ class Drivers(InFolder):
             self.assertEqual((problem.nonmortar, problem.nonmortar_label), nonmortar)
 
     def test_contact_lines_in_their_order(self):
-        annulus = subprocess.run([PROGRAM, "mesh", "annulus", "--cells", "24,2", "--span", "half", "arc.mesh"], cwd=self.folder)
+        annulus = subprocess.run([PROGRAM, "mesh", "annulus", "--cells", "24,2", "--span", "half",
+                                  "arc.mesh"], cwd=self.folder)
         self.assertEqual(annulus.returncode, 0)
         mesh = scene.Mesh(self.folder / "arc.mesh")
         x, y = mesh.points[mesh.line(2)].T
@@ -87,9 +95,11 @@ class Drivers(InFolder):
 
     def test_contact_forces_come_from_equilibrium(self):
         problem = self.problem()
-        stresses = {name: np.tile([3.0, -10.0, 0.0], (len(body.mesh.triangles), 1)) for name, body in problem.bodies.items()}
+        stresses = {name: np.tile([3.0, -10.0, 0.0], (len(body.mesh.triangles), 1))
+                    for name, body in problem.bodies.items()}
         lift = {"upper": 0.25, "lower": 0.0}
-        displacements = {name: body.mesh.points * 0 + [0, lift[name]] for name, body in problem.bodies.items()}
+        displacements = {name: body.mesh.points * 0 + [0, lift[name]]
+                         for name, body in problem.bodies.items()}
         nodes, position, gap, force = problem.contact_of(displacements, stresses)
         np.testing.assert_allclose(gap, 0.25, atol=1e-15)  # apart
         np.testing.assert_allclose(force, 10 / 6 * np.array([0.5, 1, 1, 1, 1, 1, 0.5]), rtol=1e-12)
@@ -115,7 +125,8 @@ class Drivers(InFolder):
         h = 1e-6
         for k in range(3):
             step = h * np.eye(3)[k]
-            numeric = ((s + step - project(s + step, b, 1.0)[0]) - (s - step - project(s - step, b, 1.0)[0])) / (2 * h)
+            numeric = ((s + step - project(s + step, b, 1.0)[0])
+                       - (s - step - project(s - step, b, 1.0)[0])) / (2 * h)
             np.testing.assert_allclose(derivative[:, :, k], numeric, atol=1e-7)
 
     def test_input_of_calculix(self):
@@ -125,7 +136,8 @@ class Drivers(InFolder):
         for line in faces:  # the face holds both ends of an edge on y = 0
             element, face = line.split(", ")
             corners = mesh.triangles[int(element) - 11]
-            ends = [corners[i] for i in next(key for key, value in calculix_code.FACE.items() if value == face)]
+            ends = [corners[i] for i in next(key for key, value in calculix_code.FACE.items()
+                                             if value == face)]
             np.testing.assert_array_equal(mesh.points[ends, 1], 0)
 
 

@@ -13,7 +13,8 @@ YOUNG, POISSON = 100.0, 0.3
 class PlaneStrain(OfTwoBlocks):
     def setUp(self):
         super().setUp()
-        self.mixed = ["plane=strain", "time.steps=7", "body.material.young=100", "body.upper.material.poisson=0.3",
+        self.mixed = ["plane=strain", "time.steps=7", "body.material.young=100",
+                      "body.upper.material.poisson=0.3",
                       "body.lower.material={young=100, poisson=0.3}", "contact.variant=interpolation"]
 
     def fields(self, *settings):
@@ -29,7 +30,8 @@ class PlaneStrain(OfTwoBlocks):
                 e11, e22, _, e33 = mesh.cell_data["viscoplastic_strain"][0].T
                 mean = (s11 + s22 + s33) / 3
                 deviator = (s11 - mean)**2 + (s22 - mean)**2 + (s33 - mean)**2 + 2 * s12**2
-                np.testing.assert_allclose(mesh.cell_data["von_mises"][0], np.sqrt(1.5 * deviator), rtol=1e-12)
+                np.testing.assert_allclose(mesh.cell_data["von_mises"][0], np.sqrt(1.5 * deviator),
+                                           rtol=1e-12)
                 # eps33 = 0 of the elastic and the viscoplastic strain together, and flow keeps the volume.
                 np.testing.assert_allclose((s33 - POISSON * (s11 + s22)) / YOUNG, -e33, atol=1e-12)
                 np.testing.assert_allclose(e11 + e22 + e33, 0, atol=1e-12)
@@ -48,7 +50,8 @@ class PlaneStrain(OfTwoBlocks):
             self.assertIn(f"; plane {plane}\n", out)
             self.assertNotIn(f"plane {'strain' if plane == 'stress' else 'stress'}", out)
             self.assertEqual(json.loads(self.read("out/summary.json"))["plane"], plane)
-        plan = self.mortier("check", "scene.toml", "--set", "plane=strain", "body.upper.material.projection=elasticity").stdout
+        plan = self.mortier("check", "scene.toml", "--set", "plane=strain",
+                            "body.upper.material.projection=elasticity").stdout
         self.assertIn("plane strain", plan)
         self.assertNotIn("plane stress", plan)
         self.assertNotIn("unsymmetric", plan)
@@ -63,17 +66,19 @@ class PlaneStrain(OfTwoBlocks):
     def test_what_is_refused(self):
         self.reject("--set plane=plain: plane = \"plain\", expected one of stress, strain",
                     "run", "scene.toml", "--set", "plane=plain", "--out", "out")
-        self.reject("--set body.upper.initial_stress.s33=1: body upper: s33 = 1, expected plane = \"strain\" beside it",
+        self.reject("--set body.upper.initial_stress.s33=1: body upper: s33 = 1, expected plane = "
+                    "\"strain\" beside it",
                     "run", "scene.toml", "--set", "body.upper.initial_stress.s33=1", "--out", "out")
 
     def test_initial_stress_across_the_plane(self):
         # -2 everywhere in the plane and -1.5 across it; the load holds it, nothing moves.
-        settings = ["plane=strain", "time.steps=7", "body.material={young=100, poisson=0.3}", "body.upper.boundary.3.ty=-2",
+        settings = ["plane=strain", "time.steps=7", "body.material={young=100, poisson=0.3}",
+                    "body.upper.boundary.3.ty=-2",
                     "body.upper.initial_stress={s22=-2, s33=-1.5}", "body.lower.initial_stress={s22=-2}"]
         bodies = self.fields(*settings)
         for name, s33 in (("upper", -1.5), ("lower", -0.6)):
-            np.testing.assert_allclose(bodies[name].cell_data["stress"][0], [[0, -2, 0, s33]] * len(
-                bodies[name].cells_dict["triangle"]), atol=1e-12)
+            stress, triangles = bodies[name].cell_data["stress"][0], bodies[name].cells_dict["triangle"]
+            np.testing.assert_allclose(stress, [[0, -2, 0, s33]] * len(triangles), atol=1e-12)
             self.assertLess(np.abs(bodies[name].point_data["displacement"]).max(), 1e-12)
 
 

@@ -31,7 +31,8 @@ class Pictures(InSharedFolder):
         super().setUpClass()
         solve(cls.folder, "mortar", "output.every=2")
         solve(cls.folder, "interpolation", "output.every=1", "contact.variant=interpolation")
-        solve(cls.folder, "stuck", "contact.variant=interpolation", "solver.max_iterations=2", "time.steps=20", code=1)
+        solve(cls.folder, "stuck", "contact.variant=interpolation", "solver.max_iterations=2",
+              "time.steps=20", code=1)
 
     def plot(self, *words, code=0):
         found, shown, errors = view(self.folder, "plot", *words)
@@ -56,8 +57,10 @@ class Pictures(InSharedFolder):
     def test_every_field_of_both_runs_side_by_side(self):
         result = runs.Result(self.folder / "mortar")
         names = list(result.fields(result.at(4)))
-        self.assertLessEqual({"von_mises", "s12", "u", "uy", "e22", "viscoplastic", "error", "region"}, set(names))
-        made = {self.plot("mortar", "interpolation", "--only", "fields", "--field", name, "--step", 2, "--out", f"{name}.png")[0]
+        self.assertLessEqual({"von_mises", "s12", "u", "uy", "e22", "viscoplastic", "error", "region"},
+                             set(names))
+        made = {self.plot("mortar", "interpolation", "--only", "fields", "--field", name, "--step", 2,
+                          "--out", f"{name}.png")[0]
                 for name in ["none", "uy"]}
         self.assertEqual(len(made), 2)
         for name in made:
@@ -77,13 +80,15 @@ class Pictures(InSharedFolder):
             for (name, body), drawn in zip(column.run.bodies.items(), of_mesh):
                 np.testing.assert_array_equal(drawn.get_array(), body.cells["von_mises"])
                 corners = np.stack([path.vertices[:3] for path in drawn.get_paths()])
-                np.testing.assert_allclose(corners, (body.points + 3 * body.displacement)[body.triangles], rtol=0, atol=1e-14)
+                np.testing.assert_allclose(corners, (body.points + 3 * body.displacement)[body.triangles],
+                                           rtol=0, atol=1e-14)
             contact = pictures.contact([column])
             pressure, gap = contact.axes[0].lines[0], contact.axes[1].lines[0]
             np.testing.assert_array_equal(pressure.get_ydata(), column.run.contact.pressure)
             np.testing.assert_array_equal(gap.get_ydata(), column.run.contact.gap)
             history = pictures.history([column])
-            np.testing.assert_array_equal(history.axes[0].lines[0].get_ydata(), column.result.history["contact_force[N/m]"])
+            np.testing.assert_array_equal(history.axes[0].lines[0].get_ydata(),
+                                          column.result.history["contact_force[N/m]"])
             self.assertIn("[N/m]", history.axes[0].get_title(loc="left"))
             column.result.history["reaction[kN]"] = np.arange(4.0)
             titles = [axes.get_title(loc="left") for axes in pictures.history([column]).axes]
@@ -124,14 +129,16 @@ class Pictures(InSharedFolder):
         self.assertIn("did not converge", result.reason)
         column = pictures.view(result)
         body, triangle, words = result.stuck(column.run)
-        self.assertEqual(column.run.bodies[body].von_mises[triangle], max(b.von_mises.max() for b in column.run.bodies.values()))
+        self.assertEqual(column.run.bodies[body].von_mises[triangle],
+                         max(b.von_mises.max() for b in column.run.bodies.values()))
         with pictures.plt.rc_context(pictures.STYLE):
             title = pictures.fields([column]).axes[0].get_title(loc="left").replace("\n", " ")
         self.assertIn(result.reason, title)
         self.assertIn(words, title)
 
     def test_a_run_that_stopped_in_its_first_step(self):
-        solve(self.folder, "first", "contact.variant=interpolation", "solver.max_iterations=1", "time.steps=1", code=1)
+        solve(self.folder, "first", "contact.variant=interpolation", "solver.max_iterations=1",
+              "time.steps=1", code=1)
         self.plot("first.failed")
         result = runs.Result(self.folder / "first.failed")
         run = result.at(0)
@@ -150,8 +157,8 @@ class Pictures(InSharedFolder):
 
     def test_results_without_contact(self):
         solve(self.folder, "cook", scene="cook")
-        self.assertEqual(sorted(self.plot("cook")), ["cook.plots/fields.png", "cook.plots/fields.svg", "cook.plots/history.png",
-                                                     "cook.plots/history.svg"])
+        self.assertEqual(sorted(self.plot("cook")), ["cook.plots/fields.png", "cook.plots/fields.svg",
+                                                     "cook.plots/history.png", "cook.plots/history.svg"])
         self.assertIn("no contact", self.plot("cook", "--only", "contact", code=2))
 
     def test_scale_is_free_of_units(self):
@@ -231,7 +238,8 @@ class Refused(InFolder):
     def test_numbers_that_are_none(self):
         path = self.folder / "run" / "contact.csv"
         table = path.read_text().splitlines()
-        for row in ("4,1,0,99,0,0,0,0,0,0", "4,1,7,0,0,0,0,0,0,0", "4,1,0,0,nan,0,0,0,0,0", "4,1,0,0,0,0,0,1,inf,0", "4,1", "x"):
+        for row in ("4,1,0,99,0,0,0,0,0,0", "4,1,7,0,0,0,0,0,0,0", "4,1,0,0,nan,0,0,0,0,0",
+                    "4,1,0,0,0,0,0,1,inf,0", "4,1", "x"):
             with self.subTest(row):
                 path.write_text("\n".join([*table, row]) + "\n")
                 self.refuse("", "run")
@@ -239,9 +247,11 @@ class Refused(InFolder):
     def test_summaries_that_lie(self):
         path = self.folder / "run" / "summary.json"
         summary = json.loads(path.read_text())
-        for change in ({"bodies": []}, {"bodies": [{"name": "../../x"}]}, {"bodies": 3}, {"interfaces": [{"nonmortar": "z"}]},
+        for change in ({"bodies": []}, {"bodies": [{"name": "../../x"}]}, {"bodies": 3},
+                       {"interfaces": [{"nonmortar": "z"}]},
                        {"interfaces": [{"nonmortar": {}, "mortar": []}]},
-                       {"steps": "4"}, {"status": "running"}, {"bodies": [{"name": "upper", "nodes": 1, "triangles": 1}]}):
+                       {"steps": "4"}, {"status": "running"},
+                       {"bodies": [{"name": "upper", "nodes": 1, "triangles": 1}]}):
             with self.subTest(str(change)):
                 path.write_text(json.dumps({**summary, **change}))
                 self.refuse("", "run")
@@ -272,7 +282,8 @@ class Refused(InFolder):
             own = path.read_bytes()
             for change in (lambda: path.write_bytes(b"mine"), lambda: path.write_bytes(b""),
                            lambda: path.write_bytes(own[:40] + b"\0" + own[41:]),
-                           lambda: (path.unlink(), path.symlink_to("mine.txt")), lambda: (path.unlink(), path.mkdir())):
+                           lambda: (path.unlink(), path.symlink_to("mine.txt")),
+                           lambda: (path.unlink(), path.mkdir())):
                 change()
                 before = None if path.is_dir() else path.read_bytes()
                 with self.assertRaisesRegex(Wrong, f"a.{kind}: in the way"):

@@ -44,7 +44,8 @@ class Quadratic(InFolder):
         self.assertEqual(summary["dofs"], 2 * len(quadratic.points))
 
     def test_cook(self):
-        self.mortier("mesh", "quadrilateral", "--cells", "8", "--corners", "0,0", "48,44", "48,60", "0,44", "cook.mesh")
+        self.mortier("mesh", "quadrilateral", "--cells", "8", "--corners", "0,0", "48,44", "48,60", "0,44",
+                     "cook.mesh")
         errors = []
         for degree in (1, 2):
             self.mortier("run", str(ROOT / "scenes/cook.toml"), "--out", "cook", "--set", f"degree={degree}",
@@ -87,7 +88,8 @@ class InContact(InFolder):
     def setUp(self):
         super().setUp()
         for name, cells, low, high in (("upper", "3", "0,0", "1,1"), ("lower", "5", "-0.2,-1", "1.1,0")):
-            self.mortier("mesh", "crisscross", "--cells", cells, "--lower", low, "--upper", high, f"{name}.mesh")
+            self.mortier("mesh", "crisscross", "--cells", cells, "--lower", low, "--upper", high,
+                         f"{name}.mesh")
         self.write(TWO_BLOCKS)
 
     def summary(self, *settings):
@@ -100,12 +102,14 @@ class InContact(InFolder):
             for scheme in ("backward-euler", "crank-nicolson", "sdirk2"):
                 for plane in ("stress", "strain"):
                     with self.subTest(variant=variant, scheme=scheme, plane=plane):
-                        summary = self.summary(f"contact.variant={variant}", f"time.scheme={scheme}", f"plane={plane}")
+                        summary = self.summary(f"contact.variant={variant}", f"time.scheme={scheme}",
+                                               f"plane={plane}")
                         self.assertEqual(summary["status"], "converged")
                         self.assertLess(summary["verification"]["force_balance"], 1e-9)
                         heights[variant, scheme, plane] = summary["final"]["displacement_min"][1]
         for plane in ("stress", "strain"):  # the cones agree but for the meshes' error
-            self.assertAlmostEqual(heights["mortar", "sdirk2", plane], heights["weighted", "sdirk2", plane], delta=1e-3)
+            self.assertAlmostEqual(heights["mortar", "sdirk2", plane], heights["weighted", "sdirk2", plane],
+                                   delta=1e-3)
 
     def test_the_newton_method_and_penalty_duality_agree(self):
         newton = self.summary("time.steps=2")["final"]

@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """Random scenes that have a solution, and how the program ends on each.
 
-Two or three stacked rectangles (or one) on meshes of tens of triangles, with everything that a scene may choose drawn
-over its whole range: stiffness ratios 1e-9 to 1e9, Poisson's ratio -0.99 to 0.4999, yield stresses 1e-12 to 1e3 of the
-load or none, viscosities from almost elastic to almost perfectly plastic, partial overlap, gaps of either sign,
-eccentric loads that grow, wave or turn round, both planes, all schemes, projections and couplings.
+Two or three stacked rectangles (or one) on meshes of tens of triangles, with everything that a scene may
+choose drawn over its whole range: stiffness ratios 1e-9 to 1e9, Poisson's ratio -0.99 to 0.4999, yield
+stresses 1e-12 to 1e3 of the load or none, viscosities from almost elastic to almost perfectly plastic,
+partial overlap, gaps of either sign, eccentric loads that grow, wave or turn round, both planes, all schemes,
+projections and couplings.
 
-Exit code 0 is asked for. 3 is right where contact alone holds a body and the load takes it away. 1 has to be rare, with
-a reason; a run that takes longer than the patience counts as a fault whatever it would have ended with.
+Exit code 0 is asked for. 3 is right where contact alone holds a body and the load takes it away. 1 has to be
+rare, with a reason; a run that takes longer than the patience counts as a fault whatever it would have ended
+with.
 
 Usage: random_scenes.py [--count 100] [--seed 0] [--patience 20] [--jobs 1] [--mortier build/mortier]
 Scene N is the same on every machine: random_scenes.py --seed N --count 1 --keep FOLDER shows it.
@@ -26,7 +28,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-CLASSES = ("yield stress over load", "scheme", "projection", "stiffness ratio", "viscosity", "Poisson's ratio",
+CLASSES = ("yield stress over load", "scheme", "projection", "stiffness ratio", "viscosity",
+           "Poisson's ratio",
            "held by contact alone", "overlap", "gap", "load in time", "plane", "variant", "bodies")
 
 
@@ -58,14 +61,18 @@ class Scene:
         # Strains of the load between 1e-13 and 1e-1 in the softer body.
         self.young = self.load * decades(rng, 1, 13)
         self.stiffness = decades(rng, -6, 12)  # theta e of the whole run
-        self.poisson = rng.choice([-0.99, 0, 0.3, 0.4999, rng.uniform(-0.99, 0.4999), rng.uniform(-0.5, 0.49)])
+        self.poisson = rng.choice([-0.99, 0, 0.3, 0.4999, rng.uniform(-0.99, 0.4999),
+                                   rng.uniform(-0.5, 0.49)])
         self.classes.update({
-            "yield stress over load": "elastic" if self.yield_ratio == 0 else decade_class(self.yield_ratio, (-8, -5, -3, 0)),
-            "projection": "elastic" if self.yield_ratio == 0 else "(all one)" if plane == "strain" else self.projection,
+            "yield stress over load": "elastic" if self.yield_ratio == 0 else decade_class(self.yield_ratio,
+                                                                                           (-8, -5, -3, 0)),
+            "projection": "elastic" if self.yield_ratio == 0 else "(all one)" if plane == "strain"
+            else self.projection,
             "stiffness ratio": "one body" if bodies == 1 else decade_class(self.ratio, (-6, -3, 0, 3, 6)),
-            "viscosity": "elastic" if self.yield_ratio == 0 else "theta e " + decade_class(self.stiffness, (-2, 2, 5, 8)),
-            "Poisson's ratio": "below -0.9" if self.poisson < -0.9 else "above 0.49" if self.poisson > 0.49 else "between",
-            "plane": plane, "bodies": str(bodies)})
+            "viscosity": "elastic" if self.yield_ratio == 0 else "theta e " + decade_class(self.stiffness,
+                                                                                           (-2, 2, 5, 8)),
+            "Poisson's ratio": "below -0.9" if self.poisson < -0.9 else "above 0.49" if self.poisson
+            > 0.49 else "between", "plane": plane, "bodies": str(bodies)})
         self.text = [f'title = "random scene {seed}"', f'plane = "{plane}"']
         self.make_bodies(bodies)
         self.make_time()
@@ -86,8 +93,8 @@ class Scene:
         kind = rng.choice(["rectangle", "rectangle", "crisscross"])
         most = 4 if kind == "crisscross" else 7
         # Two cells across: the end of one may be held, and the other hang over.
-        arguments = [kind, "--cells", f"{rng.randint(2, most)},{rng.randint(1, most)}", f"--lower={left!r},{bottom!r}",
-                     f"--upper={left + width!r},{bottom + height!r}"]
+        arguments = [kind, "--cells", f"{rng.randint(2, most)},{rng.randint(1, most)}",
+                     f"--lower={left!r},{bottom!r}", f"--upper={left + width!r},{bottom + height!r}"]
         if kind == "rectangle":
             arguments += ["--cut", rng.choice(["rising", "falling", "both"])]
         self.meshes[f"{name}.mesh"] = arguments
@@ -96,7 +103,8 @@ class Scene:
         """How the loads vary: between -1 and 1 over the run."""
         s = f"(t/{self.end!r})"
         shape, text = self.rng.choice([("ramp", s), ("ramp", s), ("ramp, then hold", f"min(1, 2*{s})"),
-                                       ("up and down", f"({s}<0.5 ? 2*{s} : 2-2*{s})"), ("waves", f"sin(6*pi*{s})"),
+                                       ("up and down", f"({s}<0.5 ? 2*{s} : 2-2*{s})"),
+                                       ("waves", f"sin(6*pi*{s})"),
                                        ("there at t = 0", "1"), ("power", f"{s}^4")])
         self.classes["load in time"] = shape
         return text
@@ -107,14 +115,17 @@ class Scene:
         overlap = rng.choice(["full", "partial", "narrow"]) if count > 1 else "one body"
         sign = rng.choice(["none", "none", "open", "overlapping"]) if count > 1 else "one body"
         contact_alone = count > 1 and rng.random() < 0.4
-        self.classes.update({"overlap": overlap, "gap": sign, "held by contact alone": "yes" if contact_alone else "no"})
+        self.classes.update({"overlap": overlap, "gap": sign,
+                             "held by contact alone": "yes" if contact_alone else "no"})
         amount = {"open": 1, "overlapping": -1}.get(sign, 0) * decades(rng, -12, -2.5)
         left, bottom, width = 0.0, 0.0, 1.0
         for i, name in enumerate(names):
             if i > 0 and overlap != "full":
                 # On the middle of the body below, or beyond one of its ends.
                 below, width = width, width * rng.uniform(0.3, 0.8)
-                left += rng.uniform(0, below - width) if overlap == "narrow" else rng.choice([0, below]) - width / 2
+                left += rng.uniform(0,
+                                    below - width) if overlap == "narrow" else rng.choice(
+                                        [0, below]) - width / 2
             height = rng.choice([0.2, 1.0, 2.0])
             self.mesh(name, left, bottom, width, height)
             bottom += height + amount
@@ -142,8 +153,8 @@ class Scene:
             self.text += [f"nonmortar = {sides[0]}", f"mortar = {sides[1]}"]
 
     def support(self, i, contact_alone):
-        """Body 0 is held at its bottom. The others are held at their left side, or in x only: at one side, where contact
-        must not turn them, or along a line on which they may turn."""
+        """Body 0 is held at its bottom. The others are held at their left side, or in x only: at one side,
+        where contact must not turn them, or along a line on which they may turn."""
         rng = self.rng
         if i == 0 and rng.random() < 0.7:
             self.text += ["[[body.boundary]]", "label = 1", "ux = 0", "uy = 0"]
@@ -159,7 +170,8 @@ class Scene:
         rng, load = self.rng, self.load
         shape = self.in_time()
         middle, half = left + width / 2, width / 2
-        along = rng.choice(["1", "1", f"(1+{rng.uniform(-1, 1)!r}*(x-{middle!r})/{half!r})", f"(x>{middle!r} ? 1 : 0)"])
+        along = rng.choice(["1", "1", f"(1+{rng.uniform(-1, 1)!r}*(x-{middle!r})/{half!r})",
+                            f"(x>{middle!r} ? 1 : 0)"])
         if not contact_alone:
             along = rng.choice([along, f"cos(5*(x-{left!r}))", f"(x-{middle!r})/{half!r}"])
         sign = -1 if rng.random() < (0.9 if contact_alone else 0.7) else 1
@@ -178,27 +190,31 @@ class Scene:
 
     def make_time(self):
         rng = self.rng
-        scheme = rng.choice(["backward-euler", "backward-euler", "crank-nicolson", "sdirk2", "sdirk2 by error",
-                             "sdirk2 by error", "backward-euler by error"])
+        scheme = rng.choice(["backward-euler", "backward-euler", "crank-nicolson", "sdirk2",
+                             "sdirk2 by error", "sdirk2 by error", "backward-euler by error"])
         self.classes["scheme"] = scheme
         self.text += ["[time]", f"end = {self.end!r}", f'scheme = "{scheme.split()[0]}"']
         if "error" in scheme:
-            self.text.append(f"tolerance = {decades(rng, -3, -1) if 'euler' in scheme else decades(rng, -5, -1)!r}")
+            self.text.append("tolerance = "
+                             f"{decades(rng, -3, -1) if 'euler' in scheme else decades(rng, -5, -1)!r}")
         else:
             self.text.append(f"steps = {rng.choice([1, 2, 5, 10, 20])}")
 
 
 def try_scene(seed, program, patience, keep):
-    """Runs scene `seed`: its classes, how it ended, what was said, seconds of processor time and linear solves."""
+    """Runs scene `seed`: its classes, how it ended, what was said,
+    seconds of processor time and linear solves."""
     scene = Scene(seed)
     with tempfile.TemporaryDirectory(prefix=f"random-{seed}-") as name:
         folder = Path(name)
         (folder / "scene.toml").write_text("\n".join(scene.text) + "\n")
         for mesh, arguments in scene.meshes.items():
-            subprocess.run([program, "mesh", *arguments, mesh], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+            subprocess.run([program, "mesh", *arguments, mesh], cwd=folder, check=True,
+                           stdout=subprocess.DEVNULL)
         limit = lambda: resource.setrlimit(resource.RLIMIT_CPU, (patience, patience + 1))
         with (folder / "err").open("w+") as err:
-            process = subprocess.Popen([program, "run", "scene.toml", "--quiet", "--threads", "1", "--out", "out"],
+            process = subprocess.Popen([program, "run", "scene.toml", "--quiet", "--threads", "1", "--out",
+                                        "out"],
                                        cwd=folder, preexec_fn=limit, stdout=subprocess.DEVNULL, stderr=err)
             _, status, used = os.wait4(process.pid, 0)
             process.returncode = os.waitstatus_to_exitcode(status)
@@ -217,12 +233,14 @@ def try_scene(seed, program, patience, keep):
 def tabulate(results, out=sys.stdout):
     """Exit codes by class."""
     codes = sorted({result["code"] for result in results}, key=str)
-    print(f"{'':44}{'scenes':>8}" + "".join(f"{code!s:>7}" for code in codes) + "   share of 1, long", file=out)
+    print(f"{'':44}{'scenes':>8}" + "".join(f"{code!s:>7}" for code in codes) + "   share of 1, long",
+          file=out)
 
     def row(name, part):
         count = collections.Counter(result["code"] for result in part)
         bad = sum(n for code, n in count.items() if code not in (0, 2, 3))
-        print(f"{name:44}{len(part):8}" + "".join(f"{count[code]:7}" for code in codes) + f"{bad / len(part):12.1%}",
+        print(f"{name:44}{len(part):8}" + "".join(f"{count[code]:7}"
+                                                  for code in codes) + f"{bad / len(part):12.1%}",
               file=out)
 
     row("all", results)
@@ -235,18 +253,21 @@ def explore(program, seed, count, patience=20, jobs=1, keep=None, watch=lambda r
     """Tries scenes; returns what try_scene() does of each."""
     program, results = str(Path(program).resolve()), []
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for result in pool.map(lambda number: try_scene(number, program, patience, keep), range(seed, seed + count)):
+        for result in pool.map(lambda number: try_scene(number, program, patience, keep),
+                               range(seed, seed + count)):
             watch(result)
             results.append(result)
     return results
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--mortier", default=os.environ.get("MORTIER", "build/mortier"))
     parser.add_argument("--count", type=int, default=100)
     parser.add_argument("--seed", type=int, default=0, help="number of the first scene")
-    parser.add_argument("--patience", type=int, default=20, help="seconds of processor time that a run may take")
+    parser.add_argument("--patience", type=int, default=20,
+                        help="seconds of processor time that a run may take")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--keep", help="folder to copy the scenes and results to")
     parser.add_argument("--json", help="file for the results, one a line")
@@ -254,12 +275,14 @@ def main():
 
     def watch(result):
         if result["code"] != 0:
-            print(f"{result['seed']:6} {result['code']!s:>5} {result['seconds']:7.2f} s  {result['told'][:300]}", flush=True)
+            print(f"{result['seed']:6} {result['code']!s:>5} {result['seconds']:7.2f} s  "
+                  f"{result['told'][:300]}", flush=True)
         if options.json:
             with open(options.json, "a", encoding="utf-8") as file:
                 file.write(json.dumps(result) + "\n")
 
-    results = explore(options.mortier, options.seed, options.count, options.patience, options.jobs, options.keep, watch)
+    results = explore(options.mortier, options.seed, options.count, options.patience, options.jobs,
+                      options.keep, watch)
     tabulate(results)
     print(f"slowest: {max(result['seconds'] for result in results):.1f} s")
     return 1 if any(result["code"] not in (0, 3) for result in results) else 0

@@ -9,7 +9,8 @@ FIRST, COUNT = 176, 58
 MOVED = 30
 # Crank-Nicolson rings at 1e4 yield stresses: the interior point method must begin beyond them.
 RINGING = 287
-# The error of a step is told too large until it is as short as time resolves, where rounding makes it a little longer.
+# The error of a step is told too large until it is as short as time resolves,
+# where rounding makes it a little longer.
 SHORTEST = 275
 SECONDS = 10
 

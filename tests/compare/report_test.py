@@ -1,5 +1,5 @@
-"""mortier report in headless Chromium: what one points at is what the files hold, by mouse and by keyboard, on a desk and
-on a phone, in the light and in the dark; and text of others is shown, never run."""
+"""mortier report in headless Chromium: what one points at is what the files hold, by mouse and by keyboard,
+on a desk and on a phone, in the light and in the dark; and text of others is shown, never run."""
 import json
 import re
 import shutil
@@ -36,12 +36,14 @@ steps = {steps}
 [output]
 every = 1
 """
-HOSTILE = ["</script><script>window.hacked=1</script>", "<img src=x onerror=window.hacked=1>", "\"'`${window.hacked=1}\\",
+HOSTILE = ["</script><script>window.hacked=1</script>", "<img src=x onerror=window.hacked=1>",
+           "\"'`${window.hacked=1}\\",
            "a\u2028b\u2029c\u0000\u001b[31m\u202e", "]]><!--<script>", "&lt;script&gt;&amp;"]
 
 
 def hovered(browser, run, count, places=False):
-    """Texts and values of the page where there is a triangle under the mouse; with places of the window, if asked for."""
+    """Texts and values of the page where there is a triangle under the mouse; with places of the window,
+    if asked for."""
     browser.run("document.getElementById(arguments[0]).scrollIntoView({block: 'center'})", f"canvas{run}")
     area = browser.run("const a = document.getElementById(arguments[0]).getBoundingClientRect(); "
                        "return [a.left, a.top, a.width, a.height]", f"canvas{run}")
@@ -50,10 +52,12 @@ def hovered(browser, run, count, places=False):
         x = area[0] + area[2] * (0.5 + 0.45 * np.sin(12.9898 * (i + 1)))
         y = area[1] + area[3] * (0.5 + 0.45 * np.sin(78.233 * (i + 1)))
         browser.point(x, y)
-        data, text = browser.run("const r = document.getElementById(arguments[0]); return [{...r.dataset}, r.textContent]",
+        data, text = browser.run("const r = document.getElementById(arguments[0]); return [{...r.dataset}, "
+                                 "r.textContent]",
                                  f"read{run}")
         if "triangle" in data:
-            found.append((data["body"], int(data["triangle"]), int(data["vertex"]), float(data["value"]), text))
+            found.append((data["body"], int(data["triangle"]), int(data["vertex"]), float(data["value"]),
+                          text))
             where.append((round(x), round(y)))
         if len(found) == count:
             break
@@ -68,8 +72,8 @@ def choose(browser, name, value):
 
 def settled(browser):
     """Waits until the page has drawn what was asked for."""
-    browser.run("return new Promise(done => setTimeout(() => requestAnimationFrame(() => requestAnimationFrame(() => done(1))), "
-                "50))")
+    browser.run("return new Promise(done => setTimeout(() => requestAnimationFrame(() => "
+                "requestAnimationFrame(() => done(1))), 50))")
 
 
 class Pages(InSharedFolder):
@@ -113,7 +117,8 @@ class Pages(InSharedFolder):
             corner = found.bodies[body].triangles[triangle]
             self.assertIn(vertex, corner)
             error = found.bodies[body].cells["error"]
-            self.assertLessEqual(abs(float(re.search(r"estimated error (\S+)$", text)[1]) - error[triangle]), 0.006 * error.max())
+            self.assertLessEqual(abs(float(re.search(r"estimated error (\S+)$", text)[1]) - error[triangle]),
+                                 0.006 * error.max())
         return seen
 
     def test_hovered_values_are_those_of_the_files(self):
@@ -133,7 +138,8 @@ class Pages(InSharedFolder):
             self.assertIn("stress s22 -10 Pa", text)
 
     def test_the_triangle_under_the_pointer_is_the_one_that_is_there(self):
-        """The geometry of the page against that of the files, zoomed and moved, at several scales of the displacements."""
+        """The geometry of the page against that of the files, zoomed and moved,
+        at several scales of the displacements."""
         self.page("interpolation")
         run = results.read_mortier(self.folder / "interpolation")
         for index in (0, 5, 8):  # of the slider
@@ -141,23 +147,28 @@ class Pages(InSharedFolder):
             scale = float(self.browser.run("return document.querySelector('output[for=scale]').textContent"))
             self.browser.press("#canvas0", "0")
             settled(self.browser)
-            whole = float(self.browser.run("return document.getElementById('canvas0').dataset.view").split(",")[2])
+            view = self.browser.run("return document.getElementById('canvas0').dataset.view")
+            whole = float(view.split(",")[2])
             self.browser.press("#canvas0", "++\ue014")  # closer by 0.8 twice, then a step to the right
             settled(self.browser)
             shapes = {name: body.points + scale * body.displacement for name, body in run.bodies.items()}
             seen = list(zip(*hovered(self.browser, 0, 8, places=True)))
             shown = self.browser.run("return document.getElementById('canvas0').dataset.view")
             middle_x, middle_y, half = map(float, shown.split(","))
-            left, top, width, height = self.browser.run("const r = document.getElementById('canvas0').getBoundingClientRect(); "
-                                                        "return [r.left, r.top, r.width, r.height]")
+            left, top, width, height = self.browser.run(
+                "const r = document.getElementById('canvas0').getBoundingClientRect(); "
+                "return [r.left, r.top, r.width, r.height]")
             self.assertNotEqual(half, whole)
             pixel = 2 * half / width
             for (x, y), (body, triangle, *_) in seen:
-                place = np.array([middle_x + (x - left - width / 2) * pixel, middle_y - (y - top - height / 2) * pixel])
+                place = np.array([middle_x + (x - left - width / 2) * pixel,
+                                  middle_y - (y - top - height / 2) * pixel])
                 corners = shapes[body][run.bodies[body].triangles[triangle]]
-                for a, b in zip(corners, np.roll(corners, -1, axis=0)):  # how far to the left of each side, counterclockwise
+                # how far to the left of each side, counterclockwise
+                for a, b in zip(corners, np.roll(corners, -1, axis=0)):
                     side = b - a
-                    self.assertGreater((side[0] * (place - a)[1] - side[1] * (place - a)[0]) / np.hypot(*side), -2 * pixel)
+                    self.assertGreater((side[0] * (place - a)[1]
+                                        - side[1] * (place - a)[0]) / np.hypot(*side), -2 * pixel)
 
     def test_keyboard(self):
         self.page("interpolation")
@@ -191,8 +202,9 @@ class Pages(InSharedFolder):
         self.page("mortar", "interpolation")
         for name, r in (("mortar", 0), ("interpolation", 1)):
             run = results.read_mortier(self.folder / name)
-            marks = self.browser.run("return [...document.querySelectorAll(`#pressure${arguments[0]}-0 circle`)].map(c => "
-                                     "[Number(c.getAttribute('cx')), Number(c.getAttribute('cy'))])", r)
+            marks = self.browser.run("return [...document.querySelectorAll(`#pressure${arguments[0]}-0 "
+                                     "circle`)].map(c => [Number(c.getAttribute('cx')), "
+                                     "Number(c.getAttribute('cy'))])", r)
             x, y = np.array(marks).T
             self.assertEqual(len(x), len(run.contact.pressure))
             pressure = run.contact.pressure
@@ -202,11 +214,13 @@ class Pages(InSharedFolder):
                 self.assertLess(slope, 0)
             slope, constant = np.polyfit(run.contact.position[:, 0], x, 1)
             np.testing.assert_allclose(slope * run.contact.position[:, 0] + constant, x, atol=0.11)
-        titles = self.browser.run("return [...document.querySelectorAll('#histories text:first-child')].map(t => t.textContent)")
+        titles = self.browser.run("return [...document.querySelectorAll('#histories "
+                                  "text:first-child')].map(t => t.textContent)")
         self.assertIn("contact force [N/m]", titles)
         self.browser.run("document.querySelectorAll('details').forEach(d => d.open = true)")
         text = self.browser.run("return document.body.innerText")
-        for words in ("force balance", "von Mises stress", "left out", "inertia, friction, finite strains and slips"):
+        for words in ("force balance", "von Mises stress", "left out",
+                      "inertia, friction, finite strains and slips"):
             self.assertIn(words, text)
         scene = self.browser.run("return document.querySelector('.scene').textContent")
         self.assertIn('projection = "elasticity"', scene)
@@ -216,22 +230,23 @@ class Pages(InSharedFolder):
         choose(self.browser, "step", 1)
         self.check_hover("hertz", 0, 1, "von_mises")
         for name, cells, inner, outer in (("inner", "40,4", 1, 1.5), ("outer", "56,4", 1.5, 2)):
-            mortier("mesh", "annulus", "--cells", cells, "--inner", inner, "--outer", outer, "--span", "full", f"{name}.mesh",
-                    cwd=self.folder)
+            mortier("mesh", "annulus", "--cells", cells, "--inner", inner, "--outer", outer, "--span", "full",
+                    f"{name}.mesh", cwd=self.folder)
         (self.folder / "ring.toml").write_text(RING.format(steps=2))
         done = mortier("run", "ring.toml", "--quiet", "--out", "ring", cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.page("ring")
         choose(self.browser, "field", "s11")
         self.check_hover("ring", 0, 2, "s11")
-        self.assertEqual(self.browser.run("return document.querySelectorAll('#pressure0-0 circle').length"), 40)
+        self.assertEqual(self.browser.run("return document.querySelectorAll('#pressure0-0 circle').length"),
+                         40)
 
     def test_a_hundred_thousand_triangles(self):
         """Five steps of Cook's membrane: smooth fields and a corner."""
-        mortier("mesh", "quadrilateral", "--cells", "224", "--corners", "0,0", "48,44", "48,60", "0,44", "fine.mesh",
-                cwd=self.folder)
-        done = mortier("run", ROOT / "scenes/cook.toml", "--quiet", "--out", "fine", "--set", "time.steps=5", "output.every=1",
-                       "body.panel.mesh=fine.mesh", cwd=self.folder)
+        mortier("mesh", "quadrilateral", "--cells", "224", "--corners", "0,0", "48,44", "48,60", "0,44",
+                "fine.mesh", cwd=self.folder)
+        done = mortier("run", ROOT / "scenes/cook.toml", "--quiet", "--out", "fine", "--set", "time.steps=5",
+                       "output.every=1", "body.panel.mesh=fine.mesh", cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         path, milliseconds = self.page("fine")
         self.assertLess(path.stat().st_size, 8e6)
@@ -251,19 +266,26 @@ class Pages(InSharedFolder):
                                      ".map(c => c.getBoundingClientRect().width)")
             self.assertGreater(min(shown), 300)
             if width < 600:  # a finger on the middle of the picture says what is there
-                x, y = self.browser.run("const c = document.getElementById('canvas0'); c.scrollIntoView({block: 'center'}); "
-                                        "const r = c.getBoundingClientRect(); return [r.left + r.width/2, r.top + 0.7*r.height]")
-                self.browser.cdp("Input.dispatchTouchEvent", type="touchStart", touchPoints=[{"x": x, "y": y}])
+                x, y = self.browser.run("const c = document.getElementById('canvas0'); "
+                                        "c.scrollIntoView({block: 'center'}); const r = "
+                                        "c.getBoundingClientRect(); return [r.left + r.width/2, r.top + "
+                                        "0.7*r.height]")
+                self.browser.cdp("Input.dispatchTouchEvent", type="touchStart",
+                                 touchPoints=[{"x": x, "y": y}])
                 self.browser.cdp("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
                 settled(self.browser)
-                self.assertEqual(self.browser.run("return document.getElementById('read0').dataset.value"), "10")
+                self.assertEqual(self.browser.run("return document.getElementById('read0').dataset.value"),
+                                 "10")
         self.browser.size(1280, 900)
         looks = "const s = getComputedStyle(document.body); return [s.color, s.backgroundColor]"
         light = self.browser.run(looks)
-        self.browser.cdp("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+        self.browser.cdp("Emulation.setEmulatedMedia",
+                         features=[{"name": "prefers-color-scheme", "value": "dark"}])
         dark = self.browser.run(looks)
-        self.browser.cdp("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "light"}])
-        bright = [[sum(map(int, re.findall(r"\d+", colour)[:3])) for colour in pair] for pair in (light, dark)]
+        self.browser.cdp("Emulation.setEmulatedMedia",
+                         features=[{"name": "prefers-color-scheme", "value": "light"}])
+        bright = [[sum(map(int, re.findall(r"\d+", colour)[:3])) for colour in pair]
+                  for pair in (light, dark)]
         self.assertGreater(bright[0][1] - bright[0][0], 500)
         self.assertGreater(bright[1][0] - bright[1][1], 500)
 
@@ -272,17 +294,20 @@ class Pages(InSharedFolder):
         path = self.folder / "hostile" / "summary.json"
         summary = json.loads(path.read_text())
         for text in HOSTILE:
-            path.write_text(json.dumps({**summary, "title": text, "scene": text, "scene_text": text, "settings": [text],
-                                        "plane": text, "status": "failed", "reason": text, "accuracy": {text: text},
-                                        "final": {**summary["final"], text: 1}}))
+            path.write_text(json.dumps({**summary, "title": text, "scene": text, "scene_text": text,
+                                        "settings": [text],
+                                        "plane": text, "status": "failed", "reason": text,
+                                        "accuracy": {text: text}, "final": {**summary["final"], text: 1}}))
             page, _ = self.page("hostile")
             self.assertEqual(self.browser.messages(), [], text)
             self.assertIsNone(self.browser.run("return window.hacked || null"), text)
             self.assertEqual(self.browser.run("return document.querySelector('.scene').textContent"), text)
-            self.assertEqual(self.browser.run("return document.querySelectorAll('script,img').length"), 2, text)
+            self.assertEqual(self.browser.run("return document.querySelectorAll('script,img').length"), 2,
+                             text)
             self.assertIn("default-src 'none'", page.read_text())
         # The policy holds by itself: what gets into the page all the same does not run.
-        (self.folder / "broken.html").write_text(page.read_text().replace("<main", "<script>window.hacked=1</script><main"))
+        broken = page.read_text().replace("<main", "<script>window.hacked=1</script><main")
+        (self.folder / "broken.html").write_text(broken)
         self.browser.open(self.folder / "broken.html")
         self.assertIsNone(self.browser.run("return window.hacked || null"))
         self.assertIn("Content Security Policy", self.browser.messages()[0])
@@ -296,7 +321,8 @@ class Pages(InSharedFolder):
         self.assertNotEqual(self.browser.messages(), [])
 
     def test_a_run_that_stopped_early(self):
-        solve(self.folder, "stuck", "contact.variant=interpolation", "solver.max_iterations=2", "time.steps=20", code=1)
+        solve(self.folder, "stuck", "contact.variant=interpolation", "solver.max_iterations=2",
+              "time.steps=20", code=1)
         self.page("stuck.failed")
         self.assertIn("stopped early: step", self.browser.run("return document.body.innerText"))
 
@@ -309,7 +335,8 @@ class Pages(InSharedFolder):
 
 class Coding(unittest.TestCase):
     def test_large_runs_stay_small(self):
-        """1e5 triangles, 5 steps of fields that are rough by themselves: each block beside what it would be raw."""
+        """1e5 triangles, 5 steps of fields that are rough by themselves:
+        each block beside what it would be raw."""
         rng = np.random.default_rng(1)
         smooth = np.sin(np.linspace(0, 40, 100_000))
         block = coding.Block()
@@ -320,7 +347,8 @@ class Coding(unittest.TestCase):
         self.assertLess(len(rough.bytes()), 330_000)
 
     def test_extremes(self):
-        for values in (np.zeros(5), np.array([]), np.array([1e-320, 0]), np.array([1e300, -1e300]), np.array([1e-280, -1])):
+        for values in (np.zeros(5), np.array([]), np.array([1e-320, 0]), np.array([1e300, -1e300]),
+                       np.array([1e-280, -1])):
             q, e = coding.quantised(values, 6)
             self.assertTrue(np.isfinite(coding.scaled(q.astype(float), e)).all())
             np.testing.assert_allclose(coding.scaled(q.astype(float), e), values, rtol=0,

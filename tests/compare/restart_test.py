@@ -21,7 +21,8 @@ CASES = [
     (["contact.variant=interpolation"], 1),
     (["contact.variant=interpolation", "time.scheme=sdirk2"], 1),
     (["contact.variant=mortar", "time.scheme=sdirk2", ELASTIC], 2),
-    (["contact.variant=interpolation", "time.scheme=crank-nicolson", "body.material.projection=frobenius"], 2),
+    (["contact.variant=interpolation", "time.scheme=crank-nicolson", "body.material.projection=frobenius"],
+     2),
     (["contact.variant=interpolation", "contact.swap=true", "solver.linear=suitesparse", ELASTIC], 1),
     (["contact.variant=mortar", "time.scheme=sdirk2", "time.tolerance=1e-6"], 2),
     (["contact.variant=interpolation", "time.scheme=sdirk2", "time.tolerance=1e-4"], 1),
@@ -41,8 +42,8 @@ class Restart(InFolder):
         return self.mortier("run", *arguments, "--quiet", code=code, timeout=300).stderr
 
     def stop(self, *arguments, after, pause=0.0, by=signal.SIGKILL):
-        """Runs with a checkpoint after every step and stops the run when `after` of them were seen. A run that is over
-        before that, on a busy machine, is made again."""
+        """Runs with a checkpoint after every step and stops the run when `after` of them were seen. A run
+        that is over before that, on a busy machine, is made again."""
         for attempt in range(20):
             if self.stopped_one(arguments, max(1, after - 5 * attempt), pause, by):
                 return self.stopped()
@@ -51,8 +52,8 @@ class Restart(InFolder):
         self.fail("no run could be stopped")
 
     def stopped_one(self, arguments, after, pause, by):
-        process = subprocess.Popen([PROGRAM, "run", *map(str, arguments), "--quiet", "--checkpoint", "0"], cwd=self.folder,
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        process = subprocess.Popen([PROGRAM, "run", *map(str, arguments), "--quiet", "--checkpoint", "0"],
+                                   cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         seen, checkpoint, deadline = set(), None, time.monotonic() + 120
         while len(seen) < after and process.poll() is None and time.monotonic() < deadline:
             try:
@@ -103,11 +104,11 @@ class Restart(InFolder):
                 if not (self.folder / whole).exists():
                     self.run_mortier(SCENE, *self.settings(*settings), "--out", whole)
                 result = f"out/killed-{number}"
-                self.stop(SCENE, *self.settings(*settings), "--out", result, after=rng.randrange(1, STEPS // 3),
-                          pause=rng.uniform(0, 5e-3))
+                self.stop(SCENE, *self.settings(*settings), "--out", result,
+                          after=rng.randrange(1, STEPS // 3), pause=rng.uniform(0, 5e-3))
                 if number % 3 == 0:  # and once more
-                    again = self.stopped_one(("--restart", result), rng.randrange(2, STEPS // 4), rng.uniform(0, 5e-3),
-                                             signal.SIGKILL)
+                    again = self.stopped_one(("--restart", result), rng.randrange(2, STEPS // 4),
+                                             rng.uniform(0, 5e-3), signal.SIGKILL)
                 else:
                     again = True
                 if again:
@@ -118,7 +119,8 @@ class Restart(InFolder):
                 self.assertEqual(list(self.folder.glob("out/*.*")), [])
 
     def test_killed_on_meshes_that_are_worth_threads(self):
-        for name, cells, lower, upper in (("upper.mesh", 66, "0,0", "1,1"), ("lower.mesh", 64, "0,-1", "1,0")):
+        for name, cells, lower, upper in (("upper.mesh", 66, "0,0", "1,1"),
+                                          ("lower.mesh", 64, "0,-1", "1,0")):
             self.mortier("mesh", "crisscross", "--cells", cells, "--lower", lower, "--upper", upper, name)
         settings = ["--set", "time.steps=6", "body.upper.mesh=upper.mesh", "body.lower.mesh=lower.mesh"]
         self.run_mortier(SCENE, *settings, "--out", "out/whole", "--threads", 2)
@@ -127,7 +129,8 @@ class Restart(InFolder):
         self.expect_same("out/whole", "out/killed")
 
     def test_killed_in_a_run_that_is_begun_again(self):
-        settings = ["--set", "output.every=7", "contact.variant=mortar", "time.scheme=sdirk2", "time.tolerance=1e-5"]
+        settings = ["--set", "output.every=7", "contact.variant=mortar", "time.scheme=sdirk2",
+                    "time.tolerance=1e-5"]
         told = self.mortier("run", SCENE, *settings, "--out", "out/whole", timeout=300).stdout
         self.assertIn("begun again", told)
         for after in (2, 9, 14):
@@ -162,7 +165,8 @@ class Restart(InFolder):
                 elif damage == "empty":
                     (left / "checkpoint").write_bytes(b"")
                 elif damage == "older":
-                    (left / "checkpoint").write_bytes(good.replace(b"mortier checkpoint ", b"mortier checkpoint 0", 1))
+                    (left / "checkpoint").write_bytes(good.replace(b"mortier checkpoint ",
+                                                                   b"mortier checkpoint 0", 1))
                 self.run_mortier("--restart", "out/killed")
                 self.expect_same("out/whole", "out/killed")
                 shutil.rmtree(self.folder / "out/killed")
@@ -183,7 +187,8 @@ class Restart(InFolder):
         self.assertIn("its upper_000000.vtu is shorter", self.run_mortier("--restart", "out/killed", code=2))
         (left / "upper_000000.vtu").write_bytes(kept)
         (left / "history.csv").write_bytes(b"step\n")
-        self.assertIn("its history.csv is shorter than it was", self.run_mortier("--restart", "out/killed", code=2))
+        self.assertIn("its history.csv is shorter than it was",
+                      self.run_mortier("--restart", "out/killed", code=2))
         self.assertTrue(left.exists())
 
     def test_another_scene(self):
@@ -196,10 +201,12 @@ class Restart(InFolder):
         left = self.stop(scene, *self.settings(*meshes), "--out", "out/killed", after=5)
         text = scene.read_text()
         scene.write_text(text.replace("viscosity = 10", "viscosity = 11", 1))
-        self.assertIn("scene.toml: line 9 has changed, expected", self.run_mortier("--restart", "out/killed", code=2))
+        self.assertIn("scene.toml: line 9 has changed, expected",
+                      self.run_mortier("--restart", "out/killed", code=2))
         scene.write_text(text)
         other = ["--set", "time.steps=61", *self.settings(*meshes)[2:]]
-        self.assertIn("--set time.steps=61 output", self.run_mortier(scene, *other, "--restart", "out/killed", code=2))
+        self.assertIn("--set time.steps=61 output", self.run_mortier(scene, *other, "--restart", "out/killed",
+                                                                     code=2))
         mesh = (self.folder / "upper.mesh").read_text()
         (self.folder / "upper.mesh").write_text(mesh.replace("\n1 1 0\n", "\n1 1.0000000000000002 0\n", 1))
         self.assertNotEqual((self.folder / "upper.mesh").read_text(), mesh)
@@ -212,11 +219,12 @@ class Restart(InFolder):
         self.assertIn("out/none: no stopped run", self.run_mortier("--restart", "out/none", code=2))
         self.run_mortier(SCENE, "--out", "out/done", "--set", "time.steps=2")
         self.assertIn("out/done: no stopped run", self.run_mortier("--restart", "out/done", code=2))
-        self.assertIn("--out excludes --restart", self.run_mortier(SCENE, "--out", "out/a", "--restart", "out/a", code=2))
+        self.assertIn("--out excludes --restart", self.run_mortier(SCENE, "--out", "out/a", "--restart",
+                                                                   "out/a", code=2))
 
     def test_a_living_run_is_not_taken_over(self):
-        living = subprocess.Popen([PROGRAM, "run", SCENE, "--quiet", "--checkpoint", "0", "--out", "out/a", "--set",
-                                   "time.steps=1000000"], cwd=self.folder, stderr=subprocess.DEVNULL)
+        living = subprocess.Popen([PROGRAM, "run", SCENE, "--quiet", "--checkpoint", "0", "--out", "out/a",
+                                   "--set", "time.steps=1000000"], cwd=self.folder, stderr=subprocess.DEVNULL)
         self.addCleanup(living.wait)
         self.addCleanup(living.kill)
         while not list(self.folder.glob("out/a.tmp-*/checkpoint")):

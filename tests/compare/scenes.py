@@ -165,7 +165,8 @@ PARTS_GEO = """\
 DefineConstant[ width = {1, Name "Parameters/width"}, depth = 1 ];
 Point(1) = {0, 0, 0}; Point(2) = {width, 0, 0}; Point(3) = {2*width, 0, 0};
 Point(4) = {0, depth, 0}; Point(5) = {width, depth, 0}; Point(6) = {2*width, depth, 0};
-Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 6}; Line(4) = {6, 5}; Line(5) = {5, 4}; Line(6) = {4, 1}; Line(7) = {2, 5};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 6}; Line(4) = {6, 5}; Line(5) = {5, 4};
+Line(6) = {4, 1}; Line(7) = {2, 5};
 Curve Loop(1) = {1, 7, 5, 6}; Plane Surface(1) = {1};
 Curve Loop(2) = {-7, 2, 3, 4}; Plane Surface(2) = {2};
 Physical Curve("base", 1) = {1, 2}; Physical Curve("right", 2) = {3}; Physical Curve("top", 3) = {4, 5};
@@ -177,7 +178,8 @@ Physical Surface("left half", 1) = {1}; Physical Surface("right half", 2) = {2};
 SHAPE_KEYS = """\
 [[body]]
 name = "plate"
-mesh = { shape = "rectangle", lower = [0, 0], upper = [2, 1], cells = [4, 2], cut = "both", focus = [0, 1], grading = 2 }
+mesh = { shape = "rectangle", lower = [0, 0], upper = [2, 1], cells = [4, 2], cut = "both", \
+         focus = [0, 1], grading = 2 }
 material = { young = 100, poisson = 0.3 }
 boundary = [ { label = 1, ux = 0, uy = 0 }, { label = 3, ty = -1 } ]
 [[body]]

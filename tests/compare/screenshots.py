@@ -13,11 +13,13 @@ from support import ROOT
 from views_support import solve, view
 import images
 
-PAGES = {"report": (1180, 1010, False, 640), "report-dark": (1180, 1010, True, 640), "report-phone": (390, 1000, False, 300)}
+PAGES = {"report": (1180, 1010, False, 640), "report-dark": (1180, 1010, True, 640),
+         "report-phone": (390, 1000, False, 300)}
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=Path, default=ROOT / "docs" / "images" / "pictures", metavar="DIR")
     out = parser.parse_args().out
     out.mkdir(parents=True, exist_ok=True)
@@ -35,10 +37,12 @@ def main():
             browser = Browser(width, height, dark)
             try:
                 browser.open(folder / "report.html")
-                left, top, w, h = browser.run("const r = document.querySelector('#canvas0').getBoundingClientRect(); "
+                left, top, w, h = browser.run("const r = "
+                                              "document.querySelector('#canvas0').getBoundingClientRect(); "
                                               "return [r.left, r.top, r.width, r.height]")
                 browser.point(left + 0.4 * w, top + 0.6 * h)
-                browser.run("return new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+                browser.run("return new Promise(done => requestAnimationFrame(() => "
+                            "requestAnimationFrame(done)))")
                 save(out / f"{name}.png", browser.picture(), shown)
             finally:
                 browser.close()

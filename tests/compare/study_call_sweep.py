@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Every call to the file system of a study and of its runs fails once, or its process is killed there (tests/faults).
+"""Every call to the file system of a study and of its runs fails once,
+or its process is killed there (tests/faults).
 
 study_call_sweep.py [--part K/N]    prints what was found, ends with 1 if anything was
 
-After each fault: no file of others is lost or changed, rows that were measured and a page that was there are still there,
-whole. After the next study in the same folder: all rows and pictures are in place, and nothing else is left. Each study is a
-fork of this process, which has read all modules and draws no pictures, so that thousands of studies take minutes.
+After each fault: no file of others is lost or changed, rows that were measured and a page that was there are
+still there, whole. After the next study in the same folder: all rows and pictures are in place, and nothing
+else is left. Each study is a fork of this process, which has read all modules and draws no pictures, so that
+thousands of studies take minutes.
 """
 import argparse
 import csv
@@ -22,7 +24,8 @@ from scenes import TWO_BLOCKS
 from support import mortier
 
 # Of others in the study's folder; the second has the name of a picture.
-OTHERS = {"notes.txt": "a", "a-size.svg": "b", "meshes/mine.mesh": "c", "runs/mine": "d", "mortier-work-x/deep/e": "e", "new": "f"}
+OTHERS = {"notes.txt": "a", "a-size.svg": "b", "meshes/mine.mesh": "c", "runs/mine": "d",
+          "mortier-work-x/deep/e": "e", "new": "f"}
 STUDY = """scene = "scene.toml"
 [mesh]
 upper = {{ kind = "crisscross", cells = [1], lower = [0, 0], upper = [1, 1] }}
@@ -42,14 +45,16 @@ class StudySweep:
         base = self.folder / "base"
         base.mkdir()
         for name, lower, upper in (("upper", "0,0", "1,1"), ("lower", "0,-1", "1,0")):
-            mortier("mesh", "crisscross", "--cells", "1", f"--lower={lower}", f"--upper={upper}", f"{name}.mesh", cwd=base)
+            mortier("mesh", "crisscross", "--cells", "1", f"--lower={lower}", f"--upper={upper}",
+                    f"{name}.mesh", cwd=base)
         (base / "scene.toml").write_text(TWO_BLOCKS)
         self.copy("base", "old", "c", [1])
         for name, text in OTHERS.items():
             (self.folder / "old/out/s" / name).parent.mkdir(parents=True, exist_ok=True)
             (self.folder / "old/out/s" / name).write_text(text)
         self.copy("base", "half", "a", [1])
-        self.cases = {"fresh": ("base", [1]), "over another study": ("old", [1]), "gone on with": ("half", [1, 2])}
+        self.cases = {"fresh": ("base", [1]), "over another study": ("old", [1]),
+                      "gone on with": ("half", [1, 2])}
 
     def copy(self, name, to, *study):
         target = self.folder / to
@@ -90,7 +95,8 @@ class StudySweep:
             faults += self.lost(out, begin == "old")
             if begin == "half" and not set(before) <= set(self.rows(out)):
                 faults.append("a row that was measured is gone")
-            if not (out / "report.html").is_file() or not (out / "report.html").read_text().endswith("</html>\n"):
+            if not (out / "report.html").is_file() or not (out / "report.html").read_text().endswith(
+                "</html>\n"):
                 faults.append("the page is not whole")
         if code == 0:
             faults += self.not_whole(out, [])
@@ -99,7 +105,8 @@ class StudySweep:
             faults.append(f"next study: {code} {told_next}")
         else:
             faults += [f"after the next study: {each}" for each in
-                       [*(self.lost(out, True) if begin == "old" else []), *self.not_whole(out, steps), *self.left(folder, begin == "old")]]
+                       [*(self.lost(out, True) if begin == "old" else []), *self.not_whole(out, steps),
+                        *self.left(folder, begin == "old")]]
         if faults:
             self.findings.append(f"study {name}, call {at}: {how}: {told.strip()}\n  " + "\n  ".join(faults))
             print(self.findings[-1], flush=True)
@@ -132,7 +139,8 @@ class StudySweep:
         wanted |= {"a-size.svg.kept", *(name.split("/")[0] for name in OTHERS)} if others else set()
         inside = {path.name for path in (folder / "out/s").iterdir()}
         faults = [f"in the study's folder: {sorted(inside ^ wanted)}"] if inside != wanted else []
-        if {path.name for path in folder.iterdir()} != {"out", "lower.mesh", "upper.mesh", "scene.toml", "study.toml"}:
+        if {path.name for path in folder.iterdir()} != {"out", "lower.mesh", "upper.mesh", "scene.toml",
+                                                        "study.toml"}:
             faults.append("left in the current folder")
         return faults + (["left beside the study"] if len(list((folder / "out").iterdir())) != 1 else [])
 
@@ -142,7 +150,8 @@ def main():
     parser.add_argument("--part", default="1/1", metavar="K/N", help="of all cases every N-th, from the K-th")
     part, of = map(int, parser.parse_args().part.split("/"))
     if "FAULT_FOLDER" not in os.environ:  # begins again, with calls that can fail
-        os.execve(sys.executable, [sys.executable, *sys.argv], {**os.environ, "LD_PRELOAD": CALLS, "FAULT_FOLDER": ""})
+        os.execve(sys.executable, [sys.executable, *sys.argv],
+                  {**os.environ, "LD_PRELOAD": CALLS, "FAULT_FOLDER": ""})
     with tempfile.TemporaryDirectory() as folder:
         sweep = StudySweep(folder)
         tried = sweep.explore(part, of)

@@ -17,7 +17,8 @@ NAMES = [r"a $\\frac{1}$ b", "a b", "A-b", "<script>alert(1)</script>", "_x" + 2
 
 
 def errors(names):
-    return "".join(f"[[error]]\nname = \"{name}\"\nquantity = \"von_mises_max\"\nexact = 10\n" for name in names)
+    return "".join(f"[[error]]\nname = \"{name}\"\nquantity = \"von_mises_max\"\nexact = 10\n"
+                   for name in names)
 
 
 ONE_RUN = SPACE[:SPACE.index("[mesh]")] + errors(["a"]) + '[[sweep]]\nname = "s"\ntime.steps = 1\n'
@@ -34,7 +35,8 @@ class StudyFiles(StudyTest):
         self.assertFalse(self.out.exists())
 
     def test_names_are_shown_as_they_are(self):
-        self.path.write_text(HEAD.replace("[3, 6, 12]", "[3, 6]").replace("[8, 16, 32]", "[8, 16]") + errors(NAMES) +
+        self.path.write_text(HEAD.replace("[3, 6, 12]", "[3, 6]").replace("[8, 16, 32]", "[8, 16]")
+                             + errors(NAMES) +
                              '[[sweep]]\nname = "_$x^<b>"\nlevel = [0, 1]\ntime.steps = 2\n')
         self.study()
         pictures = [path.name for path in self.out.glob("*-dofs.svg")]
@@ -60,8 +62,8 @@ class StudyFiles(StudyTest):
     def test_files_of_others_stay(self):
         self.path.write_text(ONE_RUN)
         self.study()
-        mine = {"meshes/a": "1", "runs/b": "2", "notes": "3", "mortier-work-7/c": "4", "report.tmp": "5", "study.csv.tmp": "6",
-                "report.html": "7", "mortier-work-8": "8"}
+        mine = {"meshes/a": "1", "runs/b": "2", "notes": "3", "mortier-work-7/c": "4", "report.tmp": "5",
+                "study.csv.tmp": "6", "report.html": "7", "mortier-work-8": "8"}
         for name, text in mine.items():
             (self.out / name).parent.mkdir(exist_ok=True)
             (self.out / name).write_text(text)
@@ -78,7 +80,8 @@ class StudyFiles(StudyTest):
         self.study()
         sound = (self.out / "study.csv").read_bytes()
         row = sound.splitlines()[1]
-        for damaged in (sound.replace(row, row[:40]), sound.replace(row, bytes(range(128, 256)) + b"\0" + row[5:]),
+        for damaged in (sound.replace(row, row[:40]),
+                        sound.replace(row, bytes(range(128, 256)) + b"\0" + row[5:]),
                         sound.replace(row, row.replace(b",done,", b",dOne,")), sound + b"\xff\xfe\0,,\n" * 3,
                         sound.replace(row, re.sub(rb"[0-9.e-]+$", b"ten", row))):
             (self.out / "study.csv").write_bytes(damaged)
@@ -103,10 +106,12 @@ class StudyFiles(StudyTest):
         self.assertIn("no run has a result", self.one_line(1))
 
     def test_what_cannot_be_evaluated_is_refused(self):
-        for bad in ("sin()", "sin(1, 2)", "min()", "1 +", "x.y", "(" * 5000, "a" * 9, "()", "'a'", "9" * 9000, "1 if x else 2"):
+        for bad in ("sin()", "sin(1, 2)", "min()", "1 +", "x.y", "(" * 5000, "a" * 9, "()", "'a'", "9" * 9000,
+                    "1 if x else 2"):
             with self.subTest(bad[:20]):
                 self.refused(SPACE.replace('s11 = "0"', f's11 = "{bad}"'), f"{self.path}:")
-        for bad in ("a = " + "[" * 5000, "a" + ".a" * 5000 + " = 1", "timeout = 1e300", "repeat = 99999999999", "[[" + " " * 100000):
+        for bad in ("a = " + "[" * 5000, "a" + ".a" * 5000 + " = 1", "timeout = 1e300",
+                    "repeat = 99999999999", "[[" + " " * 100000):
             with self.subTest(bad[:20]):
                 self.refused(bad + "\n" + ONE_RUN, "")
 
@@ -117,7 +122,8 @@ class StudyFiles(StudyTest):
 
     def test_killed_and_two_at_once(self):
         self.path.write_text(ONE_RUN.replace("time.steps = 1", "time.steps = 100000000"))
-        process = subprocess.Popen([PROGRAM, "study", self.path, "--out", self.out, "--quiet"], start_new_session=True)
+        process = subprocess.Popen([PROGRAM, "study", self.path, "--out", self.out, "--quiet"],
+                                   start_new_session=True)
         while not list(self.out.glob("mortier-work-*/runs/*/*")):
             self.assertIsNone(process.poll())
         self.assertIn("in use, a study in it still goes on", self.one_line(2))

@@ -1,4 +1,5 @@
-"""The numbers of a study: norms of errors, expressions, orders, costs at equal error, what a process takes."""
+"""The numbers of a study: norms of errors, expressions, orders, costs at equal error,
+what a process takes."""
 import sys
 import unittest
 from pathlib import Path
@@ -10,6 +11,7 @@ import analysis
 import measure
 import process
 import results
+import scene
 from expressions import Expression
 from problems import RunFailure
 
@@ -21,8 +23,28 @@ def square(cells):
     points = np.column_stack([x.ravel(), y.ravel()])
     a = (np.arange(cells)[:, None] * n + np.arange(cells)).ravel()
     triangles = np.vstack([np.column_stack([a, a + 1, a + n]), np.column_stack([a + 1, a + n + 1, a + n])])
-    stress = np.column_stack([points[triangles].mean(1)[:, 0], np.ones(len(triangles)), np.zeros(len(triangles))])
-    return results.Run("test", Path("."), {"b": results.Body(points * [1, 2], stress, points, triangles)}, None, {})
+    stress = np.column_stack([points[triangles].mean(1)[:, 0], np.ones(len(triangles)),
+                              np.zeros(len(triangles))])
+    return results.Run("test", Path("."), {"b": results.Body(points * [1, 2], stress, points, triangles)},
+                       None, {})
+
+
+def quadratic(cells, rise=0.0):
+    """The same square of quadratic triangles, its upper side a parabola that is so much higher in the middle
+    of every element, with u = (x^2, x y) at the nodes and s = (2 x + y, 1 - x, y) at the points."""
+    body = square(cells).bodies["b"]
+    mesh = scene.Mesh.__new__(scene.Mesh)
+    mesh.points, mesh.triangles = body.points, body.triangles
+    body.points, body.elements = mesh.with_middles()
+    upper = np.flatnonzero(body.points[:, 1] > 1 - 1e-9)
+    body.points[upper[upper >= (cells + 1)**2], 1] += rise
+    x, y = body.points.T
+    body.displacement = np.column_stack([x**2, x * y])
+    interior = measure.shapes(body, np.full((3, 3), 1 / 6) + np.eye(3) / 2)
+    x, y = np.einsum("qi,tij->jtq", interior, body.points[body.elements])
+    body.stress_at_points = np.stack([2 * x + y, 1 - x, y], -1)
+    body.stress = body.stress_at_points.mean(1)
+    return results.Run("test", Path("."), {"b": body}, None, {})
 
 
 class Norms(unittest.TestCase):
@@ -36,14 +58,41 @@ class Norms(unittest.TestCase):
         self.assertLess(error, 1e-15)
 
     def test_energy_norm_of_a_known_difference(self):
-        # s - exact = (x - xc, 0, 0): the energy of a linear function about its mean, h^2/18 |T| a right triangle,
-        # over that of (x, 1, 0): (1/3 + 1 - 2 nu/2).
-        error = measure.field_error("energy", square(4), self.exact(s11="x", s22="1", s12="0"), self.MATERIALS)
+        # s - exact = (x - xc, 0, 0): the energy of a linear function about its mean, h^2/18 |T| a right
+        # triangle, over that of (x, 1, 0): (1/3 + 1 - 2 nu/2).
+        error = measure.field_error("energy", square(4), self.exact(s11="x", s22="1", s12="0"),
+                                    self.MATERIALS)
         self.assertAlmostEqual(error, np.sqrt(1 / 16 / 18 / (1 / 3 + 1 - 0.25)), places=12)
 
+    def test_quadratic_displacements_and_linear_stresses_are_exact(self):
+        run = quadratic(3)
+        for quantity, exact in (("displacement", {"ux": "x^2", "uy": "x*y"}),
+                                ("energy", {"s11": "2*x + y", "s22": "1 - x", "s12": "y"})):
+            with self.subTest(quantity):
+                def error(truth, quantity=quantity):
+                    return measure.field_error(quantity, run, truth, self.MATERIALS)
+                self.assertLess(error(self.exact(**exact)), 1e-14)
+                self.assertLess(error(quadratic(2)), 1e-13)
+                # The mean alone does not do: the fields are not constant.
+                other = {name: text.replace("x", "0.5") for name, text in exact.items()}
+                self.assertGreater(error(self.exact(**other)), 0.1)
+
+    def test_places_in_curved_triangles(self):
+        sampled = measure.Sampled(quadratic(2, rise=0.06))
+        body = sampled.bodies["b"]
+        at = np.random.default_rng(1).dirichlet([1, 1, 1], (len(body.elements), 20))
+        places = np.einsum("tqi,tij->tqj", measure.shapes(body, at), body.points[body.elements])
+        found = np.broadcast_to(np.arange(len(body.elements))[:, None], at.shape[:2])
+        self.assertLess(np.abs(sampled.barycentric("b", places, found) - at).max(), 1e-13)
+        self.assertGreater(np.abs(sampled.by_corners(body, places, found) - at).max(), 1e-3)
+
+    def test_area_below_a_parabola(self):
+        _, weights = measure.quadrature(quadratic(2, rise=0.06).bodies["b"])
+        self.assertAlmostEqual(weights.sum(), 1 + 2 / 3 * 0.06, places=14)
+
     def test_energy_norm_in_plane_strain(self):
-        # The same with s33 = nu (s11 + s22), which the exact field is given: s11 and s22 count 1 - nu^2, their product
-        # -2 nu (1 + nu).
+        # The same with s33 = nu (s11 + s22), which the exact field is given: s11 and s22 count 1 - nu^2,
+        # their product -2 nu (1 + nu).
         run, nu = square(4), 0.25
         body = run.bodies["b"]
         body.stress = np.column_stack([body.stress, nu * (body.stress[:, 0] + body.stress[:, 1])])
@@ -57,38 +106,44 @@ class Norms(unittest.TestCase):
         self.assertEqual(measure.field_error("energy", fine, fine, self.MATERIALS), 0)
         difference = measure.field_error("energy", coarse, fine, self.MATERIALS)
         exact = measure.field_error("energy", coarse, self.exact(s11="x", s22="1", s12="0"), self.MATERIALS)
-        self.assertAlmostEqual(difference / exact, np.sqrt(1 - 1 / 16), delta=2e-3)  # what the finer run lacks
+        # what the finer run lacks
+        self.assertAlmostEqual(difference / exact, np.sqrt(1 - 1 / 16), delta=2e-3)
 
     def test_pressure_from_nodal_forces(self):
         s = np.array([0, 0.2, 0.7, 1.0])
         mass = np.array([[2, 1, 0, 0], [1, 7, 2.5, 0], [0, 2.5, 8, 1.5], [0, 0, 1.5, 3]]) * 0.2 / 6
-        run = results.Run("test", Path("."), {}, results.Contact(np.arange(4), np.column_stack([s, 0 * s]), 0 * s,
-                                                                 mass @ (1 + s)), {})
+        run = results.Run("test", Path("."), {}, results.Contact(np.arange(4), np.column_stack([s, 0 * s]),
+                                                                 0 * s, mass @ (1 + s)), {})
         self.assertLess(measure.pressure_error(run, self.exact(p="1 + x")), 1e-14)
 
     def test_pressure_on_an_arc(self):
-        # Over the top of a circle x is no order. Any run of it, whichever body has it to its left, has the same line.
+        # Over the top of a circle x is no order. Any run of it, whichever body has it to its left,
+        # has the same line.
         angle = np.linspace(0.1, np.pi - 0.1, 40)
         position = 3 * np.column_stack([np.cos(angle), np.sin(angle)])
         for position in (position, position[::-1], position @ [[0, 1], [-1, 0]]):
-            run = results.Run("test", Path("."), {}, results.Contact(np.arange(40), position, 0 * angle, 0 * angle,
-                                                                     1 + position[:, 1]), {})
+            run = results.Run("test", Path("."), {}, results.Contact(np.arange(40), position, 0 * angle,
+                                                                     0 * angle, 1 + position[:, 1]), {})
             s, p, there = measure.pressure_line(run)
             np.testing.assert_allclose(np.diff(s), 6 * np.sin((angle[1] - angle[0]) / 2), rtol=1e-12)
             np.testing.assert_allclose(p, 1 + there[:, 1])
             self.assertLess(measure.pressure_error(run, self.exact(p="1 + y")), 1e-14)
         finer = np.linspace(0.1, np.pi - 0.1, 79)
         position = 3 * np.column_stack([np.cos(finer), np.sin(finer)]) @ [[0, 1], [-1, 0]]
-        truth = results.Run("test", Path("."), {}, results.Contact(np.arange(79), position, 0 * finer, 0 * finer,
-                                                                   1 + position[:, 1]), {})
+        truth = results.Run("test", Path("."), {}, results.Contact(np.arange(79), position, 0 * finer,
+                                                                   0 * finer, 1 + position[:, 1]), {})
         self.assertLess(measure.pressure_error(run, truth), 1e-3)
 
     def test_expressions(self):
         x = np.array([-1.0, 0.5])
-        for text, value in (("2^3^0.5", 2**3**0.5), ("-2^2", -4), ("x < 0 ? -1 : x > 0.4 && x < 1 ? 2 : 3", [-1, 2]),
-                            ("max(x, 0) + min(1, 2)", [1, 1.5]), ("abs(x ? x : 1)", [1, 0.5]), ("1e-3*t", 2e-3)):
-            np.testing.assert_allclose(Expression(text)(x, 0 * x, 2.0), np.broadcast_to(value, 2), err_msg=text)
-        for text in ("x.real", "[1]", "lambda: 1", "open('f')", "x[0]", "'a'", "x if x else y", "z", "sin", "1 +", ")("):
+        for text, value in (("2^3^0.5", 2**3**0.5), ("-2^2", -4),
+                            ("x < 0 ? -1 : x > 0.4 && x < 1 ? 2 : 3", [-1, 2]),
+                            ("max(x, 0) + min(1, 2)", [1, 1.5]), ("abs(x ? x : 1)", [1, 0.5]),
+                            ("1e-3*t", 2e-3)):
+            np.testing.assert_allclose(Expression(text)(x, 0 * x, 2.0), np.broadcast_to(value, 2),
+                                       err_msg=text)
+        for text in ("x.real", "[1]", "lambda: 1", "open('f')", "x[0]", "'a'", "x if x else y", "z", "sin",
+                     "1 +", ")("):
             with self.assertRaises(ValueError, msg=text):
                 Expression(text)(x, x, 0.0)
 
@@ -97,7 +152,8 @@ class Norms(unittest.TestCase):
         rows = [{"steps": n, "error e": 1 / n, "wall_time[s]": n} for n in (1, 2, 4, 8)]
         line = analysis.Series("s", {}, "steps", rows)
         self.assertAlmostEqual(analysis.order(line, "e")[0], 1, places=12)
-        for at, value, how in ((0.3, 1 / 0.3, "between runs"), (0.01, 100, "extrapolated"), (2, 1, "at most")):
+        for at, value, how in ((0.3, 1 / 0.3, "between runs"), (0.01, 100, "extrapolated"),
+                               (2, 1, "at most")):
             found = analysis.cost_at(line, "e", at, "wall_time")
             self.assertAlmostEqual(found.value, value, places=9)
             self.assertEqual(found.how, how)

@@ -6,7 +6,8 @@ import unittest
 from study_support import SPACE, STUDIES, StudyTest
 from support import PROGRAM, ROOT
 
-# Time: all steps land on first yield (t = 0.1); the exact value is twice eps_22 of the projection `elasticity`.
+# Time: all steps land on first yield (t = 0.1); the exact value is twice eps_22 of the projection
+# `elasticity`.
 TIME = f"""
 scene = "{ROOT}/scenes/compression.toml"
 [mesh]
@@ -60,7 +61,8 @@ class Studies(StudyTest):
         for row in rows:
             self.assertEqual(row["status"], "done", row["reason"])
             for column, value in row.items():
-                if column.startswith("error ") or column in ("wall_time[s]", "memory[MiB]", "dofs", "iterations"):
+                if column.startswith("error ") or column in ("wall_time[s]", "memory[MiB]", "dofs",
+                                                             "iterations"):
                     self.assertGreater(float(value), 0, column)
         return rows
 
@@ -94,8 +96,47 @@ class Studies(StudyTest):
         self.assert_order("mortar", "contact pressure", 0.8, 1.35, "h")
         self.assert_order("interpolation", "contact pressure", -0.2, 0.2, "h")
         finest = {row["variant"]: float(row["error energy"]) for row in rows if row["level"] == "3"}
-        self.assertAlmostEqual(finest["mortar"] / 1.546e-2, 1, delta=5e-3)  # reference values of another program
+        # reference values of another program
+        self.assertAlmostEqual(finest["mortar"] / 1.546e-2, 1, delta=5e-3)
         self.assertAlmostEqual(finest["interpolation"] / 1.963e-2, 1, delta=5e-3)
+
+    def test_quadratic_and_adapted_meshes_on_contact_with_a_known_end(self):
+        text = (STUDIES / "accuracy.toml").read_text()
+        text = text[:text.index("[[sweep]]")].replace('"../exact-contact', f'"{STUDIES.parent}/exact-contact')
+        output = self.run_study(text + """
+[[sweep]]
+name = "uniform"
+degree = [1, 2]
+level = [1, 2, 3]
+[[sweep]]
+name = "adapted"
+degree = 2
+level = 0
+accuracy = [0.03, 0.003]
+[[sweep]]
+name = "codes"
+degree = 2
+level = 2
+code = ["freefem", "calculix"]
+[[compare]]
+error = "energy"
+at = 3e-3
+dear = { sweep = "uniform", degree = 1 }
+cheap = "adapted"
+""")
+        *rows, freefem, calculix = self.rows()
+        self.assert_order("uniform, degree 1", "energy", 0.9, 1.05, "h")
+        self.assert_order("uniform, degree 2", "energy", 1.2, 1.8, "h")
+        for row in rows:
+            self.assertEqual(row["status"], "done", row["reason"])
+            if row["accuracy"]:
+                self.assertLess(float(row["error energy"]), float(row["accuracy"]))
+        same = next(row for row in rows if (row["degree"], row["level"]) == ("2", "2"))
+        self.assertEqual(same["dofs"], freefem["dofs"])
+        self.assertAlmostEqual(float(freefem["error energy"]) / float(same["error energy"]), 1, delta=1e-4)
+        self.assertEqual(calculix["reason"], "takes linear triangles of the meshes as they are only")
+        ratio = re.search(r"dofs .* = (\S+) times", output)
+        self.assertGreater(float(ratio[1]), 100)
 
     # ---- restart, failures, files ----
     def test_finished_runs_are_kept(self):
@@ -118,7 +159,8 @@ class Studies(StudyTest):
     def test_a_run_that_fails_is_a_row_with_its_reason(self):
         text = SPACE.replace("level = [0, 1, 2]", "level = 0\nbody.upper.material.young = [-1, 3e11]")
         self.run_study(text.replace('variant = ["mortar", "interpolation"]', 'variant = "interpolation"')
-                       + '[[sweep]]\nname = "codes"\ncode = "freefem"\nscheme = ["sdirk2", "backward-euler"]\nsteps = 2\n')
+                       + '[[sweep]]\nname = "codes"\ncode = "freefem"\n'
+                         'scheme = ["sdirk2", "backward-euler"]\nsteps = 2\n')
         rows = self.rows()
         self.assertEqual([row["status"] for row in rows], ["failed", "done", "failed", "done"])
         self.assertIn("body upper: young = -1, expected young > 0", rows[0]["reason"])
@@ -130,17 +172,21 @@ class Studies(StudyTest):
     def test_other_codes(self):
         text = (STUDIES / "exact-contact.toml").read_text()
         text = text[:text.index("[[sweep]]")].replace('"../exact-contact', f'"{STUDIES.parent}/exact-contact')
-        self.path.write_text(text + '[[sweep]]\nlevel = 1\ncode = ["mortier", "freefem", "getfem", "calculix"]\n')
-        self.mortier("study", "study.toml", "--out", "out")  # relative: some codes run in a folder of their own
+        self.path.write_text(text + '[[sweep]]\nlevel = 1\ncode = ["mortier", "freefem", "getfem", '
+                                    '"calculix"]\n')
+        # relative: some codes run in a folder of their own
+        self.mortier("study", "study.toml", "--out", "out")
         rows = self.rows()
         ours = float(rows[0]["error energy"])
-        for row, allowed in zip(rows, (0, 1e-6, 0.02, 0.1)):  # FreeFEM integrates the tractions by another rule
+        # FreeFEM integrates the tractions by another rule
+        for row, allowed in zip(rows, (0, 1e-6, 0.02, 0.1)):
             with self.subTest(row["code"]):
                 if row["code"] in ("getfem", "calculix") and row["status"] == "failed":
                     self.assertIn("is not installed", row["reason"])
                     continue
                 self.assertLessEqual(abs(float(row["error energy"]) / ours - 1), allowed, row["reason"])
-                self.assertAlmostEqual(float(row["error contact force"]), float(rows[0]["error contact force"]), delta=0.02)
+                self.assertAlmostEqual(float(row["error contact force"]),
+                                       float(rows[0]["error contact force"]), delta=0.02)
 
     def test_no_result_at_all_is_code_one(self):
         self.path.write_text(SPACE.replace("time.steps = 4", "body.material.poisson = 0.7")
@@ -163,8 +209,8 @@ class Studies(StudyTest):
     def test_a_study_that_is_stopped_leaves_no_process_and_goes_on(self):
         text = SPACE.replace("time.steps = 4", "time.steps = [1, 1000000]").replace("[0, 1, 2]", "0")
         self.path.write_text(text.replace('["mortar", "interpolation"]', '"mortar"'))
-        process = subprocess.Popen([PROGRAM, "study", self.path, "--out", self.out, "--jobs", "1"], stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen([PROGRAM, "study", self.path, "--out", self.out, "--jobs", "1"],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         while "1/2" not in process.stdout.readline():
             self.assertIsNone(process.poll())
         process.terminate()
@@ -172,7 +218,8 @@ class Studies(StudyTest):
         self.assertEqual(process.returncode, 1)
         self.assertIn("interrupted; finished runs are kept", errors)
         self.assertEqual([row["status"] for row in self.rows()], ["done"])
-        self.assertNotIn(str(self.out), subprocess.run(["ps", "ax", "-o", "args"], capture_output=True, text=True).stdout)
+        self.assertNotIn(str(self.out), subprocess.run(["ps", "ax", "-o", "args"], capture_output=True,
+                                                       text=True).stdout)
 
 
 if __name__ == "__main__":

@@ -18,7 +18,8 @@ sys.path.insert(0, str(COMPARE))
 def mortier(*arguments, **options):
     """Runs the program; its standard output and errors are text."""
     options.setdefault("stdout", subprocess.PIPE)
-    return subprocess.run([PROGRAM, *map(str, arguments)], **{"stderr": subprocess.PIPE, "text": True, "timeout": 120, **options})
+    return subprocess.run([PROGRAM, *map(str, arguments)], **{"stderr": subprocess.PIPE, "text": True,
+                                                              "timeout": 120, **options})
 
 
 def warned(errors):
@@ -61,7 +62,8 @@ class InFolder(unittest.TestCase):
         return done
 
     def reject(self, message, *arguments):
-        """The program refuses what it is given with one line, which begins with the message, and makes no result."""
+        """The program refuses what it is given with one line, which begins with the message,
+        and makes no result."""
         errors = self.mortier(*arguments, code=2).stderr
         self.assertTrue(errors.startswith("mortier: " + message), f"\nexpected {message}\nis       {errors}")
         self.assertEqual(errors.count("\n"), 1, errors)
@@ -74,7 +76,8 @@ class OfTwoBlocks(InFolder):
     def setUp(self):
         super().setUp()
         self.mortier("mesh", "crisscross", "--cells", "3", "upper.mesh")
-        self.mortier("mesh", "crisscross", "--cells", "4,2", "--lower", "0,-1", "--upper", "1,0", "lower.mesh")
+        self.mortier("mesh", "crisscross", "--cells", "4,2", "--lower", "0,-1", "--upper", "1,0",
+                     "lower.mesh")
         self.write(TWO_BLOCKS)
 
 

@@ -29,7 +29,8 @@ class ZshSession:
         """Works in `folder`; finds programs and completion functions in the other two."""
         self.found = folder / "found.zsh"
         setup = folder / "setup.zsh"
-        setup.write_text(SETUP.format(functions=functions, programs=programs, folder=folder, found=self.found, end=END))
+        setup.write_text(SETUP.format(functions=functions, programs=programs, folder=folder, found=self.found,
+                                      end=END))
         self.process, self.terminal = pty.fork()
         if self.process == 0:
             os.execvpe("zsh", ["zsh", "-f", "-i"], {**os.environ, "TERM": "dumb"})

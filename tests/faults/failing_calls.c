@@ -1,10 +1,12 @@
 // Loaded before a program (LD_PRELOAD), makes one of its calls to the file system fail, or kills it there.
 //   FAULT_AT=n     the n-th call counts (from 1); without it all are counted only
-//   FAULT_HOW      kill: the process ends before the call; ENOSPC, EIO or EACCES: the call fails; all-ENOSPC: so do all
-//                  that change something after it
+//   FAULT_HOW      kill: the process ends before the call; ENOSPC, EIO or EACCES: the call fails; all-ENOSPC:
+//                  so do all that change something after it
 //   FAULT_COUNT    file descriptor to which the number of calls is written in the end
-//   FAULT_SHARED   file in which a process and those that it starts count together; without it those it starts do not count
-//   FAULT_FOLDER   only calls about files in this folder count, and those about folders above it (the current one); empty: none
+//   FAULT_SHARED   file in which a process and those that it starts count together; without it those it
+//                  starts do not count
+//   FAULT_FOLDER   only calls about files in this folder count, and those about folders above it (the current
+//                  one); empty: none
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <dlfcn.h>
@@ -108,7 +110,8 @@ WITH_PATH(int, stat, (const char* restrict p, struct stat* restrict s), (p, s), 
 WITH_PATH(int, lstat, (const char* restrict p, struct stat* restrict s), (p, s), p, 0, -1)
 WITH_PATH(int, stat64, (const char* restrict p, struct stat64* restrict s), (p, s), p, 0, -1)
 WITH_PATH(int, lstat64, (const char* restrict p, struct stat64* restrict s), (p, s), p, 0, -1)
-WITH_PATH(int, fstatat64, (int d, const char* restrict p, struct stat64* restrict s, int f), (d, p, s, f), p, 0, -1)
+WITH_PATH(int, fstatat64, (int d, const char* restrict p, struct stat64* restrict s, int f), (d, p, s, f),
+          p, 0, -1)
 WITH_PATH(int, access, (const char* p, int m), (p, m), p, 0, -1)
 WITH_PATH(int, faccessat, (int d, const char* p, int m, int f), (d, p, m, f), p, 0, -1)
 WITH_PATH(char*, realpath, (const char* restrict p, char* restrict b), (p, b), p, 0, 0)
@@ -128,7 +131,8 @@ WITH_FILE(off64_t, lseek64, (int f, off64_t o, int w), (f, o, w), f, 0, -1)
 WITH_FILE(DIR*, fdopendir, (int f), (f), f, 0, 0)
 WITH_FILE(struct dirent*, readdir, (DIR * d), (d), dirfd(d), 0, 0)
 WITH_FILE(struct dirent64*, readdir64, (DIR * d), (d), dirfd(d), 0, 0)
-WITH_FILE(size_t, fwrite, (const void* restrict b, size_t s, size_t n, FILE* restrict f), (b, s, n, f), fileno(f), 1, 0)
+WITH_FILE(size_t, fwrite, (const void* restrict b, size_t s, size_t n, FILE* restrict f), (b, s, n, f),
+          fileno(f), 1, 0)
 WITH_FILE(int, fflush, (FILE * f), (f), f ? fileno(f) : -1, 1, EOF)
 WITH_FILE(int, fseeko, (FILE * f, off_t o, int w), (f, o, w), fileno(f), 0, -1)
 

@@ -15,8 +15,10 @@ sys.path.insert(0, str(ROOT / "study"))
 import plan  # noqa: E402
 from problems import StudyError, shown  # noqa: E402
 
-WORDS = ["1e999", "-1", "nan", "inf", '"', "\n", "[", "]", "{", "}", "[[error]]", "[[sweep]]", "=", ".", "\\u0000", "\x00", "\\", "é",
-         "99999999999999999999", "a" * 400, "(" * 300, "sin(", "x.y", "true", "1979-05-27", "[[[[", "exact", "level", "key = 1\n"]
+WORDS = ["1e999", "-1", "nan", "inf", '"', "\n", "[", "]", "{", "}", "[[error]]", "[[sweep]]", "=", ".",
+         "\\u0000", "\x00", "\\", "é",
+         "99999999999999999999", "a" * 400, "(" * 300, "sin(", "x.y", "true", "1979-05-27", "[[[[", "exact",
+         "level", "key = 1\n"]
 
 
 def changed(text, texts, rng):
@@ -24,7 +26,8 @@ def changed(text, texts, rng):
         begin, size = rng.randrange(len(text) + 1), rng.randrange(30)
         other = rng.choice(texts)
         at = rng.randrange(len(other))
-        new = rng.choice(["", rng.choice(WORDS), text[begin:begin + size] * 2, other[at:at + size], chr(rng.randrange(0x500))])
+        new = rng.choice(["", rng.choice(WORDS), text[begin:begin + size] * 2, other[at:at + size],
+                          chr(rng.randrange(0x500))])
         text = text[:begin] + new + text[begin + rng.choice([0, size]):]
     return text
 
@@ -43,7 +46,8 @@ def explore(count, seed=0):
             try:
                 plan.read(file).cases()
                 numbers["read"] += 1
-            except (StudyError, RecursionError) as error:  # the second has a message of its own (study/__main__.py)
+            # the second has a message of its own (study/__main__.py)
+            except (StudyError, RecursionError) as error:
                 numbers["refused"] += 1
                 if len(shown(error)) > 5000:
                     findings.append(f"seed {i}: a message of {len(shown(error))} characters")

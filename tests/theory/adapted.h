@@ -24,8 +24,8 @@ struct KnownProblem {
   std::vector<Elasticity> elasticity;
 };
 
-/// Adds the energy of the error, squared, and that of the exact stress: by pieces of each triangle that are far finer than what
-/// is measured. Sides are straight; plane stress.
+/// Adds the energy of the error, squared, and that of the exact stress: by pieces of each triangle that are
+/// far finer than what is measured. Sides are straight; plane stress.
 inline void addEnergies(const Body& body, const Matrix& stress,
                         const std::function<Eigen::Vector3d(const Point&)>& exact,
                         const Elasticity& elasticity, double& error, double& norm) {
@@ -34,11 +34,11 @@ inline void addEnergies(const Body& body, const Matrix& stress,
     constexpr int cuts = 4;
     const TriangleMesh& mesh = body.mesh();
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const auto& [i, j, k] = mesh.triangles[t];
+      const std::array<int, 3>& v = mesh.triangles[t];
       const double weight = doubleArea(mesh, static_cast<int>(t)) / 2 / (cuts * cuts);
       const auto add = [&](double r, double s) {
         const Barycentric b{1 - (r + s) / cuts, r / cuts, s / cuts};
-        const Point x = b[0] * mesh.vertices[i] + b[1] * mesh.vertices[j] + b[2] * mesh.vertices[k];
+        const Point x = b[0] * mesh.vertices[v[0]] + b[1] * mesh.vertices[v[1]] + b[2] * mesh.vertices[v[2]];
         const auto L = Element::stressShapes(b);
         Eigen::Vector3d own = Eigen::Vector3d::Zero();
         for (int q = 0; q < Element::points; ++q)
@@ -123,8 +123,8 @@ inline KnownProblem halfOpen(std::pair<int, int> cells, double contrast, int non
   return problem;
 }
 
-/// The corner of an L with free sides, where the stress is unbounded like r^(a - 1), a = 0.5445 (Williams 1952): in polar
-/// coordinates about it, from the middle of the L,
+/// The corner of an L with free sides, where the stress is unbounded like r^(a - 1), a = 0.5445 (Williams
+/// 1952): in polar coordinates about it, from the middle of the L,
 ///   2 mu u_r = r^a ((C2 - a - 1) C1 cos((a-1) phi) - (a+1) cos((a+1) phi)),
 ///   2 mu u_phi = r^a ((C2 + a - 1) C1 sin((a-1) phi) + (a+1) sin((a+1) phi)).
 class LShape {

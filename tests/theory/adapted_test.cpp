@@ -1,4 +1,5 @@
-// Meshes that are refined until an accuracy is reached, where the exact error is known: below what was asked, and near the estimate.
+// Meshes that are refined until an accuracy is reached, where the exact error is known: below what was asked,
+// and near the estimate.
 #include <gtest/gtest.h>
 
 #include <iostream>

@@ -1,5 +1,5 @@
-// A law of the general form eps' = E^-1 s' + G(s, eps) that the program does not have, from the mesh to the end of a
-// march: any symmetric elliptic E, and G = (s - K eps)/eta, which depends on the total strain.
+// A law of the general form eps' = E^-1 s' + G(s, eps) that the program does not have, from the mesh to the
+// end of a march: any symmetric elliptic E, and G = (s - K eps)/eta, which depends on the total strain.
 #include <gtest/gtest.h>
 
 #include <unsupported/Eigen/MatrixFunctions>

@@ -16,8 +16,8 @@
 
 namespace mortier::hardcases {
 
-// What every converged case must meet, in every step: what convergence demands whichever method found the step, and twice what is
-// found of residuals that it does not look at.
+// What every converged case must meet, in every step: what convergence demands whichever method found the
+// step, and twice what is found of residuals that it does not look at.
 constexpr double forceBalanceLimit = 1e-11;
 constexpr double materialResidualLimit = 1e-10;
 constexpr double complementarityLimit = 1e-15;

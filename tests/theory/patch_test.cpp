@@ -4,9 +4,8 @@
 
 #include <iostream>
 #include <numbers>
-#include <random>
 
-#include "theory/scenes.h"
+#include "theory/shaken_square.h"
 
 namespace mortier {
 namespace {
@@ -23,16 +22,10 @@ struct Counts {
 };
 constexpr Counts counts[] = {{5, 7}, {7, 5}, {4, 13}, {13, 4}, {1, 3}};
 
-/// A square whose nodes are moved at random, those of its sides along them, and drawn towards x = 0.
+/// A shaken square with its nodes drawn towards x = 0.
 TriangleMesh nonuniformSquare(double lowerY, int cells, unsigned seed) {
-  TriangleMesh mesh = square(lowerY, cells);
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> shift(-0.2 / cells, 0.2 / cells);
-  for (Point& x : mesh.vertices) {
-    if (x.x() != 0 && x.x() != 1) x.x() += shift(random);
-    if (x.y() != lowerY && x.y() != lowerY + 1) x.y() += shift(random);
-    x.x() = (x.x() + x.x() * x.x()) / 2;
-  }
+  TriangleMesh mesh = shakenSquare(lowerY, cells, seed);
+  for (Point& x : mesh.vertices) x.x() = (x.x() + x.x() * x.x()) / 2;
   validate(mesh);
   return mesh;
 }

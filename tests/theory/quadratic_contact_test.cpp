@@ -1,13 +1,13 @@
-// Contact of bodies whose displacements are quadratic: patch tests, linear pressures, the note's test, a known end of
-// contact, curves.
+// Contact of bodies whose displacements are quadratic: patch tests, linear pressures, the note's test, a
+// known end of contact, curves.
 #include <gtest/gtest.h>
 
 #include <iostream>
 #include <numbers>
-#include <random>
 
 #include "material/perzyna.h"
 #include "theory/half_open_contact.h"
+#include "theory/shaken_square.h"
 
 namespace mortier {
 namespace {
@@ -21,21 +21,8 @@ std::string wordOf(CouplingKind kind) {
   return kind == CouplingKind::weighted ? "weighted" : nameOf(kind);
 }
 
-/// A square with its nodes moved at random, those of its sides along them.
-TriangleMesh shaken(double lowerY, int cells, unsigned seed) {
-  TriangleMesh mesh = square(lowerY, cells);
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> shift(-0.2 / cells, 0.2 / cells);
-  for (Point& x : mesh.vertices) {
-    if (x.x() != 0 && x.x() != 1) x.x() += shift(random);
-    if (x.y() != lowerY && x.y() != lowerY + 1) x.y() += shift(random);
-  }
-  validate(mesh);
-  return mesh;
-}
-
-/// The stress s22 = -(1 + slope x) and nothing else, turned by an angle: pressure on y = 0 that is linear along it, where
-/// u2 = 0 whatever the stiffness.
+/// The stress s22 = -(1 + slope x) and nothing else, turned by an angle: pressure on y = 0 that is linear
+/// along it, where u2 = 0 whatever the stiffness.
 struct LinearPressure {
   double slope = 0;
   double degrees = 0;
@@ -66,12 +53,13 @@ struct LinearPressure {
                                           }});
     return {name, std::move(mesh), elasticMaterial(elasticity), std::move(conditions), degree};
   }
-  /// The largest error of a stress component at any point, and of a nodal pressure, over the largest pressure.
+  /// The largest error of a stress component at any point, and of a nodal pressure,
+  /// over the largest pressure.
   [[nodiscard]] double error(int upperCells, int lowerCells, double contrast, CouplingKind coupling,
                              int nonmortar) const {
-    const Model model =
-        contactModel(body("upper", shaken(0, upperCells, 1), {1, 0.3}, top),
-                     body("lower", shaken(-1, lowerCells, 2), {contrast, 0.2}, bottom), coupling, nonmortar);
+    const Model model = contactModel(body("upper", shakenSquare(0, upperCells, 1), {1, 0.3}, top),
+                                     body("lower", shakenSquare(-1, lowerCells, 2), {contrast, 0.2}, bottom),
+                                     coupling, nonmortar);
     const auto [state, report] = run(model, 1, 1);
     EXPECT_EQ(report.status, Status::converged) << report.reason;
     double largest = 0;
@@ -255,7 +243,8 @@ Fit shrinkFit(int cells, int degree, Edges edges, CouplingKind kind, bool shaftN
   return fit;
 }
 
-// Straight edges stand for the arcs in their distances, but not in what they do: quadratic conditions see that.
+// Straight edges stand for the arcs in their distances, but not in what they do:
+// quadratic conditions see that.
 TEST(QuadraticContact, curvedLines) {
   constexpr double balanced = 1e-13;
   struct Case {

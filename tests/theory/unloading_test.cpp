@@ -1,5 +1,5 @@
-// The compression test, loaded far beyond yield and unloaded onto the yield surface or next to it. The exact answer of
-// the step that unloads is a uniform elastic change, or a small flow more.
+// The compression test, loaded far beyond yield and unloaded onto the yield surface or next to it. The exact
+// answer of the step that unloads is a uniform elastic change, or a small flow more.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -128,7 +128,8 @@ TEST(Unloading, onOtherMeshes) {
         const std::string name = std::to_string(upper) + ":" + std::to_string(lower) + " " +
                                  nameOf(coupling) + " turned by " + std::to_string(angle);
         EXPECT_EQ(result.report.status, Status::converged) << name << ": " << result.report.reason;
-        // The stress of interpolation is not uniform: what flows and what does not is found by the usual ways.
+        // The stress of interpolation is not uniform: what flows and what does not is found by the usual
+        // ways.
         EXPECT_LE(worst, coupling == CouplingKind::mortar ? 5 : 40) << name;
         std::cout << name << ": " << worst << "\n";
       }

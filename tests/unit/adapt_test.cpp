@@ -77,7 +77,8 @@ std::vector<Vector> equalErrors(const AdaptedMeshes& meshes, double sum) {
   return {Vector::Constant(triangles, sum / static_cast<double>(triangles))};
 }
 
-// eta_T ~ h^(p+1), the sum of squares ~ h^(2p): half the error is a quarter of the area at degree 1, half of it at degree 2.
+// eta_T ~ h^(p+1), the sum of squares ~ h^(2p): half the error is a quarter of the area at degree 1,
+// half of it at degree 2.
 TEST(AdaptedMeshes, equalErrorsMakeEqualSizesThatMeetTheAim) {
   for (const auto& [degree, pieces] : {std::pair(1, 4U), std::pair(2, 2U)}) {
     const TriangleMesh first = square(3);
@@ -94,7 +95,8 @@ TEST(AdaptedMeshes, noSizeFallsToLessThanAnEighth) {
   EXPECT_EQ(meshes.mesh(0).triangles.size(), 64 * first.triangles.size());
 }
 
-// With the aim met already, those triangles that make half of the error are cut, and no others but for closure.
+// With the aim met already, those triangles that make half of the error are cut,
+// and no others but for closure.
 TEST(AdaptedMeshes, halfOfTheErrorIsCutWhateverElse) {
   const TriangleMesh first = square(8);
   AdaptedMeshes meshes({first, first}, 1);
@@ -227,7 +229,8 @@ TEST(Rounds, errorsThatAreNothingButRoundingEndAfterOneRefinement) {
 }
 
 TEST(Rounds, reachesAreEqual) {
-  // 0.68 over 0.85 of 0.1 is 8: log 8/log 4 = 1.5, two rounds that divide by 2.83 each; at degree 1 that is eight times the triangles.
+  // 0.68 over 0.85 of 0.1 is 8: log 8/log 4 = 1.5, two rounds that divide by 2.83 each; at degree 1 that is
+  // eight times the triangles.
   Rounds rounds(sceneOf(0.1));
   const double before = static_cast<double>(rounds.scene().meshes[0].triangles.size());
   EXPECT_EQ(rounds.judge(resultOf(rounds, 0.68), 1), Rounds::Verdict::goOn);

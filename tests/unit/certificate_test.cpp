@@ -68,6 +68,19 @@ TEST(Certificate, ofASolutionIsRounding) {
   EXPECT_LE(found.rounding, 1e-13);
 }
 
+// The rounding of displacements is told over the stresses that are there, and this body has none.
+TEST(Certificate, hasNoRoundingOfABodyThatWasMovedAndIsFreeOfStress) {
+  const Model model = squares(false, 0);
+  State state0 = initialState(model);
+  for (BodyState& body : state0.bodies) body.displacement.setConstant(0.1);
+  StepSystem system(model, {});
+  const StepData data{1, 1, {}};
+  const Step step = system.step(state0, data);
+  Iterate iterate = startingIterate(state0);
+  const double residual = system.linearise(step, iterate, data.weight, false).residual();
+  EXPECT_EQ(system.certify(step, iterate, residual).rounding, 0);
+}
+
 TEST(Certificate, showsForcesThatPulledBeforeTheyWereSetToZero) {
   Solved solved;
   solved.iterate.wrongForce = 0.1;

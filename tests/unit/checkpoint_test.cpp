@@ -25,7 +25,7 @@ Checkpoint checkpointOf(const Model& model) {
   checkpoint.memory.run.rungs["newton"] = 3;
   std::vector<BodyIncrement> stage;
   for (const BodyState& body : checkpoint.state.bodies)
-    stage.push_back({body.displacement, body.displacement, body.stress});
+    stage.push_back({{body.displacement, body.displacement}, body.stress});
   checkpoint.memory.increments = {stage};
   return checkpoint;
 }

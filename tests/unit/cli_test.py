@@ -17,7 +17,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "compare"))
 from scenes import TWO_BLOCKS  # noqa: E402
 from support import PROGRAM, OfTwoBlocks, mortier  # noqa: E402
 
-USAGE = [[], ["bla"], ["run"], ["run", "--frobnicate"], ["run", "scene.toml", "--threads", "0"], ["run", "none.toml"],
+USAGE = [[], ["bla"], ["run"], ["run", "--frobnicate"], ["run", "scene.toml", "--threads", "0"],
+         ["run", "none.toml"],
          ["mesh"], ["mesh", "crisscross", "x.mesh"], ["mesh", "info", "none.mesh"], ["freefem"],
          ["mesh", "rectangle", "--cells", "2,a", "x.mesh"],
          ["run", "scene.toml", "--out", "."]]
@@ -35,8 +36,10 @@ class Cli(OfTwoBlocks):
 
     def test_help_and_version(self):
         for arguments in [["--help"], ["run", "--help"], ["mesh", "--help"], ["mesh", "crisscross", "--help"],
-                          ["mesh", "rectangle", "--help"], ["mesh", "quadrilateral", "--help"], ["mesh", "annulus", "--help"],
-                          ["mesh", "halfdisc", "--help"], ["mesh", "info", "--help"], ["freefem", "--help"], ["--version"]]:
+                          ["mesh", "rectangle", "--help"], ["mesh", "quadrilateral", "--help"],
+                          ["mesh", "annulus", "--help"],
+                          ["mesh", "halfdisc", "--help"], ["mesh", "info", "--help"], ["freefem", "--help"],
+                          ["--version"]]:
             result = self.mortier(*arguments)
             self.assertEqual(result.stderr, "")
             self.assertTrue(result.stdout)
@@ -51,7 +54,8 @@ class Cli(OfTwoBlocks):
     def test_step_that_cannot_be_solved_leaves_the_old_result(self):
         self.mortier("run", "scene.toml", "--quiet")
         before = self.read("out/scene/summary.json")
-        self.mortier("run", "scene.toml", "--quiet", "--set", "solver.max_iterations=1", "solver.tolerance=1e-30", code=1)
+        self.mortier("run", "scene.toml", "--quiet", "--set", "solver.max_iterations=1",
+                     "solver.tolerance=1e-30", code=1)
         self.assertEqual(self.read("out/scene/summary.json"), before)
         self.assertEqual(json.loads(self.read("out/scene.failed/summary.json"))["status"], "failed")
         self.assertEqual(self.names("out"), ["scene", "scene.failed"])
@@ -68,14 +72,17 @@ class Cli(OfTwoBlocks):
         process.send_signal(signal.SIGINT)
         errors = process.communicate(timeout=20)[1]
         self.assertEqual(process.returncode, 1)
-        self.assertRegex(errors, r"^mortier: scene.toml: interrupted after step \d+; mortier run --restart out/scene goes on\n$")
+        self.assertRegex(errors, r"^mortier: scene.toml: interrupted after step \d+; mortier run --restart "
+                                 r"out/scene goes on\n$")
         left, = self.names("out")
         self.assertTrue(left.startswith("scene.tmp-"))
         self.assertIn("checkpoint", self.names("out/" + left))
 
     def interrupt(self, *arguments):
-        """Sends SIGTERM when the run works on its first long step. Returns the seconds until it ended, and its message."""
-        process = subprocess.Popen([PROGRAM, "run", *arguments], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        """Sends SIGTERM when the run works on its first long step. Returns the seconds until it ended,
+        and its message."""
+        process = subprocess.Popen([PROGRAM, "run", *arguments], cwd=self.folder, stderr=subprocess.PIPE,
+                                   text=True)
         time.sleep(1)
         self.assertIsNone(process.poll())
         begin = time.monotonic()
@@ -85,19 +92,21 @@ class Cli(OfTwoBlocks):
         return time.monotonic() - begin, errors
 
     def test_interrupted_in_the_middle_of_a_step(self):
-        endless = ["solver.method=penalty-duality", "solver.max_iterations=1000000000", "solver.tolerance=1e-30",
-                   "body.upper.boundary.3.ty=t<=0.5 ? 0 : -1", "time.steps=2"]
+        endless = ["solver.method=penalty-duality", "solver.max_iterations=1000000000",
+                   "solver.tolerance=1e-30", "body.upper.boundary.3.ty=t<=0.5 ? 0 : -1", "time.steps=2"]
         first = ("scene.toml", "--quiet", "--set", *endless)
         again = ("--quiet", "--restart", "out/scene")
         for arguments in (first, again):  # step 1 is done at once, step 2 has no end
             seconds, errors = self.interrupt(*arguments)
             self.assertLess(seconds, 1)
-            self.assertRegex(errors, r"scene.toml: interrupted after step 1; mortier run --restart \S*out/scene goes on\n$")
+            self.assertRegex(errors, r"scene.toml: interrupted after step 1; mortier run --restart "
+                                     r"\S*out/scene goes on\n$")
             left, = self.names("out")
             self.assertIn("checkpoint", self.names("out/" + left))
 
     def test_interrupted_while_a_library_hears_nothing(self):
-        environment = {**os.environ, "LD_PRELOAD": os.environ["DEAF_METIS"], "ASAN_OPTIONS": "verify_asan_link_order=0"}
+        environment = {**os.environ, "LD_PRELOAD": os.environ["DEAF_METIS"],
+                       "ASAN_OPTIONS": "verify_asan_link_order=0"}
         result = subprocess.run([PROGRAM, "run", "scene.toml", "--quiet"], cwd=self.folder, env=environment,
                                 stderr=subprocess.PIPE, text=True, timeout=20)
         self.assertEqual((result.returncode, result.stderr),
@@ -106,11 +115,14 @@ class Cli(OfTwoBlocks):
 
     def test_steps_chosen_by_their_error_end_at_kinks(self):
         # The table is a ramp but for a pulse that is too short to be found by trying.
-        kinks = {0.2001: "body.upper.boundary.3.ty={time=[0, 0.2001, 0.2002, 0.2003, 1], value=[0, -0.4002, -3, -0.4006, -2]}",
-                 0.2002: None, 0.2003: "body.lower.force={x={time=[0.9, 2], value=[0, 1]}, y='t < 0.7 ? 0 : t - 0.7'}",
+        kinks = {0.2001: "body.upper.boundary.3.ty={time=[0, 0.2001, 0.2002, 0.2003, 1], value=[0, -0.4002, "
+                         "-3, -0.4006, -2]}",
+                 0.2002: None, 0.2003: "body.lower.force={x={time=[0.9, 2], value=[0, 1]}, y='t < 0.7 ? "
+                                       "0 : t - 0.7'}",
                  0.7: "time={end=1, tolerance=1e-2, scheme='sdirk2', breaks=[0.35]}", 0.9: None, 0.35: None}
         self.mortier("run", "scene.toml", "--quiet", "--set", *filter(None, kinks.values()))
-        times = [float(row["time[s]"]) for row in csv.DictReader(self.read("out/scene/history.csv").splitlines())]
+        times = [float(row["time[s]"])
+                 for row in csv.DictReader(self.read("out/scene/history.csv").splitlines())]
         self.assertLess(len(times), 100)
         for kink in kinks:
             self.assertIn(kink, times)
@@ -121,12 +133,13 @@ class Cli(OfTwoBlocks):
         self.mortier("mesh", "crisscross", "--cells", "2", "file/x.mesh", code=1)
 
     def test_output_reads_back(self):
-        result = self.mortier("run", "--set", "output.every=2", "body.upper.material.projection=elasticity", "scene.toml",
-                              "--out", "result")
+        result = self.mortier("run", "--set", "output.every=2", "body.upper.material.projection=elasticity",
+                              "scene.toml", "--out", "result")
         self.assertEqual(result.stderr, "")
         rows = [line for line in result.stdout.splitlines() if line.split()[0].isdigit()]
         self.assertEqual(len(rows), 4)
-        self.assertEqual([line.split()[0] for line in result.stdout.splitlines()[-2:]], ["verification", "accuracy"])
+        self.assertEqual([line.split()[0] for line in result.stdout.splitlines()[-2:]],
+                         ["verification", "accuracy"])
 
         summary = json.loads(self.read("result/summary.json"))
         self.assertEqual(summary["status"], "converged")
@@ -148,12 +161,14 @@ class Cli(OfTwoBlocks):
             original = meshio.read(self.folder / f"{body}.mesh")
             np.testing.assert_array_equal(mesh.points[:, :2], original.points)
             np.testing.assert_array_equal(mesh.cells_dict["triangle"], original.cells_dict["triangle"])
-            np.testing.assert_allclose(mesh.cell_data["stress"][0], np.tile([0, -10, 0], (triangles, 1)), atol=1e-7)
+            np.testing.assert_allclose(mesh.cell_data["stress"][0], np.tile([0, -10, 0], (triangles, 1)),
+                                       atol=1e-7)
             np.testing.assert_allclose(mesh.cell_data["von_mises"][0], 10, rtol=1e-8)
             self.assertEqual(mesh.point_data["displacement"].shape, (vertices, 3))
             self.assertEqual(set(mesh.cell_data["viscoplastic"][0]), {1 if body == "upper" else 0})
             self.assertEqual(mesh.cell_data["viscoplastic_strain"][0].shape, (triangles, 3))
-            self.assertEqual(set(mesh.cell_data["region"][0]), set(original.cell_data_dict["medit:ref"]["triangle"]))
+            self.assertEqual(set(mesh.cell_data["region"][0]),
+                             set(original.cell_data_dict["medit:ref"]["triangle"]))
 
         history = list(csv.DictReader(self.read("result/history.csv").splitlines()))
         self.assertEqual([float(row["time[s]"]) for row in history], [0.25, 0.5, 0.75, 1])

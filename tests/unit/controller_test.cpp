@@ -200,5 +200,21 @@ TEST(Controller, attemptsThatCannotBeSolvedShortenTheStepAndAreCounted) {
   EXPECT_EQ(taken.state.time, 0);
 }
 
+// Where a hundred steps, one in four, had parts that could not be solved, the pace counts.
+TEST(Controller, aRunThatCrawlsIsGivenUpWithTheReasonOfItsAttempts) {
+  for (const int cut : {99, 100}) {
+    TimePlan plan = planOf(1e-3);
+    plan.maxSteps = 1000;
+    Taken taken([](double t) { return t == 0 ? 0 : NAN; }, plan);
+    taken.memory.run.steps = 400;
+    taken.memory.run.rungs["cut"] = cut;
+    const StepReport report = taken.advance();
+    EXPECT_EQ(report.status, Status::failed);
+    EXPECT_NE(report.reason.find("did not converge"), std::string::npos) << report.reason;
+    EXPECT_EQ(report.reason.find("max_steps = 1000") != std::string::npos, cut == 100) << report.reason;
+    EXPECT_EQ(report.rejections, cut == 100 ? 4 : 14);  // 1/24/4^3 < 1/1000
+  }
+}
+
 }  // namespace
 }  // namespace mortier

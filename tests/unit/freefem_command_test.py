@@ -18,8 +18,8 @@ class WithoutLoad(support.OfTwoBlocks):
             return
         self.write(TWO_BLOCKS.replace('"-10*t"', "0").replace("steps = 4", "steps = 1"))
         self.mortier("freefem", "scene.toml", "scene.edp")
-        done = subprocess.run(["FreeFem++-nw", "-nw", "-ne", "-v", "0", "scene.edp", "-quiet", "-out", "out"], cwd=self.folder,
-                              capture_output=True)
+        done = subprocess.run(["FreeFem++-nw", "-nw", "-ne", "-v", "0", "scene.edp", "-quiet", "-out", "out"],
+                              cwd=self.folder, capture_output=True)
         self.assertEqual(done.returncode, 0, done.stdout)
 
 
@@ -37,9 +37,11 @@ class Script(support.OfTwoBlocks):
     def test_two_blocks(self):
         text = self.script("contact.swap=true", "body.upper.force.x=3/2*ln(2)*x^2")
         for line in ["macro eachBody(what) what(1) what(2) //", "string name1 = \"upper\";",
-                     "real lambda1 = 10, sigmaY1 = 1;  // viscosity [Pa s] (0: elastic body), yield stress [Pa]",
+                     "real lambda1 = 10, sigmaY1 = 1;  // viscosity [Pa s] (0: elastic body), "
+                     "yield stress [Pa]",
                      "macro loads1 + simpson(1, 3, (-10.*t)*v2) + midpoints(1, (3./2.*log(2.)*x^2.)*v1) //",
-                     "macro supports2 + on(4, u1 = 0.) + on(1, u2 = 0.) //", "macro loads2 + int2d(Body2)(0.*v2) //",
+                     "macro supports2 + on(4, u1 = 0.) + on(1, u2 = 0.) //",
+                     "macro loads2 + int2d(Body2)(0.*v2) //",
                      "int[int, int] contact = [[2, 3, 1, 1]];", "string variant = \"mortar\";",
                      "int steps = 4;  // backward Euler, equal steps", "include \"freefem/bodies.idp\"",
                      "include \"freefem/supports.idp\""]:
@@ -66,7 +68,8 @@ class Script(support.OfTwoBlocks):
                 ("t < 1 ? t < 0.5 ? 1 : 2 : 3", "t < 1. ? (t < 0.5 ? (1.) : (2.)) : (3.)"),
                 ("max(t > 1 ? 1 : 0, (x < 0 ? 1 : 2)*y)+1e-3",
                  "max(t > 1. ? (1.) : (0.), (x < 0. ? (1.) : (2.))*y)+1e-3"),
-                ("{time=[0, 2], value=[1, 5]}", "(t < 0. ? (1.) : ((t < 2. ? (1. + (2.)*(t - (0.))) : (5.))))")):
+                ("{time=[0, 2], value=[1, 5]}",
+                 "(t < 0. ? (1.) : ((t < 2. ? (1. + (2.)*(t - (0.))) : (5.))))")):
             with self.subTest(data):
                 text = self.script(f"body.lower.force.x={data}", f"body.upper.boundary.3.ty={data}")
                 self.assertIn(f"macro loads2 + midpoints(2, ({freefem})*v1) //", text)
@@ -76,7 +79,8 @@ class Script(support.OfTwoBlocks):
         for setting, message in (
                 ("time.scheme=sdirk2", "scene.toml: scheme = sdirk2, expected backward-euler"),
                 ("time.tolerance=1e-3", "scene.toml: tolerance = 0.001, expected equal steps"),
-                ("body.upper.initial_stress.s11=1", "scene.toml:3: body upper: regions or initial stress, expected neither")):
+                ("body.upper.initial_stress.s11=1", "scene.toml:3: body upper: regions or initial stress, "
+                                                    "expected neither")):
             with self.subTest(setting):
                 self.reject(f"{message} {ALL}", "freefem", "scene.toml", "--set", setting)
 
@@ -85,7 +89,8 @@ class Script(support.OfTwoBlocks):
         edges, triangles = edges.split("Triangles")
         edges = edges.replace(" 2\n", " 1\n")  # label 1 below and on the right
         self.write(head + "Edges\n" + edges + "Triangles" + triangles, "upper.mesh")
-        self.reject(f"scene.toml:20: contact: a closed line, or one with corners, expected open lines without corners {ALL}",
+        self.reject("scene.toml:20: contact: a closed line, or one with corners, expected open lines "
+                    f"without corners {ALL}",
                     "freefem", "scene.toml")
 
     def test_no_interface(self):

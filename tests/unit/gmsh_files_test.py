@@ -1,4 +1,5 @@
-"""Files of Gmsh: two squares side by side with a curve between them, as a mesh in both formats and as a geometry."""
+"""Files of Gmsh: two squares side by side with a curve between them,
+as a mesh in both formats and as a geometry."""
 import csv
 import json
 import sys
@@ -25,7 +26,8 @@ def format_2():
 
 
 def format_4():
-    entities = [f"{tag} 0 0 0 2 1 0 1 {tag} 0\n" for tag in (1, 2, 3, 4, 9, 1, 2)]  # five curves, two surfaces
+    # five curves, two surfaces
+    entities = [f"{tag} 0 0 0 2 1 0 1 {tag} 0\n" for tag in (1, 2, 3, 4, 9, 1, 2)]
     nodes = [f"{i + 1}\n" for i in range(6)] + [f"{x} {y} 0\n" for x, y in POINTS]
     elements, tag = [], 1
     for dimension, items in ((1, LINES), (2, TRIANGLES)):
@@ -52,7 +54,8 @@ Physical Curve("left", 4) = {6}; Physical Surface(1) = {1}; Physical Surface("ri
 
 
 def beside_an_ellipse(outside, size):
-    """What lies in the first quadrant inside an ellipse with axes 2 and 1, or between it and a rectangle; curve 1 is the arc."""
+    """What lies in the first quadrant inside an ellipse with axes 2 and 1, or between it and a rectangle;
+    curve 1 is the arc."""
     corners = [(0, 0), (2, 0), (0, 1)] + ([(3, 0), (3, 2), (0, 2)] if outside else [])
     points = [f"Point({i + 1}) = {{{x}, {y}, 0, {size}}};\n" for i, (x, y) in enumerate(corners)]
     sides = [(2, 4), (4, 5), (5, 6), (6, 3)] if outside else [(1, 2), (3, 1)]
@@ -71,7 +74,7 @@ name = "plate"
 mesh = "a.msh"
 material = { young = 100, poisson = 0 }
 boundary = [ { label = "left", ux = 0 }, { label = 1, uy = 0 }, { label = "top", pressure = 6 } ]
-region = [ { label = "right half", material = { young = 100, poisson = 0, viscosity = 1, yield_stress = 50 } } ]
+region = [ {label = "right half", material = {young = 100, poisson = 0, viscosity = 1, yield_stress = 50}} ]
 [time]
 end = 1
 steps = 1
@@ -79,7 +82,8 @@ steps = 1
 
 # What is changed in the scene above, or in the mesh, and the message that must come with exit code 2.
 WRONG_LABELS = [
-    ("label = \"left\"", "label = \"lft\"", "label = \"lft\", expected one of left, top (boundaries of a.msh)"),
+    ("label = \"left\"", "label = \"lft\"",
+     "label = \"lft\", expected one of left, top (boundaries of a.msh)"),
     ("\"right half\"", "\"half\"", "label = \"half\", expected one of right half (regions of a.msh)"),
     ("label = \"left\"", "label = true", "label = true, expected an integer >= 0, or a name in the mesh"),
     ("a.msh", "upper.mesh", "label = \"left\", the mesh upper.mesh has no names of boundaries"),
@@ -127,8 +131,10 @@ every = 1
         interface = json.loads(self.read("ellipse/summary.json"))["interfaces"][0]
         self.assertEqual(interface["sagitta"], 0)
         self.assertNotIn("no circle", run.stderr)
-        sagitta = 0.15**2 / 8 * 2  # where the ellipse is sharpest; the polygons are off each other by about that
-        gaps = [abs(float(row["gap"])) for row in csv.DictReader(self.read("ellipse/contact.csv").splitlines())
+        # where the ellipse is sharpest; the polygons are off each other by about that
+        sagitta = 0.15**2 / 8 * 2
+        gaps = [abs(float(row["gap"]))
+                for row in csv.DictReader(self.read("ellipse/contact.csv").splitlines())
                 if row["step"] == "0"]
         self.assertGreater(len(gaps), 10)
         self.assertLess(max(gaps), 0.02 * sagitta)
@@ -154,7 +160,8 @@ every = 1
         self.assertIn("\n0 errors", checked.stdout)
         self.mortier("run", "scene.toml", "--quiet", "--set", "body.right.boundary.right.tx=6", code=3)
         # The same body twice is named.
-        both = mortier("check", "scene.toml", "--set", "body.right.mesh.region=['left half', 'right half']", cwd=self.folder)
+        both = mortier("check", "scene.toml", "--set", "body.right.mesh.region=['left half', 'right half']",
+                       cwd=self.folder)
         self.assertIn("[same-mesh]", both.stdout)
 
     def test_meshes_of_a_geometry_as_asked_for(self):
@@ -174,11 +181,13 @@ every = 1
 
     def test_a_converted_mesh_keeps_what_was_drawn(self):
         self.write(PARTS_GEO, "parts.geo")
-        plain = GEOMETRY_KEYS.replace(", parameters = { width = 1.5 }", "").replace(", size = 0.25", "").replace(", size = 0.2", "")
+        plain = GEOMETRY_KEYS.replace(", parameters = { width = 1.5 }",
+                                      "").replace(", size = 0.25", "").replace(", size = 0.2", "")
         self.write(plain)
         if not self.hasGmsh():
             return
-        left, right = '{ file = "parts.geo", region = "left half" }', '{ file = "parts.geo", region = ["right half"] }'
+        left = '{ file = "parts.geo", region = "left half" }'
+        right = '{ file = "parts.geo", region = ["right half"] }'
         for name in ("left", "right"):
             self.mortier("mesh", "convert", "parts.geo", f"{name}.mesh", "--region", f"{name} half")
         final = []
@@ -187,7 +196,8 @@ every = 1
             self.mortier("run", "scene.toml", "--quiet", "--out", "run")
             final.append(json.loads(self.read("run/summary.json"))["final"])
         self.assertEqual(*final)
-        self.reject('--set contact.mortar.label=betwen: body right: label = "betwen", expected one of base, between', "run", "scene.toml", "--quiet",
+        self.reject('--set contact.mortar.label=betwen: body right: label = "betwen", expected one of '
+                    'base, between', "run", "scene.toml", "--quiet",
                     "--set", "contact.mortar.label=betwen")
 
     def test_what_a_geometry_does_not_have(self):
@@ -196,13 +206,17 @@ every = 1
         if not self.hasGmsh():
             return
         for setting, message in (
-                ("body.left.mesh.parameters.wdth=2", "parts.geo: no constant wdth, expected one that its DefineConstant names: depth, width"),
-                ("body.left.mesh.region=middle", "parts.geo: no region middle, expected one of 1 (left half), 2 (right half)"),
-                ("body.left.mesh.region=3", "parts.geo: no region 3, expected one of 1 (left half), 2 (right half)"),
+                ("body.left.mesh.parameters.wdth=2", "parts.geo: no constant wdth, expected one that its "
+                                                     "DefineConstant names: depth, width"),
+                ("body.left.mesh.region=middle", "parts.geo: no region middle, expected one of 1 (left "
+                                                 "half), 2 (right half)"),
+                ("body.left.mesh.region=3", "parts.geo: no region 3, expected one of 1 (left half), 2 "
+                                            "(right half)"),
                 ("body.left.mesh.region=[]", "region = an array, expected one label or more"),
                 ("body.left.mesh.size=0", "size = 0, expected size > 0"),
                 ("body.left.mesh.parameters.width=a", "parameters.width = \"a\", expected a finite number"),
-                ("body.left.mesh.file=upper.mesh", "upper.mesh: size or parameters, expected only for a geometry that Gmsh meshes")):
+                ("body.left.mesh.file=upper.mesh", "upper.mesh: size or parameters, expected only for a "
+                                                   "geometry that Gmsh meshes")):
             with self.subTest(setting):
                 done = mortier("run", "scene.toml", "--quiet", "--set", setting, cwd=self.folder)
                 self.assertEqual(done.returncode, 2, done.stderr)
@@ -212,7 +226,8 @@ every = 1
     def check_refused(self):
         for name in FILES:
             self.reject(f"{name}: read by Gmsh, which this build is without", "mesh", "info", name)
-            self.reject(f"{name}: read by Gmsh", "run", "scene.toml", "--quiet", "--set", f"body.plate.mesh={name}")
+            self.reject(f"{name}: read by Gmsh", "run", "scene.toml", "--quiet", "--set",
+                        f"body.plate.mesh={name}")
 
     def check_read(self):
         for name in FILES:
@@ -223,19 +238,22 @@ every = 1
                              "region 1 ", "region 2 "]:
                     self.assertIn(part, info.stdout)
                 self.assertNotIn("label 9", info.stdout)
-                run = self.mortier("run", "scene.toml", "--quiet", "--set", f"body.plate.mesh={name}", "--out", "plate")
+                run = self.mortier("run", "scene.toml", "--quiet", "--set", f"body.plate.mesh={name}",
+                                   "--out", "plate")
                 self.assertEqual(told(run.stderr), [])
                 coarse = ["mesh-coarse"] if name.endswith(".msh") else []
-                self.assertEqual(warned(run.stderr), coarse + ["large-strain", "large-strain", "yield-over-young",
-                                                               "initial-load"])
+                self.assertEqual(warned(run.stderr), coarse + ["large-strain", "large-strain",
+                                                               "yield-over-young", "initial-load"])
                 plate = json.loads(self.read("plate/summary.json"))
                 self.assertAlmostEqual(plate["final"]["displacement_min"][1], -0.06, places=12)
                 self.assertAlmostEqual(plate["final"]["von_mises_min"], 6, places=10)
                 self.assertEqual(plate["bodies"][0]["material"], "Perzyna (frobenius), elastic")
         # The kink of an expression on a label that has a name: a step ends there.
-        self.mortier("run", "scene.toml", "--quiet", "--out", "plate", "--set", "time={end=1, tolerance=1e-2, scheme='sdirk2'}",
+        self.mortier("run", "scene.toml", "--quiet", "--out", "plate", "--set",
+                     "time={end=1, tolerance=1e-2, scheme='sdirk2'}",
                      "body.plate.boundary.top.pressure='t < 0.37 ? t : 0.37'")
-        self.assertIn("0.37", [row["time[s]"] for row in csv.DictReader(self.read("plate/history.csv").splitlines())])
+        self.assertIn("0.37",
+                      [row["time[s]"] for row in csv.DictReader(self.read("plate/history.csv").splitlines())])
         fours = [self.mortier("mesh", "info", name).stdout.count("4") for name in ("a.msh", "b.msh")]
         self.assertEqual(*fours)
 
@@ -244,11 +262,12 @@ every = 1
         for old, new, message in [
                 ("left", "left", None),
                 ("label = \"left\"", "label = \"lft\"",
-                 'scene.toml:6: error: body plate: no edge of a.msh has label "lft"; there are: 1 bottom, 2 right, '
-                 '3 "top" top, 4 "left" left; take one of the labels there are, or label the edges [missing-label]'),
+                 'scene.toml:6: error: body plate: no edge of a.msh has label "lft"; there are: 1 '
+                 'bottom, 2 right, 3 "top" top, 4 "left" left; take one of the labels there are, '
+                 'or label the edges [missing-label]'),
                 ("\"right half\"", "\"half\"",
-                 'scene.toml:7: error: body plate: no triangle of a.msh is in region "half"; there are: 1, 2 "right half"; '
-                 'take one of the regions there are, or label the triangles [missing-region]')]:
+                 'scene.toml:7: error: body plate: no triangle of a.msh is in region "half"; there are: 1, 2 '
+                 '"right half"; take one of the regions there are, or label the triangles [missing-region]')]:
             self.write(SCENE.replace(old, new, 1))
             lines = mortier("check", "scene.toml", cwd=self.folder).stdout.splitlines()
             self.assertEqual([line for line in lines if "error: " in line], [message] if message else [])
@@ -271,17 +290,21 @@ every = 1
     def test_files_that_are_damaged_or_do_more_than_meshes(self):
         for name, text in (("few.msh", format_2().replace("$Nodes\n6\n", "$Nodes\n5\n")),  # Gmsh crashes
                            ("gone-2.msh", format_2().replace("\n6 2 1 0\n", "\n")),
-                           ("gone-4.msh", format_4().replace("1 6 1 6\n2 1 0 6\n1\n", "1 6 1 6\n2 1 0 6\n77\n")),
-                           ("call.geo", 'SystemCall "touch ran";\n' + geometry()), ("cut.msh", format_4()[:420]),
+                           ("gone-4.msh", format_4().replace("1 6 1 6\n2 1 0 6\n1\n",
+                                                             "1 6 1 6\n2 1 0 6\n77\n")),
+                           ("call.geo", 'SystemCall "touch ran";\n' + geometry()),
+                           ("cut.msh", format_4()[:420]),
                            ("bytes.geo", "Point(1) = {0, 0, \xff\xfe};\n"),  # of which Gmsh shows some
                            ("bytes.msh", "$MeshFormat\n4.1 1 8\n\x01\x00\x00\x00" + "\xff" * 300)):
             (self.folder / name).write_bytes(text.encode("latin-1"))
             with self.subTest(name):
                 done = mortier("mesh", "info", name, cwd=self.folder, errors="strict")
                 self.assertEqual(done.returncode, 2)
-                self.assertTrue(done.stderr.startswith(f"mortier: {name}: ") and done.stderr.count("\n") == 1, done.stderr)
+                self.assertTrue(done.stderr.startswith(f"mortier: {name}: ") and done.stderr.count("\n") == 1,
+                                done.stderr)
         self.write("mine", "mine.txt")
-        self.write(geometry() + 'Printf("x") > "mine.txt";\nMesh 2; Save "saved.msh"; Save "mine.txt";\n', "writes.geo")
+        self.write(geometry() + 'Printf("x") > "mine.txt";\nMesh 2; Save "saved.msh"; Save "mine.txt";\n',
+                   "writes.geo")
         mortier("mesh", "info", "writes.geo", cwd=self.folder)
         self.assertEqual(self.read("mine.txt"), "mine")
         self.assertEqual({"saved.msh", "ran"} & set(self.names()), set())

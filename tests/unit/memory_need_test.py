@@ -1,4 +1,5 @@
-"""Contact keeps dense matrices over its nodes: what a run needs is told before it, and refused where there is not so much."""
+"""Contact keeps dense matrices over its nodes: what a run needs is told before it,
+and refused where there is not so much."""
 import json
 import re
 import resource
@@ -32,8 +33,10 @@ steps = 1
 
 class MemoryNeed(InFolder):
     def strips(self, cells):
-        self.mortier("mesh", "rectangle", "--cells", f"{cells},2", "--lower=0,0", "--upper", f"{cells},2", "upper.mesh")
-        self.mortier("mesh", "rectangle", "--cells", f"{cells * 9 // 10},2", "--lower=0,-2", "--upper", f"{cells},0", "lower.mesh")
+        self.mortier("mesh", "rectangle", "--cells", f"{cells},2", "--lower=0,0", "--upper", f"{cells},2",
+                     "upper.mesh")
+        self.mortier("mesh", "rectangle", "--cells", f"{cells * 9 // 10},2", "--lower=0,-2", "--upper",
+                     f"{cells},0", "lower.mesh")
         self.write(SCENE)
 
     def test_a_thousand_contact_nodes(self):
@@ -63,8 +66,10 @@ class MemoryNeed(InFolder):
         def limit():
             resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))
 
-        expected = r"scene.toml:12: contact: the run needs about 11.7 GiB of memory, expected at most the \S+ GiB that are available"
-        self.assertRegex(self.mortier("run", "scene.toml", "--out", "out", code=2, preexec_fn=limit).stderr, expected)
+        expected = (r"scene.toml:12: contact: the run needs about 11.7 GiB of memory, "
+                    r"expected at most the \S+ GiB that are available")
+        self.assertRegex(self.mortier("run", "scene.toml", "--out", "out", code=2, preexec_fn=limit).stderr,
+                         expected)
         self.assertFalse((self.folder / "out").exists())
         check = mortier("check", "scene.toml", cwd=self.folder, preexec_fn=limit)
         self.assertEqual(check.returncode, 2, check.stderr)

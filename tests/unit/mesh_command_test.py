@@ -11,32 +11,44 @@ from support import OfTwoBlocks  # noqa: E402
 class MeshCommand(OfTwoBlocks):
     def test_mesh_families(self):
         for arguments, triangles, labels in [
-                (["rectangle", "--cells", "4,3", "--cut", "both", "--focus", "0.5,1", "--grading", "3,2"], 48, [1, 2, 3, 4]),
-                (["quadrilateral", "--cells", "3,2", "--corners", "0,0", "48,44", "48,60", "0,44"], 12, [1, 2, 3, 4]),
-                (["annulus", "--cells", "8,2", "--span", "half", "--inner", "0.5", "--centre", "1,0"], 32, [1, 2, 3, 4]),
+                (["rectangle", "--cells", "4,3", "--cut", "both", "--focus", "0.5,1", "--grading", "3,2"], 48,
+                 [1, 2, 3, 4]),
+                (["quadrilateral", "--cells", "3,2", "--corners", "0,0", "48,44", "48,60", "0,44"], 12,
+                 [1, 2, 3, 4]),
+                (["annulus", "--cells", "8,2", "--span", "half", "--inner", "0.5", "--centre", "1,0"], 32,
+                 [1, 2, 3, 4]),
                 (["annulus", "--cells", "8,2"], 32, [1, 2]),
-                (["halfdisc", "--cells", "3", "--radius", "50", "--core", "10", "--lowest", "0,1"], 4 * (2 * 9 + 12 * 6), [1, 2, 3])]:
+                (["halfdisc", "--cells", "3", "--radius", "50", "--core", "10", "--lowest", "0,1"],
+                 4 * (2 * 9 + 12 * 6), [1, 2, 3])]:
             with self.subTest(arguments=arguments):
                 result = self.mortier("mesh", *arguments, "family.mesh")
                 self.assertEqual(result.stderr, "")
                 self.assertIn(f"{triangles} triangles; labels 1", result.stdout)
                 text = self.mortier("mesh", "info", "family.mesh").stdout
-                self.assertEqual([int(line.split()[1]) for line in text.splitlines() if line.startswith("label")], labels)
+                self.assertEqual([int(line.split()[1]) for line in text.splitlines()
+                                  if line.startswith("label")], labels)
         for arguments, message in [
-                (["rectangle", "--cells", "2", "--cut", "up"], "--cut up: expected one of rising, falling, both"),
+                (["rectangle", "--cells", "2", "--cut", "up"],
+                 "--cut up: expected one of rising, falling, both"),
                 (["rectangle", "--cells", "2", "--grading", "2"], "--grading 2: expected with --focus X,Y"),
-                (["rectangle", "--cells", "2", "--grading", "2", "--focus", "3,0"], "rectangle 2x2 of (0, 0) to (1, 1): focus (3, 0)"),
-                (["annulus", "--cells", "8,2", "--span", "third"], "--span third: expected one of quarter, half, full"),
-                (["annulus", "--cells", "8,2", "--inner", "3"], "annulus of radii 3 and 2 about (0, 0), expected"),
-                (["quadrilateral", "--cells", "2", "--corners", "0,0", "0,1", "1,1", "1,0"], "quadrilateral (0, 0)"),
-                (["halfdisc", "--cells", "2", "--core", "0.5"], "half disc of radius 1 on (0, 0): core 0.5, expected")]:
+                (["rectangle", "--cells", "2", "--grading", "2", "--focus", "3,0"],
+                 "rectangle 2x2 of (0, 0) to (1, 1): focus (3, 0)"),
+                (["annulus", "--cells", "8,2", "--span", "third"],
+                 "--span third: expected one of quarter, half, full"),
+                (["annulus", "--cells", "8,2", "--inner", "3"],
+                 "annulus of radii 3 and 2 about (0, 0), expected"),
+                (["quadrilateral", "--cells", "2", "--corners", "0,0", "0,1", "1,1", "1,0"],
+                 "quadrilateral (0, 0)"),
+                (["halfdisc", "--cells", "2", "--core", "0.5"],
+                 "half disc of radius 1 on (0, 0): core 0.5, expected")]:
             with self.subTest(arguments=arguments):
                 self.reject(message, "mesh", *arguments, "x.mesh")
                 self.assertNotIn("x.mesh", self.names())
 
     def test_mesh_info(self):
         text = self.mortier("mesh", "info", "lower.mesh").stdout
-        for part in ["vertices   23", "triangles  32", "label 3     4 edges, length 1 m", "y -1 .. 0 m", "aspect ratio"]:
+        for part in ["vertices   23", "triangles  32", "label 3     4 edges, length 1 m", "y -1 .. 0 m",
+                     "aspect ratio"]:
             self.assertIn(part, text)
 
 

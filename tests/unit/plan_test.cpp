@@ -1,37 +1,34 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "mesh/generate.h"
-#include "mesh/medit.h"
 #include "plan/estimate_doubts.h"
 #include "plan/plan.h"
-#include "scene/build.h"
+#include "unit/scene_folder.h"
 
 namespace mortier {
 namespace {
 
 /// Two blocks on meshes of 3 and 2 cells, one diagonal a cell.
-class PlanFiles : public testing::Test {
+class PlanFiles : public SceneFolder {
  protected:
-  PlanFiles() : folder(testing::TempDir() + "plan_test_" + std::to_string(getpid())) {
-    std::filesystem::create_directories(folder);
+  PlanFiles() : SceneFolder("plan_test") {
     grid("upper.mesh", 0, 3, Cut::rising);
     grid("lower.mesh", -1, 2, Cut::rising);
   }
-  ~PlanFiles() override { std::filesystem::remove_all(folder); }
 
-  void grid(const std::string& name, double y, int n, Cut cut) const {
+  /// \param first  which corner of a triangle is named first
+  void grid(const std::string& name, double y, int n, Cut cut, int first = 0) const {
     const auto at = [&](int i, int j) { return Point(double(i) / n, y + double(j) / n); };
-    writeMedit(gridMesh({.n1 = n, .n2 = n, .at = at}, cut, name), folder + "/" + name);
+    TriangleMesh mesh = gridMesh({.n1 = n, .n2 = n, .at = at}, cut, name);
+    for (auto& triangle : mesh.triangles)
+      std::rotate(triangle.begin(), triangle.begin() + first, triangle.end());
+    writeMedit(mesh, folder + "/" + name);
   }
   [[nodiscard]] SceneDescription scene(const std::vector<std::string>& settings = {}) const {
-    const std::string path = folder + "/scene.toml";
-    std::ofstream(path) << R"toml([[body]]
+    write(R"toml([[body]]
 name = "upper"
 mesh = "upper.mesh"
 material = { young = 100, poisson = 0.3 }
@@ -41,21 +38,10 @@ name = "lower"
 mesh = "lower.mesh"
 material = { young = 100, poisson = 0.3 }
 boundary = [ { label = 4, ux = 0 }, { label = 1, uy = "0.01*t" } ]
-[contact]
-nonmortar = { body = "upper", label = 1 }
-mortar = { body = "lower", label = 3 }
-[time]
-end = 2
-steps = 4
-)toml";
-    return readScene(path, settings);
+)toml" + std::string(contactOfTwoBlocks) +
+          "steps = 4\n");
+    return readScene(path(), settings);
   }
-  static Model model(const SceneDescription& description) {
-    ResolvedScene resolved = resolveScene(description);
-    return buildModel(resolved);
-  }
-
-  std::string folder;
 };
 
 std::vector<SampledDatum> dataOf(const SceneDescription& scene, const Model& model) {
@@ -66,12 +52,17 @@ std::vector<SampledDatum> dataOf(const SceneDescription& scene, const Model& mod
 
 TEST_F(PlanFiles, loadsAreSizedByTractionAndByStrain) {
   const SceneDescription description = scene();
-  const Model blocks = model(description);
+  const Model blocks = modelOf(description);
   const std::vector<SampledDatum> data = dataOf(description, blocks);
   ASSERT_EQ(data.size(), 4u);
   EXPECT_EQ(nominalStress(description, data, 0), 2);  // the traction
   EXPECT_EQ(nominalStress(description, data, 2), 2);  // 100 * 0.02 / 1, the same
   EXPECT_EQ(nominalStress(description, data, 4), 4);
+  // A traction on the left, where x = 0, and a force: its size over the extent, which is 1.
+  const SceneDescription along = scene({"body.upper.boundary.4.ty=-3*y", "body.lower.force.x=t*(x-2*y)"});
+  const std::vector<SampledDatum> varying = dataOf(along, blocks);
+  EXPECT_EQ(nominalStress(along, varying, 0), 3);
+  EXPECT_NEAR(nominalStress(along, varying, 4), 12, 1e-12);  // at (1, -1)
   EXPECT_EQ(std::count_if(data.begin(), data.end(),
                           [&](const SampledDatum& datum) { return changesInTime(datum, description.time); }),
             1);
@@ -97,30 +88,34 @@ TEST_F(PlanFiles, stepsAtRestAndTheOnesThatAreTaken) {
     });
   };
   const SceneDescription moving = scene();
-  EXPECT_TRUE(says(planOf(moving, model(moving)), true, "4 steps of 0.5 s"));
-  EXPECT_TRUE(says(planOf(moving, model(moving)), true, "linear: one Cholesky factor"));
+  EXPECT_TRUE(says(planOf(moving, modelOf(moving)), true, "4 steps of 0.5 s"));
+  EXPECT_TRUE(says(planOf(moving, modelOf(moving)), true, "linear: one Cholesky factor"));
   const SceneDescription still = scene({"body.lower.boundary.1.uy=0"});
-  EXPECT_TRUE(says(planOf(still, model(still)), true, "one step"));
-  EXPECT_TRUE(says(planOf(still, model(still)), false, "the other 3 steps"));
+  EXPECT_TRUE(says(planOf(still, modelOf(still)), true, "one step"));
+  EXPECT_TRUE(says(planOf(still, modelOf(still)), false, "the other 3 steps"));
+  const SceneDescription firstOnly = scene({"body.lower.boundary.1.uy=0", "body.upper.boundary.4.ux=0.01*t"});
+  EXPECT_TRUE(says(planOf(firstOnly, modelOf(firstOnly)), true, "4 steps of 0.5 s"));
   const SceneDescription flowing =
       scene({"body.upper.material={ young = 100, poisson = 0.3, viscosity = 1, yield_stress = 50 }"});
-  EXPECT_TRUE(says(planOf(flowing, model(flowing)), false, "flow, unless"));
-  EXPECT_NE(planText(planOf(flowing, model(flowing))).find("modelled   contact 0: unilateral"),
+  EXPECT_TRUE(says(planOf(flowing, modelOf(flowing)), false, "flow, unless"));
+  EXPECT_NE(planText(planOf(flowing, modelOf(flowing))).find("modelled   contact 0: unilateral"),
             std::string::npos);
 }
 
 TEST_F(PlanFiles, estimatesThatAreKnownToBeWrongAreNamed) {
   const auto doubts = [&](const std::vector<std::string>& settings) {
     const SceneDescription description = scene(settings);
-    return estimateDoubts(description, model(description));
+    return estimateDoubts(description, modelOf(description));
   };
   EXPECT_TRUE(doubts({}).empty());
   ASSERT_EQ(doubts({"contact.variant=interpolation"}).size(), 1u);
   EXPECT_NE(doubts({"contact.variant=interpolation"})[0].find("0.34 to 0.8"), std::string::npos);
   EXPECT_TRUE(doubts({"body.material.poisson=0.4999"}).empty());  // plane stress
   EXPECT_EQ(doubts({"body.material.poisson=0.4999", "plane=strain"}).size(), 2u);
-  grid("upper.mesh", 0, 3, Cut::both);
-  EXPECT_EQ(doubts({"body.material.poisson=0.4999", "plane=strain"}).size(), 1u);
+  for (const int first : {0, 1, 2}) {
+    grid("upper.mesh", 0, 3, Cut::both, first);
+    EXPECT_EQ(doubts({"body.material.poisson=0.4999", "plane=strain"}).size(), 1u) << first;
+  }
   grid("upper.mesh", 0, 2, Cut::rising);
   EXPECT_TRUE(doubts({"contact.variant=interpolation"}).empty());  // meshes that match
 }

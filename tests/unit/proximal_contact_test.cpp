@@ -1,5 +1,6 @@
-// A set that was solved on is closed to rounding, however large the forces are that cancel in it: signs of one exact problem do
-// not go round. Compliances of 1/k^5 have condition numbers of 1e13; without corrections single forces are wrong by 1e-9.
+// A set that was solved on is closed to rounding, however large the forces are that cancel in it: signs of
+// one exact problem do not go round. Compliances of 1/k^5 have condition numbers of 1e13; without corrections
+// single forces are wrong by 1e-9.
 #include "solver/proximal_contact.h"
 
 #include <gtest/gtest.h>

@@ -42,23 +42,33 @@ class Quantities(OfTwoBlocks):
         final = json.loads(self.read("out/summary.json"))["quantities"]
         self.assertEqual(final["held"]["value"], float(rows[-1]["held[N/m]"]))
         self.assertEqual(final["turns"]["unit"], "N")
-        self.assertRegex(run.stdout, r"\nquantities held 10 N/m, pressed -10 N/m, turns .* N, sinks -\S+ m, top -\S+ m\n")
+        self.assertRegex(run.stdout, r"\nquantities held 10 N/m, pressed -10 N/m, turns .* N, sinks -\S+ m, "
+                                     r"top -\S+ m\n")
         self.assertIn("0 errors", self.mortier("check", "scene.toml").stdout)
 
     def test_what_cannot_be_asked_for(self):
         self.write(TWO_BLOCKS + ASKED)
         for setting, message in (
-                ("quantity.held.reaction.label=2", "quantity held: label 2 of body lower has no prescribed displacement"),
+                ("quantity.held.reaction.label=2", "quantity held: label 2 of body lower has no prescribed "
+                                                   "displacement"),
                 ("quantity.held.reaction.label=9", "body lower: label = 9, expected one of 1, 2, 3, 4"),
-                ("quantity.held.reaction.body=middle", "quantity held: reaction: body = \"middle\", expected one of upper, lower"),
-                ("quantity.pressed.contact_force.label=1", "quantity pressed: label 1 of body lower is no side of a contact"),
-                ("quantity.sinks.displacement.point=[3, 3]", "quantity sinks: point = [3, 3], expected a point of body upper"),
-                ("quantity.sinks.displacement.point=[3]", "quantity sinks: displacement: point = an array, expected two numbers"),
-                ("quantity.sinks.component=moment", "quantity sinks: component = \"moment\", expected one of x, y"),
-                ("quantity.held.about=[0, 0]", "quantity held: about = an array, expected it only beside component"),
-                ("quantity.held.name=top", "quantity top: name = \"top\", expected a name of its own, there is one at"),
+                ("quantity.held.reaction.body=middle", "quantity held: reaction: body = \"middle\", expected "
+                                                       "one of upper, lower"),
+                ("quantity.pressed.contact_force.label=1",
+                 "quantity pressed: label 1 of body lower is no side of a contact"),
+                ("quantity.sinks.displacement.point=[3, 3]",
+                 "quantity sinks: point = [3, 3], expected a point of body upper"),
+                ("quantity.sinks.displacement.point=[3]", "quantity sinks: displacement: point = an array, "
+                                                          "expected two numbers"),
+                ("quantity.sinks.component=moment",
+                 "quantity sinks: component = \"moment\", expected one of x, y"),
+                ("quantity.held.about=[0, 0]", "quantity held: about = an array, expected it only "
+                                               "beside component"),
+                ("quantity.held.name=top", "quantity top: name = \"top\", expected a name of its own, "
+                                           "there is one at"),
                 ("quantity.held.name=a,b", "quantity a,b: name = \"a,b\", expected letters, digits, _ and -"),
-                ("quantity.held.displacement={body='upper', label=3}", "quantity held: more than one of reaction, contact_force")):
+                ("quantity.held.displacement={body='upper', label=3}",
+                 "quantity held: more than one of reaction, contact_force")):
             with self.subTest(setting):
                 errors = self.mortier("run", "scene.toml", "--quiet", "--set", setting, code=2).stderr
                 self.assertIn(message, errors)

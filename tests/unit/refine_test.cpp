@@ -85,7 +85,8 @@ TEST(Refine, nothingMarkedIsNothingCut) {
   EXPECT_EQ(same.mesh.vertices.size(), mesh.vertices.size());
 }
 
-// Of any triangle, newest-vertex bisection makes four shapes: all of them are there after three rounds everywhere.
+// Of any triangle, newest-vertex bisection makes four shapes:
+// all of them are there after three rounds everywhere.
 TEST(Refine, twentyRandomRoundsKeepAllThatCountsAndMakeNoNewShapes) {
   const TriangleMesh first = cooksMembrane();
   TriangleMesh everywhere = first;
@@ -186,8 +187,8 @@ TEST(Refine, areaOfARingTendsToThatOfItsCircles) {
   }
 }
 
-// One layer of cells whose inner chords bulge into the body by more than its thickness there: where the inner edge alone is cut,
-// its new vertex on the arc would lie beyond the outer chord.
+// One layer of cells whose inner chords bulge into the body by more than its thickness there: where the inner
+// edge alone is cut, its new vertex on the arc would lie beyond the outer chord.
 TEST(Refine, aVertexStaysOnTheChordWhereATriangleWouldTurnOver) {
   TriangleMesh mesh = annulusMesh({{0, 0}, 1, 1.04, 4, 6, 1});
   chooseBases(mesh);

@@ -1,4 +1,5 @@
-// A law that the program does not have, with any symmetric elliptic E and a flow that depends on the total strain.
+// A law that the program does not have, with any symmetric elliptic E and a flow that depends on the total
+// strain.
 #pragma once
 
 #include <Eigen/LU>

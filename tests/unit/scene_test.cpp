@@ -1,26 +1,22 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <thread>
 
 #include "base/error.h"
 #include "mesh/generate.h"
-#include "mesh/medit.h"
-#include "scene/build.h"
 #include "scene/document.h"
 #include "scene/load_courses.h"
 #include "scene/overrides.h"
 #include "scene/schema.h"
 #include "unit/messages.h"
+#include "unit/scene_folder.h"
 
 namespace mortier {
 namespace {
 
-const char* const twoBlocks = R"toml(title = "two blocks"
+const std::string twoBlocks = R"toml(title = "two blocks"
 [[body]]
 name = "upper"
 mesh = "upper.mesh"
@@ -37,32 +33,17 @@ name = "lower"
 mesh = "lower.mesh"
 material = { young = 2e11, poisson = 0.25 }
 boundary = [ { label = 4, ux = 0 }, { label = 1, uy = "0.5*x*(t > 1)" } ]
-[contact]
-nonmortar = { body = "upper", label = 1 }
-mortar = { body = "lower", label = 3 }
-[time]
-end = 2
-steps = 20
-)toml";
+)toml" + std::string(contactOfTwoBlocks) +
+                              "steps = 20\n";
 
-Model modelOf(const SceneDescription& scene) {
-  ResolvedScene resolved = resolveScene(scene);
-  return buildModel(resolved);
-}
-
-/// A folder with two meshes and a scene.
-class SceneFiles : public testing::Test {
+/// With two meshes and a scene.
+class SceneFiles : public SceneFolder {
  protected:
-  SceneFiles() : folder(testing::TempDir() + "scene_test_" + std::to_string(getpid())) {
-    std::filesystem::create_directories(folder);
+  SceneFiles() : SceneFolder("scene_test") {
     writeMedit(crissCrossMesh({{0, 0}, {1, 1}, 2, 2}), folder + "/upper.mesh");
     writeMedit(crissCrossMesh({{0, -1}, {1, 0}, 3, 3}), folder + "/lower.mesh");
     write(twoBlocks);
   }
-  ~SceneFiles() override { std::filesystem::remove_all(folder); }
-
-  void write(const std::string& text) const { std::ofstream(path(), std::ios::binary) << text; }
-  [[nodiscard]] std::string path() const { return folder + "/scene.toml"; }
 
   /// The message of a scene that is wrong, without the folder.
   [[nodiscard]] std::string fault(const std::vector<std::string>& settings) const {
@@ -72,8 +53,6 @@ class SceneFiles : public testing::Test {
     }
     return text;
   }
-
-  std::string folder;
 };
 
 TEST_F(SceneFiles, readsEveryKey) {
@@ -135,7 +114,8 @@ TEST_F(SceneFiles, sidesAreDecidedInOnePlace) {
     }
 }
 
-// Names of conditions, regions and sides become the numbers of the mesh; what it does not have, one that no mesh has.
+// Names of conditions, regions and sides become the numbers of the mesh; what it does not have,
+// one that no mesh has.
 TEST_F(SceneFiles, labelsAreNumbersOnceResolved) {
   SceneDescription scene = readScene(path());
   TriangleMesh mesh = crissCrossMesh({{0, 0}, {1, 1}, 2, 2});

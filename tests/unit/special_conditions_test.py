@@ -1,4 +1,5 @@
-"""Contact conditions without a force of their own are told, with their number and the reason, and only then."""
+"""Contact conditions without a force of their own are told, with their number and the reason,
+and only then."""
 import json
 import sys
 import unittest
@@ -16,7 +17,8 @@ IDLE = "conditions  4 idle: both sides are held there\n"
 DEPENDENT = "conditions  1 dependent on others: the contact forces are one choice of many\n"
 
 
-UPPER_HELD = TWO_BLOCKS.replace("[[body.boundary]]", "[[body.boundary]]\nlabel = 1\nuy = 0\n[[body.boundary]]", 1)
+UPPER_HELD = TWO_BLOCKS.replace("[[body.boundary]]",
+                                "[[body.boundary]]\nlabel = 1\nuy = 0\n[[body.boundary]]", 1)
 
 
 def lower_held(scene):
@@ -29,7 +31,8 @@ class SpecialConditions(OfTwoBlocks):
         self.write(scene)
         log = self.mortier("run", "scene.toml", "--set", "time.steps=2", *settings).stdout
         summary = json.loads(self.read("out/scene/summary.json"))
-        counts = (summary["interfaces"][0]["held_ends"], summary["idle_conditions"], summary["dependent_conditions"])
+        counts = (summary["interfaces"][0]["held_ends"], summary["idle_conditions"],
+                  summary["dependent_conditions"])
         return log, counts
 
     def test_nothing_is_told_where_nothing_is_special(self):
@@ -41,7 +44,8 @@ class SpecialConditions(OfTwoBlocks):
     def test_held_ends(self):
         upper = TWO_BLOCKS.replace(LEFT, LEFT + "\nuy = 0", 1)
         both = upper.replace("{ label = 4, ux = 0 }", "{ label = 4, ux = 0, uy = 0 }")
-        for scene, variant, count, text in [(upper, "mortar", 1, MERGED), (both, "interpolation", 1, LEFT_OUT),
+        for scene, variant, count, text in [(upper, "mortar", 1, MERGED),
+                                            (both, "interpolation", 1, LEFT_OUT),
                                             (upper, "interpolation", 0, None)]:
             with self.subTest(variant=variant, count=count):
                 log, counts = self.run_scene(scene, f"contact.variant={variant}")

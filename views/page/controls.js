@@ -1,17 +1,28 @@
-// ---- The page --------------------------------------------------------------------------------------------------------
-const page = document.getElementById("page"), now = {field: "von_mises", step: 0, scale: 1, wide: true, mesh: true, ghost: true};
+// ---- The page ---------------------------------------------------------------------------------------------
+const page = document.getElementById("page"), now = {
+  field: "von_mises",
+  step: 0,
+  scale: 1,
+  wide: true,
+  mesh: true,
+  ghost: true
+};
 const longest = runs.reduce((a, b) => b.steps.length > a.steps.length ? b : a);
 const stepOf = run => {  // that of the run nearest in time
   const t = longest.steps[now.step].time;
   let best = 0;
-  run.steps.forEach((each, i) => { if (Math.abs(each.time - t) < Math.abs(run.steps[best].time - t)) best = i; });
+  run.steps.forEach((each, i) => {
+    if (Math.abs(each.time - t) < Math.abs(run.steps[best].time - t)) best = i;
+  });
   return best;
 };
 page.append($("h1", {}, [...new Set(runs.map(run => run.title))].join(", ")));
 for (const run of runs) {
   if (run.failed) page.append($("p", {class: "bad"}, `${run.name} stopped early: ${run.failed}`));
   if (run.steps.length < run.keptSteps)
-    page.append($("p", {class: "soft"}, `${run.name}: ${run.steps.length} of ${run.keptSteps} kept steps are in this page.`));
+    page.append(
+        $("p", {class: "soft"},
+          `${run.name}: ${run.steps.length} of ${run.keptSteps} kept steps are in this page.`));
 }
 
 function control(words, element, output) {
@@ -20,30 +31,49 @@ function control(words, element, output) {
 }
 const controls = page.appendChild($("div", {class: "controls"}));
 const common = runs[0].fields.filter(field => runs.every(run => fieldOf(run, field.name)));
-const fieldMenu = control("field", $("select", {id: "field"}, ...common.map(field => $("option", {value: field.name}, withUnit(field.words, field.unit)))));
+const fieldMenu = control(
+    "field",
+    $("select", {id: "field"},
+      ...common.map(field => $("option", {value: field.name}, withUnit(field.words, field.unit)))));
 const stepOutput = $("output", {for: "step"}), scaleOutput = $("output", {for: "scale"});
-const stepSlider = control("step", $("input", {type: "range", id: "step", min: 0, max: longest.steps.length - 1, step: 1}), stepOutput);
+const stepSlider = control(
+    "step", $("input", {type: "range", id: "step", min: 0, max: longest.steps.length - 1, step: 1}),
+    stepOutput);
 now.step = longest.steps.length - 1;
 stepSlider.value = now.step;
 stepSlider.disabled = longest.steps.length < 2;
 const natural = Math.min(...runs.map(run => run.scale));
-const scales = [...new Set([0, 1, natural, ...[0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100].map(f => Number((f * natural).toPrecision(2)))])]
-  .sort((a, b) => a - b);
-const scaleSlider = control("displacements times", $("input", {type: "range", id: "scale", min: 0, max: scales.length - 1, step: 1}), scaleOutput);
+const scales = [...new Set([
+                 0, 1, natural,
+                 ...[0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100].map(
+                     f => Number((f * natural).toPrecision(2)))
+               ])].sort((a, b) => a - b);
+const scaleSlider = control(
+    "displacements times", $("input", {type: "range", id: "scale", min: 0, max: scales.length - 1, step: 1}),
+    scaleOutput);
 scaleSlider.value = scales.indexOf(natural);
 const box = (id, words, checked) => {
   const element = $("input", {type: "checkbox", id});
   element.checked = checked;
   return control(words, element);
 };
-const meshBox = box("mesh", "meshes", true), ghostBox = box("ghost", "as meshed", true), wideBox = box("wide", "same colours at all steps", false);
+const meshBox = box("mesh", "meshes", true), ghostBox = box("ghost", "as meshed", true),
+      wideBox = box("wide", "same colours at all steps", false);
 const whole = controls.appendChild($("button", {type: "button", id: "whole"}, "whole picture"));
 
 const grid = page.appendChild($("div", {class: "runs"}));
 const panels = runs.map((run, r) => {
-  const canvas = $("canvas", {id: `canvas${r}`, tabindex: 0, role: "img", "aria-label": `Deformed bodies of ${run.name}. Arrow keys move, plus and minus zoom, 0 shows everything.`});
-  const read = $("p", {class: "read", id: `read${r}`, "aria-live": "polite"}), bar = $("canvas", {width: 256, height: 1});
+  const canvas = $("canvas", {
+    id: `canvas${r}`,
+    tabindex: 0,
+    role: "img",
+    "aria-label": `Deformed bodies of ${run.name}. Arrow keys move, plus and minus zoom, 0 shows everything.`
+  });
+  const read = $("p", {class: "read", id: `read${r}`, "aria-live": "polite"}),
+        bar = $("canvas", {width: 256, height: 1});
   const low = $("span"), high = $("span"), contact = $("div", {class: "contact"});
-  grid.append($("section", {class: "run"}, $("h3", {}, $("i", {class: `dot b${r % 4}`}), run.name), $("div", {class: "picture"}, canvas), $("div", {class: "bar"}, low, bar, high), read, contact));
+  grid.append(
+      $("section", {class: "run"}, $("h3", {}, $("i", {class: `dot b${r % 4}`}), run.name),
+        $("div", {class: "picture"}, canvas), $("div", {class: "bar"}, low, bar, high), read, contact));
   return {run, r, canvas, read, bar, low, high, contact, context: canvas.getContext("2d")};
 });

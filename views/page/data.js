@@ -1,6 +1,7 @@
 const data = JSON.parse(document.getElementById("data").textContent), runs = data.runs;
 const $ = (tag, attributes = {}, ...children) => put(document.createElement(tag), attributes, children);
-const svg = (tag, attributes = {}, ...children) => put(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
+const svg = (tag, attributes = {}, ...children) => put(
+    document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
 function put(element, attributes, children) {
   for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
   element.append(...children);
@@ -10,7 +11,7 @@ const withUnit = (words, unit) => unit ? `${words} [${unit}]` : words;
 const of = (value, unit) => unit ? `${value} ${unit}` : String(value);
 const short = (value, digits = 4) => value === 0 ? "0" : String(Number(value.toPrecision(digits)));
 
-// ---- Data (views/coding.py): integers times 10^e, predicted, deflated ------------------------------------------------
+// ---- Data (views/coding.py): integers times 10^e, predicted, deflated -------------------------------------
 const powers = Array.from({length: 309}, (_, e) => Number(`1e${e}`));
 const scaled = (q, e) => e >= 0 ? q * powers[e] : q / powers[-e];
 async function unpack(text) {
@@ -25,7 +26,8 @@ function arrays(bytes, forms, lengths, earlier, predict) {  // [{e, q}] of a blo
   forms.forEach(([e, how, weights], k) => {
     const n = lengths[k], q = new Float64Array(n), plane = n;
     let before = 0;
-    for (let w = weights - 1; w >= 0; w--) for (let i = 0; i < n; i++) q[i] = q[i] * 256 + bytes[at + w * plane + i];
+    for (let w = weights - 1; w >= 0; w--)
+      for (let i = 0; i < n; i++) q[i] = q[i] * 256 + bytes[at + w * plane + i];
     let guess = how === 2 ? predict(found, k, e) : null;
     if (how === 1 || how === 3) {
       guess = new Float64Array(n);
@@ -63,17 +65,23 @@ async function loadMesh(body) {
 const loadStep = (run, i) => run.steps[i].loaded ??= readStep(run, i);
 async function readStep(run, i) {  // body number -> field name -> {e, q}
   const step = run.steps[i];
-  const back = Math.max(...step.f.map(form => form[1] === 3 ? 2 : form[1] === 1 ? 1 : 0)), earlier = [];  // steps that it needs
+  const back = Math.max(...step.f.map(
+            form => form[1] === 3 ? 2
+                : form[1] === 1   ? 1
+                                  : 0)),
+        earlier = [];  // steps that it needs
   for (let k = 1; k <= back; k++) { await loadStep(run, i - k); earlier.push(run.steps[i - k].all); }
   const bytes = await unpack(step.d), names = run.order, n = names.length;
-  const lengths = run.bodies.flatMap(body => names.map(name => fieldOf(run, name).vertex ? body.vertices : body.triangles));
+  const lengths = run.bodies.flatMap(
+      body => names.map(name => fieldOf(run, name).vertex ? body.vertices : body.triangles));
   const stresses = ["s11", "s22", "s12", "s33"].filter(name => names.includes(name));
   step.all = arrays(bytes, step.f, lengths, earlier, (found, k, e) => {
     const first = k - k % n, s = stresses.map(name => found[first + names.indexOf(name)]);
     const [s11, s22, s12, s33] = s.map(real), guess = new Float64Array(s11.length);
     for (let j = 0; j < guess.length; j++) {
       const a = s11[j], b = s22[j], c = s12[j], d = s33 ? s33[j] : 0;
-      guess[j] = Math.floor(scaled(Math.sqrt(Math.max(a * a + b * b - a * b + d * (d - a - b) + 3 * c * c, 0)), -e) + 0.5);
+      guess[j] = Math.floor(
+          scaled(Math.sqrt(Math.max(a * a + b * b - a * b + d * (d - a - b) + 3 * c * c, 0)), -e) + 0.5);
     }
     return guess;
   });

@@ -1,4 +1,4 @@
-// ---- Everything together ---------------------------------------------------------------------------------------------
+// ---- Everything together ----------------------------------------------------------------------------------
 let waiting = null;
 function redraw() {  // once a frame, when the data of the step are there
   if (waiting) return waiting;
@@ -19,8 +19,16 @@ function redraw() {  // once a frame, when the data of the step are there
   })();
 }
 async function change() {
-  Object.assign(now, {field: fieldMenu.value, step: Number(stepSlider.value), scale: scales[Number(scaleSlider.value)], wide: wideBox.checked, mesh: meshBox.checked, ghost: ghostBox.checked});
-  const step = longest.steps[now.step], words = `${step.step}, t = ${short(step.time, 6)} ${longest.units.time}`;
+  Object.assign(now, {
+    field: fieldMenu.value,
+    step: Number(stepSlider.value),
+    scale: scales[Number(scaleSlider.value)],
+    wide: wideBox.checked,
+    mesh: meshBox.checked,
+    ghost: ghostBox.checked
+  });
+  const step = longest.steps[now.step],
+        words = `${step.step}, t = ${short(step.time, 6)} ${longest.units.time}`;
   stepOutput.textContent = words;
   stepSlider.setAttribute("aria-valuetext", words);
   scaleOutput.textContent = String(now.scale);
@@ -29,11 +37,13 @@ async function change() {
   drawHistories();
   await redraw();
 }
-for (const element of [fieldMenu, stepSlider, scaleSlider, wideBox, meshBox, ghostBox]) element.addEventListener("input", change);
+for (const element of [fieldMenu, stepSlider, scaleSlider, wideBox, meshBox, ghostBox])
+  element.addEventListener("input", change);
 whole.addEventListener("click", () => { groups.forEach(group => { group.fit = true; }); redraw(); });
 function zoom(group, factor, x = group.view.x, y = group.view.y) {
   const {view} = group;
-  group.view = {...view, half: view.half * factor, x: x + (view.x - x) * factor, y: y + (view.y - y) * factor};
+  group
+      .view = {...view, half: view.half * factor, x: x + (view.x - x) * factor, y: y + (view.y - y) * factor};
   redraw();
 }
 function move(group, x, y) {
@@ -46,30 +56,57 @@ for (const panel of panels) {
     const area = canvas.getBoundingClientRect();
     return [event.clientX - area.left, event.clientY - area.top];
   };
-  const place = ([x, y]) => [group.view.x + (x - canvas.clientWidth / 2) * length(), group.view.y - (y - canvas.clientHeight / 2) * length()];
-  canvas.addEventListener("wheel", event => { event.preventDefault(); zoom(group, Math.exp(0.0015 * event.deltaY), ...place(point(event))); }, {passive: false});
-  canvas.addEventListener("pointerdown", event => { down.set(event.pointerId, point(event)); canvas.setPointerCapture(event.pointerId); });
+  const place = ([x, y]) =>
+      [group.view.x + (x - canvas.clientWidth / 2) * length(),
+       group.view.y - (y - canvas.clientHeight / 2) * length()];
+  canvas.addEventListener("wheel", event => {
+    event.preventDefault();
+    zoom(group, Math.exp(0.0015 * event.deltaY), ...place(point(event)));
+  }, {passive: false});
+  canvas.addEventListener("pointerdown", event => {
+    down.set(event.pointerId, point(event));
+    canvas.setPointerCapture(event.pointerId);
+  });
   canvas.addEventListener("pointermove", event => {
     const to = point(event), from = down.get(event.pointerId);
     panel.last = to;
     if (from && down.size === 2) {
-      const other = [...down].find(([id]) => id !== event.pointerId)[1], distance = p => Math.hypot(p[0] - other[0], p[1] - other[1]);
+      const other = [...down].find(([id]) => id !== event.pointerId)[1],
+            distance = p => Math.hypot(p[0] - other[0], p[1] - other[1]);
       if (distance(to) > 0) zoom(group, distance(from) / distance(to), ...place(other));
     } else if (from) {
       move(group, (from[0] - to[0]) * length(), (to[1] - from[1]) * length());
     } else hover(panel, ...to);
     if (from) down.set(event.pointerId, to);
   });
-  for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, event => { down.delete(event.pointerId); hover(panel, ...(panel.last = point(event))); });
-  canvas.addEventListener("pointerleave", () => { if (!down.size) { panel.last = null; hover(panel, -1, -1); } });
+  for (const name of ["pointerup", "pointercancel"])
+    canvas.addEventListener(name, event => {
+      down.delete(event.pointerId);
+      hover(panel, ...(panel.last = point(event)));
+    });
+  canvas.addEventListener("pointerleave", () => {
+    if (!down.size) {
+      panel.last = null;
+      hover(panel, -1, -1);
+    }
+  });
   canvas.addEventListener("dblclick", () => { group.fit = true; redraw(); });
   canvas.addEventListener("keydown", event => {
-    const step = 0.1 * group.view.half, way = {ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step]}[event.key];
-    if (way) move(group, ...way);
-    else if (event.key === "+" || event.key === "=") zoom(group, 0.8);
-    else if (event.key === "-") zoom(group, 1.25);
-    else if (event.key === "0") { group.fit = true; redraw(); }
-    else return;
+    const step = 0.1 * group.view.half,
+          way = {ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [
+                   0, -step
+                 ]}[event.key];
+    if (way)
+      move(group, ...way);
+    else if (event.key === "+" || event.key === "=")
+      zoom(group, 0.8);
+    else if (event.key === "-")
+      zoom(group, 1.25);
+    else if (event.key === "0") {
+      group.fit = true;
+      redraw();
+    } else
+      return;
     event.preventDefault();
   });
 }
@@ -77,25 +114,42 @@ new ResizeObserver(() => { if (runs[0].group.view) redraw(); }).observe(grid);
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => redraw());
 
 page.append($("h2", {}, "Histories"));
-if (runs.length > 1) page.append($("div", {class: "key"}, ...runs.map((run, r) => $("span", {}, $("i", {class: `b${r % 4}`}), run.name))));
+if (runs.length > 1)
+  page.append($(
+      "div", {class: "key"}, ...runs.map((run, r) => $("span", {}, $("i", {class: `b${r % 4}`}), run.name))));
 page.append(historyBox);
-for (const run of runs) if (run.history.every > 1) page.append($("p", {class: "soft"}, `${run.name}: every ${run.history.every}th row of history.csv is drawn.`));
+for (const run of runs)
+  if (run.history.every > 1)
+    page.append(
+        $("p", {class: "soft"}, `${run.name}: every ${run.history.every}th row of history.csv is drawn.`));
 for (const title of Object.keys(runs[0].tables)) {
   const keys = [...new Set(runs.flatMap(run => run.tables[title].map(([key]) => key)))];
   const table = $("table", {}, $("tr", {}, $("th", {}, ""), ...runs.map(run => $("th", {}, run.name))));
   for (const key of keys)
-    table.append($("tr", {}, $("td", {}, key.replaceAll("_", " ")), ...runs.map(run => $("td", {}, (run.tables[title].find(each => each[0] === key) || ["", ""])[1]))));
+    table.append(
+        $("tr", {}, $("td", {}, key.replaceAll("_", " ")),
+          ...runs.map(run => $("td", {}, (run.tables[title].find(each => each[0] === key) || ["", ""])[1]))));
   page.append($("h2", {}, title), $("div", {class: "wide"}, table));
 }
 page.append($("h2", {}, "What was modelled and left out"));
 for (const run of runs) {
-  if (!run.plan) { page.append($("p", {class: "soft"}, `${run.name}: not known: the scene is not where it was, or not as it was.`)); continue; }
-  const rows = run.plan.map(([modelled, part, what, why]) => $("tr", {}, $("td", {}, modelled ? "modelled" : "left out"), $("td", {}, part), $("td", {}, what), $("td", {}, why)));
-  page.append($("details", {}, $("summary", {}, run.name), $("div", {class: "wide"}, $("table", {}, ...rows))));
+  if (!run.plan) {
+    page.append(
+        $("p", {class: "soft"}, `${run.name}: not known: the scene is not where it was, or not as it was.`));
+    continue;
+  }
+  const rows = run.plan.map(
+      ([modelled, part, what, why]) => $(
+          "tr", {}, $("td", {}, modelled ? "modelled" : "left out"), $("td", {}, part), $("td", {}, what),
+          $("td", {}, why)));
+  page.append(
+      $("details", {}, $("summary", {}, run.name), $("div", {class: "wide"}, $("table", {}, ...rows))));
 }
 page.append($("h2", {}, "Scene"));
 for (const run of runs)
-  page.append($("details", {}, $("summary", {}, `${run.name}: ${run.path}`), $("pre", {class: "scene"}, run.scene === null ? "not kept in this result" : run.scene)));
+  page.append(
+      $("details", {}, $("summary", {}, `${run.name}: ${run.path}`),
+        $("pre", {class: "scene"}, run.scene === null ? "not kept in this result" : run.scene)));
 
 await Promise.all(runs.flatMap(run => run.bodies.map(loadMesh)));
 await change();

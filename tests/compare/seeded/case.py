@@ -32,7 +32,8 @@ mortar = { body = "lower", label = 3 }
 end = 1
 steps = 100
 """
-ELASTIC = SCENE.replace(", viscosity = 10, yield_stress = 1", "").replace('"-10*t"', "-10").replace("100", "1")
+ELASTIC = SCENE.replace(", viscosity = 10, yield_stress = 1",
+                        "").replace('"-10*t"', "-10").replace("100", "1")
 
 # A body of its own, on third.mesh.
 THIRD = """\
@@ -116,7 +117,8 @@ class Case:
 
     def limited(self):
         """Options of the process that runs it."""
-        return {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_AS, (self.limit,) * 2)} if self.limit else {}
+        return ({"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_AS, (self.limit,) * 2)}
+                if self.limit else {})
 
     def line(self, text):
         """Where the scene says it first."""

@@ -14,7 +14,8 @@ def _(case):
 
 @fault("missing-region", "label = 7")
 def _(case):
-    case.replace("[contact]", "[[body.region]]\nlabel = 7\nmaterial = { young = 3e11, poisson = 0.3 }\n[contact]")
+    case.replace("[contact]",
+                 "[[body.region]]\nlabel = 7\nmaterial = { young = 3e11, poisson = 0.3 }\n[contact]")
 
 
 @fault("label-interrupted", "upper.mesh: edge from vertex")

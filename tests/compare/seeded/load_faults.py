@@ -27,7 +27,8 @@ def _(case):
     """Supports on the last edges to the left and right of one that carries a traction."""
     case.replace("[[body.boundary]]\nlabel = 4", "[[body.boundary]]\nlabel = 6\ntx = \"t\"\n"
                  "[[body.boundary]]\nlabel = 7\nux = 0\n[[body.boundary]]\nlabel = 4")
-    case.upper.relabel(lambda x, y, label: label if y < 1 or not 0.3 < x < 0.9 else 6 if 0.5 < x < 0.66 else 7)
+    case.upper.relabel(lambda x, y, label: label if y < 1 or not 0.3 < x < 0.9 else 6 if 0.5 < x
+                       < 0.66 else 7)
 
 
 @fault("kink-between-steps", 'ty = "')

@@ -59,7 +59,8 @@ def _(case):
 def _(case):
     corner = case.upper.triangles[0][0]
     x, y = case.upper.vertices[corner - 1]
-    case.upper.triangles.append([corner, case.upper.vertex(x - 0.2, y + 0.3), case.upper.vertex(x - 0.2, y), 1])
+    case.upper.triangles.append([corner, case.upper.vertex(x - 0.2, y + 0.3), case.upper.vertex(x - 0.2, y),
+                                 1])
 
 
 @fault("duplicate-node", "upper.mesh: vertex")

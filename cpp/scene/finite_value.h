@@ -1,0 +1,12 @@
+// The value of a datum, or what is wrong with it.
+#pragma once
+
+#include "scene/expression.h"
+
+namespace mortier {
+
+/// The value of the expression. Where that is not finite the function \throws DatumError naming the datum,
+/// the point and the time.
+Function finiteValue(const Expression& expression);
+
+}  // namespace mortier

@@ -1,0 +1,44 @@
+"""Loads and supports that are not finite at some time inside a run are named, with point and time."""
+import json
+import unittest
+
+from scenes import TWO_BLOCKS
+from support import OfTwoBlocks
+
+
+
+class DataInTime(OfTwoBlocks):
+    def undefined(self, begin, end, datum="ty", time="steps = 25"):
+        """A scene whose datum is not finite between two times."""
+        value = f'"-1e-11*t*(t > {begin} && t < {end} ? 1/(t - t) : 1)"'
+        text = TWO_BLOCKS.replace('ty = "-10*t"', f"{datum} = {value}").replace("steps = 4", time)
+        self.write(text)
+
+    def failed(self, datum, time):
+        """The run ends with the datum and the time; the states before are kept."""
+        errors = self.mortier("run", "scene.toml", "--out", "out", code=1).stderr
+        for part in (f"body upper: {datum} = ", "expected a finite number, is -inf at x = ", f"t = {time}"):
+            self.assertIn(part, errors.splitlines()[-1])
+        return json.loads((self.folder / "out.failed" / "summary.json").read_text())
+
+    def test_equal_steps_end_before_it(self):
+        for datum in ("ty", "uy"):
+            with self.subTest(datum):
+                self.undefined(0.26, 0.3, datum)
+                summary = self.failed(datum, 0.28)
+                self.assertEqual(summary["steps"], 6)
+                self.assertLess(summary["newton_iterations"], 100)
+
+    def test_before_a_run_whose_steps_are_chosen_by_their_error(self):
+        for scheme in ("backward-euler", "sdirk2"):
+            self.undefined(0.7375, 0.7475, time=f'scheme = "{scheme}"\ntolerance = 1e-2')
+            self.reject("scene.toml:12: body upper: ty = ", "run", "scene.toml", "--out", "out")
+
+    def test_between_the_samples_of_such_a_run(self):
+        """The first stage of sdirk2 lies at 0.2929 of the first step, 1/4000."""
+        self.undefined(7e-5, 8e-5, time='steps = 4000\nscheme = "sdirk2"\ntolerance = 1e-2')
+        self.assertLess(self.failed("ty", "7.32233047033631")["newton_iterations"], 100)
+
+
+if __name__ == "__main__":
+    unittest.main()
