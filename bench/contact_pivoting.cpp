@@ -1,7 +1,7 @@
 // Work of the contact problem in factorisations of its matrix, over random loads
 // (tests/unit/load_patterns.h): operations as the solver counts them, and time against that of factorising
 // the matrix once, both measured here.
-//   contact_pivoting [NODES] [PATTERNS] [LINES]   (default 400 nodes, 1000 patterns, the ten lines 0123456789;
+// contact_pivoting [NODES] [PATTERNS] [LINES]   (default 400 nodes, 1000 patterns, the ten lines 0123456789;
 //                                                  after every 100 patterns the worst so far goes to stderr)
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

@@ -40,7 +40,8 @@ class AdaptedMeshes {
   void refine(const std::vector<Vector>& errors, double aim);
   /// Cuts every triangle in two.
   void refineAll();
-  /// Gives each of two lines that face each other a vertex where the other one has a corner (adapt/facing_corners.h).
+  /// Gives each of two lines that face each other a vertex where the other one has a corner
+  /// (adapt/facing_corners.h).
   void faceCorners(size_t body, int label, size_t otherBody, int otherLabel);
 
  private:

@@ -13,6 +13,7 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
   constexpr double cancelling = 10;
   constexpr int patience = 2;
   int outOfBalance = 0;
+  double balance = NAN;  // of the last iterate on the law
   StepOutcome outcome;
   prescribe(system.model(), step, iterate);
   StepSystem::Linearised linearised =
@@ -26,6 +27,7 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
       std::ostringstream text;
       text << "Newton's method did not converge in " << outcome.iterations
            << " iterations, material residual " << residual;
+      if (residual <= limits.tolerance) text << ", force balance " << balance;
       outcome.fail(Reason::unconverged, text.str());
       return outcome;
     }
@@ -41,7 +43,8 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
     // triangles, unseen by the residual, until an iteration has nothing to cancel.
     if (!(linearised.residual() <= limits.tolerance) || residual > cancelling) continue;
     const Certificate certificate = system.certify(step, iterate, linearised.residual());
-    if (certificate.forceBalance <= std::max(balanceTolerance, limits.tolerance * 1e-2)) {
+    balance = certificate.forceBalance;
+    if (balance <= std::max(balanceTolerance, limits.tolerance * 1e-2)) {
       outcome.converge(certificate);
       return outcome;
     }

@@ -66,7 +66,10 @@ StepOutcome solveStep(StepSystem& system, const State& state0, const StepData& d
     climb(Rung::newton, newton(system, step, data.weight, plain, unloaded));
     if (total.converged()) guess = std::move(unloaded);
   }
-  if (effort == Effort::little) return total;
+  // The other methods change the law, which is linear already.
+  const std::vector<Body>& bodies = system.model().bodies;
+  const auto linear = [](const Body& body) { return body.material().linear(); };
+  if (effort == Effort::little || std::all_of(bodies.begin(), bodies.end(), linear)) return total;
   const bool unique = system.uniqueSolutions();
   ViscosityWalk walk(system.model(), step);
   if (open(usualIterations) && !unique)

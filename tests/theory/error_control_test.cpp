@@ -431,26 +431,51 @@ TEST(ErrorControl, backwardEulerKnowsItsErrorWhereStressesFollowAtOnce) {
   ASSERT_EQ(exact.size(), fine + 1);
   const double largest = *std::max_element(exact.begin(), exact.end());
   double worst = 0;
-  double estimate = 0;
+  double errors = 0;  // sums of squares
+  double estimates = 0;
   state = initialState(model);
   TimePlan plan = controlled(end, tolerance, Scheme::backwardEuler);
   plan.data = {resolve(path, 0, end)};
   const RunReport run = runWith(model, state, plan, [&](const State& now, const StepReport& report) {
-    if (report.step == 0) worst = estimate = 0;
+    if (report.step == 0) worst = errors = estimates = 0;
     if (now.time < settled) return;
     const double at = now.time / end * fine;
     const int i = std::min(static_cast<int>(at), fine - 1);
     const double between = exact[i] + (at - i) * (exact[i + 1] - exact[i]);
-    worst = std::max(worst, std::abs(pressure(now) - between) / largest);
-    estimate = std::max(estimate, report.estimate);
+    const double error = std::abs(pressure(now) - between) / largest;
+    worst = std::max(worst, error);
+    errors += error * error;
+    estimates += report.estimate * report.estimate;
   });
   print("stress that follows at once", run);
-  std::cout << ", error " << worst << ", estimate " << estimate << "\n";
+  const double effectivity = std::sqrt(estimates / errors);
+  std::cout << ", error " << worst << ", estimate over error " << effectivity << "\n";
   EXPECT_EQ(run.status, Status::converged) << run.reason;
   EXPECT_LE(worst, 1.5 * tolerance);
-  EXPECT_GE(estimate, 0.3 * worst);
-  EXPECT_LE(estimate, 3 * worst);
+  EXPECT_GE(effectivity, 0.3);
+  EXPECT_LE(effectivity, 3);
   EXPECT_LE(run.timeError, tolerance);
+}
+
+// ---- the pilot
+
+// Bodies pass yield triangle by triangle in its first step, which is not what it is for.
+TEST(ErrorControl, aPilotThatPassesYieldIsCheap) {
+  struct PilotIsDone {};
+  for (const timecases::Case& each : timecases::cases(timecases::Size::small)) {
+    if (each.name != "sine, hard, interpolation, sdirk2" &&
+        each.name != "3 waves, hard, interpolation, sdirk2")
+      continue;
+    const Model model = each.model();
+    const TimePlan plan = each.plan(each.scheme, 1e-2);
+    State state = initialState(model);
+    MarchMemory memory;
+    const Observer stop = [](const State&, const StepReport&) { throw PilotIsDone(); };
+    EXPECT_THROW(march(model, state, memory, plan, {}, stop), PilotIsDone);
+    std::cout << each.name << ": " << memory.run.pilotIterations << " linear solves of the pilot\n";
+    EXPECT_LE(memory.run.pilotIterations, 60);
+    EXPECT_GT(memory.controller.scale.displacement, 1e-3);  // elastic ones are 1e-11
+  }
 }
 
 // ---- what acts in the first moment, and what time does not resolve

@@ -93,6 +93,8 @@ TEST_F(PlanFiles, stepsAtRestAndTheOnesThatAreTaken) {
   const SceneDescription still = scene({"body.lower.boundary.1.uy=0"});
   EXPECT_TRUE(says(planOf(still, modelOf(still)), true, "one step"));
   EXPECT_TRUE(says(planOf(still, modelOf(still)), false, "the other 3 steps"));
+  const SceneDescription inSpace = scene({"body.lower.boundary.1.uy=0.01*x"});
+  EXPECT_TRUE(says(planOf(inSpace, modelOf(inSpace)), true, "one step"));
   const SceneDescription firstOnly = scene({"body.lower.boundary.1.uy=0", "body.upper.boundary.4.ux=0.01*t"});
   EXPECT_TRUE(says(planOf(firstOnly, modelOf(firstOnly)), true, "4 steps of 0.5 s"));
   const SceneDescription flowing =
