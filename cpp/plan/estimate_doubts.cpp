@@ -1,6 +1,8 @@
 #include "plan/estimate_doubts.h"
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "plan/loads.h"
 
@@ -21,6 +23,35 @@ bool crossed(const TriangleMesh& mesh) {
   return static_cast<double>(count) > most * static_cast<double>(mesh.triangles.size());
 }
 
+/// The bodies that flow and touch one that is much softer, each once.
+std::vector<std::string> stiffAndFlowing(const SceneDescription& scene, const Model& model) {
+  constexpr double much = 100;
+  const auto stiffest = [](const std::vector<const MaterialDescription*>& materials) {
+    double young = 0;
+    for (const MaterialDescription* material : materials) young = std::max(young, material->elasticity.young);
+    return young;
+  };
+  std::set<int> found;
+  for (const ContactInterface& interface : model.interfaces) {
+    const int one = interface.pair().nonmortar.body;
+    const int two = interface.pair().mortar.body;
+    for (const auto& [stiff, soft] : {std::pair(one, two), std::pair(two, one)}) {
+      const auto materials = materialsOf(scene.bodies[stiff]);
+      const bool mayFlow = std::any_of(
+          materials.begin(), materials.end(),
+          [](const MaterialDescription* material) { return material->viscoplasticity.has_value(); });
+      if (mayFlow && stiffest(materials) > much * stiffest(materialsOf(scene.bodies[soft])))
+        found.insert(stiff);
+    }
+  }
+  std::vector<std::string> doubts;
+  for (const int b : found)
+    doubts.push_back("body " + model.bodies[b].name() +
+                     " may flow and is more than 100 times stiffer than one that it touches; of its error it "
+                     "sees 0.4 to 0.8");
+  return doubts;
+}
+
 }  // namespace
 
 bool meshesMatch(const ContactInterface& interface) {
@@ -36,7 +67,7 @@ bool meshesMatch(const ContactInterface& interface) {
 
 std::vector<std::string> estimateDoubts(const SceneDescription& scene, const Model& model) {
   constexpr double incompressible = 0.49;
-  std::vector<std::string> doubts;
+  std::vector<std::string> doubts = stiffAndFlowing(scene, model);
   const auto falseStresses = [](const ContactInterface& interface) {
     return interface.pair().coupling == CouplingKind::interpolation && !meshesMatch(interface);
   };

@@ -112,7 +112,17 @@ TEST_F(PlanFiles, estimatesThatAreKnownToBeWrongAreNamed) {
   EXPECT_TRUE(doubts({}).empty());
   ASSERT_EQ(doubts({"contact.variant=interpolation"}).size(), 1u);
   EXPECT_NE(doubts({"contact.variant=interpolation"})[0].find("0.34 to 0.8"), std::string::npos);
-  EXPECT_TRUE(doubts({"body.material.poisson=0.4999"}).empty());  // plane stress
+  const auto flowing = [&](const std::string& body, double young) {
+    return doubts({"body." + body + ".material={ young = " + std::to_string(young) +
+                   ", poisson = 0.3, viscosity = 1, yield_stress = 1 }"});
+  };
+  for (const std::string body : {"upper", "lower"}) {
+    EXPECT_TRUE(flowing(body, 9e3).empty());
+    ASSERT_EQ(flowing(body, 1.1e4).size(), 1u);
+    EXPECT_NE(flowing(body, 1.1e4)[0].find("body " + body + " may flow"), std::string::npos);
+  }
+  EXPECT_TRUE(doubts({"body.upper.material.young=1e5"}).empty());  // elastic
+  EXPECT_TRUE(doubts({"body.material.poisson=0.4999"}).empty());   // plane stress
   EXPECT_EQ(doubts({"body.material.poisson=0.4999", "plane=strain"}).size(), 2u);
   for (const int first : {0, 1, 2}) {
     grid("upper.mesh", 0, 3, Cut::both, first);
