@@ -21,7 +21,8 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 LABELS = ("unit", "theory", "compare")
-LOADED = {"FAILING_CALLS": "failing-calls", "DEAF_METIS": "deaf-metis"}  # libraries that scripts load
+# libraries that scripts load
+LOADED = {"FAILING_CALLS": "failing-calls", "DEAF_METIS": "deaf-metis", "TRAPPING_METIS": "trapping-metis"}
 LIMIT = 120  # seconds of a processor that a process of a test may take
 
 def faults():

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <new>
 #include <numeric>
 #include <stdexcept>
 
@@ -59,8 +60,12 @@ std::vector<int> fillReducingOrder(const SparsePattern& pattern, const std::vect
     Columns columns = permuted(pattern, position, interior, interior);
     cholmod_sparse A = lowerTriangle(columns.start, columns.rows);
     const DeafCall deaf;
-    if (cholmod_metis(&A, nullptr, 0, 1, permutation.data(), &common) == 0)
-      throw std::runtime_error("ordering of the tangent failed in METIS");
+    if (cholmod_metis(&A, nullptr, 0, 1, permutation.data(), &common) == 0) {
+      // METIS traps SIGTERM and takes it for an error of its own, of which there is no other here.
+      if (common->status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+      requestInterrupt();
+      stopIfInterrupted();
+    }
   }
   std::vector<int> order(pattern.size);
   for (int i = 0; i < interior; ++i) order[i] = equation[permutation[i]];

@@ -113,6 +113,14 @@ class Cli(OfTwoBlocks):
                          (1, "mortier: interrupted before the first step; nothing was written\n"))
         self.assertFalse((self.folder / "out/scene").exists())
 
+    def test_interrupted_while_a_library_traps_the_signal(self):
+        environment = {**os.environ, "LD_PRELOAD": os.environ["TRAPPING_METIS"],
+                       "ASAN_OPTIONS": "verify_asan_link_order=0"}
+        result = subprocess.run([PROGRAM, "run", "scene.toml", "--quiet"], cwd=self.folder, env=environment,
+                                stderr=subprocess.PIPE, text=True, timeout=20)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("interrupted after step 0; nothing was written", result.stderr)
+
     def test_steps_chosen_by_their_error_end_at_kinks(self):
         # The table is a ramp but for a pulse that is too short to be found by trying.
         kinks = {0.2001: "body.upper.boundary.3.ty={time=[0, 0.2001, 0.2002, 0.2003, 1], value=[0, -0.4002, "
