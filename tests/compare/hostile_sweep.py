@@ -188,7 +188,8 @@ class Sweep:
             done = threading.Event()
             asked.clear()
             what = "all-" if batch else "control-"
-            with tempfile.TemporaryDirectory() as profile:
+            # The browser may still be writing there when its driver has ended.
+            with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
                 process = subprocess.Popen([browser, "--headless", "--no-sandbox", "--disable-gpu",
                                             f"--user-data-dir={profile}",
                                             "--remote-debugging-port=0",

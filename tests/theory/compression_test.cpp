@@ -11,7 +11,6 @@ namespace {
 
 using namespace scenes;
 
-constexpr Projection projections[] = {Projection::elasticity, Projection::frobenius, Projection::compliance};
 const char* nameOf(Projection projection) {
   return projection == Projection::elasticity  ? "elasticity"
          : projection == Projection::frobenius ? "frobenius"
