@@ -213,13 +213,16 @@ StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort e
   return outcome;
 }
 
-/// Whether methods fail all the time, and steps as short as the last one would not reach the end.
+/// Whether methods fail all the time, and neither steps as those so far nor steps as short as the last attempt
+/// would reach the end. One hard moment in a run that gets on is not meant.
 bool Controller::crawls(double t, double k) const {
   constexpr int many = 100;
   constexpr int often = 4;  // one step in so many
   const auto cut = memory_.run.rungs.find(nameOf(Rung::cut));
-  return cut != memory_.run.rungs.end() && cut->second >= many && often * cut->second >= memory_.run.steps &&
-         plan_.end - t > k * plan_.maxSteps;
+  if (cut == memory_.run.rungs.end() || cut->second < many || often * cut->second < memory_.run.steps)
+    return false;
+  const double pace = (t - memory_.begin) / memory_.run.steps;
+  return plan_.end - t > std::max(k, pace) * plan_.maxSteps;
 }
 
 void Controller::advance(StepTaker& taker, const State& state, StepReport& report) {
