@@ -213,8 +213,8 @@ StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort e
   return outcome;
 }
 
-/// Whether methods fail all the time, and neither steps as those so far nor steps as short as the last attempt
-/// would reach the end. One hard moment in a run that gets on is not meant.
+/// Whether methods fail all the time, and neither steps as those so far nor steps as short as the last
+/// attempt would reach the end. One hard moment in a run that gets on is not meant.
 bool Controller::crawls(double t, double k) const {
   constexpr int many = 100;
   constexpr int often = 4;  // one step in so many
