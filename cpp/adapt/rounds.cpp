@@ -10,8 +10,8 @@
 namespace mortier {
 namespace {
 
-constexpr double least =
-    0.9;  // of the error, what its estimate may be: it is to be below this part of what is asked
+/// An estimate may be this part of the error, so that it has to be below this part of what is asked.
+constexpr double least = 0.9;
 constexpr double careful = 0.85;     // aims are this part of what is asked
 constexpr double reachOfARound = 4;  // by which a round divides the error, about
 

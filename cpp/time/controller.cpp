@@ -131,8 +131,8 @@ bool Controller::beginAgain(State& state) {
 }
 
 /// Adds the error of the step to what has been carried to its end. Flow does not amplify errors: where the
-/// linearised step does, points that flow and points that do not lie side by side,
-/// and the error is taken on as it was.
+/// linearised step does, points that flow and points that do not lie side by side, and the error is taken on
+/// as it was.
 void Controller::add(StepTaker& taker, std::vector<Matrix> local, double size) {
   ControllerMemory& own = memory_.controller;
   const std::vector<Matrix> before = std::exchange(own.strain, std::move(local));
