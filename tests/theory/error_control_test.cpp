@@ -4,6 +4,7 @@
 #include <iostream>
 #include <numbers>
 
+#include "theory/controlled_runs.h"
 #include "theory/pressed_blocks.h"
 #include "theory/scenes.h"
 #include "theory/time_cases.h"
@@ -15,27 +16,6 @@ namespace mortier {
 namespace {
 
 using namespace scenes;
-
-TimePlan controlled(double end, double tolerance, Scheme scheme = Scheme::sdirk2) {
-  return {.end = end, .steps = 0, .scheme = scheme, .tolerance = tolerance};
-}
-
-RunReport runWith(
-    const Model& model, State& state, const TimePlan& plan,
-    const Observer& observer = [](const State&, const StepReport&) {}) {
-  return march(model, state, plan, {}, observer);
-}
-
-int count(const RunReport& run, const char* rung) {
-  const auto found = run.rungs.find(rung);
-  return found == run.rungs.end() ? 0 : found->second;
-}
-
-void print(const std::string& what, const RunReport& run) {
-  std::cout << what << ": " << run.steps << " steps, " << run.rejected << " rejected, " << run.guarded
-            << " guarded, " << count(run, "continuation") << " with continuation, " << count(run, "cut")
-            << " cut, " << run.iterations << " linear solves (pilot " << run.pilotIterations << ")";
-}
 
 // ---- the note's test
 
@@ -396,67 +376,6 @@ TEST(ErrorControl, stiffRampAndHold) {
   EXPECT_LE(chosen, euler + rounding);
 }
 
-// ---- stresses that follow at once
-
-/// Two blocks with lambda = 10 and a yield stress of 1, whose top moves.
-Model movedBlocks(double young, const std::function<double(double)>& path, double overlap = 0) {
-  const auto material = perzynaMaterial({young, 0.3}, {10, 1, Projection::frobenius});
-  const Function moved = [path](double, double, double t) { return path(t); };
-  Body upper("upper", square(0, 1), material, {{{left, 0, constant(0)}, {top, 1, moved}}, {}, {}});
-  Body lower("lower", square(-1 + overlap, 2), material,
-             {{{left, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}});
-  return contactModel(std::move(upper), std::move(lower), CouplingKind::mortar, upperBody);
-}
-
-double pressure(const State& state) {
-  return -toCartesian(state.bodies[0].stress.col(0))[1];
-}
-
-// The stress relaxes 1500 times within the run: it is the viscosity times the rate, and the error of backward
-// Euler that of half a step later. An estimate that takes what a steady course repeats for no error at all,
-// or adds up what relaxes, is far off.
-TEST(ErrorControl, backwardEulerKnowsItsErrorWhereStressesFollowAtOnce) {
-  constexpr double end = 10;
-  constexpr double tolerance = 5e-3;
-  constexpr int fine = 5000;
-  constexpr double settled = 0.1;  // the fine steps do not follow how the first stress builds up
-  const auto path = [](double t) { return -(3 * t + std::sin(2 * std::numbers::pi * t / 5)); };
-  const Model model = movedBlocks(3e3, path);
-  State state = initialState(model);
-  std::vector<double> exact{0};
-  runWith(model, state, {.end = end, .steps = fine, .scheme = Scheme::sdirk2},
-          [&](const State& now, const StepReport& report) {
-            if (report.step > 0) exact.push_back(pressure(now));
-          });
-  ASSERT_EQ(exact.size(), fine + 1);
-  const double largest = *std::max_element(exact.begin(), exact.end());
-  double worst = 0;
-  double errors = 0;  // sums of squares
-  double estimates = 0;
-  state = initialState(model);
-  TimePlan plan = controlled(end, tolerance, Scheme::backwardEuler);
-  plan.data = {resolve(path, 0, end)};
-  const RunReport run = runWith(model, state, plan, [&](const State& now, const StepReport& report) {
-    if (report.step == 0) worst = errors = estimates = 0;
-    if (now.time < settled) return;
-    const double at = now.time / end * fine;
-    const int i = std::min(static_cast<int>(at), fine - 1);
-    const double between = exact[i] + (at - i) * (exact[i + 1] - exact[i]);
-    const double error = std::abs(pressure(now) - between) / largest;
-    worst = std::max(worst, error);
-    errors += error * error;
-    estimates += report.estimate * report.estimate;
-  });
-  print("stress that follows at once", run);
-  const double effectivity = std::sqrt(estimates / errors);
-  std::cout << ", error " << worst << ", estimate over error " << effectivity << "\n";
-  EXPECT_EQ(run.status, Status::converged) << run.reason;
-  EXPECT_LE(worst, 1.5 * tolerance);
-  EXPECT_GE(effectivity, 0.3);
-  EXPECT_LE(effectivity, 3);
-  EXPECT_LE(run.timeError, tolerance);
-}
-
 // ---- the pilot
 
 // Bodies pass yield triangle by triangle in its first step, which is not what it is for.
@@ -476,52 +395,6 @@ TEST(ErrorControl, aPilotThatPassesYieldIsCheap) {
     EXPECT_LE(memory.run.pilotIterations, 60);
     EXPECT_GT(memory.controller.scale.displacement, 1e-3);  // elastic ones are 1e-11
   }
-}
-
-// ---- what acts in the first moment, and what time does not resolve
-
-// An overlap presses the blocks by 9 yield stresses, which relax within 1e-10 of the run.
-TEST(ErrorControl, anOverlapActsInTheFirstMoment) {
-  constexpr double tolerance = 1e-3;
-  const Model model = movedBlocks(
-      3e11, [](double) { return 0; }, 6e-11);
-  State state = initialState(model);
-  double first = 0;
-  int begun = 0;
-  const RunReport run =
-      runWith(model, state, controlled(1, tolerance), [&](const State& now, const StepReport& report) {
-        if (report.step > 0) return;
-        ++begun;
-        first = pressure(now);
-      });
-  print("overlap", run);
-  std::cout << ", estimate " << run.timeError << "\n";
-  EXPECT_EQ(run.status, Status::converged) << run.reason;
-  EXPECT_NEAR(first, 9, 1e-4);
-  EXPECT_NEAR(pressure(state), 1, 9 * tolerance);
-  EXPECT_LE(run.timeError, tolerance);
-  EXPECT_LE(begun, 3);
-  EXPECT_LE(run.steps, 300);
-}
-
-// The top jumps in the middle of the run, and the stress relaxes in less than doubles tell two times apart
-// by.
-TEST(ErrorControl, whatTimeDoesNotResolveIsNotTriedAgain) {
-  constexpr double tolerance = 1e-3;
-  const auto jump = [](double t) { return t < 0.5 ? 0.0 : -1e-12; };
-  const Model model = movedBlocks(3e15, jump);
-  State state = initialState(model);
-  TimePlan plan = controlled(1, tolerance);
-  plan.breaks = findBreaks({jump}, 0, 1);
-  int begun = 0;
-  const RunReport run = runWith(
-      model, state, plan, [&](const State&, const StepReport& report) { begun += report.step == 0 ? 1 : 0; });
-  print("unresolved jump", run);
-  std::cout << ", estimate " << run.timeError << "\n";
-  EXPECT_EQ(run.status, Status::converged) << run.reason;
-  EXPECT_GT(run.timeError, tolerance);  // which is told
-  EXPECT_EQ(begun, 1);
-  EXPECT_LE(run.steps, 300);
 }
 
 // ---- a load that reverses twenty times
