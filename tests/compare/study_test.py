@@ -45,12 +45,13 @@ cheap = {{ sweep = "SDIRK2" }}
 class Studies(StudyTest):
     def run_study(self, text, *options):
         self.path.write_text(text)
-        output = self.study(*options).stdout
+        self.output = self.study(*options).stdout
         self.orders = {(name, error): (float(order), where) for order, where, error, name in
-                       re.findall(r"^order (\S+) in (\S+) +([^:]+): (.*) \(\d+ runs\)$", output, re.M)}
-        return output
+                       re.findall(r"^order (\S+) in (\S+) +([^:]+): (.*) \(\d+ runs\)$", self.output, re.M)}
+        return self.output
 
     def assert_order(self, name, error, low, high, where):
+        self.assertIn((name, error), self.orders, f"{self.output}{(self.out / 'study.csv').read_text()}")
         order, found = self.orders[name, error]
         self.assertEqual(found, where)
         self.assertTrue(low < order < high, f"{name}, {error}: order {order}, expected {low} to {high}")
