@@ -139,7 +139,8 @@ class Restart(InFolder):
                 (ring, []),
                 (SCENE, ["time.scheme=sdirk2", "time.tolerance=1e-3", "body.lower.mesh=coarse.mesh"]))):
             with self.subTest(scene=scene, settings=settings):
-                self.mortier("mesh", "crisscross", "--cells", 4, "--lower=0,-1", "--upper", "1,0", "coarse.mesh")
+                self.mortier("mesh", "crisscross", "--cells", 4, "--lower=0,-1", "--upper", "1,0",
+                             "coarse.mesh")
                 asked = ["--set", "degree=2", "output.every=7", *settings]
                 self.run_mortier(scene, *asked, "--out", f"out/whole-{number}")
                 self.stop(scene, *asked, "--out", f"out/killed-{number}", after=8)
