@@ -109,10 +109,9 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
           "other does the estimate know the contact line");
     }
     if (scene.accuracy.energy > 0 && scene.contacts.back().variant == CouplingKind::interpolation) {
-      throw InputError(
-          scene.contacts.back().where +
-          ": contact: variant = \"interpolation\", expected mortar beside accuracy: the estimate "
-          "does not see the false stresses of interpolation");
+      throw InputError(scene.contacts.back().where + ": contact: variant = \"interpolation\", expected " +
+                       (scene.degree == 2 ? "weighted" : "mortar") +
+                       " beside accuracy: the estimate does not see the false stresses of interpolation");
     }
   }
   for (const Node* quantity : root.tables("quantity")) {
