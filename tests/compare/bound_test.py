@@ -13,7 +13,8 @@ class Bound(InFolder):
     def setUp(self):
         super().setUp()
         self.mortier("mesh", "crisscross", "--cells", "3", "upper.mesh")
-        self.mortier("mesh", "crisscross", "--cells", "4,2", "--lower", "0,-1", "--upper", "1,0", "lower.mesh")
+        self.mortier("mesh", "crisscross", "--cells", "4,2", "--lower", "0,-1", "--upper", "1,0",
+                     "lower.mesh")
 
     def bound(self, scene, *arguments):
         """Standard output and accuracy of summary.json."""
