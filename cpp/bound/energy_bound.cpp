@@ -150,6 +150,7 @@ class LoadedBody {
   [[nodiscard]] const Vector& load() const { return load_; }
   [[nodiscard]] LiftedBody lifted() const { return {body_, sides_, moduli_, displacement_}; }
   [[nodiscard]] const Oscillation& oscillation() const { return oscillation_; }
+  [[nodiscard]] bool hasCurvedSupport() const { return curvedSupport_; }
 
   /// A pressure on the side between two vertices, by its moments at the first and at the second.
   void press(const std::array<int, 2>& vertices, const Point& outward, const std::array<double, 2>& moments) {
@@ -262,6 +263,7 @@ class LoadedBody {
       for (const PrescribedDisplacement& held : body_.conditions().displacements) {
         if (held.label != label) continue;
         hold(known_[e], direction(held.component));
+        if (!holds(side, direction(held.component))) curvedSupport_ = true;
         oscillation_.addLinear(along.norm(), [&](double s) {
           return held.value(a.x() + s * along.x(), a.y() + s * along.y(), t);
         });
@@ -277,6 +279,20 @@ class LoadedBody {
         known_[e].moments[1] += (2 * value(0.5) + value(1)) * d;
       }
     }
+  }
+  /// Whether the supports of both ends of a side hold it along a direction: along a curve theirs is another
+  /// one.
+  [[nodiscard]] bool holds(const Side& side, const Point& direction) const {
+    const std::vector<NodeSupport>& supports = body_.supports().nodes();
+    return std::all_of(side.vertices.begin(), side.vertices.end(), [&](int vertex) {
+      const auto at = std::lower_bound(supports.begin(), supports.end(), vertex,
+                                       [](const NodeSupport& each, int node) { return each.node < node; });
+      if (at == supports.end() || at->node != vertex) return false;
+      return at->count == 2 || isAlong(at->directions[0], direction);
+    });
+  }
+  static bool isAlong(const Point& a, const Point& b) {
+    return std::abs(a.x() * b.y() - a.y() * b.x()) <= strict * a.norm() * b.norm();
   }
   /// Takes a direction from those in which the traction is known.
   static void hold(KnownTraction& known, const Point& direction) {
@@ -358,6 +374,7 @@ class LoadedBody {
   std::vector<Point> forces_;
   std::vector<KnownTraction> known_;
   Oscillation oscillation_;
+  bool curvedSupport_ = false;
   SideMoments moments_;
   Vector energies_;
 };
@@ -447,6 +464,8 @@ EnergyBound energyBound(const Model& model, const State& state) {
   for (size_t b = 0; b < model.bodies.size(); ++b)
     bodies.emplace_back(model, state, meshes.bodies[b], static_cast<int>(b));
 
+  for (size_t b = 0; b < bodies.size(); ++b)
+    if (bodies[b].hasCurvedSupport()) return none(model.bodies[b].name() + " is held along a curve");
   std::vector<Vector> spread = spreadPressures(model, state, meshes);
   if (!balancePressures(model, meshes, bodies, spread))
     return none(

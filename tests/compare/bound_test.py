@@ -65,6 +65,11 @@ class Bound(InFolder):
         self.assertIn("no guaranteed bound: the contact line of", done.stdout)
         self.assertIn("is not straight", done.stdout)
 
+    def test_supports_along_a_curve_have_none(self):
+        done = self.mortier("run", ROOT / "scenes" / "cut-ring.toml", "--out", "out", "--set",
+                            "accuracy.bound=true")
+        self.assertIn("no guaranteed bound: upper is held along a curve", done.stdout)
+
     def test_data_that_are_not_linear_are_named(self):
         log, accuracy = self.bound(ELASTIC.replace('"-10*t"', '"-10*t*(1 + 0.5*sin(3*x))"'))
         self.assertGreater(accuracy["bound"]["data"], 1e-3)
