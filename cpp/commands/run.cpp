@@ -145,6 +145,7 @@ int run(RunCommand command) {
   RunFacts& facts = attempt->facts;
   const bool complete = solved.report.status == Status::converged;
   facts.doubts = estimateDoubts(scene, *attempt->model);
+  if (complete && scene.accuracy.bound) solved.accuracy.bound = energyBound(*attempt->model, solved.state);
   Manifest manifest{!complete, std::move(solved.files)};
   if (rounds) {
     const std::vector<std::string> more = rounds->doubts();

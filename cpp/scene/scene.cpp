@@ -31,7 +31,14 @@ void requireInPlane(const BodyDescription& body, Plane plane) {
 }
 
 void readAccuracy(const TableReader& accuracy, SceneDescription& scene) {
-  scene.accuracy.energy = accuracy.number("energy", between(0, 1));
+  scene.accuracy.bound = accuracy.boolean("bound", false);
+  scene.accuracy.energy = scene.accuracy.bound ? accuracy.number("energy", between(0, 1), 0)
+                                               : accuracy.number("energy", between(0, 1));
+  if (scene.accuracy.energy == 0) {
+    for (const char* key : {"max_unknowns", "max_seconds"})
+      if (accuracy.find(key) != nullptr) accuracy.reject(key, "it only beside energy");
+    return;
+  }
   scene.accuracy.maxUnknowns = accuracy.number("max_unknowns", above(0), scene.accuracy.maxUnknowns);
   scene.accuracy.maxSeconds = accuracy.number("max_seconds", above(0), scene.accuracy.maxSeconds);
   if (scene.time.scheme == Scheme::crankNicolson)
