@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "base/interrupt.h"
 #include "material/stress.h"
 
 namespace mortier {
@@ -217,6 +218,7 @@ class Lifting {
   }
 
   void sweep() {
+    stopIfInterrupted();
     for (const auto& [body, vertex] : moving_) {
       for (int c = 0; c < 2; ++c) {
         const Point motion = freePart(body, vertex, Point::Unit(c));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string>
 
 namespace mortier {
 namespace {
@@ -135,13 +136,15 @@ int rowAt(const ContactInterface& interface, int vertex, const Point& normal) {
   return -1;
 }
 
-bool isStraight(const RefinedPiece& piece, const TriangleMesh& nonmortar, const TriangleMesh& mortar) {
+/// What is wrong with a piece for tractions that are equal on both sides; empty where nothing is.
+std::string faultOf(const RefinedPiece& piece, const TriangleMesh& nonmortar, const TriangleMesh& mortar) {
   const auto across = [&](const TriangleMesh& mesh, const Edge& edge) {
     const Point along = mesh.vertices[edge[1]] - mesh.vertices[edge[0]];
     return std::abs(along.dot(piece.normals[0])) <= parallel * along.norm();
   };
-  return (piece.normals[0] - piece.normals[1]).norm() <= parallel && across(nonmortar, piece.nonmortar) &&
-         across(mortar, piece.mortar);
+  if ((piece.normals[0] - piece.normals[1]).norm() > parallel || !across(nonmortar, piece.nonmortar))
+    return "is not straight";
+  return across(mortar, piece.mortar) ? "" : "is not parallel on both sides";
 }
 
 }  // namespace
@@ -164,9 +167,11 @@ MatchedMeshes matchedMeshes(const Model& model) {
     const auto& [nonmortar, mortar, coupling] = interface.pair();
     pieces.push_back(interface.pieces());
     for (const RefinedPiece& piece : pieces.back()) {
-      if (!isStraight(piece, model.bodies[nonmortar.body].mesh(), model.bodies[mortar.body].mesh())) {
+      const std::string fault =
+          faultOf(piece, model.bodies[nonmortar.body].mesh(), model.bodies[mortar.body].mesh());
+      if (!fault.empty()) {
         result.obstacle = "the contact line of " + model.bodies[nonmortar.body].name() + " and " +
-                          model.bodies[mortar.body].name() + " is not straight";
+                          model.bodies[mortar.body].name() + " " + fault;
         return result;
       }
       for (int end = 0; end < 2; ++end) {
@@ -198,8 +203,7 @@ MatchedMeshes matchedMeshes(const Model& model) {
       // A vertex without a row of its own is merged into its neighbour.
       for (int end = 0; end < 2; ++end)
         if (matched.rows[end] < 0) matched.rows[end] = matched.rows[1 - end];
-      if (matched.vertices[0][0] != matched.vertices[0][1] && matched.rows[0] >= 0)
-        result.pieces.push_back(matched);
+      if (matched.vertices[0][0] != matched.vertices[0][1]) result.pieces.push_back(matched);
     }
   }
   for (Cutter& cutter : cutters) result.bodies.push_back(cutter.take());

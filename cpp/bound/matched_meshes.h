@@ -34,7 +34,8 @@ struct MatchedPiece {
   Point normal{0, 0};                ///< outward of the nonmortar body
   std::array<double, 2> distance{};  ///< g0 at begin and end [m]
   double length = 0;                 ///< [m]
-  /// By begin and end, the rows of C whose row functions are not zero on the piece, and their values.
+  /// By begin and end, the rows of C whose row functions are not zero on the piece (-1 for
+  /// none), and their values.
   std::array<int, 2> rows{-1, -1};
   std::array<std::array<double, 2>, 2> values{};  ///< [row][begin, end]
 };
@@ -42,7 +43,7 @@ struct MatchedPiece {
 struct MatchedMeshes {
   std::vector<CutMesh> bodies;
   std::vector<MatchedPiece> pieces;
-  /// Why there are none: a line that is not straight.
+  /// Why there are none: a line that is not straight, or whose sides are not parallel.
   std::string obstacle;
 };
 

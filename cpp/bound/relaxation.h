@@ -29,6 +29,8 @@ class Relaxation {
              const std::vector<Stress>& stress, const std::vector<Point>& forces,
              const std::vector<KnownTraction>& known, SideMoments& moments);
 
+  /// Sweeps, and a direct solution where these are slow, or it costs little. \throws Interrupted
+  void relax();
   void sweep();
   /// The least energy, by a direct solution for all modes at once, after which no sweep follows: a few times
   /// a factorisation of the body, for where sweeps are slow, on triangles that are thin or of many sizes.
