@@ -125,6 +125,28 @@ double difference(const Model& model, const State& state, const Refined& fine, c
   return std::sqrt(sum);
 }
 
+TEST(EnergyBound, holdsUnderWeight) {
+  for (const Plane plane : {Plane::stress, Plane::strain}) {
+    const Elasticity elasticity{10, 0.3};
+    Model model;
+    model.bodies.emplace_back(
+        "cantilever",
+        rectangleMesh({.lower = {0, 0}, .upper = {2, 1}, .cellsX = 8, .cellsY = 4}, Cut::rising),
+        plane == Plane::strain ? planeStrainElasticMaterial(elasticity) : elasticMaterial(elasticity),
+        Conditions{{{left, 0, constant(0)}, {left, 1, constant(0)}},
+                   {},
+                   {{alongX, constant(0.05)}, {alongY, constant(-0.1)}}});
+    const auto [state, report] = run(model, 1, 1);
+    const EnergyBound bound = energyBound(model, state);
+    ASSERT_EQ(bound.obstacle, "");
+    const Refined fine = refined(model, 3);
+    const auto [fineState, fineReport] = run(fine.model, 1, 1);
+    const double error = difference(model, state, fine, fineState);
+    EXPECT_GE(bound.bound, error);
+    EXPECT_LE(bound.bound, 1.1 * error);
+  }
+}
+
 TEST(EnergyBound, isAboveTheErrorOfRandomScenes) {
   const char* asked = std::getenv("MORTIER_RANDOM_BOUNDS");
   const unsigned count = asked ? static_cast<unsigned>(std::atoi(asked)) : 25;
