@@ -6,6 +6,7 @@ written, 2 wrong input.
 import argparse
 import os
 import sys
+import threading
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -68,7 +69,12 @@ def study(given, say):
 
 def main():
     given = arguments()
-    say = (lambda line: None) if given.quiet else lambda line: print(shown(line), flush=True)
+    alone = threading.Lock()  # runs tell their ends at the same time, and Python's print is not made for that
+
+    def say(line):
+        if not given.quiet:
+            with alone:
+                print(shown(line), flush=True)
     return code_of(lambda: study(given, say), given.study, expected="a study (docs/study.md)",
                    kept="finished runs are kept", place=given.out or "out")
 
