@@ -73,7 +73,7 @@ class Studies(StudyTest):
 
     def test_results_read_at_the_same_time_leave_standard_output_as_it_was(self):
         run = self.folder / "run"
-        mortier("run", STUDIES.parent / "exact-contact.toml", "--out", run, "--quiet", "--set", "time.steps=1")
+        mortier("run", STUDIES.parent / "exact-contact.toml", "--out", run, "--set", "time.steps=1")
         field = next(run.glob("*.vtu"))
         with concurrent.futures.ThreadPoolExecutor(4) as pool:
             out = sys.stdout
