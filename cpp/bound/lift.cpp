@@ -76,7 +76,6 @@ class Lifting {
 
   void collect(const Model& model, const std::vector<MatchedPiece>& pieces,
                const std::vector<std::array<double, 2>>& pressure) {
-    std::map<std::array<int, 5>, int> known;  // interface, vertices, sign of the normal at corners
     for (size_t k = 0; k < pieces.size(); ++k) {
       const MatchedPiece& piece = pieces[k];
       const auto& [nonmortar, mortar, coupling] = model.interfaces[piece.interface].pair();

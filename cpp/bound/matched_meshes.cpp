@@ -20,17 +20,15 @@ using Edge = std::array<int, 2>;
 /// first.
 class Cuts {
  public:
-  /// \returns the part itself, or that of the point that is there already
-  double add(Edge edge, double part) {
+  void add(Edge edge, double part) {
     if (edge[0] > edge[1]) {
       std::swap(edge[0], edge[1]);
       part = 1 - part;
     }
-    if (part <= samePoint || part >= 1 - samePoint) return part;
+    if (part <= samePoint || part >= 1 - samePoint) return;
     std::set<double>& parts = parts_[edge];
     const auto above = parts.lower_bound(part - samePoint);
     if (above == parts.end() || *above > part + samePoint) parts.insert(part);
-    return part;
   }
   [[nodiscard]] const std::map<Edge, std::set<double>>& all() const { return parts_; }
 

@@ -3,19 +3,13 @@ import json
 import unittest
 
 from scenes import TWO_BLOCKS
-from support import ROOT, InFolder
+from support import ROOT, OfTwoBlocks
 
 ELASTIC = TWO_BLOCKS.replace(', viscosity = 10, yield_stress = 1, projection = "elasticity"', "")
 BOUND = "\n[accuracy]\nbound = true\n"
 
 
-class Bound(InFolder):
-    def setUp(self):
-        super().setUp()
-        self.mortier("mesh", "crisscross", "--cells", "3", "upper.mesh")
-        self.mortier("mesh", "crisscross", "--cells", "4,2", "--lower", "0,-1", "--upper", "1,0",
-                     "lower.mesh")
-
+class Bound(OfTwoBlocks):
     def bound(self, scene, *arguments):
         """Standard output and accuracy of summary.json."""
         self.write(scene + BOUND)
