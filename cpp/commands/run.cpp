@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "commands/attempt.h"
+#include "commands/bound_of.h"
 #include "commands/complain.h"
 #include "commands/exit_code.h"
 #include "commands/solve.h"
@@ -60,20 +61,6 @@ void tell(Log& log, const RunFacts& facts, const Model& model, const Solved& sol
   log.print(logTimeError(facts, solved.report));
   log.print(logPeaks(solved.report.peaks, solved.last));
   log.print(logQuantities(facts.quantities, evaluate(facts.quantities, model, solved.state)));
-}
-
-/// A bound of the error; what stops it does not take the result away.
-EnergyBound boundOf(const Model& model, const State& state) {
-  const KeepsResult keeps;
-  EnergyBound none;
-  try {
-    return energyBound(model, state);
-  } catch (const Interrupted&) {
-    none.obstacle = "interrupted";
-  } catch (const std::bad_alloc&) {
-    none.obstacle = "there is no memory for it";
-  }
-  return none;
 }
 
 }  // namespace
@@ -159,7 +146,8 @@ int run(RunCommand command) {
   RunFacts& facts = attempt->facts;
   const bool complete = solved.report.status == Status::converged;
   facts.doubts = estimateDoubts(scene, *attempt->model);
-  if (complete && scene.accuracy.bound) solved.accuracy.bound = boundOf(*attempt->model, solved.state);
+  if (complete && scene.accuracy.bound && !solved.accuracy.bound)
+    solved.accuracy.bound = boundOf(*attempt->model, solved.state);
   Manifest manifest{!complete, std::move(solved.files)};
   if (rounds) {
     const std::vector<std::string> more = rounds->doubts();

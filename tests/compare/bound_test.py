@@ -69,6 +69,19 @@ class Bound(OfTwoBlocks):
         self.assertGreater(accuracy["bound"]["data"], 1e-3)
         self.assertIn("for data that are linear on sides", log)
 
+    def test_rounds_end_on_the_bound(self):
+        scene = ROOT / "scenes" / "eccentric-punch.toml"
+        unknowns = []
+        for bound in ("false", "true"):
+            self.mortier("run", scene, "--out", bound, "--accuracy", "0.13", "--set",
+                         f"accuracy.bound={bound}")
+            summary = json.loads(self.read(f"{bound}/summary.json"))
+            self.assertTrue(summary["accuracy"]["reached"])
+            unknowns.append(summary["rounds"][-1]["unknowns"])
+        self.assertTrue(0.06 < summary["accuracy"]["bound"]["energy_error"] < 0.13)
+        # The estimate alone is content with coarser meshes.
+        self.assertGreater(unknowns[1], 1.2 * unknowns[0])
+
     def test_wrong_values_are_refused(self):
         for text, message in [("bound = 1", "bound = 1, expected true or false"),
                               ("bound = true\nmax_unknowns = 5", "max_unknowns = 5"),

@@ -1,0 +1,11 @@
+// The bound of the error of a run's last state (bound/energy_bound.h).
+#pragma once
+
+#include "bound/energy_bound.h"
+
+namespace mortier {
+
+/// What stops it, an interruption or a lack of memory, is its obstacle: it does not take the result away.
+EnergyBound boundOf(const Model& model, const State& state);
+
+}  // namespace mortier
