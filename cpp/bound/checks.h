@@ -1,6 +1,6 @@
-// What makes a bound strict, read off the finished fields, whatever way led to them: stresses in equilibrium in
-// every part of every triangle and with the loads, the same pressure and no shear on both sides of a contact
-// line, a pressure that is nowhere negative, a displacement that penetrates nowhere.
+// What makes a bound strict, read off the finished fields, whatever way led to them: stresses in equilibrium
+// in every part of every triangle and with the loads, the same pressure and no shear on both sides of a
+// contact line, a pressure that is nowhere negative, a displacement that penetrates nowhere.
 #pragma once
 
 #include <array>
@@ -23,8 +23,8 @@ struct Imbalance {
 Imbalance imbalanceOf(const TriangleMesh& mesh, const Sides& sides, const SideMoments& moments,
                       const std::vector<Point>& forces, const std::vector<KnownTraction>& known);
 
-/// How far the moments of the tractions on both sides of a piece of a contact line are from those of a pressure:
-/// `above` on the body whose outward normal is that of the piece [N/m].
+/// How far the moments of the tractions on both sides of a piece of a contact line are from those of a
+/// pressure: `above` on the body whose outward normal is that of the piece [N/m].
 double mismatchOf(const MatchedPiece& piece, const std::array<double, 2>& pressure,
                   const std::array<Point, 2>& above, const std::array<Point, 2>& below);
 

@@ -4,7 +4,7 @@
 //
 // backward Euler's stresses s_n, linear between the steps, and their flow G(s_n) are
 //
-//   |s - sigma|^2/2 <= A,    ||eps_p,h - eps_p||^2 <= T_f A/lambda    (energy norm; mean square, not averaged)
+//   |s - sigma|^2/2 <= A,    ||eps_p,h - eps_p||^2 <= T_f A/lambda     (energy norm; norm in L^2)
 //   A = sum over steps and points of  |T| k |d|^2 (1 - (1 - x)^3)/(12 lambda),    d = s_n - s_(n-1),
 //   x = 2 lambda (G(s_n) - G(s_(n-1))) : d / |d|^2,  0 <= x <= 1,
 //

@@ -81,7 +81,7 @@ void requireFits(const Checkpoint& checkpoint, const Model& model, const std::st
           "error in time");
   require(isTime(accuracy.energy) && isTime(accuracy.error) && isTime(accuracy.time) &&
               isTime(accuracy.flow.begin) && isTime(accuracy.flow.misfit) && isTime(accuracy.flow.opening) &&
-              accuracy.flow.growth >= 1,
+              accuracy.flow.growth >= 0,
           "accuracy");
   require(isStatus(last.status) && isStatus(memory.run.status), "status");
 }

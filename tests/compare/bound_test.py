@@ -57,8 +57,9 @@ class Bound(OfTwoBlocks):
         flowing = TWO_BLOCKS.replace('"elasticity"', '"frobenius"')
         log, accuracy = self.bound(flowing, "--set", "time.steps=20")
         found = accuracy["bound"]["time"]
-        self.assertIn("guaranteed in time: viscoplastic strain to "
-                      f"{100 * found['viscoplastic_strain']:.2g} %, contact closed and open as in the run\n", log)
+        strain = 100 * found["viscoplastic_strain"]
+        self.assertIn(f"guaranteed in time: viscoplastic strain to {strain:.2g} %, "
+                      "contact closed and open as in the run\n", log)
         # About 1/2 of a step over the time of flow: the rate is that of the end of a step.
         self.assertAlmostEqual(found["viscoplastic_strain"], 1.17 / 18, delta=0.1 / 18)
         self.assertGreater(found["any_contact"]["viscoplastic_strain"], found["viscoplastic_strain"])
