@@ -30,6 +30,7 @@ class Lifting {
           const std::vector<std::array<double, 2>>& pressure)
       : bodies_(bodies) {
     for (const LiftedBody& each : bodies) {
+      displacements_.push_back(each.displacement);
       strains_.emplace_back(each.body.mesh().triangles.size(), Eigen::Vector3d::Zero());
       near_.emplace_back(each.body.nodes(), 0);
       facingAt_.emplace_back(each.body.nodes());
@@ -68,6 +69,7 @@ class Lifting {
       lift.gap += each.weight * each.gap;
       lift.leastGap = std::min(lift.leastGap, each.gap);
     }
+    lift.displacements = displacements_;
     return lift;
   }
 
@@ -144,6 +146,7 @@ class Lifting {
 
   void apply(const std::vector<Step>& steps, double amount) {
     for (const Step& step : steps) {
+      displacements_[step.body].segment<2>(2 * step.vertex) -= amount * step.motion;
       for (const int t : bodies_[step.body].sides.trianglesAt(step.vertex))
         strains_[step.body][t] += amount * strainOf(step.body, t, step.vertex, step.motion);
       for (const int at : facingAt_[step.body][step.vertex]) facing_[at].gap += amount * opening(at, step);
@@ -250,6 +253,7 @@ class Lifting {
   std::vector<std::vector<int>> supportOf_;
   std::vector<std::vector<std::vector<int>>> facingAt_;  ///< by bodies and vertices
   std::vector<Facing> facing_;
+  std::vector<Vector> displacements_;  ///< u^ by bodies
   struct Moving {
     int body, vertex;
   };

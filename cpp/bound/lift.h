@@ -16,10 +16,11 @@
 namespace mortier {
 
 struct Lift {
-  std::vector<Vector> energies;  ///< |w|_E^2 by bodies and triangles of the matched meshes [J/m]
-  double gap = 0;                ///< integral of p^ G [J/m]
-  double leastGap = 0;           ///< of u^, at a vertex [m]; not negative
-  std::string obstacle;          ///< why there is none
+  std::vector<Vector> displacements;  ///< u^ by bodies
+  std::vector<Vector> energies;       ///< |w|_E^2 by bodies and triangles of the matched meshes [J/m]
+  double gap = 0;                     ///< integral of p^ G [J/m]
+  double leastGap = 0;                ///< of u^, at a vertex [m]; not negative
+  std::string obstacle;               ///< why there is none
 };
 
 struct LiftedBody {

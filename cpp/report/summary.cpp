@@ -109,6 +109,25 @@ Json jsonOf(const EnergyBound& bound) {
           {"data", bound.oscillation}};
 }
 
+Json jsonOf(const FlowBound& bound) {
+  if (!bound.obstacle.empty()) return {{"viscoplastic_strain", nullptr}, {"reason", bound.obstacle}};
+  const auto over = [](double error, double norm) {
+    return error == 0 ? Json(0.0) : error < norm ? Json(error / (norm - error)) : Json(nullptr);
+  };
+  const auto all = [&](double factor) {
+    return Json{{"viscoplastic_strain", over(factor * bound.strain, bound.strainNorm)},
+                {"stress", over(factor * bound.stress, bound.stressNorm)}};
+  };
+  Json json = {{"viscoplastic_strain", nullptr}, {"stress", nullptr}};
+  if (bound.moved.empty())
+    json = all(1);
+  else
+    json["reason"] = bound.moved;
+  json["any_contact"] = std::isfinite(bound.factor) ? all(bound.factor) : Json(nullptr);
+  json["data"] = bound.data;
+  return json;
+}
+
 Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy) {
   Json bodies = Json::object();
   for (size_t b = 0; b < model.bodies.size(); ++b) bodies[model.bodies[b].name()] = accuracy.bodies[b];
@@ -119,6 +138,7 @@ Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy)
   if (!accuracy.worstBody.empty())
     json["largest"] = {{"body", accuracy.worstBody}, {"at", {accuracy.worst[0], accuracy.worst[1]}}};
   if (accuracy.bound) json["bound"] = jsonOf(*accuracy.bound);
+  if (accuracy.bound && accuracy.flow) json["bound"]["time"] = jsonOf(*accuracy.flow);
   return json;
 }
 
