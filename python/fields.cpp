@@ -27,9 +27,6 @@ struct Contact {
     if (!found) found = contactFields(*from.of->model, from.state, interface);
     return *found;
   }
-  [[nodiscard]] py::array column(const Vector& values) const {
-    return view(values.data(), {values.size()}, step);
-  }
 };
 
 const CellFields& cellsOf(Step& step, size_t body) {
@@ -58,6 +55,11 @@ auto byBodies(OfBody array) {
   };
 }
 
+/// A vector, of Eigen's or of the standard library.
+template <class Values>
+py::array column(const Values& values, py::handle owner) {
+  return view(values.data(), {static_cast<Size>(values.size())}, owner);
+}
 py::array rowsOf(const Matrix& m, py::handle owner) {
   return view(m.data(), {m.cols(), m.rows()}, owner);
 }
@@ -76,85 +78,71 @@ void bindFields(py::module_& module) {
   const auto nodesOf = [](const Step& step, size_t b) -> const ElementNodes& {
     return step.of->model->bodies[b].elementNodes();
   };
-  py::class_<Step, std::shared_ptr<Step>>(module, "Step")
-      .def_property_readonly("number", [](const Step& step) { return step.report.step; })
-      .def_property_readonly("time", [](const Step& step) { return step.state.time; })
-      .def_property_readonly(
-          "values",
-          [](const Step& step) { return namedValues(historyColumns(step.of->facts.quantities), step.row); })
-      .def_property_readonly(
-          "points", byBodies([nodesOf](Step& step, size_t b, py::handle self) {
-            const std::vector<Point>& places = nodesOf(step, b).places;
-            return view(places.front().data(), {static_cast<Size>(places.size()), 2}, self);
-          }))
-      .def_property_readonly("triangles", byBodies([nodesOf](Step& step, size_t b, py::handle self) {
-                               const ElementNodes& nodes = nodesOf(step, b);
-                               const Size width = nodes.perTriangle();
-                               const auto count = static_cast<Size>(nodes.triangles.size()) / width;
-                               return view(nodes.triangles.data(), {count, width}, self);
-                             }))
-      .def_property_readonly("regions", byBodies([](Step& step, size_t b, py::handle self) {
-                               const std::vector<int>& regions = step.of->model->bodies[b].mesh().regions;
-                               return view(regions.data(), {static_cast<Size>(regions.size())}, self);
-                             }))
-      .def_property_readonly("displacement", byBodies([](Step& step, size_t b, py::handle self) {
-                               const Vector& u = step.state.bodies[b].displacement;
-                               return view(u.data(), {u.size() / 2, 2}, self);
-                             }))
-      .def_property_readonly("stress", byBodies([](Step& step, size_t b, py::handle self) {
-                               return rowsOf(cellsOf(step, b).stress, self);
-                             }))
-      .def_property_readonly(
-          "stress_at_points", byBodies([](Step& step, size_t b, py::handle self) {
-            const CellFields& cells = cellsOf(step, b);
-            const Size width = cells.stress.rows();
-            const Size points = cells.stressAtPoints.rows() / width;
-            return view(cells.stressAtPoints.data(), {cells.stressAtPoints.cols(), points, width}, self);
-          }))
-      .def_property_readonly("von_mises", byBodies([](Step& step, size_t b, py::handle self) {
-                               const Vector& s = cellsOf(step, b).vonMises;
-                               return view(s.data(), {s.size()}, self);
-                             }))
-      .def_property_readonly("viscoplastic_strain", byBodies([](Step& step, size_t b, py::handle self) {
-                               return rowsOf(cellsOf(step, b).viscoplasticStrain, self);
-                             }))
-      .def_property_readonly("viscoplastic", byBodies([](Step& step, size_t b, py::handle self) {
-                               const std::vector<int>& flows = cellsOf(step, b).viscoplastic;
-                               return view(flows.data(), {static_cast<Size>(flows.size())}, self);
-                             }))
-      .def_property_readonly("error", byBodies([](Step& step, size_t b, py::handle self) {
-                               const Vector& error = errorsOf(step)[b];
-                               return view(error.data(), {error.size()}, self);
-                             }))
-      .def_property_readonly("contact", [](const py::object& self) {
-        std::vector<Contact> all;
-        const size_t count = self.cast<Step&>().state.contactForce.size();
-        for (size_t k = 0; k < count; ++k) all.push_back({self, k});
-        return all;
-      });
+  py::class_<Step, std::shared_ptr<Step>> step(module, "Step");
+  step.def_property_readonly("number", [](const Step& of) { return of.report.step; });
+  step.def_property_readonly("time", [](const Step& of) { return of.state.time; });
+  step.def_property_readonly(
+      "values", [](const Step& of) { return namedValues(historyColumns(of.of->facts.quantities), of.row); });
+  const auto field = [&step](const char* name, OfBody array) {
+    step.def_property_readonly(name, byBodies(std::move(array)));
+  };
+  field("points", [nodesOf](Step& of, size_t b, py::handle self) {
+    const std::vector<Point>& places = nodesOf(of, b).places;
+    return view(places.front().data(), {static_cast<Size>(places.size()), 2}, self);
+  });
+  field("triangles", [nodesOf](Step& of, size_t b, py::handle self) {
+    const ElementNodes& nodes = nodesOf(of, b);
+    const Size width = nodes.perTriangle();
+    return view(nodes.triangles.data(), {static_cast<Size>(nodes.triangles.size()) / width, width}, self);
+  });
+  field("regions", [](Step& of, size_t b, py::handle self) {
+    return column(of.of->model->bodies[b].mesh().regions, self);
+  });
+  field("displacement", [](Step& of, size_t b, py::handle self) {
+    const Vector& u = of.state.bodies[b].displacement;
+    return view(u.data(), {u.size() / 2, 2}, self);
+  });
+  field("stress", [](Step& of, size_t b, py::handle self) { return rowsOf(cellsOf(of, b).stress, self); });
+  field("stress_at_points", [](Step& of, size_t b, py::handle self) {
+    const CellFields& cells = cellsOf(of, b);
+    const Matrix& s = cells.stressAtPoints;
+    return view(s.data(), {s.cols(), s.rows() / cells.stress.rows(), cells.stress.rows()}, self);
+  });
+  field("von_mises",
+        [](Step& of, size_t b, py::handle self) { return column(cellsOf(of, b).vonMises, self); });
+  field("viscoplastic_strain",
+        [](Step& of, size_t b, py::handle self) { return rowsOf(cellsOf(of, b).viscoplasticStrain, self); });
+  field("viscoplastic",
+        [](Step& of, size_t b, py::handle self) { return column(cellsOf(of, b).viscoplastic, self); });
+  field("error", [](Step& of, size_t b, py::handle self) { return column(errorsOf(of)[b], self); });
+  step.def_property_readonly("contact", [](const py::object& self) {
+    std::vector<Contact> all;
+    const size_t count = self.cast<Step&>().state.contactForce.size();
+    for (size_t k = 0; k < count; ++k) all.push_back({self, k});
+    return all;
+  });
 
   const auto bodyOf = [](const Contact& c, ContactSide ContactPair::*side) {
     const Model& model = *c.of().of->model;
     return model.bodies[(model.interfaces[c.interface].pair().*side).body].name();
   };
-  py::class_<Contact>(module, "Contact")
-      .def_property_readonly("nonmortar",
-                             [bodyOf](const Contact& c) { return bodyOf(c, &ContactPair::nonmortar); })
-      .def_property_readonly("mortar", [bodyOf](const Contact& c) { return bodyOf(c, &ContactPair::mortar); })
-      .def_property_readonly("vertex",
-                             [](const Contact& c) {
-                               const std::vector<int>& v = c.fields().vertex;
-                               return view(v.data(), {static_cast<Size>(v.size())}, c.step);
-                             })
-      .def_property_readonly("position",
-                             [](const Contact& c) {
-                               const std::vector<Point>& p = c.fields().place;
-                               const double* data = p.empty() ? nullptr : p.front().data();
-                               return view(data, {static_cast<Size>(p.size()), 2}, c.step);
-                             })
-      .def_property_readonly("gap", [](const Contact& c) { return c.column(c.fields().gap); })
-      .def_property_readonly("force", [](const Contact& c) { return c.column(c.fields().force); })
-      .def_property_readonly("pressure", [](const Contact& c) { return c.column(c.fields().pressure); });
+  py::class_<Contact> contact(module, "Contact");
+  contact.def_property_readonly("nonmortar",
+                                [bodyOf](const Contact& c) { return bodyOf(c, &ContactPair::nonmortar); });
+  contact.def_property_readonly("mortar",
+                                [bodyOf](const Contact& c) { return bodyOf(c, &ContactPair::mortar); });
+  const auto nodal = [&contact](const char* name, auto ContactFields::*values) {
+    contact.def_property_readonly(name,
+                                  [values](const Contact& c) { return column(c.fields().*values, c.step); });
+  };
+  nodal("vertex", &ContactFields::vertex);
+  nodal("gap", &ContactFields::gap);
+  nodal("force", &ContactFields::force);
+  nodal("pressure", &ContactFields::pressure);
+  contact.def_property_readonly("position", [](const Contact& c) {
+    const std::vector<Point>& p = c.fields().place;
+    return view(p.empty() ? nullptr : p.front().data(), {static_cast<Size>(p.size()), 2}, c.step);
+  });
 }
 
 }  // namespace mortier::python

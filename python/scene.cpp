@@ -26,9 +26,8 @@ using Integers = py::array_t<long long, py::array::c_style | py::array::forcecas
 void require(bool holds, const std::string& of, const std::string& what, const py::array& is,
              const std::string& expected) {
   if (holds) return;
-  std::string shape;
-  for (py::ssize_t d = 0; d < is.ndim(); ++d) shape += (d > 0 ? ", " : "") + std::to_string(is.shape(d));
-  throw InputError(of + ": " + what + " of shape (" + shape + "), expected " + expected);
+  throw InputError(of + ": " + what + " of shape " + std::string(py::str(is.attr("shape"))) + ", expected " +
+                   expected);
 }
 
 int vertexOf(long long value, const std::string& of, const char* what) {

@@ -400,7 +400,8 @@ class Page(InFolder):
         text = (ROOT / "docs" / "python.md").read_text()
         for rows, of in zip(re.findall(r"^\| of a (?:run|step) .*\n\|.*\n((?:\|.*\n)+)", text, re.M),
                             (run, run.last)):
-            names = [name for row in rows.splitlines() for name in re.findall(r"`(\w+)[`(]", row.split("|")[1])]
+            cells = [row.split("|")[1] for row in rows.splitlines()]
+            names = [name for cell in cells for name in re.findall(r"`(\w+)[`(]", cell)]
             self.assertGreater(len(names), 8)
             for name in names:
                 if name not in ("contact", "vertex", "gap", "force", "pressure", "position"):
