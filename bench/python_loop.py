@@ -13,8 +13,6 @@ import tempfile
 import time
 from pathlib import Path
 
-import mortier
-
 ROOT = Path(__file__).resolve().parents[1]
 SCENE = ROOT / "scenes" / "compression.toml"
 
@@ -28,6 +26,7 @@ def over_the_program(program, load, folder):
 
 
 def in_one_process(load):
+    import mortier  # --help does without
     scene = mortier.load(SCENE, set={"time.steps": 10, "body.upper.boundary.3.ty": load})
     return scene.run().history["contact_force"][-1]
 

@@ -377,13 +377,14 @@ class Shown(OfTwoBlocks):
 
 
 class Page(InFolder):
-    """docs/python.md"""
+    """docs/python.md, and what the README shows."""
 
     def test_every_example(self):
         for name in ("scenes", "shared-meshes"):
             shutil.copytree(ROOT / name, self.folder / name)
-        blocks = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs" / "python.md").read_text(), re.M | re.S)
-        self.assertGreaterEqual(len(blocks), 5)
+        blocks = [block for page in ("docs/python.md", "README.md")
+                  for block in re.findall(r"^```python\n(.*?)^```", (ROOT / page).read_text(), re.M | re.S)]
+        self.assertGreaterEqual(len(blocks), 6)
         done = subprocess.run([sys.executable, "-c", "\n".join(blocks)], cwd=self.folder, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               env={**os.environ, "PYTHONPATH": str(PACKAGE.parent)})
