@@ -1,5 +1,9 @@
 #include "solution.h"
 
+#include <cmath>
+#include <mutex>
+#include <shared_mutex>
+
 #include "adapt/rounds.h"
 #include "base/interrupt.h"
 #include "commands/solve_rounds.h"
@@ -11,6 +15,9 @@
 namespace mortier::python {
 
 namespace {
+
+/// Of max_seconds there is one in the process (base/interrupt.h): a run that has them has no other beside it.
+std::shared_mutex timeLimit;
 
 /// What a march leaves behind.
 struct Record {
@@ -115,6 +122,12 @@ std::vector<std::pair<std::string, HistoryColumn>> columnsOf(const Attempt& atte
 
 Solution solveScene(const Scene& scene, const RunOptions& options,
                     const std::function<void(std::shared_ptr<Step>)>& onStep) {
+  std::unique_lock alone(timeLimit, std::defer_lock);
+  std::shared_lock besideOthers(timeLimit, std::defer_lock);
+  if (std::isfinite(scene.resolved.description.accuracy.maxSeconds))
+    alone.lock();
+  else
+    besideOthers.lock();
   beginClock();
   ResolvedScene resolved = scene.resolved;
   std::optional<Rounds> rounds;
@@ -137,11 +150,17 @@ Solution solveScene(const Scene& scene, const RunOptions& options,
       if (report.step == 0) record = {};
       if (report.step > 0)
         record.rows.push_back(historyRow(report, evaluate(now.facts.quantities, *now.model, state)));
-      if (onStep)
-        onStep(std::make_shared<Step>(Step{
-            attempt, report, report.step > 0 ? record.rows.back() : std::vector<HistoryValue>(), state}));
-      else if (every > 0 && report.step % every == 0)
+      if (onStep) {
         record.keep(report, state);
+        record.kept.back().of = attempt;
+        const auto step = std::make_shared<Step>(std::move(record.kept.back()));
+        record.kept.clear();
+        besideOthers.unlock();
+        onStep(step);
+        besideOthers.lock();
+      } else if (every > 0 && report.step % every == 0) {
+        record.keep(report, state);
+      }
       if (alsoObserve) alsoObserve(state, report);
     };
     now.solved = output ? output->solve(now, observe) : solveInMemory(now, observe);

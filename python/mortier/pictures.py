@@ -86,6 +86,9 @@ def seen(run: Run, step: _core.Step) -> tuple[Any, Any]:
                  "error": step.error[name]}
         bodies[name] = results.Body(step.displacement[name], step.stress[name], step.points[name],
                                     step.triangles[name][:, :3], cells=cells)
+        if step.triangles[name].shape[1] == 6:
+            bodies[name].elements = step.triangles[name]
+            bodies[name].stress_at_points = step.stress_at_points[name]
     sides = step.contact
     contact = results.contact_of([])
     if sides:

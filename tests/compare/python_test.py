@@ -110,6 +110,27 @@ class AsTheProgram(InSharedFolder):
         for name in set(names) - {"summary.json", "manifest.json"}:
             self.assertEqual((ours / name).read_bytes(), (theirs / name).read_bytes(), name)
 
+    def test_pictures_see_what_the_files_hold(self):
+        from mortier import pictures
+        for name in ("degree-2", "viscoplastic"):
+            scene, changes = CASES[name]
+            run = mortier.load(SCENES / scene, set=changes).run(self.folder / f"seen-{name}")
+            read = pictures.views()["runs"].Result(run.folder)
+            result, ours = pictures.seen(run, run.last)
+            self.assertEqual((result.bodies, result.interfaces, result.kept, list(result.history)),
+                             (read.bodies, read.interfaces, read.kept, list(read.history)))
+            theirs = read.at(run.last.number)
+            for body, other in theirs.bodies.items():
+                for field, values in vars(other).items():
+                    mine = getattr(ours.bodies[body], field)
+                    for key in values if field == "cells" else ():
+                        if key in mine:
+                            np.testing.assert_array_equal(mine[key], values[key], key)
+                    if field != "cells":
+                        np.testing.assert_array_equal(mine, values, field)
+            for field, values in vars(theirs.contact).items():
+                np.testing.assert_array_equal(getattr(ours.contact, field), values, field)
+
     def test_steps_are_those_of_a_run(self):
         for name in ("mortar", "viscoplastic"):
             scene, changes = CASES[name]
@@ -298,13 +319,6 @@ class Threads(OfTwoBlocks):
     def test_others_work_meanwhile(self):
         counted = 0
         over = threading.Event()
-
-        def run():
-            try:
-                self.scene().run()
-            except KeyboardInterrupt:
-                pass
-            over.set()
 
         def count():
             nonlocal counted
