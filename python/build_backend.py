@@ -10,7 +10,6 @@ import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-BUILD = ROOT / "build-wheel"
 VERSION = re.search(r"^project\(mortier VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), re.M)[1]
 METADATA = f"""\
 Metadata-Version: 2.1
@@ -27,18 +26,21 @@ Requires-Dist: meshio; extra == "plot"
 SHARED = ("views", "compare")  # what draws pictures
 
 
-def build_package():
-    """The folder of the package."""
+def build_package(settings):
+    """The folder of the package. --config-settings build=FOLDER: it is built there, with the options that the
+    folder has."""
+    build = ROOT / (settings or {}).get("build", "build-wheel")
     configure = ["-DMORTIER_PYTHON=ON", "-DMORTIER_TESTS=OFF", "-DMORTIER_BENCH=OFF",
                  f"-DPython_EXECUTABLE={sys.executable}"]
-    subprocess.run(["cmake", "-S", ROOT, "-B", BUILD, *configure], check=True)
-    subprocess.run(["cmake", "--build", BUILD, "--target", "mortier-python-package",
+    if not (build / "CMakeCache.txt").exists():
+        subprocess.run(["cmake", "-S", ROOT, "-B", build, *configure], check=True)
+    subprocess.run(["cmake", "--build", build, "--target", "mortier-python-package",
                     "--parallel", str(os.cpu_count())], check=True)
-    return BUILD / "python" / "mortier"
+    return build / "python" / "mortier"
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    package = build_package()
+    package = build_package(config_settings)
     files = {f"mortier/{path.name}": path.read_bytes() for path in package.iterdir() if path.is_file()}
     for folder in SHARED:
         for path in (ROOT / folder).glob("*.py"):

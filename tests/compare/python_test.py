@@ -12,6 +12,7 @@ import threading
 import time
 import unittest
 import warnings
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -421,6 +422,42 @@ class Page(InFolder):
             for name in names:
                 if name not in ("contact", "vertex", "gap", "force", "pressure", "position"):
                     self.assertTrue(hasattr(of, name), name)
+
+
+class Installed(InSharedFolder):
+    """What `cmake --install` puts in place, and a wheel of what is built."""
+
+    def use(self, *places):
+        """A run and a picture by a Python that sees nothing of the source tree."""
+        text = ("import sys, mortier\n"
+                f"run = mortier.load({str(SCENES / 'compression.toml')!r}, set={{'time.steps': 2}}).run()\n"
+                "print(mortier.__file__, run.contact[0].pressure.max(), len(run.plot().axes))\n")
+        done = subprocess.run([sys.executable, "-c", text], cwd=self.folder, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True,
+                              env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, places))})
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertTrue(done.stdout.startswith(str(places[0])), done.stdout)
+        self.assertRegex(done.stdout, r" (10\.0\d*|9\.99\d*) 3$")
+
+    def test_cmake_says_where_it_is(self):
+        prefix = self.folder / "prefix"
+        done = subprocess.run(["cmake", "--install", PACKAGE.parents[1], "--prefix", prefix], text=True,
+                              check=True, stdout=subprocess.PIPE)
+        self.use(re.search(r"^-- For import mortier: PYTHONPATH=(.*)$", done.stdout, re.M)[1])
+
+    def test_a_wheel(self):
+        text = f"import build_backend\nprint(build_backend.build_wheel({str(self.folder)!r}, " \
+               f"{{'build': {str(PACKAGE.parents[1])!r}}}))"
+        done = subprocess.run([sys.executable, "-c", text], cwd=ROOT / "python", text=True, check=True,
+                              stdout=subprocess.PIPE)
+        name = done.stdout.splitlines()[-1]
+        self.assertRegex(name, r"^mortier-[\d.]+-cp3\d+-cp3\d+-linux_\w+\.whl$")
+        with zipfile.ZipFile(self.folder / name) as wheel:
+            wheel.extractall(self.folder / "wheel")
+            record = next(each for each in wheel.namelist() if each.endswith("RECORD"))
+            listed = [row[0] for row in csv.reader(wheel.read(record).decode().splitlines())]
+            self.assertEqual(sorted(listed), sorted(wheel.namelist()))
+        self.use(self.folder / "wheel")
 
 
 class Types(unittest.TestCase):
