@@ -304,15 +304,23 @@ class Threads(OfTwoBlocks):
     def scene(self):
         return mortier.load(self.folder / "scene.toml", set=LONG)
 
-    def interrupted(self, work):
-        """Ctrl-C half a second after it begins."""
-        timer = threading.Timer(0.5, _thread.interrupt_main)
+    def interrupted(self, work, begun=lambda: True):
+        """Ctrl-C half a second after it begins, or as soon as it has begun."""
+        over = threading.Event()
+
+        def interrupt():
+            while not begun() and not over.is_set():
+                time.sleep(1e-3)
+            if not over.is_set():
+                _thread.interrupt_main()
+        timer = threading.Timer(0 if begun() is False else 0.5, interrupt)
         timer.start()
         begin = time.monotonic()
         try:
             with self.assertRaises(KeyboardInterrupt) as told:
                 work()
         finally:
+            over.set()
             timer.cancel()
         self.assertLess(time.monotonic() - begin, 30)
         return told.exception
@@ -344,7 +352,9 @@ class Threads(OfTwoBlocks):
         settings = {"time.steps": 3000}
         scene = mortier.load(self.folder / "scene.toml", set=settings)
         for _ in range(2):  # the second run takes the place of the first
-            error = self.interrupted(lambda: scene.run(out))
+            seen = set(self.folder.glob("out.tmp-*/checkpoint*"))
+            error = self.interrupted(lambda: scene.run(out, checkpoint=0), lambda: bool(
+                set(self.folder.glob("out.tmp-*/checkpoint*")) - seen))
         self.assertIn("mortier run --restart", "".join(getattr(error, "__notes__", [])))
         self.assertFalse(out.exists())
         self.mortier("run", "--restart", out, "--quiet")
