@@ -11,7 +11,8 @@ import numpy as np
 import codes
 import results
 
-sys.path.append(str(Path(__file__).resolve().parent.parent / "study"))
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.append(str(ROOT / "study"))
 from measure import field_error  # noqa: E402
 
 CONTRASTS = (1e-6, 1e-3, 1.0, 1e3, 1e6)
@@ -115,6 +116,12 @@ def flowing_blocks(contrast, swapped, plane="stress"):
             either(swapped, ("upper", 1), ("lower", 3)) + SECOND_ORDER)
 
 
+def corner():
+    """Contact that ends at a corner, with the pressure 1/sqrt(x): scenes/edge.toml."""
+    scene = (ROOT / "scenes" / "edge.toml").read_text().replace("degree = 2\n", "")
+    return scene.replace("../shared-meshes", str(ROOT / "shared-meshes"))
+
+
 def cases():
     """name -> scene, materials by body (young, poisson), accuracy."""
     found = {}
@@ -129,6 +136,7 @@ def cases():
                 add(f"punch edge {where} {contrast:g}{side}", blocks(contrast, swapped, cells), 0.03,
                     upper=contrast, lower=(1.0, 0.25))
             add(f"pressed {contrast:g}{side}", pressed(contrast, swapped), 0.01, upper=contrast, lower=1.0)
+    add("corner, unbounded pressure", corner(), 0.01, upper=1.0, lower=1.0)
     for contrast in (1e-3, 1.0, 1e3):
         for swapped, side in sides:
             plane = "strain" if swapped else "stress"

@@ -81,9 +81,9 @@ class SceneCase:
 
 # The scenes that FreeFEM solves as they stand, or with these settings.
 SCENES = {
-    "sloped": (), "broken-line": (), "stack": (), "exact-contact": (), "punch": (), "eccentric-punch": (),
-    "receding": (), "turned": (), "cut-ring": (), "hertz": (), "ring": (), "thick-cylinder": (),
-    "open-close": ("time.scheme=backward-euler",),
+    "sloped": (), "broken-line": (), "stack": (), "exact-contact": (), "edge": (), "punch": (),
+    "eccentric-punch": (), "receding": (), "turned": (), "cut-ring": (), "hertz": (), "ring": (),
+    "thick-cylinder": (), "open-close": ("time.scheme=backward-euler",),
 }
 # Those that it does not, and why (the beginning of what mortier freefem says behind the scene's name).
 UNKNOWN_TO_FREEFEM = {"cook": "no contact interface"}

@@ -133,6 +133,8 @@ GALLERY = [
                               "quarter circle")], 10),
     Entry("exact-contact", [Number("contact force", lambda run: run.scalars["contact_force"], 0.769126488659,
                                    1e-3, "the force converges with order 2 at least; 32 cells on 49")], 0.05),
+    Entry("edge", [Number("contact force", lambda run: run.scalars["contact_force"], 2, 1e-2,
+                          "two elements of 1/2 under an unbounded pressure")], 0.05),
     Entry("hertz", [Number("peak pressure over sqrt(F E*/(pi R))", hertz_peak, 1, 2e-2,
                            "half-width 0.13 R, where Hertz takes parabolas; the mesh")], 1,
           ((-25, 25), (-25, 18))),

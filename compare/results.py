@@ -10,6 +10,7 @@ import io
 import json
 import math
 import re
+import threading
 import xml.etree.ElementTree as xml
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -267,6 +268,10 @@ def read_table(path, *columns):
     return table
 
 
+silenced = threading.Lock()  # the standard output is one for all threads
+
+
+
 def read_vtu(path):
     import meshio  # slow to load, and FreeFEM's results do without
 
@@ -274,7 +279,8 @@ def read_vtu(path):
         raise ResultError(f"{path}: no such file")
     try:
         # it prints as well
-        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+        with silenced, contextlib.redirect_stdout(io.StringIO()), \
+                contextlib.redirect_stderr(io.StringIO()):
             mesh = meshio.read(path)
         elements = mesh.cells_dict.get("triangle", mesh.cells_dict.get("triangle6"))
         cells = {name: values[0] for name, values in mesh.cell_data.items()}

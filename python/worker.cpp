@@ -68,9 +68,10 @@ bool Worker::go() {
     turn_ = Turn::works;
     changed_.notify_all();
     while (!changed_.wait_for(lock, signalsAreHeardEvery, [&] { return turn_ != Turn::works; })) {
-      if (raised) continue;
       lock.unlock();
-      {
+      if (raised) {
+        requestInterrupt();  // another run that ends has taken it back
+      } else {
         const py::gil_scoped_acquire held;
         if (PyErr_CheckSignals() != 0) {
           raised.emplace();
@@ -80,8 +81,8 @@ bool Worker::go() {
       lock.lock();
     }
   }
+  if (raised || turn_ == Turn::over) interruption::requested = false;  // the process goes on
   if (raised) {
-    interruption::requested = false;
     try {
       if (error_) std::rethrow_exception(error_);
     } catch (const InterruptedError& error) {  // how the run goes on

@@ -68,7 +68,11 @@ def study(given, say):
 
 def main():
     given = arguments()
-    say = (lambda line: None) if given.quiet else lambda line: print(shown(line), flush=True)
+    out = sys.stdout  # readers of results silence what libraries print, in any thread
+
+    def say(line):
+        if not given.quiet:
+            print(shown(line), file=out, flush=True)
     return code_of(lambda: study(given, say), given.study, expected="a study (docs/study.md)",
                    kept="finished runs are kept", place=given.out or "out")
 

@@ -91,18 +91,31 @@ def run_mortier(case, scene, settings, folder, timeout):
 def run_freefem(case, scene, settings, folder, timeout):
     if case["tolerance"]:
         raise RunFailure("the FreeFEM script takes equal steps only")
-    if case["accuracy"]:
-        raise RunFailure("the FreeFEM script refines no meshes")
+    accuracy = ["-accuracy", repr(case["accuracy"])] if case["accuracy"] else []
+    settings = [each for each in settings if not each.startswith("accuracy.")]
     script = folder / "scene.edp"
     measured([MORTIER, "freefem", scene, script, *set_option(settings)], timeout)
+    if accuracy:
+        if case["degree"] != 2:
+            raise RunFailure("the FreeFEM script adapts meshes of degree 2 only")
+        script.write_text(adapted(script.read_text()))
     if shutil.which(FREEFEM) is None:
         raise RunFailure(f"{FREEFEM} is not installed (Debian package freefem++)")
     out = folder / "result"
-    cost, _ = measured([FREEFEM, "-nw", "-nw", "-ne", "-v", "0", script, "-quiet", "-out", out], timeout,
-                       environment=ONE_THREAD)
+    cost, _ = measured([FREEFEM, "-nw", "-nw", "-ne", "-v", "0", script, "-quiet", "-out", out, *accuracy],
+                       timeout, environment=ONE_THREAD)
     run_ = results.read_freefem(out)
-    add_points(run_, scenes.load(scene, settings))
+    document = scenes.load(scene, settings)
+    for body in document["body"] if accuracy else ():
+        body["mesh"] = out / f"{body['name']}.mesh"
+    add_points(run_, document)
     return outcome_of(run_, cost, run_.summary["steps"], run_.summary["newton_iterations"])
+
+
+def adapted(script):
+    """The data of a script for FreeFEM with the file that adapts meshes in place of those of the method."""
+    files = re.findall(r'^include "(.*)";?$', script, re.MULTILINE)
+    return script[:script.index('include "')] + f'include "{Path(files[0]).parent}/adapted.idp"\n'
 
 
 def add_points(run_, document):

@@ -44,6 +44,17 @@ inline bool inDeafCall() {
   return interruption::deafCalls > 0;
 }
 
+/// While it lives a signal waits for the end of such calls: a run is complete and wants to be kept.
+struct KeepsResult {
+  KeepsResult() { interruption::deafCalls -= many; }
+  ~KeepsResult() { interruption::deafCalls += many; }
+  KeepsResult(const KeepsResult&) = delete;
+  KeepsResult& operator=(const KeepsResult&) = delete;
+
+ private:
+  static constexpr int many = 1000;
+};
+
 /// While it lives, loops stop when `seconds` from now are over; infinite: never. One at a time.
 class TimeLimit {
  public:

@@ -1,5 +1,8 @@
 #include "commands/ending.h"
 
+#include <new>
+
+#include "base/interrupt.h"
 #include "mesh/medit.h"
 #include "plan/estimate_doubts.h"
 #include "report/output_file.h"
@@ -8,13 +11,35 @@
 
 namespace mortier {
 
+namespace {
+
+/// A bound of the error; what stops it does not take the result away.
+EnergyBound boundOf(const Model& model, const State& state) {
+  const KeepsResult keeps;
+  EnergyBound none;
+  try {
+    return energyBound(model, state);
+  } catch (const Interrupted&) {
+    none.obstacle = "interrupted";
+  } catch (const std::bad_alloc&) {
+    none.obstacle = "there is no memory for it";
+  }
+  return none;
+}
+
+}  // namespace
+
 void addVerdict(Attempt& attempt, const Rounds* rounds, const std::string& shortfall) {
   RunFacts& facts = attempt.facts;
+  Solved& solved = attempt.solved;
+  const bool complete = solved.report.status == Status::converged;
   facts.doubts = estimateDoubts(attempt.scene(), *attempt.model);
+  if (complete && attempt.scene().accuracy.bound)
+    solved.accuracy.bound = boundOf(*attempt.model, solved.state);
   if (rounds == nullptr) return;
   const std::vector<std::string> more = rounds->doubts();
   facts.doubts.insert(facts.doubts.end(), more.begin(), more.end());
-  facts.reached = attempt.solved.report.status == Status::converged && shortfall.empty();
+  facts.reached = complete && shortfall.empty();
 }
 
 std::string putInPlace(const Attempt& attempt, OutputFolder& folder) {

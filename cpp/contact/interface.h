@@ -119,6 +119,8 @@ class ContactInterface {
   /// overlap elsewhere.
   [[nodiscard]] std::vector<GapSquare> gapSquares(const Vector& p, const Vector& uNonmortar,
                                                   const Vector& uMortar) const;
+  /// The common refinement of the two lines where displacements are linear.
+  [[nodiscard]] std::vector<RefinedPiece> pieces() const { return penetration_.pieces(); }
 
  private:
   void assemble(const std::vector<SmoothPart>& parts, const std::vector<FacingLine>& facing,

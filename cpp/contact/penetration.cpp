@@ -135,4 +135,21 @@ std::vector<GapSquare> PenetrationIntegral::squares(const Vector& uNonmortar, co
   return result;
 }
 
+std::vector<RefinedPiece> PenetrationIntegral::pieces() const {
+  std::vector<RefinedPiece> result;
+  for (const Stretch& stretch : stretches_) {
+    if (stretch.parabola) continue;
+    const Place& a = places_[stretch.first];
+    const Place& b = places_[stretch.first + 1];
+    result.push_back({{a.nonmortar[0], a.nonmortar[1]},
+                      {a.mortar[0], a.mortar[1]},
+                      {a.phi[1], b.phi[1]},
+                      {a.psi[1], b.psi[1]},
+                      {a.normal, b.normal},
+                      {a.distance, b.distance},
+                      stretch.length});
+  }
+  return result;
+}
+
 }  // namespace mortier

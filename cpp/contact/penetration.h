@@ -20,6 +20,15 @@ struct GapSquare {
   double integral = 0;                   ///< [m^3]
 };
 
+/// A piece of the common refinement, from its begin to its end along the nonmortar line.
+struct RefinedPiece {
+  std::array<int, 2> nonmortar, mortar;         ///< vertex numbers of the two elements
+  std::array<double, 2> nonmortarAt, mortarAt;  ///< where it begins and ends, as parts of the elements
+  std::array<Point, 2> normals;                 ///< directions of contact there
+  std::array<double, 2> distances;              ///< of the bodies there [m]
+  double length = 0;                            ///< [m]
+};
+
 class PenetrationIntegral {
  public:
   /// Adds a part of the nonmortar line with what it faces.
@@ -33,6 +42,8 @@ class PenetrationIntegral {
   /// positive part elsewhere.
   [[nodiscard]] std::vector<GapSquare> squares(const Vector& uNonmortar, const Vector& uMortar,
                                                const std::function<bool(int vertex)>& pressed) const;
+  /// The common refinement of linear traces; that of others is not given.
+  [[nodiscard]] std::vector<RefinedPiece> pieces() const;
 
  private:
   /// A point of the common refinement, seen from one of its segments.

@@ -106,6 +106,20 @@ void requireHeld(const SceneDescription& scene, const Model& model) {
   }
 }
 
+/// The scene as its run solves it: beside an accuracy bodies that flow have steps that are chosen by their
+/// error, whatever the scene says of equal ones.
+SceneDescription asSolved(SceneDescription scene) {
+  const auto flows = [](const BodyDescription& body) {
+    const auto materials = materialsOf(body);
+    return std::any_of(materials.begin(), materials.end(),
+                       [](const MaterialDescription* m) { return m->viscoplasticity.has_value(); });
+  };
+  if (refinesMeshes(scene) && !scene.time.controlled() &&
+      std::any_of(scene.bodies.begin(), scene.bodies.end(), flows))
+    scene.time.tolerance = scene.accuracy.energy;
+  return scene;
+}
+
 /// The input of the checks, with what several of them use.
 LintInput inputOf(const SceneDescription& scene, std::vector<const TriangleMesh*> meshes,
                   const Node& document) {
@@ -123,7 +137,7 @@ void build(ResolvedScene resolved, LintReport& report) {
   try {
     Model model = buildModel(resolved);
     static_cast<void>(buildQuantities(scene, model));
-    lintModel(scene, model, report.faults);
+    lintModel(asSolved(scene), model, report.faults);
     requireHeld(scene, model);
     State state = initialState(model);
     lintSettling(scene, findInitialEquilibrium(scene, model, state), report.faults);
@@ -177,13 +191,14 @@ LintReport lint(const std::string& path, const std::vector<std::string>& setting
     }
   }
   resolveWhatCanBe(scene, known);
-  runChecks(inputOf(scene, known, document), report.faults);
+  const SceneDescription solved = asSolved(scene);
+  runChecks(inputOf(solved, known, document), report.faults);
   if (report.faults.count(Severity::error) == 0) build({scene, std::move(meshes)}, report);
   return report;
 }
 
 Faults lintResolved(const ResolvedScene& resolved, const std::vector<std::string>& settings) {
-  const SceneDescription& scene = resolved.description;
+  const SceneDescription scene = asSolved(resolved.description);
   std::vector<const TriangleMesh*> meshes;
   for (const TriangleMesh& mesh : resolved.meshes) meshes.push_back(&mesh);
   const Node document = documentOf(scene.path, settings);

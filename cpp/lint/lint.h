@@ -49,6 +49,12 @@ void lintModel(const SceneDescription& scene, const Model& model, Faults& faults
 /// The message of the initial equilibrium, if any (scene/initial_equilibrium.h).
 void lintSettling(const SceneDescription& scene, const std::string& doubt, Faults& faults);
 
+/// Whether the meshes of the scene are first ones, which the run refines until an accuracy is reached: how
+/// fine they are and which side is the finer one is not for the scene to say.
+inline bool refinesMeshes(const SceneDescription& scene) {
+  return scene.accuracy.energy > 0;
+}
+
 // What the linter looks for, one file each.
 void lintMeshes(const LintInput& input, Faults& faults);
 void lintLabels(const LintInput& input, Faults& faults);

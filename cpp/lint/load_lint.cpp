@@ -48,6 +48,15 @@ void checkDatum(const LintInput& input, const SampledDatum& datum, Faults& fault
   }
 }
 
+/// Whether a condition of its own label holds an edge along an axis: the node in its middle too.
+bool holdsEdge(const std::vector<ConditionDescription>& conditions, int label, const Point& from,
+               const Point& to, std::optional<int> axis) {
+  return std::any_of(conditions.begin(), conditions.end(), [&](const ConditionDescription& c) {
+    return c.kind == ConditionDescription::Kind::displacement && c.label == label &&
+           axisOf(c, from, to) == axis;
+  });
+}
+
 /// A traction that acts on held nodes only.
 void checkHeldLoads(const LintInput& input, size_t b, Faults& faults) {
   const TriangleMesh& mesh = *input.meshes[b];
@@ -60,6 +69,8 @@ void checkHeldLoads(const LintInput& input, size_t b, Faults& faults) {
     for (const auto& [from, to] : edges) {
       const auto axis = axisOf(c, mesh.vertices[from], mesh.vertices[to]);
       for (const int v : {from, to}) all = all && axis && held[2 * v + *axis] != 0;
+      if (input.scene.degree > 1)
+        all = all && holdsEdge(conditions, c.label, mesh.vertices[from], mesh.vertices[to], axis);
     }
     if (all)
       faults.add("load-on-support", c.where,

@@ -160,7 +160,7 @@ void findCrossings(const TriangleMesh& mesh, const Topology& topology, Faults& f
   }
 }
 
-void findBadTriangles(const TriangleMesh& mesh, const Topology& topology, Faults& faults) {
+void findBadTriangles(const TriangleMesh& mesh, const Topology& topology, bool refined, Faults& faults) {
   constexpr double flat = 20;  // of the aspect ratio; 1 is best
   constexpr double jump = 64;  // of the area between neighbours
   constexpr size_t few = 8;
@@ -192,7 +192,7 @@ void findBadTriangles(const TriangleMesh& mesh, const Topology& topology, Faults
     faults.add("size-jump", triangle(mesh, where),
                counted(jumps, "pair") + " of neighbours whose areas differ by more than " + shortest(jump) +
                    " times, this one by " + shortest(std::round(worst)));
-  if (mesh.triangles.size() < few)
+  if (!refined && mesh.triangles.size() < few)
     faults.add("mesh-coarse", mesh.name, counted(mesh.triangles.size(), "triangle") + " in all");
 }
 
@@ -218,7 +218,7 @@ void lintMeshes(const LintInput& input, Faults& faults) {
     findDoubles(mesh, topology, faults);
     findHangingNodes(mesh, topology, faults);
     findCrossings(mesh, topology, faults);
-    findBadTriangles(mesh, topology, faults);
+    findBadTriangles(mesh, topology, refinesMeshes(input.scene), faults);
     findLostDigits(mesh, faults);
   }
 }

@@ -23,11 +23,19 @@ void lintTime(const LintInput& input, Faults& faults) {
     faults.add("iterations-few", input.where({"solver", "max_iterations"}),
                "max_iterations = " + std::to_string(scene.solver.maxIterations) +
                    ", a step in which bodies yield may need more");
+  // Numbers that a node and a triangle have in a file of fields; by Euler's formula a mesh has about as many
+  // edges, each with a node of quadratic displacements, as vertices and triangles together.
+  constexpr double ofNode = 6;
+  const bool quadratic = scene.degree > 1;
+  const double ofTriangle = quadratic ? 21.5 : 11;
   double bytes = 0;
-  for (const TriangleMesh* mesh : input.meshes)
-    if (mesh != nullptr)
-      bytes += 8.0 * (6.0 * static_cast<double>(mesh->vertices.size()) +
-                      11.0 * static_cast<double>(mesh->triangles.size()));
+  for (const TriangleMesh* mesh : input.meshes) {
+    if (mesh == nullptr) continue;
+    const auto vertices = static_cast<double>(mesh->vertices.size());
+    const auto triangles = static_cast<double>(mesh->triangles.size());
+    const double nodes = quadratic ? 2 * vertices + triangles : vertices;
+    bytes += sizeof(double) * (ofNode * nodes + ofTriangle * triangles);
+  }
   const int kept = equalSteps && scene.every > 0 ? 1 + scene.time.steps / scene.every : 1;
   if (bytes * kept > large)
     faults.add("output-large", input.where({"output", "every"}),

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bound/energy_bound.h"
 #include "time/report.h"
 #include "time/space_error.h"
 
@@ -20,6 +21,7 @@ struct Accuracy {
   double largest = 0;      ///< of any step at which it was estimated, over the largest stress of the run
   double largestTime = 0;  ///< [s]
   double time = 0;         ///< of the last state [s]
+  std::optional<EnergyBound> bound = {};  ///< of the last state, where it is asked for
 };
 
 /// The estimates of a run so far.

@@ -119,6 +119,20 @@ std::string logVerification(const Certificate& w) {
       w.rounding);
 }
 
+std::string logBound(const EnergyBound& bound) {
+  if (!bound.obstacle.empty()) return "           no guaranteed bound: " + bound.obstacle + "\n";
+  const double relative = bound.relative();
+  if (!std::isfinite(relative))
+    return "           guaranteed: nothing below 100 %, the meshes are too coarse\n";
+  constexpr double rounding = 1e-12;
+  if (bound.bound <= rounding * bound.norm) return "           guaranteed: 0 to rounding\n";
+  std::string text = format("           guaranteed: at most %.2g %%", 100 * relative);
+  constexpr double linear = 1e-9;
+  if (bound.oscillation > linear)
+    text += format(", for data that are linear on sides; these are off by %.1g %%", 100 * bound.oscillation);
+  return text + "\n";
+}
+
 std::string logAccuracy(const RunFacts& facts, const Model& model, const Accuracy& accuracy) {
   constexpr double coarse = 0.3;
   std::string text = "accuracy   estimated error of the stress, meshes only: ";
@@ -140,6 +154,7 @@ std::string logAccuracy(const RunFacts& facts, const Model& model, const Accurac
   if (accuracy.largest > 0 && accuracy.largestTime < accuracy.time)
     text += format("           largest of the run: %.2g %% of its largest stress, at t = %.5g s\n",
                    100 * accuracy.largest, accuracy.largestTime);
+  if (accuracy.bound) text += logBound(*accuracy.bound);
   if (accuracy.all == 0 && accuracy.largest == 0) return text;
   for (const std::string& doubt : facts.doubts) text += "           not reliable: " + doubt + "\n";
   if (std::max(accuracy.all, accuracy.largest) > coarse)

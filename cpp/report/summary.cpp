@@ -97,6 +97,18 @@ Json jsonOf(const Peaks& peaks) {
           {"elastic_energy", of(peaks.energy)}};
 }
 
+Json jsonOf(const EnergyBound& bound) {
+  if (!bound.obstacle.empty()) return {{"energy_error", nullptr}, {"reason", bound.obstacle}};
+  const double relative = bound.relative();
+  return {{"energy_error", std::isfinite(relative) ? Json(relative) : Json(nullptr)},
+          {"absolute", bound.bound},
+          {"norm", bound.norm},
+          {"stress", bound.stress},
+          {"lift", bound.lift},
+          {"gap", std::sqrt(2 * bound.gap)},
+          {"data", bound.oscillation}};
+}
+
 Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy) {
   Json bodies = Json::object();
   for (size_t b = 0; b < model.bodies.size(); ++b) bodies[model.bodies[b].name()] = accuracy.bodies[b];
@@ -106,6 +118,7 @@ Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy)
                {"not_reliable", facts.doubts}};
   if (!accuracy.worstBody.empty())
     json["largest"] = {{"body", accuracy.worstBody}, {"at", {accuracy.worst[0], accuracy.worst[1]}}};
+  if (accuracy.bound) json["bound"] = jsonOf(*accuracy.bound);
   return json;
 }
 

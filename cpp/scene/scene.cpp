@@ -31,7 +31,14 @@ void requireInPlane(const BodyDescription& body, Plane plane) {
 }
 
 void readAccuracy(const TableReader& accuracy, SceneDescription& scene) {
-  scene.accuracy.energy = accuracy.number("energy", between(0, 1));
+  scene.accuracy.bound = accuracy.boolean("bound", false);
+  scene.accuracy.energy = scene.accuracy.bound ? accuracy.number("energy", between(0, 1), 0)
+                                               : accuracy.number("energy", between(0, 1));
+  if (scene.accuracy.energy == 0) {
+    for (const char* key : {"max_unknowns", "max_seconds"})
+      if (accuracy.find(key) != nullptr) accuracy.reject(key, "it only beside energy");
+    return;
+  }
   scene.accuracy.maxUnknowns = accuracy.number("max_unknowns", above(0), scene.accuracy.maxUnknowns);
   scene.accuracy.maxSeconds = accuracy.number("max_seconds", above(0), scene.accuracy.maxSeconds);
   if (scene.time.scheme == Scheme::crankNicolson)
@@ -102,10 +109,9 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
           "other does the estimate know the contact line");
     }
     if (scene.accuracy.energy > 0 && scene.contacts.back().variant == CouplingKind::interpolation) {
-      throw InputError(
-          scene.contacts.back().where +
-          ": contact: variant = \"interpolation\", expected mortar beside accuracy: the estimate "
-          "does not see the false stresses of interpolation");
+      throw InputError(scene.contacts.back().where + ": contact: variant = \"interpolation\", expected " +
+                       (scene.degree == 2 ? "weighted" : "mortar") +
+                       " beside accuracy: the estimate does not see the false stresses of interpolation");
     }
   }
   for (const Node* quantity : root.tables("quantity")) {

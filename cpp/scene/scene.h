@@ -94,6 +94,7 @@ struct AccuracyGoal {
   double energy = 0;         ///< relative, in the energy norm, of meshes and steps together; 0: none is asked
   double maxUnknowns = 1e6;  ///< of a round
   double maxSeconds = INFINITY;  ///< wall time of all rounds [s]
+  bool bound = false;            ///< whether the error at the end is to have a guaranteed bound
 };
 
 struct SceneDescription {

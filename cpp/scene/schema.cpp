@@ -33,7 +33,7 @@ const Keys& keysOf(const std::string& path) {
       {"quantity.displacement", {"body", "label", "point"}},
       {"time", {"end", "steps", "scheme", "tolerance", "max_steps", "breaks"}},
       {"solver", {"method", "tolerance", "max_iterations", "linear", "reduce"}},
-      {"accuracy", {"energy", "max_unknowns", "max_seconds"}},
+      {"accuracy", {"energy", "max_unknowns", "max_seconds", "bound"}},
       {"check", {"allow"}},
       {"output", {"every"}},
   };

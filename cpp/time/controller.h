@@ -62,7 +62,6 @@ class Controller {
   ErrorMeasure measure_;
   std::vector<double> nodes_;  ///< stage times of the scheme
   std::vector<double> stops_;  ///< breaks and the end
-  double before_ = 0;
   double unseen_ = 0;          ///< part of a datum's range that a step may miss
 };
 

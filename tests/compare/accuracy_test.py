@@ -188,6 +188,8 @@ steps = 1
 
     def test_what_cannot_be_is_refused(self):
         for setting, message in (("contact.variant=interpolation", "expected mortar beside accuracy"),
+                                 ("degree=2 contact.variant=interpolation",
+                                  "expected weighted beside accuracy"),
                                  ("degree=2 contact.variant=mortar",
                                   "expected weighted beside accuracy and degree = 2"),
                                  ("time.scheme=crank-nicolson", "expected it only beside time.scheme"),

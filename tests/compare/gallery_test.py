@@ -26,6 +26,7 @@ class Gallery(InFolder):
                  "sloped": "contact.variant=interpolation", "turned": "contact.variant=interpolation",
                  "cut-ring": "body.lower.boundary.1.un=1e-5*t",
                  "cook": "body.panel.material.poisson=0.3", "exact-contact": "body.lower.material.young=1.1",
+                 "edge": "body.lower.material.young=1.1",
                  "receding": "body.half-plane.material.young=1.2", "open-close": "body.material.young=101",
                  "punch": "body.punch.material.young=1", "eccentric-punch": "body.punch.material.young=1",
                  "thick-cylinder": "plane=stress"}

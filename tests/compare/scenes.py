@@ -203,6 +203,7 @@ steps = 1
 [accuracy]
 energy = 0.1
 max_unknowns = 40000
+bound = true
 max_seconds = 100
 """
 

@@ -1,10 +1,14 @@
 """mortier study: complete tables, orders that theory knows, restart, runs that fail."""
+import concurrent.futures
 import re
 import subprocess
+import sys
 import unittest
 
 from study_support import SPACE, STUDIES, StudyTest
-from support import PROGRAM, ROOT
+from support import PROGRAM, ROOT, mortier
+
+import results
 
 # Time: all steps land on first yield (t = 0.1); the exact value is twice eps_22 of the projection
 # `elasticity`.
@@ -66,6 +70,15 @@ class Studies(StudyTest):
                                                              "iterations"):
                     self.assertGreater(float(value), 0, column)
         return rows
+
+    def test_results_read_at_the_same_time_leave_standard_output_as_it_was(self):
+        run = self.folder / "run"
+        mortier("run", STUDIES.parent / "exact-contact.toml", "--out", run, "--set", "time.steps=1")
+        field = next(run.glob("*.vtu"))
+        with concurrent.futures.ThreadPoolExecutor(4) as pool:
+            out = sys.stdout
+            list(pool.map(lambda _: results.read_vtu(field), range(40)))
+        self.assertIs(sys.stdout, out)
 
     # ---- orders that theory knows ----
     def test_time_schemes_have_their_orders(self):

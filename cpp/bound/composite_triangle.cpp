@@ -1,0 +1,184 @@
+#include "bound/composite_triangle.h"
+
+#include <Eigen/Dense>
+
+namespace mortier {
+namespace {
+
+/// Values of one component at the vertices of the parts: part e has side e, its first and last vertex, and
+/// the centroid.
+using Values = Eigen::Matrix<double, 9, 1>;
+using Table = Eigen::Matrix<double, 9, 12>;
+
+const std::array<Point, 3> referenceCorners{Point(0, 0), Point(1, 0), Point(0, 1)};
+
+/// Outward normal times length of the way from a to b, the body to its left.
+Point across(const Point& a, const Point& b) {
+  return {b.y() - a.y(), -(b.x() - a.x())};
+}
+
+/// (s n) for s = (s11, s22, s12), as a matrix on s.
+Eigen::Matrix<double, 2, 3> tractionMatrix(const Point& n) {
+  Eigen::Matrix<double, 2, 3> result;
+  result << n.x(), 0, n.y(), 0, n.y(), n.x();
+  return result;
+}
+
+/// Integrals of products over the reference triangle, all three parts.
+Eigen::Matrix<double, 9, 9> massMatrix() {
+  Eigen::Matrix<double, 9, 9> mass = Eigen::Matrix<double, 9, 9>::Zero();
+  for (int part = 0; part < 3; ++part)
+    mass.block<3, 3>(3 * part, 3 * part) = (Eigen::Matrix3d::Ones() + Eigen::Matrix3d::Identity()) / 6 / 12;
+  return mass;
+}
+
+struct Reference {
+  std::array<Table, 3> stress;  ///< by components: values of the stress with given moments
+  Eigen::Matrix<double, 9, 9> mass = massMatrix();
+  /// Of components a, b = 00, 11, 22, 01, 02, 12: the energy of moments by a coefficient.
+  std::array<MomentMatrix, 6> energies;
+  Eigen::Matrix<double, 30, 27> conditions;
+
+  static constexpr int column(int part, int vertex, int component) {
+    return 9 * component + 3 * part + vertex;
+  }
+
+  Reference() {
+    conditions.setZero();
+    const Point centre = (referenceCorners[0] + referenceCorners[1] + referenceCorners[2]) / 3;
+    const auto put = [&](int row, int part, int vertex, const Eigen::Matrix<double, 2, 3>& matrix) {
+      for (int c = 0; c < 3; ++c)
+        for (int i = 0; i < 2; ++i) conditions(row + i, column(part, vertex, c)) += matrix(i, c);
+    };
+    int row = 0;
+    for (int e = 0; e < 3; ++e) {  // moments of the sides
+      const auto n = tractionMatrix(across(referenceCorners[e], referenceCorners[(e + 1) % 3]));
+      for (int end = 0; end < 2; ++end, row += 2) {
+        put(row, e, end, n / 3);
+        put(row, e, 1 - end, n / 6);
+      }
+    }
+    for (int e = 0; e < 3; ++e) {  // between part e and the one before, which meet at vertex e
+      const auto n = tractionMatrix(across(referenceCorners[e], centre));
+      const int before = (e + 2) % 3;
+      put(row, e, 0, n);
+      put(row, before, 1, -n);
+      put(row + 2, e, 2, n);
+      put(row + 2, before, 2, -n);
+      row += 4;
+    }
+    for (int e = 0; e < 3; ++e, row += 2) {  // divergence of part e, times twice its area
+      const std::array<Point, 3> x{referenceCorners[e], referenceCorners[(e + 1) % 3], centre};
+      for (int k = 0; k < 3; ++k) put(row, e, k, -tractionMatrix(across(x[(k + 1) % 3], x[(k + 2) % 3])));
+    }
+    Eigen::Matrix<double, 30, 12> given = Eigen::Matrix<double, 30, 12>::Zero();
+    given.topRows<12>().setIdentity();
+    const Eigen::Matrix<double, 27, 12> all =
+        Eigen::MatrixXd(conditions).colPivHouseholderQr().solve(Eigen::MatrixXd(given));
+    for (int c = 0; c < 3; ++c) stress[c] = all.middleRows<9>(9 * c);
+    const std::array<std::array<int, 2>, 6> pairs{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
+    for (int k = 0; k < 6; ++k) {
+      const auto [a, b] = pairs[k];
+      energies[k] = stress[a].transpose() * mass * stress[b];
+      if (a != b) energies[k] += energies[k].transpose().eval();
+    }
+  }
+};
+
+const Reference& reference() {
+  static const Reference only;
+  return only;
+}
+
+}  // namespace
+
+CompositeTriangle::CompositeTriangle(const std::array<Point, 3>& corners, const Eigen::Matrix3d& compliance)
+    : x_(corners) {
+  Eigen::Matrix2d F;
+  F << x_[1] - x_[0], x_[2] - x_[0];
+  J_ = F.determinant();
+  inverse_ = F.inverse();
+  const double a = F(0, 0);
+  const double b = F(0, 1);
+  const double c = F(1, 0);
+  const double d = F(1, 1);
+  Eigen::Matrix3d P;
+  P << a * a, b * b, 2 * a * b,  //
+      c * c, d * d, 2 * c * d,   //
+      a * c, b * d, a * d + b * c;
+  P /= J_;
+  reference_ = J_ * P.transpose() * compliance * P;
+  toReference_ = P.inverse();
+  const auto& energies = reference().energies;
+  const Eigen::Matrix3d& C = reference_;
+  const MomentMatrix inReference = C(0, 0) * energies[0] + C(1, 1) * energies[1] + C(2, 2) * energies[2] +
+                                   C(0, 1) * energies[3] + C(0, 2) * energies[4] + C(1, 2) * energies[5];
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j)
+      energy_.block<2, 2>(2 * i, 2 * j) =
+          inverse_.transpose() * inReference.block<2, 2>(2 * i, 2 * j) * inverse_;
+}
+
+Moments CompositeTriangle::momentsOf(const Stress& stress) const {
+  Moments result;
+  for (int e = 0; e < 3; ++e) {
+    const Point t = tractionMatrix(across(x_[e], x_[(e + 1) % 3])) * stress;
+    result.segment<2>(4 * e) = t / 2;
+    result.segment<2>(4 * e + 2) = t / 2;
+  }
+  return result;
+}
+
+Moments CompositeTriangle::momentsOfLoad(const Point& f) const {
+  const Point centre = (x_[0] + x_[1] + x_[2]) / 3;
+  Moments result;
+  for (int e = 0; e < 3; ++e) {
+    const std::array<Point, 2> ends{x_[e] - centre, x_[(e + 1) % 3] - centre};
+    const auto n = tractionMatrix(across(x_[e], x_[(e + 1) % 3]));
+    const auto traction = [&](const Point& y) -> Point {
+      return n * Stress(-f.x() * y.x(), -f.y() * y.y(), 0);
+    };
+    for (int end = 0; end < 2; ++end)
+      result.segment<2>(4 * e + 2 * end) = traction(ends[end]) / 3 + traction(ends[1 - end]) / 6;
+  }
+  return result;
+}
+
+/// Components of the reference triangle by vertices of the parts.
+Eigen::Matrix<double, 9, 3> CompositeTriangle::loadValues(const Point& f) const {
+  const Point centre = (x_[0] + x_[1] + x_[2]) / 3;
+  Eigen::Matrix<double, 9, 3> values;
+  for (int part = 0; part < 3; ++part)
+    for (int k = 0; k < 3; ++k) {
+      const Point y = k == 2 ? Point(0, 0) : Point(x_[(part + k) % 3] - centre);
+      values.row(3 * part + k) = (toReference_ * Stress(-f.x() * y.x(), -f.y() * y.y(), 0)).transpose();
+    }
+  return values;
+}
+
+Moments CompositeTriangle::loadProduct(const Point& f) const {
+  const Eigen::Matrix<double, 9, 3> weighted = reference().mass * loadValues(f) * reference_;
+  Moments inReference = Moments::Zero();
+  for (int c = 0; c < 3; ++c) inReference += reference().stress[c].transpose() * weighted.col(c);
+  Moments result;
+  for (int i = 0; i < 6; ++i) result.segment<2>(2 * i) = inverse_.transpose() * inReference.segment<2>(2 * i);
+  return result;
+}
+
+double CompositeTriangle::loadEnergy(const Point& f) const {
+  const Eigen::Matrix<double, 9, 3> values = loadValues(f);
+  return values.cwiseProduct(reference().mass * values * reference_).sum();
+}
+
+double CompositeTriangle::defect(const Moments& m) const {
+  Moments inReference;
+  for (int i = 0; i < 6; ++i) inReference.segment<2>(2 * i) = inverse_ * m.segment<2>(2 * i);
+  Eigen::Matrix<double, 27, 1> values;
+  for (int c = 0; c < 3; ++c) values.segment<9>(9 * c) = reference().stress[c] * inReference;
+  Eigen::Matrix<double, 30, 1> left = reference().conditions * values;
+  left.head<12>() -= inReference;
+  return left.cwiseAbs().maxCoeff() / std::max(inReference.cwiseAbs().maxCoeff(), 1e-300) *
+         m.cwiseAbs().maxCoeff();
+}
+
+}  // namespace mortier

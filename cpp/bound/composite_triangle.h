@@ -1,0 +1,56 @@
+// The composite triangle of Johnson and Mercier (1978): three parts around the centroid, in each a linear
+// symmetric stress, tractions continuous between them. Where the stress has no divergence it is determined
+// by its tractions on the three sides, which are linear and in equilibrium: twelve moments
+//
+//   m_(e,P) = integral over side e of (s n) phi_P,      P an end of e, phi_P the hat function of P,
+//
+// of which nine are free. A triangle with sides F = [x1 - x0, x2 - x0] and J = det F takes its stress from
+// the reference triangle as s = F S F'/J, so that moments are m = F M.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "base/types.h"
+
+namespace mortier {
+
+/// Moments by sides 0-1, 1-2, 2-0, by the first and last vertex of the side, x and y [N/m].
+using Moments = Eigen::Matrix<double, 12, 1>;
+using MomentMatrix = Eigen::Matrix<double, 12, 12>;
+/// (s11, s22, s12)
+using Stress = Eigen::Vector3d;
+
+class CompositeTriangle {
+ public:
+  /// \param compliance  S with s'S s = s : E^-1 s, s = (s11, s22, s12) [1/Pa]
+  CompositeTriangle(const std::array<Point, 3>& corners, const Eigen::Matrix3d& compliance);
+
+  /// A with m'A m = integral of s : E^-1 s, s the stress with moments m in equilibrium [1/Pa].
+  [[nodiscard]] const MomentMatrix& energy() const { return energy_; }
+  /// The moments of a constant stress.
+  [[nodiscard]] Moments momentsOf(const Stress& stress) const;
+  /// Of a linear stress without shear whose divergence is -f and whose value at the centroid is 0:
+  /// its moments,
+  [[nodiscard]] Moments momentsOfLoad(const Point& f) const;
+  /// its energy product with the stresses of moments in equilibrium,
+  [[nodiscard]] Moments loadProduct(const Point& f) const;
+  /// and its energy [J/m].
+  [[nodiscard]] double loadEnergy(const Point& f) const;
+
+  /// The largest of: divergence, jump of tractions between the parts, and moments that are not these, of the
+  /// stress with moments m; [Pa m], for tests and assertions.
+  [[nodiscard]] double defect(const Moments& m) const;
+
+ private:
+  [[nodiscard]] Eigen::Matrix<double, 9, 3> loadValues(const Point& f) const;
+
+  std::array<Point, 3> x_;
+  Eigen::Matrix2d inverse_;  ///< of F
+  double J_;
+  Eigen::Matrix3d reference_;    ///< J P'S P, P taking (S11, S22, S12) to (s11, s22, s12)
+  Eigen::Matrix3d toReference_;  ///< P^-1
+  MomentMatrix energy_;
+};
+
+}  // namespace mortier

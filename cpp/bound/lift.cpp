@@ -1,0 +1,266 @@
+#include "bound/lift.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "base/interrupt.h"
+#include "material/stress.h"
+
+namespace mortier {
+namespace {
+
+constexpr int rings = 2;
+constexpr int sweeps = 60;
+constexpr double worthwhile = 1e-3;  ///< of what a sweep took away: it was the last
+
+/// Two vertices that face each other, and what is between them.
+struct Facing {
+  std::array<int, 2> bodies{};
+  std::array<int, 2> vertices{};
+  Point normal{0, 0};
+  double gap = 0;     ///< G [m]
+  double weight = 0;  ///< derivative of the integral of p^ G by it [N/m]
+};
+
+class Lifting {
+ public:
+  Lifting(const std::vector<LiftedBody>& bodies, const Model& model, const std::vector<MatchedPiece>& pieces,
+          const std::vector<std::array<double, 2>>& pressure)
+      : bodies_(bodies) {
+    for (const LiftedBody& each : bodies) {
+      strains_.emplace_back(each.body.mesh().triangles.size(), Eigen::Vector3d::Zero());
+      near_.emplace_back(each.body.nodes(), 0);
+      facingAt_.emplace_back(each.body.nodes());
+      const auto& supports = each.body.supports().nodes();
+      std::vector<int> supportOf(each.body.nodes(), -1);
+      for (size_t i = 0; i < supports.size(); ++i) supportOf[supports[i].node] = static_cast<int>(i);
+      supportOf_.push_back(std::move(supportOf));
+    }
+    collect(model, pieces, pressure);
+    spreadRings();
+  }
+
+  Lift result() {
+    Lift lift;
+    if (!separate()) {
+      lift.obstacle = "bodies that are held penetrate each other";
+      return lift;
+    }
+    double last = value();
+    for (int i = 0; i < sweeps; ++i) {
+      sweep();
+      const double now = value();
+      const bool done = last - now <= worthwhile * std::abs(last);
+      last = now;
+      if (done && i > 2) break;
+    }
+    for (size_t b = 0; b < bodies_.size(); ++b) {
+      Vector energies(static_cast<Eigen::Index>(strains_[b].size()));
+      for (size_t t = 0; t < strains_[b].size(); ++t)
+        energies[static_cast<Eigen::Index>(t)] =
+            area(b, t) * strains_[b][t].dot(bodies_[b].moduli[t] * strains_[b][t]);
+      lift.energies.push_back(std::move(energies));
+    }
+    lift.leastGap = facing_.empty() ? 0 : std::numeric_limits<double>::max();
+    for (const Facing& each : facing_) {
+      lift.gap += each.weight * each.gap;
+      lift.leastGap = std::min(lift.leastGap, each.gap);
+    }
+    return lift;
+  }
+
+ private:
+  [[nodiscard]] double area(size_t body, size_t t) const { return bodies_[body].body.weights()[t]; }
+
+  void collect(const Model& model, const std::vector<MatchedPiece>& pieces,
+               const std::vector<std::array<double, 2>>& pressure) {
+    for (size_t k = 0; k < pieces.size(); ++k) {
+      const MatchedPiece& piece = pieces[k];
+      const auto& [nonmortar, mortar, coupling] = model.interfaces[piece.interface].pair();
+      const std::array<int, 2> sides{nonmortar.body, mortar.body};
+      for (int end = 0; end < 2; ++end) {
+        const std::array<int, 2> vertices{piece.vertices[0][end], piece.vertices[1][end]};
+        int index = -1;
+        for (const int at : facingAt_[sides[0]][vertices[0]])
+          if (facing_[at].vertices == vertices && facing_[at].bodies == sides &&
+              facing_[at].normal.dot(piece.normal) > 1 - 1e-9)
+            index = at;
+        if (index < 0) {
+          index = static_cast<int>(facing_.size());
+          Facing facing{sides, vertices, piece.normal, 0, 0};
+          facing.gap = piece.distance[end] - (bodies_[sides[0]].displacement.segment<2>(2 * vertices[0]) -
+                                              bodies_[sides[1]].displacement.segment<2>(2 * vertices[1]))
+                                                 .dot(piece.normal);
+          facing_.push_back(facing);
+          for (int side = 0; side < 2; ++side) facingAt_[sides[side]][vertices[side]].push_back(index);
+        }
+        facing_[index].weight += piece.length / 6 * (2 * pressure[k][end] + pressure[k][1 - end]);
+      }
+    }
+  }
+
+  void spreadRings() {
+    for (const Facing& each : facing_)
+      for (int side = 0; side < 2; ++side) near_[each.bodies[side]][each.vertices[side]] = rings + 1;
+    for (size_t b = 0; b < bodies_.size(); ++b) {
+      const TriangleMesh& mesh = bodies_[b].body.mesh();
+      for (int ring = rings; ring > 0; --ring)
+        for (const auto& triangle : mesh.triangles)
+          for (const int v : triangle)
+            if (near_[b][v] == ring + 1)
+              for (const int other : triangle) near_[b][other] = std::max(near_[b][other], ring);
+      for (int v = 0; v < bodies_[b].body.nodes(); ++v)
+        if (near_[b][v] > 0) moving_.push_back({static_cast<int>(b), v});
+    }
+  }
+
+  /// The part of a direction along which the vertex is free.
+  [[nodiscard]] Point freePart(int body, int vertex, Point direction) const {
+    const int at = supportOf_[body][vertex];
+    if (at < 0) return direction;
+    const NodeSupport& support = bodies_[body].body.supports().nodes()[at];
+    if (support.count == 2) return {0, 0};
+    const Point& held = support.directions[0];
+    return direction - direction.dot(held) / held.squaredNorm() * held;
+  }
+
+  /// (p, q, r) of the strain of a motion of a vertex in one of its triangles.
+  [[nodiscard]] Eigen::Vector3d strainOf(int body, int t, int vertex, const Point& motion) const {
+    const TriangleMesh& mesh = bodies_[body].body.mesh();
+    const auto& v = mesh.triangles[t];
+    const int i = v[0] == vertex ? 0 : v[1] == vertex ? 1 : 2;
+    const Point opposite = mesh.vertices[v[(i + 2) % 3]] - mesh.vertices[v[(i + 1) % 3]];
+    const Point gradient = Point(-opposite.y(), opposite.x()) / (2 * area(body, t));
+    return fromCartesian({motion.x() * gradient.x(), motion.y() * gradient.y(),
+                          (motion.x() * gradient.y() + motion.y() * gradient.x()) / 2});
+  }
+
+  struct Step {
+    int body, vertex;
+    Point motion;
+  };
+
+  void apply(const std::vector<Step>& steps, double amount) {
+    for (const Step& step : steps) {
+      for (const int t : bodies_[step.body].sides.trianglesAt(step.vertex))
+        strains_[step.body][t] += amount * strainOf(step.body, t, step.vertex, step.motion);
+      for (const int at : facingAt_[step.body][step.vertex]) facing_[at].gap += amount * opening(at, step);
+    }
+  }
+  [[nodiscard]] double opening(int at, const Step& step) const {
+    const Facing& facing = facing_[at];
+    const bool first = facing.bodies[0] == step.body && facing.vertices[0] == step.vertex;
+    return (first ? 1 : -1) * step.motion.dot(facing.normal);
+  }
+
+  /// Moves along the steps as far as is best and no gap closes.
+  void move(const std::vector<Step>& steps) {
+    double slope = 0;
+    double curvature = 0;
+    // Triangles of both vertices, where they are of one body, are none here: they face each other.
+    for (const Step& step : steps)
+      for (const int t : bodies_[step.body].sides.trianglesAt(step.vertex)) {
+        const Eigen::Vector3d strain = strainOf(step.body, t, step.vertex, step.motion);
+        const Eigen::Vector3d stress = bodies_[step.body].moduli[t] * strain;
+        slope += area(step.body, t) * stress.dot(strains_[step.body][t]);
+        curvature += area(step.body, t) * stress.dot(strain);
+      }
+    if (!(curvature > 0)) return;
+    std::map<int, double> openings;
+    for (const Step& step : steps)
+      for (const int at : facingAt_[step.body][step.vertex]) openings[at] += opening(at, step);
+    for (const auto& [at, by] : openings) slope += facing_[at].weight * by;
+    double amount = -slope / curvature;
+    for (const auto& [at, by] : openings)
+      if (std::abs(by) > 1e-14 && by * amount < 0) {
+        const double most = -facing_[at].gap / by;
+        if (std::abs(most) < std::abs(amount)) amount = most;
+      }
+    if (amount == 0 || !std::isfinite(amount)) return;
+    apply(steps, amount);
+    for (const auto& [at, by] : openings) facing_[at].gap = std::max(facing_[at].gap, 0.0);
+  }
+
+  bool separate() {
+    for (size_t i = 0; i < facing_.size(); ++i) {
+      if (facing_[i].gap >= 0) continue;
+      std::array<Step, 2> steps;
+      std::array<double, 2> opens{};
+      for (int side = 0; side < 2; ++side) {
+        const int body = facing_[i].bodies[side];
+        const int vertex = facing_[i].vertices[side];
+        steps[side] = {body, vertex,
+                       freePart(body, vertex, side == 0 ? facing_[i].normal : Point(-facing_[i].normal))};
+        opens[side] = opening(static_cast<int>(i), steps[side]);
+      }
+      // By the softer part first: shares go with the compliance of the vertices.
+      std::array<double, 2> share{};
+      for (int side = 0; side < 2; ++side) {
+        double stiffness = 0;
+        for (const int t : bodies_[steps[side].body].sides.trianglesAt(steps[side].vertex)) {
+          const Eigen::Vector3d strain =
+              strainOf(steps[side].body, t, steps[side].vertex, steps[side].motion);
+          stiffness += area(steps[side].body, t) * strain.dot(bodies_[steps[side].body].moduli[t] * strain);
+        }
+        share[side] = opens[side] > 1e-9 ? opens[side] * opens[side] / stiffness : 0;
+      }
+      const double all = share[0] + share[1];
+      if (!(all > 0)) return false;
+      const double gap = facing_[i].gap;
+      for (int side = 0; side < 2; ++side)
+        if (share[side] > 0) apply({steps[side]}, -gap * share[side] / all / opens[side]);
+      facing_[i].gap = std::max(facing_[i].gap, 0.0);
+    }
+    return std::all_of(facing_.begin(), facing_.end(), [](const Facing& each) { return each.gap >= 0; });
+  }
+
+  void sweep() {
+    stopIfInterrupted();
+    for (const auto& [body, vertex] : moving_) {
+      for (int c = 0; c < 2; ++c) {
+        const Point motion = freePart(body, vertex, Point::Unit(c));
+        if (motion.squaredNorm() > 1e-18) move({{body, vertex, motion}});
+      }
+    }
+    for (const Facing& each : facing_) {
+      std::vector<Step> steps;
+      for (int side = 0; side < 2; ++side) {
+        const Point motion = freePart(each.bodies[side], each.vertices[side], each.normal);
+        if (std::abs(motion.dot(each.normal) - 1) > 1e-9) break;
+        steps.push_back({each.bodies[side], each.vertices[side], each.normal});
+      }
+      if (steps.size() == 2) move(steps);
+    }
+  }
+
+  [[nodiscard]] double value() const {
+    double sum = 0;
+    for (size_t b = 0; b < bodies_.size(); ++b)
+      for (size_t t = 0; t < strains_[b].size(); ++t)
+        sum += area(b, t) * strains_[b][t].dot(bodies_[b].moduli[t] * strains_[b][t]);
+    for (const Facing& each : facing_) sum += 2 * each.weight * each.gap;
+    return sum;
+  }
+
+  const std::vector<LiftedBody>& bodies_;
+  std::vector<std::vector<Eigen::Vector3d>> strains_;  ///< of w, by bodies and triangles
+  std::vector<std::vector<int>> near_;
+  std::vector<std::vector<int>> supportOf_;
+  std::vector<std::vector<std::vector<int>>> facingAt_;  ///< by bodies and vertices
+  std::vector<Facing> facing_;
+  struct Moving {
+    int body, vertex;
+  };
+  std::vector<Moving> moving_;
+};
+
+}  // namespace
+
+Lift lift(const std::vector<LiftedBody>& bodies, const Model& model, const std::vector<MatchedPiece>& pieces,
+          const std::vector<std::array<double, 2>>& pressure) {
+  return Lifting(bodies, model, pieces, pressure).result();
+}
+
+}  // namespace mortier

@@ -1,0 +1,36 @@
+// A displacement without penetration next to one that has some: u^ = u_h - w with the gap that is left
+//
+//   G = g0 - [u^.n] = G_h + (w1 - w2).n >= 0      at every vertex of the matched line, so between them too,
+//
+// and |w|_E^2 + 2 integral of p^ G as small as a few rows of triangles next to the line allow: |w|_E is the
+// energy norm of w. Vertices of the line and of two rings around them are moved one direction at a time, each
+// as far as is best and allowed; two that touch also move together. Admissible whenever it stops.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bound/matched_meshes.h"
+#include "bound/side_tractions.h"
+
+namespace mortier {
+
+struct Lift {
+  std::vector<Vector> energies;  ///< |w|_E^2 by bodies and triangles of the matched meshes [J/m]
+  double gap = 0;                ///< integral of p^ G [J/m]
+  double leastGap = 0;           ///< of u^, at a vertex [m]; not negative
+  std::string obstacle;          ///< why there is none
+};
+
+struct LiftedBody {
+  const Body& body;  ///< on the matched mesh
+  const Sides& sides;
+  const std::vector<Eigen::Matrix3d>& moduli;  ///< by triangles, on (p, q, r) of strains [Pa]
+  Vector displacement;                         ///< u_h
+};
+
+/// \param pressure  p^ at begin and end of each piece [Pa]
+Lift lift(const std::vector<LiftedBody>& bodies, const Model& model, const std::vector<MatchedPiece>& pieces,
+          const std::vector<std::array<double, 2>>& pressure);
+
+}  // namespace mortier

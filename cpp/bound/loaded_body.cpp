@@ -1,0 +1,255 @@
+#include "bound/loaded_body.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <memory>
+
+#include "base/interrupt.h"
+#include "bound/relaxation.h"
+#include "fem/rigid_modes.h"
+#include "linear/condensing_solver.h"
+#include "material/stress.h"
+
+namespace mortier {
+namespace {
+
+/// Directions that make a smaller angle are one [rad].
+constexpr double same = 1e-9;
+
+/// (p, q, r) of (s11, s22, s12), and the same for strains.
+Eigen::Matrix3d toBasis() {
+  Eigen::Matrix3d B;
+  for (int c = 0; c < 3; ++c) B.col(c) = fromCartesian(Eigen::Vector3d::Unit(c));
+  return B;
+}
+
+Linearisation elasticLaw(const Body& body) {
+  Linearisation law = body.material().room(body.points());
+  const Matrix none = Matrix::Zero(body.material().components(), body.points());
+  body.material().linearise({0, none, none}, none, law, 0, body.points());
+  return law;
+}
+
+bool isAlong(const Point& a, const Point& b) {
+  return std::abs(a.x() * b.y() - a.y() * b.x()) <= same * a.norm() * b.norm();
+}
+/// Takes a direction from those in which the traction is known.
+void hold(KnownTraction& known, const Point& direction) {
+  if (known.count == 2)
+    known = {1, {Point(-direction.y(), direction.x()), Point(0, 0)}, known.moments};
+  else if (known.count == 1 && std::abs(known.known[0].dot(direction)) > 1e-9)
+    known.count = 0;
+}
+
+}  // namespace
+
+LoadedBody::LoadedBody(const Model& model, const State& state, const CutMesh& cut, int index)
+    : cut_(cut),
+      body_(model.bodies[index].name(), cut.mesh,
+            std::shared_ptr<const Material>(std::shared_ptr<void>(), &model.bodies[index].material()),
+            model.bodies[index].conditions()),
+      sides_(cut.mesh),
+      displacement_(cut.displacement(state.bodies[index].displacement)),
+      load_(body_.load(state.time)),
+      modes_(rigidModes(body_)) {
+  const Linearisation law = elasticLaw(model.bodies[index]);
+  const Eigen::Matrix3d B = toBasis();
+  for (size_t t = 0; t < cut_.parents.size(); ++t) {
+    const int parent = cut_.parents[t];
+    moduli_.emplace_back(Eigen::Map<const Eigen::Matrix3d>(moduliAt(law.moduli, parent).data()));
+    compliances_.emplace_back(B.transpose() * moduli_.back().inverse() * B);
+    stress_.emplace_back(toCartesian(state.bodies[index].stress.col(parent).head<3>()));
+  }
+  readForces(state.time);
+  readBoundary(state.time);
+}
+
+void LoadedBody::press(const std::array<int, 2>& vertices, const Point& outward,
+                       const std::array<double, 2>& moments) {
+  const int e = sideBetween(vertices);
+  const int first = sides_.all()[e].vertices[0] == vertices[0] ? 0 : 1;
+  for (int end = 0; end < 2; ++end) {
+    known_[e].moments[end == 0 ? first : 1 - first] -= moments[end] * outward;
+    load_.segment<2>(2 * vertices[end]) -= moments[end] * outward;
+  }
+}
+int LoadedBody::sideBetween(const std::array<int, 2>& vertices) const {
+  for (const int e : sides_.sidesAt(vertices[0]))
+    if (sides_.all()[e].vertices[0] == vertices[1] || sides_.all()[e].vertices[1] == vertices[1]) return e;
+  return -1;
+}
+
+bool LoadedBody::balance() {
+  std::vector<Stress> stress = stress_;
+  if (!equilibrate(stress)) return false;
+  moments_ = balancedMoments(mesh(), sides_, stress, forces_, known_);
+  Relaxation relaxation(mesh(), sides_, compliances_, stress_, forces_, known_, moments_);
+  relaxation.relax();
+  energies_ = relaxation.energies();
+  return true;
+}
+double LoadedBody::norm() const {
+  double sum = 0;
+  for (size_t t = 0; t < stress_.size(); ++t)
+    sum += doubleArea(mesh(), static_cast<int>(t)) / 2 * stress_[t].dot(compliances_[t] * stress_[t]);
+  return sum;
+}
+std::array<Point, 2> LoadedBody::momentsBetween(const std::array<int, 2>& vertices) const {
+  const int e = sideBetween(vertices);
+  std::array<Point, 2> moments = moments_[e];
+  if (sides_.all()[e].vertices[0] != vertices[0]) std::swap(moments[0], moments[1]);
+  return moments;
+}
+LoadedBody::Imbalance LoadedBody::imbalance() const {
+  double worst = 0;
+  double largest = 0;
+  for (int t = 0; t < static_cast<int>(mesh().triangles.size()); ++t) {
+    const auto& v = mesh().triangles[t];
+    const Moments m = momentsOf(sides_, moments_, t);
+    Point force = doubleArea(mesh(), t) / 2 * forces_[t];
+    const Point centre = (mesh().vertices[v[0]] + mesh().vertices[v[1]] + mesh().vertices[v[2]]) / 3;
+    double couple = 0;
+    double size = 0;
+    for (int k = 0; k < 3; ++k)
+      for (int end = 0; end < 2; ++end) {
+        const Point b = m.segment<2>(4 * k + 2 * end);
+        const Point arm = mesh().vertices[v[(k + end) % 3]] - centre;
+        force += b;
+        couple += arm.x() * b.y() - arm.y() * b.x();
+        size = std::max(size, arm.norm());
+      }
+    worst = std::max({worst, force.norm(), std::abs(couple) / size});
+    largest = std::max(largest, m.cwiseAbs().maxCoeff());
+  }
+  return {worst, largest};
+}
+
+void LoadedBody::readForces(double t) {
+  for (size_t k = 0; k < mesh().triangles.size(); ++k) {
+    const auto& v = mesh().triangles[k];
+    Point sum(0, 0);
+    for (const BodyForce& force : body_.conditions().forces) {
+      std::array<double, 3> values{};
+      for (int i = 0; i < 3; ++i) {
+        const Point at = (mesh().vertices[v[i]] + mesh().vertices[v[(i + 1) % 3]]) / 2;
+        values[i] = force.value(at.x(), at.y(), t);
+      }
+      const double mean = (values[0] + values[1] + values[2]) / 3;
+      sum += mean * Point::Unit(force.component);
+      for (const double value : values) oscillation_.forces.add(body_.weights()[k], value - mean, value);
+    }
+    forces_.push_back(sum);
+  }
+}
+
+void LoadedBody::readBoundary(double t) {
+  known_.resize(sides_.count());
+  for (int e = 0; e < sides_.count(); ++e) {
+    const Side& side = sides_.all()[e];
+    if (side.triangles[1] >= 0) continue;
+    known_[e].count = 2;
+    known_[e].known = {Point(1, 0), Point(0, 1)};
+    if (side.boundary < 0) continue;
+    const int label = mesh().boundaryLabels[side.boundary];
+    const Point a = mesh().vertices[side.vertices[0]];
+    const Point along = mesh().vertices[side.vertices[1]] - a;
+    const auto direction = [&](int component) -> Point {
+      const Point tangent = along.normalized();
+      return component == alongX        ? Point(1, 0)
+             : component == alongY      ? Point(0, 1)
+             : component == alongNormal ? Point(tangent.y(), -tangent.x())
+                                        : tangent;
+    };
+    for (const PrescribedDisplacement& held : body_.conditions().displacements) {
+      if (held.label != label) continue;
+      hold(known_[e], direction(held.component));
+      if (!holds(side, direction(held.component))) curvedSupport_ = true;
+      oscillation_.displacements.addLinear(along.norm(), [&](double s) {
+        return held.value(a.x() + s * along.x(), a.y() + s * along.y(), t);
+      });
+    }
+    for (const Traction& traction : body_.conditions().tractions) {
+      if (traction.label != label) continue;
+      const auto value = [&](double s) {
+        return traction.value(a.x() + s * along.x(), a.y() + s * along.y(), t);
+      };
+      oscillation_.tractions.addLinear(along.norm(), value);
+      const Point d = along.norm() / 6 * direction(traction.component);
+      known_[e].moments[0] += (value(0) + 2 * value(0.5)) * d;
+      known_[e].moments[1] += (2 * value(0.5) + value(1)) * d;
+    }
+  }
+}
+/// Whether the supports of both ends of a side hold it along a direction.
+bool LoadedBody::holds(const Side& side, const Point& direction) const {
+  const std::vector<NodeSupport>& supports = body_.supports().nodes();
+  return std::all_of(side.vertices.begin(), side.vertices.end(), [&](int vertex) {
+    const auto at = std::lower_bound(supports.begin(), supports.end(), vertex,
+                                     [](const NodeSupport& each, int node) { return each.node < node; });
+    if (at == supports.end() || at->node != vertex) return false;
+    return at->count == 2 || isAlong(at->directions[0], direction);
+  });
+}
+
+/// Adds what brings finite element stresses into equilibrium with the load.
+bool LoadedBody::equilibrate(std::vector<Stress>& stress) const {
+  Vector left = load_;
+  const auto gradient = [&](size_t t, int i) -> Point {  // |K| grad phi_i
+    const auto& v = mesh().triangles[t];
+    const Point opposite = mesh().vertices[v[(i + 2) % 3]] - mesh().vertices[v[(i + 1) % 3]];
+    return Point(-opposite.y(), opposite.x()) / 2;
+  };
+  for (size_t t = 0; t < stress.size(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const Point g = gradient(t, i);
+      left.segment<2>(2 * mesh().triangles[t][i]) -=
+          Point(stress[t][0] * g.x() + stress[t][2] * g.y(), stress[t][2] * g.x() + stress[t][1] * g.y());
+    }
+  Matrix moduli(body_.material().symmetricTangent() ? 6 : 9, static_cast<Eigen::Index>(moduli_.size()));
+  for (size_t t = 0; t < moduli_.size(); ++t) {
+    const Eigen::Matrix3d& D = moduli_[t];
+    if (moduli.rows() == 6)
+      moduli.col(t) << D(0, 0), D(1, 0), D(2, 0), D(1, 1), D(2, 1), D(2, 2);
+    else
+      moduli.col(t) = Eigen::Map<const Eigen::Matrix<double, 9, 1>>(D.data());
+  }
+  std::vector<double> values(body_.pattern().entries());
+  body_.tangent(moduli, values);
+  pin(values);
+  auto solver = multifrontalSolver(body_.pattern(), {});
+  if (!solver->factorise(values)) {
+    solver = suiteSparseSolver(body_.pattern(), {});
+    if (!solver->factorise(values)) return false;
+  }
+  Vector x = body_.gather(left);
+  solver->condense(x);
+  solver->expand(x);
+  const Vector d = body_.spread(x);
+  const Eigen::Matrix3d back = toBasis().inverse();
+  for (size_t t = 0; t < stress.size(); ++t) {
+    Eigen::Vector3d strain = Eigen::Vector3d::Zero();
+    for (int i = 0; i < 3; ++i) {
+      const Point g = gradient(t, i) / body_.weights()[t];
+      const Point u = d.segment<2>(2 * mesh().triangles[t][i]);
+      strain += fromCartesian({u.x() * g.x(), u.y() * g.y(), (u.x() * g.y() + u.y() * g.x()) / 2});
+    }
+    stress[t] += back * (moduli_[t] * strain);
+  }
+  return true;
+}
+
+/// Springs at as many equations as there are rigid motions: forces in equilibrium leave them at rest.
+void LoadedBody::pin(std::vector<double>& values) const {
+  if (modes_.cols() == 0) return;
+  Matrix motions(body_.freeDofs(), modes_.cols());
+  for (Eigen::Index m = 0; m < modes_.cols(); ++m) motions.col(m) = body_.gather(modes_.col(m));
+  const Eigen::ColPivHouseholderQR<Matrix> qr(motions.transpose());
+  const SparsePattern& pattern = body_.pattern();
+  for (Eigen::Index m = 0; m < modes_.cols(); ++m) {
+    const int equation = qr.colsPermutation().indices()[m];
+    for (int k = pattern.columnStart[equation]; k < pattern.columnStart[equation + 1]; ++k)
+      if (pattern.rows[k] == equation) values[k] *= 2;
+  }
+}
+
+}  // namespace mortier

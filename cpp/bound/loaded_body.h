@@ -1,0 +1,111 @@
+// A body on its matched mesh, loaded by given contact pressures instead of the other bodies, and the stress
+// in equilibrium with all of that.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "bound/lift.h"
+#include "bound/matched_meshes.h"
+#include "bound/side_tractions.h"
+#include "solver/state.h"
+
+namespace mortier {
+
+/// How far data of one kind are from linear functions on sides, or constants on triangles.
+struct Oscillation {
+  double off = 0;
+  double all = 0;
+  void add(double weight, double deviation, double value) {
+    off += weight * deviation * deviation;
+    all += weight * value * value;
+  }
+  /// Of a function on a side.
+  void addLinear(double length, const std::function<double(double)>& value) {
+    const double first = value(0);
+    const double last = value(1);
+    for (const double s : {0.25, 0.5, 0.75}) {
+      const double v = value(s);
+      add(length, v - ((1 - s) * first + s * last), std::max({std::abs(v), std::abs(first), std::abs(last)}));
+    }
+  }
+  void add(const Oscillation& other) {
+    off += other.off;
+    all += other.all;
+  }
+  [[nodiscard]] double relative() const { return all > 0 ? std::sqrt(off / all) : 0; }
+};
+
+/// What is prescribed of a body, by kinds: each has its own unit.
+struct DataOscillation {
+  Oscillation displacements, tractions, forces;
+  void add(const DataOscillation& other) {
+    displacements.add(other.displacements);
+    tractions.add(other.tractions);
+    forces.add(other.forces);
+  }
+  /// The worst of them.
+  [[nodiscard]] double relative() const {
+    return std::max({displacements.relative(), tractions.relative(), forces.relative()});
+  }
+};
+
+class LoadedBody {
+ public:
+  /// What it is given must outlive it.
+  LoadedBody(const Model& model, const State& state, const CutMesh& cut, int index);
+
+  [[nodiscard]] const TriangleMesh& mesh() const { return cut_.mesh; }
+  /// Rigid motions that its supports leave free (fem/rigid_modes.h).
+  [[nodiscard]] const Matrix& modes() const { return modes_; }
+  /// Nodal forces of loads and of the pressures so far [N/m].
+  [[nodiscard]] const Vector& load() const { return load_; }
+  [[nodiscard]] LiftedBody lifted() const { return {body_, sides_, moduli_, displacement_}; }
+  [[nodiscard]] const DataOscillation& oscillation() const { return oscillation_; }
+  /// Whether supports act along the normals or tangents of a curve: those of sides are not those of nodes.
+  [[nodiscard]] bool hasCurvedSupport() const { return curvedSupport_; }
+
+  /// A pressure on the side between two vertices, by its moments at the first and at the second [N/m].
+  void press(const std::array<int, 2>& vertices, const Point& outward, const std::array<double, 2>& moments);
+  /// Finds the stress in equilibrium. \returns false where the tangent cannot be factorised
+  /// \throws Interrupted
+  bool balance();
+
+  [[nodiscard]] const Vector& energies() const { return energies_; }  ///< |s^ - s|^2 by triangles [J/m]
+  [[nodiscard]] double norm() const;                                  ///< |s|^2 [J/m]
+  /// Moments of the traction on this body at the side between two vertices, at the first and the second.
+  [[nodiscard]] std::array<Point, 2> momentsBetween(const std::array<int, 2>& vertices) const;
+  /// What is left over of the forces and couples of a triangle, and the largest moment of a side [N/m].
+  struct Imbalance {
+    double worst = 0;
+    double largest = 0;
+  };
+  [[nodiscard]] Imbalance imbalance() const;
+
+ private:
+  void readForces(double t);
+  void readBoundary(double t);
+  [[nodiscard]] int sideBetween(const std::array<int, 2>& vertices) const;
+  [[nodiscard]] bool holds(const Side& side, const Point& direction) const;
+  bool equilibrate(std::vector<Stress>& stress) const;
+  void pin(std::vector<double>& values) const;
+
+  const CutMesh& cut_;
+  Body body_;
+  Sides sides_;
+  Vector displacement_;
+  Vector load_;
+  Matrix modes_;
+  std::vector<Eigen::Matrix3d> moduli_, compliances_;
+  std::vector<Stress> stress_;  ///< s, that of the finite elements
+  std::vector<Point> forces_;
+  std::vector<KnownTraction> known_;
+  DataOscillation oscillation_;
+  bool curvedSupport_ = false;
+  SideMoments moments_;
+  Vector energies_;
+};
+
+}  // namespace mortier

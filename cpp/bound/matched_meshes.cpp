@@ -1,0 +1,211 @@
+#include "bound/matched_meshes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+
+namespace mortier {
+namespace {
+
+/// Points of an edge that are closer than this part of it are one.
+constexpr double samePoint = 1e-9;
+/// Lines that make a smaller angle are parallel [rad].
+constexpr double parallel = 1e-9;
+
+using Edge = std::array<int, 2>;
+
+/// Where edges of a mesh are to be cut, by their vertices in ascending order: parts of the way from the
+/// first.
+class Cuts {
+ public:
+  void add(Edge edge, double part) {
+    if (edge[0] > edge[1]) {
+      std::swap(edge[0], edge[1]);
+      part = 1 - part;
+    }
+    if (part <= samePoint || part >= 1 - samePoint) return;
+    std::set<double>& parts = parts_[edge];
+    const auto above = parts.lower_bound(part - samePoint);
+    if (above == parts.end() || *above > part + samePoint) parts.insert(part);
+  }
+  [[nodiscard]] const std::map<Edge, std::set<double>>& all() const { return parts_; }
+
+ private:
+  std::map<Edge, std::set<double>> parts_;
+};
+
+class Cutter {
+ public:
+  Cutter(const TriangleMesh& mesh, const Cuts& cuts) {
+    result_.mesh = mesh;
+    result_.mesh.edgeMiddles.clear();
+    result_.parents.resize(mesh.triangles.size());
+    for (size_t t = 0; t < mesh.triangles.size(); ++t) result_.parents[t] = static_cast<int>(t);
+    findTriangles(cuts);
+    for (const auto& [edge, parts] : cuts.all()) cut(edge, parts);
+    cutBoundary();
+  }
+  CutMesh take() { return std::move(result_); }
+  [[nodiscard]] int vertexAt(Edge edge, double part) const {
+    if (edge[0] > edge[1]) {
+      std::swap(edge[0], edge[1]);
+      part = 1 - part;
+    }
+    if (part <= samePoint) return edge[0];
+    if (part >= 1 - samePoint) return edge[1];
+    for (const auto& [at, vertex] : vertices_.at(edge))
+      if (std::abs(at - part) <= samePoint) return vertex;
+    return -1;
+  }
+
+ private:
+  static Edge sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+  void findTriangles(const Cuts& cuts) {
+    for (size_t t = 0; t < result_.mesh.triangles.size(); ++t) {
+      const auto& v = result_.mesh.triangles[t];
+      for (int k = 0; k < 3; ++k)
+        if (const Edge edge = sorted(v[k], v[(k + 1) % 3]); cuts.all().contains(edge))
+          triangleOf_[edge] = static_cast<int>(t);
+    }
+  }
+
+  void cut(const Edge& edge, const std::set<double>& parts) {
+    TriangleMesh& mesh = result_.mesh;
+    const int t = triangleOf_.at(edge);
+    int k = 0;
+    while (sorted(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]) != edge) ++k;
+    const int a = mesh.triangles[t][k];
+    const int b = mesh.triangles[t][(k + 1) % 3];
+    const int c = mesh.triangles[t][(k + 2) % 3];
+    std::vector<int> chain{a};
+    for (const double part : parts) {
+      const auto vertex = static_cast<int>(mesh.vertices.size());
+      mesh.vertices.emplace_back((1 - part) * mesh.vertices[edge[0]] + part * mesh.vertices[edge[1]]);
+      result_.added.push_back({edge, part});
+      vertices_[edge].emplace_back(part, vertex);
+      chain.push_back(vertex);
+    }
+    if (a != edge[0]) std::reverse(chain.begin() + 1, chain.end());
+    chain.push_back(b);
+    mesh.triangles[t] = {a, chain[1], c};
+    int last = t;
+    for (size_t i = 1; i + 1 < chain.size(); ++i) {
+      last = static_cast<int>(mesh.triangles.size());
+      mesh.triangles.push_back({chain[i], chain[i + 1], c});
+      mesh.regions.push_back(mesh.regions[t]);
+      result_.parents.push_back(result_.parents[t]);
+    }
+    if (const auto other = triangleOf_.find(sorted(b, c)); other != triangleOf_.end() && other->second == t)
+      other->second = last;
+  }
+
+  void cutBoundary() {
+    TriangleMesh& mesh = result_.mesh;
+    const size_t count = mesh.boundaryEdges.size();
+    for (size_t e = 0; e < count; ++e) {
+      const auto [a, b] = mesh.boundaryEdges[e];
+      const auto found = vertices_.find(sorted(a, b));
+      if (found == vertices_.end()) continue;
+      std::vector<int> chain{a};
+      for (const auto& [part, vertex] : found->second) chain.push_back(vertex);
+      if (a > b) std::reverse(chain.begin() + 1, chain.end());
+      chain.push_back(b);
+      mesh.boundaryEdges[e] = {chain[0], chain[1]};
+      for (size_t i = 1; i + 1 < chain.size(); ++i) {
+        mesh.boundaryEdges.push_back({chain[i], chain[i + 1]});
+        mesh.boundaryLabels.push_back(mesh.boundaryLabels[e]);
+      }
+    }
+  }
+
+  CutMesh result_;
+  std::map<Edge, int> triangleOf_;
+  std::map<Edge, std::vector<std::pair<double, int>>> vertices_;
+};
+
+/// The row of C at a vertex of the nonmortar line, by the direction of contact at a corner; -1 for none.
+int rowAt(const ContactInterface& interface, int vertex, const Point& normal) {
+  for (int row = 0; row < interface.rows(); ++row)
+    if (interface.nonmortarNodes()[row] == vertex && interface.normals()[row].dot(normal) > 1 - samePoint)
+      return row;
+  return -1;
+}
+
+/// What is wrong with a piece for tractions that are equal on both sides; empty where nothing is.
+std::string faultOf(const RefinedPiece& piece, const TriangleMesh& nonmortar, const TriangleMesh& mortar) {
+  const auto across = [&](const TriangleMesh& mesh, const Edge& edge) {
+    const Point along = mesh.vertices[edge[1]] - mesh.vertices[edge[0]];
+    return std::abs(along.dot(piece.normals[0])) <= parallel * along.norm();
+  };
+  if ((piece.normals[0] - piece.normals[1]).norm() > parallel || !across(nonmortar, piece.nonmortar))
+    return "is not straight";
+  return across(mortar, piece.mortar) ? "" : "is not parallel on both sides";
+}
+
+}  // namespace
+
+Vector CutMesh::displacement(const Vector& u) const {
+  Vector result(u.size() + 2 * static_cast<Eigen::Index>(added.size()));
+  result.head(u.size()) = u;
+  for (size_t i = 0; i < added.size(); ++i)
+    result.segment<2>(u.size() + 2 * static_cast<Eigen::Index>(i)) =
+        (1 - added[i].part) * u.segment<2>(2 * added[i].ends[0]) +
+        added[i].part * u.segment<2>(2 * added[i].ends[1]);
+  return result;
+}
+
+MatchedMeshes matchedMeshes(const Model& model) {
+  MatchedMeshes result;
+  std::vector<Cuts> cuts(model.bodies.size());
+  std::vector<std::vector<RefinedPiece>> pieces;
+  for (const ContactInterface& interface : model.interfaces) {
+    const auto& [nonmortar, mortar, coupling] = interface.pair();
+    pieces.push_back(interface.pieces());
+    for (const RefinedPiece& piece : pieces.back()) {
+      const std::string fault =
+          faultOf(piece, model.bodies[nonmortar.body].mesh(), model.bodies[mortar.body].mesh());
+      if (!fault.empty()) {
+        result.obstacle = "the contact line of " + model.bodies[nonmortar.body].name() + " and " +
+                          model.bodies[mortar.body].name() + " " + fault;
+        return result;
+      }
+      for (int end = 0; end < 2; ++end) {
+        cuts[nonmortar.body].add(piece.nonmortar, piece.nonmortarAt[end]);
+        cuts[mortar.body].add(piece.mortar, piece.mortarAt[end]);
+      }
+    }
+  }
+  std::vector<Cutter> cutters;
+  for (size_t b = 0; b < model.bodies.size(); ++b) cutters.emplace_back(model.bodies[b].mesh(), cuts[b]);
+  for (size_t k = 0; k < pieces.size(); ++k) {
+    const ContactInterface& interface = model.interfaces[k];
+    const auto& [nonmortar, mortar, coupling] = interface.pair();
+    for (const RefinedPiece& piece : pieces[k]) {
+      MatchedPiece matched;
+      matched.interface = static_cast<int>(k);
+      for (int end = 0; end < 2; ++end) {
+        matched.vertices[0][end] = cutters[nonmortar.body].vertexAt(piece.nonmortar, piece.nonmortarAt[end]);
+        matched.vertices[1][end] = cutters[mortar.body].vertexAt(piece.mortar, piece.mortarAt[end]);
+      }
+      matched.normal = piece.normals[0];
+      matched.distance = piece.distances;
+      matched.length = piece.length;
+      for (int end = 0; end < 2; ++end) {
+        matched.rows[end] = rowAt(interface, piece.nonmortar[end], matched.normal);
+        for (int at = 0; at < 2; ++at)
+          matched.values[end][at] = end == 0 ? 1 - piece.nonmortarAt[at] : piece.nonmortarAt[at];
+      }
+      // A vertex without a row of its own is merged into its neighbour.
+      for (int end = 0; end < 2; ++end)
+        if (matched.rows[end] < 0) matched.rows[end] = matched.rows[1 - end];
+      if (matched.vertices[0][0] != matched.vertices[0][1]) result.pieces.push_back(matched);
+    }
+  }
+  for (Cutter& cutter : cutters) result.bodies.push_back(cutter.take());
+  return result;
+}
+
+}  // namespace mortier

@@ -1,0 +1,112 @@
+#include "bound/pressures.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+
+#include "base/disjoint_sets.h"
+
+namespace mortier {
+
+std::vector<Vector> spreadPressures(const Model& model, const State& state, const MatchedMeshes& meshes) {
+  constexpr double little = 0.25;  // of the neighbour
+  std::vector<Vector> widths;
+  std::vector<DisjointSets> together;
+  for (const ContactInterface& interface : model.interfaces) {
+    widths.emplace_back(Vector::Zero(interface.rows()));
+    together.emplace_back(interface.rows());
+  }
+  for (const MatchedPiece& piece : meshes.pieces)
+    for (int k = 0; k < 2 && piece.rows[k] >= 0; ++k)
+      widths[piece.interface][piece.rows[k]] += piece.length * (piece.values[k][0] + piece.values[k][1]) / 2;
+  for (const MatchedPiece& piece : meshes.pieces) {
+    const Vector& width = widths[piece.interface];
+    const auto [a, b] = piece.rows;
+    if (a >= 0 && std::min(width[a], width[b]) < little * std::max(width[a], width[b]))
+      together[piece.interface].join(a, b);
+  }
+  std::vector<Vector> spread;
+  for (size_t i = 0; i < widths.size(); ++i) {
+    const Eigen::Index rows = widths[i].size();
+    Vector width = Vector::Zero(rows);
+    Vector force = Vector::Zero(rows);
+    for (int row = 0; row < rows; ++row) {
+      width[together[i].of(row)] += widths[i][row];
+      force[together[i].of(row)] += std::max(state.contactForce[i][row], 0.0);
+    }
+    spread.emplace_back(Vector::Zero(rows));
+    for (int row = 0; row < rows; ++row)
+      if (const int set = together[i].of(row); width[set] > 0) spread[i][row] = force[set] / width[set];
+  }
+  return spread;
+}
+
+std::array<double, 2> pressureOn(const MatchedPiece& piece, const std::vector<Vector>& spread) {
+  std::array<double, 2> p{};
+  for (int k = 0; k < 2 && piece.rows[k] >= 0; ++k)
+    for (int end = 0; end < 2; ++end) p[end] += piece.values[k][end] * spread[piece.interface][piece.rows[k]];
+  return p;
+}
+
+std::array<double, 2> momentsOfLinear(const std::array<double, 2>& values, double length) {
+  return {length / 6 * (2 * values[0] + values[1]), length / 6 * (values[0] + 2 * values[1])};
+}
+
+bool balancePressures(const Model& model, const MatchedMeshes& meshes, const std::vector<LoadedBody>& bodies,
+                      std::vector<Vector>& spread) {
+  Eigen::Index rows = 0;
+  for (const LoadedBody& body : bodies) rows += body.modes().cols();
+  if (rows == 0) return true;
+  const auto columns = 2 * static_cast<Eigen::Index>(spread.size());
+  Matrix M = Matrix::Zero(rows, columns);
+  Vector left = Vector::Zero(rows);
+  double size = 0;
+  std::vector<Vector> places;
+  for (size_t k = 0; k < spread.size(); ++k) {
+    const ContactInterface& interface = model.interfaces[k];
+    const TriangleMesh& mesh = model.bodies[interface.pair().nonmortar.body].mesh();
+    const Point first = mesh.vertices[interface.nonmortarNodes().front()];
+    const double scale = extent(mesh);
+    Vector place(interface.rows());
+    for (int row = 0; row < interface.rows(); ++row)
+      place[row] = (mesh.vertices[interface.nonmortarNodes()[row]] - first).norm() / scale;
+    places.push_back(place);
+  }
+  Eigen::Index first = 0;
+  for (size_t b = 0; b < bodies.size(); ++b) {
+    const Matrix& modes = bodies[b].modes();
+    left.segment(first, modes.cols()) = modes.transpose() * bodies[b].load();
+    for (const MatchedPiece& piece : meshes.pieces) {
+      const auto& [nonmortar, mortar, coupling] = model.interfaces[piece.interface].pair();
+      for (int side = 0; side < 2; ++side) {
+        if ((side == 0 ? nonmortar.body : mortar.body) != static_cast<int>(b)) continue;
+        const Point outward = side == 0 ? piece.normal : Point(-piece.normal);
+        for (int k = 0; k < 2 && piece.rows[k] >= 0; ++k) {
+          const int row = piece.rows[k];
+          const double c = spread[piece.interface][row];
+          const auto m = momentsOfLinear(piece.values[k], piece.length);
+          for (int end = 0; end < 2; ++end) {
+            const Vector work =
+                -c * m[end] * modes.middleRows<2>(2 * piece.vertices[side][end]).transpose() * outward;
+            left.segment(first, modes.cols()) += work;
+            M.block(first, 2 * piece.interface, modes.cols(), 1) += work;
+            M.block(first, 2 * piece.interface + 1, modes.cols(), 1) += places[piece.interface][row] * work;
+            if (work.size() > 0) size = std::max(size, work.cwiseAbs().maxCoeff());
+          }
+        }
+      }
+    }
+    first += modes.cols();
+  }
+  const Vector factors = M.completeOrthogonalDecomposition().solve(-left);
+  if (!factors.allFinite() ||
+      (M * factors + left).cwiseAbs().maxCoeff() > 1e-9 * std::max(size, left.cwiseAbs().maxCoeff()))
+    return false;
+  for (size_t k = 0; k < spread.size(); ++k) {
+    const auto at = 2 * static_cast<Eigen::Index>(k);
+    spread[k].array() *= 1 + factors[at] + factors[at + 1] * places[k].array();
+    if (spread[k].minCoeff() < 0) return false;
+  }
+  return true;
+}
+
+}  // namespace mortier

@@ -1,0 +1,229 @@
+#include "bound/side_tractions.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+
+namespace mortier {
+namespace {
+
+/// Outward normal times length, the body to the left.
+Point across(const TriangleMesh& mesh, const Side& side) {
+  const Point along = mesh.vertices[side.vertices[1]] - mesh.vertices[side.vertices[0]];
+  return {along.y(), -along.x()};
+}
+
+Point tractionOf(const Stress& s, const Point& n) {
+  return {s[0] * n.x() + s[2] * n.y(), s[2] * n.x() + s[1] * n.y()};
+}
+
+void listByVertex(size_t vertices, const std::vector<std::array<int, 2>>& pairs, std::vector<int>& start,
+                  std::vector<int>& all) {
+  start.assign(vertices + 1, 0);
+  for (const auto& [vertex, item] : pairs) ++start[vertex + 1];
+  for (size_t v = 0; v < vertices; ++v) start[v + 1] += start[v];
+  all.resize(pairs.size());
+  std::vector<int> next(start.begin(), start.end() - 1);
+  for (const auto& [vertex, item] : pairs) all[next[vertex]++] = item;
+}
+
+/// Makes the moments of a vertex those of balanced tractions.
+class VertexBalance {
+ public:
+  VertexBalance(const TriangleMesh& mesh, const Sides& sides, const std::vector<Stress>& stress,
+                const std::vector<Point>& forces, const std::vector<KnownTraction>& known,
+                SideMoments& moments)
+      : mesh_(mesh), sides_(sides), stress_(stress), forces_(forces), known_(known), moments_(moments) {}
+
+  void balance(int vertex) {
+    if (!walkRound(vertex)) solve(vertex);
+  }
+
+ private:
+  [[nodiscard]] int endAt(int side, int vertex) const {
+    return sides_.all()[side].vertices[0] == vertex ? 0 : 1;
+  }
+  [[nodiscard]] double length(int side) const { return across(mesh_, sides_.all()[side]).norm(); }
+  [[nodiscard]] int cornerAt(int triangle, int vertex) const {
+    const auto& v = mesh_.triangles[triangle];
+    return v[0] == vertex ? 0 : v[1] == vertex ? 1 : 2;
+  }
+  /// integral over K of s grad phi - f phi, less the moments that its two sides have.
+  [[nodiscard]] Point leftOver(int triangle, int vertex) const {
+    const auto& v = mesh_.triangles[triangle];
+    const int i = cornerAt(triangle, vertex);
+    const Point opposite = mesh_.vertices[v[(i + 2) % 3]] - mesh_.vertices[v[(i + 1) % 3]];
+    const Point gradient = Point(-opposite.y(), opposite.x()) / 2;  // |K| grad phi
+    Point left =
+        tractionOf(stress_[triangle], gradient) - doubleArea(mesh_, triangle) / 6 * forces_[triangle];
+    for (const int k : {i, (i + 2) % 3}) {
+      const int side = sides_.of(triangle, k);
+      left -= (sides_.left(triangle, k) ? 1 : -1) * moments_[side][endAt(side, vertex)];
+    }
+    return left;
+  }
+
+  /// The triangles of an inner vertex in their order: the change of the first side gives all others, and is
+  /// taken such that the sum of squares over the lengths is least. \returns whether the vertex is an inner
+  /// one.
+  bool walkRound(int vertex) {
+    for (const int side : sides_.sidesAt(vertex))
+      if (sides_.all()[side].triangles[1] < 0) return false;
+    changes_.clear();
+    const int first = *sides_.trianglesAt(vertex).begin();
+    int triangle = first;
+    Point sum(0, 0);
+    Point mean(0, 0);
+    double weights = 0;
+    do {
+      const int i = cornerAt(triangle, vertex);
+      // Counterclockwise: in by the side i, out by the one before.
+      const int in = sides_.of(triangle, i);
+      const double weight = 1 / length(in);
+      const double sign = sides_.left(triangle, i) ? 1 : -1;
+      changes_.push_back({in, sign, sum});
+      mean += weight * sum;
+      weights += weight;
+      sum -= leftOver(triangle, vertex);  // what is taken out by the next side as it sees it
+      const int out = sides_.of(triangle, (i + 2) % 3);
+      const auto& behind = sides_.all()[out].triangles;
+      triangle = behind[0] == triangle ? behind[1] : behind[0];
+    } while (triangle != first && changes_.size() <= sides_.sidesAt(vertex).size());
+    if (changes_.size() != sides_.sidesAt(vertex).size()) return false;  // two rounds that meet at the vertex
+    mean /= weights;
+    for (const Change& change : changes_)
+      moments_[change.side][endAt(change.side, vertex)] += change.sign * (change.by - mean);
+    return true;
+  }
+
+  /// The same for any vertex.
+  void solve(int vertex) {
+    const Sides::Range around = sides_.sidesAt(vertex);
+    const auto columns = static_cast<Eigen::Index>(around.size());
+    Eigen::Index rows = 2 * static_cast<Eigen::Index>(sides_.trianglesAt(vertex).size());
+    for (const int side : around)
+      if (sides_.all()[side].triangles[1] < 0) rows += known_[side].count;
+    Matrix A = Matrix::Zero(rows, 2 * columns);
+    Vector b = Vector::Zero(rows);
+    const auto root = [&](Eigen::Index c) { return std::sqrt(length(around.begin()[c])); };
+    Eigen::Index row = 0;
+    for (const int triangle : sides_.trianglesAt(vertex)) {
+      const int i = cornerAt(triangle, vertex);
+      b.segment<2>(row) = leftOver(triangle, vertex);
+      for (const int k : {i, (i + 2) % 3}) {
+        const auto c = std::find(around.begin(), around.end(), sides_.of(triangle, k)) - around.begin();
+        A.block<2, 2>(row, 2 * c) =
+            (sides_.left(triangle, k) ? 1 : -1) * root(c) * Eigen::Matrix2d::Identity();
+      }
+      row += 2;
+    }
+    for (Eigen::Index c = 0; c < columns; ++c) {
+      const int side = around.begin()[c];
+      if (sides_.all()[side].triangles[1] >= 0) continue;
+      const int end = endAt(side, vertex);
+      for (int k = 0; k < known_[side].count; ++k, ++row) {
+        A.block<1, 2>(row, 2 * c) = root(c) * known_[side].known[k].transpose();
+        b[row] = known_[side].known[k].dot(known_[side].moments[end] - moments_[side][end]);
+      }
+    }
+    const Vector change = Eigen::CompleteOrthogonalDecomposition<Matrix>(A).solve(b);
+    for (Eigen::Index c = 0; c < columns; ++c)
+      moments_[around.begin()[c]][endAt(around.begin()[c], vertex)] += root(c) * change.segment<2>(2 * c);
+  }
+
+  struct Change {
+    int side = 0;
+    double sign = 1;
+    Point by{0, 0};
+  };
+  const TriangleMesh& mesh_;
+  const Sides& sides_;
+  const std::vector<Stress>& stress_;
+  const std::vector<Point>& forces_;
+  const std::vector<KnownTraction>& known_;
+  SideMoments& moments_;
+  std::vector<Change> changes_;
+};
+
+}  // namespace
+
+Sides::Sides(const TriangleMesh& mesh) : ofTriangle_(3 * mesh.triangles.size()) {
+  struct Half {
+    std::array<int, 2> edge;
+    int place;  ///< 3 triangle + side
+  };
+  std::vector<Half> halves;
+  halves.reserve(ofTriangle_.size());
+  for (size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
+      halves.push_back({{a, b}, static_cast<int>(3 * t) + k});
+    }
+  std::sort(halves.begin(), halves.end(), [](const Half& a, const Half& b) {
+    return a.edge != b.edge ? a.edge < b.edge : a.place < b.place;
+  });
+  std::vector<std::array<int, 2>> atVertices;
+  for (size_t i = 0; i < halves.size(); ++i) {
+    const bool second = i > 0 && halves[i].edge == halves[i - 1].edge;
+    const int triangle = halves[i].place / 3;
+    const int k = halves[i].place % 3;
+    if (!second) {
+      const auto& v = mesh.triangles[triangle];
+      sides_.push_back({{v[k], v[(k + 1) % 3]}, {triangle, -1}, -1});
+      for (const int vertex : sides_.back().vertices) atVertices.push_back({vertex, count() - 1});
+    } else {
+      sides_.back().triangles[1] = triangle;
+    }
+    ofTriangle_[halves[i].place] = 2 * (count() - 1) + (second ? 1 : 0);
+  }
+  listByVertex(mesh.vertices.size(), atVertices, sideStart_, sidesAt_);
+  std::vector<std::array<int, 2>> trianglesOf;
+  for (size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const int vertex : mesh.triangles[t]) trianglesOf.push_back({vertex, static_cast<int>(t)});
+  listByVertex(mesh.vertices.size(), trianglesOf, triangleStart_, trianglesAt_);
+
+  std::vector<Half> labelled;
+  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
+    const auto [a, b] = std::minmax(mesh.boundaryEdges[e][0], mesh.boundaryEdges[e][1]);
+    labelled.push_back({{a, b}, static_cast<int>(e)});
+  }
+  std::sort(labelled.begin(), labelled.end(), [](const Half& a, const Half& b) { return a.edge < b.edge; });
+  size_t at = 0;  // sides ascend by their vertices, too
+  for (Side& side : sides_) {
+    const auto [a, b] = std::minmax(side.vertices[0], side.vertices[1]);
+    const std::array<int, 2> edge{a, b};
+    while (at < labelled.size() && labelled[at].edge < edge) ++at;
+    if (at < labelled.size() && labelled[at].edge == edge) side.boundary = labelled[at].place;
+  }
+}
+
+SideMoments balancedMoments(const TriangleMesh& mesh, const Sides& sides, const std::vector<Stress>& stress,
+                            const std::vector<Point>& forces, const std::vector<KnownTraction>& known) {
+  SideMoments moments(sides.count());
+  for (int e = 0; e < sides.count(); ++e) {
+    const Side& side = sides.all()[e];
+    const Point n = across(mesh, side);
+    Point mean = tractionOf(stress[side.triangles[0]], n);
+    if (side.triangles[1] >= 0) mean = (mean + tractionOf(stress[side.triangles[1]], n)) / 2;
+    moments[e] = {mean / 2, mean / 2};
+  }
+  VertexBalance vertices(mesh, sides, stress, forces, known, moments);
+  for (int vertex = 0; vertex < static_cast<int>(mesh.vertices.size()); ++vertex) vertices.balance(vertex);
+  return moments;
+}
+
+Moments momentsOf(const Sides& sides, const SideMoments& moments, int triangle) {
+  Moments result;
+  for (int k = 0; k < 3; ++k) {
+    const auto& [first, second] = moments[sides.of(triangle, k)];
+    if (sides.left(triangle, k)) {
+      result.segment<2>(4 * k) = first;
+      result.segment<2>(4 * k + 2) = second;
+    } else {
+      result.segment<2>(4 * k) = -second;
+      result.segment<2>(4 * k + 2) = -first;
+    }
+  }
+  return result;
+}
+
+}  // namespace mortier

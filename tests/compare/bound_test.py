@@ -1,0 +1,82 @@
+"""Runs that ask for a guaranteed bound of their error: what they tell, and when there is none."""
+import json
+import unittest
+
+from scenes import TWO_BLOCKS
+from support import ROOT, OfTwoBlocks
+
+ELASTIC = TWO_BLOCKS.replace(', viscosity = 10, yield_stress = 1, projection = "elasticity"', "")
+BOUND = "\n[accuracy]\nbound = true\n"
+
+
+class Bound(OfTwoBlocks):
+    def bound(self, scene, *arguments):
+        """Standard output and accuracy of summary.json."""
+        self.write(scene + BOUND)
+        done = self.mortier("run", "scene.toml", "--out", "out", *arguments)
+        return done.stdout, json.loads(self.read("out/summary.json"))["accuracy"]
+
+    def test_mortar_is_exact_and_interpolation_is_not(self):
+        log, accuracy = self.bound(ELASTIC)
+        self.assertIn("guaranteed: 0 to rounding", log)
+        self.assertLess(accuracy["bound"]["energy_error"], 1e-12)
+        log, accuracy = self.bound(ELASTIC, "--set", "contact.variant=interpolation")
+        found = accuracy["bound"]
+        self.assertIn(f"guaranteed: at most {100 * found['energy_error']:.2g} %", log)
+        self.assertAlmostEqual(found["absolute"] ** 2, found["stress"] ** 2 + found["lift"] ** 2
+                               + found["gap"] ** 2, delta=1e-12 * found["absolute"] ** 2)
+        self.assertAlmostEqual(found["energy_error"],
+                               found["absolute"] / (found["norm"] - found["absolute"]), delta=1e-12)
+        self.assertLess(found["data"], 1e-12)
+        # The estimate of this state is below its error, the bound above (tests/theory/energy_bound_test.cpp).
+        self.assertGreater(found["energy_error"], accuracy["energy_error"])
+
+    def test_units_change_nothing(self):
+        _, accuracy = self.bound(ELASTIC, "--set", "contact.variant=interpolation")
+        soft = ELASTIC.replace("3e11", "3e-4").replace("-10*t", "-1e-9*t")
+        _, other = self.bound(soft, "--set", "contact.variant=interpolation")
+        ratio = other["bound"]["energy_error"] / accuracy["bound"]["energy_error"]
+        self.assertAlmostEqual(ratio, 1, delta=1e-9)
+
+    def test_not_asked_for_is_not_told(self):
+        self.write(ELASTIC)
+        log = self.mortier("run", "scene.toml", "--out", "out").stdout
+        self.assertNotIn("guaranteed", log)
+        self.assertNotIn("bound", json.loads(self.read("out/summary.json"))["accuracy"])
+
+    def test_where_no_theorem_holds_the_condition_is_named(self):
+        for settings, reason in [(["degree=2"], "displacements are quadratic"),
+                                 (["body.upper.material.viscosity=10", "body.upper.material.yield_stress=1"],
+                                  "upper is viscoplastic")]:
+            log, accuracy = self.bound(ELASTIC, "--set", *settings)
+            self.assertIn(f"no guaranteed bound: {reason}\n", log)
+            self.assertIsNone(accuracy["bound"]["energy_error"])
+            self.assertEqual(accuracy["bound"]["reason"], reason)
+
+    def test_curved_lines_have_none(self):
+        done = self.mortier("run", ROOT / "scenes" / "hertz.toml", "--out", "out", "--set",
+                            "accuracy.bound=true", "time.steps=1")
+        self.assertIn("no guaranteed bound: the contact line of", done.stdout)
+        self.assertIn("is not straight", done.stdout)
+
+    def test_supports_along_a_curve_have_none(self):
+        done = self.mortier("run", ROOT / "scenes" / "cut-ring.toml", "--out", "out", "--set",
+                            "accuracy.bound=true")
+        self.assertIn("no guaranteed bound: upper is held along a curve", done.stdout)
+
+    def test_data_that_are_not_linear_are_named(self):
+        log, accuracy = self.bound(ELASTIC.replace('"-10*t"', '"-10*t*(1 + 0.5*sin(3*x))"'))
+        self.assertGreater(accuracy["bound"]["data"], 1e-3)
+        self.assertIn("for data that are linear on sides", log)
+
+    def test_wrong_values_are_refused(self):
+        for text, message in [("bound = 1", "bound = 1, expected true or false"),
+                              ("bound = true\nmax_unknowns = 5", "max_unknowns = 5"),
+                              ("bound = false", "energy")]:
+            self.write(ELASTIC + "\n[accuracy]\n" + text + "\n")
+            errors = self.mortier("run", "scene.toml", "--out", "out", code=2).stderr
+            self.assertIn(message, errors)
+
+
+if __name__ == "__main__":
+    unittest.main()
