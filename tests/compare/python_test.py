@@ -36,9 +36,9 @@ CASES = {
     "viscoplastic": ("open-close.toml", {"time.tolerance": 1e-3}),
     "plane-strain": ("thick-cylinder.toml", {"time.steps": 4, "output.every": 2}),
     "accuracy": ("punch.toml", {"accuracy.energy": 0.2, "output.every": 1}),
-    "bound": ("exact-contact.toml", {"accuracy.bound": "true"}),
-    "no-bound": ("hertz.toml", {"accuracy.bound": "true", "time.steps": 1}),
-    "accuracy-and-bound": ("punch.toml", {"accuracy.energy": 0.2, "accuracy.bound": "true"}),
+    "bound": ("exact-contact.toml", {"accuracy.bound": True}),
+    "no-bound": ("hertz.toml", {"accuracy.bound": True, "time.steps": 1}),
+    "accuracy-and-bound": ("punch.toml", {"accuracy.energy": 0.2, "accuracy.bound": True}),
 }
 
 
@@ -55,7 +55,8 @@ PERTURB, LETTER = -6, 0xA5  # M_PERTURB of mallopt(3)
 
 def set_of(changes):
     """The options of the program."""
-    return ["--set", *(f"{key}={value}" for key, value in changes.items())] if changes else []
+    words = [f"{key}={str(value).lower() if value is True else value}" for key, value in changes.items()]
+    return ["--set", *words] if words else []
 
 
 def without_measured(summary):
