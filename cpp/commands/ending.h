@@ -10,8 +10,8 @@
 
 namespace mortier {
 
-/// Adds to a run what spoils its estimates, whether it has the accuracy that was asked for, and a bound of its
-/// error where the scene wants one.
+/// Adds to a run what spoils its estimates, whether it has the accuracy that was asked for, and a bound of
+/// its error where the scene wants one.
 /// \param rounds  nullptr where none was
 /// \param shortfall  why the accuracy is not reached; empty where it is
 void addVerdict(Attempt& attempt, const Rounds* rounds, const std::string& shortfall);

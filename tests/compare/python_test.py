@@ -44,8 +44,8 @@ CASES = {
 
 class MallocInfo(ctypes.Structure):
     _fields_ = [(name, ctypes.c_size_t)
-                for name in ("arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks", "uordblks",
-                             "fordblks", "keepcost")]
+                for name in ("arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks",
+                             "uordblks", "fordblks", "keepcost")]
 
 
 LIBC = ctypes.CDLL(None)
