@@ -12,16 +12,11 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "commands/attempt.h"
-#include "commands/bound_of.h"
 #include "commands/complain.h"
-#include "commands/exit_code.h"
+#include "commands/ending.h"
 #include "commands/solve.h"
 #include "commands/solve_rounds.h"
 #include "lint/lint.h"
-#include "mesh/medit.h"
-#include "plan/estimate_doubts.h"
-#include "report/output_file.h"
-#include "report/summary.h"
 #include "scene/initial_equilibrium.h"
 #include "scene/memory_need.h"
 
@@ -141,39 +136,14 @@ int run(RunCommand command) {
     solveIt(*attempt, {});
 
   // 4. The result, in place of an older one only when the run is complete.
-  const SceneDescription& scene = attempt->resolved.description;
-  Solved& solved = attempt->solved;
-  RunFacts& facts = attempt->facts;
-  const bool complete = solved.report.status == Status::converged;
-  facts.doubts = estimateDoubts(scene, *attempt->model);
-  if (complete && scene.accuracy.bound && !solved.accuracy.bound)
-    solved.accuracy.bound = boundOf(*attempt->model, solved.state);
-  Manifest manifest{!complete, std::move(solved.files)};
-  if (rounds) {
-    const std::vector<std::string> more = rounds->doubts();
-    facts.doubts.insert(facts.doubts.end(), more.begin(), more.end());
-    facts.reached = complete && shortfall.empty();
-    for (const Body& body : attempt->model->bodies) {
-      OutputFile file(folder->temporary() + "/" + body.name() + ".mesh");
-      file << meditText(body.mesh());
-      manifest.files[body.name() + ".mesh"] = file.close();
-    }
-  }
-  manifest.files["summary.json"] = writeSummary(folder->temporary(), facts, *attempt->model, solved.state,
-                                                solved.last, solved.report, solved.accuracy);
-  const std::string where = folder->commit(manifest);
+  addVerdict(*attempt, rounds ? &*rounds : nullptr, shortfall);
+  const std::string where = putInPlace(*attempt, *folder);
 
   // 5. How well it holds.
-  tell(log, facts, *attempt->model, solved, where);
-  if (!complete) {
-    complain(scene.path + ": " + solved.report.reason + "; the state after step " +
-             std::to_string(solved.last.step) + " is in " + where);
-    return solved.report.status == Status::unheld ? exitUnheld : exitFailed;
-  }
-  if (shortfall.empty()) return exitDone;
-  complain(scene.path + ": accuracy " + shortest(scene.accuracy.energy) + " not reached: " + shortfall +
-           "; the best result is in " + where);
-  return exitFailed;
+  tell(log, attempt->facts, *attempt->model, attempt->solved, where);
+  const Ending ending = endingOf(*attempt, shortfall, where);
+  if (ending.code != exitDone) complain(ending.reason);
+  return ending.code;
 }
 
 }  // namespace mortier

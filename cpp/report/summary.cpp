@@ -158,7 +158,7 @@ Extremes extremes(const Model& model, const State& state) {
   return e;
 }
 
-FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const Model& model,
+std::string summaryText(const std::string& path, const RunFacts& facts, const Model& model,
                         const State& state, const StepReport& last, const RunReport& report,
                         const Accuracy& accuracy) {
   size_t triangles = 0;
@@ -235,9 +235,17 @@ FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const 
   json["versions"] = Json::object();
   for (const auto& [name, version] : facts.versions) json["versions"][name] = version;
   json["scene_text"] = facts.sceneText;
-  requireFiniteNumbers(json, folder + "/summary.json");
-  OutputFile file(folder + "/summary.json");
-  file << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  requireFiniteNumbers(json, path);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const Model& model,
+                        const State& state, const StepReport& last, const RunReport& report,
+                        const Accuracy& accuracy) {
+  const std::string path = folder + "/summary.json";
+  const std::string text = summaryText(path, facts, model, state, last, report, accuracy);
+  OutputFile file(path);
+  file << text;
   return file.close();
 }
 
