@@ -131,13 +131,26 @@ every = 1
         interface = json.loads(self.read("ellipse/summary.json"))["interfaces"][0]
         self.assertEqual(interface["sagitta"], 0)
         self.assertNotIn("no circle", run.stderr)
-        # where the ellipse is sharpest; the polygons are off each other by about that
-        sagitta = 0.15**2 / 8 * 2
         gaps = [abs(float(row["gap"]))
                 for row in csv.DictReader(self.read("ellipse/contact.csv").splitlines())
                 if row["step"] == "0"]
         self.assertGreater(len(gaps), 10)
-        self.assertLess(max(gaps), 0.02 * sagitta)
+        self.assertLess(max(gaps), 1e-10)  # the polygons are off each other by up to 6e-3
+        # Refined: new vertices are on the ellipse.
+        self.mortier("run", "scene.toml", "--quiet", "--out", "refined", "--accuracy", "0.1",
+                     "--set", "degree=2")
+        for name, fewest in (("in", 30), ("out", 20)):
+            numbers = self.read(f"refined/{name}.mesh").split()
+            begin = numbers.index("Vertices")
+            vertices = [tuple(map(float, numbers[begin + 2 + 3 * i:begin + 4 + 3 * i]))
+                        for i in range(int(numbers[begin + 1]))]
+            begin = numbers.index("Edges")
+            edges = [tuple(map(int, numbers[begin + 2 + 3 * i:begin + 5 + 3 * i]))
+                     for i in range(int(numbers[begin + 1]))]
+            arc = [vertices[v - 1] for a, b, label in edges for v in (a, b) if label == 1]
+            self.assertGreater(len(arc), 2 * fewest)
+            for x, y in arc:
+                self.assertLess(abs((x / 2)**2 + y**2 - 1), 1e-10)
 
     def hasGmsh(self):
         return "this build is without" not in mortier("mesh", "info", "parts.geo", cwd=self.folder).stderr
