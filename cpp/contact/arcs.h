@@ -38,8 +38,8 @@ std::vector<Arc> arcsOf(const std::vector<Point>& points, bool closed,
 /// \pre the first and the last point of a closed line agree
 double turnOfPolygon(const std::vector<Point>& points, bool closed, double least);
 
-/// How far what stands behind the element from a to b is from the point x, as below; 0 where it is straight or
-/// not known [m].
+/// How far what stands behind the element from a to b is from the point x, as below; 0 where it is straight
+/// or not known [m].
 double distanceTo(const Arc& arc, const Point& a, const Point& b, const Point& x, const Point& n);
 
 /// How far the arc from a to b is from the point x, on its chord or near it, along the direction n of length

@@ -1,5 +1,5 @@
-// In a process of its own: Gmsh crashes on some files, and a geometry is a program that could start others and
-// write files.
+// In a process of its own: Gmsh crashes on some files, and a geometry is a program that could start others
+// and write files.
 #include "mesh/gmsh.h"
 
 #include <algorithm>

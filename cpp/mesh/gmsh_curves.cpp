@@ -62,19 +62,21 @@ class GmshCurve {
 
   /// Of an edge between two nodes; none where its nodes are not on the curve, or where it is not found.
   [[nodiscard]] EdgeCurve between(size_t tag0, const Point& x0, size_t tag1, const Point& x1) const {
-    const std::optional<double> u0 = parameter(tag0, x0, begin_, end_);
-    const std::optional<double> u1 = parameter(tag1, x1, end_, begin_);
-    if (!u0 || !u1) return {};
-    const std::vector<Point> ends = points({*u0, *u1});
+    const std::optional<double> first = parameter(tag0, x0, begin_, end_);
+    const std::optional<double> last = parameter(tag1, x1, end_, begin_);
+    if (!first || !last) return {};
+    const double u0 = *first;
+    const double u1 = *last;
+    const std::vector<Point> ends = points({u0, u1});
     const Point off0 = x0 - ends[0];  // a CAD file has its vertices on its curves to 1e-7
     const Point off1 = x1 - ends[1];
     const auto onCurve = [&](const std::vector<double>& t) {
       std::vector<double> u;
-      for (const double part : t) u.push_back((1 - part) * *u0 + part * *u1);
+      for (const double part : t) u.push_back((1 - part) * u0 + part * u1);
       std::vector<Point> x = points(u);
       for (size_t i = 0; i < x.size(); ++i) x[i] += (1 - t[i]) * off0 + t[i] * off1;
-      x.front() = t.front() == 0 ? x0 : x.front();
-      x.back() = t.back() == 1 ? x1 : x.back();
+      if (t.front() == 0) x.front() = x0;
+      if (t.back() == 1) x.back() = x1;
       return x;
     };
     SampledCurve curve = sampled(onCurve, tolerance_);

@@ -1,5 +1,5 @@
-// Gmsh's library, from its start to its end, with one file. It is opened when a file needs it: linked, its own
-// libraries would start with every run.
+// Gmsh's library, from its start to its end, with one file. It is opened when a file needs it: linked, its
+// own libraries would start with every run.
 #pragma once
 
 #include <cstddef>

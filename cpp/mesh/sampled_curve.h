@@ -1,7 +1,7 @@
-// A curve by points of it. x(t), 0 <= t <= 1, is piece by piece the polynomial of degree 8 through nine points
-// of the curve, at the places of Chebyshev with both ends (barycentric formula; Berrut and Trefethen 2004).
-// Pieces are halved until they are the curve to a tolerance, so that a jump of a curvature, or a kink, lies in
-// a piece that is small enough.
+// A curve by points of it. x(t), 0 <= t <= 1, is piece by piece the polynomial of degree 8 through nine
+// points of the curve, at Chebyshev's places with both ends (barycentric formula; Berrut, Trefethen 2004).
+// Pieces are halved until they are the curve to a tolerance, so that a jump of a curvature, or a kink, lies
+// in a piece that is small enough.
 #pragma once
 
 #include <functional>

@@ -128,8 +128,8 @@ TEST(GmshCurves, closedCurveOfACadModel) {
   EXPECT_NEAR(bentArea(now), 2 * std::numbers::pi, 1e-5);
 }
 
-/// A plate between a curve from (0, 0) to (4, 0), number 1, and a straight line at a height; the size is that of
-/// the edges at the curve.
+/// A plate between a curve from (0, 0) to (4, 0), number 1, and a straight line at a height; the size is
+/// that of the edges at the curve.
 std::string beside(const std::string& curve, double size, double height = -2) {
   std::ostringstream text;
   const double points[][2] = {{0, 0}, {4, 0}, {4, height}, {0, height}, {1, 1}, {2, -0.5}, {3, 1}};
