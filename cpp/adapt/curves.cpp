@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "contact/smooth_part.h"
 
@@ -93,12 +94,16 @@ KnownCurves curvesBehind(const TriangleMesh& mesh) {
   std::map<int, std::vector<std::array<int, 2>>> edges;
   for (const auto& [edge, label] : edgesToFollow(mesh)) edges[label].push_back(edge);
   const auto told = toldByMesh(mesh);
+  std::set<std::array<int, 2>> own;
+  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
+    if (mesh.hasCurve(e)) own.insert(mesh.boundaryEdges[e]);
   for (const auto& [label, ofLabel] : edges) {
     bool polygon = false;
     for (const BoundaryLine& line : linesOf(mesh, ofLabel))
       for (const SmoothPart& part : smoothParts(line))
         for (int e = 0; e < part.elements(); ++e) {
           const std::array<int, 2> edge{part.nodes[e], part.nodes[e + 1]};
+          if (own.count(edge) > 0) continue;
           const auto found = told.find(edge);
           const Arc arc = found != told.end() ? Arc{found->second, true} : part.arcs[e];
           if (arc.known && arc.curvature != 0) known.edges[edge] = arc.curvature;

@@ -58,6 +58,7 @@ void apply(TriangleMesh& mesh, const Cut& cut) {
   mesh.boundaryEdges.push_back({m, b});
   mesh.boundaryLabels.push_back(mesh.boundaryLabels[cut.edge]);
   if (!mesh.edgeMiddles.empty()) mesh.edgeMiddles.push_back(mesh.edgeMiddles[cut.edge]);
+  if (!mesh.edgeCurves.empty()) mesh.edgeCurves.emplace_back();
   for (size_t t = 0; t < mesh.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
       const std::array<int, 3> old = mesh.triangles[t];

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "mesh/element_nodes.h"
-#include "plan/loads.h"
+#include "plan/steps.h"
 
 namespace mortier {
 namespace {
@@ -14,14 +14,6 @@ namespace {
 constexpr double least = 0.9;
 constexpr double careful = 0.85;     // aims are this part of what is asked
 constexpr double reachOfARound = 4;  // by which a round divides the error, about
-
-bool flows(const SceneDescription& scene) {
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const BodyDescription& body) {
-    const auto materials = materialsOf(body);
-    return std::any_of(materials.begin(), materials.end(),
-                       [](const MaterialDescription* each) { return each->viscoplasticity.has_value(); });
-  });
-}
 
 int nodesOf(const AdaptedMeshes& meshes, size_t bodies, int degree) {
   int nodes = 0;
@@ -45,9 +37,7 @@ Rounds::Rounds(ResolvedScene scene)
 }
 
 double Rounds::timeShare() const {
-  if (!flows(description_)) return 0;
-  const double share = (description_.degree == 1 ? 0.2 : 0.3) * description_.accuracy.energy;
-  return description_.time.controlled() ? std::min(share, description_.time.tolerance) : share;
+  return canFlow(description_) ? stepTolerance(description_) : 0;
 }
 
 ResolvedScene Rounds::scene() const {

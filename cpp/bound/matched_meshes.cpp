@@ -41,6 +41,7 @@ class Cutter {
   Cutter(const TriangleMesh& mesh, const Cuts& cuts) {
     result_.mesh = mesh;
     result_.mesh.edgeMiddles.clear();
+    result_.mesh.edgeCurves.clear();
     result_.parents.resize(mesh.triangles.size());
     for (size_t t = 0; t < mesh.triangles.size(); ++t) result_.parents[t] = static_cast<int>(t);
     findTriangles(cuts);

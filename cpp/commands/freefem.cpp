@@ -187,7 +187,7 @@ void requireKnown(const SceneDescription& scene) {
 bool isOneCurve(const SmoothPart& part) {
   const Arc& first = part.arcs.front();
   return std::all_of(part.arcs.begin(), part.arcs.end(), [&](const Arc& arc) {
-    return arc.known == first.known && (!arc.known || arc.curvature == first.curvature);
+    return !arc.curve.known() && arc.known == first.known && (!arc.known || arc.curvature == first.curvature);
   });
 }
 

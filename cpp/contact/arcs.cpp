@@ -144,6 +144,11 @@ double turnOfPolygon(const std::vector<Point>& points, bool closed, double least
   return sharpest;
 }
 
+double distanceTo(const Arc& arc, const Point& a, const Point& b, const Point& x, const Point& n) {
+  if (arc.curve.known()) return (arc.curve.at(arc.curve.meeting(x, n)) - x).dot(n);
+  return arc.known && arc.curvature != 0 ? distanceToArc(a, b, arc.curvature, x, n) : 0;
+}
+
 double distanceToArc(const Point& a, const Point& b, double curvature, const Point& x, const Point& n) {
   const Point chord = b - a;
   const double h = chord.norm();

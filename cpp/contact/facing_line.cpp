@@ -323,11 +323,8 @@ Sight see(const SmoothPart& part, const FacingLine& mortar, const Segment& segme
   const Point y = mortar.at(j, seen);
   sight.distance = (y - x).dot(sight.normal);
   if (part.bent(e)) sight.stretch = part.tangentAt(e, here).norm() / (part.s[e + 1] - part.s[e]);
-  if (part.arcs[e].known && part.arcs[e].curvature != 0)
-    sight.bulge += distanceToArc(part.points[e], part.points[e + 1], part.arcs[e].curvature, x, sight.normal);
-  if (across.arc.known && across.arc.curvature != 0)
-    sight.bulge +=
-        distanceToArc(mortar.points[j + 1], mortar.points[j], across.arc.curvature, y, -sight.normal);
+  sight.bulge += distanceTo(part.arcs[e], part.points[e], part.points[e + 1], x, sight.normal);
+  sight.bulge += distanceTo(across.arc, mortar.points[j + 1], mortar.points[j], y, -sight.normal);
   return sight;
 }
 

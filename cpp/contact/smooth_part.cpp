@@ -95,6 +95,12 @@ void setCurvedNormals(SmoothPart& part) {
   part.normals.back() = reflected(part.normals[n - 1], n - 1);
 }
 
+/// Of a list by elements; empty where there is none.
+template <class Value>
+std::vector<Value> stretchOf(const std::vector<Value>& list, int begin, int end) {
+  return list.empty() ? list : std::vector<Value>(list.begin() + begin, list.begin() + end);
+}
+
 SmoothPart partOf(const BoundaryLine& line, int begin, int end) {
   SmoothPart part;
   part.nodes.assign(line.nodes.begin() + begin, line.nodes.begin() + end + 1);
@@ -104,7 +110,9 @@ SmoothPart partOf(const BoundaryLine& line, int begin, int end) {
     part.middles.assign(line.middleNodes.begin() + begin, line.middleNodes.begin() + end);
     part.middlePoints.assign(line.middlePoints.begin() + begin, line.middlePoints.begin() + end);
   }
-  part.straight = !part.closed && isStraight(part.points);
+  const std::vector<EdgeCurve> curves = stretchOf(line.curves, begin, end);
+  part.straight = !part.closed && isStraight(part.points) &&
+                  std::none_of(curves.begin(), curves.end(), [](const EdgeCurve& c) { return c.known(); });
   for (int e = 0; e < part.elements(); ++e) part.straight = part.straight && !part.bent(e);
   if (part.straight) {
     const Point t = (part.points.back() - part.points.front()).normalized();
@@ -118,10 +126,9 @@ SmoothPart partOf(const BoundaryLine& line, int begin, int end) {
       part.s.push_back(part.s.back() + (part.points[i] - part.points[i - 1]).norm());
     setCurvedNormals(part);
     part.curvatures = nodalCurvatures(part.points, part.closed);
-    part.arcs = arcsOf(part.points, part.closed,
-                       line.middles.empty()
-                           ? std::vector<Point>{}
-                           : std::vector<Point>(line.middles.begin() + begin, line.middles.begin() + end));
+    part.arcs = arcsOf(part.points, part.closed, stretchOf(line.middles, begin, end));
+    for (size_t e = 0; e < curves.size(); ++e)
+      if (curves[e].known()) part.arcs[e] = {part.arcs[e].curvature, true, curves[e]};
     for (double& curvature : part.curvatures) curvature = std::abs(curvature);
   }
   return part;
@@ -155,6 +162,7 @@ BoundaryLine begunAt(const BoundaryLine& line, int first) {
   beginClosed(result.nodes);
   beginClosed(result.points);
   if (!result.middles.empty()) begin(result.middles);
+  if (!result.curves.empty()) begin(result.curves);
   if (!result.middleNodes.empty()) {
     begin(result.middleNodes);
     begin(result.middlePoints);

@@ -5,6 +5,7 @@
 
 #include "base/fault_error.h"
 #include "contact/interface.h"
+#include "plan/steps.h"
 #include "scene/build.h"
 #include "scene/build_quantities.h"
 #include "scene/initial_equilibrium.h"
@@ -109,14 +110,7 @@ void requireHeld(const SceneDescription& scene, const Model& model) {
 /// The scene as its run solves it: beside an accuracy bodies that flow have steps that are chosen by their
 /// error, whatever the scene says of equal ones.
 SceneDescription asSolved(SceneDescription scene) {
-  const auto flows = [](const BodyDescription& body) {
-    const auto materials = materialsOf(body);
-    return std::any_of(materials.begin(), materials.end(),
-                       [](const MaterialDescription* m) { return m->viscoplasticity.has_value(); });
-  };
-  if (refinesMeshes(scene) && !scene.time.controlled() &&
-      std::any_of(scene.bodies.begin(), scene.bodies.end(), flows))
-    scene.time.tolerance = scene.accuracy.energy;
+  scene.time.tolerance = stepTolerance(scene);
   return scene;
 }
 

@@ -108,7 +108,10 @@ std::vector<size_t> edgesOf(const BoundaryLine& line, const TriangleMesh& mesh, 
 BoundaryLine boundaryLine(const TriangleMesh& mesh, int label) {
   BoundaryLine line = verticesOf(mesh, label);
   if (mesh.edgeMiddles.empty()) return line;
-  for (const size_t e : edgesOf(line, mesh, label)) line.middles.push_back(mesh.edgeMiddles[e]);
+  for (const size_t e : edgesOf(line, mesh, label)) {
+    line.middles.push_back(mesh.edgeMiddles[e]);
+    if (!mesh.edgeCurves.empty()) line.curves.push_back(mesh.edgeCurves[e]);
+  }
   return line;
 }
 

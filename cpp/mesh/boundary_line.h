@@ -17,6 +17,7 @@ struct BoundaryLine {
   bool closed = false;
   /// TriangleMesh::edgeMiddles of the elements; empty where none is known [m]
   std::vector<Point> middles = {};
+  std::vector<EdgeCurve> curves = {};  ///< the same of TriangleMesh::edgeCurves
   /// Nodes in the middle of the elements and their places [m]; empty where displacements are linear.
   std::vector<int> middleNodes = {};
   std::vector<Point> middlePoints = {};

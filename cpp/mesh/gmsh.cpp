@@ -1,18 +1,12 @@
-// The library is opened when a file needs it (linked, its own libraries would start with every run), in a
-// process of its own: it crashes on some files, and a geometry is a program that could start others and write
-// files.
+// In a process of its own: Gmsh crashes on some files, and a geometry is a program that could start others
+// and write files.
 #include "mesh/gmsh.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <memory>
 #include <set>
-#include <type_traits>
 
 #include "base/archive.h"
 #include "base/child_process.h"
@@ -21,8 +15,9 @@
 #include "mesh/regions.h"
 
 #ifdef MORTIER_GMSH
-#include <dlfcn.h>
 #include <gmshc.h>
+
+#include "mesh/gmsh_curves.h"
 #endif
 
 namespace mortier {
@@ -51,90 +46,19 @@ TriangleMesh readGmsh(const MeshSource& source) {
 template <class Archive>
 void visitMembers(Archive& archive, TriangleMesh& mesh) {
   auto& [name, vertices, triangles, regions, boundaryEdges, boundaryLabels, labelNames, regionNames,
-         edgeMiddles] = mesh;
+         edgeMiddles, edgeCurves] = mesh;
   archive(name, vertices, triangles, regions, boundaryEdges, boundaryLabels, labelNames, regionNames,
-          edgeMiddles);
+          edgeMiddles, edgeCurves);
+}
+
+template <class Archive>
+void visitMembers(Archive& archive, EdgeCurve& edge) {
+  SampledCurve curve = edge.known() ? *edge.curve : SampledCurve{};
+  archive(curve.knots, curve.points, edge.from, edge.to);
+  if (!curve.points.empty()) edge.curve = std::make_shared<const SampledCurve>(std::move(curve));
 }
 
 namespace {
-
-std::string decimal(double value) {
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
-
-/// Gmsh, from its start to its end, with one file.
-class Gmsh {
- public:
-  explicit Gmsh(const MeshSource& source) : path_(source.path) {
-    library_ = dlopen(MORTIER_GMSH, RTLD_NOW);
-    if (library_ == nullptr) throw InputError(path_ + ": Gmsh cannot be loaded: " + dlerror());
-    // Later versions ask as well whether to run as a program.
-    std::vector<std::string> words{"gmsh"};
-    for (const auto& [name, value] : source.parameters)
-      words.insert(words.end(), {"-setnumber", name, decimal(value)});
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    const int count = static_cast<int>(arguments.size());
-    if constexpr (std::is_invocable_v<decltype(gmshInitialize), int, char**, int, int*>)
-      call<decltype(gmshInitialize)>("gmshInitialize", count, arguments.data(), 0);
-    else
-      call<decltype(gmshInitialize)>("gmshInitialize", count, arguments.data(), 0, 0);
-    call<decltype(gmshOptionSetNumber)>("gmshOptionSetNumber", "General.Terminal", 0.0);
-    if (source.size > 0)
-      call<decltype(gmshOptionSetNumber)>("gmshOptionSetNumber", "Mesh.MeshSizeMax", source.size);
-  }
-  Gmsh(const Gmsh&) = delete;
-  Gmsh& operator=(const Gmsh&) = delete;
-  ~Gmsh() {
-    int ignored = 0;
-    symbol<decltype(gmshFinalize)>("gmshFinalize")(&ignored);
-  }
-
-  /// \throws InputError with what Gmsh says.
-  template <class Function, class... Arguments>
-  void call(const char* name, Arguments... arguments) const {
-    int error = 0;
-    symbol<Function>(name)(arguments..., &error);
-    if (error != 0) throw InputError(path_ + ": Gmsh: " + lastError());
-  }
-
-  template <class Value>
-  struct Array {
-    Value* data = nullptr;
-    size_t size = 0;
-  };
-  /// Takes over an array that Gmsh made.
-  template <class Value>
-  std::vector<Value> take(const Array<Value>& array) const {
-    std::vector<Value> result(array.data, array.data + array.size);
-    symbol<decltype(gmshFree)>("gmshFree")(array.data);
-    return result;
-  }
-
-  [[nodiscard]] const std::string& path() const { return path_; }
-
- private:
-  template <class Function>
-  [[nodiscard]] Function* symbol(const char* name) const {
-    auto* found = reinterpret_cast<Function*>(dlsym(library_, name));
-    if (found == nullptr) throw InputError(path_ + ": Gmsh lacks " + name);
-    return found;
-  }
-
-  [[nodiscard]] std::string lastError() const {
-    char* text = nullptr;
-    int error = 0;
-    symbol<decltype(gmshLoggerGetLastError)>("gmshLoggerGetLastError")(&text, &error);
-    std::string result = text == nullptr || *text == 0 ? "cannot read it" : text;
-    std::replace(result.begin(), result.end(), '\n', ' ');
-    if (text != nullptr) symbol<decltype(gmshFree)>("gmshFree")(text);
-    return result;
-  }
-
-  std::string path_;
-  void* library_ = nullptr;
-};
 
 /// Physical groups of a dimension, as entities of a number and a name.
 struct Group {
@@ -190,11 +114,6 @@ std::vector<int> elementTypes(const Gmsh& gmsh, int dimension) {
   return gmsh.take(types);
 }
 
-struct PlaneNodes {
-  std::map<size_t, Point> at;  ///< by tag
-  double z = 0;
-};
-
 PlaneNodes planeNodes(const Gmsh& gmsh) {
   Gmsh::Array<size_t> tags;
   Gmsh::Array<double> coordinates;
@@ -214,32 +133,6 @@ PlaneNodes planeNodes(const Gmsh& gmsh) {
     result.at[tag[i]] = {x[3 * i], x[3 * i + 1]};
   }
   return result;
-}
-
-/// Whether the curve has a shape that is not the line of its mesh: it comes from a geometry.
-bool hasShape(const Gmsh& gmsh, int curve) {
-  char* type = nullptr;
-  gmsh.call<decltype(gmshModelGetType)>("gmshModelGetType", 1, curve, &type);
-  const std::string word = type == nullptr ? "" : type;
-  if (type != nullptr) gmsh.take(Gmsh::Array<char>{type, 0});
-  return !word.empty() && word != "Line" && word.find("Discrete") == std::string::npos;
-}
-
-/// The point of a curve nearest to the middle of one of its edges; none where Gmsh finds none near it.
-Point middleOn(const Gmsh& gmsh, int curve, double z, const Point& a, const Point& b) {
-  const Point half = (b - a) / 2;
-  std::array<double, 3> middle{a.x() + half.x(), a.y() + half.y(), z};
-  Gmsh::Array<double> found;
-  Gmsh::Array<double> parameter;
-  gmsh.call<decltype(gmshModelGetClosestPoint)>("gmshModelGetClosestPoint", 1, curve, middle.data(),
-                                                middle.size(), &found.data, &found.size, &parameter.data,
-                                                &parameter.size);
-  const std::vector<double> x = gmsh.take(found);
-  gmsh.take(parameter);
-  const Point none = Point::Constant(std::numeric_limits<double>::quiet_NaN());
-  if (x.size() < 3) return none;
-  const Point point(x[0], x[1]);
-  return (point - a - half).norm() < half.norm() ? point : none;
 }
 
 TriangleMesh readHere(const MeshSource& source) {
@@ -288,21 +181,22 @@ TriangleMesh readHere(const MeshSource& source) {
     if (!group.name.empty()) mesh.labelNames[group.name] = group.number;
     for (const int entity : group.entities) {
       const std::vector<size_t> ends = elements(gmsh, line, entity);
-      const bool shaped = hasShape(gmsh, entity);
       for (size_t i = 0; i + 1 < ends.size(); i += 2) {
-        const int a = vertex(ends[i]);
-        const int b = vertex(ends[i + 1]);
-        mesh.boundaryEdges.push_back({a, b});
+        mesh.boundaryEdges.push_back({vertex(ends[i]), vertex(ends[i + 1])});
         mesh.boundaryLabels.push_back(group.number);
-        mesh.edgeMiddles.push_back(shaped
-                                       ? middleOn(gmsh, entity, nodes.z, mesh.vertices[a], mesh.vertices[b])
-                                       : Point::Constant(std::numeric_limits<double>::quiet_NaN()));
+      }
+      for (const KnownEdge& edge : knownEdges(gmsh, entity, ends, nodes)) {
+        mesh.edgeMiddles.push_back(edge.middle);
+        mesh.edgeCurves.push_back(edge.curve);
       }
     }
   }
   if (std::none_of(mesh.edgeMiddles.begin(), mesh.edgeMiddles.end(),
                    [](const Point& p) { return p.allFinite(); }))
     mesh.edgeMiddles.clear();
+  if (std::none_of(mesh.edgeCurves.begin(), mesh.edgeCurves.end(),
+                   [](const EdgeCurve& c) { return c.known(); }))
+    mesh.edgeCurves.clear();
   mesh.name = path;
   if (source.regions.empty())
     dropInnerEdges(mesh);

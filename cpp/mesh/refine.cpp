@@ -15,6 +15,8 @@ class Bisection {
  public:
   Bisection(const TriangleMesh& mesh, const CurvedEdges& curves) : old_(mesh), curves_(curves) {
     numberEdges();
+    for (size_t e = 0; e < mesh.edgeCurves.size(); ++e)
+      if (mesh.hasCurve(e)) ownCurves_[mesh.boundaryEdges[e]] = &mesh.edgeCurves[e];
     cut_.assign(triangleOf_.size(), 0);
   }
 
@@ -91,6 +93,12 @@ class Bisection {
     const auto m = static_cast<int>(result_.mesh.vertices.size());
     middle_[edge] = m;
     result_.cutEdges.push_back({a, b});
+    if (const auto own = ownCurves_.find({a, b}); own != ownCurves_.end()) {  // of one triangle, as its side
+      places_[m] = own->second->middle();
+      result_.mesh.vertices.push_back(own->second->at(places_[m]));
+      moved_[m] = {a, b};
+      return;
+    }
     const double bend = curvature(a, b);
     result_.mesh.vertices.push_back(middleOfArc(old_.vertices[a], old_.vertices[b], bend));
     if (bend == 0) return;
@@ -147,6 +155,7 @@ class Bisection {
     result_.mesh.vertices[v] = (old_.vertices[a] + old_.vertices[b]) / 2;
     result_.curves.erase({a, v});
     result_.curves.erase({v, b});
+    places_.erase(v);
     moved_.erase(found);
     ++result_.offCurve;
     return true;
@@ -160,20 +169,25 @@ class Bisection {
           edges[{old_.triangles[t][k], old_.triangles[t][(k + 1) % 3]}] = middle_[sides_[t][k]];
     result_.mesh.boundaryEdges.clear();
     result_.mesh.boundaryLabels.clear();
-    const auto push = [&](int a, int b, size_t from) {
+    result_.mesh.edgeCurves.clear();
+    const auto push = [&](int a, int b, size_t from, const EdgeCurve& curve) {
       result_.mesh.boundaryEdges.push_back({a, b});
       result_.mesh.boundaryLabels.push_back(old_.boundaryLabels[from]);
+      if (!old_.edgeCurves.empty()) result_.mesh.edgeCurves.push_back(curve);
       from_.push_back(from);
     };
     for (size_t e = 0; e < old_.boundaryEdges.size(); ++e) {
       const auto [a, b] = old_.boundaryEdges[e];
       const auto found = edges.find({a, b});
+      const EdgeCurve curve = old_.hasCurve(e) ? old_.edgeCurves[e] : EdgeCurve{};
       if (found == edges.end()) {
-        push(a, b, e);
-      } else {
-        push(a, found->second, e);
-        push(found->second, b, e);
+        push(a, b, e, curve);
+        continue;
       }
+      const auto place = places_.find(found->second);
+      const bool onCurve = place != places_.end();
+      push(a, found->second, e, onCurve ? EdgeCurve{curve.curve, curve.from, place->second} : EdgeCurve{});
+      push(found->second, b, e, onCurve ? EdgeCurve{curve.curve, place->second, curve.to} : EdgeCurve{});
     }
   }
 
@@ -188,6 +202,8 @@ class Bisection {
       const bool whole = mesh.boundaryEdges[e] == old_.boundaryEdges[from_[e]];
       if (whole && !old_.edgeMiddles.empty() && old_.edgeMiddles[from_[e]].allFinite())
         mesh.edgeMiddles.push_back(old_.edgeMiddles[from_[e]]);
+      else if (mesh.hasCurve(e))
+        mesh.edgeMiddles.push_back(mesh.edgeCurves[e].at(mesh.edgeCurves[e].middle()));
       else if (curve != result_.curves.end())
         mesh.edgeMiddles.push_back(middleOfArc(mesh.vertices[a], mesh.vertices[b], curve->second));
       else
@@ -202,8 +218,10 @@ class Bisection {
   std::vector<char> cut_;                       // edges
   std::vector<int> fresh_;                      // edges that are cut, and their triangles not yet looked at
   std::vector<int> middle_;                     // of edges that are cut
-  std::map<int, std::array<int, 2>> moved_;     // new vertices on arcs, and the ends of their edges
-  std::vector<size_t> from_;                    // of each boundary edge, the one before
+  std::map<std::array<int, 2>, const EdgeCurve*> ownCurves_;  // of the mesh, by the vertices of their edges
+  std::map<int, double> places_;                              // of new vertices on them
+  std::map<int, std::array<int, 2>> moved_;  // new vertices on arcs or curves, and the ends of their edges
+  std::vector<size_t> from_;                 // of each boundary edge, the one before
   RefinedMesh result_;
 };
 

@@ -13,7 +13,8 @@
 namespace mortier {
 
 /// The curvature of the arc behind an edge, by its vertices in their order [1/m]: positive where the arc is
-/// to the right of the edge. Edges that are not listed are straight.
+/// to the right of the edge. Edges that are not listed are straight, or on a curve of the mesh's own
+/// (TriangleMesh::edgeCurves).
 using CurvedEdges = std::map<std::array<int, 2>, double>;
 
 struct RefinedMesh {
@@ -21,7 +22,7 @@ struct RefinedMesh {
   CurvedEdges curves;        ///< of its edges
   std::vector<int> parents;  ///< of each triangle, that of the mesh before of which it is a part
   std::vector<std::array<int, 2>> cutEdges;  ///< by new vertices: the edge in whose middle they are
-  int offCurve = 0;  ///< new vertices that stayed on the chord: on the arc, a triangle would turn over
+  int offCurve = 0;  ///< new vertices that stayed on the chord: on the curve, a triangle would turn over
 };
 
 /// Turns the vertices of every triangle so that its longest side is the base; of equal ones that with the
@@ -29,7 +30,8 @@ struct RefinedMesh {
 void chooseBases(TriangleMesh& mesh);
 
 /// Cuts the triangles that are marked, and as many more as it takes. New vertices of curved edges are put
-/// onto their arcs. Regions, labels, names and the middles of edges go on.
+/// onto their arcs or curves, as far from one end as from the other. Regions, labels, names, the middles and
+/// the curves of edges go on.
 /// \param marked  by triangle
 RefinedMesh bisect(const TriangleMesh& mesh, const CurvedEdges& curves, const std::vector<char>& marked);
 

@@ -40,11 +40,13 @@ void keepEdges(TriangleMesh& mesh, const Keep& keep) {
     mesh.boundaryEdges[kept] = mesh.boundaryEdges[e];
     mesh.boundaryLabels[kept] = mesh.boundaryLabels[e];
     if (!mesh.edgeMiddles.empty()) mesh.edgeMiddles[kept] = mesh.edgeMiddles[e];
+    if (!mesh.edgeCurves.empty()) mesh.edgeCurves[kept] = mesh.edgeCurves[e];
     ++kept;
   }
   mesh.boundaryEdges.resize(kept);
   mesh.boundaryLabels.resize(kept);
   if (!mesh.edgeMiddles.empty()) mesh.edgeMiddles.resize(kept);
+  if (!mesh.edgeCurves.empty()) mesh.edgeCurves.resize(kept);
 }
 
 /// The sides of all triangles, smaller vertex first, in order: one that two triangles share stands there

@@ -220,7 +220,9 @@ class Validator {
         failHere(text.str(), "label-twice");
       }
       side.labelled = true;
-      edge = side.rising ? std::array<int, 2>{near, far} : std::array<int, 2>{far, near};
+      const auto turned = side.rising ? std::array<int, 2>{near, far} : std::array<int, 2>{far, near};
+      if (edge != turned && mesh_.hasCurve(e)) std::swap(mesh_.edgeCurves[e].from, mesh_.edgeCurves[e].to);
+      edge = turned;
     }
   }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/types.h"
+#include "mesh/sampled_curve.h"
 
 namespace mortier {
 
@@ -24,6 +25,12 @@ struct TriangleMesh {
   /// By boundary edge a point between its ends on the curve that it stands for [m], not finite where none is
   /// known; empty where none is at all.
   std::vector<Point> edgeMiddles = {};
+  /// By boundary edge what it stands for where that is known and no circle; empty where no edge has such a
+  /// curve. Its middle is in `edgeMiddles`.
+  std::vector<EdgeCurve> edgeCurves = {};
+
+  /// Whether the curve of a boundary edge is known.
+  [[nodiscard]] bool hasCurve(size_t edge) const { return !edgeCurves.empty() && edgeCurves[edge].known(); }
 };
 
 /// Twice the signed area of triangle `t` [m^2]; positive when counterclockwise.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "plan/steps.h"
 #include "scene/document.h"
 #include "scene/memory_need.h"
 
@@ -25,6 +26,11 @@ class Planner {
     planContact();
     planTime();
     planMemory();
+    if (inRounds())
+      add("scene", true,
+          "rounds on meshes that are refined until the estimated error is small enough; numbers of nodes and "
+          "memory are those of the first ones",
+          "accuracy.energy = " + shortest(scene_.accuracy.energy));
     if (scene_.degree == 2)
       add("scene", true, "quadratic displacements",
           "degree = 2: six nodes a triangle, stresses at three points");
@@ -40,13 +46,17 @@ class Planner {
     plan_.push_back({part, modelled, what, why});
   }
 
+  [[nodiscard]] bool inRounds() const { return scene_.accuracy.energy > 0; }
+
   void planBody(size_t b) {
     const Body& body = model_.bodies[b];
     const std::string part = "body " + body.name();
     const bool symmetric = body.material().symmetricTangent();
     const std::string factor = symmetric ? "Cholesky" : "LU";
     if (body.material().linear()) {
-      add(part, true, "linear: one " + factor + " factor for the whole run", "it is elastic");
+      add(part, true,
+          "linear: one " + factor + " factor for " + (inRounds() ? "each round" : "the whole run"),
+          "it is elastic");
       return;
     }
     std::string projection;
@@ -106,11 +116,17 @@ class Planner {
         add("time", false, "the other " + std::to_string(time.steps - 1) + " steps", "they are at rest");
       return;
     }
+    const double tolerance = stepTolerance(scene_);
+    const bool forRounds = inRounds() && !elastic;
     const std::string equal = std::to_string(time.steps) + (time.steps == 1 ? " step" : " steps") + " of " +
-                              shortest(time.end / time.steps) + " s, ";
-    const std::string chosen = "steps chosen by an error in time of " + shortest(time.tolerance) + ", ";
-    add("time", true, (time.controlled() ? chosen : equal) + word(time.scheme),
+                              shortest(time.end / time.steps) + " s";
+    const std::string chosen = "steps chosen by an error in time of " + shortest(tolerance) +
+                               (forRounds ? " in the last round" : "");
+    add("time", true, (tolerance > 0 ? chosen : equal) + ", " + word(time.scheme),
         changes ? "loads change" : "bodies flow");
+    if (tolerance > 0 && !time.controlled())
+      add("time", false, "the scene's " + equal,
+          "beside an accuracy the steps of bodies that flow are chosen by their error");
   }
 
   static std::string twoDigits(double x) {

@@ -104,6 +104,47 @@ TEST_F(PlanFiles, stepsAtRestAndTheOnesThatAreTaken) {
             std::string::npos);
 }
 
+// Beside an accuracy meshes are refined in rounds; steps are the scene's own where nothing flows, and chosen
+// by a part of what is asked where something does.
+TEST_F(PlanFiles, stepsBesideAnAccuracy) {
+  const std::string flows =
+      "body.upper.material={ young = 100, poisson = 0.3, viscosity = 1, yield_stress = 50 }";
+  const auto textOf = [&](std::vector<std::string> settings) {
+    settings.emplace_back("accuracy.energy=0.01");
+    const SceneDescription description = scene(settings);
+    return planText(planOf(description, modelOf(description)));
+  };
+  const auto says = [](const std::string& text, const std::string& what) {
+    return text.find(what) != std::string::npos;
+  };
+  const std::string still = "body.lower.boundary.1.uy=0";
+  for (const std::string& text : {textOf({}), textOf({still}), textOf({flows}), textOf({flows, still})}) {
+    EXPECT_TRUE(says(text, "modelled   scene: rounds on meshes that are refined")) << text;
+    EXPECT_TRUE(says(text, "(accuracy.energy = 0.01)")) << text;
+    EXPECT_FALSE(says(text, "for the whole run")) << text;
+    EXPECT_TRUE(says(text, "one Cholesky factor for each round")) << text;
+  }
+  EXPECT_TRUE(says(textOf({}), "modelled   time: 4 steps of 0.5 s, backward-euler (loads change)"));
+  EXPECT_FALSE(says(textOf({}), "error in time"));
+  EXPECT_TRUE(says(textOf({still}), "modelled   time: one step"));
+  EXPECT_TRUE(says(textOf({"time.tolerance=0.005"}), "steps chosen by an error in time of 0.005, backward"));
+  // A fifth of what is asked, three tenths at degree 2; the scene's own where that is smaller.
+  for (const auto& [setting, tolerance] : {std::pair<std::string, std::string>{"degree=1", "0.002"},
+                                           {"degree=2", "0.003"},
+                                           {"time.tolerance=0.001", "0.001"},
+                                           {"time.tolerance=0.005", "0.002"}}) {
+    const std::string text = textOf({flows, setting});
+    EXPECT_TRUE(says(text, "modelled   time: steps chosen by an error in time of " + tolerance +
+                               " in the last round, backward-euler"))
+        << text;
+    EXPECT_FALSE(says(text, "modelled   time: 4 steps"));
+    EXPECT_EQ(says(text, "left out   time: the scene's 4 steps of 0.5 s (beside an accuracy"),
+              setting.find("time.tolerance") == std::string::npos);
+  }
+  const SceneDescription without = scene({flows});
+  EXPECT_FALSE(says(planText(planOf(without, modelOf(without))), "round"));
+}
+
 TEST_F(PlanFiles, estimatesThatAreKnownToBeWrongAreNamed) {
   const auto doubts = [&](const std::vector<std::string>& settings) {
     const SceneDescription description = scene(settings);

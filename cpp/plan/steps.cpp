@@ -1,0 +1,23 @@
+#include "plan/steps.h"
+
+#include <algorithm>
+
+#include "plan/loads.h"
+
+namespace mortier {
+
+bool canFlow(const SceneDescription& scene) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const BodyDescription& body) {
+    const auto materials = materialsOf(body);
+    return std::any_of(materials.begin(), materials.end(),
+                       [](const MaterialDescription* each) { return each->viscoplasticity.has_value(); });
+  });
+}
+
+double stepTolerance(const SceneDescription& scene) {
+  if (!(scene.accuracy.energy > 0) || !canFlow(scene)) return scene.time.tolerance;
+  const double share = (scene.degree == 1 ? 0.2 : 0.3) * scene.accuracy.energy;
+  return scene.time.controlled() ? std::min(share, scene.time.tolerance) : share;
+}
+
+}  // namespace mortier
