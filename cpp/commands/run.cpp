@@ -59,15 +59,33 @@ void tell(Log& log, const RunFacts& facts, const Model& model, const Solved& sol
   log.print(logAccuracy(facts, model, solved.accuracy));
   log.print(logTimeError(facts, solved.report));
   log.print(logPeaks(solved.report.peaks, solved.last));
-  log.print(logQuantities(facts.quantities, evaluate(facts.quantities, model, solved.state)));
+  log.print(logQuantities(facts.quantities, evaluate(facts.quantities, model, solved.state),
+                          solved.accuracy.bound));
+}
+
+/// What a bound needs to know of a quantity.
+Functional functionalOf(const Quantity& quantity, bool atPoint) {
+  using Kind = Functional::Kind;
+  Functional result{quantity.kind == Quantity::Kind::reaction       ? Kind::reaction
+                    : quantity.kind == Quantity::Kind::contactForce ? Kind::contactForce
+                                                                    : Kind::displacement,
+                    quantity.body, quantity.label};
+  if (quantity.component == Quantity::Component::moment) {
+    result.turn = 1;
+    result.about = quantity.about;
+  } else {
+    result.direction = Point::Unit(quantity.component == Quantity::Component::x ? 0 : 1);
+  }
+  if (atPoint) result.obstacle = "displacements at a point have none, means of a label have";
+  return result;
 }
 
 /// A bound of the error; what stops it does not take the result away.
-EnergyBound boundOf(const Model& model, const State& state) {
+EnergyBound boundOf(const Model& model, const State& state, const std::vector<Functional>& functionals) {
   const KeepsResult keeps;
   EnergyBound none;
   try {
-    return energyBound(model, state);
+    return energyBound(model, state, functionals);
   } catch (const Interrupted&) {
     none.obstacle = "interrupted";
   } catch (const std::bad_alloc&) {
@@ -159,7 +177,12 @@ int run(RunCommand command) {
   RunFacts& facts = attempt->facts;
   const bool complete = solved.report.status == Status::converged;
   facts.doubts = estimateDoubts(scene, *attempt->model);
-  if (complete && scene.accuracy.bound) solved.accuracy.bound = boundOf(*attempt->model, solved.state);
+  if (complete && scene.accuracy.bound) {
+    std::vector<Functional> functionals;
+    for (size_t i = 0; i < facts.quantities.size(); ++i)
+      functionals.push_back(functionalOf(facts.quantities[i], scene.quantities[i].point.has_value()));
+    solved.accuracy.bound = boundOf(*attempt->model, solved.state, functionals);
+  }
   Manifest manifest{!complete, std::move(solved.files)};
   if (rounds) {
     const std::vector<std::string> more = rounds->doubts();

@@ -109,6 +109,14 @@ Json jsonOf(const EnergyBound& bound) {
           {"data", bound.oscillation}};
 }
 
+/// Of the error of a quantity.
+Json jsonOf(const EnergyBound& bound, size_t quantity, double value) {
+  if (!bound.obstacle.empty()) return {{"error", nullptr}, {"reason", bound.obstacle}};
+  const Enclosure& enclosure = bound.quantities[quantity];
+  if (!enclosure.obstacle.empty()) return {{"error", nullptr}, {"reason", enclosure.obstacle}};
+  return {{"error", enclosure.error(value)}, {"lower", enclosure.lower}, {"upper", enclosure.upper}};
+}
+
 Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy) {
   Json bodies = Json::object();
   for (size_t b = 0; b < model.bodies.size(); ++b) bodies[model.bodies[b].name()] = accuracy.bodies[b];
@@ -200,6 +208,8 @@ FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const 
   for (size_t i = 0; i < values.size(); ++i)
     json["quantities"][facts.quantities[i].name] = {{"value", values[i]},
                                                     {"unit", facts.quantities[i].unit()}};
+  for (size_t i = 0; accuracy.bound && i < values.size(); ++i)
+    json["quantities"][facts.quantities[i].name]["bound"] = jsonOf(*accuracy.bound, i, values[i]);
   json["accuracy"] = jsonOf(facts, model, accuracy);
   if (facts.tolerance > 0) json["accuracy"]["time"] = report.timeError;
   if (facts.accuracy > 0) {
