@@ -24,7 +24,7 @@ def cells(values, tag="td", kind=""):
 
 
 def short(column, value):
-    if column.startswith("error ") and value:
+    if (column.startswith("error ") or column in table.CLAIMS) and value:
         return f"{float(value):.3e}"
     return value
 

@@ -75,6 +75,7 @@ class Runner:
                     "iterations": outcome.iterations, "wall_time[s]": f"{outcome.cost.wall_time:.4f}",
                     "processor_time[s]": f"{outcome.cost.processor_time:.4f}",
                     "memory[MiB]": f"{outcome.cost.memory:.1f}"}
+            row |= claims(outcome.run)
             row |= self.errors(case, outcome.run)
             row |= {"status": table.DONE}
         except RunFailure as error:
@@ -102,3 +103,10 @@ class Runner:
                                                             self.plan.let,
                                                            float(document["time"]["end"])))
                 for each in self.plan.errors}
+
+
+def claims(run):
+    """What the run itself says of its error."""
+    accuracy = run.summary.get("accuracy", {})
+    said = {"estimate": accuracy.get("energy_error"), "bound": accuracy.get("bound", {}).get("energy_error")}
+    return {name: "" if value is None else repr(value) for name, value in said.items()}

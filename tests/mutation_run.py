@@ -54,8 +54,8 @@ class Tree:
                     if path.is_file()]:
             if str(old.relative_to(self.source)) not in names:
                 old.unlink()
-        self.tests = {path.stem: label for label in labels
-                      for path in sorted((self.source / "tests" / label).glob("*_test.*"))}
+        self.tests = [f"{label}/{path.stem}" for label in labels
+                      for path in sorted((self.source / "tests" / label).glob("*_test.*"))]
         self.files = {test: self.files_of(test) for test in self.tests}
         self.seconds = {}
         self.run("cmake", "-S", self.source, "-B", self.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release")
@@ -80,12 +80,12 @@ class Tree:
         return subprocess.run(["ninja", "-C", self.build, target], capture_output=True).returncode == 0
 
     def script(self, test):
-        path = self.source / "tests" / self.tests[test] / f"{test}.py"
+        path = self.source / "tests" / f"{test}.py"
         return path if path.is_file() else None
 
     def files_of(self, test):
         """What a test includes itself, and all that it uses by way of others; nothing of a script."""
-        own = self.source / "tests" / self.tests[test] / f"{test}.cpp"
+        own = self.source / "tests" / f"{test}.cpp"
         seen, new, direct = set(), [] if self.script(test) else [own], set()
         while new:
             path = new.pop()
@@ -109,7 +109,7 @@ class Tree:
                 return None
         own = str(header.relative_to(self.source / "cpp")) in direct
         beside = any(name.startswith(layer + "/") for name in direct)
-        return not own, not beside, LABELS.index(self.tests[test]), self.seconds.get(test, 1)
+        return not own, not beside, LABELS.index(test.split("/")[0]), self.seconds.get(test, 1)
 
     def passes(self, test):
         """None where it does, otherwise how it fails."""
@@ -118,10 +118,10 @@ class Tree:
             command = ["/usr/bin/python3", script, "-f"]
             if not all(map(self.make, ("mortier", *LOADED.values()))):
                 return "does not compile"
-        elif not self.make(test):
+        elif not self.make(pathlib.Path(test).name):
             return "does not compile"
         else:
-            command = [self.build / "tests" / test, "--gtest_fail_fast", "--gtest_brief=1"]
+            command = [self.build / "tests" / pathlib.Path(test).name, "--gtest_fail_fast", "--gtest_brief=1"]
         environment = dict(os.environ, MORTIER=str(self.build / "mortier"), MORTIER_ROOT=str(self.source))
         environment |= {name: str(self.build / f"tests/lib{target}.so") for name, target in LOADED.items()}
         begin = time.monotonic()

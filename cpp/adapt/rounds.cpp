@@ -39,7 +39,7 @@ std::string percent(double part) {
 }  // namespace
 
 Rounds::Rounds(ResolvedScene scene)
-    : description_(std::move(scene.description)), meshes_(scene.meshes, description_.degree) {
+    : description_(std::move(scene.description)), meshes_(scene.meshes, description_.degree), least_(least) {
   constexpr double firstTolerance = 0.1;
   if (timeShare() > 0) timeTolerance_ = std::max(timeShare(), firstTolerance);
 }
@@ -63,7 +63,6 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
   constexpr int often = 2;
   constexpr double first = 0.5;
   const double asked = description_.accuracy.energy;
-  const double ofMeshes = least * asked - timeShare();
   const double before = meshError_;
   double sum = 0;
   for (const Vector& error : result.errors) sum += error.sum();
@@ -71,7 +70,12 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
   ++done_;
   meshes_.learn(result.errors);
   const double trusted = result.energy > 0 ? std::sqrt((sum + meshes_.unseen()) / result.energy) : 0;
-  if (done_ > 1 && trusted + result.time <= least * asked) return Verdict::reached;
+  if (done_ > 1 && trusted + result.time <= least_ * asked) {
+    const std::optional<double> bound = result.bound ? result.bound() : std::nullopt;
+    if (!bound || *bound <= asked) return Verdict::reached;
+    least_ = careful * trusted / std::min(*bound, 1.0);
+  }
+  const double ofMeshes = least_ * asked - timeShare();
 
   // The steps alone are too long.
   const bool lastSteps = timeTolerance_ <= timeShare();

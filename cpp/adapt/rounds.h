@@ -9,8 +9,13 @@
 // before the last round steps are as good as the meshes deserve. One round of refinement is made at least,
 // which is to halve the error: on the first meshes an estimate is not trusted, and no rate is known. Where
 // stresses are unbounded what it does not see is added before it is believed (adapt/adapted_meshes.h).
+//
+// Where a bound is asked for and there is one, it has to be below what is asked for, too: what it is over the
+// estimate, it is taken to be over that of the rounds to come.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +30,9 @@ struct RoundResult {
   double energy = 0;           ///< that they are relative to [J/m]
   double time = 0;             ///< error of the steps, relative
   double seconds = 0;          ///< wall time of the round
+  /// The proved one, relative, if there is one: called where the estimate is small enough; empty where a
+  /// bound is not wanted.
+  std::function<std::optional<double>()> bound = {};
 };
 
 class Rounds {
@@ -54,6 +62,7 @@ class Rounds {
   double timeTolerance_ = 0;  ///< of the round to come; 0: as the scene says
   double aim_ = 0;            ///< error that the meshes are to have in it
   double meshError_ = 0;
+  double least_;  ///< part of what is asked for that the estimate has to be below
   int done_ = 0;
   int shortfalls_ = 0;
   std::string reason_;

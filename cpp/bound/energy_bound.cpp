@@ -4,15 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "bound/checks.h"
 #include "bound/pressures.h"
 
 namespace mortier {
-namespace {
-
-/// What may be left of forces that balance, over the largest: rounding, also of thin triangles.
-constexpr double strict = 1e-9;
-
-}  // namespace
 
 double EnergyBound::relative() const {
   if (!obstacle.empty() || !(bound < norm)) return std::numeric_limits<double>::infinity();
@@ -70,21 +65,21 @@ EnergyBound energyBound(const Model& model, const State& state, const std::vecto
   }
   for (const MatchedPiece& piece : meshes.pieces) {
     const auto& [nonmortar, mortar, coupling] = model.interfaces[piece.interface].pair();
-    const auto above = bodies[nonmortar.body].momentsBetween(piece.vertices[0]);
-    const auto below = bodies[mortar.body].momentsBetween(piece.vertices[1]);
-    for (int end = 0; end < 2; ++end)
-      result.mismatch = std::max(result.mismatch, (above[end] + below[end]).norm());
+    result.mismatch =
+        std::max(result.mismatch, mismatchOf(piece, pressures[&piece - meshes.pieces.data()],
+                                             bodies[nonmortar.body].momentsBetween(piece.vertices[0]),
+                                             bodies[mortar.body].momentsBetween(piece.vertices[1])));
   }
   if (largest > 0) {
     result.imbalance /= largest;
     result.mismatch /= largest;
   }
-  if (!(result.imbalance <= strict) || !(result.mismatch <= strict))
-    return none("tractions are not in equilibrium to rounding");
-  if (!(result.leastPressure >= 0)) return none("a contact pressure is negative");
+  Strictness strictness{result.imbalance, result.mismatch, result.leastPressure, 0};
+  if (!strictness.broken().empty()) return none(strictness.broken());
   const Lift lifting = lift(lifted, model, meshes.pieces, pressures);
   if (!lifting.obstacle.empty()) return none(lifting.obstacle);
-  if (!(lifting.leastGap >= 0)) return none("the lifted displacement penetrates");
+  strictness.leastGap = leastGapOf(model, meshes.pieces, lifting.displacements);
+  if (!strictness.broken().empty()) return none(strictness.broken());
   double lifts = 0;
   for (const Vector& energies : lifting.energies) lifts += energies.sum();
   result.stress = std::sqrt(stress);

@@ -100,28 +100,8 @@ std::array<Point, 2> LoadedBody::momentsBetween(const std::array<int, 2>& vertic
   if (sides_.all()[e].vertices[0] != vertices[0]) std::swap(moments[0], moments[1]);
   return moments;
 }
-LoadedBody::Imbalance LoadedBody::imbalance() const {
-  double worst = 0;
-  double largest = 0;
-  for (int t = 0; t < static_cast<int>(mesh().triangles.size()); ++t) {
-    const auto& v = mesh().triangles[t];
-    const Moments m = momentsOf(t);
-    Point force = doubleArea(mesh(), t) / 2 * forces_[t];
-    const Point centre = (mesh().vertices[v[0]] + mesh().vertices[v[1]] + mesh().vertices[v[2]]) / 3;
-    double couple = 0;
-    double size = 0;
-    for (int k = 0; k < 3; ++k)
-      for (int end = 0; end < 2; ++end) {
-        const Point b = m.segment<2>(4 * k + 2 * end);
-        const Point arm = mesh().vertices[v[(k + end) % 3]] - centre;
-        force += b;
-        couple += arm.x() * b.y() - arm.y() * b.x();
-        size = std::max(size, arm.norm());
-      }
-    worst = std::max({worst, force.norm(), std::abs(couple) / size});
-    largest = std::max(largest, m.cwiseAbs().maxCoeff());
-  }
-  return {worst, largest};
+Imbalance LoadedBody::imbalance() const {
+  return imbalanceOf(mesh(), sides_, moments_, forces_, known_);
 }
 
 void LoadedBody::readForces(double t) {

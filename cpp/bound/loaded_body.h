@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "bound/checks.h"
 #include "bound/lift.h"
 #include "bound/matched_meshes.h"
 #include "bound/side_tractions.h"
@@ -77,11 +78,6 @@ class LoadedBody {
   [[nodiscard]] double norm() const;                                  ///< |s|^2 [J/m]
   /// Moments of the traction on this body at the side between two vertices, at the first and the second.
   [[nodiscard]] std::array<Point, 2> momentsBetween(const std::array<int, 2>& vertices) const;
-  /// What is left over of the forces and couples of a triangle, and the largest moment of a side [N/m].
-  struct Imbalance {
-    double worst = 0;
-    double largest = 0;
-  };
   [[nodiscard]] Imbalance imbalance() const;
 
   // What a problem with other data needs of it.

@@ -85,11 +85,9 @@ void Relaxation::relax() {
   double energy = energies().sum();
   double gain = 0;
   for (int i = 1; i <= mostSweeps; ++i) {
-    const double before = energy;
     const double gainBefore = gain;
-    sweep();
-    energy = energies().sum();
-    gain = before - energy;
+    gain = sweep();
+    energy -= gain;
     const bool fades = i > 1 && gain < gainBefore;
     const double left = fades ? gain * gain / (gainBefore - gain) : gain > 0 ? energy : 0;
     if (i >= fewestSweeps && left <= worthwhile * energy) return;
@@ -97,16 +95,18 @@ void Relaxation::relax() {
   minimise();
 }
 
-void Relaxation::sweep() {
+double Relaxation::sweep() {
   constexpr int often = 10000;
+  double gain = 0;
   for (int e = 0; e < sides_.count(); ++e) {
     if (e % often == 0) stopIfInterrupted();
-    relaxSide(e);
+    gain += relaxSide(e);
   }
   for (int v = 0; v < static_cast<int>(mesh_.vertices.size()); ++v) {
     if (v % often == 0) stopIfInterrupted();
-    relaxVertex(v);
+    gain += relaxVertex(v);
   }
+  return gain / scale_;
 }
 
 Point Relaxation::normalMode(int side) const {
@@ -121,8 +121,8 @@ bool Relaxation::mayChange(int side) const {
   return true;
 }
 
-void Relaxation::relaxSide(int side) {
-  if (!mayChange(side)) return;
+double Relaxation::relaxSide(int side) {
+  if (!mayChange(side)) return 0;
   const Side& at = sides_.all()[side];
   const Point mode = normalMode(side);
   // The first end as a triangle sees it; the second has the opposite.
@@ -141,12 +141,13 @@ void Relaxation::relaxSide(int side) {
     slope += effect.dot(gradient_[t].segment<4>(4 * k));
   }
   const double amount = -slope / curvature;
-  if (!std::isfinite(amount)) return;
+  if (!std::isfinite(amount)) return 0;
   for (int i = 0; i < 2 && at.triangles[i] >= 0; ++i) {
     change<4>(at.triangles[i], places[i], amount * effect);
   }
   moments_[side][0] += amount * mode;
   moments_[side][1] -= amount * mode;
+  return -amount * slope;
 }
 
 Point Relaxation::alongOf(int side) const {
@@ -200,12 +201,12 @@ Matrix Relaxation::allowedModes(int vertex, double length) const {
   return svd.matrixV().rightCols(3 - rank);
 }
 
-void Relaxation::relaxVertex(int vertex) {
+double Relaxation::relaxVertex(int vertex) {
   bool inside = true;
   const double length = lengthAt(vertex);
   for (const int side : sides_.sidesAt(vertex)) {
     if (sides_.all()[side].triangles[1] >= 0) continue;
-    if (known_[side].count == 2) return;  // no mode leaves all of it as it is
+    if (known_[side].count == 2) return 0;  // no mode leaves all of it as it is
     inside = false;
   }
   effects_.clear();
@@ -232,11 +233,11 @@ void Relaxation::relaxVertex(int vertex) {
     amount = -hessian.ldlt().solve(slope);
   } else {
     const Matrix allowed = allowedModes(vertex, length);
-    if (allowed.cols() == 0) return;
+    if (allowed.cols() == 0) return 0;
     const Matrix reduced = allowed.transpose() * hessian * allowed;
     amount = -allowed * reduced.ldlt().solve(Vector(allowed.transpose() * slope));
   }
-  if (!amount.allFinite()) return;
+  if (!amount.allFinite()) return 0;
   for (const Effect& effect : effects_)
     for (int s = 0; s < 2; ++s) change<4>(effect.triangle, effect.places[s], effect.modes[s] * amount);
   for (const int side : sides_.sidesAt(vertex)) {
@@ -244,6 +245,7 @@ void Relaxation::relaxVertex(int vertex) {
     moments_[side][0] += by.head<2>();
     moments_[side][1] += by.tail<2>();
   }
+  return -amount.dot(slope);
 }
 
 }  // namespace mortier

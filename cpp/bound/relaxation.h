@@ -31,7 +31,8 @@ class Relaxation {
 
   /// Sweeps, and a direct solution where these are slow, or it costs little. \throws Interrupted
   void relax();
-  void sweep();
+  /// \returns what it took from the energy [J/m]
+  double sweep();
   /// The least energy, by a direct solution for all modes at once, after which no sweep follows: a few times
   /// a factorisation of the body, for where sweeps are slow, on triangles that are thin or of many sizes.
   /// \returns whether it could be found
@@ -67,8 +68,9 @@ class Relaxation {
   [[nodiscard]] Moments differenceOf(int triangle, const CompositeTriangle& element) const;
   template <int columns>
   void change(int triangle, int place, const Eigen::Matrix<double, columns, 1>& by);
-  void relaxSide(int side);
-  void relaxVertex(int vertex);
+  /// Both return what they took from the energy, times scale_.
+  double relaxSide(int side);
+  double relaxVertex(int vertex);
   [[nodiscard]] Point alongOf(int side) const;
   [[nodiscard]] Modes modesOf(int side, int vertex, double length) const;
   /// Columns are the combinations that leave what is known of tractions as it is.

@@ -13,14 +13,10 @@
 #include "base/interrupt.h"
 #include "commands/attempt.h"
 #include "commands/complain.h"
-#include "commands/exit_code.h"
+#include "commands/ending.h"
 #include "commands/solve.h"
 #include "commands/solve_rounds.h"
 #include "lint/lint.h"
-#include "mesh/medit.h"
-#include "plan/estimate_doubts.h"
-#include "report/output_file.h"
-#include "report/summary.h"
 #include "scene/initial_equilibrium.h"
 #include "scene/memory_need.h"
 
@@ -61,37 +57,6 @@ void tell(Log& log, const RunFacts& facts, const Model& model, const Solved& sol
   log.print(logPeaks(solved.report.peaks, solved.last));
   log.print(logQuantities(facts.quantities, evaluate(facts.quantities, model, solved.state),
                           solved.accuracy.bound));
-}
-
-/// What a bound needs to know of a quantity.
-Functional functionalOf(const Quantity& quantity, bool atPoint) {
-  using Kind = Functional::Kind;
-  Functional result{quantity.kind == Quantity::Kind::reaction       ? Kind::reaction
-                    : quantity.kind == Quantity::Kind::contactForce ? Kind::contactForce
-                                                                    : Kind::displacement,
-                    quantity.body, quantity.label};
-  if (quantity.component == Quantity::Component::moment) {
-    result.turn = 1;
-    result.about = quantity.about;
-  } else {
-    result.direction = Point::Unit(quantity.component == Quantity::Component::x ? 0 : 1);
-  }
-  if (atPoint) result.obstacle = "displacements at a point have none, means of a label have";
-  return result;
-}
-
-/// A bound of the error; what stops it does not take the result away.
-EnergyBound boundOf(const Model& model, const State& state, const std::vector<Functional>& functionals) {
-  const KeepsResult keeps;
-  EnergyBound none;
-  try {
-    return energyBound(model, state, functionals);
-  } catch (const Interrupted&) {
-    none.obstacle = "interrupted";
-  } catch (const std::bad_alloc&) {
-    none.obstacle = "there is no memory for it";
-  }
-  return none;
 }
 
 }  // namespace
@@ -172,43 +137,14 @@ int run(RunCommand command) {
     solveIt(*attempt, {});
 
   // 4. The result, in place of an older one only when the run is complete.
-  const SceneDescription& scene = attempt->resolved.description;
-  Solved& solved = attempt->solved;
-  RunFacts& facts = attempt->facts;
-  const bool complete = solved.report.status == Status::converged;
-  facts.doubts = estimateDoubts(scene, *attempt->model);
-  if (complete && scene.accuracy.bound) {
-    std::vector<Functional> functionals;
-    for (size_t i = 0; i < facts.quantities.size(); ++i)
-      functionals.push_back(functionalOf(facts.quantities[i], scene.quantities[i].point.has_value()));
-    solved.accuracy.bound = boundOf(*attempt->model, solved.state, functionals);
-  }
-  Manifest manifest{!complete, std::move(solved.files)};
-  if (rounds) {
-    const std::vector<std::string> more = rounds->doubts();
-    facts.doubts.insert(facts.doubts.end(), more.begin(), more.end());
-    facts.reached = complete && shortfall.empty();
-    for (const Body& body : attempt->model->bodies) {
-      OutputFile file(folder->temporary() + "/" + body.name() + ".mesh");
-      file << meditText(body.mesh());
-      manifest.files[body.name() + ".mesh"] = file.close();
-    }
-  }
-  manifest.files["summary.json"] = writeSummary(folder->temporary(), facts, *attempt->model, solved.state,
-                                                solved.last, solved.report, solved.accuracy);
-  const std::string where = folder->commit(manifest);
+  addVerdict(*attempt, rounds ? &*rounds : nullptr, shortfall);
+  const std::string where = putInPlace(*attempt, *folder);
 
   // 5. How well it holds.
-  tell(log, facts, *attempt->model, solved, where);
-  if (!complete) {
-    complain(scene.path + ": " + solved.report.reason + "; the state after step " +
-             std::to_string(solved.last.step) + " is in " + where);
-    return solved.report.status == Status::unheld ? exitUnheld : exitFailed;
-  }
-  if (shortfall.empty()) return exitDone;
-  complain(scene.path + ": accuracy " + shortest(scene.accuracy.energy) + " not reached: " + shortfall +
-           "; the best result is in " + where);
-  return exitFailed;
+  tell(log, attempt->facts, *attempt->model, attempt->solved, where);
+  const Ending ending = endingOf(*attempt, shortfall, where);
+  if (ending.code != exitDone) complain(ending.reason);
+  return ending.code;
 }
 
 }  // namespace mortier

@@ -55,6 +55,10 @@ Solved solve(Solving solving) {
     state = std::move(solving.state);
   }
   AccuracyRecord accuracies(model, accuracySoFar);
+  std::optional<FlowBoundRecord> flow;
+  if (scene.accuracy.bound && FlowBoundRecord::applies(model))
+    flow.emplace(model, Steps{scene.time.scheme == Scheme::backwardEuler, scene.time.controlled()}, state,
+                 accuracySoFar.flow);
 
   // A failure leaves the last good step in `state`, an interruption in what is kept here.
   State keptState = state;
@@ -86,6 +90,7 @@ Solved solve(Solving solving) {
     if (solving.alsoObserve) solving.alsoObserve(state, report);
     if (report.step > 0) log.step(report);
     last = report;
+    if (flow) flow->add(state, report);
     if (!solving.onlyTheStart && report.step > 0 && state.time < scene.time.end && solving.checkpoints.due())
       save(files->sync(), state, memory);
     keptState = state;
@@ -113,6 +118,7 @@ Solved solve(Solving solving) {
   log.finish();
   solved.files = files->close(state, last.step);
   solved.accuracy = accuracies.atEnd(state, report.peaks);
+  if (flow) solved.accuracy.flow = flow->atEnd(state);
   return solved;
 }
 

@@ -7,6 +7,7 @@
 #include "adapt/error_history.h"
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "commands/bound_of.h"
 #include "report/clock.h"
 #include "scene/initial_equilibrium.h"
 
@@ -52,7 +53,14 @@ std::string solveRounds(Rounds& rounds, std::unique_ptr<Attempt>& attempt, const
     if (round.solved.report.status != Status::converged) return;
     const double end = processSeconds();
     const double time = round.solved.report.timeError;
-    verdict = rounds.judge({errors.errors(), errors.energy(), time, end - begin}, end);
+    RoundResult result{errors.errors(), errors.energy(), time, end - begin};
+    if (round.scene().accuracy.bound)
+      result.bound = [&]() -> std::optional<double> {
+        const EnergyBound& bound =
+            round.solved.accuracy.bound.emplace(boundOf(*round.model, round.solved.state));
+        return bound.obstacle.empty() ? std::optional(bound.relative()) : std::nullopt;
+      };
+    verdict = rounds.judge(result, end);
     round.facts.best = done.size();
     done.push_back({round.triangles(), round.unknowns(), round.solved.report.steps, rounds.meshError(), time,
                     end - begin});

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bound/energy_bound.h"
+#include "bound/flow_bound.h"
 #include "time/report.h"
 #include "time/space_error.h"
 
@@ -22,6 +23,7 @@ struct Accuracy {
   double largestTime = 0;  ///< [s]
   double time = 0;         ///< of the last state [s]
   std::optional<EnergyBound> bound = {};  ///< of the last state, where it is asked for
+  std::optional<FlowBound> flow = {};     ///< of the steps up to it, where bodies flow
 };
 
 /// The estimates of a run so far.
@@ -29,6 +31,7 @@ struct AccuracyMemory {
   double energy = 0;  ///< elastic energy when it was estimated last [J/m]
   double error = 0;   ///< largest integral of e : E^-1 e [J/m]
   double time = 0;    ///< and when [s]
+  FlowBoundMemory flow;
 };
 
 /// Estimates the last state, those that are kept, and on the way those at which the elastic energy has

@@ -79,7 +79,10 @@ void requireFits(const Checkpoint& checkpoint, const Model& model, const std::st
                                          return a.rows() == b.stress.rows() && a.cols() == b.stress.cols();
                                        }),
           "error in time");
-  require(isTime(accuracy.energy) && isTime(accuracy.error) && isTime(accuracy.time), "accuracy");
+  require(isTime(accuracy.energy) && isTime(accuracy.error) && isTime(accuracy.time) &&
+              isTime(accuracy.flow.begin) && isTime(accuracy.flow.misfit) && isTime(accuracy.flow.opening) &&
+              accuracy.flow.growth >= 0,
+          "accuracy");
   require(isStatus(last.status) && isStatus(memory.run.status), "status");
 }
 

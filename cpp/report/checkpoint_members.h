@@ -26,7 +26,9 @@ MORTIER_MEMBERS(StepReport, step, time, timeStep, status, reason, rung, guarded,
                 certificate)
 MORTIER_MEMBERS(Peak, value, time)
 MORTIER_MEMBERS(Peaks, vonMises, pressure, contactForce, displacement, motion, energy)
-MORTIER_MEMBERS(AccuracyMemory, energy, error, time)
+MORTIER_MEMBERS(FlowBoundMemory, obstacle, moved, begin, misfit, opening, growth, load, loadOff, motion,
+                motionOff)
+MORTIER_MEMBERS(AccuracyMemory, energy, error, time, flow)
 MORTIER_MEMBERS(RunReport, status, reason, steps, iterations, maxIterationsInAStep, factorisations,
                 pilotIterations, rejected, timeError, guarded, solveSeconds, special, worst, peaks, rungs)
 MORTIER_MEMBERS(BodyState, displacement, stress, viscoplasticStrain)

@@ -8,10 +8,15 @@ namespace mortier {
 
 namespace {
 const auto loaded = std::chrono::steady_clock::now();
-}
+thread_local auto begun = loaded;
+}  // namespace
 
 double processSeconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - loaded).count();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+}
+
+void beginClock() {
+  begun = std::chrono::steady_clock::now();
 }
 
 double peakMemory() {

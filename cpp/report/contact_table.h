@@ -3,10 +3,22 @@
 // interfaces count from 0.
 #pragma once
 
+#include <vector>
+
 #include "report/output_file.h"
 #include "time/march.h"
 
 namespace mortier {
+
+/// One interface at one state, by nonmortar node.
+struct ContactFields {
+  std::vector<int> vertex;
+  std::vector<Point> place;  ///< as meshed [m]
+  Vector gap;                ///< positive where the bodies are apart [m]
+  Vector force;              ///< [N/m]
+  Vector pressure;           ///< [Pa]
+};
+ContactFields contactFields(const Model& model, const State& state, size_t interface);
 
 class ContactTable {
  public:

@@ -2,11 +2,22 @@
 // in the header.
 #pragma once
 
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
 #include "report/output_file.h"
 #include "time/march.h"
 #include "time/quantity.h"
 
 namespace mortier {
+
+/// The columns with their units, `time[s]`, and what stands in them.
+std::vector<std::string> historyColumns(const std::vector<Quantity>& quantities);
+using HistoryValue = std::variant<int, double, std::string_view>;
+/// \param values  of the quantities
+std::vector<HistoryValue> historyRow(const StepReport& report, const std::vector<double>& values);
 
 class History {
  public:

@@ -135,6 +135,21 @@ std::string logBound(const EnergyBound& bound) {
   return text + "\n";
 }
 
+std::string logFlow(const FlowBound& bound) {
+  const std::string none = "           no guaranteed bound in time: ";
+  if (!bound.obstacle.empty()) return none + bound.obstacle + "\n";
+  const bool any = !bound.moved.empty();
+  if (any && !std::isfinite(bound.factor)) return none + bound.moved + "\n";
+  const double error = (any ? bound.factor : 1) * bound.strain;
+  if (error > 0 && !(error < bound.strainNorm)) return none + "nothing below 100 %, steps are too long\n";
+  std::string text = format("           guaranteed in time: viscoplastic strain to %.2g %%",
+                            error > 0 ? 100 * error / (bound.strainNorm - error) : 0);
+  if (!any && !(bound.factor <= 1)) text += ", contact closed and open as in the run";
+  if (bound.data > linear)
+    text += format(", for data that are linear within steps; these are off by %.1g %%", 100 * bound.data);
+  return text + "\n";
+}
+
 std::string logAccuracy(const RunFacts& facts, const Model& model, const Accuracy& accuracy) {
   constexpr double coarse = 0.3;
   std::string text = "accuracy   estimated error of the stress, meshes only: ";
@@ -157,6 +172,7 @@ std::string logAccuracy(const RunFacts& facts, const Model& model, const Accurac
     text += format("           largest of the run: %.2g %% of its largest stress, at t = %.5g s\n",
                    100 * accuracy.largest, accuracy.largestTime);
   if (accuracy.bound) text += logBound(*accuracy.bound);
+  if (accuracy.bound && accuracy.flow) text += logFlow(*accuracy.flow);
   if (accuracy.all == 0 && accuracy.largest == 0) return text;
   for (const std::string& doubt : facts.doubts) text += "           not reliable: " + doubt + "\n";
   if (std::max(accuracy.all, accuracy.largest) > coarse)
@@ -191,7 +207,7 @@ std::string logQuantities(const std::vector<Quantity>& quantities, const std::ve
   for (size_t i = 0; i < quantities.size(); ++i) {
     text += format("%s %.7g %s", ((i == 0 ? "quantities " : ", ") + quantities[i].name).c_str(), values[i],
                    quantities[i].unit().c_str());
-    if (!bound || !bound->obstacle.empty()) continue;
+    if (!bound || i >= bound->quantities.size()) continue;
     const Enclosure& enclosure = bound->quantities[i];
     text += enclosure.obstacle.empty() ? format(" +- %.2g (guaranteed%s)", enclosure.error(values[i]),
                                                 bound->oscillation > linear ? " for linear data" : "")

@@ -117,6 +117,25 @@ Json jsonOf(const EnergyBound& bound, size_t quantity, double value) {
   return {{"error", enclosure.error(value)}, {"lower", enclosure.lower}, {"upper", enclosure.upper}};
 }
 
+Json jsonOf(const FlowBound& bound) {
+  if (!bound.obstacle.empty()) return {{"viscoplastic_strain", nullptr}, {"reason", bound.obstacle}};
+  const auto over = [](double error, double norm) {
+    return error == 0 ? Json(0.0) : error < norm ? Json(error / (norm - error)) : Json(nullptr);
+  };
+  const auto all = [&](double factor) {
+    return Json{{"viscoplastic_strain", over(factor * bound.strain, bound.strainNorm)},
+                {"stress", over(factor * bound.stress, bound.stressNorm)}};
+  };
+  Json json = {{"viscoplastic_strain", nullptr}, {"stress", nullptr}};
+  if (bound.moved.empty())
+    json = all(1);
+  else
+    json["reason"] = bound.moved;
+  json["any_contact"] = std::isfinite(bound.factor) ? all(bound.factor) : Json(nullptr);
+  json["data"] = bound.data;
+  return json;
+}
+
 Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy) {
   Json bodies = Json::object();
   for (size_t b = 0; b < model.bodies.size(); ++b) bodies[model.bodies[b].name()] = accuracy.bodies[b];
@@ -127,6 +146,7 @@ Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy)
   if (!accuracy.worstBody.empty())
     json["largest"] = {{"body", accuracy.worstBody}, {"at", {accuracy.worst[0], accuracy.worst[1]}}};
   if (accuracy.bound) json["bound"] = jsonOf(*accuracy.bound);
+  if (accuracy.bound && accuracy.flow) json["bound"]["time"] = jsonOf(*accuracy.flow);
   return json;
 }
 
@@ -146,7 +166,7 @@ Extremes extremes(const Model& model, const State& state) {
   return e;
 }
 
-FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const Model& model,
+std::string summaryText(const std::string& path, const RunFacts& facts, const Model& model,
                         const State& state, const StepReport& last, const RunReport& report,
                         const Accuracy& accuracy) {
   size_t triangles = 0;
@@ -209,7 +229,8 @@ FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const 
     json["quantities"][facts.quantities[i].name] = {{"value", values[i]},
                                                     {"unit", facts.quantities[i].unit()}};
   for (size_t i = 0; accuracy.bound && i < values.size(); ++i)
-    json["quantities"][facts.quantities[i].name]["bound"] = jsonOf(*accuracy.bound, i, values[i]);
+    if (!accuracy.bound->obstacle.empty() || i < accuracy.bound->quantities.size())
+      json["quantities"][facts.quantities[i].name]["bound"] = jsonOf(*accuracy.bound, i, values[i]);
   json["accuracy"] = jsonOf(facts, model, accuracy);
   if (facts.tolerance > 0) json["accuracy"]["time"] = report.timeError;
   if (facts.accuracy > 0) {
@@ -225,9 +246,17 @@ FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const 
   json["versions"] = Json::object();
   for (const auto& [name, version] : facts.versions) json["versions"][name] = version;
   json["scene_text"] = facts.sceneText;
-  requireFiniteNumbers(json, folder + "/summary.json");
-  OutputFile file(folder + "/summary.json");
-  file << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  requireFiniteNumbers(json, path);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const Model& model,
+                        const State& state, const StepReport& last, const RunReport& report,
+                        const Accuracy& accuracy) {
+  const std::string path = folder + "/summary.json";
+  const std::string text = summaryText(path, facts, model, state, last, report, accuracy);
+  OutputFile file(path);
+  file << text;
   return file.close();
 }
 

@@ -19,8 +19,14 @@ struct Extremes {
 };
 Extremes extremes(const Model& model, const State& state);
 
-/// Writes `folder`/summary.json; `last` is the report of the step that led to `state`. \returns what was
-/// written.
+/// The text of summary.json; `last` is the report of the step that led to `state`.
+/// \param path  for messages
+/// \throws OutputError when a number is not finite.
+std::string summaryText(const std::string& path, const RunFacts& facts, const Model& model,
+                        const State& state, const StepReport& last, const RunReport& report,
+                        const Accuracy& accuracy);
+
+/// Writes `folder`/summary.json. \returns what was written.
 /// \throws OutputError when it cannot be written or a number is not finite.
 FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const Model& model,
                         const State& state, const StepReport& last, const RunReport& report,

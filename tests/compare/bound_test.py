@@ -55,6 +55,31 @@ class Bound(OfTwoBlocks):
             self.assertIsNone(accuracy["bound"]["energy_error"])
             self.assertEqual(accuracy["bound"]["reason"], reason)
 
+    def test_steps_of_bodies_that_flow_have_a_bound_of_their_own(self):
+        flowing = TWO_BLOCKS.replace('"elasticity"', '"frobenius"')
+        log, accuracy = self.bound(flowing, "--set", "time.steps=20")
+        found = accuracy["bound"]["time"]
+        strain = 100 * found["viscoplastic_strain"]
+        self.assertIn(f"guaranteed in time: viscoplastic strain to {strain:.2g} %, "
+                      "contact closed and open as in the run\n", log)
+        # About 1/2 of a step over the time of flow: the rate is that of the end of a step.
+        self.assertAlmostEqual(found["viscoplastic_strain"], 1.17 / 18, delta=0.1 / 18)
+        self.assertGreater(found["any_contact"]["viscoplastic_strain"], found["viscoplastic_strain"])
+        self.assertLess(found["data"], 1e-12)
+        _, other = self.bound(flowing.replace("3e11", "3e-4").replace("-10*t", "-1e-9*t")
+                              .replace("yield_stress = 1", "yield_stress = 1e-10"), "--set", "time.steps=20")
+        self.assertAlmostEqual(other["bound"]["time"]["viscoplastic_strain"], found["viscoplastic_strain"],
+                               delta=1e-9)
+        for settings, reason in [
+                (["time.scheme=sdirk2"], "steps are not those of backward Euler"),
+                (["body.upper.material.projection=elasticity"],
+                 "the flow of upper has no potential: Perzyna (elasticity)")]:
+            log, accuracy = self.bound(flowing, "--set", *settings)
+            self.assertIn(f"no guaranteed bound in time: {reason}\n", log)
+            self.assertEqual(accuracy["bound"]["time"], {"viscoplastic_strain": None, "reason": reason})
+        _, accuracy = self.bound(ELASTIC)
+        self.assertNotIn("time", accuracy["bound"])
+
     def test_curved_lines_have_none(self):
         done = self.mortier("run", ROOT / "scenes" / "hertz.toml", "--out", "out", "--set",
                             "accuracy.bound=true", "time.steps=1")
@@ -70,6 +95,19 @@ class Bound(OfTwoBlocks):
         log, accuracy = self.bound(ELASTIC.replace('"-10*t"', '"-10*t*(1 + 0.5*sin(3*x))"'))
         self.assertGreater(accuracy["bound"]["data"], 1e-3)
         self.assertIn("for data that are linear on sides", log)
+
+    def test_rounds_end_on_the_bound(self):
+        scene = ROOT / "scenes" / "eccentric-punch.toml"
+        unknowns = []
+        for bound in ("false", "true"):
+            self.mortier("run", scene, "--out", bound, "--accuracy", "0.13", "--set",
+                         f"accuracy.bound={bound}")
+            summary = json.loads(self.read(f"{bound}/summary.json"))
+            self.assertTrue(summary["accuracy"]["reached"])
+            unknowns.append(summary["rounds"][-1]["unknowns"])
+        self.assertTrue(0.06 < summary["accuracy"]["bound"]["energy_error"] < 0.13)
+        # The estimate alone is content with coarser meshes.
+        self.assertGreater(unknowns[1], 1.2 * unknowns[0])
 
     def test_quantities_have_bounds(self):
         asked = HELD_AND_PRESSED + """

@@ -9,9 +9,11 @@ import numpy as np
 import study_support  # noqa: F401
 import analysis
 import measure
+import pictures
 import process
 import results
 import scene
+from errors import ErrorMeasure
 from expressions import Expression
 from problems import RunFailure
 
@@ -157,6 +159,20 @@ class Norms(unittest.TestCase):
             found = analysis.cost_at(line, "e", at, "wall_time")
             self.assertAlmostEqual(found.value, value, places=9)
             self.assertEqual(found.how, how)
+
+    def test_estimates_and_bounds_are_lines_of_their_own(self):
+        rows = [{"steps": n, "error e": 1 / n, "estimate": 0.9 / n, "bound": "" if n == 2 else 1.1 / n,
+                 "dofs": n} for n in (4, 1, 2)]
+        line = analysis.Series("s", {}, "steps", rows)
+        for quantity, expected in (("energy", {"estimate": [0.9, 0.45, 0.225], "proved bound": [1.1, 0.275]}),
+                                   ("displacement", {})):
+            figure = pictures.work_precision([line], ErrorMeasure("e", quantity), "dofs")
+            axes, = figure.axes
+            names = [text.get_text() for text in axes.get_legend().get_texts()]
+            self.assertEqual(names[1:-1], list(expected))
+            drawn = [list(each.get_ydata()) for each in axes.lines if each.get_label().startswith("_")]
+            for values in expected.values():
+                self.assertTrue(any(np.allclose(values, ys) for ys in drawn if len(ys) == len(values)), drawn)
 
     def test_memory_and_time_of_a_process(self):
         cost, output = process.measured([sys.executable, "-c", "a = bytearray(300 << 20); print(len(a))"])

@@ -114,6 +114,19 @@ class Studies(StudyTest):
         self.assertAlmostEqual(finest["mortar"] / 1.546e-2, 1, delta=5e-3)
         self.assertAlmostEqual(finest["interpolation"] / 1.963e-2, 1, delta=5e-3)
 
+    def test_true_error_estimate_and_proved_bound(self):
+        text = (STUDIES / "bound.toml").read_text()
+        text = text.replace('"../exact-contact', f'"{STUDIES.parent}/exact-contact')
+        self.run_study(text.replace("level = [0, 1, 2, 3]", "level = [0, 1]"))
+        rows = self.assert_complete(6)
+        for row in rows:
+            error = float(row["error energy"])
+            self.assertAlmostEqual(float(row["estimate"]) / error, 1, delta=0.06)
+            if row["sweep"] == "without":
+                self.assertEqual(row["bound"], "")
+            else:
+                self.assertTrue(1 < float(row["bound"]) / error < 1.25, row)
+
     def test_quadratic_and_adapted_meshes_on_contact_with_a_known_end(self):
         text = (STUDIES / "accuracy.toml").read_text()
         text = text[:text.index("[[sweep]]")].replace('"../exact-contact', f'"{STUDIES.parent}/exact-contact')

@@ -222,6 +222,38 @@ TEST(Rounds, oneRefinementIsMadeBeforeAnEstimateIsTrusted) {
   EXPECT_EQ(rounds.judge(resultOf(rounds, 0.001), 1), Rounds::Verdict::reached);
 }
 
+TEST(Rounds, aBoundHasToBeSmallEnoughToo) {
+  Rounds rounds(sceneOf(0.1));
+  int asked = 0;
+  const auto judge = [&](double error, std::optional<double> bound) {
+    RoundResult result = resultOf(rounds, error);
+    result.bound = [&asked, bound] {
+      ++asked;
+      return bound;
+    };
+    return rounds.judge(result, 1);
+  };
+  EXPECT_EQ(judge(0.05, 0.15), Rounds::Verdict::goOn);  // the first meshes
+  EXPECT_EQ(judge(0.095, 0.15), Rounds::Verdict::goOn);
+  EXPECT_EQ(asked, 0);
+  const size_t before = rounds.scene().meshes[0].triangles.size();
+  EXPECT_EQ(judge(0.05, 0.15), Rounds::Verdict::goOn);
+  EXPECT_EQ(asked, 1);
+  EXPECT_GT(rounds.scene().meshes[0].triangles.size(), before);
+  EXPECT_EQ(judge(0.04, 0.12), Rounds::Verdict::goOn);  // three times the estimate again: not asked for
+  EXPECT_EQ(asked, 1);
+  EXPECT_EQ(judge(0.02, 0.1), Rounds::Verdict::reached);
+  EXPECT_EQ(asked, 2);
+}
+
+TEST(Rounds, whereThereIsNoBoundTheEstimateEndsThem) {
+  Rounds rounds(sceneOf(0.1));
+  EXPECT_EQ(rounds.judge(resultOf(rounds, 0.5), 1), Rounds::Verdict::goOn);
+  RoundResult result = resultOf(rounds, 0.05);
+  result.bound = [] { return std::nullopt; };
+  EXPECT_EQ(rounds.judge(result, 1), Rounds::Verdict::reached);
+}
+
 TEST(Rounds, errorsThatAreNothingButRoundingEndAfterOneRefinement) {
   Rounds rounds(sceneOf(0.1));
   EXPECT_EQ(rounds.judge(resultOf(rounds, 0), 1), Rounds::Verdict::goOn);

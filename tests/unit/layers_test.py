@@ -6,6 +6,7 @@ from pathlib import Path
 
 ROOT = Path(os.environ.get("MORTIER_ROOT", Path(__file__).resolve().parents[2]))
 CPP = ROOT / "cpp"
+PYTHON = ROOT / "python"  # sees all of them, and none of them sees it
 
 # What each layer may include of the others, bottom up.
 SEES = {"base": set(), "mesh": {"base"}, "material": {"base"}, "linear": {"base"}}
@@ -25,7 +26,8 @@ SEES["commands"] = {*SEES["lint"], "lint", "adapt", "bound", "report"}
 LIBRARIES = {r"cholmod|umfpack|cblas|amd\.h|colamd|metis|lapack": r"linear/\w+\.cpp|linear/cholmod_common\.h",
              r"Eigen/.*(Sparse\w*(LU|QR|Cholesky)|Iterative|\w*Support)": r"(linear|contact)/\w+\.cpp",
              r"gmsh": r"mesh/\w+\.cpp", r"muParser|toml\+\+": r"scene/\w+\.cpp",
-             r"nlohmann": r"(report|commands)/\w+\.cpp", r"CLI/": r"commands/\w+\.cpp|main\.cpp"}
+             r"nlohmann": r"(report|commands)/\w+\.cpp", r"CLI/": r"commands/\w+\.cpp|main\.cpp",
+             r"pybind11|Python\.h": r"python/\w+\.(cpp|h)"}
 
 
 def includes(path):
@@ -33,8 +35,8 @@ def includes(path):
     return re.findall(r"^\s*#\s*include\s*([<\"])([^>\"]+)[>\"]", path.read_text(), re.M)
 
 
-def sources():
-    return sorted(path for path in CPP.rglob("*") if path.suffix in (".h", ".cpp"))
+def sources(folder=CPP):
+    return sorted(path for path in folder.rglob("*") if path.suffix in (".h", ".cpp"))
 
 
 class Layers(unittest.TestCase):
@@ -52,6 +54,17 @@ class Layers(unittest.TestCase):
                     self.assertIn(name.split("/")[0], {layer, *SEES[layer]}, f"{path} includes {name}")
         self.assertGreater(seen, 200)
 
+    def test_the_python_module_is_above_all(self):
+        seen = set()
+        for path in sources(PYTHON):
+            for bracket, name in includes(path):
+                if bracket == '"':
+                    own = (PYTHON / name).is_file()
+                    self.assertTrue(own or (CPP / name).is_file(), f"{path}: \"{name}\" is not in cpp/")
+                    seen |= set() if own else {name.split("/")[0]}
+        self.assertIn("commands", seen)
+        self.assertEqual(seen - set(SEES), set())
+
     def test_links_go_down(self):
         text = (ROOT / "CMakeLists.txt").read_text()
         links = {name: re.findall(r"mortier-(\w+)", layers)
@@ -65,7 +78,8 @@ class Layers(unittest.TestCase):
 
     def test_libraries_are_seen_where_they_are_wrapped(self):
         for library, wrapped in LIBRARIES.items():
-            users = [str(path.relative_to(CPP)) for path in sources()
+            users = [str(path.relative_to(CPP if CPP in path.parents else ROOT))
+                     for path in [*sources(), *sources(PYTHON)]
                      for bracket, name in includes(path) if bracket == "<" and re.match(library, name)]
             self.assertTrue(users, library)
             for user in users:

@@ -4,8 +4,8 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(os.environ.get("MORTIER_ROOT", Path(__file__).resolve().parents[2]))
-FOLDERS = (".ci", "bench", "compare", "cpp", "docs", "examples", "freefem", "packaging", "scenes", "scripts",
-           "shared-meshes", "study", "tests", "views")
+FOLDERS = (".ci", "bench", "compare", "cpp", "docs", "examples", "freefem", "packaging", "python", "scenes",
+           "scripts", "shared-meshes", "study", "tests", "views")
 DATA = {".mesh", ".png", ".gif", ".pyc"}
 CORPUS = ROOT / "tests" / "fuzz" / "corpus"  # bytes for the readers
 WIDTH = 110

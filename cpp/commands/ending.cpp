@@ -1,0 +1,53 @@
+#include "commands/ending.h"
+
+#include "commands/bound_of.h"
+#include "mesh/medit.h"
+#include "plan/estimate_doubts.h"
+#include "report/output_file.h"
+#include "report/summary.h"
+#include "scene/document.h"
+
+namespace mortier {
+
+void addVerdict(Attempt& attempt, const Rounds* rounds, const std::string& shortfall) {
+  RunFacts& facts = attempt.facts;
+  Solved& solved = attempt.solved;
+  const bool complete = solved.report.status == Status::converged;
+  facts.doubts = estimateDoubts(attempt.scene(), *attempt.model);
+  if (complete && attempt.scene().accuracy.bound && (!solved.accuracy.bound || !facts.quantities.empty()))
+    solved.accuracy.bound =
+        boundOf(*attempt.model, solved.state, functionalsOf(facts.quantities, attempt.scene()));
+  if (rounds == nullptr) return;
+  const std::vector<std::string> more = rounds->doubts();
+  facts.doubts.insert(facts.doubts.end(), more.begin(), more.end());
+  facts.reached = complete && shortfall.empty();
+}
+
+std::string putInPlace(const Attempt& attempt, OutputFolder& folder) {
+  const Solved& solved = attempt.solved;
+  const std::string& path = folder.temporary();
+  Manifest manifest{solved.report.status != Status::converged, solved.files};
+  if (attempt.scene().accuracy.energy > 0)
+    for (const Body& body : attempt.model->bodies) {
+      OutputFile file(path + "/" + body.name() + ".mesh");
+      file << meditText(body.mesh());
+      manifest.files[body.name() + ".mesh"] = file.close();
+    }
+  manifest.files["summary.json"] = writeSummary(path, attempt.facts, *attempt.model, solved.state,
+                                                solved.last, solved.report, solved.accuracy);
+  return folder.commit(manifest);
+}
+
+Ending endingOf(const Attempt& attempt, const std::string& shortfall, const std::string& where) {
+  const SceneDescription& scene = attempt.scene();
+  const RunReport& report = attempt.solved.report;
+  if (report.status != Status::converged)
+    return {report.status == Status::unheld ? exitUnheld : exitFailed,
+            scene.path + ": " + report.reason + "; the state after step " +
+                std::to_string(attempt.solved.last.step) + " is in " + where};
+  if (shortfall.empty()) return {};
+  return {exitFailed, scene.path + ": accuracy " + shortest(scene.accuracy.energy) +
+                          " not reached: " + shortfall + "; the best result is in " + where};
+}
+
+}  // namespace mortier

@@ -1,0 +1,13 @@
+"""mortier: contact of elastic and viscoplastic bodies on meshes that do not match (docs/python.md).
+
+    scene = mortier.load("scene.toml", set={"time.steps": 20})
+    run = scene.run()
+    run.displacement["upper"], run.contact[0].pressure, run.history["contact_force"]
+"""
+from mortier._core import Contact, Step, version as __version__
+from mortier.errors import Error, FreeMotion, InputError, OutputError, StepError
+from mortier.run import Run
+from mortier.scene import Fault, Mesh, Scene, check, load
+
+__all__ = ["Contact", "Error", "Fault", "FreeMotion", "InputError", "Mesh", "OutputError", "Run", "Scene",
+           "Step", "StepError", "__version__", "check", "load"]

@@ -1,0 +1,199 @@
+#include "solution.h"
+
+#include <cmath>
+#include <mutex>
+#include <shared_mutex>
+
+#include "adapt/rounds.h"
+#include "base/interrupt.h"
+#include "commands/solve_rounds.h"
+#include "report/clock.h"
+#include "report/summary.h"
+#include "scene/document.h"
+#include "scene/initial_equilibrium.h"
+
+namespace mortier::python {
+
+namespace {
+
+/// Of max_seconds there is one in the process (base/interrupt.h): a run that has them has no other beside it.
+std::shared_mutex timeLimit;
+
+/// What a march leaves behind.
+struct Record {
+  std::vector<std::vector<HistoryValue>> rows;
+  std::vector<Step> kept;
+
+  void keep(const StepReport& report, const State& state) {
+    kept.push_back({{}, report, report.step > 0 ? rows.back() : std::vector<HistoryValue>(), state});
+  }
+};
+
+/// The files of a run and what belongs to them.
+struct Output {
+  RunIdentity identity;
+  OutputFolder folder;
+  Checkpoints checkpoints;
+  Log quiet;
+  std::string again;
+
+  Output(const Scene& scene, const RunOptions& options, const Attempt& first)
+      : identity(identityOf(scene, *first.model)),
+        folder(options.out),
+        checkpoints(folder.temporary(), options.checkpoint, identity),
+        quiet(true, first.scene().time.end),
+        again("; mortier run --restart " + options.out +
+              (first.scene().accuracy.energy > 0 ? " begins the rounds again" : " goes on")) {}
+
+  static RunIdentity identityOf(const Scene& scene, const Model& model) {
+    RunCommand command;
+    command.scene = scene.path;
+    command.settings = scene.settings;
+    RunIdentity identity = mortier::identityOf(command);
+    addMeshes(model, identity);
+    return identity;
+  }
+
+  Solved solve(Attempt& attempt, const Observer& observe) {
+    return mortier::solve({attempt.scene(),
+                           *attempt.model,
+                           attempt.facts,
+                           folder.temporary(),
+                           quiet,
+                           attempt.state,
+                           {},
+                           checkpoints,
+                           again,
+                           observe,
+                           attempt.scene().accuracy.energy > 0});
+  }
+};
+
+/// The march of solve() without files.
+Solved solveInMemory(const Attempt& attempt, const Observer& observe) {
+  const SceneDescription& scene = attempt.scene();
+  Solved solved;
+  solved.state = attempt.state;
+  State last = solved.state;
+  MarchMemory memory;
+  MarchMemory lastMemory;
+  AccuracyMemory errors;
+  AccuracyRecord accuracies(*attempt.model, errors);
+  try {
+    solved.report = march(*attempt.model, solved.state, memory, scene.time, scene.solver,
+                          [&](const State& state, const StepReport& report) {
+                            if (report.step == 0) errors = {};
+                            const bool kept = scene.every > 0 && report.step % scene.every == 0;
+                            accuracies.add(state, report, kept);
+                            observe(state, report);
+                            solved.last = report;
+                            last = state;
+                            lastMemory = memory;
+                          });
+  } catch (const TimeIsUp&) {
+    solved.report = lastMemory.run;
+    solved.report.status = Status::failed;
+    solved.report.reason = timeIsUp;
+    solved.state = last;
+  } catch (const Interrupted&) {
+    throw InterruptedError(scene.path + ": interrupted after step " + std::to_string(solved.last.step));
+  }
+  solved.accuracy = accuracies.atEnd(solved.state, solved.report.peaks);
+  return solved;
+}
+
+std::vector<std::pair<std::string, HistoryColumn>> columnsOf(const Attempt& attempt, const Record& record) {
+  const std::vector<std::string> names = historyColumns(attempt.facts.quantities);
+  std::vector<std::pair<std::string, HistoryColumn>> columns;
+  for (size_t c = 0; c < names.size(); ++c) {
+    HistoryColumn column = std::vector<double>();
+    const auto fill = [&]<class Value>(const Value& /*first*/) {
+      std::vector<Value> values;
+      for (const auto& row : record.rows) values.push_back(std::get<Value>(row[c]));
+      column = std::move(values);
+    };
+    if (!record.rows.empty()) std::visit(fill, record.rows.front()[c]);
+    columns.emplace_back(names[c], std::move(column));
+  }
+  return columns;
+}
+
+}  // namespace
+
+Solution solveScene(const Scene& scene, const RunOptions& options,
+                    const std::function<void(std::shared_ptr<Step>)>& onStep) {
+  std::unique_lock alone(timeLimit, std::defer_lock);
+  std::shared_lock besideOthers(timeLimit, std::defer_lock);
+  if (std::isfinite(scene.resolved.description.accuracy.maxSeconds))
+    alone.lock();
+  else
+    besideOthers.lock();
+  beginClock();
+  ResolvedScene resolved = scene.resolved;
+  std::optional<Rounds> rounds;
+  if (resolved.description.accuracy.energy > 0) {
+    rounds.emplace(std::move(resolved));
+    resolved = rounds->scene();
+  }
+  const AttemptOptions forAttempt{scene.settings, options.threads, scene.text};
+  auto first = std::make_unique<Attempt>(std::move(resolved), forAttempt);
+  findInitialEquilibrium(first->scene(), *first->model, first->state);
+  std::optional<Output> output;
+  if (!options.out.empty()) output.emplace(scene, options, *first);
+
+  std::shared_ptr<Attempt> attempt;
+  std::map<const Attempt*, Record> records;
+  const auto solveIt = [&](Attempt& now, const Observer& alsoObserve) {
+    Record& record = records[&now];
+    const int every = options.keepAll ? 1 : now.scene().every;
+    const Observer observe = [&](const State& state, const StepReport& report) {
+      if (report.step == 0) record = {};
+      if (report.step > 0)
+        record.rows.push_back(historyRow(report, evaluate(now.facts.quantities, *now.model, state)));
+      if (onStep) {
+        record.keep(report, state);
+        record.kept.back().of = attempt;
+        const auto step = std::make_shared<Step>(std::move(record.kept.back()));
+        record.kept.clear();
+        besideOthers.unlock();
+        onStep(step);
+        besideOthers.lock();
+      } else if (every > 0 && report.step % every == 0) {
+        record.keep(report, state);
+      }
+      if (alsoObserve) alsoObserve(state, report);
+    };
+    now.solved = output ? output->solve(now, observe) : solveInMemory(now, observe);
+    const Solved& solved = now.solved;
+    if (record.kept.empty() || record.kept.back().report.step != solved.last.step)
+      record.keep(solved.last, solved.state);
+  };
+  std::string shortfall;
+  if (rounds) {
+    Log quiet(true, 0);
+    shortfall =
+        solveRounds(*rounds, first, forAttempt, output ? output->folder.temporary() : "", quiet, solveIt);
+    attempt = std::move(first);
+  } else {
+    attempt = std::move(first);
+    solveIt(*attempt, {});
+  }
+
+  Solution solution;
+  addVerdict(*attempt, rounds ? &*rounds : nullptr, shortfall);
+  if (output) solution.folder = putInPlace(*attempt, output->folder);
+  const Solved& solved = attempt->solved;
+  solution.summary = output ? readSceneText(solution.folder + "/summary.json")
+                            : summaryText("summary", attempt->facts, *attempt->model, solved.state,
+                                          solved.last, solved.report, solved.accuracy);
+  solution.ending = endingOf(*attempt, shortfall, output ? solution.folder : "memory");
+  Record& record = records.at(attempt.get());
+  solution.history = columnsOf(*attempt, record);
+  for (Step& kept : record.kept) {
+    kept.of = attempt;
+    solution.steps.push_back(std::make_shared<Step>(std::move(kept)));
+  }
+  return solution;
+}
+
+}  // namespace mortier::python

@@ -1,0 +1,56 @@
+// A scene solved in this process: what `mortier run` does, its result in memory and, where a folder is given,
+// in files as well.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "commands/attempt.h"
+#include "commands/ending.h"
+#include "report/contact_table.h"
+#include "report/fields.h"
+#include "report/history.h"
+#include "scene.h"
+
+namespace mortier::python {
+
+/// A state of a run, and what is computed of it when it is first asked for.
+struct Step {
+  std::shared_ptr<const Attempt> of;
+  StepReport report;
+  std::vector<HistoryValue> row;  ///< of the history
+  State state;
+
+  std::vector<std::optional<CellFields>> cells = {};       ///< by bodies
+  std::vector<std::optional<ContactFields>> contact = {};  ///< by interfaces
+  std::vector<Vector> errors = {};                         ///< by bodies and triangles
+};
+
+using HistoryColumn = std::variant<std::vector<int>, std::vector<double>, std::vector<std::string_view>>;
+
+struct Solution {
+  std::vector<std::pair<std::string, HistoryColumn>> history;  ///< `time[s]` and so on; a row a step
+  std::vector<std::shared_ptr<Step>> steps;                    ///< that were kept, the last one at least
+  std::string summary;                                         ///< summary.json
+  std::string folder;                                          ///< of the files, empty without
+  Ending ending;
+};
+
+struct RunOptions {
+  std::string out;         ///< folder of the result; empty: memory only
+  double checkpoint = 30;  ///< wall time between checkpoints [s]
+  int threads = 1;
+  bool keepAll = false;  ///< all steps, in place of those of output.every
+};
+
+/// \param onStep  called with every step as it is done; not for scenes whose steps may be done again.
+/// \throws InputError, UnheldBodyError, OutputError, InterruptedError, Interrupted
+Solution solveScene(const Scene& scene, const RunOptions& options,
+                    const std::function<void(std::shared_ptr<Step>)>& onStep = {});
+
+}  // namespace mortier::python
