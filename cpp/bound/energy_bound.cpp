@@ -14,7 +14,7 @@ double EnergyBound::relative() const {
   return bound / (norm - bound);
 }
 
-EnergyBound energyBound(const Model& model, const State& state) {
+EnergyBound energyBound(const Model& model, const State& state, const std::vector<Functional>& functionals) {
   EnergyBound result;
   const auto none = [&](const std::string& why) {
     result.obstacle = why;
@@ -89,6 +89,7 @@ EnergyBound energyBound(const Model& model, const State& state) {
   result.norm = std::sqrt(norm);
   result.oscillation = oscillation.relative();
   result.bound = std::sqrt(stress + lifts + 2 * lifting.gap);
+  result.quantities = enclose({model, meshes, bodies, spread, lifting}, functionals);
   return result;
 }
 

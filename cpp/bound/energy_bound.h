@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "bound/quantity_bound.h"
 #include "solver/model.h"
 #include "solver/state.h"
 
@@ -34,13 +35,15 @@ struct EnergyBound {
   /// [-].
   double imbalance = 0;
   double mismatch = 0;
-  double leastPressure = 0;  ///< of p^ [Pa]
-  double leastGap = 0;       ///< of u^ [m]
+  double leastPressure = 0;           ///< of p^ [Pa]
+  double leastGap = 0;                ///< of u^ [m]
+  std::vector<Enclosure> quantities;  ///< that are asked for, in their order
 
   /// Of the error over the exact norm: infinite where the bound is not below the norm.
   [[nodiscard]] double relative() const;
 };
 
-EnergyBound energyBound(const Model& model, const State& state);
+EnergyBound energyBound(const Model& model, const State& state,
+                        const std::vector<Functional>& functionals = {});
 
 }  // namespace mortier

@@ -15,15 +15,6 @@ constexpr int rings = 2;
 constexpr int sweeps = 60;
 constexpr double worthwhile = 1e-3;  ///< of what a sweep took away: it was the last
 
-/// Two vertices that face each other, and what is between them.
-struct Facing {
-  std::array<int, 2> bodies{};
-  std::array<int, 2> vertices{};
-  Point normal{0, 0};
-  double gap = 0;     ///< G [m]
-  double weight = 0;  ///< derivative of the integral of p^ G by it [N/m]
-};
-
 class Lifting {
  public:
   Lifting(const std::vector<LiftedBody>& bodies, const Model& model, const std::vector<MatchedPiece>& pieces,
@@ -70,6 +61,8 @@ class Lifting {
       lift.leastGap = std::min(lift.leastGap, each.gap);
     }
     lift.displacements = displacements_;
+    lift.facing = facing_;
+    lift.facingOfPiece = facingOfPiece_;
     return lift;
   }
 
@@ -78,6 +71,7 @@ class Lifting {
 
   void collect(const Model& model, const std::vector<MatchedPiece>& pieces,
                const std::vector<std::array<double, 2>>& pressure) {
+    facingOfPiece_.resize(pieces.size());
     for (size_t k = 0; k < pieces.size(); ++k) {
       const MatchedPiece& piece = pieces[k];
       const auto& [nonmortar, mortar, coupling] = model.interfaces[piece.interface].pair();
@@ -98,6 +92,7 @@ class Lifting {
           facing_.push_back(facing);
           for (int side = 0; side < 2; ++side) facingAt_[sides[side]][vertices[side]].push_back(index);
         }
+        facingOfPiece_[k][end] = index;
         facing_[index].weight += piece.length / 6 * (2 * pressure[k][end] + pressure[k][1 - end]);
       }
     }
@@ -253,6 +248,7 @@ class Lifting {
   std::vector<std::vector<int>> supportOf_;
   std::vector<std::vector<std::vector<int>>> facingAt_;  ///< by bodies and vertices
   std::vector<Facing> facing_;
+  std::vector<std::array<int, 2>> facingOfPiece_;
   std::vector<Vector> displacements_;  ///< u^ by bodies
   struct Moving {
     int body, vertex;

@@ -15,12 +15,23 @@
 
 namespace mortier {
 
+/// Two vertices of the matched line that face each other.
+struct Facing {
+  std::array<int, 2> bodies{};  ///< nonmortar, mortar
+  std::array<int, 2> vertices{};
+  Point normal{0, 0};  ///< outward of the nonmortar body
+  double gap = 0;      ///< G of u^ [m]
+  double weight = 0;   ///< derivative of the integral of p^ G by it [N/m]
+};
+
 struct Lift {
-  std::vector<Vector> displacements;  ///< u^ by bodies
-  std::vector<Vector> energies;       ///< |w|_E^2 by bodies and triangles of the matched meshes [J/m]
-  double gap = 0;                     ///< integral of p^ G [J/m]
-  double leastGap = 0;                ///< of u^, at a vertex [m]; not negative
-  std::string obstacle;               ///< why there is none
+  std::vector<Vector> displacements;              ///< u^ by bodies
+  std::vector<Facing> facing;                     ///< all of the line
+  std::vector<std::array<int, 2>> facingOfPiece;  ///< at begin and end
+  std::vector<Vector> energies;  ///< |w|_E^2 by bodies and triangles of the matched meshes [J/m]
+  double gap = 0;                ///< integral of p^ G [J/m]
+  double leastGap = 0;           ///< of u^, at a vertex [m]; not negative
+  std::string obstacle;          ///< why there is none
 };
 
 struct LiftedBody {

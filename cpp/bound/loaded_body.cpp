@@ -171,20 +171,67 @@ bool LoadedBody::holds(const Side& side, const Point& direction) const {
   });
 }
 
-/// Adds what brings finite element stresses into equilibrium with the load.
-bool LoadedBody::equilibrate(std::vector<Stress>& stress) const {
-  Vector left = load_;
-  const auto gradient = [&](size_t t, int i) -> Point {  // |K| grad phi_i
-    const auto& v = mesh().triangles[t];
-    const Point opposite = mesh().vertices[v[(i + 2) % 3]] - mesh().vertices[v[(i + 1) % 3]];
-    return Point(-opposite.y(), opposite.x()) / 2;
-  };
-  for (size_t t = 0; t < stress.size(); ++t)
+LoadedBody LoadedBody::unloaded(const Vector& near) const {
+  LoadedBody result = *this;
+  result.displacement_ = near;
+  result.stress_ = stressOf(near);
+  result.load_.setZero();
+  for (Point& force : result.forces_) force.setZero();
+  for (KnownTraction& known : result.known_) known.moments = {Point(0, 0), Point(0, 0)};
+  return result;
+}
+
+void LoadedBody::pull(int label, const Point& traction) {
+  for (int e = 0; e < sides_.count(); ++e) {
+    const Side& side = sides_.all()[e];
+    if (side.boundary < 0 || mesh().boundaryLabels[side.boundary] != label) continue;
+    const auto& [a, b] = side.vertices;
+    const Point moment = (mesh().vertices[b] - mesh().vertices[a]).norm() / 2 * traction;
+    for (int end = 0; end < 2; ++end) {
+      known_[e].moments[end] += moment;
+      load_.segment<2>(2 * side.vertices[end]) += moment;
+    }
+  }
+}
+
+CompositeTriangle LoadedBody::elementOf(int triangle) const {
+  const auto& v = mesh().triangles[triangle];
+  return {{mesh().vertices[v[0]], mesh().vertices[v[1]], mesh().vertices[v[2]]}, compliances_[triangle]};
+}
+
+/// |K| grad phi_i
+Point LoadedBody::gradient(int t, int i) const {
+  const auto& v = mesh().triangles[t];
+  const Point opposite = mesh().vertices[v[(i + 2) % 3]] - mesh().vertices[v[(i + 1) % 3]];
+  return Point(-opposite.y(), opposite.x()) / 2;
+}
+
+Vector LoadedBody::leftOver(Vector forces, const std::vector<Stress>& stress) const {
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t)
     for (int i = 0; i < 3; ++i) {
       const Point g = gradient(t, i);
-      left.segment<2>(2 * mesh().triangles[t][i]) -=
+      forces.segment<2>(2 * mesh().triangles[t][i]) -=
           Point(stress[t][0] * g.x() + stress[t][2] * g.y(), stress[t][2] * g.x() + stress[t][1] * g.y());
     }
+  return forces;
+}
+
+std::vector<Stress> LoadedBody::stressOf(const Vector& displacement) const {
+  const Eigen::Matrix3d back = toBasis().inverse();
+  std::vector<Stress> stress(moduli_.size());
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
+    Eigen::Vector3d strain = Eigen::Vector3d::Zero();
+    for (int i = 0; i < 3; ++i) {
+      const Point g = gradient(t, i) / body_.weights()[t];
+      const Point u = displacement.segment<2>(2 * mesh().triangles[t][i]);
+      strain += fromCartesian({u.x() * g.x(), u.y() * g.y(), (u.x() * g.y() + u.y() * g.x()) / 2});
+    }
+    stress[t] = back * (moduli_[t] * strain);
+  }
+  return stress;
+}
+
+std::vector<double> LoadedBody::tangent() const {
   Matrix moduli(body_.material().symmetricTangent() ? 6 : 9, static_cast<Eigen::Index>(moduli_.size()));
   for (size_t t = 0; t < moduli_.size(); ++t) {
     const Eigen::Matrix3d& D = moduli_[t];
@@ -195,26 +242,23 @@ bool LoadedBody::equilibrate(std::vector<Stress>& stress) const {
   }
   std::vector<double> values(body_.pattern().entries());
   body_.tangent(moduli, values);
+  return values;
+}
+
+/// Adds what brings finite element stresses into equilibrium with the load.
+bool LoadedBody::equilibrate(std::vector<Stress>& stress) const {
+  std::vector<double> values = tangent();
   pin(values);
   auto solver = multifrontalSolver(body_.pattern(), {});
   if (!solver->factorise(values)) {
     solver = suiteSparseSolver(body_.pattern(), {});
     if (!solver->factorise(values)) return false;
   }
-  Vector x = body_.gather(left);
+  Vector x = body_.gather(leftOver(load_, stress));
   solver->condense(x);
   solver->expand(x);
-  const Vector d = body_.spread(x);
-  const Eigen::Matrix3d back = toBasis().inverse();
-  for (size_t t = 0; t < stress.size(); ++t) {
-    Eigen::Vector3d strain = Eigen::Vector3d::Zero();
-    for (int i = 0; i < 3; ++i) {
-      const Point g = gradient(t, i) / body_.weights()[t];
-      const Point u = d.segment<2>(2 * mesh().triangles[t][i]);
-      strain += fromCartesian({u.x() * g.x(), u.y() * g.y(), (u.x() * g.y() + u.y() * g.x()) / 2});
-    }
-    stress[t] += back * (moduli_[t] * strain);
-  }
+  const std::vector<Stress> more = stressOf(body_.spread(x));
+  for (size_t t = 0; t < stress.size(); ++t) stress[t] += more[t];
   return true;
 }
 

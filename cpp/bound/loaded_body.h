@@ -80,11 +80,34 @@ class LoadedBody {
   [[nodiscard]] std::array<Point, 2> momentsBetween(const std::array<int, 2>& vertices) const;
   [[nodiscard]] Imbalance imbalance() const;
 
+  // What a problem with other data needs of it.
+
+  /// The same body and supports without loads; `near` (dofs) is the displacement to whose stress that in
+  /// equilibrium shall be near.
+  [[nodiscard]] LoadedBody unloaded(const Vector& near) const;
+  /// A constant traction on a label [Pa].
+  void pull(int label, const Point& traction);
+  [[nodiscard]] const Body& body() const { return body_; }
+  /// Values of the tangent's pattern.
+  [[nodiscard]] std::vector<double> tangent() const;
+  /// (s11, s22, s12) by triangles of a displacement (dofs).
+  [[nodiscard]] std::vector<Stress> stressOf(const Vector& displacement) const;
+  /// Nodal forces less those of a stress.
+  [[nodiscard]] Vector leftOver(Vector forces, const std::vector<Stress>& stress) const;
+  [[nodiscard]] const std::vector<Stress>& stress() const { return stress_; }  ///< s
+  /// Of s^ in a triangle.
+  [[nodiscard]] Moments momentsOf(int triangle) const {
+    return mortier::momentsOf(sides_, moments_, triangle);
+  }
+  [[nodiscard]] CompositeTriangle elementOf(int triangle) const;
+  [[nodiscard]] const Point& forceOn(int triangle) const { return forces_[triangle]; }
+
  private:
   void readForces(double t);
   void readBoundary(double t);
   [[nodiscard]] int sideBetween(const std::array<int, 2>& vertices) const;
   [[nodiscard]] bool holds(const Side& side, const Point& direction) const;
+  [[nodiscard]] Point gradient(int t, int i) const;
   bool equilibrate(std::vector<Stress>& stress) const;
   void pin(std::vector<double>& values) const;
 

@@ -8,6 +8,13 @@
 namespace mortier {
 
 std::vector<Vector> spreadPressures(const Model& model, const State& state, const MatchedMeshes& meshes) {
+  std::vector<Vector> forces;
+  for (const Vector& p : state.contactForce) forces.emplace_back(p.cwiseMax(0));
+  return spreadForces(model, forces, meshes);
+}
+
+std::vector<Vector> spreadForces(const Model& model, const std::vector<Vector>& forces,
+                                 const MatchedMeshes& meshes) {
   constexpr double little = 0.25;  // of the neighbour
   std::vector<Vector> widths;
   std::vector<DisjointSets> together;
@@ -31,7 +38,7 @@ std::vector<Vector> spreadPressures(const Model& model, const State& state, cons
     Vector force = Vector::Zero(rows);
     for (int row = 0; row < rows; ++row) {
       width[together[i].of(row)] += widths[i][row];
-      force[together[i].of(row)] += std::max(state.contactForce[i][row], 0.0);
+      force[together[i].of(row)] += forces[i][row];
     }
     spread.emplace_back(Vector::Zero(rows));
     for (int row = 0; row < rows; ++row)
@@ -53,6 +60,14 @@ std::array<double, 2> momentsOfLinear(const std::array<double, 2>& values, doubl
 
 bool balancePressures(const Model& model, const MatchedMeshes& meshes, const std::vector<LoadedBody>& bodies,
                       std::vector<Vector>& spread) {
+  const std::vector<Vector> weights = spread;
+  return balanceBy(weights, model, meshes, bodies, spread) &&
+         std::all_of(spread.begin(), spread.end(),
+                     [](const Vector& each) { return each.size() == 0 || each.minCoeff() >= 0; });
+}
+
+bool balanceBy(const std::vector<Vector>& weights, const Model& model, const MatchedMeshes& meshes,
+               const std::vector<LoadedBody>& bodies, std::vector<Vector>& spread) {
   Eigen::Index rows = 0;
   for (const LoadedBody& body : bodies) rows += body.modes().cols();
   if (rows == 0) return true;
@@ -82,12 +97,12 @@ bool balancePressures(const Model& model, const MatchedMeshes& meshes, const std
         const Point outward = side == 0 ? piece.normal : Point(-piece.normal);
         for (int k = 0; k < 2 && piece.rows[k] >= 0; ++k) {
           const int row = piece.rows[k];
-          const double c = spread[piece.interface][row];
           const auto m = momentsOfLinear(piece.values[k], piece.length);
           for (int end = 0; end < 2; ++end) {
-            const Vector work =
-                -c * m[end] * modes.middleRows<2>(2 * piece.vertices[side][end]).transpose() * outward;
-            left.segment(first, modes.cols()) += work;
+            const Vector unit =
+                -m[end] * modes.middleRows<2>(2 * piece.vertices[side][end]).transpose() * outward;
+            const Vector work = weights[piece.interface][row] * unit;
+            left.segment(first, modes.cols()) += spread[piece.interface][row] * unit;
             M.block(first, 2 * piece.interface, modes.cols(), 1) += work;
             M.block(first, 2 * piece.interface + 1, modes.cols(), 1) += places[piece.interface][row] * work;
             if (work.size() > 0) size = std::max(size, work.cwiseAbs().maxCoeff());
@@ -103,8 +118,7 @@ bool balancePressures(const Model& model, const MatchedMeshes& meshes, const std
     return false;
   for (size_t k = 0; k < spread.size(); ++k) {
     const auto at = 2 * static_cast<Eigen::Index>(k);
-    spread[k].array() *= 1 + factors[at] + factors[at + 1] * places[k].array();
-    if (spread[k].minCoeff() < 0) return false;
+    spread[k].array() += weights[k].array() * (factors[at] + factors[at + 1] * places[k].array());
   }
   return true;
 }

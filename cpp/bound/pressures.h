@@ -16,6 +16,9 @@ namespace mortier {
 
 /// Coefficients of p^ by interfaces and rows [Pa].
 std::vector<Vector> spreadPressures(const Model& model, const State& state, const MatchedMeshes& meshes);
+/// The same of any nodal forces by interfaces and rows [N/m].
+std::vector<Vector> spreadForces(const Model& model, const std::vector<Vector>& forces,
+                                 const MatchedMeshes& meshes);
 
 /// p^ at begin and end of a piece.
 std::array<double, 2> pressureOn(const MatchedPiece& piece, const std::vector<Vector>& spread);
@@ -28,5 +31,9 @@ std::array<double, 2> momentsOfLinear(const std::array<double, 2>& values, doubl
 /// negative
 bool balancePressures(const Model& model, const MatchedMeshes& meshes, const std::vector<LoadedBody>& bodies,
                       std::vector<Vector>& spread);
+/// The same by adding (a + b x) times other coefficients, whatever the sign. \returns false where it cannot
+/// be
+bool balanceBy(const std::vector<Vector>& weights, const Model& model, const MatchedMeshes& meshes,
+               const std::vector<LoadedBody>& bodies, std::vector<Vector>& spread);
 
 }  // namespace mortier

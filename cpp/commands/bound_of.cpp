@@ -5,12 +5,40 @@
 #include "base/interrupt.h"
 
 namespace mortier {
+namespace {
 
-EnergyBound boundOf(const Model& model, const State& state) {
+/// What a bound needs to know of a quantity.
+Functional functionalOf(const Quantity& quantity, bool atPoint) {
+  using Kind = Functional::Kind;
+  Functional result{quantity.kind == Quantity::Kind::reaction       ? Kind::reaction
+                    : quantity.kind == Quantity::Kind::contactForce ? Kind::contactForce
+                                                                    : Kind::displacement,
+                    quantity.body, quantity.label};
+  if (quantity.component == Quantity::Component::moment) {
+    result.turn = 1;
+    result.about = quantity.about;
+  } else {
+    result.direction = Point::Unit(quantity.component == Quantity::Component::x ? 0 : 1);
+  }
+  if (atPoint) result.obstacle = "displacements at a point have none, means of a label have";
+  return result;
+}
+
+}  // namespace
+
+std::vector<Functional> functionalsOf(const std::vector<Quantity>& quantities,
+                                      const SceneDescription& scene) {
+  std::vector<Functional> functionals;
+  for (size_t i = 0; i < quantities.size(); ++i)
+    functionals.push_back(functionalOf(quantities[i], scene.quantities[i].point.has_value()));
+  return functionals;
+}
+
+EnergyBound boundOf(const Model& model, const State& state, const std::vector<Functional>& functionals) {
   const KeepsResult keeps;
   EnergyBound none;
   try {
-    return energyBound(model, state);
+    return energyBound(model, state, functionals);
   } catch (const Interrupted&) {
     none.obstacle = "interrupted";
   } catch (const std::bad_alloc&) {

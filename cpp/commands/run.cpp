@@ -55,7 +55,8 @@ void tell(Log& log, const RunFacts& facts, const Model& model, const Solved& sol
   log.print(logAccuracy(facts, model, solved.accuracy));
   log.print(logTimeError(facts, solved.report));
   log.print(logPeaks(solved.report.peaks, solved.last));
-  log.print(logQuantities(facts.quantities, evaluate(facts.quantities, model, solved.state)));
+  log.print(logQuantities(facts.quantities, evaluate(facts.quantities, model, solved.state),
+                          solved.accuracy.bound));
 }
 
 }  // namespace

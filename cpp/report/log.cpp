@@ -119,6 +119,9 @@ std::string logVerification(const Certificate& w) {
       w.rounding);
 }
 
+/// Data that are off linear functions by no more are linear [-].
+constexpr double linear = 1e-9;
+
 std::string logBound(const EnergyBound& bound) {
   if (!bound.obstacle.empty()) return "           no guaranteed bound: " + bound.obstacle + "\n";
   const double relative = bound.relative();
@@ -127,7 +130,6 @@ std::string logBound(const EnergyBound& bound) {
   constexpr double rounding = 1e-12;
   if (bound.bound <= rounding * bound.norm) return "           guaranteed: 0 to rounding\n";
   std::string text = format("           guaranteed: at most %.2g %%", 100 * relative);
-  constexpr double linear = 1e-9;
   if (bound.oscillation > linear)
     text += format(", for data that are linear on sides; these are off by %.1g %%", 100 * bound.oscillation);
   return text + "\n";
@@ -143,7 +145,6 @@ std::string logFlow(const FlowBound& bound) {
   std::string text = format("           guaranteed in time: viscoplastic strain to %.2g %%",
                             error > 0 ? 100 * error / (bound.strainNorm - error) : 0);
   if (!any && !(bound.factor <= 1)) text += ", contact closed and open as in the run";
-  constexpr double linear = 1e-9;
   if (bound.data > linear)
     text += format(", for data that are linear within steps; these are off by %.1g %%", 100 * bound.data);
   return text + "\n";
@@ -200,11 +201,18 @@ std::string logPeaks(const Peaks& peaks, const StepReport& last) {
   return text;
 }
 
-std::string logQuantities(const std::vector<Quantity>& quantities, const std::vector<double>& values) {
+std::string logQuantities(const std::vector<Quantity>& quantities, const std::vector<double>& values,
+                          const std::optional<EnergyBound>& bound) {
   std::string text;
-  for (size_t i = 0; i < quantities.size(); ++i)
+  for (size_t i = 0; i < quantities.size(); ++i) {
     text += format("%s %.7g %s", ((i == 0 ? "quantities " : ", ") + quantities[i].name).c_str(), values[i],
                    quantities[i].unit().c_str());
+    if (!bound || i >= bound->quantities.size()) continue;
+    const Enclosure& enclosure = bound->quantities[i];
+    text += enclosure.obstacle.empty() ? format(" +- %.2g (guaranteed%s)", enclosure.error(values[i]),
+                                                bound->oscillation > linear ? " for linear data" : "")
+                                       : " (no bound: " + enclosure.obstacle + ")";
+  }
   return text.empty() ? text : text + "\n";
 }
 

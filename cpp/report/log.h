@@ -34,8 +34,10 @@ std::string logAccuracy(const RunFacts& facts, const Model& model, const Accurac
 /// The largest values of the run where the last step does not have them,
 /// and what no small strain is any more.
 std::string logPeaks(const Peaks& peaks, const StepReport& last);
-/// The quantities of the scene at the end of the run; nothing where there are none.
-std::string logQuantities(const std::vector<Quantity>& quantities, const std::vector<double>& values);
+/// The quantities of the scene at the end of the run, with the bounds of their errors where there are such;
+/// nothing where there are none.
+std::string logQuantities(const std::vector<Quantity>& quantities, const std::vector<double>& values,
+                          const std::optional<EnergyBound>& bound);
 /// A line where contact conditions have no force of their own, otherwise nothing.
 std::string logSpecial(const SpecialConditions& special);
 

@@ -109,6 +109,14 @@ Json jsonOf(const EnergyBound& bound) {
           {"data", bound.oscillation}};
 }
 
+/// Of the error of a quantity.
+Json jsonOf(const EnergyBound& bound, size_t quantity, double value) {
+  if (!bound.obstacle.empty()) return {{"error", nullptr}, {"reason", bound.obstacle}};
+  const Enclosure& enclosure = bound.quantities[quantity];
+  if (!enclosure.obstacle.empty()) return {{"error", nullptr}, {"reason", enclosure.obstacle}};
+  return {{"error", enclosure.error(value)}, {"lower", enclosure.lower}, {"upper", enclosure.upper}};
+}
+
 Json jsonOf(const FlowBound& bound) {
   if (!bound.obstacle.empty()) return {{"viscoplastic_strain", nullptr}, {"reason", bound.obstacle}};
   const auto over = [](double error, double norm) {
@@ -220,6 +228,9 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
   for (size_t i = 0; i < values.size(); ++i)
     json["quantities"][facts.quantities[i].name] = {{"value", values[i]},
                                                     {"unit", facts.quantities[i].unit()}};
+  for (size_t i = 0; accuracy.bound && i < values.size(); ++i)
+    if (!accuracy.bound->obstacle.empty() || i < accuracy.bound->quantities.size())
+      json["quantities"][facts.quantities[i].name]["bound"] = jsonOf(*accuracy.bound, i, values[i]);
   json["accuracy"] = jsonOf(facts, model, accuracy);
   if (facts.tolerance > 0) json["accuracy"]["time"] = report.timeError;
   if (facts.accuracy > 0) {

@@ -2,7 +2,7 @@
 import json
 import unittest
 
-from scenes import TWO_BLOCKS
+from scenes import HELD_AND_PRESSED, TWO_BLOCKS
 from support import ROOT, OfTwoBlocks
 
 ELASTIC = TWO_BLOCKS.replace(', viscosity = 10, yield_stress = 1, projection = "elasticity"', "")
@@ -39,10 +39,12 @@ class Bound(OfTwoBlocks):
         self.assertAlmostEqual(ratio, 1, delta=1e-9)
 
     def test_not_asked_for_is_not_told(self):
-        self.write(ELASTIC)
+        self.write(ELASTIC + HELD_AND_PRESSED)
         log = self.mortier("run", "scene.toml", "--out", "out").stdout
         self.assertNotIn("guaranteed", log)
-        self.assertNotIn("bound", json.loads(self.read("out/summary.json"))["accuracy"])
+        summary = json.loads(self.read("out/summary.json"))
+        self.assertNotIn("bound", summary["accuracy"])
+        self.assertNotIn("bound", summary["quantities"]["held"])
 
     def test_where_no_theorem_holds_the_condition_is_named(self):
         for settings, reason in [(["degree=2"], "displacements are quadratic"),
@@ -106,6 +108,35 @@ class Bound(OfTwoBlocks):
         self.assertTrue(0.06 < summary["accuracy"]["bound"]["energy_error"] < 0.13)
         # The estimate alone is content with coarser meshes.
         self.assertGreater(unknowns[1], 1.2 * unknowns[0])
+
+    def test_quantities_have_bounds(self):
+        asked = HELD_AND_PRESSED + """
+[[quantity]]
+name = "sinks"
+displacement = { body = "upper", label = 3 }
+component = "y"
+[[quantity]]
+name = "at"
+displacement = { body = "upper", point = [0.25, 1] }
+component = "y"
+"""
+        log, _ = self.bound(ELASTIC + asked, "--set", "contact.variant=interpolation")
+        found = json.loads(self.read("out/summary.json"))["quantities"]
+        for name, exact in (("held", 10), ("pressed", -10), ("sinks", -20 / 3e11)):
+            value, bound = found[name]["value"], found[name]["bound"]
+            self.assertLessEqual(bound["lower"], exact + 1e-12 * abs(exact))
+            self.assertGreaterEqual(bound["upper"], exact - 1e-12 * abs(exact))
+            self.assertAlmostEqual(bound["error"], max(value - bound["lower"], bound["upper"] - value),
+                                   delta=1e-12 * abs(value))
+            told = f"{name} {value:.7g} {found[name]['unit']} +- {bound['error']:.2g} (guaranteed)"
+            self.assertIn(told, log)
+        self.assertGreater(found["sinks"]["bound"]["error"], 1e-6 * 20 / 3e11)
+        self.assertIsNone(found["at"]["bound"]["error"])
+        self.assertIn("(no bound: displacements at a point", log)
+        # Where there is no bound of the energy there is none of quantities.
+        log, _ = self.bound(ELASTIC + asked, "--set", "degree=2")
+        found = json.loads(self.read("out/summary.json"))["quantities"]["held"]["bound"]
+        self.assertEqual(found, {"error": None, "reason": "displacements are quadratic"})
 
     def test_wrong_values_are_refused(self):
         for text, message in [("bound = 1", "bound = 1, expected true or false"),

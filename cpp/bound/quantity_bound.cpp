@@ -1,0 +1,318 @@
+#include "bound/quantity_bound.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "bound/glued_bodies.h"
+#include "bound/pressures.h"
+#include "mesh/boundary_line.h"
+
+namespace mortier {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+/// Of directions, and of jumps that are one.
+constexpr double rounding = 1e-9;
+/// Vertices of contact lines: motions there and glue make a dense system (glued_bodies.h).
+constexpr size_t mostFacing = 1000;
+
+/// What is asked of z and t.
+struct Goal {
+  std::vector<Vector> held;   ///< boundary values of z by bodies (dofs)
+  std::vector<Vector> loads;  ///< l by bodies (dofs)
+  Vector r;                   ///< by facing vertices
+  Point traction{0, 0};       ///< that is l, on the label [1/m]
+  std::string obstacle;
+};
+
+double integral(double length, const std::array<double, 2>& a, const std::array<double, 2>& b) {
+  return length / 6 * (2 * a[0] * b[0] + a[0] * b[1] + a[1] * b[0] + 2 * a[1] * b[1]);
+}
+
+/// Integral of s : eps(z) + div s . z over a triangle, s of these moments.
+double workOf(const Moments& m, const std::array<int, 3>& v, const Vector& z) {
+  double sum = 0;
+  for (int k = 0; k < 3; ++k)
+    for (int end = 0; end < 2; ++end)
+      sum += m.segment<2>(4 * k + 2 * end).dot(z.segment<2>(2 * v[(k + end) % 3]));
+  return sum;
+}
+
+/// Boundary values of z: -e in the directions that the supports of the label hold. \returns why they are
+/// none of a continuous displacement that is linear on sides; empty where they are
+std::string reactionValues(const Functional& functional, const Body& body, Vector& z) {
+  const TriangleMesh& mesh = body.mesh();
+  const auto& conditions = body.conditions().displacements;
+  std::vector<std::vector<Point>> heldAt(body.nodes());
+  for (const NodeSupport& support : body.supports().nodes()) {
+    Eigen::Matrix2d directions = Eigen::Matrix2d::Identity();
+    for (int i = 0; i < support.count; ++i) directions.col(i) = support.directions[i];
+    // r = sum of shares along the directions: rows of the inverse pick them.
+    const Eigen::Matrix2d shares =
+        support.count == 2 ? Eigen::Matrix2d(directions.inverse()) : Eigen::Matrix2d(directions.transpose());
+    const Point e = functional.at(mesh.vertices[support.node]);
+    for (int i = 0; i < support.count; ++i)
+      if (conditions[support.conditions[i]].label == functional.label)
+        z.segment<2>(2 * support.node) -= support.directions[i].dot(e) * shares.row(i).transpose();
+  }
+  double size = 0;
+  for (size_t k = 0; k < mesh.boundaryEdges.size(); ++k)
+    if (mesh.boundaryLabels[k] == functional.label)
+      for (const int v : mesh.boundaryEdges[k]) size = std::max(size, functional.at(mesh.vertices[v]).norm());
+  for (size_t k = 0; k < mesh.boundaryEdges.size(); ++k) {
+    const bool own = mesh.boundaryLabels[k] == functional.label;
+    const auto& [a, b] = mesh.boundaryEdges[k];
+    const Point along = (mesh.vertices[b] - mesh.vertices[a]).normalized();
+    for (const PrescribedDisplacement& held : conditions) {
+      if (held.label != mesh.boundaryLabels[k]) continue;
+      const Point d = held.component == Component::alongX        ? Point(1, 0)
+                      : held.component == Component::alongY      ? Point(0, 1)
+                      : held.component == Component::alongNormal ? Point(along.y(), -along.x())
+                                                                 : along;
+      for (const int v : {a, b}) {
+        const double expected = own ? -d.dot(functional.at(mesh.vertices[v])) : 0;
+        if (std::abs(d.dot(z.segment<2>(2 * v)) - expected) > rounding * size)
+          return "another support holds the body in the same direction where its own ends";
+      }
+    }
+  }
+  return "";
+}
+
+class Enclosing {
+ public:
+  explicit Enclosing(const AdmissiblePair& pair)
+      : pair_(pair), facing_(pair.lifting.facing), glued_(pair.bodies, pair.lifting.facing) {
+    Q_ = pair.lifting.gap;
+    for (size_t b = 0; b < pair.bodies.size(); ++b) {
+      const LoadedBody& body = pair.bodies[b];
+      std::vector<Stress> lifted = body.stressOf(pair.lifting.displacements[b] - body.lifted().displacement);
+      products_.emplace_back();
+      for (int t = 0; t < static_cast<int>(lifted.size()); ++t) {
+        lifted[t] += body.stress()[t];
+        const CompositeTriangle element = body.elementOf(t);
+        const Point& f = body.forceOn(t);
+        const Moments d = body.momentsOf(t) - element.momentsOf(lifted[t]) - element.momentsOfLoad(f);
+        const Moments load = element.loadProduct(f);
+        products_[b].emplace_back(element.energy() * d + load);
+        Q_ += (d.dot(products_[b][t]) + d.dot(load) + element.loadEnergy(f)) / 4;
+      }
+      lifted_.push_back(std::move(lifted));
+    }
+    Q_ = std::max(Q_, 0.0);
+  }
+
+  [[nodiscard]] Enclosure enclose(const Functional& functional) const {
+    if (!functional.obstacle.empty()) return {functional.obstacle};
+    const Goal goal = goalOf(functional);
+    if (!goal.obstacle.empty()) return {goal.obstacle};
+    Enclosure result{"no adjoint displacement and stress were found", -infinite, infinite};
+    // First as if contact stayed as it is, then with z and q cut to what costs nothing in R.
+    double c = infinite;
+    for (int i = 0; i < tries; ++i) {
+      const std::optional<Trial> trial = attempt(functional, goal, c);
+      if (!trial) break;
+      const double remainder = largestRemainder(Q_, trial->misfit, trial->c);
+      if (std::isfinite(remainder)) {
+        result.obstacle.clear();
+        result.lower = std::max(result.lower, trial->centre - remainder);
+        result.upper = std::min(result.upper, trial->centre + remainder);
+      }
+      if (!(Q_ > 0)) break;
+      c = trial->misfit / (2 * std::sqrt(Q_));
+    }
+    return result;
+  }
+
+ private:
+  static constexpr int tries = 3;
+  struct Trial {
+    double centre = 0;  ///< the quantity less R
+    double misfit = 0;  ///< |E eps z - t|
+    double c = 0;
+  };
+
+  [[nodiscard]] Goal goalOf(const Functional& functional) const {
+    Goal goal;
+    for (const LoadedBody& body : pair_.bodies) {
+      goal.held.emplace_back(Vector::Zero(body.body().dofs()));
+      goal.loads.emplace_back(Vector::Zero(body.body().dofs()));
+    }
+    goal.r = Vector::Zero(static_cast<Eigen::Index>(facing_.size()));
+    const LoadedBody& body = pair_.bodies[functional.body];
+    if (functional.kind == Functional::Kind::reaction) {
+      goal.obstacle = reactionValues(functional, body.body(), goal.held[functional.body]);
+    } else if (functional.kind == Functional::Kind::contactForce) {
+      goal.obstacle = weigh(functional, goal.r);
+    } else {
+      double length = 0;
+      for (const auto& [a, b] : edgesOn(body.mesh(), functional.label))
+        length += (body.mesh().vertices[b] - body.mesh().vertices[a]).norm();
+      goal.traction = functional.direction / length;
+      LoadedBody pulled = body.unloaded(goal.held[functional.body]);
+      pulled.pull(functional.label, goal.traction);
+      goal.loads[functional.body] = pulled.load();
+    }
+    return goal;
+  }
+
+  /// r = e . (inward normal) on the sides of contact with the label. \returns what is wrong with it
+  [[nodiscard]] std::string weigh(const Functional& functional, Vector& r) const {
+    std::vector<char> seen(facing_.size(), 0);
+    for (size_t k = 0; k < pair_.meshes.pieces.size(); ++k) {
+      const MatchedPiece& piece = pair_.meshes.pieces[k];
+      const auto& [nonmortar, mortar, coupling] = pair_.model.interfaces[piece.interface].pair();
+      for (int end = 0; end < 2; ++end) {
+        double value = 0;
+        for (int side = 0; side < 2; ++side) {
+          const ContactSide& at = side == 0 ? nonmortar : mortar;
+          if (at.body != functional.body || at.label != functional.label) continue;
+          const Point& x = pair_.bodies[at.body].mesh().vertices[piece.vertices[side][end]];
+          value += (side == 0 ? -1 : 1) * piece.normal.dot(functional.at(x));
+        }
+        const int i = pair_.lifting.facingOfPiece[k][end];
+        if (std::exchange(seen[i], 1) != 0 &&
+            std::abs(r[i] - value) > rounding * std::max(std::abs(r[i]), std::abs(value)))
+          return "contact goes on beyond its label";
+        r[i] = value;
+      }
+    }
+    return "";
+  }
+
+  [[nodiscard]] std::optional<Trial> attempt(const Functional& functional, const Goal& goal, double c) const {
+    const auto glued = displacement(goal, c);
+    if (!glued) return std::nullopt;
+    const auto& z = glued->solution.displacements;
+    Trial trial;
+    trial.c = glued->c;
+    std::vector<LoadedBody> bodies;
+    bodies.reserve(pair_.bodies.size());
+    for (size_t b = 0; b < pair_.bodies.size(); ++b) bodies.push_back(pair_.bodies[b].unloaded(z[b]));
+    bodies[functional.body].pull(functional.label, goal.traction);
+    const auto q = adjointPressure(glued->solution.forces, bodies, c);
+    if (!q) return std::nullopt;
+    for (size_t k = 0; k < q->size(); ++k)
+      for (Eigen::Index row = 0; row < (*q)[k].size(); ++row)
+        if ((*q)[k][row] != 0) trial.c = std::max(trial.c, std::abs((*q)[k][row]) / pair_.spread[k][row]);
+    for (size_t k = 0; k < pair_.meshes.pieces.size(); ++k) {
+      const MatchedPiece& piece = pair_.meshes.pieces[k];
+      const auto& [nonmortar, mortar, coupling] = pair_.model.interfaces[piece.interface].pair();
+      const auto values = pressureOn(piece, *q);
+      const auto moments = momentsOfLinear(values, piece.length);
+      bodies[nonmortar.body].press(piece.vertices[0], piece.normal, moments);
+      bodies[mortar.body].press(piece.vertices[1], -piece.normal, moments);
+      const auto& [first, last] = pair_.lifting.facingOfPiece[k];
+      trial.centre += integral(piece.length, values, {facing_[first].gap, facing_[last].gap});
+      trial.centre += integral(piece.length, pressureOn(piece, pair_.spread),
+                               {glued_.jump(z, first), glued_.jump(z, last)});
+    }
+    double misfit = 0;
+    for (size_t b = 0; b < bodies.size(); ++b) {
+      if (!bodies[b].balance()) return std::nullopt;
+      misfit += bodies[b].energies().sum();
+      trial.centre += goal.loads[b].dot(pair_.lifting.displacements[b]) + workIn(b, z[b], bodies[b]);
+    }
+    trial.misfit = std::sqrt(std::max(misfit, 0.0));
+    return trial;
+  }
+
+  /// L(z) - integral of p^ [z.n] - (m, eps z) + (s^ - s(u^), E^-1 t)/2 in a body.
+  [[nodiscard]] double workIn(size_t b, const Vector& z, const LoadedBody& adjoint) const {
+    const LoadedBody& body = pair_.bodies[b];
+    double twice =
+        2 * body.load().dot(z) + body.leftOver(Vector::Zero(z.size()), lifted_[b]).dot(z);  // -(s(u^), eps z)
+    for (int t = 0; t < static_cast<int>(lifted_[b].size()); ++t) {
+      const auto& v = body.mesh().triangles[t];
+      const Point mean = (z.segment<2>(2 * v[0]) + z.segment<2>(2 * v[1]) + z.segment<2>(2 * v[2])) / 3;
+      twice -= workOf(body.momentsOf(t), v, z) + body.body().weights()[t] * body.forceOn(t).dot(mean);
+      twice += adjoint.momentsOf(t).dot(products_[b][t]);
+    }
+    return twice / 2;
+  }
+
+  struct Adjoint {
+    GluedBodies::Solution solution;
+    double c = 0;  ///< with |r - [z.n]| <= c G
+  };
+  /// z of least energy, glued to r where u^ is closed or p^ presses, and to r -+ c G where it would be
+  /// further off.
+  [[nodiscard]] std::optional<Adjoint> displacement(const Goal& goal, double c) const {
+    GluedBodies::Given given{goal.held, goal.loads, {}, goal.r};
+    for (const Facing& each : facing_) given.glued.push_back(each.weight > 0 || !(each.gap > 0) ? 1 : 0);
+    while (true) {
+      std::optional<GluedBodies::Solution> solution = glued_.solve(given);
+      if (!solution) return std::nullopt;
+      double needed = 0;
+      bool more = false;
+      for (size_t i = 0; i < facing_.size(); ++i) {
+        const auto at = static_cast<Eigen::Index>(i);
+        const double z = given.glued[i] != 0 ? given.jumps[at] : glued_.jump(solution->displacements, i);
+        const double off = goal.r[at] - z;
+        if (off == 0) continue;
+        needed = std::max(needed, std::abs(off) / facing_[i].gap);
+        if (given.glued[i] != 0 || std::abs(off) <= c * facing_[i].gap) continue;
+        given.glued[i] = 1;
+        given.jumps[at] = goal.r[at] - std::copysign(c * facing_[i].gap, off);
+        more = true;
+      }
+      if (!more) return Adjoint{std::move(*solution), needed};
+    }
+  }
+
+  /// Coefficients of q, as p^ is spread, and where p^ is not 0.
+  [[nodiscard]] std::optional<std::vector<Vector>> adjointPressure(const Vector& glue,
+                                                                   const std::vector<LoadedBody>& bodies,
+                                                                   double c) const {
+    std::vector<Vector> forces;
+    for (const Vector& each : pair_.spread) forces.emplace_back(Vector::Zero(each.size()));
+    std::vector<char> done(facing_.size(), 0);
+    for (size_t k = 0; k < pair_.meshes.pieces.size(); ++k) {
+      const MatchedPiece& piece = pair_.meshes.pieces[k];
+      for (int end = 0; end < 2; ++end) {
+        const int i = pair_.lifting.facingOfPiece[k][end];
+        if (std::exchange(done[i], 1) != 0) continue;
+        for (int row = 0; row < 2 && piece.rows[row] >= 0; ++row)
+          forces[piece.interface][piece.rows[row]] += piece.values[row][end] * glue[i];
+      }
+    }
+    std::vector<Vector> q = spreadForces(pair_.model, forces, pair_.meshes);
+    for (size_t k = 0; k < q.size(); ++k)
+      for (Eigen::Index row = 0; row < q[k].size(); ++row) {
+        const double p = pair_.spread[k][row];
+        q[k][row] = p > 0 ? std::clamp(q[k][row], -c * p, c * p) : 0;
+      }
+    if (!balanceBy(pair_.spread, pair_.model, pair_.meshes, bodies, q)) return std::nullopt;
+    return q;
+  }
+
+  const AdmissiblePair& pair_;
+  const std::vector<Facing>& facing_;
+  GluedBodies glued_;
+  double Q_ = 0;
+  std::vector<std::vector<Stress>> lifted_;     ///< s(u^) by bodies and triangles
+  std::vector<std::vector<Moments>> products_;  ///< with moments of t: the energy product of s^ - s(u^) and t
+};
+
+}  // namespace
+
+double largestRemainder(double Q, double misfit, double c) {
+  if (2 * c * std::sqrt(Q) <= misfit) return std::sqrt(Q) * misfit;
+  return c * Q + misfit * misfit / (4 * c);
+}
+
+std::vector<Enclosure> enclose(const AdmissiblePair& pair, const std::vector<Functional>& functionals) {
+  std::vector<Enclosure> result;
+  if (functionals.empty()) return result;
+  if (pair.lifting.facing.size() > mostFacing)
+    return std::vector<Enclosure>(functionals.size(), {"the contact lines have too many vertices"});
+  const Enclosing enclosing(pair);
+  for (const Functional& functional : functionals) result.push_back(enclosing.enclose(functional));
+  return result;
+}
+
+}  // namespace mortier
