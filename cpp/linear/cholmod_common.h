@@ -3,6 +3,7 @@
 
 #include <cholmod.h>
 
+#include <mutex>
 #include <vector>
 
 namespace mortier {
@@ -24,6 +25,10 @@ class CholmodCommon {
  private:
   cholmod_common common_{};
 };
+
+/// METIS draws from the random numbers of the process, and traps its signals: one call at a time, so that
+/// runs in several threads have the orderings that each would have alone.
+inline std::mutex metisInUse;
 
 /// The lower triangle of a symmetric matrix by columns, or its pattern alone.
 inline cholmod_sparse lowerTriangle(std::vector<int>& columnStart, std::vector<int>& rows,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <new>
 #include <numeric>
 #include <stdexcept>
@@ -59,6 +60,7 @@ std::vector<int> fillReducingOrder(const SparsePattern& pattern, const std::vect
   if (interior > 0) {
     Columns columns = permuted(pattern, position, interior, interior);
     cholmod_sparse A = lowerTriangle(columns.start, columns.rows);
+    const std::lock_guard alone(metisInUse);
     const DeafCall deaf;
     if (cholmod_metis(&A, nullptr, 0, 1, permutation.data(), &common) == 0) {
       // METIS traps SIGTERM and takes it for an error of its own, of which there is no other here.

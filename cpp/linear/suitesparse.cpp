@@ -74,6 +74,7 @@ class Cholmod final : public Factorisation {
     common_->quick_return_if_not_posdef = 1;
     pattern.values.assign(pattern.rows.size(), 0.0);
     cholmod_sparse A = lowerTriangle(pattern.start, pattern.rows, pattern.values.data());
+    const std::lock_guard alone(metisInUse);
     factor_ = cholmod_analyze(&A, &common_);
     if (factor_ == nullptr) throw std::runtime_error("symbolic analysis failed in CHOLMOD");
   }
