@@ -17,6 +17,8 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Of directions, and of jumps that are one.
 constexpr double rounding = 1e-9;
+/// Of sums of a few terms.
+constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();
 /// Vertices of contact lines: motions there and glue make a dense system (glued_bodies.h).
 constexpr size_t mostFacing = 1000;
 
@@ -40,6 +42,12 @@ double workOf(const Moments& m, const std::array<int, 3>& v, const Vector& z) {
     for (int end = 0; end < 2; ++end)
       sum += m.segment<2>(4 * k + 2 * end).dot(z.segment<2>(2 * v[(k + end) % 3]));
   return sum;
+}
+
+/// What rounding leaves of a force in any triangle, at least of the moments of its sides [N/m].
+double leftOf(const LoadedBody& body) {
+  const auto [worst, largest] = body.imbalance();
+  return std::max(worst, std::numeric_limits<double>::epsilon() * largest);
 }
 
 /// Boundary values of z: -e in the directions that the supports of the label hold. \returns why they are
@@ -90,8 +98,12 @@ class Enclosing {
     Q_ = pair.lifting.gap;
     for (size_t b = 0; b < pair.bodies.size(); ++b) {
       const LoadedBody& body = pair.bodies[b];
+      unbalanced_ = std::max(unbalanced_, leftOf(body));
+      triangles_ += static_cast<double>(body.mesh().triangles.size());
+      moved_ = std::max(moved_, pair.lifting.displacements[b].lpNorm<Eigen::Infinity>());
       std::vector<Stress> lifted = body.stressOf(pair.lifting.displacements[b] - body.lifted().displacement);
       products_.emplace_back();
+      sizes_.emplace_back();
       for (int t = 0; t < static_cast<int>(lifted.size()); ++t) {
         lifted[t] += body.stress()[t];
         const CompositeTriangle element = body.elementOf(t);
@@ -99,6 +111,7 @@ class Enclosing {
         const Moments d = body.momentsOf(t) - element.momentsOf(lifted[t]) - element.momentsOfLoad(f);
         const Moments load = element.loadProduct(f);
         products_[b].emplace_back(element.energy() * d + load);
+        sizes_[b].emplace_back(roundings * (element.energy().cwiseAbs() * d.cwiseAbs() + load.cwiseAbs()));
         Q_ += (d.dot(products_[b][t]) + d.dot(load) + element.loadEnergy(f)) / 4;
       }
       lifted_.push_back(std::move(lifted));
@@ -116,7 +129,7 @@ class Enclosing {
     for (int i = 0; i < tries; ++i) {
       const std::optional<Trial> trial = attempt(functional, goal, c);
       if (!trial) break;
-      const double remainder = largestRemainder(Q_, trial->misfit, trial->c);
+      const double remainder = largestRemainder(Q_, trial->misfit, trial->c) + trial->rounding;
       if (std::isfinite(remainder)) {
         result.obstacle.clear();
         result.lower = std::max(result.lower, trial->centre - remainder);
@@ -134,6 +147,7 @@ class Enclosing {
     double centre = 0;  ///< the quantity less R
     double misfit = 0;  ///< |E eps z - t|
     double c = 0;
+    double rounding = 0;  ///< what forces left over in triangles, and glue that is off, may do
   };
 
   [[nodiscard]] Goal goalOf(const Functional& functional) const {
@@ -199,25 +213,35 @@ class Enclosing {
     for (size_t k = 0; k < q->size(); ++k)
       for (Eigen::Index row = 0; row < (*q)[k].size(); ++row)
         if ((*q)[k][row] != 0) trial.c = std::max(trial.c, std::abs((*q)[k][row]) / pair_.spread[k][row]);
+    double pressed = 0;  // force of p^
     for (size_t k = 0; k < pair_.meshes.pieces.size(); ++k) {
       const MatchedPiece& piece = pair_.meshes.pieces[k];
       const auto& [nonmortar, mortar, coupling] = pair_.model.interfaces[piece.interface].pair();
       const auto values = pressureOn(piece, *q);
       const auto moments = momentsOfLinear(values, piece.length);
+      const auto pressures = pressureOn(piece, pair_.spread);
+      pressed += piece.length * (pressures[0] + pressures[1]) / 2;
       bodies[nonmortar.body].press(piece.vertices[0], piece.normal, moments);
       bodies[mortar.body].press(piece.vertices[1], -piece.normal, moments);
       const auto& [first, last] = pair_.lifting.facingOfPiece[k];
       trial.centre += integral(piece.length, values, {facing_[first].gap, facing_[last].gap});
-      trial.centre += integral(piece.length, pressureOn(piece, pair_.spread),
-                               {glued_.jump(z, first), glued_.jump(z, last)});
+      trial.centre += integral(piece.length, pressures, {glued_.jump(z, first), glued_.jump(z, last)});
     }
     double misfit = 0;
+    double left = 0;
+    double moved = 0;
     for (size_t b = 0; b < bodies.size(); ++b) {
       if (!bodies[b].balance()) return std::nullopt;
+      left = std::max(left, leftOf(bodies[b]));
+      moved = std::max(moved, z[b].lpNorm<Eigen::Infinity>());
       misfit += bodies[b].energies().sum();
       trial.centre += goal.loads[b].dot(pair_.lifting.displacements[b]) + workIn(b, z[b], bodies[b]);
     }
     trial.misfit = std::sqrt(std::max(misfit, 0.0));
+    trial.rounding = triangles_ * (left * moved_ + unbalanced_ * moved) + glued->off * pressed;
+    for (size_t b = 0; b < bodies.size(); ++b)
+      for (size_t t = 0; t < sizes_[b].size(); ++t)
+        trial.rounding += bodies[b].momentsOf(static_cast<int>(t)).cwiseAbs().dot(sizes_[b][t]);
     return trial;
   }
 
@@ -237,7 +261,8 @@ class Enclosing {
 
   struct Adjoint {
     GluedBodies::Solution solution;
-    double c = 0;  ///< with |r - [z.n]| <= c G
+    double c = 0;    ///< with |r - [z.n]| <= c G
+    double off = 0;  ///< of [z.n] from what it is glued to
   };
   /// z of least energy, glued to r where u^ is closed or p^ presses, and to r -+ c G where it would be
   /// further off.
@@ -247,20 +272,24 @@ class Enclosing {
     while (true) {
       std::optional<GluedBodies::Solution> solution = glued_.solve(given);
       if (!solution) return std::nullopt;
-      double needed = 0;
+      Adjoint found;
       bool more = false;
       for (size_t i = 0; i < facing_.size(); ++i) {
         const auto at = static_cast<Eigen::Index>(i);
-        const double z = given.glued[i] != 0 ? given.jumps[at] : glued_.jump(solution->displacements, i);
+        const double jump = glued_.jump(solution->displacements, i);
+        const double z = given.glued[i] != 0 ? given.jumps[at] : jump;
+        found.off = std::max(found.off, std::abs(jump - z));
         const double off = goal.r[at] - z;
         if (off == 0) continue;
-        needed = std::max(needed, std::abs(off) / facing_[i].gap);
+        found.c = std::max(found.c, std::abs(off) / facing_[i].gap);
         if (given.glued[i] != 0 || std::abs(off) <= c * facing_[i].gap) continue;
         given.glued[i] = 1;
         given.jumps[at] = goal.r[at] - std::copysign(c * facing_[i].gap, off);
         more = true;
       }
-      if (!more) return Adjoint{std::move(*solution), needed};
+      if (more) continue;
+      found.solution = std::move(*solution);
+      return found;
     }
   }
 
@@ -294,7 +323,11 @@ class Enclosing {
   const std::vector<Facing>& facing_;
   GluedBodies glued_;
   double Q_ = 0;
+  double triangles_ = 0;
+  double unbalanced_ = 0;                       ///< what is left over in a triangle of s^ [N/m]
+  double moved_ = 0;                            ///< largest |u^| [m]
   std::vector<std::vector<Stress>> lifted_;     ///< s(u^) by bodies and triangles
+  std::vector<std::vector<Moments>> sizes_;     ///< rounding of what follows: thin triangles cancel in it
   std::vector<std::vector<Moments>> products_;  ///< with moments of t: the energy product of s^ - s(u^) and t
 };
 

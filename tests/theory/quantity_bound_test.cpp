@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <numeric>
 #include <utility>
 
 #include "bound/energy_bound.h"
@@ -167,7 +168,11 @@ TEST(QuantityBound, enclosesTheValuesOfRandomScenes) {
       {Kind::reaction, lowerBody, bottom, up},     {Kind::reaction, lowerBody, bottom, across},
       {Kind::displacement, upperBody, top, up},    {Kind::displacement, lowerBody, top, up}};
   unsigned bounded = 0;
-  for (unsigned seed = 0; seed < count; ++seed) {
+  std::vector<unsigned> seeds(count);
+  std::iota(seeds.begin(), seeds.end(), 0);
+  constexpr unsigned slivers = 126;  // an exact value, but for the rounding of energies of thin triangles
+  if (count <= slivers) seeds.push_back(slivers);
+  for (const unsigned seed : seeds) {
     const Model model = RandomScene(seed).model();
     const auto [state, report] = run(model, 1, 1);
     if (report.status != Status::converged) continue;
