@@ -16,6 +16,7 @@ constexpr double accurate = 1e-9;
 GluedBodies::GluedBodies(const std::vector<LoadedBody>& bodies, const std::vector<Facing>& facing)
     : bodies_(bodies), facing_(facing), kept_(bodies.size()), rows_(facing.size()) {
   std::vector<std::vector<int>> placeOf;
+  placeOf.reserve(bodies.size());
   for (const LoadedBody& body : bodies) placeOf.emplace_back(body.body().freeDofs(), -1);
   const auto parts = [&](size_t i, int side) {
     return bodies[facing[i].bodies[side]].body().parts(facing[i].vertices[side], facing[i].normal);

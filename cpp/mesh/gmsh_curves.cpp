@@ -72,6 +72,7 @@ class GmshCurve {
     const Point off1 = x1 - ends[1];
     const auto onCurve = [&](const std::vector<double>& t) {
       std::vector<double> u;
+      u.reserve(t.size());
       for (const double part : t) u.push_back((1 - part) * u0 + part * u1);
       std::vector<Point> x = points(u);
       for (size_t i = 0; i < x.size(); ++i) x[i] += (1 - t[i]) * off0 + t[i] * off1;
