@@ -130,11 +130,7 @@ Solution solveScene(const Scene& scene, const RunOptions& options,
     besideOthers.lock();
   beginClock();
   ResolvedScene resolved = scene.resolved;
-  std::optional<Rounds> rounds;
-  if (resolved.description.accuracy.energy > 0) {
-    rounds.emplace(std::move(resolved));
-    resolved = rounds->scene();
-  }
+  std::optional<Rounds> rounds = beginRounds(resolved);
   const AttemptOptions forAttempt{scene.settings, options.threads, scene.text};
   auto first = std::make_unique<Attempt>(std::move(resolved), forAttempt);
   findInitialEquilibrium(first->scene(), *first->model, first->state);

@@ -26,19 +26,16 @@ Functional functionalOf(const Quantity& quantity, bool atPoint) {
 
 }  // namespace
 
-std::vector<Functional> functionalsOf(const std::vector<Quantity>& quantities,
-                                      const SceneDescription& scene) {
-  std::vector<Functional> functionals;
-  for (size_t i = 0; i < quantities.size(); ++i)
-    functionals.push_back(functionalOf(quantities[i], scene.quantities[i].point.has_value()));
-  return functionals;
-}
-
-EnergyBound boundOf(const Model& model, const State& state, const std::vector<Functional>& functionals) {
+EnergyBound boundOf(const Attempt& attempt) {
+  const std::vector<Quantity>& quantities = attempt.facts.quantities;
   const KeepsResult keeps;
   EnergyBound none;
   try {
-    return energyBound(model, state, functionals);
+    std::vector<Functional> functionals;
+    functionals.reserve(quantities.size());
+    for (size_t i = 0; i < quantities.size(); ++i)
+      functionals.push_back(functionalOf(quantities[i], attempt.scene().quantities[i].point.has_value()));
+    return energyBound(*attempt.model, attempt.solved.state, functionals);
   } catch (const Interrupted&) {
     none.obstacle = "interrupted";
   } catch (const std::bad_alloc&) {

@@ -14,9 +14,8 @@ void addVerdict(Attempt& attempt, const Rounds* rounds, const std::string& short
   Solved& solved = attempt.solved;
   const bool complete = solved.report.status == Status::converged;
   facts.doubts = estimateDoubts(attempt.scene(), *attempt.model);
-  if (complete && attempt.scene().accuracy.bound && (!solved.accuracy.bound || !facts.quantities.empty()))
-    solved.accuracy.bound =
-        boundOf(*attempt.model, solved.state, functionalsOf(facts.quantities, attempt.scene()));
+  if (complete && attempt.scene().accuracy.bound && !solved.accuracy.bound)
+    solved.accuracy.bound = boundOf(attempt);
   if (rounds == nullptr) return;
   const std::vector<std::string> more = rounds->doubts();
   facts.doubts.insert(facts.doubts.end(), more.begin(), more.end());

@@ -76,11 +76,7 @@ int run(RunCommand command) {
   RunIdentity identity = identityOf(command);
   ResolvedScene resolved = resolveScene(readScene(command.scene, command.settings));
   Faults doubts = lintResolved(resolved, command.settings);
-  std::optional<Rounds> rounds;
-  if (resolved.description.accuracy.energy > 0) {
-    rounds.emplace(std::move(resolved));
-    resolved = rounds->scene();
-  }
+  std::optional<Rounds> rounds = beginRounds(resolved);
   const AttemptOptions options{command.settings, command.threads, identity.text};
   auto attempt = std::make_unique<Attempt>(std::move(resolved), options);
   lintModel(attempt->resolved.description, *attempt->model, doubts);

@@ -40,6 +40,13 @@ std::string failureOf(const std::function<void()>& work) {
 
 }  // namespace
 
+std::optional<Rounds> beginRounds(ResolvedScene& resolved) {
+  if (!(resolved.description.accuracy.energy > 0)) return std::nullopt;
+  Rounds rounds(std::move(resolved));
+  resolved = rounds.scene();
+  return rounds;
+}
+
 std::string solveRounds(Rounds& rounds, std::unique_ptr<Attempt>& attempt, const AttemptOptions& options,
                         const std::string& folder, Log& log, const SolveAttempt& solve) {
   const TimeLimit limit(attempt->scene().accuracy.maxSeconds - processSeconds());
@@ -56,8 +63,7 @@ std::string solveRounds(Rounds& rounds, std::unique_ptr<Attempt>& attempt, const
     RoundResult result{errors.errors(), errors.energy(), time, end - begin};
     if (round.scene().accuracy.bound)
       result.bound = [&]() -> std::optional<double> {
-        const EnergyBound& bound =
-            round.solved.accuracy.bound.emplace(boundOf(*round.model, round.solved.state));
+        const EnergyBound& bound = round.solved.accuracy.bound.emplace(boundOf(round));
         return bound.obstacle.empty() ? std::optional(bound.relative()) : std::nullopt;
       };
     verdict = rounds.judge(result, end);
@@ -85,7 +91,7 @@ std::string solveRounds(Rounds& rounds, std::unique_ptr<Attempt>& attempt, const
     });
     if (shortfall.empty()) shortfall = attempt->solved.report.reason;
     if (!shortfall.empty()) {
-      shortfall = "round " + std::to_string(done.size() + 1) + ": " + shortfall;
+      shortfall.insert(0, "round " + std::to_string(done.size() + 1) + ": ");
     } else if (verdict == Rounds::Verdict::reached || error(*attempt) <= error(*best)) {
       best = std::move(attempt);
       aside = false;

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "adapt/rounds.h"
@@ -12,6 +13,9 @@
 namespace mortier {
 
 using SolveAttempt = std::function<void(Attempt& attempt, Observer alsoObserve)>;
+
+/// The rounds of a scene that asks for an accuracy; the scene becomes that of the first.
+std::optional<Rounds> beginRounds(ResolvedScene& resolved);
 
 /// \param attempt  in: the first round; out: that of the least error, whose files are in `folder`. Where the
 /// first one cannot be solved, it.

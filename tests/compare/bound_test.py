@@ -133,6 +133,11 @@ component = "y"
         self.assertGreater(found["sinks"]["bound"]["error"], 1e-6 * 20 / 3e11)
         self.assertIsNone(found["at"]["bound"]["error"])
         self.assertIn("(no bound: displacements at a point", log)
+        # Those of the last round, whose meshes are finer.
+        self.bound(ELASTIC + asked, "--accuracy", "0.5")
+        found = json.loads(self.read("out/summary.json"))["quantities"]["pressed"]
+        self.assertLessEqual(abs(found["value"] + 10), found["bound"]["error"] + 1e-10)
+        self.assertLess(found["bound"]["error"], 1e-6)
         # Where there is no bound of the energy there is none of quantities.
         log, _ = self.bound(ELASTIC + asked, "--set", "degree=2")
         found = json.loads(self.read("out/summary.json"))["quantities"]["held"]["bound"]

@@ -4,14 +4,10 @@ import contextlib
 import io
 import json
 import os
-import sys
 import unittest
-from pathlib import Path
 
-from support import PROGRAM, ROOT
-
-sys.path.insert(0, str(Path(os.environ.get("MORTIER_MODULE",
-                                           Path(PROGRAM).parent / "python" / "mortier")).parent))
+import python_support  # noqa: F401
+from support import ROOT
 
 import matplotlib  # noqa: E402
 

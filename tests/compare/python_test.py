@@ -1,33 +1,19 @@
-"""import mortier: numbers bit by bit those of the program, views that outlive their run, errors, threads."""
-import _thread
+"""import mortier: numbers bit by bit those of the program, scenes of arrays, errors."""
 import csv
-import ctypes
-import gc
 import json
-import os
 import re
-import shutil
-import subprocess
-import sys
-import threading
-import time
 import unittest
 import warnings
-import zipfile
-from pathlib import Path
 
 import numpy as np
 
-from support import PROGRAM, ROOT, InFolder, InSharedFolder, OfTwoBlocks
+from python_support import SCENES
+from support import InSharedFolder, OfTwoBlocks
 from support import mortier as mortier_program
 
-PACKAGE = Path(os.environ.get("MORTIER_MODULE", Path(PROGRAM).parent / "python" / "mortier"))
-sys.path.insert(0, str(PACKAGE.parent))
-
-import mortier  # noqa: E402
+import mortier
 
 MEASURED = ("solve_time_s", "peak_memory_mib", "wall_time_s", "seconds")  # differ from run to run
-SCENES = ROOT / "scenes"
 CASES = {
     "mortar": ("compression.toml", {"time.steps": 10, "output.every": 3}),
     "interpolation": ("compression.toml", {"time.steps": 5, "contact.variant": "interpolation"}),
@@ -40,17 +26,6 @@ CASES = {
     "no-bound": ("hertz.toml", {"accuracy.bound": True, "time.steps": 1}),
     "accuracy-and-bound": ("punch.toml", {"accuracy.energy": 0.2, "accuracy.bound": True}),
 }
-
-
-class MallocInfo(ctypes.Structure):
-    _fields_ = [(name, ctypes.c_size_t)
-                for name in ("arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks",
-                             "uordblks", "fordblks", "keepcost")]
-
-
-LIBC = ctypes.CDLL(None)
-LIBC.mallinfo2.restype = MallocInfo
-PERTURB, LETTER = -6, 0xA5  # M_PERTURB of mallopt(3)
 
 
 def set_of(changes):
@@ -211,65 +186,6 @@ class OfArrays(OfTwoBlocks):
                                                     [[0, 1]], [1])})
 
 
-class Views(OfTwoBlocks):
-    def setUp(self):
-        super().setUp()
-        self.scene = mortier.load(self.folder / "scene.toml")
-
-    def test_arrays_outlive_all_else(self):
-        LIBC.mallopt(PERTURB, LETTER)  # what is freed is overwritten
-        self.addCleanup(LIBC.mallopt, PERTURB, 0)
-        run = self.scene.run()
-        arrays = [run.displacement["upper"], run.stress["lower"], run.contact[0].pressure,
-                  run.last.points["upper"], run.history["time"], run.last.error["upper"]]
-        copies = [array.copy() for array in arrays]
-        self.assertFalse(any(array.flags.owndata for array in arrays))
-        del run
-        self.scene = None
-        gc.collect()
-        mortier.load(self.folder / "scene.toml", set={"time.steps": 2}).run()
-        for array, copy in zip(arrays, copies):
-            np.testing.assert_array_equal(array, copy)
-            with self.assertRaises(ValueError):
-                array[...] = 0
-            with self.assertRaises(ValueError):
-                array.flags.writeable = True
-
-    def test_memory_does_not_grow(self):
-        def held():
-            """Bytes of the C library and blocks of Python's that are in use."""
-            gc.collect()
-            told = LIBC.mallinfo2()
-            return np.array([told.uordblks + told.hblkhd, sys.getallocatedblocks()])
-
-        def cycles(count):
-            for i in range(count):
-                scene = mortier.load(self.folder / "scene.toml", set={"time.steps": 1 + i % 3})
-                run = scene.run()
-                views = run.stress["upper"], run.history["time"], run.contact[0].gap
-                steps = scene.steps()
-                next(steps)
-                del run, views, steps
-                with self.assertRaises(mortier.InputError):
-                    mortier.load(self.folder / "scene.toml", set={"time.steps": -1})
-        cycles(100)
-        before = held()
-        cycles(1000)
-        byte, block = held() - before
-        self.assertLess(byte, 24 * 1000)  # the least that the C library gives is 24 bytes
-        self.assertLess(block, 500)
-
-    def test_a_loop_that_is_left_ends_the_run(self):
-        before = threading.active_count(), len(os.listdir("/proc/self/task"))
-        for step in self.scene.steps():
-            if step.number == 1:
-                break
-        kept = step.displacement["upper"].copy()
-        gc.collect()
-        self.assertEqual((threading.active_count(), len(os.listdir("/proc/self/task"))), before)
-        np.testing.assert_array_equal(step.displacement["upper"], kept)
-
-
 class Errors(OfTwoBlocks):
     def as_the_program(self, kind, *settings, scene=None):
         """The same line and code; the error."""
@@ -324,199 +240,6 @@ class Errors(OfTwoBlocks):
         self.assertEqual(mortier.load(self.folder / "scene.toml").check(), faults)
         self.assertIn("poisson = 0.6", str(mortier.check(self.folder / "scene.toml",
                                                          {"body.upper.material.poisson": 0.6})[0]))
-
-
-LONG = {"time.steps": 100000}
-
-
-class Threads(OfTwoBlocks):
-    def scene(self):
-        return mortier.load(self.folder / "scene.toml", set=LONG)
-
-    def interrupted(self, work, begun=lambda: True):
-        """Ctrl-C half a second after it begins, or as soon as it has begun."""
-        over = threading.Event()
-
-        def interrupt():
-            while not begun() and not over.is_set():
-                time.sleep(1e-3)
-            if not over.is_set():
-                _thread.interrupt_main()
-        timer = threading.Timer(0 if begun() is False else 0.5, interrupt)
-        timer.start()
-        begin = time.monotonic()
-        try:
-            with self.assertRaises(KeyboardInterrupt) as told:
-                work()
-        finally:
-            over.set()
-            timer.cancel()
-        self.assertLess(time.monotonic() - begin, 30)
-        return told.exception
-
-    def test_others_work_meanwhile(self):
-        counted = 0
-        over = threading.Event()
-
-        def count():
-            nonlocal counted
-            while not over.is_set():
-                counted += 1
-                time.sleep(1e-3)
-        thread = threading.Thread(target=count)
-        thread.start()
-        self.interrupted(lambda: self.scene().run())
-        over.set()
-        thread.join()
-        self.assertGreater(counted, 50)
-
-    def test_ctrl_c(self):
-        self.interrupted(lambda: self.scene().run())
-        self.interrupted(lambda: list(self.scene().steps()))
-        # and the next run is whole
-        self.assertEqual(mortier.load(self.folder / "scene.toml").run().summary["status"], "converged")
-
-    def test_what_ctrl_c_stops_can_go_on(self):
-        out = self.folder / "out"
-        settings = {"time.steps": 3000}
-        scene = mortier.load(self.folder / "scene.toml", set=settings)
-        for _ in range(2):  # the second run takes the place of the first
-            seen = set(self.folder.glob("out.tmp-*/checkpoint*"))
-            error = self.interrupted(lambda: scene.run(out, checkpoint=0), lambda: bool(
-                set(self.folder.glob("out.tmp-*/checkpoint*")) - seen))
-        self.assertIn("mortier run --restart", "".join(getattr(error, "__notes__", [])))
-        self.assertFalse(out.exists())
-        self.mortier("run", "--restart", out, "--quiet")
-        whole = scene.run(self.folder / "whole")
-        self.assertEqual(len(whole.history["time"]), 3000)
-        for name in ("history.csv", "contact.csv", "upper_003000.vtu"):
-            self.assertEqual((out / name).read_bytes(), (self.folder / "whole" / name).read_bytes(), name)
-
-    def test_runs_at_once_are_the_same(self):
-        scene = mortier.load(self.folder / "scene.toml", set={"time.steps": 40})
-        alone = scene.run()
-        runs = [None] * 4
-
-        def one(i):
-            runs[i] = scene.run()
-        threads = [threading.Thread(target=one, args=(i,)) for i in range(len(runs))]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        for run in runs:
-            np.testing.assert_array_equal(run.stress["upper"], alone.stress["upper"])
-
-
-class Shown(OfTwoBlocks):
-    def test_pictures_and_tables(self):
-        import matplotlib
-        matplotlib.use("svg")
-        sys.modules["results"] = results = type(sys)("results")  # a module of the user's
-        self.addCleanup(sys.modules.pop, "results")
-        run = mortier.load(self.folder / "scene.toml").run()
-        for kind in ("fields", "contact", "history"):
-            figure = run.plot(kind)
-            figure.savefig(self.folder / f"{kind}.png")
-            self.assertGreater((self.folder / f"{kind}.png").stat().st_size, 5000)
-        self.assertEqual(matplotlib.get_backend().lower(), "svg")
-        self.assertIs(sys.modules["results"], results)
-        self.assertFalse({"pictures", "runs", "ending"} & set(sys.modules))
-        with self.assertRaisesRegex(mortier.InputError, "field 'none', expected one of von_mises"):
-            run.plot(field="none")
-        page = run._repr_html_()
-        self.assertIn("<caption>two blocks</caption>", page)
-        self.assertIn("<td>converged</td>", page)
-        self.assertIn("two blocks", repr(mortier.load(self.folder / "scene.toml")))
-
-
-class Page(InFolder):
-    """docs/python.md."""
-
-    def test_every_example(self):
-        for name in ("scenes", "shared-meshes"):
-            shutil.copytree(ROOT / name, self.folder / name)
-        text = (ROOT / "docs" / "python.md").read_text()
-        blocks = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
-        self.assertGreaterEqual(len(blocks), 5)
-        done = subprocess.run([sys.executable, "-c", "\n".join(blocks)], cwd=self.folder, text=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              env={**os.environ, "PYTHONPATH": str(PACKAGE.parent)})
-        self.assertEqual(done.returncode, 0, done.stdout)
-        self.assertIn("mesh-0.mesh: warning: 2 triangles in all; refine the mesh", done.stdout)
-        self.assertIn("more than 7.2 Pa at t = 0.75", done.stdout)
-        self.assertIn("poisson = 0.6, expected -1 < poisson < 0.5", done.stdout)
-
-    def test_names_are_there(self):
-        run = mortier.Scene({"body": {"name": "a", "material": {"young": 1, "poisson": 0.3},
-                                      "mesh": {"shape": "rectangle", "cells": 1},
-                                      "boundary": {"label": 1, "ux": 0, "uy": 0}},
-                             "time": {"end": 1, "steps": 1}}).run()
-        text = (ROOT / "docs" / "python.md").read_text()
-        for rows, of in zip(re.findall(r"^\| of a (?:run|step) .*\n\|.*\n((?:\|.*\n)+)", text, re.M),
-                            (run, run.last)):
-            cells = [row.split("|")[1] for row in rows.splitlines()]
-            names = [name for cell in cells for name in re.findall(r"`(\w+)[`(]", cell)]
-            self.assertGreater(len(names), 8)
-            for name in names:
-                if name not in ("contact", "vertex", "gap", "force", "pressure", "position"):
-                    self.assertTrue(hasattr(of, name), name)
-
-
-class Installed(InSharedFolder):
-    """What `cmake --install` puts in place, and a wheel of what is built."""
-
-    def use(self, *places):
-        """A run and a picture by a Python that sees nothing of the source tree."""
-        text = ("import sys, mortier\n"
-                f"run = mortier.load({str(SCENES / 'compression.toml')!r}, set={{'time.steps': 2}}).run()\n"
-                "print(mortier.__file__, run.contact[0].pressure.max(), len(run.plot().axes))\n")
-        done = subprocess.run([sys.executable, "-c", text], cwd=self.folder, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True,
-                              env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, places))})
-        self.assertEqual(done.returncode, 0, done.stdout)
-        self.assertTrue(done.stdout.startswith(str(places[0])), done.stdout)
-        self.assertRegex(done.stdout, r" (10\.0\d*|9\.99\d*) 3$")
-
-    def test_cmake_says_where_it_is(self):
-        told = ""
-        for component in ("python", "scripts"):  # other targets need not be built
-            done = subprocess.run(["cmake", "--install", PACKAGE.parents[1], "--component", component,
-                                   "--prefix", self.folder / "prefix"], text=True, stdout=subprocess.PIPE,
-                                  stderr=subprocess.STDOUT)
-            self.assertEqual(done.returncode, 0, done.stdout)
-            told += done.stdout
-        self.use(re.search(r"^-- For import mortier: PYTHONPATH=(.*)$", told, re.M)[1])
-
-    def test_a_wheel(self):
-        text = f"import build_backend\nprint(build_backend.build_wheel({str(self.folder)!r}, " \
-               f"{{'build': {str(PACKAGE.parents[1])!r}}}))"
-        done = subprocess.run([sys.executable, "-c", text], cwd=ROOT / "python", text=True, check=True,
-                              stdout=subprocess.PIPE)
-        name = done.stdout.splitlines()[-1]
-        self.assertRegex(name, r"^mortier-[\d.]+-cp3\d+-cp3\d+-linux_\w+\.whl$")
-        with zipfile.ZipFile(self.folder / name) as wheel:
-            wheel.extractall(self.folder / "wheel")
-            record = next(each for each in wheel.namelist() if each.endswith("RECORD"))
-            listed = [row[0] for row in csv.reader(wheel.read(record).decode().splitlines())]
-            self.assertEqual(sorted(listed), sorted(wheel.namelist()))
-        self.use(self.folder / "wheel")
-
-
-class Types(unittest.TestCase):
-    def test_mypy(self):
-        done = subprocess.run(["mypy", "--config-file", ROOT / "pyproject.toml", "--cache-dir", os.devnull,
-                               ROOT / "python" / "mortier"], stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True)
-        self.assertEqual(done.returncode, 0, done.stdout)
-
-    def test_the_stub_names_what_there_is(self):
-        from mortier import _core
-        text = (PACKAGE / "_core.pyi").read_text()
-        for name in ("Contact", "Step", "Scene", "Solution", "Steps"):
-            block = re.search(rf"^class {name}:\n(.*?)(?=^\S|\Z)", text, re.M | re.S)[1]
-            self.assertEqual({each for each in re.findall(r"def (\w+)", block) if each != "__init__"},
-                             {each for each in vars(getattr(_core, name)) if not each.startswith("_")}, name)
 
 
 if __name__ == "__main__":
