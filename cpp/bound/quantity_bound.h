@@ -16,31 +16,9 @@
 #include <string>
 #include <vector>
 
-#include "bound/lift.h"
-#include "bound/loaded_body.h"
-#include "bound/matched_meshes.h"
+#include "bound/quantity_goal.h"
 
 namespace mortier {
-
-/// A number of the exact solution, of one label of a body.
-struct Functional {
-  enum class Kind {
-    reaction,      ///< integral of e . (traction that the supports of the label exert)
-    contactForce,  ///< integral of e . (traction that the other side of contact exerts)
-    displacement   ///< mean of e . u
-  };
-  Kind kind = Kind::reaction;
-  int body = 0;
-  int label = 0;
-  Point direction{0, 0};  ///< e = direction + turn J (x - about), J a quarter turn counterclockwise
-  double turn = 0;
-  Point about{0, 0};          ///< [m]
-  std::string obstacle = {};  ///< why there is no bound of it at all
-
-  [[nodiscard]] Point at(const Point& x) const {
-    return direction + turn * Point(about.y() - x.y(), x.x() - about.x());
-  }
-};
 
 struct Enclosure {
   std::string obstacle;  ///< why there is none; empty where there is
@@ -49,14 +27,6 @@ struct Enclosure {
 
   /// Of a computed value, at most.
   [[nodiscard]] double error(double value) const { return std::max({value - lower, upper - value, 0.0}); }
-};
-
-struct AdmissiblePair {
-  const Model& model;
-  const MatchedMeshes& meshes;
-  const std::vector<LoadedBody>& bodies;  ///< balanced: they have s^
-  const std::vector<Vector>& spread;      ///< coefficients of p^ (pressures.h)
-  const Lift& lifting;                    ///< u^
 };
 
 /// The largest |R|. \param misfit  |E eps z - t|

@@ -207,7 +207,7 @@ std::string logQuantities(const std::vector<Quantity>& quantities, const std::ve
   for (size_t i = 0; i < quantities.size(); ++i) {
     text += format("%s %.7g %s", ((i == 0 ? "quantities " : ", ") + quantities[i].name).c_str(), values[i],
                    quantities[i].unit().c_str());
-    if (!bound || i >= bound->quantities.size()) continue;
+    if (!bound || !bound->obstacle.empty()) continue;
     const Enclosure& enclosure = bound->quantities[i];
     text += enclosure.obstacle.empty() ? format(" +- %.2g (guaranteed%s)", enclosure.error(values[i]),
                                                 bound->oscillation > linear ? " for linear data" : "")

@@ -229,8 +229,7 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
     json["quantities"][facts.quantities[i].name] = {{"value", values[i]},
                                                     {"unit", facts.quantities[i].unit()}};
   for (size_t i = 0; accuracy.bound && i < values.size(); ++i)
-    if (!accuracy.bound->obstacle.empty() || i < accuracy.bound->quantities.size())
-      json["quantities"][facts.quantities[i].name]["bound"] = jsonOf(*accuracy.bound, i, values[i]);
+    json["quantities"][facts.quantities[i].name]["bound"] = jsonOf(*accuracy.bound, i, values[i]);
   json["accuracy"] = jsonOf(facts, model, accuracy);
   if (facts.tolerance > 0) json["accuracy"]["time"] = report.timeError;
   if (facts.accuracy > 0) {

@@ -1,0 +1,107 @@
+#include "bound/quantity_goal.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mesh/boundary_line.h"
+
+namespace mortier {
+namespace {
+
+/// Of directions, and of jumps that are one.
+constexpr double rounding = 1e-9;
+
+/// Boundary values of z: -e in the directions that the supports of the label hold. \returns why they are
+/// none of a continuous displacement that is linear on sides; empty where they are
+std::string reactionValues(const Functional& functional, const Body& body, Vector& z) {
+  const TriangleMesh& mesh = body.mesh();
+  const auto& conditions = body.conditions().displacements;
+  std::vector<std::vector<Point>> heldAt(body.nodes());
+  for (const NodeSupport& support : body.supports().nodes()) {
+    Eigen::Matrix2d directions = Eigen::Matrix2d::Identity();
+    for (int i = 0; i < support.count; ++i) directions.col(i) = support.directions[i];
+    // r = sum of shares along the directions: rows of the inverse pick them.
+    const Eigen::Matrix2d shares =
+        support.count == 2 ? Eigen::Matrix2d(directions.inverse()) : Eigen::Matrix2d(directions.transpose());
+    const Point e = functional.at(mesh.vertices[support.node]);
+    for (int i = 0; i < support.count; ++i)
+      if (conditions[support.conditions[i]].label == functional.label)
+        z.segment<2>(2 * support.node) -= support.directions[i].dot(e) * shares.row(i).transpose();
+  }
+  double size = 0;
+  for (size_t k = 0; k < mesh.boundaryEdges.size(); ++k)
+    if (mesh.boundaryLabels[k] == functional.label)
+      for (const int v : mesh.boundaryEdges[k]) size = std::max(size, functional.at(mesh.vertices[v]).norm());
+  for (size_t k = 0; k < mesh.boundaryEdges.size(); ++k) {
+    const bool own = mesh.boundaryLabels[k] == functional.label;
+    const auto& [a, b] = mesh.boundaryEdges[k];
+    const Point along = (mesh.vertices[b] - mesh.vertices[a]).normalized();
+    for (const PrescribedDisplacement& held : conditions) {
+      if (held.label != mesh.boundaryLabels[k]) continue;
+      const Point d = held.component == Component::alongX        ? Point(1, 0)
+                      : held.component == Component::alongY      ? Point(0, 1)
+                      : held.component == Component::alongNormal ? Point(along.y(), -along.x())
+                                                                 : along;
+      for (const int v : {a, b}) {
+        const double expected = own ? -d.dot(functional.at(mesh.vertices[v])) : 0;
+        if (std::abs(d.dot(z.segment<2>(2 * v)) - expected) > rounding * size)
+          return "another support holds the body in the same direction where its own ends";
+      }
+    }
+  }
+  return "";
+}
+
+/// r = e . (inward normal) on the sides of contact with the label. \returns what is wrong with it
+std::string weigh(const AdmissiblePair& pair, const Functional& functional, Vector& r) {
+  std::vector<char> seen(pair.lifting.facing.size(), 0);
+  for (size_t k = 0; k < pair.meshes.pieces.size(); ++k) {
+    const MatchedPiece& piece = pair.meshes.pieces[k];
+    const auto& [nonmortar, mortar, coupling] = pair.model.interfaces[piece.interface].pair();
+    for (int end = 0; end < 2; ++end) {
+      double value = 0;
+      for (int side = 0; side < 2; ++side) {
+        const ContactSide& at = side == 0 ? nonmortar : mortar;
+        if (at.body != functional.body || at.label != functional.label) continue;
+        const Point& x = pair.bodies[at.body].mesh().vertices[piece.vertices[side][end]];
+        value += (side == 0 ? -1 : 1) * piece.normal.dot(functional.at(x));
+      }
+      const int i = pair.lifting.facingOfPiece[k][end];
+      if (std::exchange(seen[i], 1) != 0 &&
+          std::abs(r[i] - value) > rounding * std::max(std::abs(r[i]), std::abs(value)))
+        return "contact goes on beyond its label";
+      r[i] = value;
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+Goal goalOf(const AdmissiblePair& pair, const Functional& functional) {
+  Goal goal;
+  for (const LoadedBody& body : pair.bodies) {
+    goal.held.emplace_back(Vector::Zero(body.body().dofs()));
+    goal.loads.emplace_back(Vector::Zero(body.body().dofs()));
+  }
+  goal.r = Vector::Zero(static_cast<Eigen::Index>(pair.lifting.facing.size()));
+  const LoadedBody& body = pair.bodies[functional.body];
+  if (functional.kind == Functional::Kind::reaction) {
+    goal.obstacle = reactionValues(functional, body.body(), goal.held[functional.body]);
+  } else if (functional.kind == Functional::Kind::contactForce) {
+    goal.obstacle = weigh(pair, functional, goal.r);
+  } else {
+    double length = 0;
+    for (const auto& [a, b] : edgesOn(body.mesh(), functional.label))
+      length += (body.mesh().vertices[b] - body.mesh().vertices[a]).norm();
+    goal.traction = functional.direction / length;
+    LoadedBody pulled = body.unloaded(goal.held[functional.body]);
+    pulled.pull(functional.label, goal.traction);
+    goal.loads[functional.body] = pulled.load();
+  }
+  return goal;
+}
+
+}  // namespace mortier
