@@ -23,8 +23,8 @@ from pathlib import Path, PurePosixPath
 DOCS = Path(__file__).resolve().parent
 ROOT = DOCS.parent
 PICTURES = {".png", ".svg", ".gif", ".jpg"}
-# With the sizes and places that formulas are set by; a reader's own, if any, where Debian's package
-# fonts-dejavu-extra is not there.
+# Of Debian's fonts-dejavu-extra, which browsers set formulas well with;
+# where it is not there, they take what the reader has.
 FONT = Path("/usr/share/fonts/truetype/dejavu/DejaVuMathTeXGyre.ttf")
 # Groups of the navigation; what is linked to but not named here is reached by that link.
 NAVIGATION = {
