@@ -116,7 +116,6 @@ def plot(given):
 
 def report(given):
     require("numpy", "meshio")
-    import curves
     import files
     import report as reports
     import runs

@@ -7,7 +7,6 @@ import sys
 import unittest
 import urllib.parse
 from html.parser import HTMLParser
-from pathlib import Path
 
 from browser import Browser
 from support import ROOT, InSharedFolder
