@@ -1,4 +1,5 @@
 """What the documentation says is true: commands run, scenes run, files and functions exist."""
+import csv
 import json
 import os
 import re
@@ -79,6 +80,13 @@ class Tutorial(InFolder):
         shown = re.search(r"force (-?[\d.]+) N/m", TUTORIAL.read_text())[1]
         found = re.search(r"force (-?[\d.]+) N/m", told["mortier run press.toml --accuracy 0.02"])[1]
         self.assertAlmostEqual(float(found), float(shown), delta=1e-3 * abs(float(shown)))
+        # Force against displacement, and the pressure along the line.
+        with (self.folder / "out/press/history.csv").open() as text:
+            forces = [float(row["force[N/m]"]) for row in csv.DictReader(text)]
+        self.assertEqual(len(forces), 5)
+        self.assertEqual(forces, sorted(forces, reverse=True))
+        with (self.folder / "out/press/contact.csv").open() as text:
+            self.assertGreater(max(float(row["pressure"]) for row in csv.DictReader(text)), 0)
         for name in tutorial.MADE:
             self.assertTrue((self.folder / name).is_file(), name)
 
