@@ -40,18 +40,19 @@ void bringBack(const std::string& folder, const std::map<std::string, FileRecord
   });
 }
 
-ResultFiles::ResultFiles(const std::string& folder, const Model& model,
+ResultFiles::ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error,
                          const std::vector<Quantity>& quantities, const Units& units, int every)
     : history_(folder, quantities, units),
       contact_(folder, model),
-      fields_(folder, model),
+      fields_(folder, model, error),
       every_(every),
       lastKept_(-1) {}
 
-ResultFiles::ResultFiles(const std::string& folder, const Model& model, int every, const FilesSoFar& soFar)
+ResultFiles::ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error, int every,
+                         const FilesSoFar& soFar)
     : history_(folder, soFar.history),
       contact_(folder, model, soFar.contact),
-      fields_(folder, model, soFar.fields),
+      fields_(folder, model, error, soFar.fields),
       every_(every),
       lastKept_(soFar.fields.empty() ? -1 : soFar.fields.back().step) {}
 
