@@ -126,12 +126,14 @@ def quantity_differences(first, second, within=None):
     """Of the quantities that the scene asks for, against the largest one of the same unit."""
     pairs = [run.summary.get("quantities", {}) for run in (first, second)]
     known = [name for name in pairs[0] if name in pairs[1]]
+    units = first.summary.get("units", {"force": "N", "length": "m"})
+    per_depth = f"{units['force']}/{units['length']}"
     found = []
     for name in known:
         a, b = (each[name]["value"] for each in pairs)
         size = max(abs(each[other]["value"]) for each in pairs for other in known
                    if each[other]["unit"] == pairs[0][name]["unit"])
-        if pairs[0][name]["unit"] == "N/m":  # a reaction may be zero to the rounding of what presses
+        if pairs[0][name]["unit"] == per_depth:  # a reaction may be zero to the rounding of what presses
             size = max(size, *(abs(run.scalars["contact_force"]) for run in (first, second)))
         found.append(Difference(name, relative(a, b, size), FORCE if within is None else within, a, b))
     return found

@@ -81,8 +81,9 @@ void bindFields(py::module_& module) {
   py::class_<Step, std::shared_ptr<Step>> step(module, "Step");
   step.def_property_readonly("number", [](const Step& of) { return of.report.step; });
   step.def_property_readonly("time", [](const Step& of) { return of.state.time; });
-  step.def_property_readonly(
-      "values", [](const Step& of) { return namedValues(historyColumns(of.of->facts.quantities), of.row); });
+  step.def_property_readonly("values", [](const Step& of) {
+    return namedValues(historyColumns(of.of->facts.quantities, of.of->facts.units), of.row);
+  });
   const auto field = [&step](const char* name, OfBody array) {
     step.def_property_readonly(name, byBodies(std::move(array)));
   };

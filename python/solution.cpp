@@ -107,7 +107,7 @@ Solved solveInMemory(const Attempt& attempt, const Observer& observe) {
 }
 
 std::vector<std::pair<std::string, HistoryColumn>> columnsOf(const Attempt& attempt, const Record& record) {
-  const std::vector<std::string> names = historyColumns(attempt.facts.quantities);
+  const std::vector<std::string> names = historyColumns(attempt.facts.quantities, attempt.facts.units);
   std::vector<std::pair<std::string, HistoryColumn>> columns;
   for (size_t c = 0; c < names.size(); ++c) {
     HistoryColumn column = std::vector<double>();
@@ -148,8 +148,7 @@ Solution solveScene(const Scene& scene, const RunOptions& options,
     const int every = options.keepAll ? 1 : now.scene().every;
     const Observer observe = [&](const State& state, const StepReport& report) {
       if (report.step == 0) record = {};
-      if (report.step > 0)
-        record.rows.push_back(historyRow(report, evaluate(now.facts.quantities, *now.model, state)));
+      if (report.step > 0) record.rows.push_back(historyRow(report));
       if (onStep) {
         record.keep(report, state);
         record.kept.back().of = attempt;

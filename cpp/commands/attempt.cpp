@@ -30,6 +30,7 @@ RunFacts factsOf(const SceneDescription& scene, const AttemptOptions& options) {
   facts.accuracy = scene.accuracy.energy;
   facts.scene = scene.path;
   facts.title = scene.title;
+  facts.units = scene.units;
   facts.plane = word(scene.plane);
   facts.settings = options.settings;
   facts.scheme = word(scene.time.scheme);
@@ -72,7 +73,7 @@ Attempt::Attempt(ResolvedScene scene, const AttemptOptions& options) : resolved(
   error = std::make_unique<CurrentSpaceError>(*model);
   description.solver.threads = options.threads;
   facts = factsOf(description, options);
-  facts.quantities = buildQuantities(description, *model);
+  description.time.quantities = facts.quantities = buildQuantities(description, *model);
   lookAhead(description, *model);
   state = initialState(*model);
 }

@@ -14,6 +14,7 @@ Functional functionalOf(const Quantity& quantity, bool atPoint) {
                     : quantity.kind == Quantity::Kind::contactForce ? Kind::contactForce
                                                                     : Kind::displacement,
                     quantity.body, quantity.label};
+  if (!hasComponent(quantity.kind)) result.obstacle = "only forces and mean displacements have one";
   if (quantity.component == Quantity::Component::moment) {
     result.turn = 1;
     result.about = quantity.about;

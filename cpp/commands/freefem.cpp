@@ -40,7 +40,8 @@ bool isReadByFreefem(const MeshSource& mesh) {
 }
 
 /// `meshFile`: as FreeFEM opens it.
-void writeBody(std::ostream& out, const BodyDescription& body, const std::string& meshFile, int number) {
+void writeBody(std::ostream& out, const BodyDescription& body, const std::string& meshFile, int number,
+               const std::string& stress) {
   const auto& [elasticity, flow] = body.material;
   out << "string name" << number << " = \"" << body.name << "\";\n"
       << "string meshFile" << number << " = "
@@ -48,10 +49,10 @@ void writeBody(std::ostream& out, const BodyDescription& body, const std::string
       << "string projection" << number << " = \"" << word(flow ? flow->projection : Projection::frobenius)
       << "\";\n"
       << "real E" << number << " = " << shortest(elasticity.young) << ", nu" << number << " = "
-      << shortest(elasticity.poisson) << ";  // [Pa], [-]\n"
+      << shortest(elasticity.poisson) << ";  // [" << stress << "], [-]\n"
       << "real lambda" << number << " = " << shortest(flow ? flow->viscosity : 0) << ", sigmaY" << number
-      << " = " << shortest(flow ? flow->yieldStress : 1)
-      << ";  // viscosity [Pa s] (0: elastic body), yield stress [Pa]\n";
+      << " = " << shortest(flow ? flow->yieldStress : 1) << ";  // viscosity [" << stress
+      << " s] (0: elastic body), yield stress [" << stress << "]\n";
 }
 
 using Kind = ConditionDescription::Kind;
@@ -134,7 +135,7 @@ std::string script(const SceneDescription& scene, const Model& model,
       << "macro eachBody(what)";
   for (int b = 0; b < bodies; ++b) out << " what(" << b + 1 << ')';
   out << " //\n";
-  for (int b = 0; b < bodies; ++b) writeBody(out, scene.bodies[b], meshFiles[b], b + 1);
+  for (int b = 0; b < bodies; ++b) writeBody(out, scene.bodies[b], meshFiles[b], b + 1, scene.units.stress);
   out << "\n// Boundary conditions and loads, functions of x, y and t\n";
   for (int b = 0; b < bodies; ++b) writeConditions(out, scene.bodies[b], b + 1, scene.degree);
   out << rollers(scene)

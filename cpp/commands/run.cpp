@@ -54,9 +54,9 @@ void tell(Log& log, const RunFacts& facts, const Model& model, const Solved& sol
   log.print(logSpecial(solved.report.special));
   log.print(logAccuracy(facts, model, solved.accuracy));
   log.print(logTimeError(facts, solved.report));
-  log.print(logPeaks(solved.report.peaks, solved.last));
-  log.print(logQuantities(facts.quantities, evaluate(facts.quantities, model, solved.state),
-                          solved.accuracy.bound));
+  log.print(logPeaks(solved.report.peaks, solved.last, facts.units));
+  log.print(logQuantities(facts, model, solved.state, solved.accuracy.bound));
+  log.print(logRanges(facts, solved.report.quantities));
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ int run(RunCommand command) {
   addMeshes(*attempt->model, identity);
   if (stopped) {
     requireSame(stopped->checkpoint.identity, identity, stopped->folder);
-    requireFits(stopped->checkpoint, *attempt->model, stopped->folder);
+    requireFits(stopped->checkpoint, *attempt->model, stopped->folder, attempt->facts.quantities.size());
   }
 
   // 2. Where the result goes, and what is reported.
@@ -105,7 +105,7 @@ int run(RunCommand command) {
   Log rows(command.quiet || rounds, endTime);
   log.print("memory     " + aboutMemory(memoryNeed(*attempt->model)) + (rounds ? ", first meshes\n" : "\n"));
   log.print(logHeader(attempt->facts, *attempt->model));
-  log.print(rounds ? logRoundsHeader() : logStepsHeader());
+  log.print(rounds ? logRoundsHeader() : logStepsHeader(attempt->facts.units));
   warnOf(doubts);
   if (stopped && rounds) warn(command.restart + ": the rounds begin again");
 

@@ -44,14 +44,14 @@ Solved solve(Solving solving) {
   AccuracyMemory accuracySoFar;
   if (solving.stopped) {
     Checkpoint& stopped = *solving.stopped;
-    files.emplace(folder, model, solving.error, facts.quantities, scene.every, stopped.files);
+    files.emplace(folder, model, solving.error, scene.every, stopped.files);
     empty = stopped.empty;
     last = stopped.last;
     state = std::move(stopped.state);
     memory = std::move(stopped.memory);
     accuracySoFar = stopped.accuracy;
   } else {
-    files.emplace(folder, model, solving.error, facts.quantities, scene.every);
+    files.emplace(folder, model, solving.error, facts.quantities, facts.units, scene.every);
     state = std::move(solving.state);
   }
   solving.error.moveTo(state);
@@ -79,7 +79,7 @@ Solved solve(Solving solving) {
       if (!solving.onlyTheStart) save(empty, state, memory);
       files.reset();
       removeFields(folder, written, empty);
-      files.emplace(folder, model, solving.error, facts.quantities, scene.every, empty);
+      files.emplace(folder, model, solving.error, scene.every, empty);
     } else {
       files->add(state, report);
       if (report.step == 0) empty = files->sync();

@@ -88,15 +88,18 @@ void comparePair(const LintInput& input, size_t i, size_t j, Faults& faults) {
   const TriangleMesh& a = *input.meshes[i];
   const TriangleMesh& b = *input.meshes[j];
   constexpr double units = 300;
+  const std::string& length = input.scene.units.length;
+  const std::string& stress = input.scene.units.stress;
   const double ratio = extent(a) / extent(b);
   if (std::max(ratio, 1 / ratio) > units)
     faults.add("extent-ratio", ratio < 1 ? one.meshWhere : two.meshWhere,
-               both + " are " + shortest(extent(a)) + " m and " + shortest(extent(b)) + " m wide");
+               both + " are " + shortest(extent(a)) + " " + length + " and " + shortest(extent(b)) + " " +
+                   length + " wide");
   const double young = one.material.elasticity.young / two.material.elasticity.young;
   if (std::max(young, 1 / young) >= units)
     faults.add("stiffness-ratio", input.whereInBody(young < 1 ? i : j, {"material", "young"}),
-               both + " have young = " + shortest(one.material.elasticity.young) + " Pa and " +
-                   shortest(two.material.elasticity.young) + " Pa");
+               both + " have young = " + shortest(one.material.elasticity.young) + " " + stress + " and " +
+                   shortest(two.material.elasticity.young) + " " + stress);
   if (sameMesh(one.mesh, two.mesh)) {
     faults.add("same-mesh", two.meshWhere, both + " are meshed by the same file and lie on each other");
     return;

@@ -136,7 +136,8 @@ EdgeLengths edgeLengths(const Side& side) {
   return {side.length / std::max(1, side.edges), side.edges};
 }
 
-void compareMeshes(const ContactDescription& contact, const Side& one, const Side& two, Faults& faults) {
+void compareMeshes(const ContactDescription& contact, const Side& one, const Side& two,
+                   const std::string& length, Faults& faults) {
   constexpr double different = 10;
   constexpr double coarser = 4;
   const EdgeLengths h1 = edgeLengths(one);
@@ -147,8 +148,8 @@ void compareMeshes(const ContactDescription& contact, const Side& one, const Sid
   const double ratio = h1.mean / h2.mean;
   if (std::max(ratio, 1 / ratio) > different)
     faults.add("contact-size-ratio", contact.where,
-               "edges of " + name(one) + " are " + shortest(h1.mean) + " m long, those of " + name(two) +
-                   " " + shortest(h2.mean) + " m");
+               "edges of " + name(one) + " are " + shortest(h1.mean) + " " + length + " long, those of " +
+                   name(two) + " " + shortest(h2.mean) + " " + length);
   else if (ratio > coarser)
     faults.add("nonmortar-coarser", contact.nonmortar.where,
                "edges of the nonmortar side are " + shortest(std::round(10 * ratio) / 10) +
@@ -200,7 +201,8 @@ void checkConditions(const LintInput& input, const ContactDescription& contact,
 }
 
 void checkInterface(const ContactDescription& contact, const Side& one, const Side& two,
-                    const ContactInterface& interface, double smallerExtent, Faults& faults) {
+                    const ContactInterface& interface, double smallerExtent, const std::string& length,
+                    Faults& faults) {
   constexpr double tiny = 0.25;
   constexpr double large = 0.5;
   const double gap = interface.initialDistance().minCoeff();
@@ -208,13 +210,13 @@ void checkInterface(const ContactDescription& contact, const Side& one, const Si
     faults.add("contact-overlap", contact.where,
                name(one) + " and " + name(two) + " face each other over " +
                    shortest(std::round(1000 * interface.overlap()) / 1000) + " of the shorter one");
-  if (const std::string doubt = doubtOfPolygons(interface);
+  if (const std::string doubt = doubtOfPolygons(interface, length);
       !doubt.empty() && !contact.gap && contact.initial != InitialGap::close)
     faults.add("contact-polygon", contact.where, doubt);
   if (gap > large * smallerExtent)
     faults.add("gap-large", contact.where,
-               "the bodies are at least " + shortest(gap) + " m apart, the smaller one is " +
-                   shortest(smallerExtent) + " m wide");
+               "the bodies are at least " + shortest(gap) + " " + length + " apart, the smaller one is " +
+                   shortest(smallerExtent) + " " + length + " wide");
   if (contact.variant == CouplingKind::interpolation && !meshesMatch(interface))
     faults.add("interpolation-unmatched", contact.where,
                "interpolation on meshes that do not match has an error of order one along the contact line");
@@ -235,14 +237,15 @@ void lintContacts(const LintInput& input, Faults& faults) {
     const Side one = sideOf(input, contact.nonmortar, contact.nonmortar.label);
     const Side two = sideOf(input, contact.mortar, contact.mortar.label);
     if (one.edges == 0 || two.edges == 0) continue;  // named elsewhere
-    if (!refinesMeshes(input.scene)) compareMeshes(contact, one, two, faults);
+    if (!refinesMeshes(input.scene)) compareMeshes(contact, one, two, input.scene.units.length, faults);
     compareStiffness(input, contact, one, two, faults);
     const ContactPair pair{{0, contact.nonmortar.label}, {1, contact.mortar.label}, contact.variant};
     if (memoryNeed({one.mesh, two.mesh}, {pair}, input.scene.degree) > availableMemory())
       continue;  // buildModel tells
     try {
       const ContactInterface interface = interfaceOf(contact, one, two, false);
-      checkInterface(contact, one, two, interface, std::min(extent(*one.mesh), extent(*two.mesh)), faults);
+      checkInterface(contact, one, two, interface, std::min(extent(*one.mesh), extent(*two.mesh)),
+                     input.scene.units.length, faults);
       checkConditions(input, contact, interface, faults);
     } catch (const InputError& error) {
       diagnose(input, contact, one, two, error.what(), faults);

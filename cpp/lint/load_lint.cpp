@@ -28,22 +28,23 @@ void checkDatum(const LintInput& input, const SampledDatum& datum, Faults& fault
   constexpr double large = 0.2;
   const BodyDescription& body = input.scene.bodies[datum.body];
   const std::string subject = "body " + body.name + ": ";
+  const std::string& length = input.scene.units.length;
   if (datum.kind == Kind::displacement) {
     double most = 0;
     for (const double t : trialTimes(input.scene.time)) most = std::max(most, datum.change(0, t));
     if (most > large * datum.size)
       faults.add("large-displacement", placeOf(*datum.value),
-                 subject + "a displacement of " + shortest(most) + " m is prescribed on a body of " +
-                     shortest(datum.size) + " m");
+                 subject + "a displacement of " + shortest(most) + " " + length +
+                     " is prescribed on a body of " + shortest(datum.size) + " " + length);
     if (const double initial = datum.largest(0); initial > 0)
       faults.add(
           "initial-displacement", placeOf(*datum.value),
-          subject + "a displacement of " + shortest(initial) +
-              " m is prescribed at t = 0, where the run begins unstressed: only its change has an effect");
+          subject + "a displacement of " + shortest(initial) + " " + length +
+              " is prescribed at t = 0, where the run begins unstressed: only its change has an effect");
   } else if (flows(body) && datum.largest(0) > 0) {
     faults.add("initial-load", placeOf(*datum.value),
-               subject + "a load of " + shortest(datum.largest(0)) +
-                   (datum.kind == Kind::force ? " N/m^3" : " Pa") +
+               subject + "a load of " + shortest(datum.largest(0)) + " " +
+                   (datum.kind == Kind::force ? input.scene.units.bodyForce() : input.scene.units.stress) +
                    " acts at t = 0, where the run begins unstressed: it comes at once in the first step");
   }
 }

@@ -35,12 +35,13 @@ double relaxingModulus(const Elasticity& elasticity, Plane plane) {
   return plane == Plane::strain ? elasticity.moduli()[1] : elasticity.moduli().maxCoeff();
 }
 
-void checkElasticity(const PlacedMaterial& material, Plane plane, double nominal, Faults& faults) {
+void checkElasticity(const LintInput& input, const PlacedMaterial& material, double nominal, Faults& faults) {
   constexpr double incompressible = 0.49;
   constexpr double large = 0.05;
   const Elasticity& e = material.description.elasticity;
   const std::string& subject = material.subject;
-  if (plane == Plane::strain && e.poisson > incompressible)
+  const std::string& unit = input.scene.units.stress;
+  if (input.scene.plane == Plane::strain && e.poisson > incompressible)
     faults.add("poisson-limit", material.where("poisson"),
                subject + "poisson = " + shortest(e.poisson) + " in plane strain is nearly incompressible");
   if (e.poisson < 0)
@@ -48,8 +49,8 @@ void checkElasticity(const PlacedMaterial& material, Plane plane, double nominal
                subject + "poisson = " + shortest(e.poisson) + " is negative");
   if (nominal > large * e.young)
     faults.add("large-strain", material.where("young"),
-               subject + "the loads are of the order of " + shortest(nominal) +
-                   " Pa, young = " + shortest(e.young) + " Pa: strains of " +
+               subject + "the loads are of the order of " + shortest(nominal) + " " + unit +
+                   ", young = " + shortest(e.young) + " " + unit + ": strains of " +
                    shortest(std::round(100 * nominal / e.young)) + " %");
 }
 
@@ -61,6 +62,7 @@ void checkSteps(const LintInput& input, const PlacedMaterial& material, double l
   const Viscoplasticity& flow = *material.description.viscoplasticity;
   const TimePlan& time = input.scene.time;
   const std::string& subject = material.subject;
+  const std::string& unit = input.scene.units.stress;
   const double step = time.end / time.steps;
   const double relaxation =
       2 * flow.viscosity / relaxingModulus(material.description.elasticity, input.scene.plane);
@@ -70,8 +72,8 @@ void checkSteps(const LintInput& input, const PlacedMaterial& material, double l
                    " relaxation times long, more than doubles resolve");
   if (afterFirstStep > far * flow.yieldStress)
     faults.add("yields-at-once", input.where({"time", "steps"}),
-               subject + "the first step goes to " + shortest(afterFirstStep) +
-                   " Pa, with yield_stress = " + shortest(flow.yieldStress) + " Pa");
+               subject + "the first step goes to " + shortest(afterFirstStep) + " " + unit +
+                   ", with yield_stress = " + shortest(flow.yieldStress) + " " + unit);
   constexpr int few = 10;
   if (time.scheme == Scheme::backwardEuler && largest > flow.yieldStress && time.steps < few)
     faults.add("few-steps-across-yield", input.where({"time", "steps"}),
@@ -97,7 +99,7 @@ void checkFlow(const LintInput& input, const PlacedMaterial& material, double la
   const double e = relaxingModulus(material.description.elasticity, input.scene.plane);
   const TimePlan& time = input.scene.time;
   const std::string& subject = material.subject;
-  const std::string yield = "yield_stress = " + shortest(flow.yieldStress) + " Pa";
+  const std::string yield = "yield_stress = " + shortest(flow.yieldStress) + " " + input.scene.units.stress;
   const std::string yieldPlace = material.where("yield_stress");
   if (flow.yieldStress > plastic * e) {
     faults.add("yield-over-young", yieldPlace,
@@ -107,7 +109,8 @@ void checkFlow(const LintInput& input, const PlacedMaterial& material, double la
   }
   if (largest > 0 && largest * unreachable < flow.yieldStress) {
     faults.add("never-yields", yieldPlace,
-               subject + yield + ", the loads are at most of the order of " + shortest(largest) + " Pa");
+               subject + yield + ", the loads are at most of the order of " + shortest(largest) + " " +
+                   input.scene.units.stress);
     return;
   }
   const double relaxation = 2 * flow.viscosity / e;
@@ -162,7 +165,7 @@ void lintMaterials(const LintInput& input, Faults& faults) {
             std::max(onBody, datum.largest(t) * (datum.kind == SampledDatum::Kind::force ? datum.size : 1));
     }
     for (const PlacedMaterial& material : placedMaterials(input, b)) {
-      checkElasticity(material, input.scene.plane, onBody, faults);
+      checkElasticity(input, material, onBody, faults);
       const auto& flow = material.description.viscoplasticity;
       if (!flow) continue;
       stiffest = std::max(stiffest, time.end / time.steps / (4 * flow->viscosity) *

@@ -196,14 +196,15 @@ void findBadTriangles(const TriangleMesh& mesh, const Topology& topology, bool r
     faults.add("mesh-coarse", mesh.name, counted(mesh.triangles.size(), "triangle") + " in all");
 }
 
-void findLostDigits(const TriangleMesh& mesh, Faults& faults) {
+void findLostDigits(const TriangleMesh& mesh, const std::string& length, Faults& faults) {
   constexpr double far = 1e5;
   const auto [lower, upper] = boundingBox(mesh);
   const double distance = std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
   if (distance <= far * extent(mesh)) return;
   faults.add("far-from-origin", mesh.name,
-             "coordinates up to " + shortest(distance) + " m for an extent of " + shortest(extent(mesh)) +
-                 " m: " + shortest(std::floor(std::log10(distance / extent(mesh)))) +
+             "coordinates up to " + shortest(distance) + " " + length + " for an extent of " +
+                 shortest(extent(mesh)) + " " + length + ": " +
+                 shortest(std::floor(std::log10(distance / extent(mesh)))) +
                  " of 16 digits say where the mesh is, not what it is");
 }
 
@@ -219,7 +220,7 @@ void lintMeshes(const LintInput& input, Faults& faults) {
     findHangingNodes(mesh, topology, faults);
     findCrossings(mesh, topology, faults);
     findBadTriangles(mesh, topology, refinesMeshes(input.scene), faults);
-    findLostDigits(mesh, faults);
+    findLostDigits(mesh, input.scene.units.length, faults);
   }
 }
 

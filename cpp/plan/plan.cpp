@@ -72,8 +72,8 @@ class Planner {
                                       (symmetric ? "symmetric" : "unsymmetric where it flows");
     add(part, true, factor + " in every iteration in which it flows", law);
     add(part, false, "a new factor while nothing in it flows", "its tangent is that of elasticity");
-    const std::string loads =
-        "loads of the order of " + twoDigits(largest_) + " Pa, yield_stress " + shortest(yieldStress) + " Pa";
+    const std::string loads = "loads of the order of " + twoDigits(largest_) + " " + scene_.units.stress +
+                              ", yield_stress " + shortest(yieldStress) + " " + scene_.units.stress;
     if (largest_ < yieldStress)
       add(part, false, "flow, unless some point yields after all", loads);
     else

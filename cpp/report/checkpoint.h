@@ -45,7 +45,9 @@ Checkpoint readCheckpoint(const std::string& folder);
 /// \throws InputError `folder` holds a checkpoint of another scene: what differs.
 void requireSame(const RunIdentity& stored, const RunIdentity& given, const std::string& folder);
 
+/// \param quantities  how many there are
 /// \throws InputError  the state or the memory is not one of this model: what is wrong with it.
-void requireFits(const Checkpoint& checkpoint, const Model& model, const std::string& folder);
+void requireFits(const Checkpoint& checkpoint, const Model& model, const std::string& folder,
+                 size_t quantities = 0);
 
 }  // namespace mortier

@@ -21,8 +21,10 @@ bool areLike(const std::vector<Values>& values, const std::vector<Values>& model
 }
 
 bool isLike(const BodyState& body, const BodyState& model) {
+  const auto& [external, contact, dissipated] = body.work;
   return isLike(body.displacement, model.displacement) && isLike(body.stress, model.stress) &&
-         isLike(body.viscoplasticStrain, model.viscoplasticStrain);
+         isLike(body.viscoplasticStrain, model.viscoplasticStrain) && std::isfinite(external) &&
+         std::isfinite(contact) && std::isfinite(dissipated);
 }
 
 bool isLike(const BodyIncrement& increment, const BodyState& model) {
@@ -46,7 +48,8 @@ bool isStatus(Status status) {
 
 }  // namespace
 
-void requireFits(const Checkpoint& checkpoint, const Model& model, const std::string& folder) {
+void requireFits(const Checkpoint& checkpoint, const Model& model, const std::string& folder,
+                 size_t quantities) {
   const auto require = [&](bool fits, const char* what) {
     if (!fits)
       throw InputError(folder + "/" + checkpointName + ": its " + what +
@@ -83,6 +86,9 @@ void requireFits(const Checkpoint& checkpoint, const Model& model, const std::st
               isTime(accuracy.flow.begin) && isTime(accuracy.flow.misfit) && isTime(accuracy.flow.opening) &&
               accuracy.flow.growth >= 0,
           "accuracy");
+  require(memory.run.quantities.size() == quantities &&
+              (last.quantities.empty() || last.quantities.size() == quantities),
+          "number of quantities");
   require(isStatus(last.status) && isStatus(memory.run.status), "status");
 }
 

@@ -23,15 +23,18 @@ MORTIER_MEMBERS(SpecialConditions, idle, dependent)
 MORTIER_MEMBERS(StepReport, step, time, timeStep, status, reason, rung, guarded, rejections, estimate,
                 iterations, factorisations, active, joined, left, penetration, maxPressure, contactForce,
                 resultantX, resultantY, vonMises, displacement, motion, energy, viscoplasticFraction,
-                certificate)
+                certificate, quantities)
 MORTIER_MEMBERS(Peak, value, time)
+MORTIER_MEMBERS(QuantityRange, start, smallest, smallestTime, largest, largestTime)
 MORTIER_MEMBERS(Peaks, vonMises, pressure, contactForce, displacement, motion, energy)
 MORTIER_MEMBERS(FlowBoundMemory, obstacle, moved, begin, misfit, opening, growth, load, loadOff, motion,
                 motionOff)
 MORTIER_MEMBERS(AccuracyMemory, energy, error, time, flow)
 MORTIER_MEMBERS(RunReport, status, reason, steps, iterations, maxIterationsInAStep, factorisations,
-                pilotIterations, rejected, timeError, guarded, solveSeconds, special, worst, peaks, rungs)
-MORTIER_MEMBERS(BodyState, displacement, stress, viscoplasticStrain)
+                pilotIterations, rejected, timeError, guarded, solveSeconds, special, worst, peaks,
+                quantities, rungs)
+MORTIER_MEMBERS(WorkDone, external, contact, dissipated)
+MORTIER_MEMBERS(BodyState, displacement, stress, viscoplasticStrain, work)
 MORTIER_MEMBERS(State, time, bodies, contactForce, gap)
 MORTIER_MEMBERS(TwoPartVector, high, low)
 MORTIER_MEMBERS(BodyIncrement, displacement, stress)

@@ -2,7 +2,8 @@
 
 namespace mortier {
 
-std::vector<std::string> historyColumns(const std::vector<Quantity>& quantities) {
+std::vector<std::string> historyColumns(const std::vector<Quantity>& quantities, const Units& units) {
+  const auto in = [](const std::string& name, const std::string& unit) { return name + '[' + unit + ']'; };
   std::vector<std::string> names{"step",
                                  "time[s]",
                                  "time_step[s]",
@@ -15,14 +16,14 @@ std::vector<std::string> historyColumns(const std::vector<Quantity>& quantities)
                                  "active",
                                  "joined",
                                  "left",
-                                 "penetration[m^2]",
-                                 "max_pressure[Pa]",
-                                 "contact_force[N/m]",
-                                 "contact_resultant_x[N/m]",
-                                 "contact_resultant_y[N/m]",
-                                 "von_mises_max[Pa]",
-                                 "displacement_max[m]",
-                                 "elastic_energy[J/m]",
+                                 in("penetration", units.area()),
+                                 in("max_pressure", units.stress),
+                                 in("contact_force", units.forcePerDepth()),
+                                 in("contact_resultant_x", units.forcePerDepth()),
+                                 in("contact_resultant_y", units.forcePerDepth()),
+                                 in("von_mises_max", units.stress),
+                                 in("displacement_max", units.length),
+                                 in("elastic_energy", units.energyPerDepth()),
                                  "viscoplastic_fraction",
                                  "force_balance",
                                  "material_residual",
@@ -31,11 +32,11 @@ std::vector<std::string> historyColumns(const std::vector<Quantity>& quantities)
                                  "complementarity",
                                  "open_penetration",
                                  "rounding"};
-  for (const Quantity& quantity : quantities) names.push_back(quantity.name + '[' + quantity.unit() + ']');
+  for (const Quantity& quantity : quantities) names.push_back(in(quantity.name, quantity.unit(units)));
   return names;
 }
 
-std::vector<HistoryValue> historyRow(const StepReport& r, const std::vector<double>& values) {
+std::vector<HistoryValue> historyRow(const StepReport& r) {
   const Certificate& c = r.certificate;
   std::vector<HistoryValue> row{r.step,
                                 r.time,
@@ -65,23 +66,23 @@ std::vector<HistoryValue> historyRow(const StepReport& r, const std::vector<doub
                                 c.complementarity,
                                 c.openPenetration,
                                 c.rounding};
-  row.insert(row.end(), values.begin(), values.end());
+  row.insert(row.end(), r.quantities.begin(), r.quantities.end());
   return row;
 }
 
-History::History(const std::string& folder, const std::vector<Quantity>& quantities)
+History::History(const std::string& folder, const std::vector<Quantity>& quantities, const Units& units)
     : file_(folder + "/history.csv") {
   const char* comma = "";
-  for (const std::string& name : historyColumns(quantities)) {
+  for (const std::string& name : historyColumns(quantities, units)) {
     file_ << comma << name;
     comma = ",";
   }
   file_ << '\n';
 }
 
-void History::add(const StepReport& report, const std::vector<double>& values) {
+void History::add(const StepReport& report) {
   const char* comma = "";
-  for (const HistoryValue& value : historyRow(report, values)) {
+  for (const HistoryValue& value : historyRow(report)) {
     file_ << comma;
     std::visit([&](const auto& each) { file_ << each; }, value);
     comma = ",";

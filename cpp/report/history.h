@@ -14,18 +14,16 @@
 namespace mortier {
 
 /// The columns with their units, `time[s]`, and what stands in them.
-std::vector<std::string> historyColumns(const std::vector<Quantity>& quantities);
+std::vector<std::string> historyColumns(const std::vector<Quantity>& quantities, const Units& units);
 using HistoryValue = std::variant<int, double, std::string_view>;
-/// \param values  of the quantities
-std::vector<HistoryValue> historyRow(const StepReport& report, const std::vector<double>& values);
+std::vector<HistoryValue> historyRow(const StepReport& report);
 
 class History {
  public:
-  History(const std::string& folder, const std::vector<Quantity>& quantities);
+  History(const std::string& folder, const std::vector<Quantity>& quantities, const Units& units);
   /// Goes on after what `keep` records.
   History(const std::string& folder, const FileRecord& keep) : file_(folder + "/history.csv", keep) {}
-  /// `values` of the quantities.
-  void add(const StepReport& report, const std::vector<double>& values);
+  void add(const StepReport& report);
   /// Brings everything to the disk. \returns what is written so far.
   FileRecord sync() { return file_.sync(); }
   FileRecord close() { return file_.close(); }

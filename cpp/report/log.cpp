@@ -54,8 +54,9 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
     const double least = interface.initialDistance().size() > 0 ? interface.initialDistance().minCoeff() : 0;
     constexpr double noticeable = 1e-6;
     const double size = extent(model.bodies[interface.pair().nonmortar.body].mesh());
-    const std::string pressed =
-        least < -noticeable * size ? format("; interference %.3g m", -least) : std::string();
+    const std::string pressed = least < -noticeable * size
+                                    ? format("; interference %.3g ", -least) + facts.units.length
+                                    : std::string();
     const std::string chosen = k < facts.choices.size() ? facts.choices[k] : "";
     text += format("interface  %s, %zu nonmortar (%s) x %zu mortar (%s) nodes, overlap %.3f%s%s%s%s%s\n",
                    facts.variants[k].c_str(), interface.nonmortarNodes().size(),
@@ -67,9 +68,11 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
   return text;
 }
 
-std::string logStepsHeader() {
-  return "  step     time[s]  iter    active(+/-)  |residual|  penetration[m^2]   max p[Pa]  viscoplastic"
-         "  force[N/m]\n";
+std::string logStepsHeader(const Units& units) {
+  return format("%6s  %10s  %4s  %13s  %10s  %16s  %10s  %12s  %10s\n", "step", "time[s]", "iter",
+                "active(+/-)", "|residual|", ("penetration[" + units.area() + "]").c_str(),
+                ("max p[" + units.stress + "]").c_str(), "viscoplastic",
+                ("force[" + units.forcePerDepth() + "]").c_str());
 }
 
 std::string logRoundsHeader() {
@@ -165,9 +168,9 @@ std::string logAccuracy(const RunFacts& facts, const Model& model, const Accurac
   double sagitta = 0;
   for (const ContactInterface& interface : model.interfaces) sagitta = std::max(sagitta, interface.sagitta());
   if (sagitta > 0)
-    text +=
-        format("           not in it: contact between polygons that are off their curves by up to %.2g m\n",
-               sagitta);
+    text += format("           not in it: contact between polygons that are off their curves by up to %.2g ",
+                   sagitta) +
+            facts.units.length + "\n";
   if (accuracy.largest > 0 && accuracy.largestTime < accuracy.time)
     text += format("           largest of the run: %.2g %% of its largest stress, at t = %.5g s\n",
                    100 * accuracy.largest, accuracy.largestTime);
@@ -180,18 +183,18 @@ std::string logAccuracy(const RunFacts& facts, const Model& model, const Accurac
   return text;
 }
 
-std::string logPeaks(const Peaks& peaks, const StepReport& last) {
+std::string logPeaks(const Peaks& peaks, const StepReport& last, const Units& units) {
   std::string text;
-  const auto add = [&](const char* name, const Peak& peak, double end, const char* unit) {
+  const auto add = [&](const char* name, const Peak& peak, double end, const std::string& unit) {
     constexpr double same = 1e-9;
     if (!(peak.value > (1 + same) * end)) return;
     text += (text.empty() ? "peaks      " : ", ") + std::string(name) +
-            format(" %.5g %s at t = %.5g s (%.5g at the end)", peak.value, unit, peak.time, end);
+            format(" %.5g %s at t = %.5g s (%.5g at the end)", peak.value, unit.c_str(), peak.time, end);
   };
-  add("von Mises", peaks.vonMises, last.vonMises, "Pa");
-  add("pressure", peaks.pressure, last.maxPressure, "Pa");
-  add("contact force", peaks.contactForce, last.contactForce, "N/m");
-  add("displacement", peaks.displacement, last.displacement, "m");
+  add("von Mises", peaks.vonMises, last.vonMises, units.stress);
+  add("pressure", peaks.pressure, last.maxPressure, units.stress);
+  add("contact force", peaks.contactForce, last.contactForce, units.forcePerDepth());
+  add("displacement", peaks.displacement, last.displacement, units.length);
   if (!text.empty()) text += "\n";
   if (peaks.motion.value > 1)
     text += format(
@@ -201,17 +204,32 @@ std::string logPeaks(const Peaks& peaks, const StepReport& last) {
   return text;
 }
 
-std::string logQuantities(const std::vector<Quantity>& quantities, const std::vector<double>& values,
+std::string logQuantities(const RunFacts& facts, const Model& model, const State& state,
                           const std::optional<EnergyBound>& bound) {
+  const std::vector<Quantity>& quantities = facts.quantities;
+  const std::vector<double> values = evaluate(quantities, model, state);
   std::string text;
   for (size_t i = 0; i < quantities.size(); ++i) {
-    text += format("%s %.7g %s", ((i == 0 ? "quantities " : ", ") + quantities[i].name).c_str(), values[i],
-                   quantities[i].unit().c_str());
+    text += (i == 0 ? "quantities " : ", ") + quantities[i].name + format(" %.7g ", values[i]) +
+            quantities[i].unit(facts.units);
+    if (const auto place = placeOf(quantities[i], model, state))
+      text += format(" at (%.4g, %.4g)", place->x(), place->y());
     if (!bound || !bound->obstacle.empty()) continue;
     const Enclosure& enclosure = bound->quantities[i];
     text += enclosure.obstacle.empty() ? format(" +- %.2g (guaranteed%s)", enclosure.error(values[i]),
                                                 bound->oscillation > linear ? " for linear data" : "")
                                        : " (no bound: " + enclosure.obstacle + ")";
+  }
+  return text.empty() ? text : text + "\n";
+}
+
+std::string logRanges(const RunFacts& facts, const std::vector<QuantityRange>& ranges) {
+  std::string text;
+  for (size_t i = 0; i < ranges.size(); ++i) {
+    const QuantityRange& range = ranges[i];
+    text += (i == 0 ? "in the run " : ", ") + facts.quantities[i].name +
+            format(" %.5g (t = %.5g s) to %.5g (t = %.5g s)", range.smallest, range.smallestTime,
+                   range.largest, range.largestTime);
   }
   return text.empty() ? text : text + "\n";
 }

@@ -13,7 +13,7 @@ namespace mortier {
 /// What is solved: bodies, interfaces.
 std::string logHeader(const RunFacts& facts, const Model& model);
 /// The head of the table of steps, or of rounds.
-std::string logStepsHeader();
+std::string logStepsHeader(const Units& units);
 std::string logRoundsHeader();
 /// The last of the rounds.
 std::string logRound(const std::vector<RoundFacts>& rounds);
@@ -33,11 +33,13 @@ std::string logTimeError(const RunFacts& facts, const RunReport& report);
 std::string logAccuracy(const RunFacts& facts, const Model& model, const Accuracy& accuracy);
 /// The largest values of the run where the last step does not have them,
 /// and what no small strain is any more.
-std::string logPeaks(const Peaks& peaks, const StepReport& last);
-/// The quantities of the scene at the end of the run, with the bounds of their errors where there are such;
-/// nothing where there are none.
-std::string logQuantities(const std::vector<Quantity>& quantities, const std::vector<double>& values,
+std::string logPeaks(const Peaks& peaks, const StepReport& last, const Units& units);
+/// The quantities of the scene at the end of the run, with the places of those that have one and the bounds
+/// of their errors where there are such; nothing where there are none.
+std::string logQuantities(const RunFacts& facts, const Model& model, const State& state,
                           const std::optional<EnergyBound>& bound);
+/// Their smallest and largest values, and when.
+std::string logRanges(const RunFacts& facts, const std::vector<QuantityRange>& ranges);
 /// A line where contact conditions have no force of their own, otherwise nothing.
 std::string logSpecial(const SpecialConditions& special);
 

@@ -41,27 +41,23 @@ void bringBack(const std::string& folder, const std::map<std::string, FileRecord
 }
 
 ResultFiles::ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error,
-                         const std::vector<Quantity>& quantities, int every)
-    : model_(model),
-      quantities_(quantities),
-      history_(folder, quantities),
+                         const std::vector<Quantity>& quantities, const Units& units, int every)
+    : history_(folder, quantities, units),
       contact_(folder, model),
       fields_(folder, model, error),
       every_(every),
       lastKept_(-1) {}
 
-ResultFiles::ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error,
-                         const std::vector<Quantity>& quantities, int every, const FilesSoFar& soFar)
-    : model_(model),
-      quantities_(quantities),
-      history_(folder, soFar.history),
+ResultFiles::ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error, int every,
+                         const FilesSoFar& soFar)
+    : history_(folder, soFar.history),
       contact_(folder, model, soFar.contact),
       fields_(folder, model, error, soFar.fields),
       every_(every),
       lastKept_(soFar.fields.empty() ? -1 : soFar.fields.back().step) {}
 
 void ResultFiles::add(const State& state, const StepReport& report) {
-  if (report.step > 0) history_.add(report, evaluate(quantities_, model_, state));
+  if (report.step > 0) history_.add(report);
   if (every_ > 0 && report.step % every_ == 0) keep(state, report.step);
 }
 

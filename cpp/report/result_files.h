@@ -32,10 +32,10 @@ class ResultFiles {
   /// \param every  keep fields and contact of the steps 0, k, 2k, ... beside the last one; 0: the last one
   /// only.
   ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error,
-              const std::vector<Quantity>& quantities, int every);
+              const std::vector<Quantity>& quantities, const Units& units, int every);
   /// Goes on with files that are there; what they hold beyond `soFar` is cut off.
-  ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error,
-              const std::vector<Quantity>& quantities, int every, const FilesSoFar& soFar);
+  ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error, int every,
+              const FilesSoFar& soFar);
 
   /// Adds a step (or the initial state, step 0).
   void add(const State& state, const StepReport& report);
@@ -47,8 +47,6 @@ class ResultFiles {
  private:
   void keep(const State& state, int step);
 
-  const Model& model_;
-  const std::vector<Quantity>& quantities_;
   History history_;
   ContactTable contact_;
   Fields fields_;

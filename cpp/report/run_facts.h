@@ -23,6 +23,7 @@ struct RunFacts {
   std::string scene;      ///< path of the scene
   std::string sceneText;  ///< the file as it was read
   std::string title;
+  Units units;                        ///< of all numbers
   std::string plane = "stress";       ///< "stress" or "strain"
   std::vector<std::string> settings;  ///< --set, as given
   std::vector<std::string> variants;  ///< per interface: the word of the coupling

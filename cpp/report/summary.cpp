@@ -97,6 +97,12 @@ Json jsonOf(const Peaks& peaks) {
           {"elastic_energy", of(peaks.energy)}};
 }
 
+Json jsonOf(const QuantityRange& range) {
+  return {{"start", range.start},
+          {"smallest", {{"value", range.smallest}, {"time", range.smallestTime}}},
+          {"largest", {{"value", range.largest}, {"time", range.largestTime}}}};
+}
+
 Json jsonOf(const EnergyBound& bound) {
   if (!bound.obstacle.empty()) return {{"energy_error", nullptr}, {"reason", bound.obstacle}};
   const double relative = bound.relative();
@@ -182,6 +188,9 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
   Json json;
   json["scene"] = facts.scene;
   json["title"] = facts.title;
+  if (facts.units.given)
+    json["units"] = {
+        {"length", facts.units.length}, {"force", facts.units.force}, {"stress", facts.units.stress}};
   json["plane"] = facts.plane;
   json["settings"] = facts.settings;
   json["status"] = word(report.status);
@@ -225,9 +234,13 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
                           {"rounding", report.worst.rounding}};
   json["peaks"] = jsonOf(report.peaks);
   const std::vector<double> values = evaluate(facts.quantities, model, state);
-  for (size_t i = 0; i < values.size(); ++i)
-    json["quantities"][facts.quantities[i].name] = {{"value", values[i]},
-                                                    {"unit", facts.quantities[i].unit()}};
+  for (size_t i = 0; i < values.size(); ++i) {
+    Json& quantity = json["quantities"][facts.quantities[i].name];
+    quantity = {{"value", values[i]}, {"unit", facts.quantities[i].unit(facts.units)}};
+    if (const auto place = placeOf(facts.quantities[i], model, state))
+      quantity["at"] = {place->x(), place->y()};
+    if (i < report.quantities.size()) quantity.update(jsonOf(report.quantities[i]));
+  }
   for (size_t i = 0; accuracy.bound && i < values.size(); ++i)
     json["quantities"][facts.quantities[i].name]["bound"] = jsonOf(*accuracy.bound, i, values[i]);
   json["accuracy"] = jsonOf(facts, model, accuracy);

@@ -20,13 +20,13 @@ std::string twoDigits(double x) {
 
 }  // namespace
 
-std::string doubtOfPolygons(const ContactInterface& interface) {
+std::string doubtOfPolygons(const ContactInterface& interface, const std::string& length) {
   constexpr double noticeable = 0.02;  // of the pressure, where that is in proportion to the distance
   const double distance = interface.initialDistance().cwiseAbs().mean();
   if (!(interface.sagitta() > noticeable * distance)) return "";
   return "no circle fits the nodes to 1e-6, so the distance is that of the polygons, " + twoDigits(distance) +
-         " m in the mean; they are off the curves behind them by up to " + twoDigits(interface.sagitta()) +
-         " m, and pressures are wrong in that ratio";
+         " " + length + " in the mean; they are off the curves behind them by up to " +
+         twoDigits(interface.sagitta()) + " " + length + ", and pressures are wrong in that ratio";
 }
 
 void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model) {

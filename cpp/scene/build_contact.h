@@ -15,6 +15,6 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
 
 /// In words, with what it does: distances that are not larger than what polygons are off the curves behind
 /// them. Empty where there is nothing to say.
-std::string doubtOfPolygons(const ContactInterface& interface);
+std::string doubtOfPolygons(const ContactInterface& interface, const std::string& length);
 
 }  // namespace mortier

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "scene/document.h"
+#include "time/nodal_forces.h"
 
 namespace mortier {
 namespace {
@@ -18,11 +19,7 @@ bool isSupported(const Body& body, int label) {
 
 bool isInContact(const Model& model, int body, int label) {
   return std::any_of(model.interfaces.begin(), model.interfaces.end(),
-                     [&](const ContactInterface& interface) {
-                       const auto& [nonmortar, mortar, coupling] = interface.pair();
-                       return (nonmortar.body == body && nonmortar.label == label) ||
-                              (mortar.body == body && mortar.label == label);
-                     });
+                     [&](const ContactInterface& interface) { return isSide(interface, body, label); });
 }
 
 }  // namespace
@@ -39,7 +36,9 @@ std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model
     const std::string label = "label " + std::to_string(quantity.label) + " of body " + body.name();
     if (quantity.kind == Kind::reaction && !isSupported(body, quantity.label))
       refuse(label + " has no prescribed displacement, expected one that has: supports alone react");
-    if (quantity.kind == Kind::contactForce && !isInContact(model, quantity.body, quantity.label))
+    const bool isOfContact = quantity.kind == Kind::contactForce || quantity.kind == Kind::largestPressure ||
+                             quantity.kind == Kind::contactLength;
+    if (isOfContact && !isInContact(model, quantity.body, quantity.label))
       refuse(label + " is no side of a contact, expected one");
     if (quantity.kind == Kind::displacement) {
       quantity.mean =

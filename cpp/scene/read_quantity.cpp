@@ -21,16 +21,14 @@ QuantityDescription readQuantity(const Node& node, const SceneDescription& scene
     if (other.name == quantity.name)
       table.reject("name", "a name of its own, there is one at " + other.where);
 
-  const std::pair<const char*, Kind> kinds[] = {{"reaction", Kind::reaction},
-                                                {"contact_force", Kind::contactForce},
-                                                {"displacement", Kind::displacement}};
   int given = 0;
-  for (const auto& [key, kind] : kinds) {
+  for (size_t k = 0; k < quantityKeys.size(); ++k) {
+    const std::string& key = quantityKeys[k];
     const Node* what = table.find(key);
     if (what == nullptr) continue;
     ++given;
-    quantity.kind = kind;
-    const TableReader of(*what, std::string("quantity.") + key, "quantity " + quantity.name + ": " + key);
+    const Kind kind = quantity.kind = static_cast<Kind>(k);
+    const TableReader of(*what, "quantity." + key, "quantity " + quantity.name + ": " + key);
     quantity.body = of.string("body");
     if (bodyIndex(scene, quantity.body) < 0) {
       Keys names;
@@ -41,16 +39,20 @@ QuantityDescription readQuantity(const Node& node, const SceneDescription& scene
       if (of.find("label") != nullptr) of.reject("label", "either label or point");
       quantity.point = of.point("point");
       quantity.where = of.find("point")->where;
-    } else {
+    } else if (ofLabel(kind)) {
       std::tie(quantity.label, quantity.labelName) =
           std::pair(of.label("label").number, of.label("label").name);
       quantity.where = of.find("label")->where;
     }
   }
   if (given != 1)
-    throw InputError(
-        table.message(node.where, std::string(given == 0 ? "none" : "more than one") +
-                                      " of reaction, contact_force and displacement, expected one"));
+    throw InputError(table.message(node.where, std::string(given == 0 ? "none" : "more than one") + " of " +
+                                                   joined(quantityKeys) + ", expected one"));
+  if (!hasComponent(quantity.kind)) {
+    for (const char* key : {"component", "about"})
+      if (table.find(key) != nullptr) table.reject(key, "it only beside forces and displacements");
+    return quantity;
+  }
   const bool isForce = quantity.kind != Kind::displacement;
   quantity.component = static_cast<Quantity::Component>(
       table.oneOf("component", isForce ? componentWords : Keys{componentWords[0], componentWords[1]}));

@@ -22,7 +22,7 @@ void forEachLabel(SceneDescription& scene, const NumberLabel& boundary, const Nu
     for (SideDescription* side : {&contact.nonmortar, &contact.mortar})
       boundary(bodyIndex(scene, side->body), side->label, side->labelName, side->where);
   for (QuantityDescription& q : scene.quantities)
-    if (!q.point) boundary(bodyIndex(scene, q.body), q.label, q.labelName, q.where);
+    if (ofLabel(q.kind) && !q.point) boundary(bodyIndex(scene, q.body), q.label, q.labelName, q.where);
 }
 
 std::vector<const TriangleMesh*> pointersTo(const std::vector<TriangleMesh>& meshes) {

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "scene/document.h"
+#include "scene/measures.h"
 #include "scene/overrides.h"
 #include "scene/read_body.h"
 #include "scene/read_contact.h"
@@ -78,8 +79,10 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   for (const std::string& setting : settings) {
     applyOverride(document, setting);
   }
-  const TableReader root(document, "", "");
   SceneDescription scene;
+  scene.units = readUnits(document);
+  convertMeasures(document, scene.units);
+  const TableReader root(document, "", "");
   scene.path = path;
   scene.title = root.string("title", "");
   scene.plane = static_cast<Plane>(root.oneOf("plane", planeWords, 0));

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/units.h"
 #include "contact/interface.h"
 #include "material/plane_strain.h"
 #include "mesh/read.h"
@@ -100,6 +101,7 @@ struct AccuracyGoal {
 struct SceneDescription {
   std::string path;   ///< the file
   std::string title;  ///< may be empty
+  Units units;        ///< of all numbers below
   Plane plane = Plane::stress;
   int degree = 1;  ///< of the displacements: 1 or 2
   std::vector<BodyDescription> bodies;

@@ -15,6 +15,10 @@ inline const Keys projectionWords(std::begin(projectionNames), std::end(projecti
 inline const Keys schemeWords{"backward-euler", "crank-nicolson", "sdirk2"};                // Scheme
 inline const Keys methodWords{"newton", "penalty-duality"};                                 // Method
 inline const Keys linearWords{"multifrontal", "suitesparse"};                               // LinearEngine
+inline const Keys quantityKeys{"reaction",                                                  // Quantity::Kind
+                               "contact_force",     "displacement",   "stored_energy",
+                               "dissipated_energy", "work",           "external_work",
+                               "largest_pressure",  "contact_length", "largest_mises"};
 inline const Keys componentWords{"x", "y", "moment"};  // Quantity::Component
 
 }  // namespace mortier

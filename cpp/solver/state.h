@@ -8,10 +8,18 @@
 
 namespace mortier {
 
+/// What was done on a body since the run began [J/m]; 0 where it is not counted (time/count_work.cpp).
+struct WorkDone {
+  double external = 0;    ///< by loads and supports
+  double contact = 0;     ///< by other bodies
+  double dissipated = 0;  ///< integral of s : G, what the body has turned into heat
+};
+
 struct BodyState {
   Vector displacement;        ///< 2 node + component [m]
   Matrix stress;              ///< components x points, basis of material/stress.h [Pa]
   Matrix viscoplasticStrain;  ///< components x points [-]
+  WorkDone work = {};
 };
 
 struct State {
@@ -84,6 +92,7 @@ struct StepReport {
   double energy = 0;                ///< elastic, integral of s : E^-1 s / 2 [J/m]
   double viscoplasticFraction = 0;  ///< share of the area beyond yield
   Certificate certificate;
+  std::vector<double> quantities;  ///< values of those of the plan (time/quantity.h)
 };
 
 }  // namespace mortier

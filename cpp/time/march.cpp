@@ -102,6 +102,9 @@ void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& p
     compareActive(before, taker.active(), report);
     measure(model, state, report);
     raise(run.peaks, report);
+    report.quantities = evaluate(plan.quantities, model, state);
+    for (size_t i = 0; i < report.quantities.size(); ++i)
+      run.quantities[i].add(report.quantities[i], report.time);
     observer(state, report);
   }
 }
@@ -112,6 +115,16 @@ bool balanced(const Model& model, const State& state) {
     if (!model.bodies[b].load(state.time).isZero(0) || !state.bodies[b].displacement.isZero(0)) return false;
   return std::all_of(state.gap.begin(), state.gap.end(),
                      [](const Vector& gap) { return (gap.array() <= 0).all(); });
+}
+
+/// Reports the state in which a run begins.
+void reportStart(const Model& model, const State& state, MarchMemory& memory, const TimePlan& plan,
+                 const Observer& observer) {
+  StepReport report;
+  report.quantities = evaluate(plan.quantities, model, state);
+  for (const double value : report.quantities)
+    memory.run.quantities.push_back(QuantityRange::from(value, state.time));
+  observer(state, report);
 }
 
 /// Makes ready for steps chosen by their error: loads of the first moment act, and their scales are found.
@@ -158,16 +171,17 @@ RunReport march(const Model& model, State& state, MarchMemory& memory, const Tim
   const bool begun = memory.run.steps > 0 || memory.controller.trial > 0;
   if (!begun) memory.begin = state.time;
   if (!begun && controlled) prepare(model, state, memory, plan, options);
-  if (!begun) observer(state, StepReport{});
+  if (!begun) reportStart(model, state, memory, plan, observer);
   Controller controller(model, plan, memory);
+  const bool countsWork = std::any_of(plan.quantities.begin(), plan.quantities.end(), needsWork);
   while (true) {
     const auto begin = Clock::now();
-    StepTaker taker(model, state, memory, plan.scheme, options);
+    StepTaker taker(model, state, memory, plan.scheme, options, countsWork);
     memory.run.solveSeconds += secondsSince(begin);
     go(model, state, memory, plan, taker, controller, observer);
     if (!controlled || memory.run.status != Status::converged || !controller.beginAgain(state))
       return memory.run;
-    observer(state, StepReport{});
+    reportStart(model, state, memory, plan, observer);
   }
 }
 

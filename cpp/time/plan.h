@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "time/breaks.h"
+#include "time/quantity.h"
 #include "time/scheme.h"
 
 namespace mortier {
@@ -18,6 +19,7 @@ struct TimePlan {
   std::vector<double> breaks = {};
   /// Data in time: no step chosen by its error jumps over a part of one.
   std::vector<Course> data = {};
+  std::vector<Quantity> quantities = {};  ///< that are evaluated at the end of every step
   /// Whether steps are chosen by their error; otherwise they are equal.
   [[nodiscard]] bool controlled() const { return tolerance > 0; }
 };

@@ -1,12 +1,14 @@
 #include "time/quantity.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <map>
-#include <optional>
 #include <utility>
 
+#include "material/stress.h"
 #include "mesh/boundary_line.h"
+#include "time/nodal_forces.h"
 
 namespace mortier {
 namespace {
@@ -22,26 +24,11 @@ struct Wrench {
   }
 };
 
-/// C' p on a body (dofs): from one interface, or from those that have this label of it as a side.
-Vector contactForces(const Model& model, const State& state, int body, std::optional<int> label) {
-  Vector forces = Vector::Zero(model.bodies[body].dofs());
-  for (size_t k = 0; k < model.interfaces.size(); ++k) {
-    const ContactInterface& interface = model.interfaces[k];
-    const auto& [nonmortar, mortar, coupling] = interface.pair();
-    const auto is = [&](const ContactSide& side) {
-      return side.body == body && (!label || side.label == *label);
-    };
-    if (is(nonmortar)) forces += interface.C1().transpose() * state.contactForce[k];
-    if (is(mortar)) forces += interface.C2().transpose() * state.contactForce[k];
-  }
-  return forces;
-}
-
 /// What the supports of each label exert on the body.
 std::map<int, Wrench> reactions(const Model& model, const State& state, int b) {
   const Body& body = model.bodies[b];
   const Vector forces = body.internalForce(state.bodies[b].stress) +
-                        contactForces(model, state, b, std::nullopt) - body.load(state.time);
+                        contactForces(model, state.contactForce, b) - body.load(state.time);
   std::map<int, Wrench> result;
   for (const NodeSupport& support : body.supports().nodes()) {
     const Point force = forces.segment<2>(2 * support.node);
@@ -59,7 +46,7 @@ std::map<int, Wrench> reactions(const Model& model, const State& state, int b) {
 }
 
 Wrench contactOn(const Model& model, const State& state, int body, int label) {
-  const Vector forces = contactForces(model, state, body, label);
+  const Vector forces = contactForces(model, state.contactForce, body, label);
   const ElementNodes& nodes = model.bodies[body].elementNodes();
   const std::vector<int>& labels = model.bodies[body].mesh().boundaryLabels;
   Wrench result;
@@ -78,33 +65,143 @@ double componentOf(const Wrench& wrench, const Quantity& quantity) {
   return wrench.force[quantity.component == Component::x ? 0 : 1];
 }
 
+double storedEnergy(const Body& body, const Matrix& stress) {
+  Matrix strain;
+  body.material().elasticStrain(stress, strain);
+  double energy = 0;
+  for (int i = 0; i < body.points(); ++i) energy += body.weights()[i] / 2 * stress.col(i).dot(strain.col(i));
+  return energy;
+}
+
+/// The largest value of a field, and where it is.
+struct Largest {
+  double value = 0;
+  std::optional<Point> place = {};
+  void raise(double other, const Point& at) {
+    if (other > value) *this = {other, at};
+  }
+};
+
+Largest largestPressure(const Model& model, const State& state, const Quantity& quantity) {
+  Largest largest;
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    const ContactInterface& interface = model.interfaces[k];
+    if (!isSide(interface, quantity.body, quantity.label)) continue;
+    const std::vector<Point>& places = model.bodies[interface.pair().nonmortar.body].elementNodes().places;
+    const Vector pressure = interface.contactPressure(state.contactForce[k]);
+    for (Eigen::Index i = 0; i < pressure.size(); ++i)
+      largest.raise(pressure[i], places[interface.nonmortarNodes()[i]]);
+  }
+  return largest;
+}
+
+Largest largestMises(const Model& model, const State& state, const Quantity& quantity) {
+  Largest largest;
+  const std::vector<Point> places = model.bodies[quantity.body].places();
+  const Matrix& stress = state.bodies[quantity.body].stress;
+  for (Eigen::Index i = 0; i < stress.cols(); ++i) largest.raise(vonMises(stress.col(i)), places[i]);
+  return largest;
+}
+
+/// Integral of the row functions of the nodes that press, which sum to one.
+double contactLength(const Model& model, const State& state, const Quantity& quantity) {
+  double length = 0;
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    const ContactInterface& interface = model.interfaces[k];
+    if (!isSide(interface, quantity.body, quantity.label)) continue;
+    const Vector lengths = interface.mass() * Vector::Ones(interface.rows());
+    for (Eigen::Index i = 0; i < lengths.size(); ++i)
+      if (state.contactForce[k][i] > 0) length += lengths[i];
+  }
+  return length;
+}
+
 }  // namespace
 
-std::string Quantity::unit() const {
-  if (kind == Kind::displacement) return "m";
-  return component == Component::moment ? "N" : "N/m";
+std::string Quantity::unit(const Units& units) const {
+  switch (kind) {
+    case Kind::displacement:
+    case Kind::contactLength:
+      return units.length;
+    case Kind::largestPressure:
+    case Kind::largestMises:
+      return units.stress;
+    case Kind::reaction:
+    case Kind::contactForce:
+      return component == Component::moment ? units.force : units.forcePerDepth();
+    default:
+      return units.energyPerDepth();
+  }
+}
+
+bool ofLabel(Quantity::Kind kind) {
+  using Kind = Quantity::Kind;
+  return kind == Kind::reaction || kind == Kind::contactForce || kind == Kind::displacement ||
+         kind == Kind::largestPressure || kind == Kind::contactLength;
+}
+
+bool hasComponent(Quantity::Kind kind) {
+  using Kind = Quantity::Kind;
+  return kind == Kind::reaction || kind == Kind::contactForce || kind == Kind::displacement;
+}
+
+bool needsWork(const Quantity& quantity) {
+  using Kind = Quantity::Kind;
+  return quantity.kind == Kind::dissipatedEnergy || quantity.kind == Kind::work ||
+         quantity.kind == Kind::externalWork;
 }
 
 std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Model& model,
                              const State& state) {
+  using Kind = Quantity::Kind;
   std::map<int, std::map<int, Wrench>> reactionsOf;
-  std::vector<double> values;
-  for (const Quantity& quantity : quantities) {
-    if (quantity.kind == Quantity::Kind::displacement) {
-      const int component = quantity.component == Quantity::Component::x ? 0 : 1;
-      double value = 0;
-      for (const auto& [node, weight] : quantity.mean)
-        value += weight * state.bodies[quantity.body].displacement[2 * node + component];
-      values.push_back(value);
-    } else if (quantity.kind == Quantity::Kind::contactForce) {
-      values.push_back(componentOf(contactOn(model, state, quantity.body, quantity.label), quantity));
-    } else {
-      if (reactionsOf.count(quantity.body) == 0)
-        reactionsOf[quantity.body] = reactions(model, state, quantity.body);
-      values.push_back(componentOf(reactionsOf[quantity.body][quantity.label], quantity));
+  const auto reaction = [&](const Quantity& quantity) {
+    if (reactionsOf.count(quantity.body) == 0)
+      reactionsOf[quantity.body] = reactions(model, state, quantity.body);
+    return componentOf(reactionsOf[quantity.body][quantity.label], quantity);
+  };
+  const auto displacement = [&](const Quantity& quantity) {
+    const int component = quantity.component == Quantity::Component::x ? 0 : 1;
+    double value = 0;
+    for (const auto& [node, weight] : quantity.mean)
+      value += weight * state.bodies[quantity.body].displacement[2 * node + component];
+    return value;
+  };
+  const auto valueOf = [&](const Quantity& quantity) {
+    const BodyState& body = state.bodies[quantity.body];
+    switch (quantity.kind) {
+      case Kind::displacement:
+        return displacement(quantity);
+      case Kind::contactForce:
+        return componentOf(contactOn(model, state, quantity.body, quantity.label), quantity);
+      case Kind::storedEnergy:
+        return storedEnergy(model.bodies[quantity.body], body.stress);
+      case Kind::dissipatedEnergy:
+        return body.work.dissipated;
+      case Kind::work:
+        return body.work.external + body.work.contact;
+      case Kind::externalWork:
+        return body.work.external;
+      case Kind::largestPressure:
+        return largestPressure(model, state, quantity).value;
+      case Kind::contactLength:
+        return contactLength(model, state, quantity);
+      case Kind::largestMises:
+        return largestMises(model, state, quantity).value;
+      default:
+        return reaction(quantity);
     }
-  }
+  };
+  std::vector<double> values;
+  values.reserve(quantities.size());
+  for (const Quantity& quantity : quantities) values.push_back(valueOf(quantity));
   return values;
+}
+
+std::optional<Point> placeOf(const Quantity& quantity, const Model& model, const State& state) {
+  if (quantity.kind == Quantity::Kind::largestPressure) return largestPressure(model, state, quantity).place;
+  if (quantity.kind == Quantity::Kind::largestMises) return largestMises(model, state, quantity).place;
+  return std::nullopt;
 }
 
 std::vector<std::pair<int, double>> meanAt(const TriangleMesh& mesh, const Point& point) {

@@ -1,4 +1,5 @@
-// Numbers that a user asks for, of every state of a run: forces of supports and of contact, displacements.
+// Numbers that a user asks for, of every state of a run: forces of supports and of contact, displacements,
+// energies and work, largest values.
 //
 // The forces that supports exert are what is left of equilibrium at the nodes that they hold,
 //   r = sum |T| B' s + C' p - F.
@@ -6,17 +7,30 @@
 // its own supports and those of all labels add up to all of r.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/units.h"
 #include "solver/model.h"
 #include "solver/state.h"
 
 namespace mortier {
 
 struct Quantity {
-  enum class Kind { reaction, contactForce, displacement };
+  enum class Kind {
+    reaction,
+    contactForce,
+    displacement,
+    storedEnergy,      ///< integral of s : E^-1 s / 2 over the body
+    dissipatedEnergy,  ///< integral of s : G over the body and the time since the run began
+    work,              ///< of all forces on the body since then, those of contact included
+    externalWork,      ///< of its loads and supports
+    largestPressure,   ///< of the contact pressure, 0 where there is none
+    contactLength,     ///< of the part of Gamma_C where nodes press
+    largestMises
+  };
   enum class Component { x, y, moment };
 
   std::string name;
@@ -28,12 +42,22 @@ struct Quantity {
   std::vector<std::pair<int, double>> mean =
       {};  ///< of a displacement: nodes and their weights, which sum to one
 
-  /// N/m, N (a moment per metre of depth) or m.
-  [[nodiscard]] std::string unit() const;
+  /// N/m, N (a moment per metre of depth), m, J/m or Pa, or what they are in other units.
+  [[nodiscard]] std::string unit(const Units& units = {}) const;
 };
+
+/// Whether a kind is of one label of a body.
+bool ofLabel(Quantity::Kind kind);
+/// Whether a quantity has a component.
+bool hasComponent(Quantity::Kind kind);
+/// Whether the work done on bodies must be counted for it.
+bool needsWork(const Quantity& quantity);
 
 /// The value of each, in the units above. Forces act on the body.
 std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Model& model, const State& state);
+
+/// Where a largest value is, as meshed [m]; none for other quantities, and where there is no contact.
+std::optional<Point> placeOf(const Quantity& quantity, const Model& model, const State& state);
 
 /// The displacement at a point of a mesh as a mean of those of nodes; empty where the point is outside.
 std::vector<std::pair<int, double>> meanAt(const TriangleMesh& mesh, const Point& point);

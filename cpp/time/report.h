@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "solver/state.h"
 
@@ -16,6 +17,27 @@ struct Peak {
     if (!(other > value)) return;
     value = other;
     time = when;
+  }
+};
+
+/// The values of a quantity over a run, the initial state included, and when the extremes came first.
+struct QuantityRange {
+  double start = 0;
+  double smallest = 0;
+  double smallestTime = 0;  ///< [s]
+  double largest = 0;
+  double largestTime = 0;
+
+  static QuantityRange from(double value, double time) { return {value, value, time, value, time}; }
+  void add(double value, double time) {
+    if (value < smallest) {
+      smallest = value;
+      smallestTime = time;
+    }
+    if (value > largest) {
+      largest = value;
+      largestTime = time;
+    }
   }
 };
 
@@ -39,7 +61,8 @@ struct RunReport {
   SpecialConditions special;  ///< of contact
   Certificate worst;          ///< the largest residuals of any step
   Peaks peaks;
-  std::map<std::string, int> rungs;  ///< how many steps took which (StepReport::rung)
+  std::vector<QuantityRange> quantities;  ///< of the plan
+  std::map<std::string, int> rungs;       ///< how many steps took which (StepReport::rung)
 };
 
 }  // namespace mortier

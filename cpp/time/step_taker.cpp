@@ -8,8 +8,13 @@
 namespace mortier {
 
 StepTaker::StepTaker(const Model& model, State& state, MarchMemory& memory, Scheme scheme,
-                     const SolverOptions& options)
-    : model_(model), state_(state), memory_(memory), scheme_(scheme), system_(model, options) {
+                     const SolverOptions& options, bool countsWork)
+    : model_(model),
+      state_(state),
+      memory_(memory),
+      scheme_(scheme),
+      system_(model, options),
+      countsWork_(countsWork) {
   if (memory.run.steps > 0) system_.resume(memory.solver);
 }
 
@@ -137,6 +142,7 @@ double StepTaker::turnedShare() const {
 }
 
 void StepTaker::commit() {
+  if (countsWork_) countWork();
   state_.gap = solvedGaps(model_, state_, solutions_.back());
   memory_.increments.clear();
   memory_.timeStep = t1_ - state_.time;

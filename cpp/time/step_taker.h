@@ -13,9 +13,10 @@ namespace mortier {
 
 class StepTaker {
  public:
+  /// \param countsWork  whether commit() adds to the work done on bodies (count_work.cpp)
   /// \throws UnheldBodyError when nothing holds a body.
   StepTaker(const Model& model, State& state, MarchMemory& memory, Scheme scheme,
-            const SolverOptions& options);
+            const SolverOptions& options, bool countsWork = false);
 
   /// Solves the step from the state to `t1`. The state is not changed before commit().
   StepOutcome attempt(double t1, Effort effort = Effort::usual) { return attempt(t1, scheme_, effort); }
@@ -76,6 +77,8 @@ class StepTaker {
   void limit(const Fields& rates, Fields& missed) const;
   [[nodiscard]] Matrix stressWithin(size_t body, double fraction) const;
   [[nodiscard]] double turnedShare() const;
+  [[nodiscard]] double dissipated(size_t body) const;
+  void countWork();
   [[nodiscard]] std::vector<Matrix> onwards() const;
   [[nodiscard]] double share(const Matrix& (*stressOf)(const StepTaker&, size_t)) const;
 
@@ -84,6 +87,7 @@ class StepTaker {
   MarchMemory& memory_;
   Scheme scheme_;
   StepSystem system_;
+  bool countsWork_;
   // Of the last attempt:
   Tableau tableau_;
   std::vector<Iterate> solutions_;          ///< by stage

@@ -77,8 +77,8 @@ class Tutorial(InFolder):
         self.assertIn("0 errors, 0 warnings", told["mortier check press.toml"])
         # What the page shows, but for times, which are measured, and the last digits,
         # which meshes of another Gmsh change.
-        shown = re.search(r"force (-?[\d.]+) N/m", TUTORIAL.read_text())[1]
-        found = re.search(r"force (-?[\d.]+) N/m", told["mortier run press.toml --accuracy 0.02"])[1]
+        shown = re.search(r"force (-?[\d.]+) N/mm", TUTORIAL.read_text())[1]
+        found = re.search(r"force (-?[\d.]+) N/mm", told["mortier run press.toml --accuracy 0.02"])[1]
         self.assertAlmostEqual(float(found), float(shown), delta=1e-3 * abs(float(shown)))
         # Force against displacement, and the pressure along the line.
         with (self.folder / "out/press/history.csv").open() as text:

@@ -16,6 +16,10 @@ SCENE = str(ROOT / "scenes/compression.toml")
 STEPS = 60
 ELASTIC = "body.lower.material={young=3e11, poisson=0.3}"
 
+# Sums over the steps of the run, and ranges.
+QUANTITIES = ("quantity=[{name='work', work={body='upper'}}, {name='outside', external_work={body='lower'}}, "
+              "{name='heat', dissipated_energy={body='upper'}}, {name='m', largest_mises={body='lower'}}]")
+
 # Settings and threads of the runs that are killed. The upper body is Perzyna in all of them.
 CASES = [
     (["contact.variant=mortar"], 1),
@@ -31,6 +35,7 @@ CASES = [
     (["body.material.yield_stress=100", 'body.upper.boundary.ty="-10*min(t,0.2)"'], 2),  # most steps at rest
     (["plane=strain", "contact.variant=interpolation", "time.scheme=sdirk2", ELASTIC], 1),
     (["plane=strain", "contact.variant=mortar", "time.scheme=sdirk2", "time.tolerance=1e-6"], 2),
+    (["time.scheme=sdirk2", "time.tolerance=1e-5", QUANTITIES], 1),
 ]
 KILLS = 20
 MEASURED = {"summary.json": [["solve_time_s"], ["wall_time_s"], ["peak_memory_mib"], ["threads"]],

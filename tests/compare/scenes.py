@@ -85,11 +85,12 @@ every = 2
 
 BODY_KEYS = """\
 title = "plane strain, regions, initial stress, rollers, tables, steps by their error"
+units = "m, N, Pa"
 plane = "strain"
 [[body]]
 name = "upper"
 mesh = "upper.mesh"
-material = { young = 2e3, poisson = 0.3 }
+material = { young = "2 kPa", poisson = 0.3 }
 initial_stress = { s11 = 0.1, s22 = "-0.2*(1+x)", s12 = 0, s33 = -0.1 }
 [[body.region]]
 label = 1
@@ -126,8 +127,29 @@ contact_force = { body = "upper", label = 1 }
 component = "y"
 [[quantity]]
 name = "moves"
-displacement = { body = "upper", point = [0.5, 0.5] }
+displacement = { body = "upper", point = ["0.5 m", 0.5] }
 component = "x"
+[[quantity]]
+name = "stored"
+stored_energy = { body = "upper" }
+[[quantity]]
+name = "dissipated"
+dissipated_energy = { body = "upper" }
+[[quantity]]
+name = "work"
+work = { body = "lower" }
+[[quantity]]
+name = "from-outside"
+external_work = { body = "lower" }
+[[quantity]]
+name = "hardest"
+largest_pressure = { body = "lower", label = 3 }
+[[quantity]]
+name = "touching"
+contact_length = { body = "upper", label = 1 }
+[[quantity]]
+name = "strained"
+largest_mises = { body = "upper" }
 [time]
 end = 1
 scheme = "sdirk2"

@@ -27,6 +27,21 @@ component = "y"
 """
 
 
+ENERGIES = "".join(f"""
+[[quantity]]
+name = "{name}"
+{what}
+""" for name, what in (
+    ("upper-work", "work = { body = 'upper' }"), ("upper-stored", "stored_energy = { body = 'upper' }"),
+    ("upper-heat", "dissipated_energy = { body = 'upper' }"), ("lower-work", "work = { body = 'lower' }"),
+    ("lower-stored", "stored_energy = { body = 'lower' }"),
+    ("lower-heat", "dissipated_energy = { body = 'lower' }"),
+    ("outside", "external_work = { body = 'upper' }"),
+    ("press", "largest_pressure = { body = 'upper', label = 1 }"),
+    ("touch", "contact_length = { body = 'lower', label = 3 }"),
+    ("stress", "largest_mises = { body = 'lower' }")))
+
+
 class Quantities(OfTwoBlocks):
     def test_columns_log_and_summary(self):
         self.write(TWO_BLOCKS + ASKED)
@@ -45,6 +60,37 @@ class Quantities(OfTwoBlocks):
         self.assertRegex(run.stdout, r"\nquantities held 10 N/m, pressed -10 N/m, turns .* N, sinks -\S+ m, "
                                      r"top -\S+ m\n")
         self.assertIn("0 errors", self.mortier("check", "scene.toml").stdout)
+
+    def test_energies_and_largest_values(self):
+        self.write(TWO_BLOCKS + ENERGIES)
+        for scheme in "backward-euler", "crank-nicolson", "sdirk2":
+            run = self.mortier("run", "scene.toml", "--out", "out", "--set", f"time.scheme={scheme}",
+                               "time.steps=40")
+            rows = list(csv.DictReader(self.read("out/history.csv").splitlines()))
+            summary = json.loads(self.read("out/summary.json"))
+            final = summary["quantities"]
+            for row in rows:  # the lower body is elastic
+                value = {name.split("[")[0]: float(row[name]) for name in row if name != "rung"}
+                self.assertAlmostEqual(value["lower-work"] / value["lower-stored"], 1, delta=1e-11)
+                self.assertEqual(value["lower-heat"], 0)
+                self.assertAlmostEqual(value["stress"] / value["von_mises_max"], 1, delta=1e-11)
+                self.assertAlmostEqual(value["press"] / value["max_pressure"], 1, delta=1e-12)
+                self.assertAlmostEqual(value["touch"], 1, delta=1e-12)
+            self.assertEqual(final["stress"]["unit"], "Pa")
+            self.assertEqual(len(final["stress"]["at"]), 2)
+            self.assertNotIn("at", final["touch"])
+            self.assertEqual(final["lower-work"]["unit"], "J/m")
+            balance = final["upper-stored"]["value"] + final["upper-heat"]["value"]
+            self.assertGreater(final["upper-heat"]["value"], 0.5 * balance)
+            self.assertAlmostEqual(balance / final["upper-work"]["value"], 1,
+                                   delta=0.03 if scheme == "backward-euler" else 1e-3)
+            for name, quantity in final.items():
+                column = [float(row[f"{name}[{quantity['unit']}]"]) for row in rows] + [quantity["start"]]
+                self.assertEqual(quantity["largest"]["value"], max(column))
+                self.assertEqual(quantity["smallest"]["value"], min(column))
+            self.assertEqual(final["press"]["largest"]["time"], 1)
+            self.assertRegex(run.stdout, r"\nquantities .* stress \S+ Pa at \(\S+, \S+\)\n"
+                                         r"in the run .*press 0 \(t = 0 s\) to 10 \(t = 1 s\)")
 
     def test_what_cannot_be_asked_for(self):
         self.write(TWO_BLOCKS + ASKED)
@@ -68,7 +114,17 @@ class Quantities(OfTwoBlocks):
                                            "there is one at"),
                 ("quantity.held.name=a,b", "quantity a,b: name = \"a,b\", expected letters, digits, _ and -"),
                 ("quantity.held.displacement={body='upper', label=3}",
-                 "quantity held: more than one of reaction, contact_force")):
+                 "quantity held: more than one of reaction, contact_force"),
+                ("quantity.held.work={body='upper'}", "quantity held: more than one of reaction"),
+                ("quantity=[{name='a', work={body='upper'}, component='x'}]",
+                 "quantity a: component = \"x\", expected it only beside forces and displacements"),
+                ("quantity=[{name='a', stored_energy={body='upper', label=1}}]", "unknown key label"),
+                ("quantity=[{name='a', stored_energy={body='none'}}]", "expected one of upper, lower"),
+                ("quantity=[{name='a', contact_length={body='upper', label=3}}]",
+                 "quantity a: label 3 of body upper is no side of a contact"),
+                ("quantity=[{name='a', largest_pressure={body='upper', label=2}}]",
+                 "quantity a: label 2 of body upper is no side of a contact"),
+                ("quantity=[{name='a', component='x'}]", "quantity a: none of reaction, contact_force")):
             with self.subTest(setting):
                 errors = self.mortier("run", "scene.toml", "--quiet", "--set", setting, code=2).stderr
                 self.assertIn(message, errors)

@@ -114,6 +114,71 @@ TEST(Quantity, contactForcesPassThroughABody) {
               -value(Kind::contactForce, 1, 3, Component::moment), 1e-12);
 }
 
+// Blocks that are held sideways: the pressure of contact is that of the load.
+TEST(Quantity, ofContactAndTheLargestStress) {
+  Model model;
+  Conditions pressed;
+  pressed.displacements = {{4, alongX, constant(0)}, {2, alongX, constant(0)}};
+  pressed.tractions = {{3, alongY, [](double, double, double t) { return -2 * t; }}};
+  Conditions held = pressed;
+  held.tractions.clear();
+  held.displacements.push_back({1, alongY, constant(0)});
+  model.bodies.emplace_back("upper", crissCrossMesh({{0, 0}, {3, 1}, 3, 1}), elasticMaterial({100, 0}),
+                            pressed);
+  model.bodies.emplace_back("lower", crissCrossMesh({{0, -1}, {3, 0}, 5, 1}), elasticMaterial({100, 0}),
+                            held);
+  addInterface(model, {{0, 1}, {1, 3}, CouplingKind::mortar});
+  const State state = solved(model);
+  const Quantity pressure{"p", Kind::largestPressure, 1, 3};
+  const Quantity length{"l", Kind::contactLength, 0, 1};
+  const Quantity mises{"m", Kind::largestMises, 1};
+  const std::vector<double> values = evaluate({pressure, length, mises}, model, state);
+  EXPECT_NEAR(values[0], 2, 1e-12);
+  EXPECT_NEAR(values[1], 3, 1e-12);
+  EXPECT_NEAR(values[2], 2, 1e-12);
+  EXPECT_NEAR(placeOf(pressure, model, state)->y(), 0, 1e-15);
+  const Point place = placeOf(mises, model, state).value();
+  EXPECT_TRUE(place.x() > 0 && place.x() < 3 && place.y() > -1 && place.y() < 0);
+  EXPECT_EQ(pressure.unit(), "Pa");
+  EXPECT_EQ(length.unit(Units::from("mm, N, MPa")), "mm");
+  // With one node alone in contact: the length that its row function covers.
+  State touching = state;
+  touching.contactForce[0].setZero();
+  EXPECT_EQ(evaluate({pressure, length}, model, touching), (std::vector<double>{0, 0}));
+  EXPECT_FALSE(placeOf(pressure, model, touching));
+  touching.contactForce[0][1] = 1;
+  EXPECT_NEAR(evaluate({length}, model, touching)[0], 1, 1e-12);
+  EXPECT_GT(evaluate({pressure}, model, touching)[0], 1);
+}
+
+// The range of a run has the initial state in it, and when the extremes came first.
+TEST(Quantity, rangesAreThoseOfTheRun) {
+  Conditions conditions;
+  conditions.displacements = {{1, alongY, constant(0)}, {4, alongX, constant(0)}};
+  conditions.tractions = {{3, alongY, [](double, double, double t) { return 1 - (t - 1) * (t - 1); }}};
+  Model model;
+  model.bodies.emplace_back("block", crissCrossMesh({{0, 0}, {1, 1}, 2, 2}), elasticMaterial({100, 0.3}),
+                            conditions);
+  State state = initialState(model);
+  const TimePlan plan{
+      .end = 3,
+      .steps = 6,
+      .quantities = {{"r", Kind::reaction, 0, 1, Component::y}, {"e", Kind::storedEnergy, 0}}};
+  std::vector<std::vector<double>> seen;
+  const RunReport report = march(model, state, plan, {}, [&](const State& now, const StepReport& step) {
+    seen.push_back(step.quantities);
+    EXPECT_EQ(step.quantities, evaluate(plan.quantities, model, now));
+  });
+  ASSERT_EQ(seen.size(), 7);
+  const QuantityRange& force = report.quantities[0];
+  EXPECT_EQ(force.start, 0);
+  EXPECT_NEAR(force.smallest, -1, 1e-13);
+  EXPECT_EQ(force.smallestTime, 1);
+  EXPECT_NEAR(force.largest, 3, 1e-12);
+  EXPECT_EQ(force.largestTime, 3);
+  EXPECT_EQ(report.quantities[1].smallestTime, 0);
+}
+
 // Weights reproduce linear fields: at a point, and in the mean over a label with edges of any length.
 TEST(Quantity, displacementsAreThoseOfThePoint) {
   TriangleMesh mesh = rectangleMesh({{0, 0}, {2, 1}, 5, 3, Point(0, 0), {3, 2}}, Cut::rising);

@@ -133,10 +133,11 @@ TEST_F(Output, gapIsPositiveApart) {
 }
 
 TEST_F(Output, historyHasAsManyColumnsAsItsHeader) {
-  History history(path, std::vector<Quantity>());
+  History history(path, {Quantity{"q"}}, Units::from("mm, N, MPa"));
   StepReport report;
   report.penetration = 1.25e-18;
-  history.add(report, {});
+  report.quantities = {7};
+  history.add(report);
   history.close();
   std::istringstream text(contentOf(path + "/history.csv"));
   std::string header;
@@ -145,6 +146,8 @@ TEST_F(Output, historyHasAsManyColumnsAsItsHeader) {
   std::getline(text, row);
   EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(row.begin(), row.end(), ','));
   EXPECT_NE(row.find(",1.25e-18,"), std::string::npos);
+  EXPECT_NE(header.find(",max_pressure[MPa],"), std::string::npos);
+  EXPECT_NE(header.find(",q[N/mm]"), std::string::npos);
 }
 
 TEST_F(Output, summaryHasItsKeys) {
@@ -185,7 +188,7 @@ TEST_F(Output, summaryThatIsNotFiniteIsNotWritten) {
 TEST(Log, rowsStandUnderTheirHeader) {
   const Blocks blocks;
   const std::string header = logHeader(blocks.facts, blocks.model);
-  const std::string titles = logStepsHeader();
+  const std::string titles = logStepsHeader({});
   StepReport report;
   report.step = 11;
   report.active = 18;

@@ -1,0 +1,75 @@
+// The work that is done on bodies, step by step, where it is asked for.
+//
+// Every step satisfies B du = E^-1 (s1 - s0) + e, e its viscoplastic strain. Multiplied by the mean of the
+// stresses at both ends,
+//   1/2 (f0 + f1) . du = U1 - U0 + 1/2 sum |T| (s0 + s1) : e,   f = sum |T| B' s,
+// so the work of all forces on a body is taken as that of their means (trapezoidal rule, which is exact for
+// forces that are linear in the displacement), and in elastic bodies it is what is stored, to rounding. The
+// dissipation takes the weights of the scheme, by which it is never negative:
+//   D1 - D0 = sum |T| k sum b_i s_i : G_i.
+// docs/theory.md says what is left between both where bodies flow.
+#include "time/nodal_forces.h"
+#include "time/step_taker.h"
+
+namespace mortier {
+namespace {
+
+/// r . du, r the part of `forces` along the directions that supports hold.
+double workOfSupports(const Body& body, const Vector& forces, const Vector& du) {
+  double work = 0;
+  for (const NodeSupport& support : body.supports().nodes()) {
+    const Point force = forces.segment<2>(2 * support.node);
+    const Point motion = du.segment<2>(2 * support.node);
+    const Point& n = support.directions[0];
+    work += support.count == 2 ? force.dot(motion) : n.dot(force) * n.dot(motion);
+  }
+  return work;
+}
+
+/// sum |T| s : e, of the points that flow: elsewhere e is rounding.
+double product(const Body& body, const Matrix& stress, const Matrix& strain) {
+  double sum = 0;
+  for (int i = 0; i < body.points(); ++i)
+    if (body.material().flows(stress, i)) sum += body.weights()[i] * stress.col(i).dot(strain.col(i));
+  return sum;
+}
+
+}  // namespace
+
+/// sum b_i k s_i : G_i of the attempt.
+double StepTaker::dissipated(size_t b) const {
+  const Body& body = model_.bodies[b];
+  if (body.material().linear()) return 0;
+  const BodyIterate& end = solutions_.back().bodies[b];
+  Matrix elastic;
+  body.material().elasticStrain(end.stress - state_.bodies[b].stress, elastic);
+  double sum = product(body, end.stress, end.strain - elastic);  // of the last stage: a_ss k G_s
+  const Stage& last = tableau_.stages.back();
+  for (size_t j = 0; j < last.before.size(); ++j) {
+    const bool atStart = tableau_.explicitFirst && j == 0;
+    const size_t stage = tableau_.explicitFirst ? j - 1 : j;
+    const Matrix& stress = atStart ? state_.bodies[b].stress : solutions_[stage].bodies[b].stress;
+    sum += last.before[j] * (t1_ - state_.time) * product(body, stress, rates_[j][b]);
+  }
+  return sum;
+}
+
+void StepTaker::countWork() {
+  for (size_t b = 0; b < model_.bodies.size(); ++b) {
+    const Body& body = model_.bodies[b];
+    const int index = static_cast<int>(b);
+    const Vector du = solutions_.back().bodies[b].increment.value();
+    const Vector contact0 = contactForces(model_, state_.contactForce, index);
+    const Vector contact1 = contactForces(model_, solutions_.back().contactForce, index);
+    const Vector load = body.load(t1_);
+    // What loads and supports exert: at the start what the stress balances, as loads may begin at once.
+    const Vector before = body.internalForce(state_.bodies[b].stress) + contact0;
+    const Vector after = body.internalForce(solutions_.back().bodies[b].stress) + contact1 - load;
+    WorkDone& work = state_.bodies[b].work;
+    work.external += (before.dot(du) + load.dot(du) + workOfSupports(body, after, du)) / 2;
+    work.contact -= (contact0.dot(du) + contact1.dot(du)) / 2;
+    work.dissipated += dissipated(b);
+  }
+}
+
+}  // namespace mortier

@@ -1,0 +1,26 @@
+#include "time/nodal_forces.h"
+
+namespace mortier {
+namespace {
+
+bool is(const ContactSide& side, int body, std::optional<int> label) {
+  return side.body == body && (!label || side.label == *label);
+}
+
+}  // namespace
+
+Vector contactForces(const Model& model, const std::vector<Vector>& p, int body, std::optional<int> label) {
+  Vector forces = Vector::Zero(model.bodies[body].dofs());
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    const ContactInterface& interface = model.interfaces[k];
+    if (is(interface.pair().nonmortar, body, label)) forces += interface.C1().transpose() * p[k];
+    if (is(interface.pair().mortar, body, label)) forces += interface.C2().transpose() * p[k];
+  }
+  return forces;
+}
+
+bool isSide(const ContactInterface& interface, int body, std::optional<int> label) {
+  return is(interface.pair().nonmortar, body, label) || is(interface.pair().mortar, body, label);
+}
+
+}  // namespace mortier

@@ -1,0 +1,159 @@
+// Forces and energies balance on every scene of scenes/: what loads, supports and contact exert on a body
+// sums to nothing, in force and moment, and what is done on a body is stored or dissipated.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "scene/build.h"
+#include "scene/initial_equilibrium.h"
+#include "scene/resolve.h"
+#include "time/nodal_forces.h"
+
+namespace mortier {
+namespace {
+
+using Kind = Quantity::Kind;
+using Component = Quantity::Component;
+
+/// Over the sum of all nodal forces, their moments over that times the size of the body.
+constexpr double forceRounding = 1e-12;
+/// Over the work and the energy that go through all bodies.
+constexpr double energyRounding = 1e-12;
+
+std::vector<std::string> shippedScenes() {
+  std::vector<std::string> scenes;
+  for (const auto& entry : std::filesystem::directory_iterator(MORTIER_SCENES))
+    if (entry.path().extension() == ".toml") scenes.push_back(entry.path().string());
+  std::sort(scenes.begin(), scenes.end());
+  return scenes;
+}
+
+/// Force and moment about the origin.
+using Wrench = Eigen::Vector3d;
+
+Wrench wrenchOf(const Vector& forces, const std::vector<Point>& places) {
+  Wrench sum = Wrench::Zero();
+  for (size_t v = 0; v < places.size(); ++v) {
+    const Point f = forces.segment<2>(2 * static_cast<Eigen::Index>(v));
+    sum += Wrench(f.x(), f.y(), places[v].x() * f.y() - places[v].y() * f.x());
+  }
+  return sum;
+}
+
+/// As users are told it.
+Wrench quantityOf(const Model& model, const State& state, Kind kind, int body, int label) {
+  std::vector<Quantity> quantities;
+  for (const Component component : {Component::x, Component::y, Component::moment})
+    quantities.push_back({"w", kind, body, label, component});
+  const std::vector<double> values = evaluate(quantities, model, state);
+  return {values[0], values[1], values[2]};
+}
+
+/// The largest sum of the forces on a body, over their size; the contact forces of all bodies are added up.
+double outOfBalance(const Model& model, const State& state, int b, Wrench& contacts, double& size) {
+  const Body& body = model.bodies[b];
+  const std::vector<Point>& places = body.elementNodes().places;
+  const Vector load = body.load(state.time);
+  Wrench sum = wrenchOf(load, places);
+  size += load.cwiseAbs().sum() + contactForces(model, state.contactForce, b).cwiseAbs().sum();
+  std::set<int> held;
+  for (const PrescribedDisplacement& support : body.conditions().displacements) held.insert(support.label);
+  for (const int label : held) {
+    const Wrench reaction = quantityOf(model, state, Kind::reaction, b, label);
+    sum += reaction;
+    size += reaction.head<2>().cwiseAbs().sum();
+  }
+  std::set<int> sides;
+  for (const ContactInterface& interface : model.interfaces)
+    for (const ContactSide& side : {interface.pair().nonmortar, interface.pair().mortar})
+      if (side.body == b) sides.insert(side.label);
+  for (const int label : sides) {
+    const Wrench contact = quantityOf(model, state, Kind::contactForce, b, label);
+    sum += contact;
+    contacts += contact;
+  }
+  double reach = 0;
+  for (const Point& x : places) reach = std::max(reach, x.norm());
+  sum[2] /= reach;
+  return sum.cwiseAbs().maxCoeff();
+}
+
+double product(const Body& body, const Matrix& a, const Matrix& b) {
+  double sum = 0;
+  for (int i = 0; i < body.points(); ++i) sum += body.weights()[i] * a.col(i).dot(b.col(i));
+  return sum;
+}
+
+class SceneBalance : public testing::TestWithParam<std::string> {};
+
+TEST_P(SceneBalance, ofForcesAndEnergies) {
+  ResolvedScene scene = resolveScene(readScene(GetParam()));
+  const Model model = buildModel(scene);
+  TimePlan plan = scene.description.time;
+  const auto bodies = static_cast<int>(model.bodies.size());
+  for (int b = 0; b < bodies; ++b) plan.quantities.push_back({"work", Kind::work, b});
+  State state = initialState(model);
+  findInitialEquilibrium(scene.description, model, state);
+
+  double worstForce = 0;
+  double largestForce = 0;
+  std::vector<double> flow(bodies, 0.0);   // means of the stress times viscoplastic strains
+  std::vector<double> euler(bodies, 0.0);  // the stress at the ends times those
+  std::vector<double> start(bodies);
+  std::vector<double> stored(bodies);
+  double energies = 0;
+  State before = state;
+  const RunReport report =
+      march(model, state, plan, scene.description.solver, [&](const State& now, const StepReport& step) {
+        Wrench contacts = Wrench::Zero();
+        double sum = 0;
+        double size = 0;
+        for (int b = 0; b < bodies; ++b) {
+          stored[b] = evaluate({{"energy", Kind::storedEnergy, b}}, model, now)[0];
+          if (step.step == 0) {
+            start[b] = stored[b];
+            continue;
+          }
+          sum = std::max(sum, outOfBalance(model, now, b, contacts, size));
+          const auto& [u0, s0, e0, work0] = before.bodies[b];
+          const auto& [u1, s1, e1, work1] = now.bodies[b];
+          flow[b] += product(model.bodies[b], s0 + s1, e1 - e0) / 2;
+          euler[b] += product(model.bodies[b], s1, e1 - e0);
+          EXPECT_GE(work1.dissipated, work0.dissipated - energyRounding * stored[b]) << "step " << step.step;
+        }
+        worstForce = std::max({worstForce, sum, contacts.head<2>().cwiseAbs().maxCoeff()});
+        largestForce = std::max(largestForce, size);
+        before = now;
+      });
+  ASSERT_EQ(report.status, Status::converged) << report.reason;
+  EXPECT_LE(worstForce, forceRounding * largestForce);
+
+  double worstEnergy = 0;
+  for (int b = 0; b < bodies; ++b) {
+    const WorkDone& work = state.bodies[b].work;
+    energies += std::abs(work.external) + std::abs(work.contact) + stored[b];
+    const double all = work.external + work.contact;
+    worstEnergy = std::max(worstEnergy, std::abs(all - (stored[b] - start[b]) - flow[b]));
+    if (plan.scheme == Scheme::backwardEuler)
+      worstEnergy = std::max(worstEnergy, std::abs(work.dissipated - euler[b]));
+  }
+  std::cout << std::filesystem::path(GetParam()).stem().string() << ": forces " << worstForce / largestForce
+            << ", energies " << worstEnergy / energies << "\n";
+  EXPECT_GT(energies, 0);
+  EXPECT_LE(worstEnergy, energyRounding * energies);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, SceneBalance, testing::ValuesIn(shippedScenes()),
+                         [](const testing::TestParamInfo<std::string>& info) {
+                           std::string name = std::filesystem::path(info.param).stem().string();
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace mortier
