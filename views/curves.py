@@ -119,8 +119,9 @@ def history(views):
         each.grid()
     for each in list(axes.flat)[len(shown):]:
         each.set_axis_off()
-    for each in axes[-1]:
+    for each in axes.flat[max(0, len(shown) - 2):len(shown)]:  # the last of each column
         each.set_xlabel(labelled("time", views[0].result.time_unit))
+        each.tick_params(labelbottom=True)
     if len(views) > 1:
         add_legend(figure)
     return figure

@@ -137,6 +137,8 @@ class Install(InSharedFolder):
             self.assertRegex(facts, r"python3 \(>= 3\.\d+\), python3 \(<< 3\.\d+\)")
         description = facts.partition("Description")[2].partition(" Maintainer")[0]
         self.assertLess(max(map(len, description.splitlines())), 82)
+        output("dpkg-deb", "-e", package, self.folder / "control")
+        self.assertTrue((self.folder / "control/prerm").stat().st_mode & 0o100)
         root = self.folder / "root"
         output("dpkg-deb", "-x", package, root)
         documents = root / "usr/share/doc/mortier"

@@ -92,8 +92,12 @@ class Pictures(InSharedFolder):
                                           column.result.history["contact_force[N/m]"])
             self.assertIn("[N/m]", history.axes[0].get_title(loc="left"))
             column.result.history["reaction[kN]"] = np.arange(4.0)
-            titles = [axes.get_title(loc="left") for axes in curves.history([column]).axes]
-            self.assertIn("reaction [kN]", titles)
+            other = curves.history([column])
+            self.assertIn("reaction [kN]", [axes.get_title(loc="left") for axes in other.axes])
+            for figure in (history, other):  # one of an odd number of pictures, below each column its time
+                for axes in [each for each in figure.axes if each.axison][-2:]:
+                    self.assertEqual(axes.get_xlabel(), "time [s]")
+                    self.assertTrue(axes.xaxis.get_major_ticks()[0].label1.get_visible())
             pictures.plt.close("all")
 
     def test_legends_cover_nothing(self):
