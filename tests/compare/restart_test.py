@@ -16,7 +16,11 @@ SCENE = str(ROOT / "scenes/compression.toml")
 STEPS = 60
 ELASTIC = "body.lower.material={young=3e11, poisson=0.3}"
 
-# Settings and threads of the runs that are killed. The upper body is Perzyna in all of them.
+NORTON = ('body.upper.material={young=3e11, poisson=0.3, law="norton", reference_stress=5, '
+          'reference_rate=0.05, exponent=4}')
+
+# Settings and threads of the runs that are killed. The upper body is Perzyna in all of them but those with
+# NORTON.
 CASES = [
     (["contact.variant=mortar"], 1),
     (["contact.variant=interpolation"], 1),
@@ -31,6 +35,8 @@ CASES = [
     (["body.material.yield_stress=100", 'body.upper.boundary.ty="-10*min(t,0.2)"'], 2),  # most steps at rest
     (["plane=strain", "contact.variant=interpolation", "time.scheme=sdirk2", ELASTIC], 1),
     (["plane=strain", "contact.variant=mortar", "time.scheme=sdirk2", "time.tolerance=1e-6"], 2),
+    ([NORTON, "contact.variant=interpolation", "time.scheme=sdirk2", "time.tolerance=1e-4"], 2),
+    ([NORTON, "plane=strain", "contact.variant=mortar", "time.scheme=crank-nicolson"], 1),
 ]
 KILLS = 20
 MEASURED = {"summary.json": [["solve_time_s"], ["wall_time_s"], ["peak_memory_mib"], ["threads"]],
