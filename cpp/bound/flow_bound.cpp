@@ -18,20 +18,22 @@ double parameterOf(const LawDescription& law, const std::string& name) {
   return 0;
 }
 
-/// Whether G is the gradient of a convex function for the product s : t. In plane strain B is a cylinder and
-/// all projections are one; without Poisson's effect E is a multiple of the identity.
+/// Whether Perzyna's G is the gradient of a convex function for the product s : t. In plane strain B is a
+/// cylinder and all projections are one; without Poisson's effect E is a multiple of the identity.
 bool associated(const LawDescription& law, int components) {
-  return law.name == "Perzyna" &&
-         (components == 4 || law.variant == "frobenius" || parameterOf(law, "poisson") == 0);
+  return components == 4 || law.variant == "frobenius" || parameterOf(law, "poisson") == 0;
 }
 
 std::string obstacleOf(const Model& model, const Steps& steps) {
   if (!steps.backwardEuler) return "steps are not those of backward Euler";
   for (const Body& body : model.bodies) {
     if (body.material().linear()) continue;
-    for (const LawDescription& law : body.material().laws())
-      if (law.name != "elastic" && !associated(law, body.material().components()))
+    for (const LawDescription& law : body.material().laws()) {
+      if (law.name == "elastic") continue;
+      if (law.name != "Perzyna") return body.name() + " follows a law without a bound: " + law.text();
+      if (!associated(law, body.material().components()))
         return "the flow of " + body.name() + " has no potential: " + law.text();
+    }
   }
   return "";
 }

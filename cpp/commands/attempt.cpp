@@ -43,7 +43,7 @@ RunFacts factsOf(const SceneDescription& scene, const AttemptOptions& options) {
   std::vector<std::string> projections;
   for (const BodyDescription& body : scene.bodies)
     for (const MaterialDescription* material : materialsOf(body))
-      if (material->viscoplasticity) projections.push_back(word(material->viscoplasticity->projection));
+      if (const auto* flow = material->as<Viscoplasticity>()) projections.push_back(word(flow->projection));
   std::vector<std::string> nonmortars;
   for (const ContactDescription& contact : scene.contacts) {
     facts.variants.push_back(word(contact.variant));

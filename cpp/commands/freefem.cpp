@@ -42,7 +42,8 @@ bool isReadByFreefem(const MeshSource& mesh) {
 /// `meshFile`: as FreeFEM opens it.
 void writeBody(std::ostream& out, const BodyDescription& body, const std::string& meshFile, int number,
                const std::string& stress) {
-  const auto& [elasticity, flow] = body.material;
+  const Elasticity& elasticity = body.material.elasticity;
+  const auto* flow = body.material.as<Viscoplasticity>();
   out << "string name" << number << " = \"" << body.name << "\";\n"
       << "string meshFile" << number << " = "
       << freefemString(meshFile, body.meshWhere + ": body " + body.name + ": mesh") << ";\n"
@@ -53,6 +54,21 @@ void writeBody(std::ostream& out, const BodyDescription& body, const std::string
       << "real lambda" << number << " = " << shortest(flow ? flow->viscosity : 0) << ", sigmaY" << number
       << " = " << shortest(flow ? flow->yieldStress : 1) << ";  // viscosity [" << stress
       << " s] (0: elastic body), yield stress [" << stress << "]\n";
+}
+
+/// Reference stress, rate and exponent of every body; a rate of 0 where it does not creep by Norton's law.
+std::string creeps(const SceneDescription& scene) {
+  std::string text;
+  bool any = false;
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    const auto* creep = scene.bodies[b].material.as<NortonCreep>();
+    any = any || creep != nullptr;
+    const std::string n = std::to_string(b + 1);
+    text += "real sigmaN" + n + " = " + shortest(creep ? creep->referenceStress : 1) + ", rateN" + n + " = " +
+            shortest(creep ? creep->referenceRate : 0) + ", powerN" + n + " = " +
+            shortest(creep ? creep->exponent : 1) + ";\n";
+  }
+  return any ? "macro norton yes //  creep: reference stress [" + scene.units.stress + "] and rate [1/s], exponent\n" + text : "";
 }
 
 using Kind = ConditionDescription::Kind;
@@ -136,7 +152,7 @@ std::string script(const SceneDescription& scene, const Model& model,
   for (int b = 0; b < bodies; ++b) out << " what(" << b + 1 << ')';
   out << " //\n";
   for (int b = 0; b < bodies; ++b) writeBody(out, scene.bodies[b], meshFiles[b], b + 1, scene.units.stress);
-  out << "\n// Boundary conditions and loads, functions of x, y and t\n";
+  out << creeps(scene) << "\n// Boundary conditions and loads, functions of x, y and t\n";
   for (int b = 0; b < bodies; ++b) writeConditions(out, scene.bodies[b], b + 1, scene.degree);
   out << rollers(scene)
       << "\n// Contact: nonmortar body and label, mortar body and label; time\nint[int, int] contact = ";

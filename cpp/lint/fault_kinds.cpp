@@ -135,9 +135,10 @@ const std::vector<FaultKind>& faultKinds() {
       {"few-steps-across-yield", warning, "backward Euler with few steps across yield",
        "take more steps, or scheme = \"sdirk2\""},
       {"viscosity-large", warning, "the run is over before anything can flow",
-       "check the units of viscosity and end"},
+       "check the units of viscosity, or of the references of the creep, and of end"},
       {"viscosity-small", warning, "a step is more relaxation times long than doubles resolve",
-       "check the units of viscosity; a larger one gives the same stresses"},
+       "check the units of viscosity, or of the references of the creep; a larger one gives the same "
+       "stresses"},
       {"lands-on-yield", warning, "a step ends exactly on first yield, with interpolation",
        "change steps by one: triangles on the yield surface are the hardest to solve"},
       {"scheme-rings", warning, "crank-nicolson with steps longer than the relaxation time",

@@ -21,7 +21,7 @@ std::string placeOf(const Expression& expression) {
 bool flows(const BodyDescription& body) {
   const auto materials = materialsOf(body);
   return std::any_of(materials.begin(), materials.end(),
-                     [](const MaterialDescription* m) { return m->viscoplasticity.has_value(); });
+                     [](const MaterialDescription* m) { return m->flows(); });
 }
 
 void checkDatum(const LintInput& input, const SampledDatum& datum, Faults& faults) {

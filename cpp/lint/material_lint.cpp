@@ -59,7 +59,7 @@ void checkSteps(const LintInput& input, const PlacedMaterial& material, double l
                 double firstYield, Faults& faults) {
   constexpr double far = 3;
   constexpr double tooStiff = 1e13;
-  const Viscoplasticity& flow = *material.description.viscoplasticity;
+  const Viscoplasticity& flow = *material.description.as<Viscoplasticity>();
   const TimePlan& time = input.scene.time;
   const std::string& subject = material.subject;
   const std::string& unit = input.scene.units.stress;
@@ -95,7 +95,7 @@ void checkFlow(const LintInput& input, const PlacedMaterial& material, double la
   constexpr double unreachable = 20;
   constexpr double frozen = 1e-3;
   constexpr double plastic = 0.1;
-  const Viscoplasticity& flow = *material.description.viscoplasticity;
+  const Viscoplasticity& flow = *material.description.as<Viscoplasticity>();
   const double e = relaxingModulus(material.description.elasticity, input.scene.plane);
   const TimePlan& time = input.scene.time;
   const std::string& subject = material.subject;
@@ -119,6 +119,27 @@ void checkFlow(const LintInput& input, const PlacedMaterial& material, double la
                subject + "relaxes in 2 viscosity/E = " + shortest(relaxation) + " s, the run ends at " +
                    shortest(time.end) + " s: nothing has time to flow");
   if (!time.controlled()) checkSteps(input, material, largest, afterFirstStep, firstYield, faults);
+}
+
+/// The creep that the loads make, in all and in a step, beside the elastic strain.
+void checkCreep(const LintInput& input, const PlacedMaterial& material, const NortonCreep& creep,
+                double largest, Faults& faults) {
+  constexpr double frozen = 1e-6;  // where stresses concentrate there is more
+  constexpr double tooStiff = 1e13;
+  if (!(largest > 0)) return;
+  const TimePlan& time = input.scene.time;
+  const double rate = creep.referenceRate * std::pow(largest / creep.referenceStress, creep.exponent) *
+                      relaxingModulus(material.description.elasticity, input.scene.plane) /
+                      largest;  // elastic strains [1/s]
+  const std::string loads = material.subject + "under loads of the order of " + shortest(largest) + " Pa ";
+  if (rate * time.end < frozen)
+    faults.add("viscosity-large", material.where("reference_rate"),
+               loads + "the run of " + shortest(time.end) + " s creeps by " + shortest(rate * time.end) +
+                   " of the elastic strain: nothing has time to flow");
+  if (!time.controlled() && rate * time.end / time.steps > tooStiff)
+    faults.add("viscosity-small", material.where("reference_rate"),
+               loads + "a step creeps by " + shortest(rate * time.end / time.steps) +
+                   " times the elastic strain, more than doubles resolve");
 }
 
 /// The first time at which the largest traction reaches the yield stress; 0 where it does not.
@@ -166,16 +187,17 @@ void lintMaterials(const LintInput& input, Faults& faults) {
     }
     for (const PlacedMaterial& material : placedMaterials(input, b)) {
       checkElasticity(input, material, onBody, faults);
-      const auto& flow = material.description.viscoplasticity;
-      if (!flow) continue;
+      if (const auto* creep = material.description.as<NortonCreep>())
+        checkCreep(input, material, *creep, largest, faults);
+      const auto* flow = material.description.as<Viscoplasticity>();
+      if (flow == nullptr) continue;
       stiffest = std::max(stiffest, time.end / time.steps / (4 * flow->viscosity) *
                                         relaxingModulus(material.description.elasticity, input.scene.plane));
       checkFlow(input, material, largest, afterFirstStep, yieldTime(data, time, flow->yieldStress), faults);
     }
     const Node* body = input.bodyNode(b);
     const Node* table = body == nullptr ? nullptr : body->find("material");
-    if (!input.scene.bodies[b].material.viscoplasticity && table != nullptr &&
-        table->find("projection") != nullptr)
+    if (!input.scene.bodies[b].material.flows() && table != nullptr && table->find("projection") != nullptr)
       faults.add("projection-unused", table->find("projection")->where,
                  "body " + input.scene.bodies[b].name + " is elastic, projection has no meaning in it");
   }

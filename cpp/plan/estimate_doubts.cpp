@@ -39,7 +39,7 @@ std::vector<std::string> stiffAndFlowing(const SceneDescription& scene, const Mo
       const auto materials = materialsOf(scene.bodies[stiff]);
       const bool mayFlow = std::any_of(
           materials.begin(), materials.end(),
-          [](const MaterialDescription* material) { return material->viscoplasticity.has_value(); });
+          [](const MaterialDescription* material) { return material->flows(); });
       if (mayFlow && stiffest(materials) > much * stiffest(materialsOf(scene.bodies[soft])))
         found.insert(stiff);
     }

@@ -61,16 +61,23 @@ class Planner {
     }
     std::string projection;
     double yieldStress = INFINITY;
+    std::string always;  // laws that flow at any stress
     for (const LawDescription& law : body.material().laws()) {
       if (!law.variant.empty()) projection = law.variant;
       for (const LawDescription::Parameter& parameter : law.parameters)
         if (parameter.name == "yield_stress") yieldStress = std::min(yieldStress, parameter.value);
+      if (law.name != "elastic" && law.name != "Perzyna") always = law.text();
     }
-    const std::string law = scene_.plane == Plane::strain
-                                ? "its tangent is symmetric in plane strain"
+    const std::string law = scene_.plane == Plane::strain ? "its tangent is symmetric in plane strain"
+                            : projection.empty()
+                                ? "its tangent is symmetric"
                                 : "projection " + projection + " makes its tangent " +
                                       (symmetric ? "symmetric" : "unsymmetric where it flows");
     add(part, true, factor + " in every iteration in which it flows", law);
+    if (!always.empty()) {
+      add(part, true, "flow", always + " flows at any stress");
+      return;
+    }
     add(part, false, "a new factor while nothing in it flows", "its tangent is that of elasticity");
     const std::string loads = "loads of the order of " + twoDigits(largest_) + " " + scene_.units.stress +
                               ", yield_stress " + shortest(yieldStress) + " " + scene_.units.stress;

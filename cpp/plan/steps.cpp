@@ -10,7 +10,7 @@ bool canFlow(const SceneDescription& scene) {
   return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const BodyDescription& body) {
     const auto materials = materialsOf(body);
     return std::any_of(materials.begin(), materials.end(),
-                       [](const MaterialDescription* each) { return each->viscoplasticity.has_value(); });
+                       [](const MaterialDescription* each) { return each->flows(); });
   });
 }
 

@@ -12,7 +12,9 @@ namespace mortier {
 namespace {
 
 std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description, Plane plane) {
-  const auto& [elasticity, viscoplasticity] = description;
+  const Elasticity& elasticity = description.elasticity;
+  if (const auto* norton = description.as<NortonCreep>()) return nortonMaterial(elasticity, *norton, plane);
+  const auto* viscoplasticity = description.as<Viscoplasticity>();
   if (plane == Plane::strain) {
     return viscoplasticity ? planeStrainPerzynaMaterial(elasticity, *viscoplasticity)
                            : planeStrainElasticMaterial(elasticity);

@@ -5,25 +5,13 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "scene/read_material.h"
 #include "scene/read_shape.h"
 #include "scene/table_reader.h"
-#include "scene/words.h"
 
 namespace mortier {
 
 namespace {
-
-MaterialDescription readMaterial(const Node& node, const std::string& path, const std::string& subject) {
-  const TableReader table(node, path, subject);
-  MaterialDescription material;
-  material.elasticity = {table.number("young", above(0)), table.number("poisson", between(-1, 0.5))};
-  const auto projection = static_cast<Projection>(table.oneOf("projection", projectionWords, 1));
-  if (table.find("viscosity") != nullptr || table.find("yield_stress") != nullptr) {
-    material.viscoplasticity = Viscoplasticity{table.number("viscosity", above(0)),
-                                               table.number("yield_stress", above(0)), projection};
-  }
-  return material;
-}
 
 /// Two data for one component of one label would have to be ordered by a rule that nobody remembers.
 void addCondition(BodyDescription& body, const ConditionDescription& added) {

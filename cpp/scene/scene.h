@@ -6,11 +6,12 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "base/units.h"
 #include "contact/interface.h"
-#include "material/plane_strain.h"
+#include "material/norton.h"
 #include "mesh/read.h"
 #include "scene/expression.h"
 #include "time/march.h"
@@ -18,9 +19,19 @@
 
 namespace mortier {
 
+/// What a material does beside elasticity; the first: nothing.
+using FlowLaw = std::variant<std::monostate, Viscoplasticity, NortonCreep>;
+
 struct MaterialDescription {
   Elasticity elasticity;
-  std::optional<Viscoplasticity> viscoplasticity;  ///< none: elastic
+  FlowLaw flow;
+
+  [[nodiscard]] bool flows() const { return flow.index() > 0; }
+  /// The parameters of a law; null where the material follows another.
+  template <class Law>
+  [[nodiscard]] const Law* as() const {
+    return std::get_if<Law>(&flow);
+  }
 };
 
 /// A displacement [m] or a traction [Pa] along one direction on a labelled part of the boundary.

@@ -7,6 +7,9 @@
 namespace mortier {
 
 const Keys& keysOf(const std::string& path) {
+  static const Keys materialKeys{
+      "young",          "poisson", "law", "viscosity", "yield_stress", "projection", "reference_stress",
+      "reference_rate", "exponent"};
   static const std::map<std::string, Keys> tables = {
       {"",
        {"title", "units", "plane", "body", "contact", "quantity", "time", "solver", "output", "check",
@@ -17,9 +20,9 @@ const Keys& keysOf(const std::string& path) {
         "corners", "centre", "inner", "outer", "span", "lowest", "radius", "core"}},
       {"body.initial_stress", {"s11", "s22", "s12", "s33"}},
       {"body.region", {"label", "material", "initial_stress"}},
-      {"body.region.material", {"young", "poisson", "viscosity", "yield_stress", "projection"}},
+      {"body.region.material", materialKeys},
       {"body.region.initial_stress", {"s11", "s22", "s12", "s33"}},
-      {"body.material", {"young", "poisson", "viscosity", "yield_stress", "projection"}},
+      {"body.material", materialKeys},
       {"body.force", {"x", "y"}},
       {"body.boundary", {"label", "ux", "uy", "un", "ut", "tx", "ty", "pressure"}},
       {"datum", {"time", "value"}},

@@ -16,6 +16,11 @@ Range above(double lower) {
           [=](const std::string& key) { return key + " > " + shortest(lower); }};
 }
 
+Range atLeast(double least) {
+  return {[=](double v) { return v >= least; },
+          [=](const std::string& key) { return key + " >= " + shortest(least); }};
+}
+
 Range between(double lower, double upper) {
   return {[=](double v) { return v > lower && v < upper; },
           [=](const std::string& key) { return shortest(lower) + " < " + key + " < " + shortest(upper); }};

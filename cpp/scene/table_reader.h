@@ -20,6 +20,7 @@ struct Range {
 
 Range anyNumber();
 Range above(double lower);
+Range atLeast(double least);
 Range between(double lower, double upper);  ///< open on both ends
 
 class TableReader {

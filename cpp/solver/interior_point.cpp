@@ -31,6 +31,7 @@ class Paths {
       if (path) path->begin(overstress * overstress_ * flow_);
   }
   [[nodiscard]] InteriorPath* operator[](size_t body) const { return paths_[body].get(); }
+  [[nodiscard]] bool none() const { return points_ == 0; }
   [[nodiscard]] double yieldStrain() const { return yieldStrain_; }
   [[nodiscard]] double complementarity() const {
     double sum = 0;
@@ -62,6 +63,10 @@ StepOutcome interiorPoint(StepSystem& system, const Step& step, int maxIteration
   Iterate iterate = startingIterate(step.state0);
   prescribe(model, step, iterate);
   Paths paths(model, step);
+  if (paths.none()) {
+    total.fail(Reason::unconverged, "no body has a law with a central path");
+    return total;
+  }
   paths.begin(system.options().firstOverstress);
   // Where the iterate would go in the direction that aims at `target`. \returns the largest step.
   const auto direct = [&](double target, bool correct, Iterate& next) -> std::optional<double> {

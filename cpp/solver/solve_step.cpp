@@ -28,11 +28,26 @@ const char* nameOf(Rung rung) {
   }
 }
 
+namespace {
+
+/// Whether a body flows by a law without a yield stress, and none by one with it: Newton's method has no
+/// corner at which it could turn in circles, but a long way to come down from elasticity.
+bool flowsWithoutYield(const Model& model) {
+  bool flows = false;
+  for (const Body& body : model.bodies) {
+    if (body.material().stressScale() > 0) return false;
+    flows = flows || !body.material().linear();
+  }
+  return flows;
+}
+
+}  // namespace
+
 // What takes many linear solves comes last, and is for projections that are not associated: with a symmetric
 // tangent the interior point method leads to the one solution.
 StepOutcome solveStep(StepSystem& system, const State& state0, const StepData& data, Iterate& guess,
                       Effort effort) {
-  constexpr int plainIterations = 7;
+  const int plainIterations = flowsWithoutYield(system.model()) ? 25 : 7;
   constexpr int firstWalk = 60;
   constexpr int usualIterations = 300;
   constexpr int secondWalk = 100;

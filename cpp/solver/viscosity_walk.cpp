@@ -11,9 +11,12 @@ namespace mortier {
 ViscosityWalk::ViscosityWalk(const Model& model, const Step& step)
     : pace(0.4), tolerance(0.3), roughest(0.3) {
   constexpr double firstStiffness = 0.3;
+  constexpr double firstLower = 2;
   double stiffness = 0;
-  for (const Body& body : model.bodies)
+  for (const Body& body : model.bodies) {
     stiffness = std::max(stiffness, body.material().stiffness(step.data.weight));
+    if (!body.material().linear() && body.material().stressScale() == 0) lower = firstLower;
+  }
   places.push_back({-(std::log10(stiffness / firstStiffness) + pace), startingIterate(step.state0)});
 }
 
@@ -56,6 +59,11 @@ StepOutcome lowerViscosity(StepSystem& system, const Step& step, ViscosityWalk& 
       continue;
     }
     if (total.iterations == before) ++total.iterations;  // not even begun: that must end as well
+    if (places.size() == 1 && walk.lower > 0) {
+      places.front().decades -= walk.lower;
+      walk.lower *= 2;
+      continue;
+    }
     walk.tolerance = std::max(finestTolerance, walk.tolerance / 10);
     walk.pace = std::max(finestPace, walk.pace / closer);
     for (int i = 0; i < stagesBack && places.size() > 1; ++i) places.pop_back();

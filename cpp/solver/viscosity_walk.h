@@ -27,6 +27,9 @@ struct ViscosityWalk {
   [[nodiscard]] Place startOfCurve() const;
 
   std::vector<Place> places;  ///< the start, which is not solved, and the last ones that are
+  /// Decades by which the start is lowered where not even the first step can be taken from it; 0 where it is
+  /// known to be low enough.
+  double lower = 0;
   double pace;                ///< of natural steps, in decades
   double tolerance;           ///< material residual of their places
   double roughest;            ///< the tolerance when the walk last left its start

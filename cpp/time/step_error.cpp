@@ -199,7 +199,8 @@ std::vector<Response> StepTaker::turn() const {
     const Material& material = model_.bodies[b].material();
     const Matrix& end = solutions_.back().bodies[b].stress;
     Matrix stress = Matrix::Zero(end.rows(), end.cols());
-    for (int i = 0; i < end.cols() && !material.linear(); ++i) {
+    // Without a yield stress there is no onset to turn at.
+    for (int i = 0; i < end.cols() && material.stressScale() > 0; ++i) {
       if (!material.flows(end, i)) continue;
       stress.col(i) = end.col(i) - expected[b].col(i);
       stress.col(i) *= part * stress.col(i).norm() / material.stressScale();

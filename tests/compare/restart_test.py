@@ -20,7 +20,11 @@ ELASTIC = "body.lower.material={young=3e11, poisson=0.3}"
 QUANTITIES = ("quantity=[{name='work', work={body='upper'}}, {name='outside', external_work={body='lower'}}, "
               "{name='heat', dissipated_energy={body='upper'}}, {name='m', largest_mises={body='lower'}}]")
 
-# Settings and threads of the runs that are killed. The upper body is Perzyna in all of them.
+NORTON = ('body.upper.material={young=3e11, poisson=0.3, law="norton", reference_stress=5, '
+          'reference_rate=0.05, exponent=4}')
+
+# Settings and threads of the runs that are killed. The upper body is Perzyna in all of them but those with
+# NORTON.
 CASES = [
     (["contact.variant=mortar"], 1),
     (["contact.variant=interpolation"], 1),
@@ -36,6 +40,8 @@ CASES = [
     (["plane=strain", "contact.variant=interpolation", "time.scheme=sdirk2", ELASTIC], 1),
     (["plane=strain", "contact.variant=mortar", "time.scheme=sdirk2", "time.tolerance=1e-6"], 2),
     (["time.scheme=sdirk2", "time.tolerance=1e-5", QUANTITIES], 1),
+    ([NORTON, "contact.variant=mortar", "time.scheme=sdirk2", "time.tolerance=1e-4"], 2),
+    ([NORTON, "plane=strain", "contact.variant=mortar", "time.scheme=crank-nicolson"], 1),
 ]
 KILLS = 20
 MEASURED = {"summary.json": [["solve_time_s"], ["wall_time_s"], ["peak_memory_mib"], ["threads"]],

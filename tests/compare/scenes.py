@@ -108,7 +108,13 @@ ty = { time = [0, 0.4, 1], value = [-1, -4, -2] }
 [[body]]
 name = "lower"
 mesh = "lower.mesh"
-material = { young = 1e4, poisson = 0.3 }
+[body.material]
+young = 1e4
+poisson = 0.3
+law = "norton"
+reference_stress = 9
+reference_rate = 1e-3
+exponent = 4
 [[body.boundary]]
 label = 1
 un = 0

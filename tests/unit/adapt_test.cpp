@@ -299,7 +299,7 @@ TEST(Rounds, errorsThatDoNotFallEndThem) {
 // Where bodies flow, steps get a part of what is asked, and early rounds are short in time too.
 TEST(Rounds, toleranceOfStepsFollowsTheMeshes) {
   ResolvedScene scene = sceneOf(0.01);
-  scene.description.bodies[0].material.viscoplasticity.emplace();
+  scene.description.bodies[0].material.flow = Viscoplasticity{};
   Rounds rounds(std::move(scene));
   EXPECT_EQ(rounds.scene().description.time.tolerance, 0.1);
   RoundResult result = resultOf(rounds, 0.2);

@@ -166,6 +166,16 @@ TEST(March, whatCannotBeSolvedIsCutAndThenEndsTheRunWithTheLastGoodState) {
   expectStress(result.state, result.state.time);
 }
 
+// Of backward Euler, so that the strain tells the times at which the parts end.
+TEST(March, aStepThatIsCutHasEqualParts) {
+  const Model model = square([](double t) { return t <= 0.45 ? 4 * t : NAN; });
+  const Marched result = run(model, {.end = 1, .steps = 5});
+  Vector strain = 0.2 * (rate(model, 0.8) + rate(model, 1.6));
+  constexpr double part = 0.2 / 256;
+  for (int i = 1; i <= 64; ++i) strain += part * rate(model, 4 * (0.4 + part * i));
+  EXPECT_LE((result.state.bodies[0].viscoplasticStrain.col(0) - strain).norm(), 1e-12 * strain.norm());
+}
+
 TEST(March, goesOnFromWhereAnObserverLeftIt) {
   struct Stop {};
   const Model model = square([](double t) { return 2 * std::sin(5 * t); });

@@ -1,0 +1,69 @@
+// Norton creep on isotropic elasticity,
+//   eps' = E^-1 sigma' + rate0 (vM/sigma0)^n (3/2) dev sigma / vM
+// (F. H. Norton, The Creep of Steel at High Temperatures, 1929; in three dimensions F. K. G. Odqvist): under
+// the uniaxial stress sigma0 it creeps with rate0. dev and vM are those of three dimensions, with s33 = 0 in
+// plane stress, where on p, q, r
+//   G = (rate0/sigma0) (vM/sigma0)^(n-1) a s,   vM^2 = a . s^2,   a = (1/2, 3/2, 3/2).
+// G is the gradient of a convex function: a step minimises a convex energy.
+#pragma once
+
+#include "material/plane_strain.h"
+
+namespace mortier {
+
+struct NortonCreep {
+  double referenceStress = 0;  ///< sigma0 [Pa]
+  double referenceRate = 0;    ///< rate0, of the strain [1/s]
+  double exponent = 1;         ///< n [-]
+};
+
+/// \throws InputError unless both references > 0 and exponent >= 1.
+void requireValid(const NortonCreep& creep);
+
+LawDescription describe(const Elasticity& elasticity, const NortonCreep& creep);
+
+/// On three directions in which E and the von Mises stress are diagonal, the last two alike.
+class NortonLaw {
+ public:
+  static constexpr int components = 3;
+  static constexpr bool linear = false;
+  static constexpr bool ofStrain = false;
+
+  /// \param e  eigenvalues of the elasticity tensor [Pa]  \param a  of vM^2 [-]
+  NortonLaw(const Pair& e, const Pair& a, const NortonCreep& creep);
+
+  static bool symmetric() { return true; }
+  static double stressScale() { return 0; }
+  /// Not known without a stress.
+  static double stiffness(double weight) { return weight > 0 ? 1 : 0; }
+  template <class Scalar>
+  [[nodiscard]] auto flows(const std::array<Scalar, 3>& stress) const {
+    return stress[0] * stress[0] + stress[1] * stress[1] + stress[2] * stress[2] > 0;
+  }
+  static Lanes penalty(const LaneVector& /*stress*/) { return 0; }
+  [[nodiscard]] LaneVector rate(const LaneVector& stress, const LaneVector& total) const;
+  [[nodiscard]] LaneVector elasticStrain(LaneVector stress) const {
+    for (int k = 0; k < 3; ++k) stress[k] *= 1 / e_[k];
+    return stress;
+  }
+  [[nodiscard]] PointAnswer<3> linearise(const PointStep<3>& point) const;
+  [[nodiscard]] PointAnswer<3> regularise(const PointStep<3>& point, const Lanes& penalty) const;
+
+ private:
+  /// a . s^2 / sigma0^2, never quite 0.
+  [[nodiscard]] Lanes square(const LaneVector& stress) const;
+  /// Of weight (rate0/sigma0) (vM/sigma0)^(n-1) [1/Pa], where that is square(s).
+  [[nodiscard]] Lanes logarithm(double weight, const Lanes& square) const;
+  /// strain - E^-1 (s - s0): what is left for the flow.
+  [[nodiscard]] LaneVector rest(const PointStep<3>& point) const;
+
+  double e_[3];
+  double a_[3];
+  NortonCreep creep_;
+};
+
+/// \throws InputError
+std::shared_ptr<const Material> nortonMaterial(const Elasticity& elasticity, const NortonCreep& creep,
+                                               Plane plane);
+
+}  // namespace mortier

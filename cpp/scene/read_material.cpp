@@ -1,0 +1,59 @@
+#include "scene/read_material.h"
+
+#include <algorithm>
+
+#include "scene/words.h"
+
+namespace mortier {
+namespace {
+
+constexpr int elastic = 0;
+constexpr int perzyna = 1;
+
+/// Keys of each law beside young and poisson, in the order of lawWords.
+const Keys keysOfLaw[] = {
+    {}, {"viscosity", "yield_stress", "projection"}, {"reference_stress", "reference_rate", "exponent"}};
+
+bool has(const Keys& keys, const std::string& key) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+/// Without `law` it is Perzyna's where a key of that says so.
+int lawOf(const TableReader& table) {
+  const bool flows = table.find("viscosity") != nullptr || table.find("yield_stress") != nullptr;
+  return table.oneOf("law", lawWords, flows ? perzyna : elastic);
+}
+
+void requireKeysOf(int law, const TableReader& table) {
+  const bool given = table.find("law") != nullptr;
+  for (size_t other = 0; other < std::size(keysOfLaw); ++other)
+    for (const std::string& key : keysOfLaw[other]) {
+      // An elastic body may keep the projection it had when it flowed; the linter names it.
+      if (table.find(key) == nullptr || has(keysOfLaw[law], key) || (!given && key == "projection")) continue;
+      std::string laws;
+      for (size_t l = 0; l < std::size(keysOfLaw); ++l)
+        if (has(keysOfLaw[l], key)) laws += (laws.empty() ? "\"" : " or \"") + lawWords[l] + '"';
+      table.reject(key, "it beside law = " + laws + " only");
+    }
+}
+
+}  // namespace
+
+MaterialDescription readMaterial(const Node& node, const std::string& path, const std::string& subject) {
+  const TableReader table(node, path, subject);
+  MaterialDescription material;
+  material.elasticity = {table.number("young", above(0)), table.number("poisson", between(-1, 0.5))};
+  const auto projection = static_cast<Projection>(table.oneOf("projection", projectionWords, 1));
+  const int law = lawOf(table);
+  requireKeysOf(law, table);
+  if (law == perzyna)
+    material.flow = Viscoplasticity{table.number("viscosity", above(0)),
+                                    table.number("yield_stress", above(0)), projection};
+  else if (law != elastic)
+    material.flow =
+        NortonCreep{table.number("reference_stress", above(0)), table.number("reference_rate", above(0)),
+                    table.number("exponent", atLeast(1))};
+  return material;
+}
+
+}  // namespace mortier

@@ -1,0 +1,12 @@
+// The material of a body or of a region: elasticity, and the law by which it flows.
+#pragma once
+
+#include "scene/scene.h"
+#include "scene/table_reader.h"
+
+namespace mortier {
+
+/// \throws InputError of one line, also where a key belongs to another law.
+MaterialDescription readMaterial(const Node& node, const std::string& path, const std::string& subject);
+
+}  // namespace mortier
