@@ -2,6 +2,8 @@
 #include <cmath>
 #include <map>
 
+#include "base/counted.h"
+#include "base/error.h"
 #include "lint/held_dofs.h"
 #include "lint/lint.h"
 #include "mesh/boundary_line.h"
@@ -118,8 +120,8 @@ void findUnused(const LintInput& input, size_t b, const Topology& topology, Faul
     const std::string place = mesh.name + ": edge from vertex " + std::to_string(edge.from + 1);
     if (begins && ends && before->label == after->label)
       faults.add("label-interrupted", place,
-                 body + name(before->label) + " is interrupted by " + std::to_string(length) +
-                     " edges with " + name(edge.label) + ", of which the scene says nothing");
+                 body + name(before->label) + " is interrupted by " + counted(length, "edge") + " with " +
+                     name(edge.label) + ", of which the scene says nothing");
     else
       faults.add("unused-label", place,
                  body + name(edge.label) + " goes on straight from " +
@@ -152,8 +154,8 @@ void findLocked(const LintInput& input, size_t b, Faults& faults) {
   }
   if (locked > 0)
     faults.add("locked-triangle", mesh.name + ": triangle " + std::to_string(where + 1),
-               "body " + input.scene.bodies[b].name + ": " + std::to_string(locked) +
-                   " triangles with every corner held have no freedom to strain");
+               "body " + input.scene.bodies[b].name + ": " + counted(locked, "triangle") +
+                   " without freedom to strain: every corner is held");
 }
 
 void findRegions(const LintInput& input, size_t b, Faults& faults) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/counted.h"
 #include "base/printable.h"
 #include "lint/held_dofs.h"
 #include "lint/lint.h"
@@ -100,7 +101,7 @@ std::vector<double> kinks(const std::string& text) {
 /// The first of some times, and how many there are beside it.
 std::string firstOf(const std::vector<double>& times) {
   return shortest(times.front()) +
-         (times.size() > 1 ? " and at " + std::to_string(times.size() - 1) + " more times" : "");
+         (times.size() > 1 ? " and at " + counted(times.size() - 1, "more time") : "");
 }
 
 /// A message for all kinks of a datum: a table may have any number of them.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
+#include "base/counted.h"
 #include "plan/steps.h"
 #include "scene/document.h"
 #include "scene/memory_need.h"
@@ -91,7 +93,7 @@ class Planner {
       const std::string part = "contact " + std::to_string(k);
       add(part, true,
           "unilateral contact by " + word(scene_.contacts[k].variant) + " at " +
-              std::to_string(interface.rows()) + " nodes of " +
+              counted(interface.rows(), "node") + " of " +
               model_.bodies[interface.pair().nonmortar.body].name(),
           "any of them may open");
     }
@@ -113,13 +115,12 @@ class Planner {
     if (elastic && !changes) {
       add("time", true, "one step", "nothing depends on time");
       if (!time.controlled() && time.steps > 1)
-        add("time", false, "the other " + std::to_string(time.steps - 1) + " steps", "they are at rest");
+        add("time", false, "the other " + counted(time.steps - 1, "step"), "they are at rest");
       return;
     }
     const double tolerance = stepTolerance(scene_);
     const bool forRounds = inRounds() && !elastic;
-    const std::string equal = std::to_string(time.steps) + (time.steps == 1 ? " step" : " steps") + " of " +
-                              shortest(time.end / time.steps) + " s";
+    const std::string equal = counted(time.steps, "step") + " of " + shortest(time.end / time.steps) + " s";
     const std::string chosen = "steps chosen by an error in time of " + shortest(tolerance) +
                                (forRounds ? " in the last round" : "");
     add("time", true, (tolerance > 0 ? chosen : equal) + ", " + word(time.scheme),

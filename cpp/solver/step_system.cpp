@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "base/worst.h"
 
@@ -189,9 +190,8 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
                         "no solution of the contact problem of the linearised step was found");
   if (contact.outcome == ContactSolution::Outcome::capped)
     return outcome.fail(Reason::contact, "the contact problem of the linearised step was given up after " +
-                                             std::to_string(contact.pivots) + " active sets, the work of " +
-                                             std::to_string(std::lround(contact.work)) +
-                                             " dense factorisations");
+                                             counted(contact.pivots, "active set") + ", the work of " +
+                                             counted(std::lround(contact.work), "dense factorisation"));
   if (contact.outcome == ContactSolution::Outcome::unbalanced)
     return outcome.fail(Reason::unheld, "contact cannot hold " + system_->describeRigid(contact.rigid));
   system_->forEachBody([&](int b) {
