@@ -7,6 +7,7 @@
 #include "lint/held_dofs.h"
 #include "lint/lint.h"
 #include "mesh/boundary_line.h"
+#include "scene/labels.h"
 
 namespace mortier {
 namespace {
@@ -19,7 +20,8 @@ struct Use {
 
 std::map<int, Use> usesOf(const SceneDescription& scene, size_t body) {
   std::map<int, Use> uses;
-  for (const ConditionDescription& c : scene.bodies[body].conditions) uses[c.label].condition = true;
+  for (const ConditionDescription& c : scene.bodies[body].conditions)
+    if (!c.point) uses[c.label].condition = true;
   for (const ContactDescription& contact : scene.contacts)
     for (const SideDescription* side : {&contact.nonmortar, &contact.mortar})
       if (side->body == scene.bodies[body].name) uses[side->label].contact = true;
@@ -71,10 +73,26 @@ void findMissing(const LintInput& input, size_t b, const Topology& topology, Fau
                    written(label, name) + "; there are: " + (known.empty() ? "none" : known));
   };
   for (const ConditionDescription& c : input.scene.bodies[b].conditions)
-    require(c.label, c.labelName, c.where);
+    if (!c.point) require(c.label, c.labelName, c.where);
   for (const ContactDescription& contact : input.scene.contacts)
     for (const SideDescription* side : {&contact.nonmortar, &contact.mortar})
       if (side->body == input.scene.bodies[b].name) require(side->label, side->labelName, side->where);
+}
+
+void findMissingPoints(const LintInput& input, size_t b, Faults& faults) {
+  const auto require = [&](const Point& point, const std::string& place) {
+    try {
+      vertexPoint(*input.meshes[b], point, "body " + input.scene.bodies[b].name);
+    } catch (const InputError& error) {
+      faults.add("missing-point", place, error.what());
+    }
+  };
+  for (const ConditionDescription& c : input.scene.bodies[b].conditions)
+    if (c.point) require(*c.point, c.where);
+  for (const QuantityDescription& quantity : input.scene.quantities)
+    if (quantity.point && quantity.kind == Quantity::Kind::reaction &&
+        quantity.body == input.scene.bodies[b].name)
+      require(*quantity.point, quantity.where);
 }
 
 /// Stretches of the boundary that nothing is said of, where their neighbourhood suggests that something was
@@ -184,6 +202,7 @@ void lintLabels(const LintInput& input, Faults& faults) {
     if (input.meshes[b] == nullptr) continue;
     const Topology& topology = input.topologies[b];
     findMissing(input, b, topology, faults);
+    findMissingPoints(input, b, faults);
     findUnused(input, b, topology, faults);
     findLocked(input, b, faults);
     findRegions(input, b, faults);

@@ -53,7 +53,7 @@ void checkDatum(const LintInput& input, const SampledDatum& datum, Faults& fault
 bool holdsEdge(const std::vector<ConditionDescription>& conditions, int label, const Point& from,
                const Point& to, std::optional<int> axis) {
   return std::any_of(conditions.begin(), conditions.end(), [&](const ConditionDescription& c) {
-    return c.kind == ConditionDescription::Kind::displacement && c.label == label &&
+    return c.kind == ConditionDescription::Kind::displacement && c.actsOn(label) &&
            axisOf(c, from, to) == axis;
   });
 }

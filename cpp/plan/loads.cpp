@@ -42,8 +42,9 @@ std::vector<SampledDatum> sampledData(const MeshedScene& input) {
     for (const ConditionDescription& c : input.scene.bodies[b].conditions) {
       std::vector<Point> points;
       for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
-        if (mesh.boundaryLabels[e] == c.label)
+        if (c.actsOn(mesh.boundaryLabels[e]))
           for (const int v : mesh.boundaryEdges[e]) points.push_back(mesh.vertices[v]);
+      if (c.point) points.push_back(*c.point);
       const bool held = c.kind == ConditionDescription::Kind::displacement;
       data.push_back({held ? SampledDatum::Kind::displacement : SampledDatum::Kind::traction, b, &c.value,
                       thinned(std::move(points)), size});

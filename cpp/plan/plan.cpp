@@ -53,6 +53,7 @@ class Planner {
   void planBody(size_t b) {
     const Body& body = model_.bodies[b];
     const std::string part = "body " + body.name();
+    planPoints(b);
     const bool symmetric = body.material().symmetricTangent();
     const std::string factor = symmetric ? "Cholesky" : "LU";
     if (body.material().linear()) {
@@ -80,6 +81,19 @@ class Planner {
       add(part, false, "flow, unless some point yields after all", loads);
     else
       add(part, true, "flow", loads);
+  }
+
+  void planPoints(size_t b) {
+    std::set<std::string> points;
+    for (const ConditionDescription& c : scene_.bodies[b].conditions)
+      if (c.point) points.insert(shortest(*c.point));
+    if (points.empty()) return;
+    std::string list;
+    for (const std::string& point : points) list += (list.empty() ? "" : ", ") + point;
+    add("body " + scene_.bodies[b].name, true,
+        (points.size() == 1 ? "held at " : "held at the points ") + list,
+        "what takes rigid motions away and carries no force; the energy of a force at a point is infinite, "
+        "displacements there grow as meshes are refined");
   }
 
   void planContact() {

@@ -1,6 +1,7 @@
 #include "time/quantity.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
@@ -37,7 +38,7 @@ Vector contactForces(const Model& model, const State& state, int body, std::opti
   return forces;
 }
 
-/// What the supports of each label exert on the body.
+/// What the supports of each label and each point exert on the body, by the first of their conditions.
 std::map<int, Wrench> reactions(const Model& model, const State& state, int b) {
   const Body& body = model.bodies[b];
   const Vector forces = body.internalForce(state.bodies[b].stress) +
@@ -51,9 +52,11 @@ std::map<int, Wrench> reactions(const Model& model, const State& state, int b) {
       directions << support.directions[0], support.directions[1];
       Eigen::Map<Point>(along.data()) = directions.inverse() * force;
     }
-    for (int i = 0; i < support.count; ++i)
-      result[body.conditions().displacements[support.conditions[i]].label].add(
-          body.elementNodes().places[support.node], along[i] * support.directions[i]);
+    for (int i = 0; i < support.count; ++i) {
+      const PrescribedDisplacement& held = body.conditions().displacements[support.conditions[i]];
+      result[firstSupport(body, held.label, held.point)].add(body.elementNodes().places[support.node],
+                                                             along[i] * support.directions[i]);
+    }
   }
   return result;
 }
@@ -85,6 +88,14 @@ std::string Quantity::unit() const {
   return component == Component::moment ? "N" : "N/m";
 }
 
+int firstSupport(const Body& body, int label, const std::optional<Point>& point) {
+  const std::vector<PrescribedDisplacement>& held = body.conditions().displacements;
+  const auto found = std::find_if(held.begin(), held.end(), [&](const PrescribedDisplacement& each) {
+    return point ? each.point == point : each.actsOn(label);
+  });
+  return found == held.end() ? -1 : static_cast<int>(found - held.begin());
+}
+
 std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Model& model,
                              const State& state) {
   std::map<int, std::map<int, Wrench>> reactionsOf;
@@ -101,7 +112,8 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
     } else {
       if (reactionsOf.count(quantity.body) == 0)
         reactionsOf[quantity.body] = reactions(model, state, quantity.body);
-      values.push_back(componentOf(reactionsOf[quantity.body][quantity.label], quantity));
+      const int support = firstSupport(model.bodies[quantity.body], quantity.label, quantity.point);
+      values.push_back(componentOf(reactionsOf[quantity.body][support], quantity));
     }
   }
   return values;
