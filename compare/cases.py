@@ -89,6 +89,12 @@ SCENES = {
 UNKNOWN_TO_FREEFEM = {"cook": "no contact interface"}
 HELD = ("body.top.boundary.4.uy=-1e-4*t", "body.middle.boundary.4.uy=-1e-4*t*(1+y)",
         "body.bottom.boundary.4.uy=0")
+FREE_BUT_FOR_POINTS = (
+    'body.lower.boundary=[{label=4, tx="10*t"}, {label=1, ty="10*t"}, {label=2, tx="-10*t"}]',
+    'body.upper.boundary=[{label=4, tx="10*t"}, {label=3, ty="-10*t"}, {label=2, tx="-10*t"}]',
+    "body.lower.point=[{at=[0, -1], ux=0, uy=0}, {at=[1, -1], uy=0}]", "body.upper.point=[{at=[1, 1], ux=0}]")
+POINTS_THAT_PUSH = ("body.bottom.boundary=[{label=4, ux=0}]",
+                    'body.bottom.point=[{at=[0, -2], uy=0}, {at=[1, -2], ux="-1e-5*t*(1+x)", uy="2e-5*t"}]')
 SOFT = "body.material={young=100, poisson=0.3, viscosity=1, yield_stress=1}"  # Newton's method is at ease
 
 NORTON = ('body.material={young=100, poisson=0.3, law="norton", reference_stress=10, reference_rate=0.05, '
@@ -118,6 +124,8 @@ def scene_cases():
                    "body.upper.force.y=-3*sin(x)*t")),
         SceneCase("sloped", "interpolation", "Norton creep", NORTON),
         SceneCase("turned", "mortar", "Norton creep, plane strain", (*NORTON, 'plane="strain"')),
+        SceneCase("sloped", "mortar", "held at points that carry nothing", FREE_BUT_FOR_POINTS),
+        SceneCase("stack", "interpolation", "held at points that push", POINTS_THAT_PUSH),
         SceneCase("punch", "weighted", "linear, sides swapped: overlap in part", ("contact.swap=true",)),
         SceneCase("ring", "weighted", "linear"),
         SceneCase("sloped", "weighted", "linear, parted by a parabola", ("contact.gap=1e-5*x^2+2e-6",)),
@@ -130,6 +138,8 @@ def scene_cases():
         SceneCase("sloped", "mortar", "quadratic, plane strain", ("degree=2", 'plane="strain"')),
         SceneCase("stack", "weighted", "quadratic, held on the left up to the contact lines",
                   ("degree=2", *HELD)),
+        SceneCase("stack", "weighted", "quadratic, held at points that push",
+                  ("degree=2", *POINTS_THAT_PUSH)),
         SceneCase("hertz", "weighted", "quadratic", ("degree=2",)),
         SceneCase("ring", "mortar", "quadratic", ("degree=2",)),
         SceneCase("thick-cylinder", "weighted", "quadratic", ("degree=2",)),

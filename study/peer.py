@@ -31,6 +31,8 @@ class Body:
                 raise RunFailure(f"condition {min(unknown)} is not known to this driver")
         if "force" in description:
             raise RunFailure("a body force is not known to this driver")
+        if "point" in description:
+            raise RunFailure("a support at a point is not known to this driver")
 
     def strain(self, u):
         """(e11, e22, 2 e12) by triangle."""

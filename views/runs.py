@@ -144,8 +144,15 @@ class Result:
         return {field.name: field for field in made}
 
     def stuck(self, run):
-        """Body, triangle and words of the place to look at where a run stopped early: the largest stress of
-        the last good state, beyond yield where anything flows; None before there is any."""
+        """Body, triangle and words of the place to look at where a run stopped early: where the step that was
+        not solved is furthest off the material law, else the largest stress of the last good state, beyond
+        yield where anything flows; None before there is any."""
+        told = self.summary.get("stuck")
+        if isinstance(told, dict):
+            name, triangle = told.get("body"), told.get("triangle")
+            known = isinstance(name, str) and name in run.bodies and type(triangle) is int
+            if known and 0 <= triangle < len(run.bodies[name].triangles):
+                return name, triangle, f"furthest off its law, {self.place(run, name, triangle)}"
         found = []
         for name, body in run.bodies.items():
             flows = body.cells.get("viscoplastic", np.zeros(len(body.triangles)))
@@ -155,9 +162,13 @@ class Result:
         flows, stress, name, triangle = max(found)
         if not stress > 0:
             return None
+        return name, triangle, (f"largest stress{' beyond yield' if flows else ''}, "
+                                f"{self.place(run, name, triangle)}")
+
+    @staticmethod
+    def place(run, name, triangle):
         where = run.bodies[name].points[run.bodies[name].triangles[triangle]].mean(0)
-        return name, triangle, (f"largest stress{' beyond yield' if flows else ''}, {name}, triangle "
-                                f"{triangle} at ({where[0]:.4g}, {where[1]:.4g})")
+        return f"{name}, triangle {triangle} at ({where[0]:.4g}, {where[1]:.4g})"
 
     def values(self, run, field):
         """Body name -> values; ResultError where a body has none."""

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/counted.h"
 #include "mesh/element_nodes.h"
 #include "plan/steps.h"
 
@@ -139,8 +140,8 @@ std::vector<std::string> Rounds::doubts() const {
       doubts.push_back("body " + description_.bodies[b].name + ": " + line +
                        " is a polygon of whose curve nothing is known, which refinement does not change");
   if (meshes_.offCurve() > 0)
-    doubts.push_back(std::to_string(meshes_.offCurve()) +
-                     " vertices are not on the curve of their boundary, where triangles would turn over");
+    doubts.push_back("not on the curve of their boundary, where triangles would turn over: " +
+                     counted(meshes_.offCurve(), "vertex"));
   return doubts;
 }
 

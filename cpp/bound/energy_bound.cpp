@@ -23,6 +23,8 @@ EnergyBound energyBound(const Model& model, const State& state, const std::vecto
   for (const Body& body : model.bodies) {
     if (body.degree() != 1) return none("displacements are quadratic");
     if (!body.material().linear()) return none(body.name() + " is viscoplastic");
+    for (const PrescribedDisplacement& held : body.conditions().displacements)
+      if (held.point) return none(body.name() + " is held at a point");
   }
   const MatchedMeshes meshes = matchedMeshes(model);
   if (!meshes.obstacle.empty()) return none(meshes.obstacle);

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "base/counted.h"
 #include "base/printable.h"
 #include "commands/exit_code.h"
 #include "lint/lint.h"

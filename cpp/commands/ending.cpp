@@ -1,19 +1,45 @@
 #include "commands/ending.h"
 
+#include <cstdio>
+
 #include "commands/bound_of.h"
 #include "mesh/medit.h"
 #include "plan/estimate_doubts.h"
+#include "plan/loads.h"
 #include "report/output_file.h"
 #include "report/summary.h"
 #include "scene/document.h"
 
 namespace mortier {
 
+namespace {
+
+/// "; furthest off ..." where that is known.
+std::string whereToLook(const Attempt& attempt) {
+  const std::optional<StuckPlace>& stuck = attempt.solved.report.stuck;
+  if (!stuck) return "";
+  const Body& body = attempt.model->bodies[stuck->body];
+  const std::string& driving = attempt.facts.driving;
+  char at[64];
+  std::snprintf(at, sizeof at, "(%.4g, %.4g)", stuck->at.x(), stuck->at.y());
+  return "; furthest off its law is body " + body.name() + " at " + at + ", triangle " +
+         std::to_string(stuck->triangle) + (driving.empty() ? "" : "; what drives the step is " + driving);
+}
+
+}  // namespace
+
 void addVerdict(Attempt& attempt, const Rounds* rounds, const std::string& shortfall) {
   RunFacts& facts = attempt.facts;
   Solved& solved = attempt.solved;
   const bool complete = solved.report.status == Status::converged;
+  if (solved.report.stuck) {
+    MeshedScene meshed{attempt.scene(), {}};
+    for (const Body& body : attempt.model->bodies) meshed.meshes.push_back(&body.mesh());
+    facts.driving = drivingDatum(meshed, solved.state.time, solved.report.stuck->time);
+  }
   facts.doubts = estimateDoubts(attempt.scene(), *attempt.model);
+  for (const std::string& doubt : pointForceDoubts(*attempt.model, solved.state))
+    facts.doubts.push_back(doubt);
   if (complete && attempt.scene().accuracy.bound && !solved.accuracy.bound)
     solved.accuracy.bound = boundOf(attempt);
   if (rounds == nullptr) return;
@@ -42,8 +68,8 @@ Ending endingOf(const Attempt& attempt, const std::string& shortfall, const std:
   const RunReport& report = attempt.solved.report;
   if (report.status != Status::converged)
     return {report.status == Status::unheld ? exitUnheld : exitFailed,
-            scene.path + ": " + report.reason + "; the state after step " +
-                std::to_string(attempt.solved.last.step) + " is in " + where};
+            scene.path + ": " + report.reason + whereToLook(attempt) + "; the state after step " +
+                std::to_string(attempt.solved.last.step) + " is in " + where + ", which mortier plot draws"};
   if (shortfall.empty()) return {};
   return {exitFailed, scene.path + ": accuracy " + shortest(scene.accuracy.energy) +
                           " not reached: " + shortfall + "; the best result is in " + where};

@@ -86,6 +86,7 @@ void writeConditions(std::ostream& out, const BodyDescription& body, int number,
   std::ostringstream loads;
   for (const ConditionDescription& c : body.conditions) {
     const std::string value = freefemExpression(c.value);
+    if (c.point) continue;
     if (c.kind == Kind::displacement && !isRoller(c)) {
       supports << "+ on(" << c.label << ", u" << c.component + 1 << " = " << value << ") ";
     } else if (c.kind == Kind::traction) {
@@ -124,6 +125,18 @@ std::string rollers(const SceneDescription& scene) {
   return text.empty() ? text : "macro rollers " + text + "//  body, label, direction, displacement\n";
 }
 
+/// One macro for all bodies; none where no point is held.
+std::string heldPoints(const SceneDescription& scene) {
+  std::string text;
+  for (size_t b = 0; b < scene.bodies.size(); ++b)
+    for (const ConditionDescription& c : scene.bodies[b].conditions)
+      if (c.point)
+        text += "heldPoint(" + std::to_string(b + 1) + ", " + shortest(c.point->x()) + ", " +
+                shortest(c.point->y()) + ", " + std::to_string(c.component + 1) + ", " +
+                freefemExpression(c.value) + ") ";
+  return text.empty() ? text : "macro heldPoints " + text + "//  body, x, y, component, displacement\n";
+}
+
 /// What an interface has in place of its distance as meshed; none where it is that everywhere.
 std::string distances(const SceneDescription& scene, const Model& model) {
   std::string text;
@@ -154,7 +167,7 @@ std::string script(const SceneDescription& scene, const Model& model,
   for (int b = 0; b < bodies; ++b) writeBody(out, scene.bodies[b], meshFiles[b], b + 1, scene.units.stress);
   out << creeps(scene) << "\n// Boundary conditions and loads, functions of x, y and t\n";
   for (int b = 0; b < bodies; ++b) writeConditions(out, scene.bodies[b], b + 1, scene.degree);
-  out << rollers(scene)
+  out << rollers(scene) << heldPoints(scene)
       << "\n// Contact: nonmortar body and label, mortar body and label; time\nint[int, int] contact = ";
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const auto& [nonmortar, mortar, coupling] = model.interfaces[k].pair();

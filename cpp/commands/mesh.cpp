@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "base/printable.h"
 #include "commands/exit_code.h"
@@ -55,6 +56,10 @@ Value parseWord(const std::string& option, const std::string& text,
     known += (known.empty() ? "" : ", ") + word;
   }
   throw InputError(option + " " + text + ": expected one of " + known);
+}
+
+std::string sizeOf(const TriangleMesh& mesh) {
+  return counted(mesh.vertices.size(), "vertex") + ", " + counted(mesh.triangles.size(), "triangle");
 }
 
 /// ", name" of a label that has one.
@@ -113,16 +118,14 @@ Made make(const MeshCommand& command) {
 int makeMesh(const MeshCommand& command) {
   const auto [mesh, labels] = make(command);
   writeMedit(mesh, command.file);
-  std::printf("%s: %zu vertices, %zu triangles; labels %s\n", command.file.c_str(), mesh.vertices.size(),
-              mesh.triangles.size(), labels.c_str());
+  std::printf("%s: %s; labels %s\n", command.file.c_str(), sizeOf(mesh).c_str(), labels.c_str());
   return exitDone;
 }
 
 int convertMesh(const ConvertCommand& command) {
   const TriangleMesh mesh = readMesh(command.source);
   writeMedit(mesh, command.file);
-  std::printf("%s: %zu vertices, %zu triangles\n", command.file.c_str(), mesh.vertices.size(),
-              mesh.triangles.size());
+  std::printf("%s: %s\n", command.file.c_str(), sizeOf(mesh).c_str());
   return exitDone;
 }
 
@@ -169,11 +172,12 @@ int meshInfo(const std::string& file) {
       upper[1]);
   std::printf("worst aspect ratio %.3g (triangle %d; 1 is equilateral)\n", worst, worstTriangle + 1);
   for (const auto& [label, what] : boundary) {
-    std::printf("label %-5d %d edges, length %.9g m%s\n", label, what.first, what.second,
+    std::printf("label %-5d %s, length %.9g m%s\n", label, counted(what.first, "edge").c_str(), what.second,
                 named(mesh.labelNames, label).c_str());
   }
   for (const auto& [region, count] : regions) {
-    std::printf("region %-4d %d triangles%s\n", region, count, named(mesh.regionNames, region).c_str());
+    std::printf("region %-4d %s%s\n", region, counted(count, "triangle").c_str(),
+                named(mesh.regionNames, region).c_str());
   }
   return exitDone;
 }

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "fem/element.h"
 #include "material/stress.h"
+#include "mesh/boundary_line.h"
 
 namespace mortier {
 namespace {
@@ -41,7 +42,11 @@ Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> 
       material_(std::move(material)),
       conditions_(std::move(conditions)),
       supports_(mesh_, nodes_, conditions_.displacements) {
-  for (const auto& condition : conditions_.displacements) requireLabel(mesh_, name_, condition.label);
+  for (const auto& condition : conditions_.displacements)
+    if (!condition.point)
+      requireLabel(mesh_, name_, condition.label);
+    else if (vertexAt(mesh_, *condition.point) < 0)
+      throw InputError("body " + name_ + ": a point that is held is no vertex of " + mesh_.name);
   for (const auto& condition : conditions_.tractions) requireLabel(mesh_, name_, condition.label);
   withElement(degree, [&](auto element) {
     using Element = decltype(element);

@@ -50,8 +50,8 @@ struct Conditions {
 class Body {
  public:
   /// \param degree  of the displacements, 1 or 2
-  /// \throws InputError when a condition names a label that the mesh does not have, or where a triangle with
-  /// a curved side is turned inside out.
+  /// \throws InputError when a condition names a label or a point that the mesh does not have, or where a
+  /// triangle with a curved side is turned inside out.
   Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> material, Conditions conditions,
        int degree = 1);
 

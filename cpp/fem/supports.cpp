@@ -5,6 +5,8 @@
 #include <map>
 #include <numbers>
 
+#include "mesh/boundary_line.h"
+
 namespace mortier {
 namespace {
 
@@ -36,6 +38,10 @@ bool isTurned(int component) {
   return component == alongNormal || component == alongTangent;
 }
 
+Point axis(int component) {
+  return Point::Unit(component == alongX ? 0 : 1);
+}
+
 /// The edges with a normal or tangential condition, by their nodes.
 SidesOfNodes sidesOf(const TriangleMesh& mesh, const ElementNodes& nodes,
                      const std::vector<PrescribedDisplacement>& conditions) {
@@ -44,7 +50,7 @@ SidesOfNodes sidesOf(const TriangleMesh& mesh, const ElementNodes& nodes,
     const auto& [edge, whole] = nodes.boundary[e];
     const int label = mesh.boundaryLabels[whole];
     const auto here = [&](const PrescribedDisplacement& c) {
-      return c.label == label && isTurned(c.component);
+      return c.actsOn(label) && isTurned(c.component);
     };
     if (std::none_of(conditions.begin(), conditions.end(), here)) continue;
     const Point along = nodes.places[edge[1]] - nodes.places[edge[0]];
@@ -102,13 +108,20 @@ Supports::Supports(const TriangleMesh& mesh, const ElementNodes& nodes,
     for (size_t c = 0; c < conditions.size(); ++c) {
       const int component = conditions[c].component;
       if (isTurned(component) != turned) continue;
+      if (conditions[c].point) {
+        const int vertex = vertexAt(mesh, *conditions[c].point);
+        if (vertex < 0) continue;
+        held[vertex].node = vertex;
+        hold(held[vertex], axis(component), static_cast<int>(c));
+        continue;
+      }
       for (size_t e = 0; e < nodes.boundary.size(); ++e) {
-        if (mesh.boundaryLabels[nodes.boundary[e].edge] != conditions[c].label) continue;
+        if (!conditions[c].actsOn(mesh.boundaryLabels[nodes.boundary[e].edge])) continue;
         for (const int node : nodes.boundary[e].nodes) {
           NodeSupport& support = held[node];
           support.node = node;
           if (!turned) {
-            hold(support, component == alongX ? Point(1, 0) : Point(0, 1), static_cast<int>(c));
+            hold(support, axis(component), static_cast<int>(c));
             continue;
           }
           const std::vector<Side>& here = sides.at(node);

@@ -1,8 +1,9 @@
-// What holds a body: the motions of single nodes that conditions on labelled sides prescribe,
+// What holds a body: the motions of single nodes that conditions on labelled sides or at vertices prescribe,
 //   d . u = value,   d a coordinate axis, the outward normal of the side or its tangent.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "base/types.h"
@@ -13,11 +14,15 @@ namespace mortier {
 /// Directions of displacements and tractions: axes, outward normal, tangent (the body to its left).
 enum Component : int { alongX, alongY, alongNormal, alongTangent };
 
-/// Displacement along a direction (Component), prescribed on a labelled boundary [m].
+/// Displacement along a direction (Component), prescribed on a labelled boundary or, along an axis, at a
+/// vertex [m].
 struct PrescribedDisplacement {
   int label = 0;
   int component = 0;
   Function value;
+  std::optional<Point> point = {};  ///< where the vertex is, in place of the label [m]
+
+  [[nodiscard]] bool actsOn(int boundary) const { return !point && label == boundary; }
 };
 
 /// A node that may move along one direction only, or not at all.
@@ -45,7 +50,7 @@ struct FurtherMotion {
 class Supports {
  public:
   Supports() = default;
-  /// Labels that the mesh does not have hold nothing.
+  /// Labels and points that the mesh does not have hold nothing.
   Supports(const TriangleMesh& mesh, const ElementNodes& nodes,
            const std::vector<PrescribedDisplacement>& conditions);
   /// Of linear displacements.

@@ -173,8 +173,8 @@ void checkConditions(const LintInput& input, const ContactDescription& contact,
     const BodyDescription& body = input.scene.bodies[bodyIndex(input.scene, side->body)];
     const TriangleMesh& mesh = *input.meshes[bodyIndex(input.scene, side->body)];
     for (const ConditionDescription& c : body.conditions) {
-      const std::string what = "label " + std::to_string(c.label) + " of body " + body.name;
-      if (c.label == side->label) {
+      const std::string what = nameOfPlace(c) + " of body " + body.name;
+      if (c.actsOn(side->label)) {
         if (c.kind == Kind::traction)
           faults.add("load-on-contact", c.where, what + " is in contact and carries a traction");
         else if (side == &contact.nonmortar)
@@ -187,10 +187,17 @@ void checkConditions(const LintInput& input, const ContactDescription& contact,
           contact.variant != CouplingKind::interpolation)
         continue;
       int node = -1;
-      for (const auto& [a, b] : edgesOn(mesh, c.label)) {
+      const auto isNonmortar = [&](int v, int axis) {
+        return interface.C1().col(2 * v + axis).nonZeros() > 0;
+      };
+      if (c.point) {
+        const int v = vertexAt(mesh, *c.point);
+        if (v >= 0 && isNonmortar(v, c.component)) node = v;
+      }
+      for (const auto& [a, b] : c.point ? std::vector<std::array<int, 2>>() : edgesOn(mesh, c.label)) {
         const auto axis = axisOf(c, mesh.vertices[a], mesh.vertices[b]);
         for (const int v : {a, b})
-          if (axis && interface.C1().col(2 * v + *axis).nonZeros() > 0) node = v;
+          if (axis && isNonmortar(v, *axis)) node = v;
       }
       if (node >= 0)
         faults.add("contact-meets-support", c.where,

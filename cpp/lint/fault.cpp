@@ -34,11 +34,6 @@ int Faults::count(Severity severity) const {
   return static_cast<int>(number);
 }
 
-std::string counted(size_t n, const std::string& what) {
-  if (n == 1) return "1 " + what;
-  return std::to_string(n) + " " + (what == "vertex" ? "vertices" : what + "s");
-}
-
 std::string listed(size_t n, const std::function<std::string(size_t)>& word) {
   constexpr size_t most = 20;
   std::string text;

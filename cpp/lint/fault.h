@@ -57,9 +57,6 @@ class Faults {
   std::map<const FaultKind*, OfKind> kinds_;
 };
 
-/// "1 vertex", "2 vertices".
-std::string counted(size_t n, const std::string& what);
-
 /// "a, b, c", of many words the first ones and how many there are beside them.
 std::string listed(size_t n, const std::function<std::string(size_t)>& word);
 

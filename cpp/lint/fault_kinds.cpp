@@ -49,6 +49,8 @@ const std::vector<FaultKind>& faultKinds() {
       {"far-from-origin", warning, "coordinates are huge against the extent of the mesh",
        "move the mesh to the origin"},
       // Labels.
+      {"missing-point", error, "the scene holds a point that is no vertex of the mesh",
+       "take the place of a vertex, or put one there (a Point of a geometry is one)"},
       {"missing-label", error, "the scene names a label that no edge of the mesh carries",
        "take one of the labels there are, or label the edges"},
       {"missing-region", error, "the scene names a region that no triangle of the mesh has",
@@ -77,7 +79,7 @@ const std::vector<FaultKind>& faultKinds() {
        "add a [[contact]], or they pass through each other"},
       {"body-alone", warning, "a body is in no contact", "add a [[contact]], or take the body out"},
       {"unheld-body", unheld, "nothing holds a body",
-       "hold the motion with ux or uy on a label, or with a contact"},
+       "hold the motion with ux or uy on a label or at points, or with a contact"},
       // Contact.
       {"contact-line", error, "a side of a contact is not one line on which contact can be made",
        "give each piece its own label and contact"},

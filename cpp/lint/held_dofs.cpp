@@ -21,6 +21,11 @@ std::vector<char> heldDofs(const TriangleMesh& mesh, const std::vector<Condition
   std::vector<char> held(2 * mesh.vertices.size(), 0);
   for (const ConditionDescription& condition : conditions) {
     if (condition.kind != ConditionDescription::Kind::displacement) continue;
+    if (condition.point) {
+      const int vertex = vertexAt(mesh, *condition.point);
+      if (vertex >= 0) held[2 * vertex + condition.component] = 1;
+      continue;
+    }
     for (const auto& [a, b] : edgesOn(mesh, condition.label)) {
       if (const auto axis = axisOf(condition, mesh.vertices[a], mesh.vertices[b]))
         for (const int v : {a, b}) held[2 * v + *axis] = 1;

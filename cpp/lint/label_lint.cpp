@@ -2,9 +2,12 @@
 #include <cmath>
 #include <map>
 
+#include "base/counted.h"
+#include "base/error.h"
 #include "lint/held_dofs.h"
 #include "lint/lint.h"
 #include "mesh/boundary_line.h"
+#include "scene/labels.h"
 
 namespace mortier {
 namespace {
@@ -17,7 +20,8 @@ struct Use {
 
 std::map<int, Use> usesOf(const SceneDescription& scene, size_t body) {
   std::map<int, Use> uses;
-  for (const ConditionDescription& c : scene.bodies[body].conditions) uses[c.label].condition = true;
+  for (const ConditionDescription& c : scene.bodies[body].conditions)
+    if (!c.point) uses[c.label].condition = true;
   for (const ContactDescription& contact : scene.contacts)
     for (const SideDescription* side : {&contact.nonmortar, &contact.mortar})
       if (side->body == scene.bodies[body].name) uses[side->label].contact = true;
@@ -69,10 +73,26 @@ void findMissing(const LintInput& input, size_t b, const Topology& topology, Fau
                    written(label, name) + "; there are: " + (known.empty() ? "none" : known));
   };
   for (const ConditionDescription& c : input.scene.bodies[b].conditions)
-    require(c.label, c.labelName, c.where);
+    if (!c.point) require(c.label, c.labelName, c.where);
   for (const ContactDescription& contact : input.scene.contacts)
     for (const SideDescription* side : {&contact.nonmortar, &contact.mortar})
       if (side->body == input.scene.bodies[b].name) require(side->label, side->labelName, side->where);
+}
+
+void findMissingPoints(const LintInput& input, size_t b, Faults& faults) {
+  const auto require = [&](const Point& point, const std::string& place) {
+    try {
+      vertexPoint(*input.meshes[b], point, "body " + input.scene.bodies[b].name);
+    } catch (const InputError& error) {
+      faults.add("missing-point", place, error.what());
+    }
+  };
+  for (const ConditionDescription& c : input.scene.bodies[b].conditions)
+    if (c.point) require(*c.point, c.where);
+  for (const QuantityDescription& quantity : input.scene.quantities)
+    if (quantity.point && quantity.kind == Quantity::Kind::reaction &&
+        quantity.body == input.scene.bodies[b].name)
+      require(*quantity.point, quantity.where);
 }
 
 /// Stretches of the boundary that nothing is said of, where their neighbourhood suggests that something was
@@ -118,8 +138,8 @@ void findUnused(const LintInput& input, size_t b, const Topology& topology, Faul
     const std::string place = mesh.name + ": edge from vertex " + std::to_string(edge.from + 1);
     if (begins && ends && before->label == after->label)
       faults.add("label-interrupted", place,
-                 body + name(before->label) + " is interrupted by " + std::to_string(length) +
-                     " edges with " + name(edge.label) + ", of which the scene says nothing");
+                 body + name(before->label) + " is interrupted by " + counted(length, "edge") + " with " +
+                     name(edge.label) + ", of which the scene says nothing");
     else
       faults.add("unused-label", place,
                  body + name(edge.label) + " goes on straight from " +
@@ -152,8 +172,8 @@ void findLocked(const LintInput& input, size_t b, Faults& faults) {
   }
   if (locked > 0)
     faults.add("locked-triangle", mesh.name + ": triangle " + std::to_string(where + 1),
-               "body " + input.scene.bodies[b].name + ": " + std::to_string(locked) +
-                   " triangles with every corner held have no freedom to strain");
+               "body " + input.scene.bodies[b].name + ": " + counted(locked, "triangle") +
+                   " without freedom to strain: every corner is held");
 }
 
 void findRegions(const LintInput& input, size_t b, Faults& faults) {
@@ -182,6 +202,7 @@ void lintLabels(const LintInput& input, Faults& faults) {
     if (input.meshes[b] == nullptr) continue;
     const Topology& topology = input.topologies[b];
     findMissing(input, b, topology, faults);
+    findMissingPoints(input, b, faults);
     findUnused(input, b, topology, faults);
     findLocked(input, b, faults);
     findRegions(input, b, faults);

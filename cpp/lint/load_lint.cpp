@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/counted.h"
 #include "base/printable.h"
 #include "lint/held_dofs.h"
 #include "lint/lint.h"
@@ -53,7 +54,7 @@ void checkDatum(const LintInput& input, const SampledDatum& datum, Faults& fault
 bool holdsEdge(const std::vector<ConditionDescription>& conditions, int label, const Point& from,
                const Point& to, std::optional<int> axis) {
   return std::any_of(conditions.begin(), conditions.end(), [&](const ConditionDescription& c) {
-    return c.kind == ConditionDescription::Kind::displacement && c.label == label &&
+    return c.kind == ConditionDescription::Kind::displacement && c.actsOn(label) &&
            axisOf(c, from, to) == axis;
   });
 }
@@ -101,7 +102,7 @@ std::vector<double> kinks(const std::string& text) {
 /// The first of some times, and how many there are beside it.
 std::string firstOf(const std::vector<double>& times) {
   return shortest(times.front()) +
-         (times.size() > 1 ? " and at " + std::to_string(times.size() - 1) + " more times" : "");
+         (times.size() > 1 ? " and at " + counted(times.size() - 1, "more time") : "");
 }
 
 /// A message for all kinks of a datum: a table may have any number of them.

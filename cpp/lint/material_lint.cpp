@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/counted.h"
 #include "lint/lint.h"
 
 namespace mortier {
@@ -77,9 +78,9 @@ void checkSteps(const LintInput& input, const PlacedMaterial& material, double l
   constexpr int few = 10;
   if (time.scheme == Scheme::backwardEuler && largest > flow.yieldStress && time.steps < few)
     faults.add("few-steps-across-yield", input.where({"time", "steps"}),
-               subject + "backward-euler is of first order, " + std::to_string(time.steps) +
-                   " steps across yield leave an error of about " + shortest(std::round(100.0 / time.steps)) +
-                   " %");
+               subject + "backward-euler is of first order, " + counted(time.steps, "step") +
+                   " across yield " + (time.steps == 1 ? "leaves" : "leave") + " an error of about " +
+                   shortest(std::round(100.0 / time.steps)) + " %");
   const bool hard =
       std::any_of(input.scene.contacts.begin(), input.scene.contacts.end(),
                   [](const ContactDescription& c) { return c.variant == CouplingKind::interpolation; });

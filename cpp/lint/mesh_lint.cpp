@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 
+#include "base/counted.h"
 #include "base/disjoint_sets.h"
 #include "lint/lint.h"
 #include "mesh/components.h"

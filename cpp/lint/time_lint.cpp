@@ -1,3 +1,4 @@
+#include "base/counted.h"
 #include "lint/lint.h"
 
 namespace mortier {
@@ -11,8 +12,8 @@ void lintTime(const LintInput& input, Faults& faults) {
   const bool equalSteps = !scene.time.controlled();
   if (equalSteps && scene.every > scene.time.steps)
     faults.add("output-every", input.where({"output", "every"}),
-               "every = " + std::to_string(scene.every) + " with " + std::to_string(scene.time.steps) +
-                   " steps keeps the first and the last state only");
+               "every = " + std::to_string(scene.every) + " with " + counted(scene.time.steps, "step") +
+                   " keeps the first and the last state only");
   if (scene.solver.tolerance > loose)
     faults.add("tolerance-loose", input.where({"solver", "tolerance"}),
                "tolerance = " + shortest(scene.solver.tolerance) + " shows in the results");

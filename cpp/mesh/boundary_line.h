@@ -37,4 +37,7 @@ std::vector<std::array<int, 2>> edgesOn(const TriangleMesh& mesh, int label);
 /// The vertices of those edges, ascending, each once.
 std::vector<int> verticesOn(const TriangleMesh& mesh, int label);
 
+/// The first vertex that lies exactly at a place [m]; -1 for none.
+int vertexAt(const TriangleMesh& mesh, const Point& place);
+
 }  // namespace mortier

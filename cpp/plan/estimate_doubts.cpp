@@ -1,10 +1,14 @@
 #include "plan/estimate_doubts.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <set>
 #include <utility>
 
 #include "plan/loads.h"
+#include "scene/document.h"
+#include "time/quantity.h"
 
 namespace mortier {
 namespace {
@@ -21,6 +25,12 @@ bool crossed(const TriangleMesh& mesh) {
   };
   const auto count = std::count_if(mesh.triangles.begin(), mesh.triangles.end(), inCell);
   return static_cast<double>(count) > most * static_cast<double>(mesh.triangles.size());
+}
+
+std::string twoDigits(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", x);
+  return text;
 }
 
 /// The bodies that flow and touch one that is much softer, each once.
@@ -83,6 +93,29 @@ std::vector<std::string> estimateDoubts(const SceneDescription& scene, const Mod
       doubts.push_back("body " + model.bodies[b].name() +
                        " is nearly incompressible and locks on cells with one diagonal, of which it sees "
                        "0.38 to 1.2");
+  }
+  return doubts;
+}
+
+std::vector<std::string> pointForceDoubts(const Model& model, const State& state) {
+  constexpr double noticeable = 1e-6;  // its square is the part of the energy
+  std::vector<std::string> doubts;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    const double largest = body.largestForce(state.bodies[b].stress);
+    std::set<int> seen;
+    for (const PrescribedDisplacement& held : body.conditions().displacements) {
+      if (!held.point || !seen.insert(firstSupport(body, held.label, held.point)).second) continue;
+      Quantity along{"", Quantity::Kind::reaction, static_cast<int>(b)};
+      along.point = held.point;
+      Quantity across = along;
+      across.component = Quantity::Component::y;
+      const std::vector<double> force = evaluate({along, across}, model, state);
+      const double size = std::hypot(force[0], force[1]);
+      if (size > noticeable * largest)
+        doubts.push_back("body " + body.name() + " is held at " + shortest(*held.point) + " by a force of " +
+                         twoDigits(size) + " N/m, whose energy at a point is infinite");
+    }
   }
   return doubts;
 }

@@ -7,11 +7,16 @@
 
 #include "scene/scene.h"
 #include "solver/model.h"
+#include "solver/state.h"
 
 namespace mortier {
 
 /// A line each, with the range of the estimate over the error.
 std::vector<std::string> estimateDoubts(const SceneDescription& scene, const Model& model);
+
+/// The points at which supports exert a force in a state, a line each: the energy of the exact solution is
+/// infinite there, so its error does not fall.
+std::vector<std::string> pointForceDoubts(const Model& model, const State& state);
 
 /// Whether every nonmortar node lies on a mortar node.
 bool meshesMatch(const ContactInterface& interface);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace mortier {
 
@@ -41,8 +42,9 @@ std::vector<SampledDatum> sampledData(const MeshedScene& input) {
     for (const ConditionDescription& c : input.scene.bodies[b].conditions) {
       std::vector<Point> points;
       for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
-        if (mesh.boundaryLabels[e] == c.label)
+        if (c.actsOn(mesh.boundaryLabels[e]))
           for (const int v : mesh.boundaryEdges[e]) points.push_back(mesh.vertices[v]);
+      if (c.point) points.push_back(*c.point);
       const bool held = c.kind == ConditionDescription::Kind::displacement;
       data.push_back({held ? SampledDatum::Kind::displacement : SampledDatum::Kind::traction, b, &c.value,
                       thinned(std::move(points)), size});
@@ -88,6 +90,27 @@ double nominalStress(const SceneDescription& scene, const std::vector<SampledDat
     }
   }
   return result;
+}
+
+std::string drivingDatum(const MeshedScene& input, double from, double to) {
+  const std::vector<SampledDatum> data = sampledData(input);
+  const SampledDatum* most = nullptr;
+  double largest = 0;
+  for (const SampledDatum& datum : data) {
+    const double young = input.scene.bodies[datum.body].material.elasticity.young;
+    const double factor = datum.kind == SampledDatum::Kind::traction ? 1
+                          : datum.kind == SampledDatum::Kind::force  ? datum.size
+                                                                     : young / datum.size;
+    const double stress = factor * datum.change(from, to);
+    if (!(stress > largest)) continue;
+    largest = stress;
+    most = &datum;
+  }
+  if (most == nullptr) return "";
+  char sizes[160];
+  std::snprintf(sizes, sizeof sizes, ", of size %.4g at t = %.6g s and %.4g at t = %.6g s",
+                most->largest(from), from, most->largest(to), to);
+  return most->value->where + sizes;
 }
 
 }  // namespace mortier

@@ -1,6 +1,7 @@
 // How large the data of a scene are in the course of a run, for comparisons with stiffness and strength.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "mesh/triangle_mesh.h"
@@ -44,5 +45,9 @@ bool changesInTime(const SampledDatum& datum, const TimePlan& plan);
 /// The stress that the data of the scene ask for at a time, by order of magnitude [Pa]: tractions as they
 /// are, body forces times the extent, prescribed displacements over the extent times Young's modulus.
 double nominalStress(const SceneDescription& scene, const std::vector<SampledDatum>& data, double t);
+
+/// The datum whose change from one time to another asks for the largest stress: the scene's words with file
+/// and line, and its largest value at both times. Empty where none changes.
+std::string drivingDatum(const MeshedScene& input, double from, double to);
 
 }  // namespace mortier

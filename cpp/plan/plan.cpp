@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
+#include "base/counted.h"
 #include "plan/steps.h"
 #include "scene/document.h"
 #include "scene/memory_need.h"
@@ -51,6 +53,7 @@ class Planner {
   void planBody(size_t b) {
     const Body& body = model_.bodies[b];
     const std::string part = "body " + body.name();
+    planPoints(b);
     const bool symmetric = body.material().symmetricTangent();
     const std::string factor = symmetric ? "Cholesky" : "LU";
     if (body.material().linear()) {
@@ -87,6 +90,19 @@ class Planner {
       add(part, true, "flow", loads);
   }
 
+  void planPoints(size_t b) {
+    std::set<std::string> points;
+    for (const ConditionDescription& c : scene_.bodies[b].conditions)
+      if (c.point) points.insert(shortest(*c.point));
+    if (points.empty()) return;
+    std::string list;
+    for (const std::string& point : points) list += (list.empty() ? "" : ", ") + point;
+    add("body " + scene_.bodies[b].name, true,
+        (points.size() == 1 ? "held at " : "held at the points ") + list,
+        "what takes rigid motions away and carries no force; the energy of a force at a point is infinite, "
+        "displacements there grow as meshes are refined");
+  }
+
   void planContact() {
     if (model_.interfaces.empty()) {
       add("contact", false, "contact: nothing is condensed, every body is solved by itself",
@@ -98,7 +114,7 @@ class Planner {
       const std::string part = "contact " + std::to_string(k);
       add(part, true,
           "unilateral contact by " + word(scene_.contacts[k].variant) + " at " +
-              std::to_string(interface.rows()) + " nodes of " +
+              counted(interface.rows(), "node") + " of " +
               model_.bodies[interface.pair().nonmortar.body].name(),
           "any of them may open");
     }
@@ -120,13 +136,12 @@ class Planner {
     if (elastic && !changes) {
       add("time", true, "one step", "nothing depends on time");
       if (!time.controlled() && time.steps > 1)
-        add("time", false, "the other " + std::to_string(time.steps - 1) + " steps", "they are at rest");
+        add("time", false, "the other " + counted(time.steps - 1, "step"), "they are at rest");
       return;
     }
     const double tolerance = stepTolerance(scene_);
     const bool forRounds = inRounds() && !elastic;
-    const std::string equal = std::to_string(time.steps) + (time.steps == 1 ? " step" : " steps") + " of " +
-                              shortest(time.end / time.steps) + " s";
+    const std::string equal = counted(time.steps, "step") + " of " + shortest(time.end / time.steps) + " s";
     const std::string chosen = "steps chosen by an error in time of " + shortest(tolerance) +
                                (forRounds ? " in the last round" : "");
     add("time", true, (tolerance > 0 ? chosen : equal) + ", " + word(time.scheme),

@@ -30,9 +30,6 @@ MORTIER_MEMBERS(Peaks, vonMises, pressure, contactForce, displacement, motion, e
 MORTIER_MEMBERS(FlowBoundMemory, obstacle, moved, begin, misfit, opening, growth, load, loadOff, motion,
                 motionOff)
 MORTIER_MEMBERS(AccuracyMemory, energy, error, time, flow)
-MORTIER_MEMBERS(RunReport, status, reason, steps, iterations, maxIterationsInAStep, factorisations,
-                pilotIterations, rejected, timeError, guarded, solveSeconds, special, worst, peaks,
-                quantities, rungs)
 MORTIER_MEMBERS(WorkDone, external, contact, dissipated)
 MORTIER_MEMBERS(BodyState, displacement, stress, viscoplasticStrain, work)
 MORTIER_MEMBERS(State, time, bodies, contactForce, gap)
@@ -45,5 +42,15 @@ MORTIER_MEMBERS(MarchMemory, begin, run, increments, timeStep, solver, controlle
 MORTIER_MEMBERS(Checkpoint, identity, empty, files, last, state, memory, accuracy)
 
 #undef MORTIER_MEMBERS
+
+/// A run of which there is a checkpoint is not stuck.
+template <class Archive>
+void visitMembers(Archive& archive, RunReport& whole) {
+  auto& [status, reason, stuck, steps, iterations, maxIterationsInAStep, factorisations, pilotIterations,
+         rejected, timeError, guarded, solveSeconds, special, worst, peaks, quantities, rungs] = whole;
+  static_cast<void>(stuck);
+  archive(status, reason, steps, iterations, maxIterationsInAStep, factorisations, pilotIterations, rejected,
+          timeError, guarded, solveSeconds, special, worst, peaks, quantities, rungs);
+}
 
 }  // namespace mortier

@@ -7,6 +7,7 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "base/counted.h"
 #include "report/clock.h"
 #include "report/laws.h"
 #include "report/summary.h"
@@ -28,8 +29,8 @@ namespace {
 std::string heldEnds(const ContactInterface& interface) {
   if (interface.heldEnds() == 0) return "";
   const bool merged = interface.pair().coupling != CouplingKind::interpolation;
-  return format("; %d held end%s without a condition: %s", interface.heldEnds(),
-                interface.heldEnds() > 1 ? "s" : "", merged ? "merged into the next node" : "left out");
+  return "; " + counted(interface.heldEnds(), "held end") +
+         " without a condition: " + (merged ? "merged into the next node" : "left out");
 }
 
 /// What a reader may have meant as a circle.
@@ -106,7 +107,7 @@ std::string logStatus(const RunReport& report, const std::string& folder) {
   const double share = wall > 0 ? std::min(1.0, report.solveSeconds / wall) : 0;
   std::string text = "status " + word(report.status);
   if (report.status != Status::converged) {
-    text += " after " + std::to_string(report.steps) + " steps";
+    text += " after " + counted(report.steps, "step");
   }
   return text +
          format("   newton %d   factorisations %d   %.3g s (solve %.0f%%)   %.0f MiB   ", report.iterations,

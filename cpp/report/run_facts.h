@@ -42,7 +42,8 @@ struct RunFacts {
   size_t best = 0;                   ///< the round of the result, from 0
   std::vector<Quantity> quantities;  ///< that the scene asks for
   std::vector<std::string>
-      doubts;  ///< where the estimate of the accuracy is known to be wrong, and by how much
+      doubts;           ///< where the estimate of the accuracy is known to be wrong, and by how much
+  std::string driving;  ///< what drives the step that failed (plan/loads.h)
   std::vector<std::pair<std::string, std::string>> versions;  ///< of mortier and its libraries
 };
 

@@ -115,6 +115,16 @@ Json jsonOf(const EnergyBound& bound) {
           {"data", bound.oscillation}};
 }
 
+/// Where to look at, and why it is hard there.
+Json jsonOf(const StuckPlace& stuck, const RunFacts& facts, const Model& model) {
+  return {{"body", model.bodies[stuck.body].name()},
+          {"triangle", stuck.triangle},
+          {"at", {stuck.at.x(), stuck.at.y()}},
+          {"material_residual", stuck.residual},
+          {"time", stuck.time},
+          {"driven_by", facts.driving}};
+}
+
 /// Of the error of a quantity.
 Json jsonOf(const EnergyBound& bound, size_t quantity, double value) {
   if (!bound.obstacle.empty()) return {{"error", nullptr}, {"reason", bound.obstacle}};
@@ -197,6 +207,7 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
   if (report.status != Status::converged) {
     json["reason"] = report.reason;
   }
+  if (report.stuck) json["stuck"] = jsonOf(*report.stuck, facts, model);
   json["contact"] = facts.contact;
   json["nonmortar"] = facts.nonmortar;
   json["projection"] = facts.projection;

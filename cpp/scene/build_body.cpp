@@ -60,7 +60,7 @@ Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescri
   std::vector<const ConditionDescription*> displacements;
   for (const ConditionDescription& c : body.conditions) {
     if (c.kind == ConditionDescription::Kind::displacement) {
-      conditions.displacements.push_back({c.label, c.component, finiteValue(c.value)});
+      conditions.displacements.push_back({c.label, c.component, finiteValue(c.value), c.point});
       displacements.push_back(&c);
     } else {
       conditions.tractions.push_back({c.label, c.component, finiteValue(c.value)});

@@ -11,12 +11,6 @@ namespace {
 
 using Kind = Quantity::Kind;
 
-bool isSupported(const Body& body, int label) {
-  const auto& displacements = body.conditions().displacements;
-  return std::any_of(displacements.begin(), displacements.end(),
-                     [&](const auto& d) { return d.label == label; });
-}
-
 bool isInContact(const Model& model, int body, int label) {
   return std::any_of(model.interfaces.begin(), model.interfaces.end(),
                      [&](const ContactInterface& interface) { return isSide(interface, body, label); });
@@ -33,8 +27,12 @@ std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model
     const auto refuse = [&](const std::string& what) {
       throw InputError(description.where + ": quantity " + quantity.name + ": " + what);
     };
-    const std::string label = "label " + std::to_string(quantity.label) + " of body " + body.name();
-    if (quantity.kind == Kind::reaction && !isSupported(body, quantity.label))
+    const bool atPoint = quantity.kind == Kind::reaction && description.point;
+    if (atPoint) quantity.point = description.point;
+    const std::string label =
+        (atPoint ? "point " + shortest(*description.point) : "label " + std::to_string(quantity.label)) +
+        " of body " + body.name();
+    if (quantity.kind == Kind::reaction && firstSupport(body, quantity.label, quantity.point) < 0)
       refuse(label + " has no prescribed displacement, expected one that has: supports alone react");
     const bool isOfContact = quantity.kind == Kind::contactForce || quantity.kind == Kind::largestPressure ||
                              quantity.kind == Kind::contactLength;
@@ -44,8 +42,7 @@ std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model
       quantity.mean =
           description.point ? meanAt(body.mesh(), *description.point) : meanOn(body.mesh(), quantity.label);
       if (quantity.mean.empty())
-        refuse("point = [" + shortest(description.point->x()) + ", " + shortest(description.point->y()) +
-               "], expected a point of body " + body.name());
+        refuse("point = " + shortest(*description.point) + ", expected a point of body " + body.name());
     }
     quantities.push_back(std::move(quantity));
   }

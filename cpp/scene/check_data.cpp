@@ -43,8 +43,10 @@ void requireFiniteData(const BodyDescription& body, const TriangleMesh& mesh,
     if (condition.kind == ConditionDescription::Kind::traction) {
       points = middlesOn(mesh, condition.label);
     }
-    for (const int v : verticesOn(mesh, condition.label)) {
-      points.push_back(mesh.vertices[v]);
+    if (condition.point) {
+      points.push_back(*condition.point);
+    } else {
+      for (const int v : verticesOn(mesh, condition.label)) points.push_back(mesh.vertices[v]);
     }
     requireFinite(condition.value, points, times);
   }
@@ -87,14 +89,13 @@ void requireOneDisplacement(const Supports& supports,
       if (std::abs(valueOf(motion.condition) - implied) <= rounding * scale) {
         continue;
       }
-      const auto labelOf = [&](int i) { return std::to_string(displacements[support.conditions[i]]->label); };
+      const auto placeOf = [&](int i) { return nameOfPlace(*displacements[support.conditions[i]]); };
       const int same = sameMotion(support, motion.direction);
-      throw InputError(displacements[motion.condition]->value.where + " at (" + shortest(p[0]) + ", " +
-                       shortest(p[1]) + "), t = " + shortest(t) + ": expected the " + shortest(implied) +
-                       " that " +
-                       (same >= 0 ? "label " + labelOf(same) + " prescribes"
-                                  : "labels " + labelOf(0) + " and " + labelOf(1) + " prescribe") +
-                       " there");
+      throw InputError(
+          displacements[motion.condition]->value.where + " at (" + shortest(p[0]) + ", " + shortest(p[1]) +
+          "), t = " + shortest(t) + ": expected the " + shortest(implied) + " that " +
+          (same >= 0 ? placeOf(same) + " prescribes" : placeOf(0) + " and " + placeOf(1) + " prescribe") +
+          " there");
     }
   }
 }

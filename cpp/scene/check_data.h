@@ -13,8 +13,9 @@ namespace mortier {
 void requireFiniteData(const BodyDescription& body, const TriangleMesh& mesh,
                        const std::vector<double>& times);
 
-/// Where labels meet, all may prescribe a motion of a node, but not differently. `displacements` are the
-/// conditions of `supports`, in their order. \throws InputError with node, time [s] and both values [m].
+/// Where labels or points meet, all may prescribe a motion of a node, but not differently. `displacements`
+/// are the conditions of `supports`, in their order. \throws InputError with node, time [s] and both values
+/// [m].
 void requireOneDisplacement(const Supports& supports,
                             const std::vector<const ConditionDescription*>& displacements,
                             const TriangleMesh& mesh, const std::vector<double>& times);

@@ -179,4 +179,8 @@ std::string shortest(double value) {
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
+std::string shortest(const Point& point) {
+  return "[" + shortest(point.x()) + ", " + shortest(point.y()) + "]";
+}
+
 }  // namespace mortier

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/types.h"
+
 namespace mortier {
 
 struct Node {
@@ -44,5 +46,7 @@ Node parseSetting(const std::string& text, const std::string& where);
 
 /// A number as a message shows it: the shortest decimal that reads back the same.
 std::string shortest(double value);
+/// The same of a point: "[0.5, 1]".
+std::string shortest(const Point& point);
 
 }  // namespace mortier

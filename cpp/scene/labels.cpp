@@ -1,10 +1,14 @@
 #include "scene/labels.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
+#include <limits>
 #include <set>
 
 #include "base/error.h"
 #include "mesh/boundary_line.h"
+#include "scene/document.h"
 #include "scene/schema.h"
 
 namespace mortier {
@@ -24,6 +28,12 @@ int numberOf(const std::map<std::string, int>& names, const std::string& name, c
                    (words.empty()
                         ? "the mesh " + mesh.name + " has no names of " + what
                         : "expected one of " + joined(words) + " (" + what + " of " + mesh.name + ")"));
+}
+
+std::string threeDigits(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", x);
+  return text;
 }
 
 template <class Labels>
@@ -61,6 +71,30 @@ int regionLabel(const TriangleMesh& mesh, int label, const std::string& name, co
   }
   throw InputError(place + ": region label = " + std::to_string(label) + ", expected one of " +
                    joined(wordsFor(labels)) + " (regions of " + mesh.name + ")");
+}
+
+Point vertexPoint(const TriangleMesh& mesh, const Point& point, const std::string& place) {
+  constexpr double near = 1e-3;
+  const auto distance = [&](int vertex) { return (mesh.vertices[vertex] - point).norm(); };
+  int nearest = 0;
+  for (int v = 1; v < static_cast<int>(mesh.vertices.size()); ++v)
+    if (distance(v) < distance(nearest)) nearest = v;
+  double shortestEdge = std::numeric_limits<double>::infinity();
+  for (const std::array<int, 3>& triangle : mesh.triangles)
+    for (int k = 0; k < 3; ++k)
+      if (triangle[k] == nearest)
+        for (const int other : {triangle[(k + 1) % 3], triangle[(k + 2) % 3]})
+          shortestEdge = std::min(shortestEdge, (mesh.vertices[other] - mesh.vertices[nearest]).norm());
+  if (!(distance(nearest) <= near * shortestEdge))
+    throw InputError(place + ": point = " + shortest(point) + ", expected a vertex of " + mesh.name +
+                     ": the nearest one is at " + shortest(mesh.vertices[nearest]) + ", " +
+                     threeDigits(distance(nearest)) + " m away");
+  for (int v = 0; v < static_cast<int>(mesh.vertices.size()); ++v)
+    if (v != nearest && distance(v) <= near * shortestEdge)
+      throw InputError(place + ": point = " + shortest(point) + ", expected one vertex of " + mesh.name +
+                       " there: vertices " + std::to_string(std::min(v, nearest) + 1) + " and " +
+                       std::to_string(std::max(v, nearest) + 1) + " lie in one place");
+  return mesh.vertices[nearest];
 }
 
 }  // namespace mortier

@@ -1,4 +1,4 @@
-// The labels that a scene names, looked up in the mesh of the body.
+// The labels and points that a scene names, looked up in the mesh of the body.
 #pragma once
 
 #include <string>
@@ -14,5 +14,10 @@ int boundaryLabel(const TriangleMesh& mesh, int label, const std::string& name, 
 
 /// The same for a label of a region.
 int regionLabel(const TriangleMesh& mesh, int label, const std::string& name, const std::string& place);
+
+/// Where the vertex lies that a scene means by a point: the nearest one, no further off than a thousandth of
+/// the shortest edge there.
+/// \throws InputError, headed by `place`, with that vertex and its distance.
+Point vertexPoint(const TriangleMesh& mesh, const Point& point, const std::string& place);
 
 }  // namespace mortier

@@ -79,7 +79,7 @@ void forEachDatum(const SceneDescription& scene, const Model& model,
   for (size_t b = 0; b < scene.bodies.size(); ++b) {
     const TriangleMesh& mesh = model.bodies[b].mesh();
     for (const ConditionDescription& c : scene.bodies[b].conditions) {
-      call(c.value, samplePoints(mesh, &c.label));
+      call(c.value, c.point ? std::vector<Point>{*c.point} : samplePoints(mesh, &c.label));
     }
     for (const std::optional<Expression>& force : scene.bodies[b].force)
       if (force) call(*force, samplePoints(mesh, nullptr));

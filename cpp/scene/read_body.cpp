@@ -13,16 +13,14 @@ namespace mortier {
 
 namespace {
 
-/// Two data for one component of one label would have to be ordered by a rule that nobody remembers.
+/// Two data for one component of one place would have to be ordered by a rule that nobody remembers.
 void addCondition(BodyDescription& body, const ConditionDescription& added) {
   for (const ConditionDescription& other : body.conditions) {
-    if (other.label == added.label && other.labelName == added.labelName &&
+    if (other.label == added.label && other.labelName == added.labelName && other.point == added.point &&
         other.component == added.component) {
       constexpr const char* directions[] = {"component x", "component y", "the normal", "the tangent"};
       throw InputError(added.value.where + ", expected one condition for " + directions[added.component] +
-                       " of label " +
-                       (added.labelName.empty() ? std::to_string(added.label) : added.labelName) +
-                       ", there is one at " + other.where);
+                       " of " + nameOfPlace(added) + ", there is one at " + other.where);
     }
   }
   body.conditions.push_back(added);
@@ -54,6 +52,20 @@ void readBoundary(const Node& node, BodyDescription& body) {
         node.where, "boundary label " + (labelName.empty() ? std::to_string(label) : labelName) +
                         " has no condition, expected one of ux, uy, un, ut, tx, ty, pressure"));
   }
+}
+
+void readPoint(const Node& node, BodyDescription& body) {
+  const TableReader table(node, "body.point", "body " + body.name);
+  const Point at = table.point("at");
+  const size_t before = body.conditions.size();
+  const std::pair<const char*, int> data[] = {{"ux", alongX}, {"uy", alongY}};
+  for (const auto& [key, component] : data)
+    if (table.find(key) != nullptr)
+      addCondition(body, {ConditionDescription::Kind::displacement, 0, "", component, table.expression(key),
+                          table.find("at")->where, at});
+  if (body.conditions.size() == before)
+    throw InputError(
+        table.message(node.where, "point " + shortest(at) + " has no condition, expected one of ux, uy"));
 }
 
 StressDescription readInitialStress(const TableReader& owner, const std::string& path,
@@ -180,6 +192,7 @@ BodyDescription readBody(const Node& node, const std::string& scenePath, size_t 
   for (const Node* boundary : table.tables("boundary")) {
     readBoundary(*boundary, body);
   }
+  for (const Node* point : table.tables("point")) readPoint(*point, body);
   return body;
 }
 

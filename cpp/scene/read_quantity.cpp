@@ -35,7 +35,7 @@ QuantityDescription readQuantity(const Node& node, const SceneDescription& scene
       for (const BodyDescription& body : scene.bodies) names.push_back(body.name);
       of.reject("body", "one of " + joined(names));
     }
-    if (kind == Kind::displacement && of.find("point") != nullptr) {
+    if (kind != Kind::contactForce && of.find("point") != nullptr) {
       if (of.find("label") != nullptr) of.reject("label", "either label or point");
       quantity.point = of.point("point");
       quantity.where = of.find("point")->where;

@@ -12,17 +12,26 @@ namespace {
 
 using NumberLabel =
     std::function<void(int body, int& label, const std::string& name, const std::string& where)>;
+using PlacePoint = std::function<void(int body, Point& point, const std::string& where)>;
 
-void forEachLabel(SceneDescription& scene, const NumberLabel& boundary, const NumberLabel& region) {
+void forEachPlace(SceneDescription& scene, const NumberLabel& boundary, const NumberLabel& region,
+                  const PlacePoint& vertex) {
   for (int b = 0; b < static_cast<int>(scene.bodies.size()); ++b) {
-    for (ConditionDescription& c : scene.bodies[b].conditions) boundary(b, c.label, c.labelName, c.where);
+    for (ConditionDescription& c : scene.bodies[b].conditions)
+      if (c.point)
+        vertex(b, *c.point, c.where);
+      else
+        boundary(b, c.label, c.labelName, c.where);
     for (RegionDescription& r : scene.bodies[b].regions) region(b, r.label, r.labelName, r.where);
   }
   for (ContactDescription& contact : scene.contacts)
     for (SideDescription* side : {&contact.nonmortar, &contact.mortar})
       boundary(bodyIndex(scene, side->body), side->label, side->labelName, side->where);
   for (QuantityDescription& q : scene.quantities)
-    if (ofLabel(q.kind) && !q.point) boundary(bodyIndex(scene, q.body), q.label, q.labelName, q.where);
+    if (ofLabel(q.kind) && !q.point)
+      boundary(bodyIndex(scene, q.body), q.label, q.labelName, q.where);
+    else if (q.kind == Quantity::Kind::reaction)
+      vertex(bodyIndex(scene, q.body), *q.point, q.where);
 }
 
 std::vector<const TriangleMesh*> pointersTo(const std::vector<TriangleMesh>& meshes) {
@@ -48,13 +57,16 @@ ResolvedScene resolveScene(SceneDescription scene) {
   const auto place = [&](int body, const std::string& where) {
     return where + ": body " + scene.bodies[body].name;
   };
-  forEachLabel(
+  forEachPlace(
       scene,
       [&](int body, int& label, const std::string& name, const std::string& where) {
         label = boundaryLabel(meshes[body], label, name, place(body, where));
       },
       [&](int body, int& label, const std::string& name, const std::string& where) {
         label = regionLabel(meshes[body], label, name, place(body, where));
+      },
+      [&](int body, Point& point, const std::string& where) {
+        point = vertexPoint(meshes[body], point, place(body, where));
       });
   decideSides(scene, pointersTo(meshes));
   return {std::move(scene), std::move(meshes)};
@@ -70,7 +82,15 @@ void resolveWhatCanBe(SceneDescription& scene, const std::vector<const TriangleM
       label = found == known.end() ? none : found->second;
     };
   };
-  forEachLabel(scene, number(&TriangleMesh::labelNames), number(&TriangleMesh::regionNames));
+  const auto vertex = [&](int body, Point& point, const std::string& where) {
+    if (meshes[body] == nullptr) return;
+    try {
+      point = vertexPoint(*meshes[body], point, where);
+    } catch (const InputError&) {
+      return;  // named by the lint
+    }
+  };
+  forEachPlace(scene, number(&TriangleMesh::labelNames), number(&TriangleMesh::regionNames), vertex);
   decideSides(scene, meshes);
 }
 

@@ -123,6 +123,11 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   return scene;
 }
 
+std::string nameOfPlace(const ConditionDescription& condition) {
+  if (condition.point) return "point " + shortest(*condition.point);
+  return "label " + (condition.labelName.empty() ? std::to_string(condition.label) : condition.labelName);
+}
+
 std::string word(Plane plane) {
   return planeWords[static_cast<size_t>(plane)];
 }

@@ -34,7 +34,8 @@ struct MaterialDescription {
   }
 };
 
-/// A displacement [m] or a traction [Pa] along one direction on a labelled part of the boundary.
+/// A displacement [m] or a traction [Pa] along one direction on a labelled part of the boundary, or a
+/// displacement of a vertex.
 struct ConditionDescription {
   enum class Kind { displacement, traction };
   Kind kind = Kind::displacement;
@@ -42,8 +43,14 @@ struct ConditionDescription {
   std::string labelName;  ///< where the label is a name; resolveScene finds it
   int component = 0;      ///< Component (fem/supports.h)
   Expression value;
-  std::string where;  ///< file and line of the label, or the --set that gave it
+  std::string where;                ///< file and line of the label, or the --set that gave it
+  std::optional<Point> point = {};  ///< in place of the label; resolveScene makes it that of a vertex [m]
+
+  [[nodiscard]] bool actsOn(int boundary) const { return !point && label == boundary; }
 };
+
+/// "label 3" or "point [0.5, 1]".
+std::string nameOfPlace(const ConditionDescription& condition);
 
 /// s11, s22, s12, s33 at t = 0 [Pa].
 using StressDescription = std::array<std::optional<Expression>, 4>;
@@ -95,7 +102,7 @@ struct QuantityDescription {
   std::string body;
   int label = 0;
   std::string labelName;       ///< where the label is a name; resolveScene finds it
-  std::optional<Point> point;  ///< of a displacement, in place of a label [m]
+  std::optional<Point> point;  ///< in place of the label: of a displacement, or of a support [m]
   Quantity::Component component = Quantity::Component::x;
   Point about{0, 0};
   std::string where;  ///< of the label or the point

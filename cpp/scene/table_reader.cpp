@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/counted.h"
 #include "base/error.h"
 
 namespace mortier {
@@ -213,7 +214,7 @@ Expression TableReader::timeTable(const std::string& key, const Node& node) cons
   }
   if (values.size() != times.size()) {
     throw InputError(table.message(table.find("value")->where,
-                                   "value has " + std::to_string(values.size()) + " numbers, expected " +
+                                   "value has " + counted(values.size(), "number") + ", expected " +
                                        std::to_string(times.size()) + " as time has"));
   }
   for (size_t i = 1; i < times.size(); ++i) {

@@ -56,6 +56,19 @@ double CondensedBody::residualScale(const Matrix& stress0, const BodyIterate& it
   return std::max({before, law_.predictor.cwiseAbs().maxCoeff(), rigidPart * rigid});
 }
 
+std::pair<int, double> CondensedBody::furthest(const Matrix& stress0, const BodyIterate& iterate) const {
+  int point = -1;
+  double largest = 0;
+  for (int i = 0; i < body_.points(); ++i) {
+    const double change = (law_.predictor.col(i) - iterate.stress.col(i)).norm();
+    if (!std::isfinite(change) || change <= largest) continue;
+    largest = change;
+    point = i;
+  }
+  const double relative = largest / residualScale(stress0, iterate);
+  return {point, std::isfinite(relative) ? relative : std::numeric_limits<double>::max()};
+}
+
 double CondensedBody::rounding(const Matrix& stress0, const BodyIterate& iterate,
                                const Vector& displacement) const {
   const double strain = std::numeric_limits<double>::epsilon() * body_.largestGradient() *

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "linear/condensing_solver.h"
 #include "solver/contact_dofs.h"
@@ -33,6 +34,8 @@ class CondensedBody {
   /// The strain of the iterate, and the law there. \returns the residual, scaled [-].
   double linearise(const Matrix& stress0, const Matrix* shift, BodyIterate& iterate, const BodyLaw& law);
   [[nodiscard]] const Linearisation& law() const { return law_; }  ///< as last linearised
+  /// The point whose stress is furthest off the law as last linearised, and by how much [-]; -1 for none.
+  [[nodiscard]] std::pair<int, double> furthest(const Matrix& stress0, const BodyIterate& iterate) const;
   /// What the rounding of the mesh and of its displacements makes of stresses, by the moduli of the last
   /// linearisation, over what residuals are measured against [-].
   [[nodiscard]] double rounding(const Matrix& stress0, const BodyIterate& iterate,

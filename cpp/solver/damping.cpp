@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/counted.h"
 #include "solver/methods.h"
 
 namespace mortier {
@@ -106,7 +107,7 @@ StepOutcome restOfDampedMotion(StepSystem& system, const Step& step, int maxIter
     if (total.converged()) return total;
   }
   total.fail(Reason::unconverged,
-             "the damped motion did not come to rest in " + std::to_string(total.iterations) + " iterations");
+             "the damped motion did not come to rest in " + counted(total.iterations, "iteration"));
   return total;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/counted.h"
 #include "material/interior_path.h"
 #include "solver/methods.h"
 
@@ -94,8 +95,8 @@ StepOutcome interiorPoint(StepSystem& system, const Step& step, int maxIteration
   for (const double end : ends) {
     for (double mu = paths.complementarity(); mu > end * paths.yieldStrain(); mu = paths.complementarity()) {
       if (total.iterations >= std::min(maxIterations, allIterations)) {
-        total.fail(Reason::unconverged, "the interior point method did not converge in " +
-                                            std::to_string(total.iterations) + " iterations");
+        total.fail(Reason::unconverged,
+                   "the interior point method did not converge in " + counted(total.iterations, "iteration"));
         return total;
       }
       ++total.iterations;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/counted.h"
 #include "solver/methods.h"
 
 namespace mortier {
@@ -25,8 +26,8 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
         (far && outcome.iterations >= 2) ||
         (far && outcome.iterations == 1 && limits.turning && flows(system.model(), step.state0))) {
       std::ostringstream text;
-      text << "Newton's method did not converge in " << outcome.iterations
-           << " iterations, material residual " << residual;
+      text << "Newton's method did not converge in " << counted(outcome.iterations, "iteration")
+           << ", material residual " << residual;
       if (residual <= limits.tolerance) text << ", force balance " << balance;
       outcome.fail(Reason::unconverged, text.str());
       return outcome;

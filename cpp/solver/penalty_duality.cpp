@@ -20,6 +20,7 @@
 #include <optional>
 #include <sstream>
 
+#include "base/counted.h"
 #include "base/worst.h"
 #include "solver/methods.h"
 
@@ -166,9 +167,9 @@ StepOutcome penaltyDuality(StepSystem& system, const Step& step, Iterate& iterat
     }
     if (outcome.iterations == options.maxIterations || !std::isfinite(change + contactChange)) {
       std::ostringstream text;
-      text << "the penalty-duality method did not converge in " << outcome.iterations
-           << " iterations: stresses change by " << change << " yield stresses, contact forces by "
-           << contactChange << "; solver.method = \"newton\" solves more";
+      text << "the penalty-duality method did not converge in " << counted(outcome.iterations, "iteration")
+           << ": stresses change by " << change << " yield stresses, contact forces by " << contactChange
+           << "; solver.method = \"newton\" solves more";
       outcome.fail(Reason::unconverged, text.str());
       return outcome;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "base/worst.h"
 
@@ -113,6 +114,19 @@ StepSystem::Linearised StepSystem::linearise(const Step& step, Iterate& iterate,
   return linearise(step, iterate, [&](int b) { return law(step, b, weight, anticipate); });
 }
 
+std::optional<StuckPlace> StepSystem::furthest(const Step& step, Iterate& iterate, double weight) {
+  linearise(step, iterate, weight, false);
+  std::optional<StuckPlace> place;
+  for (size_t b = 0; b < bodies_.size(); ++b) {
+    const auto [point, residual] = bodies_[b].furthest(step.state0.bodies[b].stress, iterate.bodies[b]);
+    if (point < 0 || residual <= (place ? place->residual : options_.tolerance)) continue;
+    const Body& body = model_.bodies[b];
+    const int ofATriangle = body.points() / static_cast<int>(body.mesh().triangles.size());
+    place = {static_cast<int>(b), point / ofATriangle, body.places()[point], residual, step.data.time};
+  }
+  return place;
+}
+
 std::optional<StepSystem::Factorised> StepSystem::Linearised::factorise(StepOutcome& outcome) const {
   std::vector<CondensedBody>& bodies = system_->bodies_;
   ContactProblem& contact = system_->contact_;
@@ -189,9 +203,8 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
                         "no solution of the contact problem of the linearised step was found");
   if (contact.outcome == ContactSolution::Outcome::capped)
     return outcome.fail(Reason::contact, "the contact problem of the linearised step was given up after " +
-                                             std::to_string(contact.pivots) + " active sets, the work of " +
-                                             std::to_string(std::lround(contact.work)) +
-                                             " dense factorisations");
+                                             counted(contact.pivots, "active set") + ", the work of " +
+                                             counted(std::lround(contact.work), "dense factorisation"));
   if (contact.outcome == ContactSolution::Outcome::unbalanced)
     return outcome.fail(Reason::unheld, "contact cannot hold " + system_->describeRigid(contact.rigid));
   system_->forEachBody([&](int b) {

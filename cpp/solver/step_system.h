@@ -72,6 +72,9 @@ class StepSystem {
   /// The residuals of an iterate, with the law as it was linearised last.
   [[nodiscard]] Certificate certify(const Step& step, const Iterate& iterate, double materialResidual) const;
 
+  /// Where an iterate is further off the law than a converged step may be; none where it is so nowhere.
+  std::optional<StuckPlace> furthest(const Step& step, Iterate& iterate, double weight);
+
   /// Factorised::respond with the last tangent, factorised anew where points began or ceased to flow since.
   std::vector<Response> respond(const std::vector<Matrix>& error, const ActiveSets& active);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/counted.h"
 #include "solver/methods.h"
 
 namespace mortier {
@@ -71,7 +72,7 @@ StepOutcome lowerViscosity(StepSystem& system, const Step& step, ViscosityWalk& 
   }
   if (!total.unheld())
     total.fail(Reason::unconverged, "the viscosity could not be lowered to that of the step in " +
-                                        std::to_string(total.iterations) + " iterations" +
+                                        counted(total.iterations, "iteration") +
                                         (total.detail.empty() ? "" : ", " + total.detail));
   return total;
 }

@@ -96,6 +96,7 @@ void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& p
       report.reason = "step " + std::to_string(report.step) + ": " + error.what();
     }
     run.solveSeconds += secondsSince(begin);
+    if (report.status == Status::failed) run.stuck = taker.stuck();
     add(report, run);
     run.special = taker.special();
     if (report.status != Status::converged) break;

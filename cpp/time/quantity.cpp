@@ -24,7 +24,7 @@ struct Wrench {
   }
 };
 
-/// What the supports of each label exert on the body.
+/// What the supports of each label and each point exert on the body, by the first of their conditions.
 std::map<int, Wrench> reactions(const Model& model, const State& state, int b) {
   const Body& body = model.bodies[b];
   const Vector forces = body.internalForce(state.bodies[b].stress) +
@@ -38,9 +38,11 @@ std::map<int, Wrench> reactions(const Model& model, const State& state, int b) {
       directions << support.directions[0], support.directions[1];
       Eigen::Map<Point>(along.data()) = directions.inverse() * force;
     }
-    for (int i = 0; i < support.count; ++i)
-      result[body.conditions().displacements[support.conditions[i]].label].add(
-          body.elementNodes().places[support.node], along[i] * support.directions[i]);
+    for (int i = 0; i < support.count; ++i) {
+      const PrescribedDisplacement& held = body.conditions().displacements[support.conditions[i]];
+      result[firstSupport(body, held.label, held.point)].add(body.elementNodes().places[support.node],
+                                                             along[i] * support.directions[i]);
+    }
   }
   return result;
 }
@@ -151,6 +153,14 @@ bool needsWork(const Quantity& quantity) {
          quantity.kind == Kind::externalWork;
 }
 
+int firstSupport(const Body& body, int label, const std::optional<Point>& point) {
+  const std::vector<PrescribedDisplacement>& held = body.conditions().displacements;
+  const auto found = std::find_if(held.begin(), held.end(), [&](const PrescribedDisplacement& each) {
+    return point ? each.point == point : each.actsOn(label);
+  });
+  return found == held.end() ? -1 : static_cast<int>(found - held.begin());
+}
+
 std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Model& model,
                              const State& state) {
   using Kind = Quantity::Kind;
@@ -158,7 +168,8 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
   const auto reaction = [&](const Quantity& quantity) {
     if (reactionsOf.count(quantity.body) == 0)
       reactionsOf[quantity.body] = reactions(model, state, quantity.body);
-    return componentOf(reactionsOf[quantity.body][quantity.label], quantity);
+    const int support = firstSupport(model.bodies[quantity.body], quantity.label, quantity.point);
+    return componentOf(reactionsOf[quantity.body][support], quantity);
   };
   const auto displacement = [&](const Quantity& quantity) {
     const int component = quantity.component == Quantity::Component::x ? 0 : 1;

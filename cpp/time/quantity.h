@@ -3,8 +3,8 @@
 //
 // The forces that supports exert are what is left of equilibrium at the nodes that they hold,
 //   r = sum |T| B' s + C' p - F.
-// At a node with two prescribed motions r is split along their directions, so each label has the forces of
-// its own supports and those of all labels add up to all of r.
+// At a node with two prescribed motions r is split along their directions, so each label and each point has
+// the forces of its own supports and those of all add up to all of r.
 #pragma once
 
 #include <optional>
@@ -40,7 +40,8 @@ struct Quantity {
   Component component = Component::x;  ///< moment of forces only, counterclockwise
   Point about{0, 0};                   ///< of the moment [m]
   std::vector<std::pair<int, double>> mean =
-      {};  ///< of a displacement: nodes and their weights, which sum to one
+      {};                           ///< of a displacement: nodes and their weights, which sum to one
+  std::optional<Point> point = {};  ///< of a reaction: that of a held vertex, in place of the label [m]
 
   /// N/m, N (a moment per metre of depth), m, J/m or Pa, or what they are in other units.
   [[nodiscard]] std::string unit(const Units& units = {}) const;
@@ -52,6 +53,8 @@ bool ofLabel(Quantity::Kind kind);
 bool hasComponent(Quantity::Kind kind);
 /// Whether the work done on bodies must be counted for it.
 bool needsWork(const Quantity& quantity);
+/// The first condition that holds a label of a body or, where one is given, a point; -1 for none.
+int firstSupport(const Body& body, int label, const std::optional<Point>& point);
 
 /// The value of each, in the units above. Forces act on the body.
 std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Model& model, const State& state);

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "solver/state.h"
+#include "solver/outcome.h"
 
 namespace mortier {
 
@@ -48,8 +49,9 @@ struct Peaks {
 
 struct RunReport {
   Status status = Status::converged;
-  std::string reason;  ///< one line when the status is not converged
-  int steps = 0;       ///< completed
+  std::string reason;               ///< one line when the status is not converged
+  std::optional<StuckPlace> stuck;  ///< of the step that failed, where that can be said
+  int steps = 0;                    ///< completed
   int iterations = 0;
   int maxIterationsInAStep = 0;
   int factorisations = 0;

@@ -57,6 +57,7 @@ StepOutcome StepTaker::solveStages(double t1, Effort effort) {
   const double k = t1 - state_.time;
   rates_.clear();
   solutions_.clear();
+  unsolved_.reset();
   if (tableau_.explicitFirst) rates_.push_back(startingRates());
   StepOutcome total;
   for (size_t i = 0; i < tableau_.stages.size(); ++i) {
@@ -71,11 +72,20 @@ StepOutcome StepTaker::solveStages(double t1, Effort effort) {
     outcome.certificate = worse(outcome.certificate, total.certificate);
     if (i > 0 && (outcome.rung == Rung::rest || total.rung > Rung::newton)) outcome.rung = total.rung;
     total = std::move(outcome);
-    if (!total.converged()) return total;
+    if (!total.converged()) {
+      unsolved_.emplace(data, std::move(iterate));
+      return total;
+    }
     if (tableau_.stages.size() > 1) rates_.push_back(ratesOf(iterate, data.weight));
     solutions_.push_back(std::move(iterate));
   }
   return total;
+}
+
+std::optional<StuckPlace> StepTaker::stuck() {
+  if (!unsolved_) return std::nullopt;
+  auto& [data, iterate] = *unsolved_;
+  return system_.furthest(system_.step(state_, data), iterate, data.weight);
 }
 
 /// sum_{j<i} a_ij k G_j

@@ -1,6 +1,8 @@
 // One step in time: the stages of the scheme, the guard, and an estimate of the error.
 #pragma once
 
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "solver/model.h"
@@ -52,6 +54,8 @@ class StepTaker {
   [[nodiscard]] double flowingAtEnd() const;
   /// Power of the step with which the local error falls.
   [[nodiscard]] int errorOrder() const { return tableau_.errorOrder; }
+  /// Where the last attempt is furthest off the material law, if it was not solved.
+  [[nodiscard]] std::optional<StuckPlace> stuck();
   /// The special contact conditions that were found so far.
   [[nodiscard]] const SpecialConditions& special() const { return system_.special(); }
   /// Makes the result of the last attempt the state.
@@ -90,10 +94,11 @@ class StepTaker {
   bool countsWork_;
   // Of the last attempt:
   Tableau tableau_;
-  std::vector<Iterate> solutions_;          ///< by stage
-  std::vector<std::vector<Matrix>> rates_;  ///< G by stage and body
-  std::vector<Matrix> shift_;               ///< of the last stage
-  std::vector<Response> reached_;           ///< of the error last taken through the stages
+  std::vector<Iterate> solutions_;                        ///< by stage
+  std::optional<std::pair<StepData, Iterate>> unsolved_;  ///< the stage that was not
+  std::vector<std::vector<Matrix>> rates_;                ///< G by stage and body
+  std::vector<Matrix> shift_;                             ///< of the last stage
+  std::vector<Response> reached_;                         ///< of the error last taken through the stages
   double t1_ = 0;
   bool guarded_ = false;
   ActiveSets active_;

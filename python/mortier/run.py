@@ -115,7 +115,9 @@ class Run:
         return f"<table><caption>{title}</caption>{rows}</table>"
 
     def __repr__(self) -> str:
-        return f"<mortier.Run {self.summary['status']}, {self.summary['steps']} steps, t = {self.time:.6g}>"
+        steps = self.summary["steps"]
+        return f"<mortier.Run {self.summary['status']}, "
+                f"{steps} step{'' if steps == 1 else 's'}, t = {self.time:.6g}>"
 
 
 def bare(name: str) -> str:

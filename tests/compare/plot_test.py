@@ -157,8 +157,18 @@ class Pictures(InSharedFolder):
         self.assertIn("did not converge", result.reason)
         column = pictures.view(result)
         body, triangle, words = result.stuck(column.run)
-        self.assertEqual(column.run.bodies[body].von_mises[triangle],
-                         max(b.von_mises.max() for b in column.run.bodies.values()))
+        told = result.summary["stuck"]
+        self.assertEqual((body, triangle), (told["body"], told["triangle"]))
+        corners = column.run.bodies[body].points[column.run.bodies[body].triangles[triangle]]
+        self.assertLess(abs(corners.mean(0) - told["at"]).max(), 1e-12)
+        self.assertIn("furthest off its law", words)
+        # Without it the largest stress is marked, as where a file has been damaged.
+        for damaged in (None, {}, {"body": body}, {**told, "triangle": 10**6}, {**told, "body": ["x"]}):
+            result.summary["stuck"] = damaged
+            other, at, _ = result.stuck(column.run)
+            self.assertEqual(column.run.bodies[other].von_mises[at],
+                             max(b.von_mises.max() for b in column.run.bodies.values()))
+        result.summary["stuck"] = told
         with pictures.plt.rc_context(pictures.STYLE):
             title = pictures.fields([column]).axes[0].get_title(loc="left").replace("\n", " ")
         self.assertIn(result.reason, title)
@@ -169,6 +179,8 @@ class Pictures(InSharedFolder):
               "time.steps=1", code=1)
         self.plot("first.failed")
         result = runs.Result(self.folder / "first.failed")
+        self.assertIsNotNone(result.stuck(result.at(0)))
+        del result.summary["stuck"]
         run = result.at(0)
         for body in run.bodies.values():
             body.stress = 0 * body.stress

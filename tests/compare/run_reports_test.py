@@ -54,6 +54,35 @@ class Reports(InFolder):
             self.assertAlmostEqual(x, 0, delta=1e-9)
             self.assertAlmostEqual(y, 10, delta=1e-9)
 
+    def test_a_run_that_fails_says_where_to_look(self):
+        """Only one corner of the upper block flows, and its law takes more than the linear solves allowed."""
+        case = Case(SCENE.replace("yield_stress = 1", "yield_stress = 1e6"))
+        mesh = case.upper
+        for triangle in mesh.triangles:
+            if all(mesh.vertices[v - 1][0] >= 0.7 and mesh.vertices[v - 1][1] <= 0.3 for v in triangle[:3]):
+                triangle[3] = 2
+        case.replace('\n[[body]]\nname = "lower"', """[[body.region]]
+label = 2
+material = { young = 3e11, poisson = 0.3, viscosity = 10, yield_stress = 1 }
+
+[[body]]
+name = "lower\"""")
+        case.write(self.folder)
+        done = self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--set", "time.steps=4",
+                            "solver.max_iterations=2", code=1)
+        stuck = json.loads((self.folder / "out.failed" / "summary.json").read_text())["stuck"]
+        self.assertEqual(stuck["body"], "upper")
+        self.assertEqual(mesh.triangles[stuck["triangle"]][3], 2)
+        corners = [mesh.vertices[v - 1] for v in mesh.triangles[stuck["triangle"]][:3]]
+        for at, places in zip(stuck["at"], zip(*corners)):
+            self.assertAlmostEqual(at, sum(places) / 3, places=12)
+        self.assertGreater(stuck["material_residual"], 1e-10)
+        driving = r'scene.toml:10: body upper: ty = "-10\*t", of size \S+ at t = \S+ s and \S+ at t = \S+ s'
+        self.assertRegex(stuck["driven_by"], rf"\A{driving}\Z")
+        self.assertRegex(done.stderr, rf"; furthest off its law is body upper at \(\S+, \S+\), triangle "
+                                      rf"{stuck['triangle']}; what drives the step is {driving}; the state "
+                                      r"after step \d+ is in out.failed, which mortier plot draws\n\Z")
+
     def test_interference_that_is_meant_is_no_accident(self):
         for overlap in ("gap", "meshed"):
             with self.subTest(overlap):

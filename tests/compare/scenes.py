@@ -242,6 +242,9 @@ name = "block"
 mesh = "upper.mesh"
 material = { young = 2.1e11, poisson = 0.3 }
 boundary = [ { label = 1, ux = 0, uy = 0 }, { label = 3, ty = "-1e6*t" } ]
+[[body.point]]
+at = [0, 1]
+ux = 0
 [time]
 end = 1
 steps = 2

@@ -304,6 +304,35 @@ every = 1
                 self.reject("x.msh: " + message, "mesh", "info", "x.msh")
         self.reject("none.msh: not a file", "mesh", "info", "none.msh")
 
+    def test_step_files(self):
+        # A plate of 20 mm by 10 mm with a round hole of radius 2 mm, written by Gmsh's OpenCASCADE.
+        plate = (Path(__file__).parent / "plate.step").read_text()
+        self.write(plate, "plate.step")
+        if "this build is without" in mortier("mesh", "info", "plate.step", cwd=self.folder).stderr:
+            return
+        self.write(plate.replace("SI_UNIT(.MILLI.,.METRE.)", "SI_UNIT($,.METRE.)"), "metres.step")
+        self.write('SetFactory("OpenCASCADE"); Merge "plate.step";\n'
+                   'Physical Curve("hole", 7) = {5}; Physical Surface("plate", 1) = {1};\n', "named.geo")
+        self.assertRegex(self.mortier("mesh", "info", "plate.step").stdout,
+                         r"(?s)x 0 \.\. 20, y 0 \.\. 10 .*label 1 .*length 20 m.*label 5 .*region 1 ")
+        self.assertIn("x 0 .. 20000,", self.mortier("mesh", "info", "metres.step").stdout)
+        self.assertRegex(self.mortier("mesh", "info", "named.geo").stdout, "label 7 .*, hole\n")
+        self.write("""[[body]]
+name = "plate"
+mesh = { file = "plate.step", size = 1 }
+material = { young = 2.1e5, poisson = 0.3 }
+boundary = [ { label = 2, tx = 10 }, { label = 4, tx = -10 } ]
+point = [ { at = [0, 0], ux = 0, uy = 0 }, { at = [20, 0], uy = 0 } ]
+[time]
+end = 1
+steps = 1
+""")
+        # The hole is known as a circle: nothing is said of a polygon.
+        self.mortier("run", "scene.toml", "--quiet", "--out", "o", "--accuracy", "0.1")
+        accuracy = json.loads(self.read("o/summary.json"))["accuracy"]
+        self.assertTrue(accuracy["reached"])
+        self.assertEqual(accuracy["not_reliable"], [])
+
     def test_files_that_are_damaged_or_do_more_than_meshes(self):
         for name, text in (("few.msh", format_2().replace("$Nodes\n6\n", "$Nodes\n5\n")),  # Gmsh crashes
                            ("gone-2.msh", format_2().replace("\n6 2 1 0\n", "\n")),

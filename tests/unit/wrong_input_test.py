@@ -121,7 +121,7 @@ FAULTS = [
                                    "inf at x = 0"),
     ("ux = 0 }, { label = 1, uy = 0 }", "ux = 0, uy = 0 }, { label = 1, un = 1 }",
      "scene.toml:18: body lower: un = 1 at (0, -1), t = 0: expected the 0 that label 4 prescribes there"),
-    ("\"-10*t\"", "{ time = [0, 1], value = [0] }", "scene.toml:12: body upper: ty: value has 1 numbers, "
+    ("\"-10*t\"", "{ time = [0, 1], value = [0] }", "scene.toml:12: body upper: ty: value has 1 number, "
                                                     "expected 2 as time has"),
     ("\"-10*t\"", "{ time = [0, 1, 1], value = [0, 1, 2] }",
      "scene.toml:12: body upper: ty: time[2] = 1, expected times that ascend, more than 1"),

@@ -12,6 +12,11 @@ def _(case):
     case.replace('body = "lower", label = 3', 'body = "lower", label = 9')
 
 
+@fault("missing-point", "scene.toml:24")
+def _(case):
+    case.replace("[contact]", "[[body.point]]\nat = [0.5, -0.1]\nux = 0\n[contact]")
+
+
 @fault("missing-region", "label = 7")
 def _(case):
     case.replace("[contact]",
