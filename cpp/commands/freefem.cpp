@@ -151,6 +151,13 @@ std::string distances(const SceneDescription& scene, const Model& model) {
   return text.empty() ? text : "macro distances " + text + "//  interface, its bodies, distance\n";
 }
 
+/// Other labels than those of SI.
+std::string unitNames(const Units& units) {
+  if (!units.given) return "";
+  return "macro unitsOfScene yes //\nstring unitLength = \"" + units.length + "\";\nstring unitForce = \"" +
+         units.force + "\";\nstring unitStress = \"" + units.stress + "\";\n";
+}
+
 std::string script(const SceneDescription& scene, const Model& model,
                    const std::vector<std::string>& meshFiles) {
   const std::string method = methodFolder(scene.path);
@@ -160,7 +167,8 @@ std::string script(const SceneDescription& scene, const Model& model,
       << freefemComment("Written by mortier freefem " + scene.path +
                         "; run from the folder in which that was called.")
       << "\nstring plane = \"" << word(scene.plane) << "\";\n"
-      << (scene.degree == 2 ? "macro quadratic yes //  P2 displacements\n" : "") << "\n// Bodies\n"
+      << unitNames(scene.units) << (scene.degree == 2 ? "macro quadratic yes //  P2 displacements\n" : "")
+      << "\n// Bodies\n"
       << "macro eachBody(what)";
   for (int b = 0; b < bodies; ++b) out << " what(" << b + 1 << ')';
   out << " //\n";

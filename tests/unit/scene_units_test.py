@@ -74,6 +74,7 @@ class SceneUnits(OfTwoBlocks):
         script = self.mortier("freefem", "out.toml", "out.edp")
         self.assertEqual(script.returncode, 0)
         self.assertIn("real E1 = 3e+05, nu1 = 0.3;  // [MPa], [-]", self.read("out.edp"))
+        self.assertIn('string unitLength = "mm";', self.read("out.edp"))
         checked = self.mortier("check", "out.toml", "--set", "body.lower.material.young=3e9").stdout
         self.assertIn("have young = 3e+05 MPa and 3e+09 MPa", checked)
 
