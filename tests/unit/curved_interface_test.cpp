@@ -102,6 +102,19 @@ TEST(CurvedInterface, closedLines) {
   }
 }
 
+// A mortar line that reaches beyond both ends of the nonmortar one faces all of it.
+TEST(CurvedInterface, aLineThatIsLongerFacesAllOfTheOther) {
+  std::mt19937 random(11);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Pair pair{mapped(random, 13, 0, 0.5, bow(0.8)), mapped(random, 10, -0.5, 0, bow(1.1))};
+    for (const CouplingKind kind : kinds) {
+      const ContactInterface interface = pair.meet(kind, true);
+      EXPECT_EQ(interface.rows(), 14);
+      EXPECT_NEAR(interface.overlap(), 1, 1e-12);
+    }
+  }
+}
+
 // The weights of the two directions at a node make the normals of a circle exact, wherever its nodes are.
 TEST(CurvedInterface, normalsOfACircleAreExact) {
   constexpr double rounding = 1e-13;
