@@ -16,6 +16,7 @@ void addVerdict(Attempt& attempt, const Rounds* rounds, const std::string& short
   facts.doubts = estimateDoubts(attempt.scene(), *attempt.model);
   if (complete && attempt.scene().accuracy.bound && !solved.accuracy.bound)
     solved.accuracy.bound = boundOf(attempt);
+  if (complete && solved.accuracy.flow) solved.accuracy.step = stepBoundOf(attempt);
   if (rounds == nullptr) return;
   const std::vector<std::string> more = rounds->doubts();
   facts.doubts.insert(facts.doubts.end(), more.begin(), more.end());
