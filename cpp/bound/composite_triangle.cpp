@@ -158,10 +158,10 @@ Eigen::Matrix<double, 9, 3> CompositeTriangle::loadValues(const Point& f) const 
 
 Moments CompositeTriangle::loadProduct(const Point& f) const {
   const Eigen::Matrix<double, 9, 3> weighted = reference().mass * loadValues(f) * reference_;
-  Moments inReference = Moments::Zero();
-  for (int c = 0; c < 3; ++c) inReference += reference().stress[c].transpose() * weighted.col(c);
+  Moments moments = Moments::Zero();
+  for (int c = 0; c < 3; ++c) moments += reference().stress[c].transpose() * weighted.col(c);
   Moments result;
-  for (int i = 0; i < 6; ++i) result.segment<2>(2 * i) = inverse_.transpose() * inReference.segment<2>(2 * i);
+  for (int i = 0; i < 6; ++i) result.segment<2>(2 * i) = inverse_.transpose() * moments.segment<2>(2 * i);
   return result;
 }
 
@@ -170,14 +170,29 @@ double CompositeTriangle::loadEnergy(const Point& f) const {
   return values.cwiseProduct(reference().mass * values * reference_).sum();
 }
 
+Moments CompositeTriangle::momentsInReference(const Moments& m) const {
+  Moments result;
+  for (int i = 0; i < 6; ++i) result.segment<2>(2 * i) = inverse_ * m.segment<2>(2 * i);
+  return result;
+}
+
+std::array<Stress, 9> CompositeTriangle::stressOf(const Moments& m, const Point& f) const {
+  Eigen::Matrix<double, 9, 3> values = loadValues(f);
+  const Moments moments = momentsInReference(m);
+  for (int c = 0; c < 3; ++c) values.col(c) += reference().stress[c] * moments;
+  const Eigen::Matrix3d fromReference = toReference_.inverse();
+  std::array<Stress, 9> result;
+  for (int i = 0; i < 9; ++i) result[i] = fromReference * values.row(i).transpose();
+  return result;
+}
+
 double CompositeTriangle::defect(const Moments& m) const {
-  Moments inReference;
-  for (int i = 0; i < 6; ++i) inReference.segment<2>(2 * i) = inverse_ * m.segment<2>(2 * i);
+  const Moments moments = momentsInReference(m);
   Eigen::Matrix<double, 27, 1> values;
-  for (int c = 0; c < 3; ++c) values.segment<9>(9 * c) = reference().stress[c] * inReference;
+  for (int c = 0; c < 3; ++c) values.segment<9>(9 * c) = reference().stress[c] * moments;
   Eigen::Matrix<double, 30, 1> left = reference().conditions * values;
-  left.head<12>() -= inReference;
-  return left.cwiseAbs().maxCoeff() / std::max(inReference.cwiseAbs().maxCoeff(), 1e-300) *
+  left.head<12>() -= moments;
+  return left.cwiseAbs().maxCoeff() / std::max(moments.cwiseAbs().maxCoeff(), 1e-300) *
          m.cwiseAbs().maxCoeff();
 }
 

@@ -38,12 +38,17 @@ class CompositeTriangle {
   /// and its energy [J/m].
   [[nodiscard]] double loadEnergy(const Point& f) const;
 
+  /// The stress of moments in equilibrium, and of a load as above, at the vertices of the parts: part e has
+  /// the first and last vertex of side e and the centroid.
+  [[nodiscard]] std::array<Stress, 9> stressOf(const Moments& m, const Point& f) const;
+
   /// The largest of: divergence, jump of tractions between the parts, and moments that are not these, of the
   /// stress with moments m; [Pa m], for tests and assertions.
   [[nodiscard]] double defect(const Moments& m) const;
 
  private:
   [[nodiscard]] Eigen::Matrix<double, 9, 3> loadValues(const Point& f) const;
+  [[nodiscard]] Moments momentsInReference(const Moments& m) const;
 
   std::array<Point, 3> x_;
   Eigen::Matrix2d inverse_;  ///< of F

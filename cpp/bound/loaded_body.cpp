@@ -23,13 +23,6 @@ Eigen::Matrix3d toBasis() {
   return B;
 }
 
-Linearisation elasticLaw(const Body& body) {
-  Linearisation law = body.material().room(body.points());
-  const Matrix none = Matrix::Zero(body.material().components(), body.points());
-  body.material().linearise({0, none, none}, none, law, 0, body.points());
-  return law;
-}
-
 bool isAlong(const Point& a, const Point& b) {
   return std::abs(a.x() * b.y() - a.y() * b.x()) <= same * a.norm() * b.norm();
 }
@@ -43,7 +36,16 @@ void hold(KnownTraction& known, const Point& direction) {
 
 }  // namespace
 
-LoadedBody::LoadedBody(const Model& model, const State& state, const CutMesh& cut, int index)
+Linearisation linearisedLaw(const Body& body, const Matrix& stress, double weight) {
+  const Material& material = body.material();
+  Linearisation law = material.room(body.points());
+  const Matrix none = Matrix::Zero(material.components(), body.points());
+  const Matrix& at = material.linear() || weight == 0 ? none : stress;
+  material.linearise({weight, at, none}, at, law, 0, body.points());
+  return law;
+}
+
+LoadedBody::LoadedBody(const Model& model, const State& state, const CutMesh& cut, int index, double weight)
     : cut_(cut),
       body_(model.bodies[index].name(), cut.mesh,
             std::shared_ptr<const Material>(std::shared_ptr<void>(), &model.bodies[index].material()),
@@ -52,7 +54,7 @@ LoadedBody::LoadedBody(const Model& model, const State& state, const CutMesh& cu
       displacement_(cut.displacement(state.bodies[index].displacement)),
       load_(body_.load(state.time)),
       modes_(rigidModes(body_)) {
-  const Linearisation law = elasticLaw(model.bodies[index]);
+  const Linearisation law = linearisedLaw(model.bodies[index], state.bodies[index].stress, weight);
   const Eigen::Matrix3d B = toBasis();
   for (size_t t = 0; t < cut_.parents.size(); ++t) {
     const int parent = cut_.parents[t];
@@ -216,18 +218,21 @@ Vector LoadedBody::leftOver(Vector forces, const std::vector<Stress>& stress) co
   return forces;
 }
 
+Eigen::Vector3d LoadedBody::strainIn(int triangle, const Vector& displacement) const {
+  Eigen::Vector3d strain = Eigen::Vector3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Point g = gradient(triangle, i) / body_.weights()[triangle];
+    const Point u = displacement.segment<2>(2 * mesh().triangles[triangle][i]);
+    strain += fromCartesian({u.x() * g.x(), u.y() * g.y(), (u.x() * g.y() + u.y() * g.x()) / 2});
+  }
+  return strain;
+}
+
 std::vector<Stress> LoadedBody::stressOf(const Vector& displacement) const {
   const Eigen::Matrix3d back = toBasis().inverse();
   std::vector<Stress> stress(moduli_.size());
-  for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
-    Eigen::Vector3d strain = Eigen::Vector3d::Zero();
-    for (int i = 0; i < 3; ++i) {
-      const Point g = gradient(t, i) / body_.weights()[t];
-      const Point u = displacement.segment<2>(2 * mesh().triangles[t][i]);
-      strain += fromCartesian({u.x() * g.x(), u.y() * g.y(), (u.x() * g.y() + u.y() * g.x()) / 2});
-    }
-    stress[t] = back * (moduli_[t] * strain);
-  }
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t)
+    stress[t] = back * (moduli_[t] * strainIn(t, displacement));
   return stress;
 }
 
@@ -245,8 +250,11 @@ std::vector<double> LoadedBody::tangent() const {
   return values;
 }
 
-/// Adds what brings finite element stresses into equilibrium with the load.
+/// Adds what brings finite element stresses into equilibrium with the load; what rounding leaves is taken up
+/// again, which matters where little flows in volume and much in shear.
 bool LoadedBody::equilibrate(std::vector<Stress>& stress) const {
+  constexpr int most = 4;
+  constexpr double enough = 1e-10;  // of the largest force
   std::vector<double> values = tangent();
   pin(values);
   auto solver = multifrontalSolver(body_.pattern(), {});
@@ -255,10 +263,15 @@ bool LoadedBody::equilibrate(std::vector<Stress>& stress) const {
     if (!solver->factorise(values)) return false;
   }
   Vector x = body_.gather(leftOver(load_, stress));
-  solver->condense(x);
-  solver->expand(x);
-  const std::vector<Stress> more = stressOf(body_.spread(x));
-  for (size_t t = 0; t < stress.size(); ++t) stress[t] += more[t];
+  const double size = std::max(x.lpNorm<Eigen::Infinity>(), body_.gather(load_).lpNorm<Eigen::Infinity>());
+  for (int i = 0; i < most; ++i) {
+    solver->condense(x);
+    solver->expand(x);
+    const std::vector<Stress> more = stressOf(body_.spread(x));
+    for (size_t t = 0; t < stress.size(); ++t) stress[t] += more[t];
+    x = body_.gather(leftOver(load_, stress));
+    if (!(x.lpNorm<Eigen::Infinity>() > enough * size)) break;
+  }
   return true;
 }
 

@@ -53,12 +53,19 @@ struct DataOscillation {
   }
 };
 
+/// The law of a body, linearised at its stresses. \param weight  time step times the scheme's diagonal
+/// coefficient; 0 for elasticity [s]
+Linearisation linearisedLaw(const Body& body, const Matrix& stress, double weight);
+
 class LoadedBody {
  public:
-  /// What it is given must outlive it.
-  LoadedBody(const Model& model, const State& state, const CutMesh& cut, int index);
+  /// What it is given must outlive it. \param weight  of linearisedLaw(), by which its stress in equilibrium
+  /// is made near
+  LoadedBody(const Model& model, const State& state, const CutMesh& cut, int index, double weight = 0);
 
   [[nodiscard]] const TriangleMesh& mesh() const { return cut_.mesh; }
+  /// Of each triangle, that of the body's own mesh of which it is a part.
+  [[nodiscard]] const std::vector<int>& parents() const { return cut_.parents; }
   /// Rigid motions that its supports leave free (fem/rigid_modes.h).
   [[nodiscard]] const Matrix& modes() const { return modes_; }
   /// Nodal forces of loads and of the pressures so far [N/m].
@@ -92,6 +99,8 @@ class LoadedBody {
   [[nodiscard]] std::vector<double> tangent() const;
   /// (s11, s22, s12) by triangles of a displacement (dofs).
   [[nodiscard]] std::vector<Stress> stressOf(const Vector& displacement) const;
+  /// (p, q, r) of the strain of a displacement (dofs) in a triangle.
+  [[nodiscard]] Eigen::Vector3d strainIn(int triangle, const Vector& displacement) const;
   /// Nodal forces less those of a stress.
   [[nodiscard]] Vector leftOver(Vector forces, const std::vector<Stress>& stress) const;
   [[nodiscard]] const std::vector<Stress>& stress() const { return stress_; }  ///< s

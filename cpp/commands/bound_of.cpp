@@ -1,8 +1,10 @@
 #include "commands/bound_of.h"
 
+#include <functional>
 #include <new>
 
 #include "base/interrupt.h"
+#include "time/scheme.h"
 
 namespace mortier {
 namespace {
@@ -25,24 +27,45 @@ Functional functionalOf(const Quantity& quantity, bool atPoint) {
   return result;
 }
 
-}  // namespace
-
-EnergyBound boundOf(const Attempt& attempt) {
-  const std::vector<Quantity>& quantities = attempt.facts.quantities;
+template <class Bound>
+Bound found(const std::function<Bound()>& find) {
   const KeepsResult keeps;
-  EnergyBound none;
+  Bound none;
   try {
-    std::vector<Functional> functionals;
-    functionals.reserve(quantities.size());
-    for (size_t i = 0; i < quantities.size(); ++i)
-      functionals.push_back(functionalOf(quantities[i], attempt.scene().quantities[i].point.has_value()));
-    return energyBound(*attempt.model, attempt.solved.state, functionals);
+    return find();
   } catch (const Interrupted&) {
     none.obstacle = "interrupted";
   } catch (const std::bad_alloc&) {
     none.obstacle = "there is no memory for it";
   }
   return none;
+}
+
+}  // namespace
+
+EnergyBound boundOf(const Attempt& attempt) {
+  return found<EnergyBound>([&] {
+    const std::vector<Quantity>& quantities = attempt.facts.quantities;
+    std::vector<Functional> functionals;
+    functionals.reserve(quantities.size());
+    for (size_t i = 0; i < quantities.size(); ++i)
+      functionals.push_back(functionalOf(quantities[i], attempt.scene().quantities[i].point.has_value()));
+    return energyBound(*attempt.model, attempt.solved.state, functionals);
+  });
+}
+
+StepBound stepBoundOf(const Attempt& attempt) {
+  return found<StepBound>([&] {
+    const StepReport& last = attempt.solved.last;
+    const TimePlan& time = attempt.scene().time;
+    if (!time.controlled() && last.rejections > 0) {
+      StepBound none;
+      none.obstacle = "step " + std::to_string(last.step) + " was cut into parts";
+      return none;
+    }
+    const Tableau steps = last.guarded ? twoHalfSteps() : tableau(time.scheme);
+    return stepBound(*attempt.model, attempt.solved.state, steps.stages.back().diagonal * last.timeStep);
+  });
 }
 
 }  // namespace mortier

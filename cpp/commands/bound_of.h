@@ -1,11 +1,13 @@
-// The bound of the error of a run's last state and of its quantities (bound/energy_bound.h).
+// The bound of the error of a run's last state and of its quantities (bound/energy_bound.h), and that of what
+// the meshes do to its last step (bound/step_bound.h).
 #pragma once
 
 #include "commands/attempt.h"
 
 namespace mortier {
 
-/// What stops it, an interruption or a lack of memory, is its obstacle: it does not take the result away.
+/// What stops them, an interruption or a lack of memory, is their obstacle: it does not take the result away.
 EnergyBound boundOf(const Attempt& attempt);
+StepBound stepBoundOf(const Attempt& attempt);
 
 }  // namespace mortier

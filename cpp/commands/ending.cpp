@@ -42,6 +42,7 @@ void addVerdict(Attempt& attempt, const Rounds* rounds, const std::string& short
     facts.doubts.push_back(doubt);
   if (complete && attempt.scene().accuracy.bound && !solved.accuracy.bound)
     solved.accuracy.bound = boundOf(attempt);
+  if (complete && solved.accuracy.flow) solved.accuracy.step = stepBoundOf(attempt);
   if (rounds == nullptr) return;
   const std::vector<std::string> more = rounds->doubts();
   facts.doubts.insert(facts.doubts.end(), more.begin(), more.end());

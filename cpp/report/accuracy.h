@@ -7,6 +7,7 @@
 
 #include "bound/energy_bound.h"
 #include "bound/flow_bound.h"
+#include "bound/step_bound.h"
 #include "time/report.h"
 #include "time/space_error.h"
 
@@ -24,6 +25,7 @@ struct Accuracy {
   double time = 0;         ///< of the last state [s]
   std::optional<EnergyBound> bound = {};  ///< of the last state, where it is asked for
   std::optional<FlowBound> flow = {};     ///< of the steps up to it, where bodies flow
+  std::optional<StepBound> step = {};     ///< of the meshes in the last step, where bodies flow
 };
 
 /// The estimates of a run so far.

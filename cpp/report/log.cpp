@@ -154,6 +154,24 @@ std::string logFlow(const FlowBound& bound) {
   return text + "\n";
 }
 
+std::string logStep(const StepBound& bound) {
+  const std::string none = "           no guaranteed bound of the last step: ";
+  if (!bound.obstacle.empty()) return none + bound.obstacle + "\n";
+  std::string parts;
+  const auto add = [&](const char* what, double error, double norm) {
+    if (!(2 * error < norm)) return;  // not below 100 % of the exact one
+    parts +=
+        (parts.empty() ? "" : ", ") + std::string(what) + format(" to %.2g %%", 100 * error / (norm - error));
+  };
+  add("viscoplastic strain", bound.strain, bound.strainNorm);
+  add("stress", bound.bound, bound.norm);
+  if (parts.empty()) return none + "nothing below 100 %, the meshes are too coarse\n";
+  std::string text = "           guaranteed in the last step: " + parts;
+  if (bound.oscillation > linear)
+    text += format(", for data that are linear on sides; these are off by %.1g %%", 100 * bound.oscillation);
+  return text + "\n";
+}
+
 std::string logAccuracy(const RunFacts& facts, const Model& model, const Accuracy& accuracy) {
   constexpr double coarse = 0.3;
   std::string text = "accuracy   estimated error of the stress, meshes only: ";
@@ -177,6 +195,7 @@ std::string logAccuracy(const RunFacts& facts, const Model& model, const Accurac
                    100 * accuracy.largest, accuracy.largestTime);
   if (accuracy.bound) text += logBound(*accuracy.bound);
   if (accuracy.bound && accuracy.flow) text += logFlow(*accuracy.flow);
+  if (accuracy.step) text += logStep(*accuracy.step);
   if (accuracy.all == 0 && accuracy.largest == 0) return text;
   for (const std::string& doubt : facts.doubts) text += "           not reliable: " + doubt + "\n";
   if (std::max(accuracy.all, accuracy.largest) > coarse)

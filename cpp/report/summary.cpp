@@ -133,11 +133,13 @@ Json jsonOf(const EnergyBound& bound, size_t quantity, double value) {
   return {{"error", enclosure.error(value)}, {"lower", enclosure.lower}, {"upper", enclosure.upper}};
 }
 
+/// A bound over the exact norm; null where it is not below 100 %.
+Json over(double error, double norm) {
+  return error == 0 ? Json(0.0) : error < norm ? Json(error / (norm - error)) : Json(nullptr);
+}
+
 Json jsonOf(const FlowBound& bound) {
   if (!bound.obstacle.empty()) return {{"viscoplastic_strain", nullptr}, {"reason", bound.obstacle}};
-  const auto over = [](double error, double norm) {
-    return error == 0 ? Json(0.0) : error < norm ? Json(error / (norm - error)) : Json(nullptr);
-  };
   const auto all = [&](double factor) {
     return Json{{"viscoplastic_strain", over(factor * bound.strain, bound.strainNorm)},
                 {"stress", over(factor * bound.stress, bound.stressNorm)}};
@@ -152,6 +154,19 @@ Json jsonOf(const FlowBound& bound) {
   return json;
 }
 
+Json jsonOf(const StepBound& bound) {
+  if (!bound.obstacle.empty()) return {{"viscoplastic_strain", nullptr}, {"reason", bound.obstacle}};
+  return {{"viscoplastic_strain", over(bound.strain, bound.strainNorm)},
+          {"energy_error", over(bound.bound, bound.norm)},
+          {"absolute", bound.bound},
+          {"norm", bound.norm},
+          {"stress", bound.stress},
+          {"flow", bound.flow},
+          {"lift", bound.lift},
+          {"gap", std::sqrt(2 * bound.gap)},
+          {"data", bound.oscillation}};
+}
+
 Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy) {
   Json bodies = Json::object();
   for (size_t b = 0; b < model.bodies.size(); ++b) bodies[model.bodies[b].name()] = accuracy.bodies[b];
@@ -163,6 +178,7 @@ Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy)
     json["largest"] = {{"body", accuracy.worstBody}, {"at", {accuracy.worst[0], accuracy.worst[1]}}};
   if (accuracy.bound) json["bound"] = jsonOf(*accuracy.bound);
   if (accuracy.bound && accuracy.flow) json["bound"]["time"] = jsonOf(*accuracy.flow);
+  if (accuracy.bound && accuracy.step) json["bound"]["step"] = jsonOf(*accuracy.step);
   return json;
 }
 

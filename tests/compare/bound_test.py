@@ -80,6 +80,35 @@ class Bound(OfTwoBlocks):
         _, accuracy = self.bound(ELASTIC)
         self.assertNotIn("time", accuracy["bound"])
 
+    def test_the_last_step_of_bodies_that_flow_has_a_bound_of_its_own(self):
+        law = ', viscosity = 10, yield_stress = 1, projection = "frobenius" }'
+        flowing = ELASTIC.replace(" }\n", law + "\n", 1)
+        flowing = flowing.replace("0.3 }\nboundary", "0.3" + law + "\nboundary")
+        self.assertEqual(flowing.count("frobenius"), 2)
+        _, accuracy = self.bound(flowing)
+        self.assertLess(accuracy["bound"]["step"]["viscoplastic_strain"], 1e-6)
+        for scheme in ("backward-euler", "sdirk2"):
+            log, accuracy = self.bound(flowing, "--set", "contact.variant=interpolation",
+                                       f"time.scheme={scheme}")
+            found = accuracy["bound"]["step"]
+            strain = found["viscoplastic_strain"]
+            self.assertIn(f"guaranteed in the last step: viscoplastic strain to {100 * strain:.2g} %", log)
+            self.assertTrue(1e-3 < strain < 0.5, strain)
+            parts = found["stress"] ** 2 + found["flow"] ** 2 + found["lift"] ** 2 + found["gap"] ** 2
+            self.assertAlmostEqual(found["absolute"] ** 2, parts, delta=1e-12 * parts)
+            self.assertLess(found["data"], 1e-12)
+        _, other = self.bound(flowing.replace("3e11", "30").replace("-10*t", "-1e-9*t")
+                              .replace("viscosity = 10", "viscosity = 1e-9")
+                              .replace("yield_stress = 1", "yield_stress = 1e-10"),
+                              "--set", "contact.variant=interpolation", "time.scheme=sdirk2")
+        self.assertAlmostEqual(other["bound"]["step"]["viscoplastic_strain"] / strain, 1, delta=1e-5)
+        log, accuracy = self.bound(flowing, "--set", "body.upper.material.projection=elasticity")
+        reason = "the flow of upper has no potential: Perzyna (elasticity)"
+        self.assertIn(f"no guaranteed bound of the last step: {reason}\n", log)
+        self.assertEqual(accuracy["bound"]["step"], {"viscoplastic_strain": None, "reason": reason})
+        _, accuracy = self.bound(ELASTIC)
+        self.assertNotIn("step", accuracy["bound"])
+
     def test_curved_lines_have_none(self):
         done = self.mortier("run", ROOT / "scenes" / "hertz.toml", "--out", "out", "--set",
                             "accuracy.bound=true", "time.steps=1")

@@ -54,6 +54,28 @@ TEST(CompositeTriangle, hasConstantStresses) {
   EXPECT_LE(element.defect(m), 1e-14);
 }
 
+// Linear on the parts: its square is known by its values at their vertices.
+TEST(CompositeTriangle, hasTheStressOfItsEnergyAndItsLoad) {
+  std::mt19937 random(11);
+  const Eigen::Matrix3d S = compliance(2, 0.3);
+  const CompositeTriangle element(corners, S);
+  const Point f(0.4, -0.9);
+  const Moments m = balanced(random, corners);
+  const std::array<Stress, 9> values = element.stressOf(m, f);
+  double energy = 0;
+  for (int part = 0; part < 3; ++part) {
+    const Stress* v = &values[3 * part];
+    const Stress sum = v[0] + v[1] + v[2];
+    for (int k = 0; k < 3; ++k) energy += areaOf(corners) / 36 * v[k].dot(S * v[k]);
+    energy += areaOf(corners) / 36 * sum.dot(S * sum);
+  }
+  const double expected =
+      m.dot(element.energy() * m) + 2 * m.dot(element.loadProduct(f)) + element.loadEnergy(f);
+  EXPECT_NEAR(energy, expected, 1e-12 * expected);
+  for (const Stress& value : element.stressOf(element.momentsOf({0.7, -1.1, 0.4}), {0, 0}))
+    EXPECT_LE((value - Stress(0.7, -1.1, 0.4)).norm(), 1e-13);
+}
+
 TEST(CompositeTriangle, balancedTractionsDetermineAStressWithoutDivergence) {
   std::mt19937 random(1);
   const CompositeTriangle element(corners, compliance(2, 0.3));

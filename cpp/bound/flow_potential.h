@@ -1,0 +1,54 @@
+// The flow of Perzyna's law as the gradient of a convex function, where it is one:
+//
+//   G = grad phi,  phi = dist^2(., B)/(4 lambda) = lambda |G|^2,   G(s) = r(s)/(2 lambda),  r(s) = s - P_B s.
+//
+// D(s; t) = phi(s) - phi(t) - G(t) : (s - t) is what phi has at s beyond its tangent at t.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solver/model.h"
+
+namespace mortier {
+
+/// 0 where the law has none of this name.
+double parameterOf(const LawDescription& law, const std::string& name);
+
+class FlowPotential {
+ public:
+  /// The flow of which body has no potential; empty where all have.
+  static std::string obstacleOf(const Model& model);
+
+  /// \param parents  of each triangle, that of the body whose law it has; the first ones are the body's own
+  FlowPotential(const Body& body, const std::vector<int>& parents);
+
+  /// 1/(2 lambda) by triangles, 0 where nothing flows [1/(Pa s)]
+  [[nodiscard]] const Vector& fluidity() const { return fluidity_; }
+  /// So many triangles from one on, of which rates() can tell at once.
+  [[nodiscard]] int together(int first) const;
+  /// G of stresses at the triangles from one on (components x triangles), no more than together() [1/s].
+  Matrix rates(int first, const Matrix& stress);
+
+ private:
+  const Material& material_;
+  const std::vector<int>& parents_;
+  Matrix stress_, rate_;  ///< by points of the body
+  Vector fluidity_;
+};
+
+/// What is made of D(s; t) at stresses s near one t, with the fluidity m = 1/(2 lambda): both free of
+/// cancellation.
+struct FlowExcess {
+  const PointVector& t;
+  const PointVector& rate;  ///< G(t)
+  double fluidity = 0;
+
+  /// D(s; t), convex in s, G its rate. It is (m/2) (|dr|^2 - 2 r(t) : dP) with d = s - t, r(s) - r(t) = dr,
+  /// P_B s - P_B t = d - dr = dP.
+  [[nodiscard]] double above(const PointVector& s, const PointVector& rate) const;
+  /// (m/2) |s - t|^2 - D(s; t), convex too: (m/2) (|dP|^2 + 2 r(s) : dP).
+  [[nodiscard]] double below(const PointVector& s, const PointVector& rate) const;
+};
+
+}  // namespace mortier
