@@ -9,8 +9,8 @@ namespace mortier {
 const Keys& keysOf(const std::string& path) {
   static const std::map<std::string, Keys> tables = {
       {"",
-       {"title", "plane", "body", "contact", "quantity", "time", "solver", "output", "check",
-        "degree", "accuracy", "units"}},
+       {"title", "plane", "body", "contact", "quantity", "time", "solver", "output", "check", "degree",
+        "accuracy", "units"}},
       {"body", {"name", "mesh", "material", "force", "boundary", "region", "initial_stress"}},
       {"body.mesh",
        {"file", "region", "size", "parameters", "shape", "cells", "cut", "lower", "upper", "focus", "grading",
