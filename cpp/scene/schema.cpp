@@ -12,8 +12,8 @@ const Keys& keysOf(const std::string& path) {
       "reference_rate", "exponent"};
   static const std::map<std::string, Keys> tables = {
       {"",
-       {"title", "units", "plane", "body", "contact", "quantity", "time", "solver", "output", "check",
-        "degree", "accuracy"}},
+       {"title", "plane", "body", "contact", "quantity", "time", "solver", "output", "check", "degree",
+        "accuracy", "units"}},
       {"body", {"name", "mesh", "material", "force", "boundary", "region", "initial_stress", "point"}},
       {"body.mesh",
        {"file", "region", "size", "parameters", "shape", "cells", "cut", "lower", "upper", "focus", "grading",
