@@ -16,6 +16,7 @@ import numpy as np
 import results
 
 sys.path.append(str(Path(__file__).resolve().parent.parent / "views"))
+import curves  # noqa: E402
 import images  # noqa: E402
 import pictures  # noqa: E402
 import runs  # noqa: E402
@@ -49,7 +50,7 @@ def main():
     with pictures.plt.rc_context(pictures.STYLE):
         figures = {"figure-1-mortar": pictures.fields(views[:1], **style),
                    "figure-2-interpolation": pictures.fields(views[1:], **style),
-                   "figure-3-contact-line": pictures.contact(views, EXACT)}
+                   "figure-3-contact-line": curves.contact(views, EXACT)}
         for name, figure in figures.items():
             for kind in ("png", "svg"):
                 path = arguments.out / f"{name}.{kind}"

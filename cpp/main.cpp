@@ -19,6 +19,7 @@
 #include "commands/study.h"
 #include "commands/version.h"
 #include "commands/views.h"
+#include "linear/dense_kernels.h"
 
 using namespace mortier;
 
@@ -210,6 +211,7 @@ int main(int argc, char** argv) {
   // A reader that goes away and a file that may not grow are errors of a write, not the end of the program.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+  dense::endThreadsOfBlas();
   try {
     const int code = dispatch(argc, argv);
     finishStandardOutput();

@@ -57,6 +57,7 @@ struct Output {
   Solved solve(Attempt& attempt, const Observer& observe) {
     return mortier::solve({attempt.scene(),
                            *attempt.model,
+                           *attempt.error,
                            attempt.facts,
                            folder.temporary(),
                            quiet,
@@ -78,13 +79,16 @@ Solved solveInMemory(const Attempt& attempt, const Observer& observe) {
   MarchMemory memory;
   MarchMemory lastMemory;
   AccuracyMemory errors;
-  AccuracyRecord accuracies(*attempt.model, errors);
+  CurrentSpaceError& error = *attempt.error;
+  error.moveTo(solved.state);
+  AccuracyRecord accuracies(*attempt.model, error, errors);
   try {
     solved.report = march(*attempt.model, solved.state, memory, scene.time, scene.solver,
                           [&](const State& state, const StepReport& report) {
                             if (report.step == 0) errors = {};
                             const bool kept = scene.every > 0 && report.step % scene.every == 0;
-                            accuracies.add(state, report, kept);
+                            error.moveTo(state);
+                            accuracies.add(report, kept);
                             observe(state, report);
                             solved.last = report;
                             last = state;
@@ -98,7 +102,7 @@ Solved solveInMemory(const Attempt& attempt, const Observer& observe) {
   } catch (const Interrupted&) {
     throw InterruptedError(scene.path + ": interrupted after step " + std::to_string(solved.last.step));
   }
-  solved.accuracy = accuracies.atEnd(solved.state, solved.report.peaks);
+  solved.accuracy = accuracies.atEnd(solved.report.peaks);
   return solved;
 }
 

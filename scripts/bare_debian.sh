@@ -2,6 +2,7 @@
 # Runs commands in a bare Debian 12, on a copy of the last commit, as a new user would: a package that they
 # forget to install is missing there, whatever this machine has.
 #   scripts/bare_debian.sh COMMAND...     e.g. scripts/bare_debian.sh ./demo ./check
+#   scripts/bare_debian.sh --of FOLDER COMMAND...     on a copy of a folder instead
 # As root; installs debootstrap where it is missing. Exit code 125 where there can be no bare Debian here,
 # with the reason; otherwise that of the first command that fails.
 set -u -o pipefail
@@ -9,7 +10,9 @@ repository=$(cd "$(dirname "$(readlink -f "$0")")/.." && pwd)
 impossible() { echo "no bare Debian: $*" >&2; exit 125; }
 
 if [ "${1:-}" != --inside ]; then
-  [ $# -gt 0 ] || { echo "usage: scripts/bare_debian.sh COMMAND..." >&2; exit 2; }
+  folder=
+  [ "${1:-}" != --of ] || { folder=${2:-}; shift $(($# > 1 ? 2 : 1)); }
+  [ $# -gt 0 ] || { echo "usage: scripts/bare_debian.sh [--of FOLDER] COMMAND..." >&2; exit 2; }
   [ "$(id -u)" -eq 0 ] || impossible "only root can make one"
   if ! command -v debootstrap >/dev/null; then
     { apt-get update -q &&
@@ -27,8 +30,12 @@ if [ "${1:-}" != --inside ]; then
     { tail -n 3 "$root.log" >&2; rm -f "$root.log"; impossible "debootstrap failed"; }
   rm -f "$root.log"
   mkdir -p "$root/opt/mortier"
-  git -c safe.directory='*' -C "$repository" archive HEAD | tar -x -C "$root/opt/mortier" ||
-    impossible "the last commit cannot be copied"
+  if [ -n "$folder" ]; then
+    cp -r "$folder/." "$root/opt/mortier" || impossible "$folder cannot be copied"
+  else
+    git -c safe.directory='*' -C "$repository" archive HEAD | tar -x -C "$root/opt/mortier" ||
+      impossible "the last commit cannot be copied"
+  fi
   # In a mount namespace of its own: what is mounted goes with it, however this ends.
   unshare --mount --propagation private true 2>/dev/null || impossible "no mount namespace"
   unshare --mount --propagation private "$0" --inside "$root" "$@"

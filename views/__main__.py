@@ -60,14 +60,15 @@ def arguments(words):
 
 def plot(given):
     require("numpy", "matplotlib", "meshio")
+    import curves
     import files
     import images
     import pictures
     import runs
 
     # 1. The runs, and what is wrong with the options before anything is drawn.
-    if len(given.results) > len(pictures.OF_RUNS):
-        raise Wrong(f"{len(given.results)} results, expected {len(pictures.OF_RUNS)} at most")
+    if len(given.results) > len(curves.OF_RUNS):
+        raise Wrong(f"{len(given.results)} results, expected {len(curves.OF_RUNS)} at most")
     results = [runs.Result(folder) for folder in given.results]
     views = [pictures.view(result, given.step) for result in results]
     known = set.intersection(*[set(each.result.fields(each.run)) for each in views])
@@ -97,8 +98,8 @@ def plot(given):
             ["fields"] if single else PICTURES
         for name in wanted:
             figure = {"fields": lambda: pictures.fields(views, given.field, scale, given.window),
-                      "contact": lambda: pictures.contact(views),
-                      "history": lambda: pictures.history(views)}[name]()
+                      "contact": lambda: curves.contact(views),
+                      "history": lambda: curves.history(views)}[name]()
             if figure is None:
                 if given.only:
                     raise Wrong(f"{given.results[0]}: nothing to draw: "

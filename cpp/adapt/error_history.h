@@ -10,9 +10,10 @@ namespace mortier {
 
 class ErrorHistory {
  public:
-  explicit ErrorHistory(const Model& model) : model_(model), estimator_(model) {}
-  /// Of a state of the run, in their order; the initial state (step 0) begins anew.
-  void add(const State& state, const StepReport& report);
+  /// \param error  of the states that are told of
+  ErrorHistory(const Model& model, CurrentSpaceError& error) : model_(model), error_(error) {}
+  /// A state of the run, in their order; the initial state (step 0) begins anew.
+  void add(const StepReport& report);
 
   /// By bodies and triangles [J/m]: the shares, whose sum is the largest error of any state, squared. 0 where
   /// that is nothing but rounding.
@@ -22,9 +23,9 @@ class ErrorHistory {
 
  private:
   const Model& model_;
-  SpaceErrorEstimator estimator_;
+  CurrentSpaceError& error_;
   std::vector<Vector> largest_;  ///< of each triangle
-  double error_ = 0;             ///< the largest sum
+  double largestSum_ = 0;
   double energy_ = 0;
   double displacement_ = 0;  ///< largest [m]
 };

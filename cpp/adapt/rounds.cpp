@@ -13,7 +13,7 @@ namespace {
 
 /// An estimate may be this part of the error, so that it has to be below this part of what is asked.
 constexpr double least = 0.9;
-constexpr double careful = 0.85;     // aims are this part of what is asked
+constexpr double careful = 0.75;     // aims are this part of what is asked
 constexpr double reachOfARound = 4;  // by which a round divides the error, about
 
 int nodesOf(const AdaptedMeshes& meshes, size_t bodies, int degree) {
@@ -60,17 +60,17 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
   meshError_ = result.energy > 0 ? std::sqrt(sum / result.energy) : 0;
   ++done_;
   meshes_.learn(result.errors);
-  const double trusted = result.energy > 0 ? std::sqrt((sum + meshes_.unseen()) / result.energy) : 0;
-  if (done_ > 1 && trusted + result.time <= least_ * asked) {
+  trusted_ = result.energy > 0 ? std::sqrt((sum + meshes_.unseen()) / result.energy) : 0;
+  if (done_ > 1 && trusted_ + result.time <= least_ * asked) {
     const std::optional<double> bound = result.bound ? result.bound() : std::nullopt;
     if (!bound || *bound <= asked) return Verdict::reached;
-    least_ = careful * trusted / std::min(*bound, 1.0);
+    least_ = careful * trusted_ / std::min(*bound, 1.0);
   }
   const double ofMeshes = least_ * asked - timeShare();
 
   // The steps alone are too long.
   const bool lastSteps = timeTolerance_ <= timeShare();
-  if (done_ > 1 && trusted <= ofMeshes) {
+  if (done_ > 1 && trusted_ <= ofMeshes) {
     if (lastSteps) return stop("the error of the steps, " + percent(result.time) + ", does not fall");
     timeTolerance_ = timeShare();
     return Verdict::goOn;
@@ -80,7 +80,7 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
   const bool fell = meshError_ < stalled * before;
   shortfalls_ = aim_ > 0 && meshError_ > short_ * aim_ && !fell ? shortfalls_ + 1 : 0;
   if (shortfalls_ >= often) return stop("the error does not fall as it should");
-  const double excess = meshError_ / (careful / least * ofMeshes);
+  const double excess = trusted_ / (careful / least * ofMeshes);
   const double toCome = std::max(1.0, std::round(std::log(excess) / std::log(reachOfARound)));
   const double factor = std::clamp(std::pow(excess, -1 / toCome), 1.0 / 8, done_ == 1 ? first : careful);
   double cost = result.seconds;

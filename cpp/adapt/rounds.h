@@ -1,6 +1,6 @@
 // A scene solved again and again, on meshes that are refined by the error of the round before and with steps
 // to match, until the estimated error is what was asked for.
-// With E the error of the meshes over 0.85 of what is asked of it,
+// With E the error of the meshes, with what its estimate does not see, over 0.75 of what is asked of it,
 //
 //   k = max(1, round(log E / log 4))   rounds are to come, each of which divides it by  min(E^(1/k), 8):
 //
@@ -46,8 +46,8 @@ class Rounds {
   Verdict judge(const RoundResult& result, double seconds);
   /// Why the accuracy is not reached.
   [[nodiscard]] const std::string& reason() const { return reason_; }
-  /// Of the last round, relative.
-  [[nodiscard]] double meshError() const { return meshError_; }
+  /// Of the last round, relative, with what the estimate does not see of unbounded stresses.
+  [[nodiscard]] double meshError() const { return trusted_; }
   /// Doubts about the estimate beside those of plan/estimate_doubts.h.
   [[nodiscard]] std::vector<std::string> doubts() const;
 
@@ -61,7 +61,8 @@ class Rounds {
   AdaptedMeshes meshes_;
   double timeTolerance_ = 0;  ///< of the round to come; 0: as the scene says
   double aim_ = 0;            ///< error that the meshes are to have in it
-  double meshError_ = 0;
+  double meshError_ = 0;      ///< as estimated in the last round, relative
+  double trusted_ = 0;        ///< with what that does not see
   double least_;  ///< part of what is asked for that the estimate has to be below
   int done_ = 0;
   int shortfalls_ = 0;

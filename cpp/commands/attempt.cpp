@@ -69,6 +69,7 @@ void lookAhead(SceneDescription& scene, const Model& model) {
 Attempt::Attempt(ResolvedScene scene, const AttemptOptions& options) : resolved(std::move(scene)) {
   SceneDescription& description = resolved.description;
   model = std::make_unique<Model>(buildModel(resolved));
+  error = std::make_unique<CurrentSpaceError>(*model);
   description.solver.threads = options.threads;
   facts = factsOf(description, options);
   facts.quantities = buildQuantities(description, *model);

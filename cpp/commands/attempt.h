@@ -21,6 +21,7 @@ struct AttemptOptions {
 struct Attempt {
   ResolvedScene resolved;
   std::unique_ptr<Model> model;
+  std::unique_ptr<CurrentSpaceError> error;  ///< of the meshes, in the state that the run is at
   RunFacts facts;
   State state;  ///< the first one
   Solved solved;

@@ -161,7 +161,7 @@ std::string script(const SceneDescription& scene, const Model& model,
       << distances(scene, model) << "string variant = \"" << word(scene.contacts.front().variant)
       << "\";\nreal endTime = " << shortest(scene.time.end) << ";  // [s]\nint steps = " << scene.time.steps
       << ";  // backward Euler, equal steps\n\n";
-  for (const char* part : {"bodies", "supports", "coupling", "contact", "picture", "loop"}) {
+  for (const char* part : {"bodies", "supports", "lines", "coupling", "contact", "picture", "loop"}) {
     out << "include " << freefemString(method + '/' + part + ".idp", scene.path + ": the FreeFEM method")
         << '\n';
   }

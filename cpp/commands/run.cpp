@@ -113,6 +113,7 @@ int run(RunCommand command) {
   const auto solveIt = [&](Attempt& now, Observer alsoObserve) {
     Solving solving{now.resolved.description,
                     *now.model,
+                    *now.error,
                     now.facts,
                     folder->temporary(),
                     rows,

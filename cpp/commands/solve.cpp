@@ -44,17 +44,18 @@ Solved solve(Solving solving) {
   AccuracyMemory accuracySoFar;
   if (solving.stopped) {
     Checkpoint& stopped = *solving.stopped;
-    files.emplace(folder, model, facts.quantities, scene.every, stopped.files);
+    files.emplace(folder, model, solving.error, facts.quantities, scene.every, stopped.files);
     empty = stopped.empty;
     last = stopped.last;
     state = std::move(stopped.state);
     memory = std::move(stopped.memory);
     accuracySoFar = stopped.accuracy;
   } else {
-    files.emplace(folder, model, facts.quantities, scene.every);
+    files.emplace(folder, model, solving.error, facts.quantities, scene.every);
     state = std::move(solving.state);
   }
-  AccuracyRecord accuracies(model, accuracySoFar);
+  solving.error.moveTo(state);
+  AccuracyRecord accuracies(model, solving.error, accuracySoFar);
   std::optional<FlowBoundRecord> flow;
   if (scene.accuracy.bound && FlowBoundRecord::applies(model))
     flow.emplace(model, Steps{scene.time.scheme == Scheme::backwardEuler, scene.time.controlled()}, state,
@@ -67,6 +68,7 @@ Solved solve(Solving solving) {
     solving.checkpoints.write(empty, written, last, at, with, accuracySoFar);
   };
   const Observer observe = [&](const State&, const StepReport& report) {
+    solving.error.moveTo(state);
     const bool again = report.step == 0 && memory.controller.trial > 1;
     if (again) {
       // A checkpoint before the files are cut: one that knows them as they were would be of no use.
@@ -77,7 +79,7 @@ Solved solve(Solving solving) {
       if (!solving.onlyTheStart) save(empty, state, memory);
       files.reset();
       removeFields(folder, written, empty);
-      files.emplace(folder, model, facts.quantities, scene.every, empty);
+      files.emplace(folder, model, solving.error, facts.quantities, scene.every, empty);
     } else {
       files->add(state, report);
       if (report.step == 0) empty = files->sync();
@@ -86,7 +88,7 @@ Solved solve(Solving solving) {
         save({nothing, nothing, {}}, state, memory);
       }
     }
-    accuracies.add(state, report, scene.every > 0 && report.step % scene.every == 0);
+    accuracies.add(report, scene.every > 0 && report.step % scene.every == 0);
     if (solving.alsoObserve) solving.alsoObserve(state, report);
     if (report.step > 0) log.step(report);
     last = report;
@@ -117,7 +119,7 @@ Solved solve(Solving solving) {
   }
   log.finish();
   solved.files = files->close(state, last.step);
-  solved.accuracy = accuracies.atEnd(state, report.peaks);
+  solved.accuracy = accuracies.atEnd(report.peaks);
   if (flow) solved.accuracy.flow = flow->atEnd(state);
   return solved;
 }

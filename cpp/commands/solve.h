@@ -38,6 +38,7 @@ constexpr const char* timeIsUp = "max_seconds are over";
 struct Solving {
   const SceneDescription& scene;
   const Model& model;
+  CurrentSpaceError& error;  ///< kept up to date
   const RunFacts& facts;
   const std::string& folder;  ///< to write into
   Log& log;

@@ -54,9 +54,9 @@ std::string solveRounds(Rounds& rounds, std::unique_ptr<Attempt>& attempt, const
   Rounds::Verdict verdict = Rounds::Verdict::goOn;
   double begin = 0;
   const auto march = [&](Attempt& round) {
-    ErrorHistory errors(*round.model);
+    ErrorHistory errors(*round.model, *round.error);
     round.facts.rounds = done;
-    solve(round, [&](const State& at, const StepReport& report) { errors.add(at, report); });
+    solve(round, [&](const State&, const StepReport& report) { errors.add(report); });
     if (round.solved.report.status != Status::converged) return;
     const double end = processSeconds();
     const double time = round.solved.report.timeError;

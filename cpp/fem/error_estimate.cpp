@@ -34,6 +34,24 @@ class Neighbours {
   std::vector<int> triangles_;
 };
 
+/// Coefficients of a fit that are needed: linear ones are evaluated at their vertices only.
+template <class Element>
+constexpr int keptTerms = Element::nodes == 3 ? 1 : Element::nodes;
+
+template <class Element>
+using Terms = Eigen::Matrix<double, Element::nodes, 1>;
+
+/// The terms of a polynomial at a distance from the vertex of a fit, over its size.
+template <class Element>
+Terms<Element> termsAt(const Point& x) {
+  Terms<Element> result;
+  if constexpr (Element::nodes == 3)
+    result << 1, x.x(), x.y();
+  else
+    result << 1, x.x(), x.y(), x.x() * x.x(), x.x() * x.y(), x.y() * x.y();
+  return result;
+}
+
 /// The fits of one region: polynomials of the degree of the displacements to the stresses at the points of
 /// the element.
 template <class Element>
@@ -43,36 +61,53 @@ class Fits {
   Fits(const TriangleMesh& mesh, const Neighbours& neighbours, const std::vector<Point>& samples, int region)
       : mesh_(mesh), neighbours_(neighbours), samples_(samples), region_(region) {}
 
-  /// Calls visit(point, weight) for what makes the stress at a place: the value there of the fit to the
-  /// points around a vertex. Where these lie to one side, those of the next ring count too.
-  template <class Visit>
-  void at(int vertex, const Point& place, Visit visit) {
-    patch_.clear();
-    addAround(vertex);
-    if (!closed()) {
-      const std::vector<int> inner = patch_;
-      for (const int triangle : inner)
-        for (const int other : mesh_.triangles[triangle]) addAround(other);
-      std::sort(patch_.begin(), patch_.end());
-      patch_.erase(std::unique(patch_.begin(), patch_.end()), patch_.end());
-    }
-    const std::vector<double>& weights = fit(mesh_.vertices[vertex], place);
-    for (size_t i = 0; i < weights.size(); ++i)
-      visit(Element::points * patch_[i / Element::points] + static_cast<int>(i % Element::points),
-            weights[i]);
+  /// The fit to the points around a vertex, by least squares; their mean where they do not determine the
+  /// polynomial. Where they lie to one side, those of the next ring count too. Quadratic ones count a point
+  /// by the inverse square of its distance from the vertex: on meshes that are graded towards an unbounded
+  /// stress, points that are far off would have as much to say as those nearby.
+  /// Appends the points, and for each its weights in the coefficients that are needed. \returns the size [m].
+  double around(int vertex, std::vector<int>& points, std::vector<double>& weights) {
+    constexpr int terms = Element::nodes;
+    constexpr int kept = keptTerms<Element>;
+    constexpr double degenerate = 1e-10;
+    choosePatch(vertex);
+    const Point& centre = mesh_.vertices[vertex];
+    double size = 0;
+    forEachSample([&](int i) { size = std::max(size, (samples_[i] - centre).squaredNorm()); });
+    size = std::sqrt(size);
+    basis_.clear();
+    Eigen::Matrix<double, terms, terms> normal = Eigen::Matrix<double, terms, terms>::Zero();
+    forEachSample([&](int i) {
+      basis_.push_back(termsAt<Element>((samples_[i] - centre) / size));
+      normal += countOf(i, centre, size) * basis_.back() * basis_.back().transpose();
+    });
+    const auto n = static_cast<double>(basis_.size());
+    const Eigen::LDLT<Eigen::Matrix<double, terms, terms>> factor(normal);
+    const bool determined = factor.vectorD().minCoeff() >= degenerate * normal(0, 0);
+    Eigen::Matrix<double, terms, kept> rows;
+    for (int term = 0; term < kept; ++term) rows.col(term) = factor.solve(Terms<Element>::Unit(term));
+    size_t k = 0;
+    forEachSample([&](int i) {
+      points.push_back(i);
+      for (int term = 0; term < kept; ++term)
+        weights.push_back(determined  ? countOf(i, centre, size) * rows.col(term).dot(basis_[k])
+                          : term == 0 ? 1 / n
+                                      : 0);
+      ++k;
+    });
+    return size;
   }
 
  private:
-  static constexpr int terms = Element::nodes;  // of a polynomial of that degree
-  using Terms = Eigen::Matrix<double, terms, 1>;
-
-  static Terms termsAt(const Point& x) {
-    Terms result;
-    if constexpr (terms == 3)
-      result << 1, x.x(), x.y();
-    else
-      result << 1, x.x(), x.y(), x.x() * x.x(), x.x() * x.y(), x.y() * x.y();
-    return result;
+  void choosePatch(int vertex) {
+    patch_.clear();
+    addAround(vertex);
+    if (closed()) return;
+    const std::vector<int> inner = patch_;
+    for (const int triangle : inner)
+      for (const int other : mesh_.triangles[triangle]) addAround(other);
+    std::sort(patch_.begin(), patch_.end());
+    patch_.erase(std::unique(patch_.begin(), patch_.end()), patch_.end());
   }
 
   void addAround(int vertex) {
@@ -91,33 +126,14 @@ class Fits {
     return end - corners_.begin() == static_cast<std::ptrdiff_t>(patch_.size()) + 1;
   }
 
-  /// Of the value at a place, by least squares; of the mean where the points do not determine the polynomial.
-  /// Quadratic ones count a point by the inverse square of its distance from the vertex: on meshes that are
-  /// graded towards an unbounded stress, points that are far off would have as much to say as those nearby.
-  const std::vector<double>& fit(const Point& vertex, const Point& place) {
-    constexpr double degenerate = 1e-10;
-    double size = 0;
-    const auto forEachSample = [&](auto visit) {
-      for (const int t : patch_)
-        for (int i = 0; i < Element::points; ++i) visit(samples_[Element::points * t + i]);
-    };
-    forEachSample([&](const Point& sample) { size = std::max(size, (sample - vertex).squaredNorm()); });
-    size = std::sqrt(size);
-    basis_.clear();
-    counts_.clear();
-    Eigen::Matrix<double, terms, terms> normal = Eigen::Matrix<double, terms, terms>::Zero();
-    forEachSample([&](const Point& sample) {
-      counts_.push_back(Element::points > 1 ? size * size / (sample - vertex).squaredNorm() : 1);
-      basis_.push_back(termsAt((sample - vertex) / size));
-      normal += counts_.back() * basis_.back() * basis_.back().transpose();
-    });
-    const auto n = static_cast<double>(basis_.size());
-    const Eigen::LDLT<Eigen::Matrix<double, terms, terms>> factor(normal);
-    weights_.assign(basis_.size(), 1 / n);
-    if (factor.vectorD().minCoeff() < degenerate * normal(0, 0)) return weights_;
-    const Terms value = factor.solve(termsAt((place - vertex) / size));
-    for (size_t i = 0; i < basis_.size(); ++i) weights_[i] = counts_[i] * value.dot(basis_[i]);
-    return weights_;
+  template <class Visit>
+  void forEachSample(Visit visit) const {
+    for (const int t : patch_)
+      for (int i = 0; i < Element::points; ++i) visit(Element::points * t + i);
+  }
+
+  [[nodiscard]] double countOf(int sample, const Point& centre, double size) const {
+    return Element::points > 1 ? size * size / (samples_[sample] - centre).squaredNorm() : 1;
   }
 
   const TriangleMesh& mesh_;
@@ -126,9 +142,7 @@ class Fits {
   int region_;
   std::vector<int> patch_;
   std::vector<int> corners_;
-  std::vector<Terms> basis_;
-  std::vector<double> counts_;
-  std::vector<double> weights_;
+  std::vector<Terms<Element>> basis_;
 };
 
 }  // namespace
@@ -153,20 +167,34 @@ void ErrorEstimator::recover() {
   recoveredAt_.resize(nodes.triangles.size());
   for (const int region : regions) {
     Fits<Element> fits(mesh, neighbours, samples, region);
+    std::vector<int> fitOf(mesh.vertices.size(), -1);
+    std::vector<double> sizes(mesh.vertices.size());
+    const auto fitAround = [&](int vertex) {
+      if (fitOf[vertex] < 0) {
+        fitOf[vertex] = static_cast<int>(first_.size()) - 1;
+        sizes[vertex] = fits.around(vertex, points_, weights_);
+        first_.push_back(points_.size());
+      }
+      return fitOf[vertex];
+    };
+    const auto valueOf = [&](int vertex, const Point& place) {
+      return Value{fitAround(vertex), (place - mesh.vertices[vertex]) / sizes[vertex]};
+    };
     std::vector<int> known(nodes.places.size(), -1);
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
       if (mesh.regions[t] != region) continue;
+      const auto& triangle = mesh.triangles[t];
       for (int a = 0; a < Element::nodes; ++a) {
         const int node = nodes.of(t)[a];
         if (known[node] < 0) {
-          known[node] = static_cast<int>(first_.size()) - 1;
-          // At a middle the mean of what the vertices beside it say.
-          const int fitsHere = a < 3 ? 1 : 2;
-          for (int k = 0; k < fitsHere; ++k)
-            fits.at(mesh.triangles[t][(a + k) % 3], nodes.places[node], [&](int point, double weight) {
-              parts_.push_back({point, weight / fitsHere});
-            });
-          first_.push_back(parts_.size());
+          const Point& place = nodes.places[node];
+          if (keptTerms<Element> == 1) {
+            known[node] = fitAround(node);
+          } else {
+            known[node] = static_cast<int>(values_.size());
+            values_.push_back(
+                {valueOf(triangle[a % 3], place), valueOf(triangle[(a < 3 ? a : a + 1) % 3], place)});
+          }
         }
         recoveredAt_[Element::nodes * t + a] = known[node];
       }
@@ -179,13 +207,29 @@ ErrorEstimate ErrorEstimator::operator()(const Matrix& stress) const {
 }
 
 template <class Element>
+Matrix ErrorEstimator::recoveredStress(const Matrix& stress) const {
+  constexpr int kept = keptTerms<Element>;
+  Matrix coefficients = Matrix::Zero(stress.rows(), kept * (static_cast<Eigen::Index>(first_.size()) - 1));
+  for (size_t fit = 0; fit + 1 < first_.size(); ++fit)
+    for (size_t k = first_[fit]; k < first_[fit + 1]; ++k)
+      for (size_t term = 0; term < kept; ++term)
+        coefficients.col(kept * fit + term) += weights_[kept * k + term] * stress.col(points_[k]);
+  if constexpr (kept == 1) {
+    return coefficients;
+  } else {
+    Matrix recovered = Matrix::Zero(stress.rows(), static_cast<Eigen::Index>(values_.size()));
+    for (size_t i = 0; i < values_.size(); ++i)
+      for (const Value& value : values_[i])
+        recovered.col(i) += coefficients.middleCols<kept>(kept * value.fit) * termsAt<Element>(value.at) / 2;
+    return recovered;
+  }
+}
+
+template <class Element>
 ErrorEstimate ErrorEstimator::estimate(const Matrix& stress) const {
   constexpr int n = Element::points;
   constexpr auto rule = Element::loadRule();
-  Matrix recovered = Matrix::Zero(stress.rows(), static_cast<Eigen::Index>(first_.size()) - 1);
-  for (Eigen::Index i = 0; i < recovered.cols(); ++i)
-    for (size_t k = first_[i]; k < first_[i + 1]; ++k)
-      recovered.col(i) += parts_[k].weight * stress.col(parts_[k].point);
+  const Matrix recovered = recoveredStress<Element>(stress);
   const Eigen::Index triangles = stress.cols() / n;
   ErrorEstimate estimate{Vector::Zero(triangles), 0};
   Matrix there(stress.rows(), stress.cols());

@@ -5,6 +5,7 @@
 // not that of the steps in time.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "fem/body.h"
@@ -32,14 +33,22 @@ class ErrorEstimator {
   template <class Element>
   [[nodiscard]] ErrorEstimate estimate(const Matrix& stress) const;
 
-  struct Part {
-    int point = 0;
-    double weight = 0;
+  template <class Element>
+  [[nodiscard]] Matrix recoveredStress(const Matrix& stress) const;
+
+  /// Of a fit, at a distance from its vertex over its size.
+  struct Value {
+    int fit = 0;
+    Point at;
   };
   const Body& body_;
   std::vector<int> recoveredAt_;  ///< of each node of each triangle, among the recovered stresses
-  std::vector<size_t> first_{0};  ///< part of each recovered stress
-  std::vector<Part> parts_;       ///< it is the sum of weight times stress
+  /// Of quadratic displacements: each is the mean of two, at a middle of what the vertices beside it say. Of
+  /// linear ones the recovered stresses are the first coefficients of the fits.
+  std::vector<std::array<Value, 2>> values_;
+  std::vector<size_t> first_{0};  ///< point of each fit
+  std::vector<int> points_;       ///< of the stress
+  std::vector<double> weights_;   ///< of each point in the coefficients of its fit
 };
 
 }  // namespace mortier

@@ -10,6 +10,7 @@
 extern "C" {
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 void dgetrf_(const int* m, const int* n, double* a, const int* lda, int* ipiv, int* info);
+int blas_thread_shutdown_() __attribute__((weak));  // of OpenBLAS, where it has threads
 }
 
 namespace mortier::dense {
@@ -91,6 +92,11 @@ void smallUpdate(const double* L21, int ldL, int pivots, const double* upper, in
 
 void useOneThread() {
   openblas_set_num_threads(1);
+}
+
+void endThreadsOfBlas() {
+  useOneThread();
+  if (blas_thread_shutdown_ != nullptr) blas_thread_shutdown_();
 }
 
 bool partialCholesky(double* panel, int n, int pivots, double* update) {

@@ -17,6 +17,10 @@ bool partialLU(double* panel, int n, int pivots, double* upper, double* update, 
 /// Lets BLAS use one thread: bodies and pieces of the factorisation are what runs in parallel.
 void useOneThread();
 
+/// And ends the threads that BLAS began when it was loaded, one per core: they wait busily for a while. For a
+/// program that nothing else in its process calls BLAS for.
+void endThreadsOfBlas();
+
 /// Interchanges the first n entries of x as partialLU told.
 void swapRows(double* x, const int* interchange, int n);
 /// x = L^-1 x; `unit`: ones on the diagonal.

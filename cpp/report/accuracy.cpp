@@ -11,35 +11,29 @@ constexpr double negligible = 1e-24;
 
 }  // namespace
 
-void AccuracyRecord::prepare() {
-  if (!estimator_) estimator_.emplace(model_);
-}
-
-void AccuracyRecord::add(const State& state, const StepReport& report, bool kept) {
+void AccuracyRecord::add(const StepReport& report, bool kept) {
   constexpr double often = 2;
   if (report.step == 0) return;  // a given state: what overlaps in it is pressed apart in the first step
   if (!kept && !(report.energy > often * memory_.energy)) return;
-  prepare();
   memory_.energy = std::max(memory_.energy, report.energy);
   double error = 0;
-  for (const ErrorEstimate& estimate : (*estimator_)(state)) error += estimate.error.sum();
+  for (const ErrorEstimate& estimate : *error_.estimates()) error += estimate.error.sum();
   if (!(error > memory_.error)) return;
   memory_.error = error;
   memory_.time = report.time;
 }
 
-Accuracy AccuracyRecord::atEnd(const State& state, const Peaks& peaks) {
-  prepare();
+Accuracy AccuracyRecord::atEnd(const Peaks& peaks) {
   const double largestEnergy = 2 * peaks.energy.value;
   Accuracy result;
   double error = 0;
   double energy = 0;
   double largest = 0;
   double allRounding = negligible * largestEnergy;
-  const std::vector<ErrorEstimate> estimates = (*estimator_)(state);
+  const CurrentSpaceError::Estimates estimates = error_.estimates();
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
-    const ErrorEstimate& estimate = estimates[b];
-    const double rounding = estimator_->roundingOf(b, peaks.displacement.value);
+    const ErrorEstimate& estimate = (*estimates)[b];
+    const double rounding = error_.estimator().roundingOf(b, peaks.displacement.value);
     allRounding += rounding;
     energy += estimate.energy;
     const bool real = estimate.error.sum() > rounding + negligible * largestEnergy;
@@ -55,7 +49,7 @@ Accuracy AccuracyRecord::atEnd(const State& state, const Peaks& peaks) {
     for (const int vertex : mesh.triangles[worst]) result.worst += mesh.vertices[vertex] / 3;
   }
   result.all = energy > 0 ? std::sqrt(error / energy) : 0;
-  result.time = result.largestTime = state.time;
+  result.time = result.largestTime = error_.state().time;
   double most = error;
   if (memory_.error > error) {
     most = memory_.error;

@@ -39,16 +39,16 @@ struct AccuracyMemory {
 class AccuracyRecord {
  public:
   /// \param memory  of an earlier part of the run; kept up to date.
-  AccuracyRecord(const Model& model, AccuracyMemory& memory) : model_(model), memory_(memory) {}
-  void add(const State& state, const StepReport& report, bool kept);
-  Accuracy atEnd(const State& state, const Peaks& peaks);
+  /// \param error  of the states that are told of
+  AccuracyRecord(const Model& model, CurrentSpaceError& error, AccuracyMemory& memory)
+      : model_(model), error_(error), memory_(memory) {}
+  void add(const StepReport& report, bool kept);
+  Accuracy atEnd(const Peaks& peaks);
 
  private:
-  void prepare();
-
   const Model& model_;
+  CurrentSpaceError& error_;
   AccuracyMemory& memory_;
-  std::optional<SpaceErrorEstimator> estimator_;  ///< from the first estimate on
 };
 
 }  // namespace mortier

@@ -174,9 +174,7 @@ std::string fieldName(const std::string& body, int step) {
   return body + "_" + number + ".vtu";
 }
 
-void Fields::write(const State& state, KeptFields& kept) {
-  if (!estimator_) estimator_.emplace(model_);
-  const std::vector<ErrorEstimate> estimates = (*estimator_)(state);
+void Fields::write(const State& state, const std::vector<ErrorEstimate>& estimates, KeptFields& kept) {
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
     const ElementNodes& nodes = body.elementNodes();
@@ -203,9 +201,11 @@ void Fields::add(const State& state, int step) {
   wait();
   kept_.push_back({step, state.time, {}});  // the next one waits until this one is written
   if (triangles < trianglesWorthAThread)
-    write(state, kept_.back());
+    write(state, *error_.estimates(), kept_.back());
   else
-    writing_ = std::async(std::launch::async, [this, state] { write(state, kept_.back()); });
+    writing_ = std::async(std::launch::async, [this, state, estimates = error_.estimates()] {
+      write(state, *estimates, kept_.back());
+    });
 }
 
 const std::vector<KeptFields>& Fields::sync() {

@@ -31,9 +31,14 @@ struct KeptFields {
 
 class Fields {
  public:
+  /// \param error  of the states that are added
   /// \param kept  what an earlier part of the run has written.
-  Fields(std::string folder, const Model& model, std::vector<KeptFields> kept = {})
-      : folder_(std::move(folder)), model_(model), kept_(std::move(kept)), synced_(kept_.size()) {}
+  Fields(std::string folder, const Model& model, CurrentSpaceError& error, std::vector<KeptFields> kept = {})
+      : folder_(std::move(folder)),
+        model_(model),
+        error_(error),
+        kept_(std::move(kept)),
+        synced_(kept_.size()) {}
   /// Writes <body>_<step>.vtu for every body; large ones while the run goes on, from a copy of the state.
   /// \throws OutputError, also when a field is not finite,
   /// at the latest in the next call of any function here.
@@ -44,15 +49,15 @@ class Fields {
   std::map<std::string, FileRecord> close();
 
  private:
-  void write(const State& state, KeptFields& kept);
+  void write(const State& state, const std::vector<ErrorEstimate>& estimates, KeptFields& kept);
   /// Until the last step is written.
   void wait();
 
   std::string folder_;
   const Model& model_;
+  CurrentSpaceError& error_;
   std::vector<KeptFields> kept_;
   size_t synced_;
-  std::optional<SpaceErrorEstimator> estimator_;  ///< from the first step that is written
   std::future<void> writing_;
 };
 

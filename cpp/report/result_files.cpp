@@ -40,23 +40,23 @@ void bringBack(const std::string& folder, const std::map<std::string, FileRecord
   });
 }
 
-ResultFiles::ResultFiles(const std::string& folder, const Model& model,
+ResultFiles::ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error,
                          const std::vector<Quantity>& quantities, int every)
     : model_(model),
       quantities_(quantities),
       history_(folder, quantities),
       contact_(folder, model),
-      fields_(folder, model),
+      fields_(folder, model, error),
       every_(every),
       lastKept_(-1) {}
 
-ResultFiles::ResultFiles(const std::string& folder, const Model& model,
+ResultFiles::ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error,
                          const std::vector<Quantity>& quantities, int every, const FilesSoFar& soFar)
     : model_(model),
       quantities_(quantities),
       history_(folder, soFar.history),
       contact_(folder, model, soFar.contact),
-      fields_(folder, model, soFar.fields),
+      fields_(folder, model, error, soFar.fields),
       every_(every),
       lastKept_(soFar.fields.empty() ? -1 : soFar.fields.back().step) {}
 

@@ -28,13 +28,14 @@ void bringBack(const std::string& folder, const std::map<std::string, FileRecord
 
 class ResultFiles {
  public:
+  /// \param error  of the states that are added
   /// \param every  keep fields and contact of the steps 0, k, 2k, ... beside the last one; 0: the last one
   /// only.
-  ResultFiles(const std::string& folder, const Model& model, const std::vector<Quantity>& quantities,
-              int every);
+  ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error,
+              const std::vector<Quantity>& quantities, int every);
   /// Goes on with files that are there; what they hold beyond `soFar` is cut off.
-  ResultFiles(const std::string& folder, const Model& model, const std::vector<Quantity>& quantities,
-              int every, const FilesSoFar& soFar);
+  ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error,
+              const std::vector<Quantity>& quantities, int every, const FilesSoFar& soFar);
 
   /// Adds a step (or the initial state, step 0).
   void add(const State& state, const StepReport& report);

@@ -17,17 +17,18 @@ namespace mortier {
 namespace {
 
 /// A compiled expression with variables of its own: muParser keeps their addresses, so that a copy compiles
-/// anew.
+/// anew, when it is first evaluated: most copies are only passed on.
 class Compiled {
  public:
   explicit Compiled(std::string text) : text_(std::move(text)) { compile(); }
-  Compiled(const Compiled& other) : text_(other.text_) { compile(); }
+  Compiled(const Compiled& other) : text_(other.text_) {}
   Compiled(Compiled&& other) noexcept = default;
   Compiled& operator=(const Compiled&) = delete;
   Compiled& operator=(Compiled&&) = delete;
   ~Compiled() = default;
 
   double operator()(double x, double y, double t) const {
+    if (!work_) compile();
     work_->x = x;
     work_->y = y;
     work_->t = t;
@@ -50,7 +51,7 @@ class Compiled {
     double t = 0;
   };
 
-  void compile() {
+  void compile() const {
     work_ = std::make_unique<Work>();
     work_->parser.ResetLocale();
     work_->parser.DefineVar("x", &work_->x);
@@ -61,7 +62,7 @@ class Compiled {
   }
 
   std::string text_;
-  std::unique_ptr<Work> work_;
+  mutable std::unique_ptr<Work> work_;
 };
 
 /// muParser lets an expression assign to its variables; a datum must not.
@@ -74,6 +75,13 @@ bool assigns(const std::string& text) {
     }
   }
   return false;
+}
+
+/// \throws DatumError
+double finite(double value, const std::string& where, double x, double y, double t) {
+  if (std::isfinite(value)) return value;
+  throw DatumError(where + ", expected a finite number, is " + shortest(value) + " at x = " + shortest(x) +
+                   ", y = " + shortest(y) + ", t = " + shortest(t));
 }
 
 [[noreturn]] void reject(const std::string& where, const std::string& reason) {
@@ -151,21 +159,14 @@ Expression parseExpression(const std::string& text, std::string where) {
 
 Function finiteValue(const Expression& expression) {
   return [value = expression.value, where = expression.where](double x, double y, double t) {
-    const double result = value(x, y, t);
-    if (!std::isfinite(result)) {
-      throw DatumError(where + ", expected a finite number, is " + shortest(result) +
-                       " at x = " + shortest(x) + ", y = " + shortest(y) + ", t = " + shortest(t));
-    }
-    return result;
+    return finite(value(x, y, t), where, x, y, t);
   };
 }
 
 void requireFinite(const Expression& expression, const std::vector<Point>& points,
                    const std::vector<double>& times) {
-  const Function value = finiteValue(expression);
-  for (const double t : times) {
-    for (const Point& p : points) value(p[0], p[1], t);
-  }
+  for (const double t : times)
+    for (const Point& p : points) finite(expression.value(p[0], p[1], t), expression.where, p[0], p[1], t);
 }
 
 }  // namespace mortier

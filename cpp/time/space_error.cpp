@@ -69,6 +69,21 @@ std::vector<ErrorEstimate> SpaceErrorEstimator::operator()(const State& state) c
   return estimates;
 }
 
+void CurrentSpaceError::moveTo(const State& state) {
+  state_ = &state;
+  estimates_.reset();
+}
+
+CurrentSpaceError::Estimates CurrentSpaceError::estimates() {
+  if (!estimates_) estimates_ = std::make_shared<const std::vector<ErrorEstimate>>(estimator()(*state_));
+  return estimates_;
+}
+
+const SpaceErrorEstimator& CurrentSpaceError::estimator() {
+  if (!estimator_) estimator_.emplace(model_);
+  return *estimator_;
+}
+
 void SpaceErrorEstimator::addGaps(size_t interface, const State& state,
                                   std::vector<ErrorEstimate>& estimates) const {
   const ContactInterface& contact = model_.interfaces[interface];

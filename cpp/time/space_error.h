@@ -13,6 +13,8 @@
 // K^2/E* in place of E*.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "fem/error_estimate.h"
@@ -52,6 +54,27 @@ class SpaceErrorEstimator {
   std::vector<ErrorEstimator> bodies_;
   std::vector<std::array<Line, 2>> lines_;  ///< of each interface, nonmortar and mortar
   std::vector<Vector> compliances_;         ///< 1/E by points [1/Pa]
+};
+
+/// The error of the state that a run is at: estimated when it is first asked for, once for all that ask.
+class CurrentSpaceError {
+ public:
+  using Estimates = std::shared_ptr<const std::vector<ErrorEstimate>>;
+
+  /// \param model  must outlive it.
+  explicit CurrentSpaceError(const Model& model) : model_(model) {}
+  /// \param state  must not change before it is the next one's turn.
+  void moveTo(const State& state);
+  [[nodiscard]] const State& state() const { return *state_; }
+  /// By bodies.
+  [[nodiscard]] Estimates estimates();
+  [[nodiscard]] const SpaceErrorEstimator& estimator();
+
+ private:
+  const Model& model_;
+  std::optional<SpaceErrorEstimator> estimator_;  ///< from the first estimate on
+  const State* state_ = nullptr;
+  Estimates estimates_;  ///< null before they are asked for
 };
 
 }  // namespace mortier

@@ -33,7 +33,8 @@ def figure(run: Run, kind: str, step: _core.Step, field: str, scale: float | Non
     if field not in known:
         raise InputError(f"plot: field {field!r}, expected one of {', '.join(known)}")
     with pictures.plt.rc_context(pictures.STYLE):
-        made = pictures.fields([view], field, scale) if kind == "fields" else getattr(pictures, kind)([view])
+        made = pictures.fields([view], field, scale) if kind == "fields" else \
+            getattr(views()["curves"], kind)([view])
     if made is None:
         raise InputError("plot: nothing to draw: "
                          f"{'no contact' if kind == 'contact' else 'fewer than two steps'} in this run")
@@ -58,7 +59,7 @@ def views() -> dict[str, ModuleType]:
     sys.path[:0] = map(str, folders)
     try:
         with mock.patch.object(matplotlib, "use"):
-            return {name: importlib.import_module(name) for name in ("pictures", "runs", "results")}
+            return {name: importlib.import_module(name) for name in ("pictures", "curves", "runs", "results")}
     finally:
         sys.path[:] = path
         for name in names & set(sys.modules):

@@ -60,7 +60,9 @@ class Accuracy(InFolder):
         self.assertLessEqual(accuracy["mesh"] + accuracy["time"], 0.15)
         self.assertGreater(len(rounds), 1)
         self.assertEqual(accuracy["mesh"], rounds[-1]["mesh"])
-        self.assertAlmostEqual(accuracy["energy_error"], accuracy["mesh"], delta=1e-12)
+        # The pressure is unbounded at the punch's edges: what the estimate does not see there is added.
+        self.assertGreater(accuracy["mesh"], accuracy["energy_error"])
+        self.assertLess(accuracy["mesh"], 1.1 * accuracy["energy_error"])
         self.assertEqual(rounds[-1]["triangles"], summary["triangles"])
         self.assertEqual(rounds[-1]["unknowns"], summary["free_dofs"])
         self.assertEqual(rounds[0]["triangles"], 2 + 12)

@@ -10,14 +10,15 @@ import time
 import urllib.error
 import urllib.request
 
-NEEDED = "the tests of mortier report need Debian's chromium and chromium-driver (scripts/prepare.sh)"
+NEEDED = "tests of pages need Debian's chromium and chromium-driver (scripts/prepare.sh)"
 # whatever the proxies of this machine are
 LOCAL = urllib.request.build_opener(urllib.request.ProxyHandler({}))
 ELEMENT = "element-6066-11e4-a52e-4f735466cecf"
 
 
 class Browser:
-    def __init__(self, width=1280, height=900, dark=False):
+    def __init__(self, width=1280, height=900, dark=False, network=False):
+        """network: requests() can be asked."""
         program = shutil.which("chromedriver")
         if program is None or shutil.which("chromium") is None:
             raise AssertionError(NEEDED)
@@ -32,7 +33,8 @@ class Browser:
                    "--disable-dev-shm-usage", "--hide-scrollbars",
                    "--force-device-scale-factor=1", f"--user-data-dir={self.folder.name}",
                    f"--window-size={width},{height}", *(["--force-dark-mode"] if dark else [])]
-        capabilities = {"alwaysMatch": {"browserName": "chrome", "goog:loggingPrefs": {"browser": "ALL"},
+        logs = {"browser": "ALL", **({"performance": "ALL"} if network else {})}
+        capabilities = {"alwaysMatch": {"browserName": "chrome", "goog:loggingPrefs": logs,
                                         "goog:chromeOptions": {"args": options}}}
         for _ in range(100):
             try:
@@ -78,6 +80,13 @@ class Browser:
     def messages(self):
         """All that stands in the console since the last call."""
         return [entry["message"] for entry in self.send("POST", "/se/log", {"type": "browser"})]
+
+    def requests(self):
+        """The addresses asked for since the last call."""
+        entries = [json.loads(entry["message"])["message"]
+                   for entry in self.send("POST", "/se/log", {"type": "performance"})]
+        return [entry["params"]["request"]["url"] for entry in entries
+                if entry["method"] == "Network.requestWillBeSent"]
 
     def element(self, selector):
         return self.send("POST", "/element", {"using": "css selector", "value": selector})[ELEMENT]

@@ -10,6 +10,7 @@ import tomllib
 import unittest
 from pathlib import Path
 
+import tutorial
 from support import PROGRAM, ROOT, InFolder, InSharedFolder
 
 TUTORIAL = ROOT / "docs" / "tutorial.md"
@@ -60,24 +61,25 @@ def run(words, folder, expected=0):
 
 class Tutorial(InFolder):
     def test_from_an_empty_folder_to_pictures(self):
-        files = dict(re.findall(r"^`([\w.]+)`:\n\n```\w*\n(.*?)^```", TUTORIAL.read_text(), re.M | re.S))
+        files = tutorial.files()
         self.assertEqual(sorted(files), ["press.geo", "press.toml"])
         self.assertLessEqual(sum(bool(line) for line in files["press.toml"].splitlines()), 25)
         for name, text in files.items():
             self.write(text, name)
+        # Every command of the page is one of those.
+        self.assertEqual(tutorial.commands(), [command for page, command in commands() if page == TUTORIAL])
         told = {}
-        for page, command in commands():
-            if page == TUTORIAL:
-                program, *words = shlex.split(command)
-                self.assertEqual(program, "mortier")
-                told[command] = run([PROGRAM, *words], self.folder)
+        for command in tutorial.commands():
+            program, *words = shlex.split(command)
+            self.assertEqual(program, "mortier")
+            told[command] = run([PROGRAM, *words], self.folder)
         self.assertIn("0 errors, 0 warnings", told["mortier check press.toml"])
         # What the page shows, but for times, which are measured, and the last digits,
         # which meshes of another Gmsh change.
         shown = re.search(r"force (-?[\d.]+) N/m", TUTORIAL.read_text())[1]
         found = re.search(r"force (-?[\d.]+) N/m", told["mortier run press.toml --accuracy 0.02"])[1]
         self.assertAlmostEqual(float(found), float(shown), delta=1e-3 * abs(float(shown)))
-        for name in ("out/press.plots/fields.png", "out/press.html", "pressures.png", "kept/summary.json"):
+        for name in tutorial.MADE:
             self.assertTrue((self.folder / name).is_file(), name)
 
 

@@ -1,5 +1,6 @@
 """What `cmake --install` puts in place: a package that another project finds, the man page, completion."""
 import csv
+import gzip
 import re
 import subprocess
 import unittest
@@ -132,12 +133,20 @@ class Install(InSharedFolder):
         for name in ("libcholmod", "libumfpack", "libopenblas", "libmuparser"):
             self.assertRegex(facts, rf"\n Depends: [^\n]*{name}")
         self.assertRegex(facts, r"\n Recommends: [^\n]*python3-meshio")
+        if (BUILD / "python").is_dir():  # the module is of one version of Python
+            self.assertRegex(facts, r"python3 \(>= 3\.\d+\), python3 \(<< 3\.\d+\)")
+        description = facts.partition("Description")[2].partition(" Maintainer")[0]
+        self.assertLess(max(map(len, description.splitlines())), 82)
         root = self.folder / "root"
         output("dpkg-deb", "-x", package, root)
-        self.assertTrue((root / "usr/share/doc/mortier/copyright").is_file())
+        documents = root / "usr/share/doc/mortier"
+        self.assertIn("common-licenses/GPL-3", (documents / "copyright").read_text())
+        changes = gzip.decompress((documents / "changelog.gz").read_bytes()).decode()
+        self.assertRegex(changes, r"^mortier \([\d.]+\) .*\n\n  \* .*\n\n -- .* <.*>  \w{3}, \d\d \w{3} ")
+        self.assertEqual([path.name for path in root.rglob("man1/*")], ["mortier.1.gz"])
         program = root / "usr/bin/mortier"
-        output(program, "run", ROOT / "scenes/compression.toml", "--quiet", "--out", "packed", "--set",
-               "time.steps=2", cwd=self.folder)
+        output(program, "run", documents / "examples/scenes/compression.toml", "--quiet", "--out", "packed",
+               "--set", "time.steps=2", cwd=self.folder)
         self.assertIn("packed.plots/fields.svg", output(program, "plot", "packed", cwd=self.folder))
         self.assertTrue((root / "usr/share/mortier/freefem/coupling.idp").is_file())
 

@@ -11,6 +11,7 @@ from PIL import Image
 from support import InFolder, InSharedFolder, mortier
 from damaged_results import explore
 from views_support import solve, view
+import curves
 import files
 from ending import Wrong
 import pictures
@@ -82,17 +83,40 @@ class Pictures(InSharedFolder):
                 corners = np.stack([path.vertices[:3] for path in drawn.get_paths()])
                 np.testing.assert_allclose(corners, (body.points + 3 * body.displacement)[body.triangles],
                                            rtol=0, atol=1e-14)
-            contact = pictures.contact([column])
+            contact = curves.contact([column])
             pressure, gap = contact.axes[0].lines[0], contact.axes[1].lines[0]
             np.testing.assert_array_equal(pressure.get_ydata(), column.run.contact.pressure)
             np.testing.assert_array_equal(gap.get_ydata(), column.run.contact.gap)
-            history = pictures.history([column])
+            history = curves.history([column])
             np.testing.assert_array_equal(history.axes[0].lines[0].get_ydata(),
                                           column.result.history["contact_force[N/m]"])
             self.assertIn("[N/m]", history.axes[0].get_title(loc="left"))
             column.result.history["reaction[kN]"] = np.arange(4.0)
-            titles = [axes.get_title(loc="left") for axes in pictures.history([column]).axes]
+            titles = [axes.get_title(loc="left") for axes in curves.history([column]).axes]
             self.assertIn("reaction [kN]", titles)
+            pictures.plt.close("all")
+
+    def test_legends_cover_nothing(self):
+        """Curves that fill their axes, names that fit in one row and names that do not."""
+        for names in (("a", "b", "c"), tuple(f"{letter * 40} of a long name" for letter in "abc")):
+            columns = [pictures.view(runs.Result(self.folder / "interpolation")) for _ in names]
+            for i, (each, name) in enumerate(zip(columns, names)):
+                # a zigzag from top to bottom, for each run its own: there is no free place
+                each.result.folder = self.folder / name
+                force = np.where((np.arange(len(each.run.contact.pressure)) + i) % 2, 10.0, 0.0)
+                each.run.contact.pressure = force
+            with pictures.plt.rc_context(pictures.STYLE):
+                for figure in (curves.contact(columns, 5.0), curves.history(columns)):
+                    figure.canvas.draw()
+                    legend, = figure.legends
+                    entries = [text.get_text() for text in legend.get_texts()]
+                    self.assertEqual(entries[:3], list(names))
+                    box = legend.get_window_extent()
+                    for axes in figure.axes:
+                        self.assertIsNone(axes.get_legend())
+                        self.assertFalse(box.overlaps(axes.get_tightbbox()), axes.get_title(loc="left"))
+                    self.assertGreaterEqual(box.y0, 0)
+                    self.assertLess(box.height, 0.25 * figure.bbox.height)
             pictures.plt.close("all")
 
     def test_between_the_nodes_the_gap_is_that_of_both_meshes(self):

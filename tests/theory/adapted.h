@@ -86,10 +86,14 @@ inline Adapted adapt(const KnownProblem& problem, double accuracy) {
   Adapted result;
   while (result.verdict == Rounds::Verdict::goOn) {
     const Model model = problem.model(rounds.scene().meshes);
-    ErrorHistory errors(model);
+    CurrentSpaceError current(model);
+    ErrorHistory errors(model, current);
     State state = initialState(model);
-    static_cast<void>(march(model, state, {.end = 1, .steps = 1}, {},
-                            [&](const State& at, const StepReport& report) { errors.add(at, report); }));
+    static_cast<void>(
+        march(model, state, {.end = 1, .steps = 1}, {}, [&](const State& at, const StepReport& report) {
+          current.moveTo(at);
+          errors.add(report);
+        }));
     Adapted::Round round;
     double error = 0;
     double norm = 0;

@@ -261,11 +261,11 @@ TEST(Rounds, errorsThatAreNothingButRoundingEndAfterOneRefinement) {
 }
 
 TEST(Rounds, reachesAreEqual) {
-  // 0.68 over 0.85 of 0.1 is 8: log 8/log 4 = 1.5, two rounds that divide by 2.83 each; at degree 1 that is
+  // 0.6 over 0.75 of 0.1 is 8: log 8/log 4 = 1.5, two rounds that divide by 2.83 each; at degree 1 that is
   // eight times the triangles.
   Rounds rounds(sceneOf(0.1));
   const double before = static_cast<double>(rounds.scene().meshes[0].triangles.size());
-  EXPECT_EQ(rounds.judge(resultOf(rounds, 0.68), 1), Rounds::Verdict::goOn);
+  EXPECT_EQ(rounds.judge(resultOf(rounds, 0.6), 1), Rounds::Verdict::goOn);
   EXPECT_NEAR(static_cast<double>(rounds.scene().meshes[0].triangles.size()) / before, 8, 0.01);
 }
 

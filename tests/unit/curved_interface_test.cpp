@@ -6,88 +6,12 @@
 #include <numbers>
 #include <random>
 
-#include "contact/interface.h"
-#include "mesh/generate.h"
-#include "unit/messages.h"
+#include "unit/curved_lines.h"
 
 namespace mortier {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr int bottom = 1;
-constexpr int top = 3;
-constexpr double circleRounding = 1e-13;  // of a radius of one
-constexpr CouplingKind kinds[] = {CouplingKind::mortar, CouplingKind::interpolation};
-
-/// Cells of random width over [0, 1] x [lower, upper], mapped.
-template <class Map>
-TriangleMesh mapped(std::mt19937& random, int cells, double lower, double upper, Map map) {
-  std::uniform_real_distribution<double> width(1, 2);
-  std::vector<double> x{0};
-  for (int i = 0; i < cells; ++i) x.push_back(x.back() + width(random));
-  TriangleMesh mesh = crissCrossMesh(
-      {.lower = {0, lower}, .upper = {static_cast<double>(cells), upper}, .cellsX = cells, .cellsY = 2});
-  for (Point& v : mesh.vertices) {
-    const int cell = std::min(static_cast<int>(v.x()), cells - 1);
-    v = map(Point((x[cell] + (v.x() - cell) * (x[cell + 1] - x[cell])) / x.back(), v.y()));
-  }
-  validate(mesh);
-  return mesh;
-}
-
-/// Two bodies that meet on y = 0 before they are mapped; the upper one is nonmortar or the lower one.
-struct Pair {
-  TriangleMesh upper;
-  TriangleMesh lower;
-
-  [[nodiscard]] ContactInterface meet(CouplingKind kind, bool upperNonmortar,
-                                      const InterfaceOptions& options = {}) const {
-    const ContactSide upperSide{0, bottom};
-    const ContactSide lowerSide{1, top};
-    if (upperNonmortar) return {{upperSide, lowerSide, kind}, upper, lower, options};
-    return {{lowerSide, upperSide, kind}, lower, upper, options};
-  }
-};
-
-template <class Map>
-Pair pairOf(std::mt19937& random, int upperCells, int lowerCells, Map map) {
-  return {mapped(random, upperCells, 0, 0.5, map), mapped(random, lowerCells, -0.5, 0, map)};
-}
-
-/// A bow of the given angle and radius 1 about the origin, the upper body outside.
-auto bow(double angle, double turned = 0) {
-  return [=](const Point& x) {
-    const double phi = turned - angle * (x.x() - 0.5);
-    return Point((1 + x.y()) * std::sin(-phi), (1 + x.y()) * std::cos(phi));
-  };
-}
-
-auto wave(double height) {
-  return [=](const Point& x) { return Point(x.x(), x.y() + height * std::sin(2 * pi * x.x())); };
-}
-
-/// Force and moment of the rows, for random p, over the sum of |p|.
-double imbalance(const ContactInterface& interface, const TriangleMesh& nonmortar, const TriangleMesh& mortar,
-                 std::mt19937& random) {
-  std::uniform_real_distribution<double> value(0, 1);
-  double worst = 0;
-  for (int trial = 0; trial < 5; ++trial) {
-    const Vector p =
-        Vector::NullaryExpr(interface.rows(), [&](Eigen::Index) { return std::pow(value(random), 4); });
-    Vector f1 = Vector::Zero(2 * nonmortar.vertices.size());
-    Vector f2 = Vector::Zero(2 * mortar.vertices.size());
-    interface.subtractForces(p, f1, f2);
-    Point force = Point::Zero();
-    double moment = 0;
-    for (const auto& [mesh, f] : {std::pair(&nonmortar, &f1), std::pair(&mortar, &f2)})
-      for (size_t v = 0; v < mesh->vertices.size(); ++v) {
-        force += f->segment<2>(2 * v);
-        moment += mesh->vertices[v].x() * (*f)[2 * v + 1] - mesh->vertices[v].y() * (*f)[2 * v];
-      }
-    worst = std::max({worst, force.norm() / p.sum(), std::abs(moment) / p.sum()});
-  }
-  return worst;
-}
+using namespace curved;
 
 TEST(CurvedInterface, forceAndMomentBalance) {
   constexpr double balance = 1e-12;
@@ -178,6 +102,19 @@ TEST(CurvedInterface, closedLines) {
   }
 }
 
+// A mortar line that reaches beyond both ends of the nonmortar one faces all of it.
+TEST(CurvedInterface, aLineThatIsLongerFacesAllOfTheOther) {
+  std::mt19937 random(11);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Pair pair{mapped(random, 13, 0, 0.5, bow(0.8)), mapped(random, 10, -0.5, 0, bow(1.1))};
+    for (const CouplingKind kind : kinds) {
+      const ContactInterface interface = pair.meet(kind, true);
+      EXPECT_EQ(interface.rows(), 14);
+      EXPECT_NEAR(interface.overlap(), 1, 1e-12);
+    }
+  }
+}
+
 // The weights of the two directions at a node make the normals of a circle exact, wherever its nodes are.
 TEST(CurvedInterface, normalsOfACircleAreExact) {
   constexpr double rounding = 1e-13;
@@ -234,121 +171,6 @@ TEST(CurvedInterface, cornersCutTheLine) {
   for (const int cells : {4, 10, 100}) EXPECT_EQ(cornersOf(bow(2), cells), 0u);
   EXPECT_EQ(cornersOf(bow(0.01), 2), 0u);
   EXPECT_EQ(cornersOf(wave(0.05), 40), 0u);
-}
-
-// Two arcs about one centre: the distance is the difference of the radii, not that of the polygons.
-TEST(CurvedInterface, distanceAlongTheNormal) {
-  std::mt19937 random(5);
-  const double distance = 0.125;
-  const TriangleMesh upper = mapped(random, 60, 0, 0.5, bow(2));
-  const TriangleMesh lower = mapped(random, 47, -0.5 - distance, -distance, bow(2));
-  for (const CouplingKind kind : kinds)
-    for (const bool upperNonmortar : {true, false}) {
-      const ContactInterface interface = Pair{upper, lower}.meet(kind, upperNonmortar);
-      EXPECT_LE((interface.initialDistance().array() - distance).abs().maxCoeff(), circleRounding);
-      EXPECT_EQ(interface.sagitta(), 0);
-      // The lower body grows by as much.
-      Vector u = Vector::Zero(2 * lower.vertices.size());
-      for (size_t v = 0; v < lower.vertices.size(); ++v)
-        u.segment<2>(2 * v) = distance * lower.vertices[v].normalized();
-      const Vector still = Vector::Zero(2 * upper.vertices.size());
-      const Vector gap = upperNonmortar ? interface.gap(still, u) : interface.gap(u, still);
-      EXPECT_LE(gap.cwiseAbs().maxCoeff(), 2e-3);
-    }
-}
-
-// Arcs of two circles with other centres: along every direction the distance of the circles, at the nodes for
-// interpolation and in the mean for mortar.
-TEST(CurvedInterface, distanceOfTwoCircles) {
-  std::mt19937 random(8);
-  const double moved = 0.01;
-  Pair pair = pairOf(random, 60, 47, bow(1));
-  for (Point& x : pair.lower.vertices) x.y() -= moved;
-  for (const bool upperNonmortar : {true, false}) {
-    const ContactInterface interface = pair.meet(CouplingKind::interpolation, upperNonmortar);
-    const TriangleMesh& mesh = upperNonmortar ? pair.upper : pair.lower;
-    for (int i = 0; i < interface.rows(); ++i) {
-      const Point& x = mesh.vertices[interface.nonmortarNodes()[i]];
-      const Point seen = x + interface.initialDistance()[i] * interface.normals()[i];
-      EXPECT_NEAR((seen - Point(0, upperNonmortar ? -moved : 0)).norm(), 1, circleRounding);
-    }
-    const ContactInterface mortar = pair.meet(CouplingKind::mortar, upperNonmortar);
-    const double shared = std::min(interface.rows(), mortar.rows());
-    EXPECT_NEAR(mortar.initialDistance().sum() / shared, interface.initialDistance().sum() / shared,
-                1e-4 * moved);
-  }
-}
-
-/// A half disc on a wall, or on another half disc that is mirrored below it.
-Pair discOn(double wall, double otherRadius) {
-  TriangleMesh disc = halfDiscMesh({.lowest = {0, 0}, .radius = 1, .core = 0.3, .cells = 7});
-  TriangleMesh below = crissCrossMesh({.lower = {-1, -1}, .upper = {1, 0}, .cellsX = 23, .cellsY = 4});
-  if (otherRadius > 0) {
-    below = halfDiscMesh({.lowest = {0, 0}, .radius = otherRadius, .core = 0.3 * otherRadius, .cells = 5});
-    for (Point& x : below.vertices) x = -x;
-    for (int& label : below.boundaryLabels) label = label == bottom ? top : label == top ? bottom : label;
-  }
-  for (Point& x : below.vertices) x.y() -= wall;
-  return {disc, below};
-}
-
-// The direction is that of Hertz's theory whichever side is nonmortar: exact against a wall, to second order
-// in the distance from the centre against another circle.
-TEST(CurvedInterface, directionDoesNotDependOnTheSide) {
-  std::mt19937 random(9);
-  for (const double radius : {0.0, 1.0, 3.0})
-    for (const CouplingKind kind : kinds)
-      for (const bool upperNonmortar : {true, false})
-        for (const double wall : {0.0, 0.01}) {
-          const Pair pair = discOn(wall, radius);
-          const ContactInterface interface = pair.meet(kind, upperNonmortar);
-          EXPECT_LE(imbalance(interface, upperNonmortar ? pair.upper : pair.lower,
-                              upperNonmortar ? pair.lower : pair.upper, random),
-                    1e-12);
-          for (int i = 0; i < interface.rows(); ++i) {
-            const Point& x =
-                (upperNonmortar ? pair.upper : pair.lower).vertices[interface.nonmortarNodes()[i]];
-            if (std::abs(x.x()) > 0.3) continue;
-            const double tilt = interface.normals()[i].x();
-            if (radius == 0)
-              EXPECT_LE(std::abs(tilt), 1e-15);
-            else  // along one normal alone it would be x over the radius; gaps tilt it too
-              EXPECT_LE(std::abs(tilt), 2 * std::pow(std::abs(x.x()), 3) + 2 * wall * std::abs(x.x()) + 1e-15)
-                  << x.x();
-          }
-        }
-}
-
-// Meshes of one curve overlap and part by the sag of their elements; those of one circle touch.
-TEST(CurvedInterface, initialGap) {
-  std::mt19937 random(6);
-  const Pair circle = pairOf(random, 12, 17, bow(2));
-  EXPECT_EQ(circle.meet(CouplingKind::mortar, true, {.initial = InitialGap::reject})
-                .initialDistance()
-                .cwiseAbs()
-                .maxCoeff(),
-            0);
-  const Pair pair = pairOf(random, 12, 17, wave(0.05));
-  const auto message = [&](const InterfaceOptions& options) {
-    return messageOf([&] { return pair.meet(CouplingKind::mortar, true, options); });
-  };
-  const ContactInterface asMeshed = pair.meet(CouplingKind::mortar, true);
-  EXPECT_LT(asMeshed.initialDistance().minCoeff(), 0);
-  EXPECT_LT(-asMeshed.initialDistance().minCoeff(), 2 * asMeshed.sagitta());
-  EXPECT_EQ(pair.meet(CouplingKind::mortar, true, {.initial = InitialGap::close}).sagitta(), 0);
-  EXPECT_EQ(pair.meet(CouplingKind::mortar, true, {.initial = InitialGap::close})
-                .initialDistance()
-                .cwiseAbs()
-                .maxCoeff(),
-            0);
-  EXPECT_NE(message({.initial = InitialGap::reject}).find("penetrate each other by 0.00"), std::string::npos)
-      << message({.initial = InitialGap::reject});
-  const ContactInterface given =
-      pair.meet(CouplingKind::mortar, true, {.gap = [](const Point& x) { return 0.5 * x.x() * x.x(); }});
-  for (int i = 0; i < given.rows(); ++i) {
-    const double x = pair.upper.vertices[given.nonmortarNodes()[i]].x();
-    EXPECT_EQ(given.initialDistance()[i], 0.5 * x * x);
-  }
 }
 
 // The closures of Gamma_C and of the Dirichlet boundary meet.

@@ -82,6 +82,17 @@ TEST(Parts, everyPointIsOfItsMaterial) {
   EXPECT_EQ(mixed->stressScale(), 1);
 }
 
+// What nothing flows in is not factorised again: the points of all parts count.
+TEST(Parts, elasticPointsOfAllPartsAreCounted) {
+  const std::vector<int> of{0, 0, 1, 1, 1, 2, 2, 0};
+  const auto mixed = materialOfParts(three(), of);
+  const auto points = static_cast<int>(of.size());
+  const Matrix nothing = Matrix::Zero(3, points);
+  Linearisation law = mixed->room(points);
+  EXPECT_EQ(mixed->linearise({0.1, nothing, nothing}, nothing, law, 0, points).elastic, points);
+  EXPECT_EQ(mixed->linearise({0.1, nothing, nothing}, nothing, law, 1, 6).elastic, 5);
+}
+
 TEST(Parts, isLinearAndSymmetricOnlyWhereAllAre) {
   const auto m = three();
   const auto of = [](std::vector<std::shared_ptr<const Material>> materials) {

@@ -25,7 +25,9 @@ struct Blocks {
 
   [[nodiscard]] Accuracy accuracy() const {
     AccuracyMemory none;
-    return AccuracyRecord(model, none).atEnd(state, {});
+    CurrentSpaceError error(model);
+    error.moveTo(state);
+    return AccuracyRecord(model, error, none).atEnd({});
   }
 
   Blocks() {
@@ -71,18 +73,22 @@ TEST(Accuracy, ofTheRunIsThatOfAStateWhichHasItsLargestEnergy) {
   Peaks peaks;
   peaks.energy.raise(energy, 0.25);
   AccuracyMemory none;
-  const Accuracy accuracy = AccuracyRecord(blocks.model, none).atEnd(blocks.state, peaks);
+  CurrentSpaceError error(blocks.model);
+  error.moveTo(blocks.state);
+  const Accuracy accuracy = AccuracyRecord(blocks.model, error, none).atEnd(peaks);
   EXPECT_GT(accuracy.all, 0.01);
   EXPECT_NEAR(accuracy.largest, accuracy.all, same * accuracy.all);
   // A quarter of the largest energy of the run: half the error, over that.
   peaks.energy.value *= 4;
-  EXPECT_NEAR(AccuracyRecord(blocks.model, none).atEnd(blocks.state, peaks).largest, accuracy.all / 2,
+  EXPECT_NEAR(AccuracyRecord(blocks.model, error, none).atEnd(peaks).largest, accuracy.all / 2,
               same * accuracy.all);
 }
 
 TEST_F(Output, fieldsNameEveryBodyAndStep) {
   const Blocks blocks;
-  Fields fields(path, blocks.model);
+  CurrentSpaceError error(blocks.model);
+  error.moveTo(blocks.state);
+  Fields fields(path, blocks.model, error);
   fields.add(blocks.state, 0);
   fields.add(blocks.state, 1234567);
   fields.close();
@@ -94,7 +100,9 @@ TEST_F(Output, fieldsNameEveryBodyAndStep) {
 TEST_F(Output, fieldsThatAreNotFiniteAreNotWritten) {
   Blocks blocks;
   blocks.state.bodies[1].stress(0, 0) = std::numeric_limits<double>::quiet_NaN();
-  Fields fields(path, blocks.model);
+  CurrentSpaceError error(blocks.model);
+  error.moveTo(blocks.state);
+  Fields fields(path, blocks.model, error);
   EXPECT_THROW(fields.add(blocks.state, 0), OutputError);
 }
 

@@ -315,6 +315,20 @@ TEST_F(SceneFiles, namesTheStepInWhichALoadGoesBeyondItsEnds) {
   }
 }
 
+// A product one factor of which is t is not sampled; others that look like it are.
+TEST_F(SceneFiles, onlyWhatIsProportionalToTimeIsNotLookedAt) {
+  const auto warnings = [&](const std::string& datum) {
+    const SceneDescription scene =
+        readScene(path(), {"time={end=1, steps=1}", "body.upper.boundary={label=3, ty=\"" + datum + "\"}"});
+    return loadsBetweenSteps(scene, modelOf(scene)).size();
+  };
+  for (const char* datum : {"t*(sin(9*t))", "sin(9*t)*t", "-t*t*sin(9*t)", "t*4^sin(9*t)", "t - sin(9*t)",
+                            "t*(t < 0.9)", "t*(1 - x)/(0.02 + abs(t - 0.5))"})
+    EXPECT_EQ(warnings(datum), 1) << datum;
+  for (const char* datum : {"-10*t", "t*sin(9*x)", "(1 + x)*t/3", "2*-t"})
+    EXPECT_EQ(warnings(datum), 0) << datum;
+}
+
 TEST(Expression, copiesAreIndependent) {
   const Function original = parseExpression("x + 10*y + 100*t", "").value;
   const auto work = [original](double shift) mutable {

@@ -1,0 +1,126 @@
+"""Curves of runs: pressure and gap along the line of contact, histories."""
+import numpy as np
+
+from pictures import INK, ROUNDING, labelled, plt, time_words
+
+# colour, marker, width
+OF_RUNS = [("#0072b2", "o", 2.6), ("#d55e00", "s", 1.4), ("#009e73", "^", 1.2), ("#cc79a7", "D", 1.0)]
+HISTORY = ("contact_force", "max_pressure", "von_mises_max", "displacement_max", "elastic_energy",
+           "penetration", "viscoplastic_fraction")
+OF_A_FAILED_RUN = ("iterations", "material_residual", "force_balance")
+NOT_DRAWN = {"step", "time", "time_step", "estimate", "rejections", "guarded", "rung", "iterations",
+             "factorisations", "active",
+             "joined", "left", "contact_resultant_x", "contact_resultant_y", "force_balance",
+             "material_residual", "gap_on_active", "sign", "complementarity", "open_penetration", "rounding"}
+
+
+def contact(views, exact=None):
+    """Pressure and gap along the line of every interface, all views in one. exact:
+    a pressure to draw beside them."""
+    lines = [each.result.lines(each.run) for each in views]
+    n = max(map(len, lines))
+    if n == 0:
+        return None
+    figure, axes = plt.subplots(2, n, figsize=(1.2 + 5.2 * n, 5.6), sharex="col", squeeze=False,
+                                layout="constrained")
+    for i, (each, of_view) in enumerate(zip(views, lines)):
+        colour, marker, width = OF_RUNS[i % len(OF_RUNS)]
+        style = {"color": colour, "marker": marker, "ms": 4.5, "mfc": "white", "lw": width}
+        for (above, below), line in zip(axes.T, of_view):
+            above.plot(line.abscissa, line.pressure, label=label_of(each, views), **style)
+            below.plot(line.abscissa, line.gap, **{**style, "ls": ""})
+            x, gap = line.jump or (line.abscissa, line.gap)
+            below.plot(x, gap, color=colour, lw=width)
+            if gap.min() < -ROUNDING * np.ptp(x):
+                below.fill_between(x, 0, gap, where=gap < 0, color=colour, alpha=0.2, lw=0, interpolate=True)
+            above.set_title(f"{line.nonmortar} on {line.mortar}", loc="left")
+            below.set_xlabel(labelled(line.name, each.result.length_unit) + "; marks at the nonmortar nodes")
+    for i, (above, below) in enumerate(axes.T):
+        smallest = ROUNDING * max(of_view[i].lengths[-1] for of_view in lines if len(of_view) > i)
+        low, high = below.get_ylim()
+        if high - low < smallest:  # rounding is drawn as nothing
+            below.set_ylim(-smallest, smallest)
+        pressures = np.concatenate([of_view[i].pressure for of_view in lines if len(of_view) > i])
+        low, high = pressures.min(), pressures.max()
+        if high - low <= ROUNDING * high:
+            above.set_ylim(0, 1.2 * high)
+        if exact is not None:
+            above.axhline(exact, color=INK, lw=1.1, ls=(0, (5, 3)), label="exact")
+        below.axhline(0, color=INK, lw=0.8)
+        above.grid()
+        below.grid()
+    axes[0, 0].set_ylabel(labelled("contact pressure", views[0].result.stress_unit))
+    axes[1, 0].set_ylabel(labelled("gap, marks: as the nodes see it", views[0].result.length_unit))
+    words = time_words(views[0].result, views[0].step)
+    figure.suptitle(f"{views[0].result.title}, {words}" if len(views) == 1 else words, x=0.02, ha="left",
+                    fontsize=10.5)
+    if len(views) > 1 or exact is not None:
+        add_legend(figure)
+    return figure
+
+
+def add_legend(figure):
+    """In a strip of its own below all axes, where it covers nothing; in one row where that is wide enough."""
+    entries = {}
+    for axes in figure.axes:
+        for handle, label in zip(*axes.get_legend_handles_labels()):
+            entries.setdefault(label, handle)
+    for columns in (len(entries), 1):
+        legend = figure.legend(entries.values(), entries.keys(), loc="lower left", ncols=columns,
+                               borderaxespad=0.2)
+        extent = legend.get_window_extent()
+        if extent.width < figure.bbox.width or columns == 1:
+            break
+        legend.remove()
+    height, strip = figure.get_figheight(), extent.height / figure.dpi + 0.06
+    figure.set_figheight(height + strip)
+    strip /= height + strip
+    figure.get_layout_engine().set(rect=(0, strip, 1, 1 - strip))
+
+
+def label_of(view, views):
+    return shown_beside(view.result.name, [each.result.name for each in views])
+
+
+def shown_beside(name, names):
+    """A label; matplotlib leaves out those that begin with a line."""
+    return (" " if name.startswith("_") else "") + name
+
+
+def history(views):
+    """Columns of history.csv against time, those that a scene adds too;
+    of a failed run how hard its steps were as well."""
+    more = [name.split("[")[0] for name in views[0].result.history]
+    columns = [*HISTORY, *[c for c in more if c not in NOT_DRAWN and c not in HISTORY],
+               *[c for c in OF_A_FAILED_RUN if any(each.result.failed for each in views)]]
+    shown = []
+    for column in columns:
+        name = next((name for name in views[0].result.history if name.split("[")[0] == column), None)
+        if name and any(np.ptp(np.append(each.result.history.get(name, [0.0]), 0)) > 0 for each in views):
+            shown.append(name)
+    times = [each.result.history.get(f"time[{each.result.time_unit}]", np.zeros(0)) for each in views]
+    if not shown or max(map(len, times)) < 2:
+        return None
+    rows = (len(shown) + 1) // 2
+    figure, axes = plt.subplots(rows, 2, figsize=(9.2, 0.6 + 1.9 * rows), sharex=True, squeeze=False,
+                                layout="constrained")
+    for name, each in zip(shown, axes.flat):
+        for i, (view, time) in enumerate(zip(views, times)):
+            values = view.result.history.get(name)
+            if values is None or not len(values):
+                continue
+            colour, marker, width = OF_RUNS[i % len(OF_RUNS)]
+            each.plot(time, values, color=colour, lw=max(width, 1.2),
+                      marker=marker if len(time) < 60 else None, ms=3, label=label_of(view, views))
+        if name.split("[")[0] in ("material_residual", "force_balance") and all(
+                (view.result.history[name] > 0).any() for view in views if name in view.result.history):
+            each.set_yscale("log")
+        each.set_title(name.replace("_", " ").replace("[", " ["), loc="left", fontsize=9)
+        each.grid()
+    for each in list(axes.flat)[len(shown):]:
+        each.set_axis_off()
+    for each in axes[-1]:
+        each.set_xlabel(labelled("time", views[0].result.time_unit))
+    if len(views) > 1:
+        add_legend(figure)
+    return figure
