@@ -70,7 +70,7 @@ Ending endingOf(const Attempt& attempt, const std::string& shortfall, const std:
   if (report.status != Status::converged)
     return {report.status == Status::unheld ? exitUnheld : exitFailed,
             scene.path + ": " + report.reason + whereToLook(attempt) + "; the state after step " +
-                std::to_string(attempt.solved.last.step) + " is in " + where + ", which mortier plot draws"};
+                std::to_string(attempt.solved.last.step) + " is in " + where};
   if (shortfall.empty()) return {};
   return {exitFailed, scene.path + ": accuracy " + shortest(scene.accuracy.energy) +
                           " not reached: " + shortfall + "; the best result is in " + where};

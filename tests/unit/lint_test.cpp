@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "base/counted.h"
 #include "lint/fault.h"
 #include "lint/topology.h"
 #include "mesh/generate.h"
@@ -62,6 +63,7 @@ TEST(Faults, aLineHasPlaceSeverityMessageRemedyAndId) {
   EXPECT_EQ(counted(1, "vertex"), "1 vertex");
   EXPECT_EQ(counted(2, "vertex"), "2 vertices");
   EXPECT_EQ(counted(0, "edge"), "0 edges");
+  EXPECT_EQ(counted(3, "held vertex"), "3 held vertices");
 }
 
 // n x n cells with one diagonal: 4 n edges around, the others between two triangles.
