@@ -75,6 +75,7 @@ class StepTaker {
   using Fields = std::vector<std::vector<Matrix>>;  ///< by stage and body
   void limit(const Fields& rates, Fields& missed) const;
   [[nodiscard]] Matrix stressWithin(size_t body, double fraction) const;
+  [[nodiscard]] Matrix strainWithin(size_t body, double fraction) const;
   [[nodiscard]] double turnedShare() const;
   [[nodiscard]] std::vector<Matrix> onwards() const;
   [[nodiscard]] double share(const Matrix& (*stressOf)(const StepTaker&, size_t)) const;
