@@ -100,6 +100,9 @@ SOFT = "body.material={young=100, poisson=0.3, viscosity=1, yield_stress=1}"  # 
 NORTON = ('body.material={young=100, poisson=0.3, law="norton", reference_stress=10, reference_rate=0.05, '
           'exponent=5}',)
 
+SOLID = ('body.material={young=100, poisson=0.3, law="standard-solid", relaxation_time=0.4, '
+         'relaxed_fraction=0.3}',)
+
 
 def scene_cases():
     """Every scene with both variants, and changes of them for what no scene has."""
@@ -122,10 +125,14 @@ def scene_cases():
         SceneCase("turned", "interpolation", "a bent roller, body forces",
                   (SOFT, "body.lower.boundary.1.un=0.1*t*(x-0.6)", "body.lower.force.x=x^2*t",
                    "body.upper.force.y=-3*sin(x)*t")),
-        SceneCase("sloped", "interpolation", "Norton creep", NORTON),
+        SceneCase("sloped", "interpolation", "Norton creep", (*NORTON, "time.steps=3")),
         SceneCase("turned", "mortar", "Norton creep, plane strain", (*NORTON, 'plane="strain"')),
         SceneCase("sloped", "mortar", "held at points that carry nothing", FREE_BUT_FOR_POINTS),
         SceneCase("stack", "interpolation", "held at points that push", POINTS_THAT_PUSH),
+        SceneCase("sloped", "interpolation", "standard linear solid", (*SOLID, "time.steps=3")),
+        SceneCase("turned", "mortar", "Maxwell, plane strain",
+                  ('body.material={young=100, poisson=0.3, law="maxwell", relaxation_time=0.4}',
+                   'plane="strain"')),
         SceneCase("punch", "weighted", "linear, sides swapped: overlap in part", ("contact.swap=true",)),
         SceneCase("ring", "weighted", "linear"),
         SceneCase("sloped", "weighted", "linear, parted by a parabola", ("contact.gap=1e-5*x^2+2e-6",)),

@@ -56,6 +56,20 @@ void writeBody(std::ostream& out, const BodyDescription& body, const std::string
       << " s] (0: elastic body), yield stress [" << stress << "]\n";
 }
 
+/// Relaxation time of every body and the part of its shear modulus that is left; 0 where it does not relax.
+std::string relaxes(const SceneDescription& scene) {
+  std::string text;
+  bool any = false;
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    const auto* law = scene.bodies[b].material.as<Viscoelasticity>();
+    any = any || law != nullptr;
+    const std::string n = std::to_string(b + 1);
+    text += "real tauM" + n + " = " + shortest(law ? law->relaxationTime : 0) + ", leftM" + n + " = " +
+            shortest(law ? law->relaxedFraction : 0) + ";\n";
+  }
+  return any ? "macro relaxing yes //  shear relaxes: time [s] and the part that is left\n" + text : "";
+}
+
 /// Reference stress, rate and exponent of every body; a rate of 0 where it does not creep by Norton's law.
 std::string creeps(const SceneDescription& scene) {
   std::string text;
@@ -173,7 +187,7 @@ std::string script(const SceneDescription& scene, const Model& model,
   for (int b = 0; b < bodies; ++b) out << " what(" << b + 1 << ')';
   out << " //\n";
   for (int b = 0; b < bodies; ++b) writeBody(out, scene.bodies[b], meshFiles[b], b + 1, scene.units.stress);
-  out << creeps(scene) << "\n// Boundary conditions and loads, functions of x, y and t\n";
+  out << creeps(scene) << relaxes(scene) << "\n// Boundary conditions and loads, functions of x, y and t\n";
   for (int b = 0; b < bodies; ++b) writeConditions(out, scene.bodies[b], b + 1, scene.degree);
   out << rollers(scene) << heldPoints(scene)
       << "\n// Contact: nonmortar body and label, mortar body and label; time\nint[int, int] contact = ";

@@ -143,6 +143,15 @@ void checkCreep(const LintInput& input, const PlacedMaterial& material, const No
                    " times the elastic strain, more than doubles resolve");
 }
 
+void checkRelaxation(const LintInput& input, const PlacedMaterial& material,
+                     const Viscoelasticity& viscoelasticity, Faults& faults) {
+  constexpr double frozen = 1e-3;
+  if (input.scene.time.end < frozen * viscoelasticity.relaxationTime)
+    faults.add("viscosity-large", material.where("relaxation_time"),
+               material.subject + "relaxation_time = " + shortest(viscoelasticity.relaxationTime) +
+                   " s, the run ends at " + shortest(input.scene.time.end) + " s: nothing has time to flow");
+}
+
 /// The first time at which the largest traction reaches the yield stress; 0 where it does not.
 double yieldTime(const std::vector<SampledDatum>& data, const TimePlan& plan, double yieldStress) {
   const auto traction = [&](double t) {
@@ -190,6 +199,10 @@ void lintMaterials(const LintInput& input, Faults& faults) {
       checkElasticity(input, material, onBody, faults);
       if (const auto* creep = material.description.as<NortonCreep>())
         checkCreep(input, material, *creep, largest, faults);
+      if (const auto* viscoelasticity = material.description.as<Viscoelasticity>()) {
+        stiffest = std::max(stiffest, time.end / time.steps / 2 / viscoelasticity->relaxationTime);
+        checkRelaxation(input, material, *viscoelasticity, faults);
+      }
       const auto* flow = material.description.as<Viscoplasticity>();
       if (flow == nullptr) continue;
       stiffest = std::max(stiffest, time.end / time.steps / (4 * flow->viscosity) *

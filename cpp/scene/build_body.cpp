@@ -14,6 +14,8 @@ namespace {
 std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description, Plane plane) {
   const Elasticity& elasticity = description.elasticity;
   if (const auto* norton = description.as<NortonCreep>()) return nortonMaterial(elasticity, *norton, plane);
+  if (const auto* viscoelasticity = description.as<Viscoelasticity>())
+    return viscoelasticMaterial(elasticity, *viscoelasticity, plane);
   const auto* viscoplasticity = description.as<Viscoplasticity>();
   if (plane == Plane::strain) {
     return viscoplasticity ? planeStrainPerzynaMaterial(elasticity, *viscoplasticity)

@@ -7,12 +7,14 @@
 namespace mortier {
 namespace {
 
-constexpr int elastic = 0;
-constexpr int perzyna = 1;
-
-/// Keys of each law beside young and poisson, in the order of lawWords.
-const Keys keysOfLaw[] = {
-    {}, {"viscosity", "yield_stress", "projection"}, {"reference_stress", "reference_rate", "exponent"}};
+/// Laws and their keys beside young and poisson.
+enum Law { elastic, perzyna, norton, maxwell, standardSolid };
+const Keys lawWords{"elastic", "perzyna", "norton", "maxwell", "standard-solid"};
+const Keys keysOfLaw[] = {{},
+                          {"viscosity", "yield_stress", "projection"},
+                          {"reference_stress", "reference_rate", "exponent"},
+                          {"relaxation_time"},
+                          {"relaxation_time", "relaxed_fraction"}};
 
 bool has(const Keys& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
@@ -49,10 +51,14 @@ MaterialDescription readMaterial(const Node& node, const std::string& path, cons
   if (law == perzyna)
     material.flow = Viscoplasticity{table.number("viscosity", above(0)),
                                     table.number("yield_stress", above(0)), projection};
-  else if (law != elastic)
+  if (law == norton)
     material.flow =
         NortonCreep{table.number("reference_stress", above(0)), table.number("reference_rate", above(0)),
                     table.number("exponent", atLeast(1))};
+  if (law == maxwell) material.flow = Viscoelasticity{table.number("relaxation_time", above(0)), 0};
+  if (law == standardSolid)
+    material.flow = Viscoelasticity{table.number("relaxation_time", above(0)),
+                                    table.number("relaxed_fraction", between(0, 1))};
   return material;
 }
 

@@ -12,6 +12,7 @@
 #include "base/units.h"
 #include "contact/interface.h"
 #include "material/norton.h"
+#include "material/viscoelastic.h"
 #include "mesh/read.h"
 #include "scene/expression.h"
 #include "time/march.h"
@@ -20,7 +21,7 @@
 namespace mortier {
 
 /// What a material does beside elasticity; the first: nothing.
-using FlowLaw = std::variant<std::monostate, Viscoplasticity, NortonCreep>;
+using FlowLaw = std::variant<std::monostate, Viscoplasticity, NortonCreep, Viscoelasticity>;
 
 struct MaterialDescription {
   Elasticity elasticity;

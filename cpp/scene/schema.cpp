@@ -7,9 +7,17 @@
 namespace mortier {
 
 const Keys& keysOf(const std::string& path) {
-  static const Keys materialKeys{
-      "young",          "poisson", "law", "viscosity", "yield_stress", "projection", "reference_stress",
-      "reference_rate", "exponent"};
+  static const Keys materialKeys{"young",
+                                 "poisson",
+                                 "law",
+                                 "viscosity",
+                                 "yield_stress",
+                                 "projection",
+                                 "reference_stress",
+                                 "reference_rate",
+                                 "exponent",
+                                 "relaxation_time",
+                                 "relaxed_fraction"};
   static const std::map<std::string, Keys> tables = {
       {"",
        {"title", "plane", "body", "contact", "quantity", "time", "solver", "output", "check", "degree",

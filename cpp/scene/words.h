@@ -12,7 +12,6 @@ inline const Keys planeWords{"stress", "strain"};                               
 inline const Keys couplingWords{"interpolation", "mortar", "weighted"};                     // CouplingKind
 inline const Keys initialWords{"as-meshed", "close", "reject"};                             // InitialGap
 inline const Keys projectionWords(std::begin(projectionNames), std::end(projectionNames));  // Projection
-inline const Keys lawWords{"elastic", "perzyna", "norton"};                                 // FlowLaw
 inline const Keys schemeWords{"backward-euler", "crank-nicolson", "sdirk2"};                // Scheme
 inline const Keys methodWords{"newton", "penalty-duality"};                                 // Method
 inline const Keys linearWords{"multifrontal", "suitesparse"};                               // LinearEngine

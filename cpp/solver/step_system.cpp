@@ -6,6 +6,7 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/worst.h"
+#include "solver/total_strain.h"
 
 namespace mortier {
 namespace {
@@ -54,9 +55,7 @@ Step StepSystem::step(const State& state0, const StepData& data) {
     const Body& body = model_.bodies[b];
     if (!body.material().ofStrain()) continue;
     Matrix& strain = step.strains0[b];
-    strain.resize(body.material().components(), body.points());
-    body.strain({state0.bodies[b].displacement, Vector::Zero(body.dofs())}, nullptr, strain, 0,
-                body.points());
+    strain = totalStrain(body.material(), state0.bodies[b]);
     if (const Matrix* shift = step.shift(b)) strain += *shift;
   }
   return step;

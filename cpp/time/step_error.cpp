@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/total_strain.h"
 #include "time/step_taker.h"
 
 namespace mortier {
@@ -39,6 +40,22 @@ Matrix StepTaker::stressWithin(size_t body, double fraction) const {
   return stress;
 }
 
+/// The total strain of a body within the step, likewise; nothing where its law does not depend on it.
+Matrix StepTaker::strainWithin(size_t body, double fraction) const {
+  const Body& of = model_.bodies[body];
+  if (!of.material().ofStrain()) return {};
+  Matrix strain = totalStrain(of.material(), state_.bodies[body]);
+  std::vector<double> nodes{0};
+  for (const Stage& stage : tableau_.stages) nodes.push_back(stage.time);
+  const std::vector<double> at = polynomials(nodes, fraction);
+  Matrix ofStage(strain.rows(), strain.cols());
+  for (size_t i = 0; i < solutions_.size() && fraction > 0; ++i) {
+    of.strain(solutions_[i].bodies[body].increment, nullptr, ofStage, 0, of.points());
+    strain += at[i + 1] * ofStage;
+  }
+  return strain;
+}
+
 /// r_i = integral of G to c_i k less k sum_j a_ij G_j, by stage; G of the stages given.
 std::vector<Matrix> StepTaker::defects(size_t body, const std::vector<Matrix>& rates) const {
   const double k = t1_ - state_.time;
@@ -53,7 +70,9 @@ std::vector<Matrix> StepTaker::defects(size_t body, const std::vector<Matrix>& r
       const double h = (stage.time - from) / parts;
       for (int part = 0; part < parts; ++part)
         for (int g = 0; g < 3; ++g) {
-          material.viscoplasticRate(stressWithin(body, from + h * (part + gaussPoints[g])), rate);
+          const double fraction = from + h * (part + gaussPoints[g]);
+          const Matrix strain = strainWithin(body, fraction);
+          material.viscoplasticRate(stressWithin(body, fraction), rate, &strain);
           integral += k * h * gaussWeights[g] * rate;
         }
     }
@@ -125,8 +144,10 @@ std::vector<Matrix> StepTaker::localError() {
   Fields missed(stages);
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     std::vector<Matrix> own(stages);
-    for (size_t i = 0; i < stages; ++i)
-      model_.bodies[b].material().viscoplasticRate(solutions_[i].bodies[b].stress, own[i]);
+    for (size_t i = 0; i < stages; ++i) {
+      const Matrix strain = strainWithin(b, tableau_.stages[i].time);
+      model_.bodies[b].material().viscoplasticRate(solutions_[i].bodies[b].stress, own[i], &strain);
+    }
     std::vector<Matrix> r = defects(b, own);
     for (size_t i = 0; i < stages; ++i) {
       rates[i].push_back(std::move(own[i]));

@@ -116,8 +116,10 @@ Iterate StepTaker::guess(size_t stage, double k) const {
 
 std::vector<Matrix> StepTaker::startingRates() const {
   std::vector<Matrix> rates(model_.bodies.size());
-  for (size_t b = 0; b < rates.size(); ++b)
-    model_.bodies[b].material().viscoplasticRate(state_.bodies[b].stress, rates[b]);
+  for (size_t b = 0; b < rates.size(); ++b) {
+    const Matrix strain = strainWithin(b, 0);
+    model_.bodies[b].material().viscoplasticRate(state_.bodies[b].stress, rates[b], &strain);
+  }
   return rates;
 }
 

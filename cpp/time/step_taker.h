@@ -80,6 +80,7 @@ class StepTaker {
   using Fields = std::vector<std::vector<Matrix>>;  ///< by stage and body
   void limit(const Fields& rates, Fields& missed) const;
   [[nodiscard]] Matrix stressWithin(size_t body, double fraction) const;
+  [[nodiscard]] Matrix strainWithin(size_t body, double fraction) const;
   [[nodiscard]] double turnedShare() const;
   [[nodiscard]] double dissipated(size_t body) const;
   void countWork();

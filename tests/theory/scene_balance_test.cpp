@@ -149,8 +149,8 @@ TEST_P(SceneBalance, ofForcesAndEnergies) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, SceneBalance, testing::ValuesIn(shippedScenes()),
-                         [](const testing::TestParamInfo<std::string>& info) {
-                           std::string name = std::filesystem::path(info.param).stem().string();
+                         [](const testing::TestParamInfo<std::string>& scene) {
+                           std::string name = std::filesystem::path(scene.param).stem().string();
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });

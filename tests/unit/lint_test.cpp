@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/counted.h"
+#include "base/counted.h"
 #include "lint/fault.h"
 #include "lint/topology.h"
 #include "mesh/generate.h"

@@ -39,7 +39,8 @@ FAULTS = [
                                "yield_stress > 0"),
     # laws
     ("young = 3e11", "law = \"nortn\", young = 3e11",
-     "scene.toml:6: body upper: law = \"nortn\", expected one of elastic, perzyna, norton"),
+     "scene.toml:6: body upper: law = \"nortn\", expected one of elastic, perzyna, norton, "
+     "maxwell, standard-solid"),
     ("young = 3e11", "law = \"norton\", young = 3e11",
      "scene.toml:6: body upper: viscosity = 10, expected it beside law = \"perzyna\" only"),
     ("young = 3e11", "law = \"elastic\", young = 3e11",
@@ -58,6 +59,12 @@ FAULTS = [
     ("viscosity = 10, yield_stress = 1, projection = \"elasticity\"",
      "law = \"norton\", reference_stress = 1, reference_rate = inf, exponent = 5",
      "scene.toml:6: body upper: reference_rate = inf, expected reference_rate > 0"),
+    ("young = 3e11", "relaxation_time = 1, young = 3e11",
+     "scene.toml:6: body upper: relaxation_time = 1, expected it beside law = \"maxwell\" or "
+     "\"standard-solid\" only"),
+    ("viscosity = 10, yield_stress = 1, projection = \"elasticity\"",
+     "law = \"standard-solid\", relaxation_time = 1, relaxed_fraction = 1",
+     "scene.toml:6: body upper: relaxed_fraction = 1, expected 0 < relaxed_fraction < 1"),
     ("steps = 4", "", "scene.toml:24: time: steps is missing, expected an integer >= 1"),
     ("[time]\nend = 1\nsteps = 4", "", "scene.toml:1: time is missing, expected a table [time] "
                                        "with end, steps"),

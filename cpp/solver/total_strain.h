@@ -1,0 +1,17 @@
+// The total strain of a state, for laws that depend on it.
+#pragma once
+
+#include "material/material.h"
+#include "solver/state.h"
+
+namespace mortier {
+
+/// E^-1 s and the viscoplastic strain [-]: since t = 0, with the elastic strain of the stress that was there.
+inline Matrix totalStrain(const Material& material, const BodyState& state) {
+  Matrix strain;
+  material.elasticStrain(state.stress, strain);
+  strain += state.viscoplasticStrain;
+  return strain;
+}
+
+}  // namespace mortier
