@@ -82,7 +82,9 @@ std::string creeps(const SceneDescription& scene) {
             shortest(creep ? creep->referenceRate : 0) + ", powerN" + n + " = " +
             shortest(creep ? creep->exponent : 1) + ";\n";
   }
-  return any ? "macro norton yes //  creep: reference stress [" + scene.units.stress + "] and rate [1/s], exponent\n" + text : "";
+  const std::string unit = "[" + scene.units.stress + "]";
+  return any ? "macro norton yes //  creep: reference stress " + unit + " and rate [1/s], exponent\n" + text
+             : "";
 }
 
 using Kind = ConditionDescription::Kind;

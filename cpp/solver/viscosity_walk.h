@@ -30,9 +30,9 @@ struct ViscosityWalk {
   /// Decades by which the start is lowered where not even the first step can be taken from it; 0 where it is
   /// known to be low enough.
   double lower = 0;
-  double pace;                ///< of natural steps, in decades
-  double tolerance;           ///< material residual of their places
-  double roughest;            ///< the tolerance when the walk last left its start
+  double pace;       ///< of natural steps, in decades
+  double tolerance;  ///< material residual of their places
+  double roughest;   ///< the tolerance when the walk last left its start
   std::vector<double>
       turns;  ///< where the curve turned back, in decades of the viscosity over that of the step
 };

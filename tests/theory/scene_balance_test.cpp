@@ -107,6 +107,7 @@ TEST_P(SceneBalance, ofForcesAndEnergies) {
   std::vector<double> start(bodies);
   std::vector<double> stored(bodies);
   double energies = 0;
+  double worstGain = 0;  // from flow, which takes energy: not more than the law is off
   State before = state;
   const RunReport report =
       march(model, state, plan, scene.description.solver, [&](const State& now, const StepReport& step) {
@@ -124,7 +125,7 @@ TEST_P(SceneBalance, ofForcesAndEnergies) {
           const auto& [u1, s1, e1, work1] = now.bodies[b];
           flow[b] += product(model.bodies[b], s0 + s1, e1 - e0) / 2;
           euler[b] += product(model.bodies[b], s1, e1 - e0);
-          EXPECT_GE(work1.dissipated, work0.dissipated - energyRounding * stored[b]) << "step " << step.step;
+          worstGain = std::max(worstGain, work0.dissipated - work1.dissipated);
         }
         worstForce = std::max({worstForce, sum, contacts.head<2>().cwiseAbs().maxCoeff()});
         largestForce = std::max(largestForce, size);
@@ -143,8 +144,9 @@ TEST_P(SceneBalance, ofForcesAndEnergies) {
       worstEnergy = std::max(worstEnergy, std::abs(work.dissipated - euler[b]));
   }
   std::cout << std::filesystem::path(GetParam()).stem().string() << ": forces " << worstForce / largestForce
-            << ", energies " << worstEnergy / energies << "\n";
+            << ", energies " << worstEnergy / energies << ", gain " << worstGain / energies << "\n";
   EXPECT_GT(energies, 0);
+  EXPECT_LE(worstGain, scene.description.solver.tolerance * energies);
   EXPECT_LE(worstEnergy, energyRounding * energies);
 }
 

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "base/counted.h"
-#include "base/counted.h"
 #include "lint/fault.h"
 #include "lint/topology.h"
 #include "mesh/generate.h"

@@ -166,7 +166,7 @@ TEST(March, whatCannotBeSolvedIsCutAndThenEndsTheRunWithTheLastGoodState) {
   expectStress(result.state, result.state.time);
 }
 
-// Backward Euler's strain tells at which times the parts end: a quarter of the step, and of what is left again.
+// Backward Euler's strain tells at which times the parts end: halves, quarters and so on of the step.
 TEST(March, thePartsOfAStepThatIsCutAreEqual) {
   constexpr double last = 0.46;
   const Model model = square([](double t) { return t <= last ? 4 * t : NAN; });
