@@ -72,10 +72,7 @@ FrictionSolution solveFriction(const FrictionProblem& problem, const Vector& q, 
   int events = 0;
   // A solution of index -1 is one that no path of loads leads to: Newton's method may meet it.
   const auto good = [](const std::optional<FrictionSolution>& found) { return found && found->index > 0; };
-  FrictionSets sets = first;
-  for (size_t i = 0; i < sets.closed.size(); ++i)
-    if (system.idle(static_cast<Eigen::Index>(i))) sets.closed[i] = 0;
-  std::optional<FrictionSolution> found = system.newton(problem.rows.law, std::move(sets));
+  std::optional<FrictionSolution> found = system.newton(problem.rows.law, first);
   if (!good(found)) found = system.newton(problem.rows.law, system.allHeld());
   if (!good(found)) {
     std::optional<FrictionSets> nearby = fromFixedBounds(system);

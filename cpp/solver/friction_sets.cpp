@@ -58,9 +58,21 @@ bool FrictionSystem::sticks(const FrictionLaw& law, const FrictionSets& sets, si
   return sets.slip[tangential] == 0 && bound && !idle(normals() + k);
 }
 
+void FrictionSystem::holdIdle(FrictionSets& sets) const {
+  const Eigen::Index n = normals();
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (idle(i)) sets.closed[i] = 0;
+  for (size_t k = 0; k < sets.slip.size(); ++k) {
+    const auto row = n + static_cast<Eigen::Index>(k);
+    if (!idle(row)) continue;
+    const bool moves = std::abs(q_[row]) > rounding * q_.lpNorm<Eigen::Infinity>();
+    sets.slip[k] = moves ? signOf(-q_[row]) : 0;
+  }
+}
+
 FrictionSets FrictionSystem::allHeld() const {
   FrictionSets sets{std::vector<char>(normals(), 1), std::vector<signed char>(problem_.rows.node.size(), 0)};
-  for (size_t i = 0; i < sets.closed.size(); ++i) sets.closed[i] = idle_[i] != 0 ? 0 : 1;
+  holdIdle(sets);
   return sets;
 }
 
@@ -71,9 +83,7 @@ bool FrictionSystem::solveOn(const FrictionLaw& law, const FrictionSets& sets, T
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < n; ++i)
     if (sets.closed[i] != 0) rows.push_back(i);
-  const auto slips = [&](size_t k) {
-    return !sticks(law, sets, k) && !idle(n + static_cast<Eigen::Index>(k));
-  };
+  const auto slips = [&](size_t k) { return !sticks(law, sets, k); };
   trial.force.setZero(q_.size());
   for (size_t k = 0; k < sets.slip.size(); ++k) {
     const auto row = n + static_cast<Eigen::Index>(k);
@@ -173,7 +183,6 @@ FrictionSolution FrictionSystem::solution(const FrictionLaw& law, const Friction
   }
   for (size_t k = 0; k < sets.slip.size(); ++k) {
     const auto row = n + static_cast<Eigen::Index>(k);
-    if (idle(row)) continue;
     double& t = result.force[row];
     const double bound = law.coefficient[row - n] * result.force[problem_.rows.node[k]] + law.limit[row - n];
     if (sticks(law, sets, k)) {
@@ -189,6 +198,7 @@ FrictionSolution FrictionSystem::solution(const FrictionLaw& law, const Friction
 std::optional<FrictionSolution> FrictionSystem::newton(const FrictionLaw& law, FrictionSets sets) {
   constexpr size_t most = 20;
   std::vector<FrictionSets> before;
+  holdIdle(sets);
   while (before.size() < most && std::find(before.begin(), before.end(), sets) == before.end()) {
     Trial trial;
     if (!solveOn(law, sets, trial)) return std::nullopt;
@@ -203,6 +213,7 @@ std::optional<FrictionSolution> FrictionSystem::bounded(const Vector& limit, Fri
   constexpr int patience = 10;
   constexpr int most = 100;  // per condition
   const FrictionLaw law{Vector::Zero(limit.size()), limit};
+  holdIdle(sets);
   int best = std::numeric_limits<int>::max();
   int left = patience;
   for (Eigen::Index solve = 0; solve < most * (q_.size() + 1); ++solve) {

@@ -21,6 +21,8 @@ class FrictionSystem {
   [[nodiscard]] const Vector& q() const { return q_; }
   /// Whether no free motion changes a condition.
   [[nodiscard]] bool idle(Eigen::Index condition) const { return idle_[condition] != 0; }
+  /// Puts what no free motion changes into the sets: open across the line; along it, as the supports slip.
+  void holdIdle(FrictionSets& sets) const;
   /// Whether t of a tangential condition is an unknown on the sets.
   [[nodiscard]] bool sticks(const FrictionLaw& law, const FrictionSets& sets, size_t tangential) const;
 

@@ -21,6 +21,8 @@ Iterate startingIterate(const State& state0) {
     iterate.bodies.push_back({TwoPartVector::zero(body.displacement.size()), body.stress, {}});
   iterate.contactForce = state0.contactForce;
   iterate.active = startingSets(state0);
+  iterate.frictionForce = state0.frictionForce;
+  iterate.slipping = state0.slipping;
   return iterate;
 }
 
@@ -51,6 +53,17 @@ std::vector<Vector> gaps(const Model& model, const State& state0, const Iterate&
     const TwoPartVector& u2 = iterate.bodies[interface.pair().mortar.body].increment;
     // The parts apart: the first no longer changes where the iteration ends.
     result.emplace_back((state0.gap[k] + interface.jump(u1.high, u2.high)) + interface.jump(u1.low, u2.low));
+  }
+  return result;
+}
+
+std::vector<Vector> slips(const Model& model, const Iterate& iterate) {
+  std::vector<Vector> result;
+  for (const ContactInterface& interface : model.interfaces) {
+    const TwoPartVector& u1 = iterate.bodies[interface.pair().nonmortar.body].increment;
+    const TwoPartVector& u2 = iterate.bodies[interface.pair().mortar.body].increment;
+    result.emplace_back();
+    if (interface.rough()) result.back() = interface.slip(u1.high, u2.high) + interface.slip(u1.low, u2.low);
   }
   return result;
 }

@@ -22,7 +22,7 @@ struct Wrench {
   }
 };
 
-/// C' p on a body (dofs): from one interface, or from those that have this label of it as a side.
+/// C' p, and T' t where there is friction, on a body (dofs): from one interface, or from those that have this label of it as a side.
 Vector contactForces(const Model& model, const State& state, int body, std::optional<int> label) {
   Vector forces = Vector::Zero(model.bodies[body].dofs());
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
@@ -33,6 +33,9 @@ Vector contactForces(const Model& model, const State& state, int body, std::opti
     };
     if (is(nonmortar)) forces += interface.C1().transpose() * state.contactForce[k];
     if (is(mortar)) forces += interface.C2().transpose() * state.contactForce[k];
+    if (!interface.rough()) continue;
+    if (is(nonmortar)) forces += interface.T1().transpose() * state.frictionForce[k];
+    if (is(mortar)) forces += interface.T2().transpose() * state.frictionForce[k];
   }
   return forces;
 }

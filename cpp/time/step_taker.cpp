@@ -138,6 +138,9 @@ double StepTaker::turnedShare() const {
 
 void StepTaker::commit() {
   state_.gap = solvedGaps(model_, state_, solutions_.back());
+  const std::vector<Vector> slip = slips(model_, solutions_.back());
+  for (size_t k = 0; k < slip.size(); ++k)
+    if (slip[k].size() > 0) state_.frictionWork += solutions_.back().frictionForce[k].dot(slip[k]);
   memory_.increments.clear();
   memory_.timeStep = t1_ - state_.time;
   for (size_t i = 0; i < solutions_.size(); ++i) {
@@ -166,6 +169,8 @@ void StepTaker::commit() {
     if (!guarded_) memory_.increments.push_back(std::move(increments));
   }
   state_.contactForce = std::move(solutions_.back().contactForce);
+  state_.frictionForce = std::move(solutions_.back().frictionForce);
+  state_.slipping = std::move(solutions_.back().slipping);
   state_.time = t1_;
   active_ = std::move(solutions_.back().active);
   solutions_.clear();

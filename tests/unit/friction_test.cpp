@@ -291,14 +291,15 @@ TEST(Friction, solutionsOfNegativeIndexAreLeft) {
   EXPECT_EQ(met, 3);
 }
 
-// Nothing moves a condition: it carries no force, whatever its gap.
-TEST(Friction, idleConditionsCarryNothing) {
+// Nothing moves a condition: across the line it carries no force, whatever its gap; along the line the bound, if its
+// supports slip.
+TEST(Friction, idleConditionsFollowTheirSupports) {
   Matrix W = Matrix::Identity(4, 4);
   W(1, 1) = W(2, 2) = 0;
   const FrictionCase c = frictionCase(W, 0.5, Vector{{-1, -1, 2, 3}});
   const FrictionSolution solution = solveFriction(c.problem(), c.q, {{1, 1}, {0, 0}});
   ASSERT_TRUE(solution.solved);
-  EXPECT_EQ(solution.force, (Vector{{1, 0, 0, 0}}));
+  EXPECT_EQ(solution.force, (Vector{{1, 0, -0.5, 0}}));
 }
 
 TEST(Friction, dependentConditionsAreTold) {
