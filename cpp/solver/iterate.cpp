@@ -1,5 +1,6 @@
 #include "solver/iterate.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace mortier {
@@ -66,6 +67,15 @@ std::vector<Vector> slips(const Model& model, const Iterate& iterate) {
     if (interface.rough()) result.back() = interface.slip(u1.high, u2.high) + interface.slip(u1.low, u2.low);
   }
   return result;
+}
+
+double frictionWork(const Model& model, const Iterate& solution) {
+  double work = 0;
+  const std::vector<Vector> slip = slips(model, solution);
+  for (size_t k = 0; k < slip.size(); ++k)
+    for (Eigen::Index i = 0; i < slip[k].size(); ++i)
+      if (solution.slipping[k][i] != 0) work += std::max(0.0, solution.frictionForce[k][i] * slip[k][i]);
+  return work;
 }
 
 std::vector<Vector> solvedGaps(const Model& model, const State& state0, const Iterate& solution) {

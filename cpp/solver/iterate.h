@@ -80,6 +80,9 @@ std::vector<Vector> solvedGaps(const Model& model, const State& state0, const It
 /// T du per interface: the slip of the step; empty where there is no friction.
 std::vector<Vector> slips(const Model& model, const Iterate& iterate);
 
+/// What friction dissipates in a step; the rounding in slips of nodes that stick is none [J/m].
+double frictionWork(const Model& model, const Iterate& solution);
+
 /// Whether any point of the state flows.
 bool flows(const Model& model, const State& state);
 

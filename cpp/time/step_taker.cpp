@@ -138,9 +138,7 @@ double StepTaker::turnedShare() const {
 
 void StepTaker::commit() {
   state_.gap = solvedGaps(model_, state_, solutions_.back());
-  const std::vector<Vector> slip = slips(model_, solutions_.back());
-  for (size_t k = 0; k < slip.size(); ++k)
-    if (slip[k].size() > 0) state_.frictionWork += solutions_.back().frictionForce[k].dot(slip[k]);
+  state_.frictionWork += frictionWork(model_, solutions_.back());
   memory_.increments.clear();
   memory_.timeStep = t1_ - state_.time;
   for (size_t i = 0; i < solutions_.size(); ++i) {
