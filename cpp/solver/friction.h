@@ -51,9 +51,9 @@ struct FrictionSets {
 
 struct FrictionSolution {
   bool solved = false;
-  Vector force;       ///< x = (p, t), within its bounds [N/m]
-  Vector motion;      ///< w = (g, v), exactly 0 where a set asks it [m]
-  FrictionSets sets;  ///< what is open and has no limit slips forwards
+  Vector force;   ///< x = (p, t), within its bounds [N/m]
+  Vector motion;  ///< w = (g, v), exactly 0 where a set asks it [m]
+  FrictionSets sets;
   /// How far x is from what its own g and v ask of it, over the largest force or what would close the widest
   /// gap [-].
   double residual = 0;

@@ -284,6 +284,13 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
     iterate.frictionForce[k] = (p0 + contact.change).segment(system_->rows() + row, interface.rows());
     const auto first = contact.slipping.begin() + row;
     iterate.slipping[k].assign(first, first + interface.rows());
+    const Vector bound = interface.frictionBound(iterate.contactForce[k]);  // sums have left it by rounding
+    for (Eigen::Index i = 0; i < bound.size(); ++i) {
+      double& t = iterate.frictionForce[k][i];
+      if (bound[i] == 0) iterate.slipping[k][i] = 0;
+      const int sign = iterate.slipping[k][i];
+      t = bound[i] == 0 ? 0 : sign == 0 ? std::clamp(t, -bound[i], bound[i]) : sign * bound[i];
+    }
     row += interface.rows();
   }
   return true;

@@ -34,11 +34,6 @@ class FrictionScene(OfTwoBlocks):
         self.assertTrue({("0", 0), ("0", 1), ("0", -1)} <= states, states)
         self.assertGreater(summary["final"]["friction_work"], 0)
         self.assertLess(summary["verification"]["friction"], 1e-12)
-        for one, other in zip(*(self.forces(rows, step) for step in (3, 4))):
-            self.assertNotEqual(one, other)
-
-    def forces(self, rows, step):
-        return [row["friction"] for row in rows if row["step"] == str(step) and float(row["force"]) > 0][:1]
 
     def test_no_friction_is_no_friction(self):
         elastic = TWO_BLOCKS.replace(', viscosity = 10, yield_stress = 1, projection = "elasticity"', "")
@@ -69,8 +64,7 @@ class FrictionScene(OfTwoBlocks):
             with self.subTest(setting):
                 self.reject(here + what, "run", "scene.toml", "--quiet", "--out", "out", "--set", setting)
         for scene, what in {
-                FRICTION_KEYS.replace(", label = 3, ux = 0, uy = \"-0.03*min(t, 1)\"", ", label = 3, ty = -1")
-                             .replace("label = 3, ux = 0, uy = \"-0.03*min(t, 1)\"", "label = 3, ty = -1"):
+                FRICTION_KEYS.replace("label = 3, ux = 0, uy = \"-0.03*min(t, 1)\"", "label = 3, ty = -1"):
                     r"body plate: friction is not yet for bodies that contact alone holds, expected supports",
                 FRICTION_KEYS.replace('"rectangle", lower = [0, 1], upper = [1, 2], cells = [3, 3]',
                                       '"halfdisc", lowest = [0.5, 1], radius = 1, cells = 2')
