@@ -221,6 +221,7 @@ void requireKnown(const SceneDescription& scene) {
       refuse(contact.where + ": contact: variant = " + word(contact.variant),
              "one variant for all interfaces");
     }
+    if (contact.friction.any()) refuse(contact.where + ": contact: friction", "none");
   }
   if (scene.time.scheme != Scheme::backwardEuler) {
     refuse(scene.path + ": scheme = " + word(scene.time.scheme), "backward-euler");

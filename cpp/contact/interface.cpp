@@ -97,6 +97,18 @@ void scatter(const ConstraintRows& values, const ElementLine& line, int firstRow
                            entry.value());
 }
 
+/// The same with every direction turned by +90 degrees.
+ConstraintRows turned(const ConstraintRows& rows) {
+  Triplets entries;
+  for (int j = 0; j < rows.outerSize(); ++j)
+    for (ConstraintRows::InnerIterator entry(rows, j); entry; ++entry)
+      entries.emplace_back(static_cast<int>(entry.row()), j % 2 == 0 ? j + 1 : j - 1,
+                           j % 2 == 0 ? entry.value() : -entry.value());
+  ConstraintRows result(rows.rows(), rows.cols());
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
 Eigen::SparseMatrix<double> assembled(Eigen::Index rows, Eigen::Index columns, const Triplets& entries) {
   Eigen::SparseMatrix<double> matrix(rows, columns);
   matrix.setFromTriplets(entries.begin(), entries.end());
@@ -133,7 +145,7 @@ ContactInterface::ContactInterface(const ContactPair& pair, const TriangleMesh& 
 
 ContactInterface::ContactInterface(const ContactPair& pair, const ContactMesh& nonmortarMesh,
                                    const ContactMesh& mortarMesh, const InterfaceOptions& options)
-    : pair_(pair) {
+    : pair_(pair), friction_(options.friction) {
   const BoundaryLine nonmortar = boundaryLine(nonmortarMesh.mesh, nonmortarMesh.nodes, pair.nonmortar.label);
   const BoundaryLine mortar = boundaryLine(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label);
   const std::string names = nonmortarMesh.mesh.name + " label " + std::to_string(pair.nonmortar.label) +
@@ -158,6 +170,10 @@ ContactInterface::ContactInterface(const ContactPair& pair, const ContactMesh& n
   if (rows() == 0)
     throw InputError(names + " overlap at no nonmortar node, expected bodies that face each other");
   overlap_ /= shorter;
+  if (friction_.any()) {
+    T1_ = turned(C1_);
+    T2_ = turned(C2_);
+  }
   for (const BoundaryLine* each : {&nonmortar, &mortar})
     polygonTurn_ = std::max(polygonTurn_, turnOfPolygon(each->points, each->closed, sharpTurn));
   mortarNodes_ = mortar.nodes;
@@ -226,6 +242,15 @@ Vector ContactInterface::gap(const Vector& uNonmortar, const Vector& uMortar) co
 void ContactInterface::subtractForces(const Vector& p, Vector& fNonmortar, Vector& fMortar) const {
   fNonmortar -= C1_.transpose() * p;
   fMortar -= C2_.transpose() * p;
+}
+
+Vector ContactInterface::frictionBound(const Vector& p) const {
+  return friction_.coefficient * p + friction_.limit * (mass_ * Vector::Ones(p.size()));
+}
+
+void ContactInterface::subtractFriction(const Vector& t, Vector& fNonmortar, Vector& fMortar) const {
+  fNonmortar -= T1_.transpose() * t;
+  fMortar -= T2_.transpose() * t;
 }
 
 Vector ContactInterface::contactPressure(const Vector& p) const {

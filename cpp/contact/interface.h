@@ -44,6 +44,15 @@ enum class InitialGap {
   reject     ///< an error, unless they do
 };
 
+/// The bound of the nodal forces t along the line: coefficient p + limit times the length of line (the mass of
+/// the row functions) that the node stands for. Without friction both are 0.
+struct Friction {
+  double coefficient = 0;  ///< mu, Coulomb's law [-]
+  double limit = 0;        ///< Tresca's law: the shear stress at which surfaces slip, pressed or not [Pa]
+
+  [[nodiscard]] bool any() const { return coefficient > 0 || limit > 0; }
+};
+
 struct InterfaceOptions {
   InitialGap initial = InitialGap::asMeshed;  ///< of no effect where `gap` is given
   std::function<double(const Point&)> gap =
@@ -51,6 +60,7 @@ struct InterfaceOptions {
   /// Whether the motion of a vertex along a direction is prescribed; none is where empty.
   std::function<bool(int, const Point&)> nonmortarHeld = {};
   std::function<bool(int, const Point&)> mortarHeld = {};
+  Friction friction = {};
 };
 
 /// Rows of C on one body: conditions x dofs (2 node + component), without entries that are zero.
@@ -83,6 +93,22 @@ class ContactInterface {
   [[nodiscard]] const ConstraintRows& C1() const { return C1_; }             ///< on the nonmortar body
   [[nodiscard]] const ConstraintRows& C2() const { return C2_; }             ///< on the mortar body
   [[nodiscard]] const Vector& initialDistance() const { return distance_; }  ///< g0 [m]
+  [[nodiscard]] const Friction& friction() const { return friction_; }
+  /// Whether there is friction. Then every row of C has one beside it for the slip T u, with the same weights,
+  /// along n turned by +90 degrees: the direction of the nonmortar line, with its body to the left.
+  [[nodiscard]] bool rough() const { return friction_.any(); }
+  [[nodiscard]] const ConstraintRows& T1() const {
+    return T1_;
+  }  ///< on the nonmortar body; no rows if smooth
+  [[nodiscard]] const ConstraintRows& T2() const { return T2_; }  ///< on the mortar body; no rows if smooth
+  /// T u: by how much the nonmortar body has moved along the line over the mortar body [m].
+  [[nodiscard]] Vector slip(const Vector& uNonmortar, const Vector& uMortar) const {
+    return T1_ * uNonmortar + T2_ * uMortar;
+  }
+  /// Bounds of t [N/m] at nodal forces p.
+  [[nodiscard]] Vector frictionBound(const Vector& p) const;
+  /// f -= T' t on both bodies' nodal forces [N/m]; t is what the nonmortar body exerts along the line.
+  void subtractFriction(const Vector& t, Vector& fNonmortar, Vector& fMortar) const;
   /// Mass of the row functions, rows x rows [m]: nodal forces are the mass times the contact pressure.
   [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
   /// Held end nodes of the nonmortar line that have no condition: merged into their neighbours, or left out.
@@ -133,6 +159,9 @@ class ContactInterface {
   std::vector<Point> normals_;
   ConstraintRows C1_;
   ConstraintRows C2_;
+  Friction friction_;
+  ConstraintRows T1_;
+  ConstraintRows T2_;
   Eigen::SparseMatrix<double> mass_;
   Vector distance_;
   double overlap_ = 0;

@@ -38,8 +38,11 @@ class Planner {
           "degree = 2: six nodes a triangle, stresses at three points");
     if (scene_.plane == Plane::strain)
       add("scene", true, "plane strain", "plane = \"strain\": nothing moves across the plane, s33 is found");
-    add("scene", false, "inertia, friction, finite strains and slips",
-        "quasistatic, small strains, frictionless");
+    if (anyRough(model_))
+      add("scene", false, "inertia, finite strains and slips", "quasistatic, small strains");
+    else
+      add("scene", false, "inertia, friction, finite strains and slips",
+          "quasistatic, small strains, frictionless");
     return std::move(plan_);
   }
 
@@ -117,6 +120,10 @@ class Planner {
               counted(interface.rows(), "node") + " of " +
               model_.bodies[interface.pair().nonmortar.body].name(),
           "any of them may open");
+      if (const Friction& friction = interface.friction(); friction.any())
+        add(part, true, "friction: nodes stick or slip",
+            friction.coefficient > 0 ? "friction = " + shortest(friction.coefficient)
+                                     : "shear_limit = " + shortest(friction.limit));
     }
     add("contact", false, "a bilateral tie where nothing opens",
         "it would save no time: contact that keeps its active set costs what a tie would, docs/check.md");

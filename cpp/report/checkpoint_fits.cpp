@@ -38,6 +38,11 @@ bool oneABody(const Parts& parts, const std::vector<BodyState>& model) {
                     [](const auto& part, const BodyState& body) { return isLike(part, body); });
 }
 
+bool isSlipping(const std::vector<signed char>& signs, const std::vector<signed char>& model) {
+  return signs.size() == model.size() &&
+         std::all_of(signs.begin(), signs.end(), [](signed char sign) { return sign >= -1 && sign <= 1; });
+}
+
 bool isTime(double time) {
   return std::isfinite(time) && time >= 0;
 }
@@ -62,6 +67,10 @@ void requireFits(const Checkpoint& checkpoint, const Model& model, const std::st
     require(oneABody(given.bodies, begin.bodies), "state");
     require(areLike(given.contactForce, begin.contactForce), "contact force");
     require(areLike(given.gap, begin.gap), "gap");
+    require(areLike(given.frictionForce, begin.frictionForce) && isTime(given.frictionWork) &&
+                std::equal(given.slipping.begin(), given.slipping.end(), begin.slipping.begin(),
+                           begin.slipping.end(), isSlipping),
+            "friction");
   };
   requireState(state);
   require(memory.controller.trial >= 0, "trial");

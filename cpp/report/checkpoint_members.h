@@ -18,7 +18,7 @@ MORTIER_MEMBERS(FileRecord, bytes, checksum)
 MORTIER_MEMBERS(KeptFields, step, time, files)
 MORTIER_MEMBERS(FilesSoFar, history, contact, fields)
 MORTIER_MEMBERS(Certificate, forceBalance, materialResidual, gapOnActive, openPenetration, sign,
-                complementarity, rounding)
+                complementarity, friction, rounding)
 MORTIER_MEMBERS(SpecialConditions, idle, dependent)
 MORTIER_MEMBERS(StepReport, step, time, timeStep, status, reason, rung, guarded, rejections, estimate,
                 iterations, factorisations, active, joined, left, penetration, maxPressure, contactForce,
@@ -32,7 +32,7 @@ MORTIER_MEMBERS(FlowBoundMemory, obstacle, moved, begin, misfit, opening, growth
 MORTIER_MEMBERS(AccuracyMemory, energy, error, time, flow)
 MORTIER_MEMBERS(WorkDone, external, contact, dissipated)
 MORTIER_MEMBERS(BodyState, displacement, stress, viscoplasticStrain, work)
-MORTIER_MEMBERS(State, time, bodies, contactForce, gap)
+MORTIER_MEMBERS(State, time, bodies, contactForce, gap, frictionForce, slipping, frictionWork)
 MORTIER_MEMBERS(TwoPartVector, high, low)
 MORTIER_MEMBERS(BodyIncrement, displacement, stress)
 MORTIER_MEMBERS(ErrorNorms, stress, displacement)

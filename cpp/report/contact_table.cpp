@@ -8,15 +8,33 @@ ContactFields contactFields(const Model& model, const State& state, size_t inter
   const Vector gap =
       of.gap(state.bodies[pair.nonmortar.body].displacement, state.bodies[pair.mortar.body].displacement);
   const Vector& force = state.contactForce[interface];
+  const Vector none = Vector::Zero(of.rows());
   const std::vector<Point>& places = model.bodies[pair.nonmortar.body].elementNodes().places;
-  ContactFields fields{of.nonmortarNodes(), {}, (0 - gap.array()).matrix(), force, of.contactPressure(force)};
+  ContactFields fields{of.nonmortarNodes(),
+                       {},
+                       (0 - gap.array()).matrix(),
+                       force,
+                       of.contactPressure(force),
+                       none,
+                       none,
+                       none,
+                       std::vector<signed char>(of.rows(), 0)};
+  if (of.rough()) {
+    fields.friction = state.frictionForce[interface];
+    fields.shear = of.contactPressure(fields.friction);
+    fields.slip =
+        of.slip(state.bodies[pair.nonmortar.body].displacement, state.bodies[pair.mortar.body].displacement);
+    fields.slipping = state.slipping[interface];
+  }
   for (const int vertex : fields.vertex) fields.place.push_back(places[vertex]);
   return fields;
 }
 
 ContactTable::ContactTable(const std::string& folder, const Model& model)
-    : model_(model), file_(folder + "/contact.csv") {
-  file_ << "step,time,interface,vertex,x,y,gap,force,pressure,active\n";
+    : model_(model), rough_(anyRough(model)), file_(folder + "/contact.csv") {
+  file_ << "step,time,interface,vertex,x,y,gap,force,pressure,active";
+  if (rough_) file_ << ",friction,shear,slip,slipping";
+  file_ << '\n';
 }
 
 void ContactTable::add(const State& state, int step) {
@@ -26,7 +44,11 @@ void ContactTable::add(const State& state, int step) {
       const Point& p = fields.place[i];
       file_ << step << ',' << state.time << ',' << k << ',' << fields.vertex[i] << ',' << p[0] << ',' << p[1]
             << ',' << fields.gap[i] << ',' << fields.force[i] << ',' << fields.pressure[i] << ','
-            << (fields.force[i] > 0 ? 1 : 0) << '\n';
+            << (fields.force[i] > 0 ? 1 : 0);
+      if (rough_)
+        file_ << ',' << fields.friction[i] << ',' << fields.shear[i] << ',' << fields.slip[i] << ','
+              << static_cast<int>(fields.slipping[i]);
+      file_ << '\n';
     }
   }
 }

@@ -46,7 +46,7 @@ Json interfaces(const RunFacts& facts, const Model& model, const State& state) {
   Json list = Json::array();
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
-    const Point force = resultant(interface, state.contactForce[k]);
+    const Point force = resultant(model, state, k);
     list.push_back({{"variant", facts.variants[k]},
                     {"nonmortar", model.bodies[interface.pair().nonmortar.body].name()},
                     {"mortar", model.bodies[interface.pair().mortar.body].name()},
@@ -74,18 +74,20 @@ Json rounds(const RunFacts& facts) {
 
 Json finalState(const Model& model, const State& state, const StepReport& last) {
   const Extremes e = extremes(model, state);
-  return {{"time", state.time},
-          {"von_mises_min", e.vonMisesMin},
-          {"von_mises_max", e.vonMisesMax},
-          {"interpenetration", last.penetration},
-          {"displacement_min", {e.displacementMin[0], e.displacementMin[1]}},
-          {"displacement_max", {e.displacementMax[0], e.displacementMax[1]}},
-          {"contact_force", last.contactForce},
-          {"contact_resultant", {last.resultantX, last.resultantY}},
-          {"elastic_energy", last.energy},
-          {"max_pressure", last.maxPressure},
-          {"viscoplastic_fraction", last.viscoplasticFraction},
-          {"active_nodes", last.active}};
+  Json json = {{"time", state.time},
+               {"von_mises_min", e.vonMisesMin},
+               {"von_mises_max", e.vonMisesMax},
+               {"interpenetration", last.penetration},
+               {"displacement_min", {e.displacementMin[0], e.displacementMin[1]}},
+               {"displacement_max", {e.displacementMax[0], e.displacementMax[1]}},
+               {"contact_force", last.contactForce},
+               {"contact_resultant", {last.resultantX, last.resultantY}},
+               {"elastic_energy", last.energy},
+               {"max_pressure", last.maxPressure},
+               {"viscoplastic_fraction", last.viscoplasticFraction},
+               {"active_nodes", last.active}};
+  if (anyRough(model)) json["friction_work"] = state.frictionWork;
+  return json;
 }
 
 Json jsonOf(const Peaks& peaks) {
@@ -259,6 +261,7 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
                           {"sign", report.worst.sign},
                           {"complementarity", report.worst.complementarity},
                           {"rounding", report.worst.rounding}};
+  if (anyRough(model)) json["verification"]["friction"] = report.worst.friction;
   json["peaks"] = jsonOf(report.peaks);
   const std::vector<double> values = evaluate(facts.quantities, model, state);
   for (size_t i = 0; i < values.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/fault_error.h"
+#include "contact/smooth_part.h"
 #include "mesh/boundary_line.h"
 #include "scene/memory_need.h"
 
@@ -16,6 +17,17 @@ std::string twoDigits(double x) {
   std::ostringstream text;
   text << std::setprecision(2) << x;
   return text.str();
+}
+
+/// \throws InputError  where a side of an interface with friction is not one straight line
+void requireStraight(const ContactInterface& interface, const Model& model) {
+  for (const ContactSide& side : {interface.pair().nonmortar, interface.pair().mortar}) {
+    const Body& body = model.bodies[side.body];
+    const std::vector<SmoothPart> parts = smoothParts(boundaryLine(body.mesh(), side.label));
+    if (parts.size() > 1 || !parts.front().straight)
+      throw InputError("friction is not yet for contact lines that are curved or have corners: label " +
+                       std::to_string(side.label) + " of body " + body.name());
+  }
 }
 
 }  // namespace
@@ -39,6 +51,7 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
   }
   InterfaceOptions options;
   options.initial = contact.initial;
+  options.friction = contact.friction;
   if (contact.gap) {
     const Body& body = model.bodies[pair.nonmortar.body];
     std::vector<Point> points;
@@ -55,6 +68,7 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
   try {
     requireMemory(meshes, pairs, scene.degree);
     addInterface(model, pair, options);
+    if (contact.friction.any()) requireStraight(model.interfaces.back(), model);
   } catch (const FaultError& error) {
     throw FaultError(contact.where + ": contact: " + error.what(), error.id());
   } catch (const InputError& error) {

@@ -1,5 +1,6 @@
 #include "scene/read_contact.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/fault_error.h"
@@ -48,6 +49,38 @@ void readSides(const TableReader& table, const SceneDescription& scene, ContactD
   contact.mortar = readSide(*sides[1], "sides", scene);
 }
 
+/// \throws InputError  where friction is asked for beside what it is not yet for
+Friction readFriction(const TableReader& table, const SceneDescription& scene) {
+  const Range notNegative{[](double x) { return x >= 0; },
+                          [](const std::string& key) { return key + " >= 0"; }};
+  Friction friction;
+  friction.coefficient = table.number("friction", notNegative, 0);
+  friction.limit = table.number("shear_limit", notNegative, 0);
+  if (!friction.any()) return friction;
+  const char* key = friction.coefficient > 0 ? "friction" : "shear_limit";
+  if (friction.coefficient > 0 && friction.limit > 0) table.reject("shear_limit", "friction or shear_limit");
+  const auto refuse = [&](bool found, const std::string& what) {
+    if (found) table.reject(key, "none: friction is not yet for " + what);
+  };
+  refuse(scene.degree != 1, "degree = 2");
+  refuse(scene.solver.method != Method::newton, "solver.method = penalty-duality");
+  refuse(scene.time.scheme != Scheme::backwardEuler, "time.scheme other than backward-euler");
+  refuse(scene.time.controlled(), "steps chosen by their error (time.tolerance)");
+  refuse(scene.accuracy.energy > 0 || scene.accuracy.bound, "[accuracy]");
+  for (const BodyDescription& body : scene.bodies) {
+    const auto given = [](const std::optional<Expression>& stress) { return stress.has_value(); };
+    bool flows = body.material.viscoplasticity.has_value();
+    bool stressed = std::any_of(body.initialStress.begin(), body.initialStress.end(), given);
+    for (const RegionDescription& region : body.regions) {
+      flows = flows || (region.material && region.material->viscoplasticity);
+      stressed = stressed || std::any_of(region.initialStress.begin(), region.initialStress.end(), given);
+    }
+    refuse(flows, "viscoplastic bodies: " + body.name);
+    refuse(stressed, "initial_stress: body " + body.name);
+  }
+  return friction;
+}
+
 }  // namespace
 
 ContactDescription readContact(const Node& node, const SceneDescription& scene) {
@@ -68,6 +101,7 @@ ContactDescription readContact(const Node& node, const SceneDescription& scene) 
       throw InputError(table.message(gap->where, "gap beside initial, expected one of them"));
     }
   }
+  contact.friction = readFriction(table, scene);
   if (table.boolean("swap", false)) {
     contact.otherSide = !contact.sidesGiven;
     if (contact.sidesGiven) {

@@ -93,6 +93,7 @@ struct ContactDescription {
   CouplingKind variant = CouplingKind::mortar;  ///< by default `weighted` where displacements are quadratic
   InitialGap initial = InitialGap::asMeshed;
   std::optional<Expression> gap;  ///< in x, y [m]
+  Friction friction;
   std::string where;
 };
 

@@ -29,6 +29,9 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
     length.add(u[b]);
     rounding.add(bodies_[b].rounding(stress0, unknowns, u[b]));
   }
+  Worst beyondBound;
+  Worst wrongSlip;
+  const std::vector<Vector> slip = slips(model_, iterate);
   Worst contactForce;
   for (const Vector& p : iterate.contactForce) contactForce.add(p);
   Worst gapOnActive;
@@ -40,6 +43,17 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
     const int b2 = interface.pair().mortar.body;
     const Vector& p = iterate.contactForce[k];
     interface.subtractForces(p, residual[b1], residual[b2]);
+    if (interface.rough()) {
+      const Vector& t = iterate.frictionForce[k];
+      interface.subtractFriction(t, residual[b1], residual[b2]);
+      const Vector bound = interface.frictionBound(p);
+      for (Eigen::Index i = 0; i < t.size(); ++i) {
+        const int sign = iterate.slipping[k][i];
+        beyondBound.add(std::abs(t[i]) - bound[i]);
+        if (bound[i] > 0)
+          wrongSlip.add((sign == 0 ? std::abs(slip[k][i]) : -sign * slip[k][i]) / length.value());
+      }
+    }
     const Vector g = interface.gap(u[b1], u[b2]) / length.value();
     for (Eigen::Index i = 0; i < g.size(); ++i) {
       if (iterate.active[k][i] != 0)
@@ -59,6 +73,7 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
   result.openPenetration = openPenetration.value();
   result.sign = overForce(iterate.wrongForce);
   result.complementarity = complementarity.value();
+  result.friction = worse(overForce(beyondBound.value()), wrongSlip.value());
   result.rounding = rounding.value();
   return result;
 }

@@ -26,16 +26,18 @@ struct ContactSolution {
     solved,
     unbalanced,  ///< contact cannot balance r: `rigid` is the motion along which the bodies leave
     cycled,      ///< only where W is not a P-matrix (an indefinite tangent), or nearly so
+    dependent,   ///< conditions with friction depend on each other
     capped       ///< all pivots, or all the work, that are allowed were done: `workLimit` factorisations of W
   };
   Outcome outcome = Outcome::cycled;
-  Vector change;             ///< dp
-  Vector rigid;              ///< z
-  std::vector<char> active;  ///< the set on which s = 0 was asked
-  int pivots = 0;            ///< active sets that were solved on
-  double work = 0;           ///< operations, over those of a factorisation of W [-]
-  int idle = 0;              ///< conditions that no free motion changes: W_ii = 0
-  bool dependent = false;    ///< conditions depend on each other: the forces are one choice of many
+  Vector change;                      ///< dp
+  Vector rigid;                       ///< z
+  std::vector<char> active;           ///< the set on which s = 0 was asked
+  std::vector<signed char> slipping;  ///< with friction (friction.h), by the conditions along the line
+  int pivots = 0;                     ///< active sets that were solved on
+  double work = 0;                    ///< operations, over those of a factorisation of W [-]
+  int idle = 0;                       ///< conditions that no free motion changes: W_ii = 0
+  bool dependent = false;             ///< conditions depend on each other: the forces are one choice of many
 };
 
 /// How many conditions depend on others: those that change, less the rank of W.

@@ -16,9 +16,10 @@ constexpr double motionTolerance = 1e-14;
 /// A support along the contact normal leaves no more than this part of a row.
 constexpr double negligible = 1e-14;
 
-/// Entries of C of one body as (row, node, vector).
+/// Entries of the rows of an interface on one body as (row, node, vector).
 template <class Visit>
-void forEachEntryOfC(const ContactInterface& interface, int body, Visit visit) {
+void forEachEntry(const ContactInterface& interface, int body, const ConstraintRows& nonmortar,
+                  const ConstraintRows& mortar, Visit visit) {
   const auto visitAll = [&](const ConstraintRows& C) {
     for (int node = 0; 2 * node < C.outerSize(); ++node) {
       ConstraintRows::InnerIterator x(C, 2 * node);
@@ -32,8 +33,8 @@ void forEachEntryOfC(const ContactInterface& interface, int body, Visit visit) {
       }
     }
   };
-  if (interface.pair().nonmortar.body == body) visitAll(interface.C1());
-  if (interface.pair().mortar.body == body) visitAll(interface.C2());
+  if (interface.pair().nonmortar.body == body) visitAll(nonmortar);
+  if (interface.pair().mortar.body == body) visitAll(mortar);
 }
 
 }  // namespace
@@ -45,23 +46,35 @@ ContactDofs::ContactDofs(const Model& model, int body, const std::vector<int>& f
 
 void ContactDofs::findEquations(const Model& model, int body, const std::vector<int>& firstRow) {
   std::vector<int> column(model.bodies[body].freeDofs(), -1);
-  const auto forEachEntry = [&](auto visit) {
-    for (size_t k = 0; k < model.interfaces.size(); ++k)
-      forEachEntryOfC(model.interfaces[k], body, [&](int row, int node, const Point& vector) {
+  int rows = firstRow.back();
+  const auto forEachEquation = [&](auto visit) {
+    const auto visitParts = [&](int first) {
+      return [&, first](int row, int node, const Point& vector) {
         for (const auto& [equation, value] : model.bodies[body].parts(node, vector))
           if (equation >= 0 && std::abs(value) > negligible * vector.norm())
-            visit(firstRow[k] + row, equation, value);
-      });
+            visit(first + row, equation, value);
+      };
+    };
+    for (size_t k = 0; k < model.interfaces.size(); ++k) {
+      const ContactInterface& interface = model.interfaces[k];
+      forEachEntry(interface, body, interface.C1(), interface.C2(), visitParts(firstRow[k]));
+    }
+    rows = firstRow.back();
+    for (const ContactInterface& interface : model.interfaces) {
+      if (!interface.rough()) continue;
+      forEachEntry(interface, body, interface.T1(), interface.T2(), visitParts(rows));
+      rows += interface.rows();
+    }
   };
-  forEachEntry([&](int, int equation, double) {
+  forEachEquation([&](int, int equation, double) {
     if (column[equation] >= 0) return;
     column[equation] = static_cast<int>(equations.size());
     equations.push_back(equation);
   });
   std::vector<Eigen::Triplet<double>> entries;
-  forEachEntry(
+  forEachEquation(
       [&](int row, int equation, double value) { entries.emplace_back(row, column[equation], value); });
-  C.resize(firstRow.back(), static_cast<Eigen::Index>(equations.size()));
+  C.resize(rows, static_cast<Eigen::Index>(equations.size()));
   C.setFromTriplets(entries.begin(), entries.end());
 }
 

@@ -10,7 +10,8 @@
 namespace mortier {
 
 struct ContactDofs {
-  /// \param firstRow  of each interface among all contact conditions, and their number at the end.
+  /// \param firstRow  of each interface among the conditions across contact, and their number at the end.
+  /// Those along the line come after all of them, for each interface with friction as many.
   /// \throws UnheldBodyError where a motion does not move the contact dofs.
   ContactDofs(const Model& model, int body, const std::vector<int>& firstRow);
 

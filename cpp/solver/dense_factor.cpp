@@ -45,6 +45,14 @@ bool DenseFactor::factorise(Matrix&& matrix, bool symmetric) {
   return leastPivot_ > 0;
 }
 
+int DenseFactor::sign() const {
+  if (symmetric_) return 1;
+  bool negative = false;
+  for (Eigen::Index k = 0; k < factor_.rows(); ++k)
+    negative = negative != ((factor_(k, k) < 0) != (interchange_[k] != k));
+  return negative ? -1 : 1;
+}
+
 bool DenseFactor::cholesky() {
   const Eigen::Index n = factor_.rows();
   bool definite = true;

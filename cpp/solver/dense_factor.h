@@ -19,6 +19,8 @@ class DenseFactor {
   /// Least pivot over what stood in its place before elimination: over the diagonal,
   /// or the largest entry of the column.
   [[nodiscard]] double leastPivot() const { return leastPivot_; }
+  /// Of the determinant.
+  [[nodiscard]] int sign() const;
   [[nodiscard]] Eigen::Index rows() const { return factor_.rows(); }
 
  private:

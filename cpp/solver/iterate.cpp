@@ -1,5 +1,6 @@
 #include "solver/iterate.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace mortier {
@@ -21,6 +22,8 @@ Iterate startingIterate(const State& state0) {
     iterate.bodies.push_back({TwoPartVector::zero(body.displacement.size()), body.stress, {}});
   iterate.contactForce = state0.contactForce;
   iterate.active = startingSets(state0);
+  iterate.frictionForce = state0.frictionForce;
+  iterate.slipping = state0.slipping;
   return iterate;
 }
 
@@ -53,6 +56,26 @@ std::vector<Vector> gaps(const Model& model, const State& state0, const Iterate&
     result.emplace_back((state0.gap[k] + interface.jump(u1.high, u2.high)) + interface.jump(u1.low, u2.low));
   }
   return result;
+}
+
+std::vector<Vector> slips(const Model& model, const Iterate& iterate) {
+  std::vector<Vector> result;
+  for (const ContactInterface& interface : model.interfaces) {
+    const TwoPartVector& u1 = iterate.bodies[interface.pair().nonmortar.body].increment;
+    const TwoPartVector& u2 = iterate.bodies[interface.pair().mortar.body].increment;
+    result.emplace_back();
+    if (interface.rough()) result.back() = interface.slip(u1.high, u2.high) + interface.slip(u1.low, u2.low);
+  }
+  return result;
+}
+
+double frictionWork(const Model& model, const Iterate& solution) {
+  double work = 0;
+  const std::vector<Vector> slip = slips(model, solution);
+  for (size_t k = 0; k < slip.size(); ++k)
+    for (Eigen::Index i = 0; i < slip[k].size(); ++i)
+      if (solution.slipping[k][i] != 0) work += std::max(0.0, solution.frictionForce[k][i] * slip[k][i]);
+  return work;
 }
 
 std::vector<Vector> solvedGaps(const Model& model, const State& state0, const Iterate& solution) {

@@ -36,6 +36,8 @@ struct Step {
 
 /// Per interface and nonmortar node, whether it is held closed.
 using ActiveSets = std::vector<std::vector<char>>;
+/// Per interface with friction and nonmortar node, the sign of t where it slips; 0: it sticks.
+using SlipSets = std::vector<std::vector<signed char>>;
 
 /// The unknowns of a body in a step.
 struct BodyIterate {
@@ -49,6 +51,8 @@ struct Iterate {
   std::vector<BodyIterate> bodies;
   std::vector<Vector> contactForce;  ///< p per interface
   ActiveSets active;
+  std::vector<Vector> frictionForce;  ///< t per interface
+  SlipSets slipping;
   double wrongForce = 0;  ///< the largest negative p of the last linear solve, before it was set to 0 [N/m]
 };
 
@@ -72,6 +76,12 @@ std::vector<Vector> gaps(const Model& model, const State& state0, const Iterate&
 
 /// The gaps of a solution: exactly 0 on active nodes, in place of what rounding left there.
 std::vector<Vector> solvedGaps(const Model& model, const State& state0, const Iterate& solution);
+
+/// T du per interface: the slip of the step; empty where there is no friction.
+std::vector<Vector> slips(const Model& model, const Iterate& iterate);
+
+/// What friction dissipates in a step; the rounding in slips of nodes that stick is none [J/m].
+double frictionWork(const Model& model, const Iterate& solution);
 
 /// Whether any point of the state flows.
 bool flows(const Model& model, const State& state);

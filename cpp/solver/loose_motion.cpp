@@ -19,7 +19,7 @@ constexpr double negligibleMotion = 1e-6;
 
 void StepSystem::requireHeld() {
   contact_.proximal = options_.proximalWeight;
-  contact_.G = Matrix::Zero(rows(), firstMotion_.back());
+  contact_.G = Matrix::Zero(conditions(), firstMotion_.back());
   for (size_t b = 0; b < bodies_.size(); ++b) {
     const ContactDofs& dofs = bodies_[b].contact();
     contact_.G.middleCols(firstMotion_[b], dofs.R.cols()) = dofs.C * dofs.R;

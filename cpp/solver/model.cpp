@@ -1,5 +1,6 @@
 #include "solver/model.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mortier {
@@ -14,6 +15,11 @@ bool holds(const Body& body, int node, const Point& direction) {
 }
 
 }  // namespace
+
+bool anyRough(const Model& model) {
+  return std::any_of(model.interfaces.begin(), model.interfaces.end(),
+                     [](const ContactInterface& interface) { return interface.rough(); });
+}
 
 void addInterface(Model& model, const ContactPair& pair, InterfaceOptions options) {
   const Body& nonmortar = model.bodies[pair.nonmortar.body];

@@ -13,6 +13,9 @@ struct Model {
   std::vector<ContactInterface> interfaces;
 };
 
+/// Whether any interface has friction.
+bool anyRough(const Model& model);
+
 /// Adds an interface between bodies of the model; which nodes their supports hold is taken from them.
 /// \throws InputError
 void addInterface(Model& model, const ContactPair& pair, InterfaceOptions options = {});

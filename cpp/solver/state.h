@@ -29,6 +29,10 @@ struct State {
   /// g per interface and nonmortar node [m], the sum of its changes: taken from the displacements anew, their
   /// rounding would open and close what is in contact.
   std::vector<Vector> gap;
+  // Per interface and nonmortar node; empty where an interface has no friction.
+  std::vector<Vector> frictionForce;               ///< t: what the nonmortar body exerts along the line [N/m]
+  std::vector<std::vector<signed char>> slipping;  ///< sign of t where the node slipped last, 0: it stuck
+  double frictionWork = 0;                         ///< dissipated by friction so far [J/m]
 };
 
 /// The state of the solver itself that a run needs to resume, per body; empty before the first step.
@@ -47,6 +51,8 @@ struct Certificate {
   double openPenetration = 0;  ///< largest g of a node that is not active, over the same
   double sign = 0;             ///< largest negative contact force over the largest nodal force
   double complementarity = 0;  ///< max |p g| over (largest contact force times that length)
+  /// Slip of nodes that stick, or against t, over the length of gapOnActive; t beyond its bound over that force.
+  double friction = 0;
   /// What the rounding of meshes and displacements makes of stresses, over the same as materialResidual:
   /// epsilon |H^-1| |u|/h. No residual shows it.
   double rounding = 0;

@@ -27,9 +27,10 @@ std::vector<int> numberRows(const Model& model) {
 }
 
 /// The sets of all interfaces as one.
-std::vector<char> joinedSets(const ActiveSets& active) {
-  std::vector<char> set;
-  for (const std::vector<char>& part : active) set.insert(set.end(), part.begin(), part.end());
+template <class Member>
+std::vector<Member> joinedSets(const std::vector<std::vector<Member>>& sets) {
+  std::vector<Member> set;
+  for (const std::vector<Member>& part : sets) set.insert(set.end(), part.begin(), part.end());
   return set;
 }
 
@@ -46,7 +47,28 @@ StepSystem::StepSystem(const Model& model, const SolverOptions& options)
     firstMotion_.push_back(firstMotion_.back() + static_cast<int>(bodies_[b].contact().R.cols()));
     uniqueSolutions_ = uniqueSolutions_ && model.bodies[b].pattern().symmetric;
   }
+  findFriction();
   requireHeld();
+}
+
+void StepSystem::findFriction() {
+  std::vector<Vector> limits;
+  for (size_t k = 0; k < model_.interfaces.size(); ++k) {
+    const ContactInterface& interface = model_.interfaces[k];
+    if (!interface.rough()) continue;
+    for (int i = 0; i < interface.rows(); ++i) friction_.node.push_back(firstRow_[k] + i);
+    limits.push_back(interface.frictionBound(Vector::Zero(interface.rows())));
+  }
+  FrictionLaw& law = friction_.law;
+  law = {Vector(friction_.node.size()), Vector(friction_.node.size())};
+  Eigen::Index row = 0;
+  size_t part = 0;
+  for (const ContactInterface& interface : model_.interfaces) {
+    if (!interface.rough()) continue;
+    law.coefficient.segment(row, interface.rows()).setConstant(interface.friction().coefficient);
+    law.limit.segment(row, interface.rows()) = limits[part++];
+    row += interface.rows();
+  }
 }
 
 Step StepSystem::step(const State& state0, const StepData& data) {
@@ -77,6 +99,17 @@ const std::vector<Vector>& StepSystem::loadsAt(double time) {
 Vector StepSystem::joined(const std::vector<Vector>& parts) const {
   Vector all(rows());
   for (size_t k = 0; k < parts.size(); ++k) all.segment(firstRow_[k], parts[k].size()) = parts[k];
+  return all;
+}
+
+Vector StepSystem::joined(const std::vector<Vector>& across, const std::vector<Vector>& along) const {
+  Vector all(conditions());
+  all.head(rows()) = joined(across);
+  Eigen::Index row = rows();
+  for (const Vector& part : along) {
+    all.segment(row, part.size()) = part;
+    row += part.size();
+  }
   return all;
 }
 
@@ -131,7 +164,7 @@ std::optional<StepSystem::Factorised> StepSystem::Linearised::factorise(StepOutc
   ContactProblem& contact = system_->contact_;
   std::vector<CondensedBody::Factors> factors(bodies.size());
   system_->forEachBody([&](int b) { factors[b] = bodies[b].factorise(); });
-  bool changed = contact.W.rows() != system_->rows();
+  bool changed = contact.W.rows() != system_->conditions();
   bool regular = true;
   for (const CondensedBody::Factors& body : factors) {
     if (!body.failure.empty()) regular = outcome.fail(Reason::singular, body.failure);
@@ -140,7 +173,7 @@ std::optional<StepSystem::Factorised> StepSystem::Linearised::factorise(StepOutc
   }
   if (!regular) return std::nullopt;
   if (changed) {
-    contact.W.setZero(system_->rows(), system_->rows());
+    contact.W.setZero(system_->conditions(), system_->conditions());
     contact.symmetric = true;
     for (size_t b = 0; b < bodies.size(); ++b) {
       if (bodies[b].contact().none()) continue;
@@ -168,10 +201,19 @@ StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const I
     const ContactPair& pair = model.interfaces[k].pair();
     model.interfaces[k].subtractForces(iterate.contactForce[k], force[pair.nonmortar.body],
                                        force[pair.mortar.body]);
+    if (model.interfaces[k].rough())
+      model.interfaces[k].subtractFriction(iterate.frictionForce[k], force[pair.nonmortar.body],
+                                           force[pair.mortar.body]);
   }
   Condensed result(*system_, Key{});
-  result.slack = -system_->joined(gaps(model, step.state0, iterate));
-  result.p0 = system_->joined(iterate.contactForce);
+  if (system_->rough()) {
+    result.slack = -system_->joined(gaps(model, step.state0, iterate), slips(model, iterate));
+    result.p0 = system_->joined(iterate.contactForce, iterate.frictionForce);
+    result.slipping = joinedSets(iterate.slipping);
+  } else {
+    result.slack = -system_->joined(gaps(model, step.state0, iterate));
+    result.p0 = system_->joined(iterate.contactForce);
+  }
   std::vector<Vector> motion(bodies.size());
   system_->forEachBody([&](int b) { motion[b] = bodies[b].condense(force[b]); });
   result.balance.resize(system_->contact_.G.cols());
@@ -186,7 +228,25 @@ StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const I
   return result;
 }
 
+ContactSolution StepSystem::Condensed::solveFriction() const {
+  const Matrix& W = system_->contact_.W;
+  const FrictionSolution found =
+      mortier::solveFriction({W, system_->friction_}, slack - W * p0, {active, slipping});
+  ContactSolution solution;
+  solution.outcome = found.solved     ? ContactSolution::Outcome::solved
+                     : found.singular ? ContactSolution::Outcome::dependent
+                                      : ContactSolution::Outcome::cycled;
+  solution.rigid = Vector::Zero(0);
+  solution.pivots = found.solves + found.events;
+  if (!found.solved) return solution;
+  solution.change = found.force - p0;
+  solution.active = found.sets.closed;
+  solution.slipping = found.sets.slip;
+  return solution;
+}
+
 ContactSolution StepSystem::Condensed::solveContact() const {
+  if (system_->rough()) return solveFriction();
   ContactSolution solution = mortier::solveContact(system_->contact_, slack, p0, balance, active);
   SpecialConditions& special = system_->special_;
   special.idle = std::max(special.idle, solution.idle);
@@ -200,6 +260,8 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
   if (contact.outcome == ContactSolution::Outcome::cycled)
     return outcome.fail(Reason::contact,
                         "no solution of the contact problem of the linearised step was found");
+  if (contact.outcome == ContactSolution::Outcome::dependent)
+    return outcome.fail(Reason::contact, "with friction, contact conditions that depend on each other");
   if (contact.outcome == ContactSolution::Outcome::capped)
     return outcome.fail(Reason::contact, "the contact problem of the linearised step was given up after " +
                                              counted(contact.pivots, "active set") + ", the work of " +
@@ -226,6 +288,22 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
     iterate.active[k].assign(first, first + p.size());
     if (p.size() > 0) iterate.wrongForce = std::max(iterate.wrongForce, -p.minCoeff());
     p = p.cwiseMax(0);
+  }
+  Eigen::Index row = 0;
+  for (size_t k = 0; k < iterate.contactForce.size(); ++k) {
+    const ContactInterface& interface = system_->model_.interfaces[k];
+    if (!interface.rough()) continue;
+    iterate.frictionForce[k] = (p0 + contact.change).segment(system_->rows() + row, interface.rows());
+    const auto first = contact.slipping.begin() + row;
+    iterate.slipping[k].assign(first, first + interface.rows());
+    const Vector bound = interface.frictionBound(iterate.contactForce[k]);  // sums have left it by rounding
+    for (Eigen::Index i = 0; i < bound.size(); ++i) {
+      double& t = iterate.frictionForce[k][i];
+      if (bound[i] == 0) iterate.slipping[k][i] = 0;
+      const int sign = iterate.slipping[k][i];
+      t = bound[i] == 0 ? 0 : sign == 0 ? std::clamp(t, -bound[i], bound[i]) : sign * bound[i];
+    }
+    row += interface.rows();
   }
   return true;
 }

@@ -5,6 +5,8 @@
 //   sum |T| B' s + C' p = F(t1)                   at every free dof          (equilibrium)
 //   g = C (u0 + du) - g0 <= 0, p >= 0, p g = 0    at every nonmortar node    (contact)
 //
+// with T' t beside C' p and the law of t and the slip T du (friction.h) where there is friction.
+//
 // Linearised at s (material/material.h), (material) gives s = predictor + H^-1 B d; what is left is
 //   K d + C' p = F - sum |T| B' predictor,  K = sum |T| B' H^-1 B,
 // with (contact) kept as it is: each body is condensed to its contact dofs, and the complementarity problem
@@ -27,6 +29,7 @@
 #include "base/parallel.h"
 #include "solver/complementarity.h"
 #include "solver/condensed_body.h"
+#include "solver/friction.h"
 #include "solver/iterate.h"
 #include "solver/outcome.h"
 
@@ -84,6 +87,8 @@ class StepSystem {
   [[nodiscard]] std::string looseMotion(const State& state0, const Iterate& solution) const;
   /// Whether there are bodies that contact alone holds.
   [[nodiscard]] bool contactHolds() const { return contact_.G.cols() > 0; }
+  /// Whether any interface has friction.
+  [[nodiscard]] bool rough() const { return !friction_.node.empty(); }
   /// Whether every tangent is symmetric: a step minimises a convex energy.
   [[nodiscard]] bool uniqueSolutions() const { return uniqueSolutions_; }
   /// The special contact conditions that were found so far.
@@ -92,6 +97,8 @@ class StepSystem {
   /// One vector of all conditions from those of the interfaces, and the reverse.
   [[nodiscard]] Vector joined(const std::vector<Vector>& parts) const;
   [[nodiscard]] std::vector<Vector> parted(const Vector& all) const;
+  /// The same with those along the line of interfaces with friction, which come after all others.
+  [[nodiscard]] Vector joined(const std::vector<Vector>& across, const std::vector<Vector>& along) const;
 
   void forEachBody(const Threads::Work& work) { threads_.forEach(static_cast<int>(bodies_.size()), work); }
   /// Uses CHOLMOD or UMFPACK from now on.
@@ -107,6 +114,9 @@ class StepSystem {
     return z.segment(firstMotion_[body], firstMotion_[body + 1] - firstMotion_[body]);
   }
   [[nodiscard]] int rows() const { return firstRow_.back(); }
+  /// Those across contact and those along it.
+  [[nodiscard]] int conditions() const { return rows() + static_cast<int>(friction_.node.size()); }
+  void findFriction();
 
   const Model& model_;
   SolverOptions options_;
@@ -115,7 +125,8 @@ class StepSystem {
       firstRow_;  ///< of each interface among all contact conditions, and their number at the end
   std::vector<CondensedBody> bodies_;
   std::vector<int> firstMotion_{0};  ///< of each body among all rigid motions, and their number at the end
-  ContactProblem contact_;
+  ContactProblem contact_;           ///< its W is that of all conditions
+  FrictionRows friction_;
   SpecialConditions special_;
   struct Loads {
     double time = NAN;
@@ -164,14 +175,17 @@ class StepSystem::Condensed {
  public:
   Condensed(StepSystem& system, Key /*key*/) : system_(&system) {}
   [[nodiscard]] ContactSolution solveContact() const;
+  /// The same with friction (friction.h).
+  [[nodiscard]] ContactSolution solveFriction() const;
   /// Moves the iterate (displacement, stress, contact) to the solution of the linear solve.
   /// \returns false where there is none; `outcome` then has the reason.
   bool expand(const ContactSolution& contact, Iterate& iterate, StepOutcome& outcome) &&;
 
-  Vector slack;              ///< g0 - C u at dp = 0
-  Vector p0;                 ///< contact forces
+  Vector slack;              ///< g0 - C u at dp = 0, then -T du
+  Vector p0;                 ///< contact forces, then those of friction
   Vector balance;            ///< of the forces that only contact can carry
   std::vector<char> active;  ///< to begin with
+  std::vector<signed char> slipping;
 
  private:
   StepSystem* system_;

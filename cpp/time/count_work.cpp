@@ -59,8 +59,9 @@ void StepTaker::countWork() {
     const Body& body = model_.bodies[b];
     const int index = static_cast<int>(b);
     const Vector du = solutions_.back().bodies[b].increment.value();
-    const Vector contact0 = contactForces(model_, state_.contactForce, index);
-    const Vector contact1 = contactForces(model_, solutions_.back().contactForce, index);
+    const Iterate& end = solutions_.back();
+    const Vector contact0 = contactForces(model_, state_.contactForce, state_.frictionForce, index);
+    const Vector contact1 = contactForces(model_, end.contactForce, end.frictionForce, index);
     const Vector load = body.load(t1_);
     // What loads and supports exert: at the start what the stress balances, as loads may begin at once.
     const Vector before = body.internalForce(state_.bodies[b].stress) + contact0;

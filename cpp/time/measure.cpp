@@ -25,7 +25,7 @@ void measure(const Model& model, const State& state, StepReport& report) {
                                    state.bodies[interface.pair().mortar.body].displacement);
     report.maxPressure = std::max(report.maxPressure, interface.contactPressure(p).maxCoeff());
     report.contactForce += p.sum();
-    const Point force = resultant(interface, p);
+    const Point force = resultant(model, state, k);
     report.resultantX += force.x();
     report.resultantY += force.y();
   }
@@ -60,11 +60,16 @@ void raise(Peaks& peaks, const StepReport& report) {
   peaks.energy.raise(report.energy, report.time);
 }
 
-Point resultant(const ContactInterface& interface, const Vector& force) {
+Point resultant(const Model& model, const State& state, size_t interface) {
+  const ContactInterface& of = model.interfaces[interface];
   Point sum = Point::Zero();
-  for (int dof = 0; dof < interface.C1().outerSize(); ++dof)
-    for (ConstraintRows::InnerIterator entry(interface.C1(), dof); entry; ++entry)
-      sum[dof % 2] -= entry.value() * force[entry.row()];
+  const auto subtract = [&](const ConstraintRows& rows, const Vector& by) {
+    for (int dof = 0; dof < rows.outerSize(); ++dof)
+      for (ConstraintRows::InnerIterator entry(rows, dof); entry; ++entry)
+        sum[dof % 2] -= entry.value() * by[entry.row()];
+  };
+  subtract(of.C1(), state.contactForce[interface]);
+  if (of.rough()) subtract(of.T1(), state.frictionForce[interface]);
   return sum;
 }
 
@@ -75,6 +80,7 @@ Certificate worse(const Certificate& a, const Certificate& b) {
           worse(a.openPenetration, b.openPenetration),
           worse(a.sign, b.sign),
           worse(a.complementarity, b.complementarity),
+          worse(a.friction, b.friction),
           worse(a.rounding, b.rounding)};
 }
 

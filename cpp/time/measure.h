@@ -15,7 +15,7 @@ void measure(const Model& model, const State& state, StepReport& report);
 void raise(Peaks& peaks, const StepReport& report);
 
 /// Resultant of nodal contact forces on the nonmortar body [N/m].
-Point resultant(const ContactInterface& interface, const Vector& force);
+Point resultant(const Model& model, const State& state, size_t interface);
 
 /// Counts how the active sets changed in a step.
 void compareActive(const ActiveSets& before, const ActiveSets& after, StepReport& report);

@@ -9,12 +9,16 @@ bool is(const ContactSide& side, int body, std::optional<int> label) {
 
 }  // namespace
 
-Vector contactForces(const Model& model, const std::vector<Vector>& p, int body, std::optional<int> label) {
+Vector contactForces(const Model& model, const std::vector<Vector>& p, const std::vector<Vector>& t, int body,
+                     std::optional<int> label) {
   Vector forces = Vector::Zero(model.bodies[body].dofs());
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
     if (is(interface.pair().nonmortar, body, label)) forces += interface.C1().transpose() * p[k];
     if (is(interface.pair().mortar, body, label)) forces += interface.C2().transpose() * p[k];
+    if (!interface.rough()) continue;
+    if (is(interface.pair().nonmortar, body, label)) forces += interface.T1().transpose() * t[k];
+    if (is(interface.pair().mortar, body, label)) forces += interface.T2().transpose() * t[k];
   }
   return forces;
 }

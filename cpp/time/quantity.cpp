@@ -28,7 +28,8 @@ struct Wrench {
 std::map<int, Wrench> reactions(const Model& model, const State& state, int b) {
   const Body& body = model.bodies[b];
   const Vector forces = body.internalForce(state.bodies[b].stress) +
-                        contactForces(model, state.contactForce, b) - body.load(state.time);
+                        contactForces(model, state.contactForce, state.frictionForce, b) -
+                        body.load(state.time);
   std::map<int, Wrench> result;
   for (const NodeSupport& support : body.supports().nodes()) {
     const Point force = forces.segment<2>(2 * support.node);
@@ -48,7 +49,7 @@ std::map<int, Wrench> reactions(const Model& model, const State& state, int b) {
 }
 
 Wrench contactOn(const Model& model, const State& state, int body, int label) {
-  const Vector forces = contactForces(model, state.contactForce, body, label);
+  const Vector forces = contactForces(model, state.contactForce, state.frictionForce, body, label);
   const ElementNodes& nodes = model.bodies[body].elementNodes();
   const std::vector<int>& labels = model.bodies[body].mesh().boundaryLabels;
   Wrench result;

@@ -156,6 +156,7 @@ double StepTaker::turnedShare() const {
 void StepTaker::commit() {
   if (countsWork_) countWork();
   state_.gap = solvedGaps(model_, state_, solutions_.back());
+  state_.frictionWork += frictionWork(model_, solutions_.back());
   memory_.increments.clear();
   memory_.timeStep = t1_ - state_.time;
   for (size_t i = 0; i < solutions_.size(); ++i) {
@@ -184,6 +185,8 @@ void StepTaker::commit() {
     if (!guarded_) memory_.increments.push_back(std::move(increments));
   }
   state_.contactForce = std::move(solutions_.back().contactForce);
+  state_.frictionForce = std::move(solutions_.back().frictionForce);
+  state_.slipping = std::move(solutions_.back().slipping);
   state_.time = t1_;
   active_ = std::move(solutions_.back().active);
   solutions_.clear();

@@ -169,6 +169,37 @@ reduce = false
 allow = ["few-steps-across-yield", "stiffness-ratio"]
 """
 
+# Friction by both laws: pressed, pushed along, pulled back.
+FRICTION_KEYS = """\
+[[body]]
+name = "upper"
+mesh = "upper.mesh"
+material = { young = 100, poisson = 0.3 }
+boundary = [ { label = 4, ux = { time = [0, 1, 2, 4], value = [0, 0, 0.03, -0.03] }, uy = "-0.02*min(t, 1)" } ]
+[[body]]
+name = "lower"
+mesh = "lower.mesh"
+material = { young = 200, poisson = 0.3 }
+boundary = [ { label = 1, ux = 0, uy = 0 } ]
+[[body]]
+name = "plate"
+mesh = { shape = "rectangle", lower = [0, 1], upper = [1, 2], cells = [3, 3] }
+material = { young = 100, poisson = 0.2 }
+boundary = [ { label = 3, ux = 0, uy = "-0.03*min(t, 1)" } ]
+[[contact]]
+nonmortar = { body = "upper", label = 1 }
+mortar = { body = "lower", label = 3 }
+friction = 0.3
+[[contact]]
+nonmortar = { body = "plate", label = 1 }
+mortar = { body = "upper", label = 3 }
+variant = "weighted"
+shear_limit = 0.5
+[time]
+end = 4
+steps = 8
+"""
+
 # Two squares side by side in one geometry, PARTS_GEO as parts.geo; the other keys that a scene can have.
 GEOMETRY_KEYS = """\
 [[body]]

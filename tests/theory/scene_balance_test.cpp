@@ -60,7 +60,8 @@ double outOfBalance(const Model& model, const State& state, int b, Wrench& conta
   const std::vector<Point>& places = body.elementNodes().places;
   const Vector load = body.load(state.time);
   Wrench sum = wrenchOf(load, places);
-  size += load.cwiseAbs().sum() + contactForces(model, state.contactForce, b).cwiseAbs().sum();
+  size += load.cwiseAbs().sum() +
+          contactForces(model, state.contactForce, state.frictionForce, b).cwiseAbs().sum();
   std::set<int> held;
   for (const PrescribedDisplacement& support : body.conditions().displacements) held.insert(support.label);
   for (const int label : held) {

@@ -1,0 +1,60 @@
+// Solves the contact problem with friction (friction.h) on given sets, and finds the next ones by Newton's
+// method: a condition is closed where p - g/W_ii > 0, a node sticks where |t - v/W_ii| <= b (semismooth
+// Newton, Alart and Curnier 1991). Under fixed bounds (Tresca's law) changes of one condition at a time end
+// where Newton's method goes round, as W is a P-matrix (Murty 1974).
+#pragma once
+
+#include <optional>
+
+#include "solver/dense_factor.h"
+#include "solver/friction.h"
+
+namespace mortier {
+
+class FrictionSystem {
+ public:
+  /// \param q  (g, v) without forces; must outlive this, as what the problem refers to.
+  FrictionSystem(const FrictionProblem& problem, const Vector& q);
+
+  [[nodiscard]] const FrictionProblem& problem() const { return problem_; }
+  [[nodiscard]] Eigen::Index normals() const { return problem_.normals(); }
+  [[nodiscard]] const Vector& q() const { return q_; }
+  /// Whether no free motion changes a condition.
+  [[nodiscard]] bool idle(Eigen::Index condition) const { return idle_[condition] != 0; }
+  /// Puts what no free motion changes into the sets: open across the line; along it, as the supports slip.
+  void holdIdle(FrictionSets& sets) const;
+  /// Whether t of a tangential condition is an unknown on the sets.
+  [[nodiscard]] bool sticks(const FrictionLaw& law, const FrictionSets& sets, size_t tangential) const;
+
+  /// Everything closed and stuck.
+  [[nodiscard]] FrictionSets allHeld() const;
+
+  /// Newton's method from `sets`. \returns the solution, or nothing where sets come back.
+  std::optional<FrictionSolution> newton(const FrictionLaw& law, FrictionSets sets);
+  /// Under fixed bounds |t| <= limit.
+  std::optional<FrictionSolution> bounded(const Vector& limit, FrictionSets sets);
+
+  [[nodiscard]] int solves() const { return solves_; }
+  [[nodiscard]] bool singular() const { return singular_; }
+
+ private:
+  struct Trial {
+    Vector force;
+    Vector motion;
+    int index = 1;
+  };
+  bool solveOn(const FrictionLaw& law, const FrictionSets& sets, Trial& trial);
+  [[nodiscard]] FrictionSets next(const FrictionLaw& law, const FrictionSets& sets, const Trial& trial) const;
+  [[nodiscard]] double residual(const FrictionLaw& law, const Trial& trial) const;
+  [[nodiscard]] FrictionSolution solution(const FrictionLaw& law, const FrictionSets& sets,
+                                          const Trial& trial) const;
+
+  FrictionProblem problem_;
+  const Vector& q_;
+  Vector compliance_;  ///< diagonal of W; 1 where idle
+  std::vector<char> idle_;
+  int solves_ = 0;
+  bool singular_ = false;
+};
+
+}  // namespace mortier

@@ -1,0 +1,88 @@
+"""Friction as a user meets it: columns, quantities, and what it is not yet for."""
+import csv
+import json
+import re
+import unittest
+
+from scenes import FRICTION_KEYS, TWO_BLOCKS
+from support import OfTwoBlocks
+
+
+class FrictionScene(OfTwoBlocks):
+    def run_it(self, *settings):
+        arguments = [word for setting in settings for word in ("--set", setting)]
+        self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--set", "output.every=1", *arguments)
+        rows = list(csv.DictReader(self.read("out/contact.csv").splitlines()))
+        return rows, json.loads(self.read("out/summary.json"))
+
+    def test_nodes_stick_or_slip_within_their_bounds(self):
+        self.write(FRICTION_KEYS)
+        rows, summary = self.run_it()
+        states = set()
+        for row in rows:
+            if row["step"] == "0":
+                continue
+            p, t, slipping = float(row["force"]), float(row["friction"]), int(row["slipping"])
+            if row["interface"] == "0":
+                self.assertLessEqual(abs(t), 0.3 * p * (1 + 1e-15))
+                if slipping:
+                    self.assertEqual(abs(t), 0.3 * p)
+            else:
+                self.assertLessEqual(abs(float(row["shear"])), 0.5 * (1 + 1e-14))
+            if p > 0:
+                states.add((row["interface"], slipping))
+        self.assertTrue({("0", 0), ("0", 1), ("0", -1)} <= states, states)
+        self.assertGreater(summary["final"]["friction_work"], 0)
+        self.assertLess(summary["verification"]["friction"], 1e-12)
+
+    def test_no_friction_is_no_friction(self):
+        elastic = TWO_BLOCKS.replace(', viscosity = 10, yield_stress = 1, projection = "elasticity"', "")
+        self.write(elastic)
+        plain, summary = self.run_it()
+        self.assertNotIn("friction", plain[0])
+        self.assertNotIn("friction_work", summary["final"])
+        contact, history = self.read("out/contact.csv"), self.read("out/history.csv")
+        self.write(elastic.replace("[contact]\n", "[contact]\nfriction = 0\nshear_limit = 0\n"))
+        self.run_it()
+        self.assertEqual(self.read("out/contact.csv"), contact)
+        self.assertEqual(self.read("out/history.csv"), history)
+
+    def test_what_it_is_not_yet_for_is_refused(self):
+        self.write(FRICTION_KEYS)
+        line = 1 + FRICTION_KEYS[:FRICTION_KEYS.index("friction = 0.3")].count("\n")
+        here = f"scene.toml:{line}: contact: friction = 0.3, expected none: friction is not yet for "
+        for setting, what in {
+                "degree=2": "degree = 2",
+                "solver.method=penalty-duality": "solver.method = penalty-duality",
+                "time.scheme=sdirk2": "time.scheme other than backward-euler",
+                "time.tolerance=1e-3": "steps chosen by their error (time.tolerance)",
+                "accuracy.energy=0.1": "[accuracy]",
+                "accuracy.bound=true": "[accuracy]",
+                "body.lower.material={young=1, poisson=0.3, viscosity=1, yield_stress=1}":
+                    "viscoplastic bodies: lower",
+                "body.upper.initial_stress.s22=-1": "initial_stress: body upper"}.items():
+            with self.subTest(setting):
+                self.reject(here + what, "run", "scene.toml", "--quiet", "--out", "out", "--set", setting)
+        for scene, what in {
+                FRICTION_KEYS.replace("label = 3, ux = 0, uy = \"-0.03*min(t, 1)\"", "label = 3, ty = -1"):
+                    r"body plate: friction is not yet for bodies that contact alone holds, expected supports",
+                FRICTION_KEYS.replace('"rectangle", lower = [0, 1], upper = [1, 2], cells = [3, 3]',
+                                      '"halfdisc", lowest = [0.5, 1], radius = 1, cells = 2')
+                             .replace("label = 3, ux = 0, uy", "label = 2, ux = 0, uy"):
+                    r"contact: friction is not yet for contact lines that are curved or have corners",
+                FRICTION_KEYS.replace("friction = 0.3", "friction = 0.3\nshear_limit = 1"):
+                    r"contact: shear_limit = 1, expected friction or shear_limit",
+                FRICTION_KEYS.replace("friction = 0.3", "friction = -0.3"):
+                    r"contact: friction = -0.3, expected friction >= 0"}.items():
+            with self.subTest(what):
+                self.assertNotEqual(scene, FRICTION_KEYS)
+                self.write(scene)
+                errors = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=2).stderr
+                self.assertTrue(re.match(r"mortier: scene.toml:\d+: " + what, errors), errors)
+        self.write(FRICTION_KEYS)
+        errors = self.mortier("freefem", "scene.toml", "script.edp", code=2).stderr
+        self.assertIn("friction", errors)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,251 @@
+// Friction along straight lines: uniform sliding, the stick zone of Cattaneo and Mindlin, and energy.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "material/elasticity.h"
+#include "theory/scenes.h"
+#include "time/quantity.h"
+
+namespace mortier {
+namespace {
+
+using namespace scenes;
+
+constexpr double mu = 0.3;
+
+Model roughModel(Body upper, Body lower, CouplingKind coupling, int nonmortarBody, const Friction& friction,
+                 const std::function<double(const Point&)>& gap = {}) {
+  Model model;
+  model.bodies.push_back(std::move(upper));
+  model.bodies.push_back(std::move(lower));
+  const ContactSide upperSide{upperBody, bottom};
+  const ContactSide lowerSide{lowerBody, top};
+  const bool first = nonmortarBody == upperBody;
+  InterfaceOptions options;
+  options.friction = friction;
+  options.gap = gap;
+  addInterface(model, {first ? upperSide : lowerSide, first ? lowerSide : upperSide, coupling}, options);
+  return model;
+}
+
+/// Blocks of different meshes and stiffnesses (nu = 0) under the pressure p and the shear stress s: the plate
+/// on the top moves by what the strain makes of both, and by `slip`.
+Model uniformBlocks(CouplingKind coupling, int nonmortarBody, const Friction& friction, double p, double s,
+                    double slip, double unit = 1) {
+  const double soft = 100 * unit;
+  const double hard = 300 * unit;
+  const double down = -p * (1 / soft + 1 / hard);
+  const double along = 2 * s * (1 / soft + 1 / hard) + slip;
+  const auto at = [](double value) {
+    return Function([value](double, double, double t) { return value * t; });
+  };
+  const auto sides = [&](double sign) { return Traction{sign > 0 ? right : left, 1, at(sign * s)}; };
+  Body upper("upper", square(0, 5), elasticMaterial({soft, 0}),
+             {{{top, 0, at(along)}, {top, 1, at(down)}}, {sides(1), sides(-1)}, {}});
+  Body lower("lower", square(-1, 7), elasticMaterial({hard, 0}),
+             {{{bottom, 0, constant(0)}, {bottom, 1, constant(0)}}, {sides(1), sides(-1)}, {}});
+  return roughModel(std::move(upper), std::move(lower), coupling, nonmortarBody, friction);
+}
+
+/// Nodal values of the shear stress: positive where the upper body drags the lower one to the right, whichever
+/// is nonmortar.
+Vector shear(const Model& model, const State& state) {
+  return model.interfaces[0].contactPressure(state.frictionForce[0]);
+}
+
+// What slides does so under t = mu p everywhere, or under the shear stress that surfaces bear, on any meshes.
+TEST(Sliding, isUniform) {
+  constexpr double p = 2;
+  for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::weighted})
+    for (const int nonmortar : {upperBody, lowerBody})
+      for (const Friction& friction : {Friction{mu, 0}, Friction{0, mu * p}})
+        for (const double direction : {1.0, -1.0})
+          for (const int steps : {1, 3}) {
+            const double slip = direction * 0.05;
+            const Model model = uniformBlocks(coupling, nonmortar, friction, p, direction * mu * p, slip);
+            // Tresca's bound is there from the beginning: one step alone is uniform.
+            if (friction.limit > 0 && steps > 1) continue;
+            const Result result = run(model, 1, steps);
+            ASSERT_EQ(result.report.status, Status::converged) << result.report.reason;
+            EXPECT_LE((shear(model, result.state).array() - direction * mu * p).abs().maxCoeff(), 1e-12 * p);
+            EXPECT_LE((model.interfaces[0].contactPressure(result.state.contactForce[0]).array() - p)
+                          .abs()
+                          .maxCoeff(),
+                      1e-11 * p);
+            const Vector moved = model.interfaces[0].slip(
+                result.state.bodies[model.interfaces[0].pair().nonmortar.body].displacement,
+                result.state.bodies[model.interfaces[0].pair().mortar.body].displacement);
+            EXPECT_LE((moved.array() - slip).abs().maxCoeff(), 1e-12);
+            for (const signed char sign : result.state.slipping[0]) EXPECT_EQ(sign, direction > 0 ? 1 : -1);
+            EXPECT_LE(result.report.worst.friction, 1e-12);
+            EXPECT_NEAR(result.state.frictionWork,
+                        mu * p * std::abs(slip) * (steps == 1 ? 1 : (1.0 + 2 + 3) / 9), 1e-12);
+          }
+}
+
+// Below mu p nothing slips, and the stress is that of one body.
+TEST(Sliding, stickingBlocksAreOneBody) {
+  for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::weighted}) {
+    const Model model = uniformBlocks(coupling, upperBody, {mu, 0}, 2, 0.9 * mu * 2, 0);
+    const Result result = run(model, 1, 2);
+    ASSERT_EQ(result.report.status, Status::converged) << result.report.reason;
+    EXPECT_LE((shear(model, result.state).array() - 0.9 * mu * 2).abs().maxCoeff(), 1e-11);
+    for (const signed char sign : result.state.slipping[0]) EXPECT_EQ(sign, 0);
+    EXPECT_EQ(result.state.frictionWork, 0);
+  }
+}
+
+TEST(Sliding, unitsDoNotMatter) {
+  const double unit = std::ldexp(1.0, 30);
+  const Model one = uniformBlocks(CouplingKind::mortar, upperBody, {mu, 0}, 2, 0.5, 0.02);
+  const Model other =
+      uniformBlocks(CouplingKind::mortar, upperBody, {mu, 0}, 2 * unit, 0.5 * unit, 0.02, unit);
+  const Result a = run(one, 1, 4);
+  const Result b = run(other, 1, 4);
+  ASSERT_EQ(a.report.status, Status::converged) << a.report.reason;
+  EXPECT_EQ(a.report.iterations, b.report.iterations);
+  EXPECT_EQ(unit * a.state.frictionForce[0], b.state.frictionForce[0]);
+  EXPECT_EQ(a.state.slipping[0], b.state.slipping[0]);
+}
+
+/// Pressed, sheared to the right, pulled back beyond where it began, lifted off, all in [0, 4].
+double down(double t) {
+  return -0.05 * (t <= 1 ? t : t <= 3 ? 1 : 1 - 1.5 * (t - 3));
+}
+double along(double t) {
+  return 0.05 * (t <= 1 ? 0 : t <= 2 ? t - 1 : t <= 3 ? 1 - 2 * (t - 2) : -1);
+}
+
+Model shearedBlocks(CouplingKind coupling, int nonmortarBody, const Friction& friction) {
+  Body upper("upper", square(0, 5), elasticMaterial({100, 0.3}),
+             {{{top, 0, [](double, double, double t) { return along(t); }},
+               {top, 1, [](double, double, double t) { return down(t); }}},
+              {},
+              {}});
+  Body lower("lower", crissCrossMesh({.lower = {-0.3, -1}, .upper = {1.3, 0}, .cellsX = 9, .cellsY = 5}),
+             elasticMaterial({40, 0.2}), {{{bottom, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}});
+  return roughModel(std::move(upper), std::move(lower), coupling, nonmortarBody, friction);
+}
+
+/// Elastic energy of stresses.
+double energyOf(const Model& model, const std::vector<Matrix>& stress) {
+  double sum = 0;
+  for (size_t b = 0; b < stress.size(); ++b) {
+    Matrix strain;
+    model.bodies[b].material().elasticStrain(stress[b], strain);
+    for (int i = 0; i < model.bodies[b].points(); ++i)
+      sum += model.bodies[b].weights()[i] / 2 * stress[b].col(i).dot(strain.col(i));
+  }
+  return sum;
+}
+
+// In every step the plate's work is the change of the elastic energy, that of the step itself (backward
+// Euler), friction's and that of gaps that close; each of these but the first is not negative.
+TEST(Sliding, energyIsKept) {
+  for (const CouplingKind coupling :
+       {CouplingKind::mortar, CouplingKind::interpolation, CouplingKind::weighted})
+    for (const int nonmortar : {upperBody, lowerBody}) {
+      const Model model = shearedBlocks(coupling, nonmortar, {mu, 0});
+      std::vector<Quantity> reactions(2);
+      for (int c = 0; c < 2; ++c) {
+        reactions[c].kind = Quantity::Kind::reaction;
+        reactions[c].body = upperBody;
+        reactions[c].label = top;
+        reactions[c].component = c == 0 ? Quantity::Component::x : Quantity::Component::y;
+      }
+      State before = initialState(model);
+      double worst = 0;
+      double largest = 0;
+      int stuck = 0;
+      int slipped = 0;
+      State state = before;
+      const RunReport report =
+          march(model, state, {.end = 4, .steps = 40}, {}, [&](const State& now, const StepReport& step) {
+            if (step.step == 0) return;
+            const std::vector<double> force = evaluate(reactions, model, now);
+            const double work = force[0] * (along(now.time) - along(before.time)) +
+                                force[1] * (down(now.time) - down(before.time));
+            std::vector<Matrix> was;
+            std::vector<Matrix> is;
+            std::vector<Matrix> change;
+            for (size_t b = 0; b < now.bodies.size(); ++b) {
+              was.push_back(before.bodies[b].stress);
+              is.push_back(now.bodies[b].stress);
+              change.push_back(is[b] - was[b]);
+            }
+            const double friction = now.frictionWork - before.frictionWork;
+            const double closing = -now.contactForce[0].dot(before.gap[0]);
+            EXPECT_GE(friction, 0);
+            EXPECT_GE(closing, -1e-15);
+            largest = std::max(largest, energyOf(model, is));
+            worst = std::max(worst, std::abs(work - energyOf(model, is) + energyOf(model, was) -
+                                             energyOf(model, change) - friction - closing));
+            for (size_t i = 0; i < now.slipping[0].size(); ++i)
+              if (now.contactForce[0][static_cast<Eigen::Index>(i)] > 0)
+                (now.slipping[0][i] == 0 ? stuck : slipped) += 1;
+            before = now;
+          });
+      ASSERT_EQ(report.status, Status::converged) << report.reason;
+      EXPECT_LE(worst, 1e-11 * largest) << nameOf(coupling);
+      EXPECT_LE(report.worst.friction, 1e-12);
+      EXPECT_GT(state.frictionWork, 0.01 * largest);
+      EXPECT_GT(stuck, 20);
+      EXPECT_GT(slipped, 20);
+      EXPECT_EQ(state.contactForce[0].maxCoeff(), 0);
+      EXPECT_EQ(state.frictionForce[0].lpNorm<Eigen::Infinity>(), 0);
+      EXPECT_LE(energyOf(model, {state.bodies[0].stress, state.bodies[1].stress}), 1e-20 * largest);
+    }
+}
+
+// Similar half planes pressed together by a parabola, then pushed along by Q = 0.3 to 0.9 mu P: what is left of
+// the zone that sticks is sqrt(1 - Q/(mu P)) of that in contact (Cattaneo 1938, Mindlin 1949).
+TEST(Sliding, stickZoneIsThatOfCattaneoAndMindlin) {
+  const auto mesh = [](bool upper) {
+    return rectangleMesh({.lower = {-10, upper ? 0.0 : -10.0},
+                          .upper = {10, upper ? 10.0 : 0.0},
+                          .cellsX = 120,
+                          .cellsY = 24,
+                          .focus = Point(0, 0),
+                          .grading = {40, 20}},
+                         Cut::both);
+  };
+  for (const double slide : {0.008, 0.018}) {
+    const auto path = [slide](double, double, double t) { return t <= 1 ? 0 : slide * (t - 1); };
+    const auto press = [](double, double, double t) { return -0.05 * std::min(t, 1.0); };
+    Body upper("upper", mesh(true), elasticMaterial({100, 0.3}), {{{top, 0, path}, {top, 1, press}}, {}, {}});
+    Body lower("lower", mesh(false), elasticMaterial({100, 0.3}),
+               {{{bottom, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}});
+    const Model model = roughModel(std::move(upper), std::move(lower), CouplingKind::mortar, upperBody,
+                                   {mu, 0}, [](const Point& x) { return x.x() * x.x() / 60; });
+    const Result result = run(model, 2, 2);
+    ASSERT_EQ(result.report.status, Status::converged) << result.report.reason;
+    const Vector& p = result.state.contactForce[0];
+    const Vector& t = result.state.frictionForce[0];
+    double contact = 0;
+    double stick = 0;
+    double element = 0;
+    const std::vector<int>& nodes = model.interfaces[0].nonmortarNodes();
+    double last = 0;
+    for (size_t i = 0; i < nodes.size(); ++i) {
+      const double x = model.bodies[0].mesh().vertices[nodes[i]].x();
+      if (p[static_cast<Eigen::Index>(i)] > 0) contact = x;
+      if (p[static_cast<Eigen::Index>(i)] > 0 && result.state.slipping[0][i] == 0) {
+        stick = x;
+        element = x - last;
+      }
+      last = x;
+    }
+    const double exact = std::sqrt(1 - t.sum() / (mu * p.sum()));
+    contact += element / 2;  // both end somewhere in the element that follows
+    stick += element / 2;
+    std::cout << "Q/(mu P) " << t.sum() / (mu * p.sum()) << ": c/a " << stick / contact << ", exact " << exact
+              << ", an element " << element / contact << " of a\n";
+    EXPECT_NEAR(stick / contact, exact, element / contact);
+    EXPECT_GT(t.sum(), 0.2 * mu * p.sum());
+    EXPECT_LT(t.sum(), 0.95 * mu * p.sum());
+  }
+}
+
+}  // namespace
+}  // namespace mortier

@@ -1,0 +1,325 @@
+#include "solver/friction.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "solver/friction_path.h"
+#include "unit/enumerated_friction.h"
+#include "unit/load_patterns.h"
+
+namespace mortier {
+namespace {
+
+FrictionSets open(int n) {
+  return {std::vector<char>(n, 0), std::vector<signed char>(n, 1)};
+}
+
+/// Cone, slip direction and gap of every node, over the largest force and motion.
+double worstFault(const FrictionCase& c, const FrictionSolution& solution) {
+  const Eigen::Index n = c.problem().normals();
+  const Vector w = c.q + c.W * solution.force;
+  const double force = std::max(solution.force.lpNorm<Eigen::Infinity>(), 1e-300);
+  const double motion = c.q.lpNorm<Eigen::Infinity>() +
+                        c.W.lpNorm<Eigen::Infinity>() * solution.force.lpNorm<Eigen::Infinity>();
+  double worst = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double p = solution.force[i];
+    const double t = solution.force[n + i];
+    const double bound = c.rows.law.coefficient[i] * p + c.rows.law.limit[i];
+    worst = std::max({worst, -p / force, -w[i] / motion, p / force * std::abs(w[i]) / motion,
+                      (std::abs(t) - bound) / force,
+                      std::abs(t * w[n + i] + bound * std::abs(w[n + i])) / force / motion});
+  }
+  return worst;
+}
+
+/// Problems of each kind that the tests try, MORTIER_RANDOM_FRICTION others where that is set.
+int problems(int usual) {
+  const char* asked = std::getenv("MORTIER_RANDOM_FRICTION");
+  return asked != nullptr ? std::atoi(asked) : usual;
+}
+
+// Of two to five nodes, mu from 0 to 2: what the solver finds is one of all solutions, and the only one where
+// there is one. The path finds one from nothing.
+TEST(Friction, agreesWithEnumerationOfAllSets) {
+  const int count = problems(300);
+  for (const bool blocks : {false, true}) {
+    Randoms random(blocks ? 11 : 12);
+    int several = 0;
+    int paths = 0;
+    int longest = 0;
+    for (int trial = 0; trial < count; ++trial) {
+      const int n = 2 + trial % 4;
+      const double mu = 2.0 * random.below(1001) / 1000;
+      const FrictionCase c = blocks ? randomBlocks(random, n, mu) : randomFriction(random, n, mu);
+      const std::vector<EnumeratedFriction> exact = enumerateFriction(c);
+      ASSERT_FALSE(exact.empty());
+      int indices = 0;
+      for (const EnumeratedFriction& one : exact) indices += one.index;
+      EXPECT_EQ(indices, 1) << exact.size() << " solutions, trial " << trial;
+      several += exact.size() > 1 ? 1 : 0;
+      const auto isExact = [&](const Vector& force) {
+        return std::any_of(exact.begin(), exact.end(), [&](const EnumeratedFriction& one) {
+          return one.index > 0 && (one.force - force).lpNorm<Eigen::Infinity>() <=
+                                      1e-7 * (1 + one.force.lpNorm<Eigen::Infinity>());
+        });
+      };
+      const FrictionSolution solution = solveFriction(c.problem(), c.q, open(n));
+      ASSERT_TRUE(solution.solved) << "trial " << trial;
+      EXPECT_TRUE(isExact(solution.force)) << "trial " << trial << ", mu " << mu;
+      EXPECT_LE(solution.residual, 1e-12);
+      paths += solution.events > 0 ? 1 : 0;
+
+      FrictionSystem system(c.problem(), c.q);
+      int events = 0;
+      const auto sets = followPath(system, open(n), events);
+      ASSERT_TRUE(sets.has_value()) << "trial " << trial << ", mu " << mu;
+      const auto onPath = system.newton(c.rows.law, *sets);
+      ASSERT_TRUE(onPath.has_value());
+      EXPECT_TRUE(isExact(onPath->force)) << "trial " << trial << ", mu " << mu;
+      EXPECT_EQ(onPath->index, 1);
+      longest = std::max(longest, events);
+
+      const auto pivoted = lemke(c);
+      ASSERT_TRUE(pivoted.has_value()) << "trial " << trial << ", mu " << mu;
+      EXPECT_TRUE(isExact(*pivoted)) << "trial " << trial << ", mu " << mu;
+    }
+    std::cout << (blocks ? "blocks" : "any matrix") << ": " << several << " of " << count
+              << " with several solutions, path taken in " << paths << ", longest " << longest << " events\n";
+  }
+}
+
+/// Half a plane: the compliance log|x - y| against p and against t, coupled by beta as Dundurs has it.
+FrictionCase halfPlane(int n, double mu, double beta, double push, double pull) {
+  Matrix W = Matrix::Zero(2 * n, 2 * n);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      double mean = 0;  // of -log over an element
+      for (const int end : {-1, 1}) {
+        const double x = i - j + 0.5 * end;
+        mean -= end * x * (std::log(std::abs(x)) - 1);
+      }
+      W(i, j) = W(n + i, n + j) = mean + std::log(4.0 * n);
+      const double side = i == j ? 0 : (i > j ? 1 : -1);
+      W(i, n + j) = beta * M_PI / 2 * side;
+      W(n + j, i) = beta * M_PI / 2 * side;
+    }
+  Vector q(2 * n);
+  for (int i = 0; i < n; ++i) {
+    const double x = (2.0 * i - n + 1) / n;
+    q[i] = n * (4 * x * x - push);
+    q[n + i] = n * pull;
+  }
+  return frictionCase(W, mu, q);
+}
+
+// Steps of a history: pushed, pulled along, pulled back, let go. Each begins with the sets of the one before;
+// what slip there was is taken off q.
+TEST(Friction, historiesNeedFewSolves) {
+  constexpr int n = 60;
+  constexpr int steps = 20;
+  FrictionSets sets = open(n);
+  double slip = 0;
+  int solves = 0;
+  int closed = 0;
+  int stuck = 0;
+  int slipping = 0;
+  for (int step = 1; step <= 4 * steps; ++step) {
+    const int phase = (step - 1) / steps;
+    const double part = (step - phase * steps) / static_cast<double>(steps);
+    const double push = 9 * (phase == 0   ? part
+                             : phase == 3 ? 1 - 1.5 * part
+                                          : 1);  // pressed on 80 % of the line
+    const double pull = 2.5 * (phase == 1 ? part : phase == 2 ? 1 - 2 * part : phase == 3 ? -1 : 0);
+    FrictionCase c = halfPlane(n, 0.4, 0.3, push, pull);
+    const double change = pull - slip;
+    c.q.tail(n).setConstant(n * change);
+    slip = pull;
+    const FrictionSolution solution = solveFriction(c.problem(), c.q, sets);
+    ASSERT_TRUE(solution.solved) << "step " << step;
+    EXPECT_LE(solution.residual, 1e-12);
+    EXPECT_LE(worstFault(c, solution), 1e-12);
+    EXPECT_EQ(solution.events, 0);
+    sets = solution.sets;
+    solves += solution.solves;
+    for (const signed char slip_ : sets.slip) (slip_ == 0 ? stuck : slipping) += 1;
+    closed = std::max(closed, static_cast<int>(std::count(sets.closed.begin(), sets.closed.end(), 1)));
+  }
+  EXPECT_LE(solves, 6 * 4 * steps);
+  EXPECT_GT(closed, 0.6 * n);
+  EXPECT_GT(stuck, n);
+  EXPECT_GT(slipping, n);
+}
+
+// Similar half planes pressed by a parabola and pushed along by Q: t is mu times the difference of the pressures of
+// Hertz under P and under P - Q/mu (Cattaneo 1938, Mindlin 1949), its stick zone sqrt(1 - Q/(mu P)) of the width.
+TEST(Friction, isThatOfCattaneoAndMindlin) {
+  constexpr double mu = 0.4;
+  constexpr double half = 1.25;  // of the line, the contact being about 2 wide
+  for (const auto& [n, tolerance] : {std::pair(60, 5e-3), {240, 5e-4}}) {
+    const double h = 2 * half / n;
+    FrictionCase c = halfPlane(n, mu, 0, 0, 0);
+    const auto place = [&](int i) { return (i + 0.5) * h - half; };
+    // How far Hertz's pressure on [-r, r] moves the middle: forces on elements, the kernel of halfPlane.
+    const auto depth = [&](double r) {
+      return r * r / 2 * (std::log(4 * n * h) - std::log(r) + 0.5 + std::log(2.0));
+    };
+    for (int i = 0; i < n; ++i) {
+      c.q[i] = place(i) * place(i) / 2 - depth(1);
+      c.q[n + i] = -mu * (depth(1) - depth(std::sqrt(0.2)));
+    }
+    const FrictionSolution solution = solveFriction(c.problem(), c.q, open(n));
+    ASSERT_TRUE(solution.solved);
+    const double P = solution.force.head(n).sum();
+    const double Q = solution.force.tail(n).sum();
+    const double a = std::sqrt(2 * P);
+    const double middle = a * std::sqrt(1 - Q / (mu * P));
+    double stick = 0;
+    double wrong = 0;
+    for (int i = 0; i < n; ++i) {
+      // The integral of 2P/(pi a) sqrt(1 - x^2/a^2) over the element.
+      const auto hertz = [&](double radius) {
+        const auto upTo = [&](double x) {
+          const double s = std::clamp(x / radius, -1.0, 1.0);
+          return radius * radius / (2 * M_PI) * (s * std::sqrt(1 - s * s) + std::asin(s));
+        };
+        return upTo(place(i) + h / 2) - upTo(place(i) - h / 2);
+      };
+      wrong += std::abs(solution.force[n + i] - mu * (hertz(a) - hertz(middle)));
+      if (solution.sets.closed[i] != 0 && solution.sets.slip[i] == 0) stick = place(i) + h / 2;
+    }
+    std::cout << n << " elements: Q/(mu P) " << Q / (mu * P) << ", a " << a << ", stick " << stick / a
+              << " (exact " << middle / a << "), traction off by " << wrong / Q << '\n';
+    EXPECT_LE(std::abs(stick - middle), h);
+    EXPECT_LE(wrong, tolerance * Q);
+  }
+}
+
+// The path gives what Newton's method gives, in at most two events a node.
+TEST(Friction, pathsOfManyNodesAreShort) {
+  constexpr int n = 80;
+  for (const double mu : {0.0, 0.2, 0.8}) {
+    const FrictionCase c = halfPlane(n, mu, 0.3, 9, 1);
+    const FrictionSolution solution = solveFriction(c.problem(), c.q, open(n));
+    ASSERT_TRUE(solution.solved);
+    FrictionSystem system(c.problem(), c.q);
+    int events = 0;
+    const auto sets = followPath(system, open(n), events);
+    ASSERT_TRUE(sets.has_value()) << mu;
+    const auto onPath = system.newton(c.rows.law, *sets);
+    ASSERT_TRUE(onPath.has_value());
+    EXPECT_LE((onPath->force - solution.force).lpNorm<Eigen::Infinity>(),
+              1e-10 * solution.force.lpNorm<Eigen::Infinity>());
+    EXPECT_LE(events, 2 * n);
+    EXPECT_GT(events, 0);
+  }
+}
+
+// Small whole numbers and symmetry: two things happen at one place of the path.
+TEST(Friction, tiesAreNoTrouble) {
+  Randoms random(5);
+  for (int trial = 0; trial < problems(200); ++trial) {
+    const int n = 2 + trial % 4;
+    Matrix W = Matrix::Identity(2 * n, 2 * n) * 4;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        if (i != j) W(i, j) = W(n + i, n + j) = trial % 2;
+    Vector q(2 * n);
+    for (int i = 0; i < n; ++i) {
+      q[i] = random.below(4) - 3;
+      q[n + i] = random.below(5) - 2;
+    }
+    const FrictionCase c = frictionCase(W, 0.5 * random.below(4), q);
+    const FrictionSolution solution = solveFriction(c.problem(), c.q, open(n));
+    ASSERT_TRUE(solution.solved) << trial;
+    EXPECT_LE(worstFault(c, solution), 1e-12);
+  }
+}
+
+// Tresca's law is an inequality of its own: where mu is 0 and c is not, forces stay below c, pressed or not.
+TEST(Friction, fixedBoundsHold) {
+  Randoms random(6);
+  for (int trial = 0; trial < problems(200); ++trial) {
+    const int n = 2 + trial % 5;
+    FrictionCase c = randomFriction(random, n, 0);
+    c.rows.law.limit = random.vector(n).cwiseAbs();
+    if (trial % 3 == 0) c.rows.law.coefficient.setConstant(0.3);
+    const FrictionSolution solution = solveFriction(c.problem(), c.q, open(n));
+    ASSERT_TRUE(solution.solved) << trial;
+    EXPECT_LE(worstFault(c, solution), 1e-12) << trial;
+  }
+}
+
+// In other units the same sets come in the same number of solves.
+TEST(Friction, unitsDoNotMatter) {
+  Randoms random(7);
+  for (int trial = 0; trial < 50; ++trial) {
+    const FrictionCase c = randomBlocks(random, 5, 1);
+    FrictionCase other = c;
+    other.W *= std::ldexp(1.0, -40);
+    other.q *= std::ldexp(1.0, 12);
+    const FrictionSolution one = solveFriction(c.problem(), c.q, open(5));
+    const FrictionSolution two = solveFriction(other.problem(), other.q, open(5));
+    ASSERT_TRUE(one.solved && two.solved);
+    EXPECT_TRUE(one.sets == two.sets);
+    EXPECT_EQ(one.solves, two.solves);
+    EXPECT_EQ(std::ldexp(1.0, 52) * one.force, two.force);
+  }
+}
+
+// A wedge that holds or lets go: three solutions, of which the middle one has the index -1. Begun at its sets,
+// the solver does not end there.
+TEST(Friction, solutionsOfNegativeIndexAreLeft) {
+  Randoms random(8);
+  int met = 0;
+  for (int trial = 0; trial < 4000 && met < 3; ++trial) {
+    const FrictionCase c = randomFriction(random, 2, 2);
+    const std::vector<EnumeratedFriction> exact = enumerateFriction(c);
+    for (const EnumeratedFriction& one : exact) {
+      if (one.index > 0) continue;
+      FrictionSets sets = open(2);
+      for (int i = 0; i < 2; ++i) {
+        const double p = one.force[i];
+        const double t = one.force[2 + i];
+        if (!(p > 1e-9 * one.force.maxCoeff())) continue;
+        sets.closed[i] = 1;
+        sets.slip[i] = std::abs(std::abs(t) - 2 * p) < 1e-9 * p ? (t > 0 ? 1 : -1) : 0;
+      }
+      FrictionSystem system(c.problem(), c.q);
+      const auto there = system.newton(c.rows.law, sets);
+      ASSERT_TRUE(there.has_value());
+      EXPECT_EQ(there->index, -1);
+      const FrictionSolution solution = solveFriction(c.problem(), c.q, sets);
+      ASSERT_TRUE(solution.solved);
+      EXPECT_EQ(solution.index, 1);
+      ++met;
+    }
+  }
+  EXPECT_EQ(met, 3);
+}
+
+// Nothing moves a condition: across the line it carries no force, whatever its gap; along the line the bound, if its
+// supports slip.
+TEST(Friction, idleConditionsFollowTheirSupports) {
+  Matrix W = Matrix::Identity(4, 4);
+  W(1, 1) = W(2, 2) = 0;
+  const FrictionCase c = frictionCase(W, 0.5, Vector{{-1, -1, 2, 3}});
+  const FrictionSolution solution = solveFriction(c.problem(), c.q, {{1, 1}, {0, 0}});
+  ASSERT_TRUE(solution.solved);
+  EXPECT_EQ(solution.force, (Vector{{1, 0, -0.5, 0}}));
+}
+
+// Conditions that come twice: one of each suffices, if the path finds it; otherwise they are told.
+TEST(Friction, dependentConditionsAreSolvedOrTold) {
+  const Matrix B{{1, 0}, {1, 0}, {0, 1}, {0, 1}};
+  const FrictionCase c = frictionCase(B * B.transpose(), 0.5, Vector{{-1, -1, 0.1, 0.1}});
+  const FrictionSolution solution = solveFriction(c.problem(), c.q, {{1, 1}, {0, 0}});
+  EXPECT_NE(solution.solved, solution.singular);
+  if (solution.solved) EXPECT_LE(worstFault(c, solution), 1e-12);
+}
+
+}  // namespace
+}  // namespace mortier
