@@ -116,8 +116,8 @@ class Run:
 
     def __repr__(self) -> str:
         steps = self.summary["steps"]
-        return f"<mortier.Run {self.summary['status']}, "
-                f"{steps} step{'' if steps == 1 else 's'}, t = {self.time:.6g}>"
+        return (f"<mortier.Run {self.summary['status']}, "
+                f"{steps} step{'' if steps == 1 else 's'}, t = {self.time:.6g}>")
 
 
 def bare(name: str) -> str:
