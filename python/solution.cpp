@@ -185,7 +185,7 @@ Solution solveScene(const Scene& scene, const RunOptions& options,
   solution.summary = output ? readSceneText(solution.folder + "/summary.json")
                             : summaryText("summary", attempt->facts, *attempt->model, solved.state,
                                           solved.last, solved.report, solved.accuracy);
-  solution.ending = endingOf(*attempt, shortfall, output ? solution.folder : "memory");
+  solution.ending = endingOf(*attempt, shortfall, solution.folder);
   Record& record = records.at(attempt.get());
   solution.history = columnsOf(*attempt, record);
   for (Step& kept : record.kept) {

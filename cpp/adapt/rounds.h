@@ -63,7 +63,7 @@ class Rounds {
   double aim_ = 0;            ///< error that the meshes are to have in it
   double meshError_ = 0;      ///< as estimated in the last round, relative
   double trusted_ = 0;        ///< with what that does not see
-  double least_;  ///< part of what is asked for that the estimate has to be below
+  double least_;              ///< part of what is asked for that the estimate has to be below
   int done_ = 0;
   int shortfalls_ = 0;
   std::string reason_;

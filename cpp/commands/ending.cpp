@@ -64,16 +64,17 @@ std::string putInPlace(const Attempt& attempt, OutputFolder& folder) {
   return folder.commit(manifest);
 }
 
-Ending endingOf(const Attempt& attempt, const std::string& shortfall, const std::string& where) {
+Ending endingOf(const Attempt& attempt, const std::string& shortfall, const std::string& folder) {
   const SceneDescription& scene = attempt.scene();
   const RunReport& report = attempt.solved.report;
   if (report.status != Status::converged)
     return {report.status == Status::unheld ? exitUnheld : exitFailed,
             scene.path + ": " + report.reason + whereToLook(attempt) + "; the state after step " +
-                std::to_string(attempt.solved.last.step) + " is in " + where};
+                std::to_string(attempt.solved.last.step) + " is in " +
+                (folder.empty() ? "memory" : folder + ", which mortier plot draws")};
   if (shortfall.empty()) return {};
-  return {exitFailed, scene.path + ": accuracy " + shortest(scene.accuracy.energy) +
-                          " not reached: " + shortfall + "; the best result is in " + where};
+  return {exitFailed, scene.path + ": accuracy " + shortest(scene.accuracy.energy) + " not reached: " +
+                          shortfall + "; the best result is in " + (folder.empty() ? "memory" : folder)};
 }
 
 }  // namespace mortier

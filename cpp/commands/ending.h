@@ -24,7 +24,7 @@ struct Ending {
   ExitCode code = exitDone;
   std::string reason;  ///< one line where it is not done
 };
-/// \param where  the result is
-Ending endingOf(const Attempt& attempt, const std::string& shortfall, const std::string& where);
+/// \param folder  of the result; empty where it is in memory only
+Ending endingOf(const Attempt& attempt, const std::string& shortfall, const std::string& folder);
 
 }  // namespace mortier

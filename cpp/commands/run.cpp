@@ -139,9 +139,7 @@ int run(RunCommand command) {
 
   // 5. How well it holds.
   tell(log, attempt->facts, *attempt->model, attempt->solved, where);
-  const bool stoppedEarly = attempt->solved.report.status != Status::converged;
-  const Ending ending =
-      endingOf(*attempt, shortfall, where + (stoppedEarly ? ", which mortier plot draws" : ""));
+  const Ending ending = endingOf(*attempt, shortfall, where);
   if (ending.code != exitDone) complain(ending.reason);
   return ending.code;
 }

@@ -44,8 +44,8 @@ enum class InitialGap {
   reject     ///< an error, unless they do
 };
 
-/// The bound of the nodal forces t along the line: coefficient p + limit times the length of line (the mass of
-/// the row functions) that the node stands for. Without friction both are 0.
+/// The bound of the nodal forces t along the line: coefficient p + limit times the length of line (the mass
+/// of the row functions) that the node stands for. Without friction both are 0.
 struct Friction {
   double coefficient = 0;  ///< mu, Coulomb's law [-]
   double limit = 0;        ///< Tresca's law: the shear stress at which surfaces slip, pressed or not [Pa]
@@ -94,8 +94,8 @@ class ContactInterface {
   [[nodiscard]] const ConstraintRows& C2() const { return C2_; }             ///< on the mortar body
   [[nodiscard]] const Vector& initialDistance() const { return distance_; }  ///< g0 [m]
   [[nodiscard]] const Friction& friction() const { return friction_; }
-  /// Whether there is friction. Then every row of C has one beside it for the slip T u, with the same weights,
-  /// along n turned by +90 degrees: the direction of the nonmortar line, with its body to the left.
+  /// Whether there is friction. Then every row of C has one beside it for the slip T u, with the same
+  /// weights, along n turned by +90 degrees: the direction of the nonmortar line, with its body to the left.
   [[nodiscard]] bool rough() const { return friction_.any(); }
   [[nodiscard]] const ConstraintRows& T1() const {
     return T1_;

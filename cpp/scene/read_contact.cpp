@@ -69,13 +69,13 @@ Friction readFriction(const TableReader& table, const SceneDescription& scene) {
   refuse(scene.accuracy.energy > 0 || scene.accuracy.bound, "[accuracy]");
   for (const BodyDescription& body : scene.bodies) {
     const auto given = [](const std::optional<Expression>& stress) { return stress.has_value(); };
-    bool flows = body.material.viscoplasticity.has_value();
+    bool flows = body.material.flows();
     bool stressed = std::any_of(body.initialStress.begin(), body.initialStress.end(), given);
     for (const RegionDescription& region : body.regions) {
-      flows = flows || (region.material && region.material->viscoplasticity);
+      flows = flows || (region.material && region.material->flows());
       stressed = stressed || std::any_of(region.initialStress.begin(), region.initialStress.end(), given);
     }
-    refuse(flows, "viscoplastic bodies: " + body.name);
+    refuse(flows, "bodies that flow: " + body.name);
     refuse(stressed, "initial_stress: body " + body.name);
   }
   return friction;

@@ -6,9 +6,10 @@
 // c = 0 is Coulomb's law, mu = 0 is Tresca's.
 //
 // Every solution is one of a set: conditions are open or closed, nodes stick (v = 0), or slip forwards or
-// backwards (t = b, t = -b): t is what the body that slips exerts on the other, which moves it along. On a set p of the closed and t of the sticking nodes solve one dense unsymmetric
-// system A. Sets are found by Newton's method on them, and where that goes round, by a path that ends
-// (friction_path.h): for every positive definite W there is a solution, whatever mu (docs/theory.md).
+// backwards (t = b, t = -b): t is what the body that slips exerts on the other, which moves it along. On a
+// set p of the closed and t of the sticking nodes solve one dense unsymmetric system A. Sets are found by
+// Newton's method on them, and where that goes round, by a path that ends (friction_path.h): for every
+// positive definite W there is a solution, whatever mu (docs/theory.md).
 #pragma once
 
 #include <vector>

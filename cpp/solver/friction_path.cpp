@@ -10,7 +10,8 @@
 namespace mortier {
 namespace {
 
-/// All forces at once: the equations are rows of W where a condition acts, else those of a force that is given,
+/// All forces at once: the equations are rows of W where a condition acts, else those of a force that is
+/// given,
 ///   closed: (W x)_i = -q_i,   open: p_i = 0,   stuck: (W x)_k = -q_k,   slipping: t_k -+ mu p = +-c.
 /// The inverse is kept, and changed by rank one with every equation.
 class Path {

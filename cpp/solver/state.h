@@ -51,7 +51,8 @@ struct Certificate {
   double openPenetration = 0;  ///< largest g of a node that is not active, over the same
   double sign = 0;             ///< largest negative contact force over the largest nodal force
   double complementarity = 0;  ///< max |p g| over (largest contact force times that length)
-  /// Slip of nodes that stick, or against t, over the length of gapOnActive; t beyond its bound over that force.
+  /// Slip of nodes that stick, or against t, over the length of gapOnActive; t beyond its bound over that
+  /// force.
   double friction = 0;
   /// What the rounding of meshes and displacements makes of stresses, over the same as materialResidual:
   /// epsilon |H^-1| |u|/h. No residual shows it.

@@ -82,7 +82,7 @@ class Tutorial(InFolder):
         self.assertAlmostEqual(float(found), float(shown), delta=1e-3 * abs(float(shown)))
         # Force against displacement, and the pressure along the line.
         with (self.folder / "out/press/history.csv").open() as text:
-            forces = [float(row["force[N/m]"]) for row in csv.DictReader(text)]
+            forces = [float(row["force[N/mm]"]) for row in csv.DictReader(text)]
         self.assertEqual(len(forces), 5)
         self.assertEqual(forces, sorted(forces, reverse=True))
         with (self.folder / "out/press/contact.csv").open() as text:

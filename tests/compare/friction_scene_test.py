@@ -59,7 +59,7 @@ class FrictionScene(OfTwoBlocks):
                 "accuracy.energy=0.1": "[accuracy]",
                 "accuracy.bound=true": "[accuracy]",
                 "body.lower.material={young=1, poisson=0.3, viscosity=1, yield_stress=1}":
-                    "viscoplastic bodies: lower",
+                    "bodies that flow: lower",
                 "body.upper.initial_stress.s22=-1": "initial_stress: body upper"}.items():
             with self.subTest(setting):
                 self.reject(here + what, "run", "scene.toml", "--quiet", "--out", "out", "--set", setting)

@@ -175,7 +175,7 @@ FRICTION_KEYS = """\
 name = "upper"
 mesh = "upper.mesh"
 material = { young = 100, poisson = 0.3 }
-boundary = [ { label = 4, ux = { time = [0, 1, 2, 4], value = [0, 0, 0.03, -0.03] }, uy = "-0.02*min(t, 1)" } ]
+boundary = [ { label = 4, uy = "-0.02*min(t, 1)", ux = {time = [0, 1, 2, 4], value = [0, 0, 0.03, -0.03]} } ]
 [[body]]
 name = "lower"
 mesh = "lower.mesh"

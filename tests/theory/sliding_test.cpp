@@ -48,8 +48,8 @@ Model uniformBlocks(CouplingKind coupling, int nonmortarBody, const Friction& fr
   return roughModel(std::move(upper), std::move(lower), coupling, nonmortarBody, friction);
 }
 
-/// Nodal values of the shear stress: positive where the upper body drags the lower one to the right, whichever
-/// is nonmortar.
+/// Nodal values of the shear stress: positive where the upper body drags the lower one to the right,
+/// whichever is nonmortar.
 Vector shear(const Model& model, const State& state) {
   return model.interfaces[0].contactPressure(state.frictionForce[0]);
 }
@@ -198,8 +198,8 @@ TEST(Sliding, energyIsKept) {
     }
 }
 
-// Similar half planes pressed together by a parabola, then pushed along by Q = 0.3 to 0.9 mu P: what is left of
-// the zone that sticks is sqrt(1 - Q/(mu P)) of that in contact (Cattaneo 1938, Mindlin 1949).
+// Similar half planes pressed together by a parabola, then pushed along by Q = 0.3 to 0.9 mu P: what is left
+// of the zone that sticks is sqrt(1 - Q/(mu P)) of that in contact (Cattaneo 1938, Mindlin 1949).
 TEST(Sliding, stickZoneIsThatOfCattaneoAndMindlin) {
   const auto mesh = [](bool upper) {
     return rectangleMesh({.lower = {-10, upper ? 0.0 : -10.0},

@@ -154,8 +154,9 @@ TEST(Friction, historiesNeedFewSolves) {
   EXPECT_GT(slipping, n);
 }
 
-// Similar half planes pressed by a parabola and pushed along by Q: t is mu times the difference of the pressures of
-// Hertz under P and under P - Q/mu (Cattaneo 1938, Mindlin 1949), its stick zone sqrt(1 - Q/(mu P)) of the width.
+// Similar half planes pressed by a parabola and pushed along by Q: t is mu times the difference of the
+// pressures of Hertz under P and under P - Q/mu (Cattaneo 1938, Mindlin 1949), its stick zone sqrt(1 - Q/(mu
+// P)) of the width.
 TEST(Friction, isThatOfCattaneoAndMindlin) {
   constexpr double mu = 0.4;
   constexpr double half = 1.25;  // of the line, the contact being about 2 wide
@@ -270,8 +271,8 @@ TEST(Friction, unitsDoNotMatter) {
   }
 }
 
-// A wedge that holds or lets go: three solutions, of which the middle one has the index -1. Begun at its sets,
-// the solver does not end there.
+// A wedge that holds or lets go: three solutions, of which the middle one has the index -1. Begun at its
+// sets, the solver does not end there.
 TEST(Friction, solutionsOfNegativeIndexAreLeft) {
   Randoms random(8);
   int met = 0;
@@ -301,8 +302,8 @@ TEST(Friction, solutionsOfNegativeIndexAreLeft) {
   EXPECT_EQ(met, 3);
 }
 
-// Nothing moves a condition: across the line it carries no force, whatever its gap; along the line the bound, if its
-// supports slip.
+// Nothing moves a condition: across the line it carries no force, whatever its gap; along the line the bound,
+// if its supports slip.
 TEST(Friction, idleConditionsFollowTheirSupports) {
   Matrix W = Matrix::Identity(4, 4);
   W(1, 1) = W(2, 2) = 0;
@@ -318,7 +319,9 @@ TEST(Friction, dependentConditionsAreSolvedOrTold) {
   const FrictionCase c = frictionCase(B * B.transpose(), 0.5, Vector{{-1, -1, 0.1, 0.1}});
   const FrictionSolution solution = solveFriction(c.problem(), c.q, {{1, 1}, {0, 0}});
   EXPECT_NE(solution.solved, solution.singular);
-  if (solution.solved) EXPECT_LE(worstFault(c, solution), 1e-12);
+  if (solution.solved) {
+    EXPECT_LE(worstFault(c, solution), 1e-12);
+  }
 }
 
 }  // namespace

@@ -231,6 +231,8 @@ TEST_F(SceneFiles, stepsByTheirErrorNeedATolerance) {
        "beside tolerance: crank-nicolson has no error estimate"},
       {{"time.tolerance=0.1", "time.breaks=[1, 2]"},
        "--set time.breaks=[1, 2]: time: breaks has 2, expected an array of times between 0 and end = 2"},
+      {{"time.tolerance=0.1", "time.breaks=[0, 1]"},
+       "--set time.breaks=[0, 1]: time: breaks has 0, expected an array of times between 0 and end = 2"},
   };
   for (const auto& [settings, message] : faults) {
     EXPECT_EQ(fault(settings), message);
