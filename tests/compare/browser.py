@@ -81,12 +81,14 @@ class Browser:
         """All that stands in the console since the last call."""
         return [entry["message"] for entry in self.send("POST", "/se/log", {"type": "browser"})]
 
-    def requests(self):
-        """The addresses asked for since the last call."""
+    def requests(self, page):
+        """The addresses that a page has asked for since the last call; not those of the browser's
+        own pages, which come when they come."""
         entries = [json.loads(entry["message"])["message"]
                    for entry in self.send("POST", "/se/log", {"type": "performance"})]
         return [entry["params"]["request"]["url"] for entry in entries
-                if entry["method"] == "Network.requestWillBeSent"]
+                if entry["method"] == "Network.requestWillBeSent"
+                and entry["params"]["documentURL"].split("#")[0] == page.resolve().as_uri()]
 
     def element(self, selector):
         return self.send("POST", "/element", {"using": "css selector", "value": selector})[ELEMENT]

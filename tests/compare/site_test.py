@@ -97,7 +97,6 @@ class Site(InSharedFolder):
         browser = Browser(network=True)
         self.addCleanup(browser.close)
         folder = self.site.resolve().as_uri()
-        browser.requests()  # of the page that the browser begins with
         for path in self.pages:
             with self.subTest(str(path.relative_to(self.site))):
                 browser.send("POST", "/url", {"url": path.as_uri()})
@@ -105,7 +104,7 @@ class Site(InSharedFolder):
                 browser.size(360, 740)
                 self.assertLessEqual(browser.run("return document.documentElement.scrollWidth"), 360)
                 browser.size(1280, 900)
-                asked = browser.requests()
+                asked = browser.requests(path)
                 self.assertIn(f"{folder}/site.css", asked)
                 if self.pages[path].formulas:
                     self.assertIn(f"{folder}/formulas.ttf", asked)
@@ -119,7 +118,7 @@ class Site(InSharedFolder):
         faults = [fault.split(":")[0] for fault in browser.run(WRONG)]
         self.assertEqual(faults, ["TeX", "no size", "no picture"])
         self.assertNotEqual(browser.messages(), [])
-        self.assertIn(f"{self.folder.resolve().as_uri()}/none.png", browser.requests())
+        self.assertIn(f"{self.folder.resolve().as_uri()}/none.png", browser.requests(broken))
 
     def test_what_is_wrong_is_named_and_nothing_is_written(self):
         copy = self.folder / "copy"
