@@ -18,8 +18,9 @@ struct Named {
 };
 
 /// Those that take no prefix; some are a prefix and a unit by the letter.
-constexpr std::array<Named, 8> whole{{{"min", {60, 0, dimensions::time}},
+constexpr std::array<Named, 9> whole{{{"min", {60, 0, dimensions::time}},
                                       {"h", {3600, 0, dimensions::time}},
+                                      {"d", {86400, 0, dimensions::time}},
                                       {"in", {0.0254, 0, dimensions::length}},
                                       {"ft", {0.3048, 0, dimensions::length}},
                                       {"lbf", {4.4482216152605, 0, dimensions::force}},
@@ -75,7 +76,9 @@ std::optional<Measure> unitOf(const std::string& text) {
   Measure all;
   int sign = 1;
   bool expected = true;  // a word
-  for (size_t i = 0; i < text.size();) {
+  const bool inverse = text.rfind("1/", 0) == 0;
+  if (inverse) sign = -1;
+  for (size_t i = inverse ? 2 : 0; i < text.size();) {
     const char c = text[i];
     if (c == ' ' || c == '*' || c == '/') {
       if (c != ' ' && expected) return std::nullopt;
@@ -114,8 +117,9 @@ std::optional<NumberAndUnit> numberAndUnit(const std::string& text) {
   char* end = nullptr;
   const double number = std::strtod(all.c_str(), &end);
   const std::string unit = trimmed(end);
+  const bool inverse = unit.rfind("1/", 0) == 0 && unit.size() > 2;
   const bool isUnit =
-      !unit.empty() && isLetter(unit[0]) && std::all_of(unit.begin(), unit.end(), [&](char c) {
+      !unit.empty() && isLetter(unit[inverse ? 2 : 0]) && std::all_of(unit.begin(), unit.end(), [&](char c) {
         return isLetter(c) || (isNumber(c) && c != '.') || c == ' ' || c == '*' || c == '/' || c == '^';
       });
   if (!isUnit) return std::nullopt;
@@ -124,7 +128,8 @@ std::optional<NumberAndUnit> numberAndUnit(const std::string& text) {
 
 Units Units::from(const std::string& text) {
   constexpr double rounding = 1e-9;
-  const std::string expected = "expected a length, a force and a stress, as in \"mm, N, MPa\"";
+  const std::string expected =
+      "expected a length, a force and a stress, as in \"mm, N, MPa\", and a time where it is not s";
   Units units;
   units.given = true;
   std::optional<Measure> stress;
@@ -140,7 +145,6 @@ Units Units::from(const std::string& text) {
         static_cast<size_t>(std::find(order.begin(), order.end(), unit->dimension) - order.begin());
     if (which == order.size() || seen[which]) throw InputError(expected + ", each once");
     seen[which] = true;
-    if (which == 3 && word != "s") throw InputError("expected s as the unit of time: it is no other");
     if (which == 0) {
       units.length = word;
       units.lengthInSi = *unit;
@@ -150,6 +154,9 @@ Units Units::from(const std::string& text) {
     } else if (which == 2) {
       units.stress = word;
       stress = unit;
+    } else {
+      units.time = word;
+      units.timeInSi = *unit;
     }
   }
   if (!seen[0] || !seen[1] || !seen[2]) throw InputError(expected);
@@ -166,16 +173,17 @@ Units Units::from(const std::string& text) {
 std::string Units::nameOf(const Dimension& dimension) const {
   return dimension == dimensions::length      ? length
          : dimension == dimensions::force     ? force
-         : dimension == dimensions::time      ? "s"
+         : dimension == dimensions::time      ? time
+         : dimension == dimensions::rate      ? "1/" + time
          : dimension == dimensions::stress    ? stress
-         : dimension == dimensions::viscosity ? stress + " s"
+         : dimension == dimensions::viscosity ? stress + " " + time
                                               : bodyForce();
 }
 
 double Units::in(const Measure& measure) const {
-  const Measure ratio =
-      product(product(measure, lengthInSi, -measure.dimension.length), forceInSi, -measure.dimension.force);
-  return value(ratio);
+  const Dimension& d = measure.dimension;
+  return value(
+      product(product(product(measure, lengthInSi, -d.length), forceInSi, -d.force), timeInSi, -d.time));
 }
 
 }  // namespace mortier

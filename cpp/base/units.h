@@ -1,6 +1,6 @@
 // The units of a scene, and numbers that have one of their own ("210 GPa") in them. Units of length, force
-// and stress are a set: N/mm^2 is MPa. Times are in seconds. Where a scene says nothing the names are those
-// of SI, and any consistent set will do.
+// and stress are a set: N/mm^2 is MPa. That of time is free of them: nothing here has a mass or a power.
+// Where a scene says nothing the names are those of SI, and any consistent set will do.
 #pragma once
 
 #include <optional>
@@ -22,6 +22,7 @@ constexpr Dimension force{0, 1, 0};
 constexpr Dimension time{0, 0, 1};
 constexpr Dimension stress{-2, 1, 0};
 constexpr Dimension viscosity{-2, 1, 1};
+constexpr Dimension rate{0, 0, -1};
 constexpr Dimension bodyForce{-3, 1, 0};
 constexpr Dimension energy{1, 1, 0};
 }  // namespace dimensions
@@ -37,11 +38,13 @@ struct Units {
   std::string length = "m";
   std::string force = "N";
   std::string stress = "Pa";
+  std::string time = "s";
   bool given = false;  ///< whether the scene says them
   Measure lengthInSi{1, 0, dimensions::length};
   Measure forceInSi{1, 0, dimensions::force};
+  Measure timeInSi{1, 0, dimensions::time};
 
-  /// From "mm, N, MPa", in any order. \throws InputError what was expected.
+  /// From "mm, N, MPa" or "mm, N, MPa, h", in any order. \throws InputError what was expected.
   static Units from(const std::string& text);
 
   [[nodiscard]] std::string area() const { return length + "^2"; }
@@ -57,7 +60,7 @@ struct Units {
   [[nodiscard]] double in(const Measure& measure) const;
 };
 
-/// A unit, such as MPa, N/mm^2 or "MPa s"; none where one of its parts is not known.
+/// A unit, such as MPa, N/mm^2, "MPa s" or 1/h; none where one of its parts is not known.
 std::optional<Measure> unitOf(const std::string& text);
 
 /// A number and what may be meant as its unit: a word, and more of them with *, / and ^.

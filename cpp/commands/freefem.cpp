@@ -41,7 +41,7 @@ bool isReadByFreefem(const MeshSource& mesh) {
 
 /// `meshFile`: as FreeFEM opens it.
 void writeBody(std::ostream& out, const BodyDescription& body, const std::string& meshFile, int number,
-               const std::string& stress) {
+               const Units& units) {
   const Elasticity& elasticity = body.material.elasticity;
   const auto* flow = body.material.as<Viscoplasticity>();
   out << "string name" << number << " = \"" << body.name << "\";\n"
@@ -50,10 +50,11 @@ void writeBody(std::ostream& out, const BodyDescription& body, const std::string
       << "string projection" << number << " = \"" << word(flow ? flow->projection : Projection::frobenius)
       << "\";\n"
       << "real E" << number << " = " << shortest(elasticity.young) << ", nu" << number << " = "
-      << shortest(elasticity.poisson) << ";  // [" << stress << "], [-]\n"
+      << shortest(elasticity.poisson) << ";  // [" << units.stress << "], [-]\n"
       << "real lambda" << number << " = " << shortest(flow ? flow->viscosity : 0) << ", sigmaY" << number
-      << " = " << shortest(flow ? flow->yieldStress : 1) << ";  // viscosity [" << stress
-      << " s] (0: elastic body), yield stress [" << stress << "]\n";
+      << " = " << shortest(flow ? flow->yieldStress : 1) << ";  // viscosity ["
+      << units.nameOf(dimensions::viscosity) << "] (0: elastic body), yield stress [" << units.stress
+      << "]\n";
 }
 
 /// Relaxation time of every body and the part of its shear modulus that is left; 0 where it does not relax.
@@ -67,7 +68,9 @@ std::string relaxes(const SceneDescription& scene) {
     text += "real tauM" + n + " = " + shortest(law ? law->relaxationTime : 0) + ", leftM" + n + " = " +
             shortest(law ? law->relaxedFraction : 0) + ";\n";
   }
-  return any ? "macro relaxing yes //  shear relaxes: time [s] and the part that is left\n" + text : "";
+  return any ? "macro relaxing yes //  shear relaxes: time [" + scene.units.time +
+                   "] and the part that is left\n" + text
+             : "";
 }
 
 /// Reference stress, rate and exponent of every body; a rate of 0 where it does not creep by Norton's law.
@@ -83,7 +86,8 @@ std::string creeps(const SceneDescription& scene) {
             shortest(creep ? creep->exponent : 1) + ";\n";
   }
   const std::string unit = "[" + scene.units.stress + "]";
-  return any ? "macro norton yes //  creep: reference stress " + unit + " and rate [1/s], exponent\n" + text
+  return any ? "macro norton yes //  creep: reference stress " + unit + " and rate [1/" + scene.units.time +
+                   "], exponent\n" + text
              : "";
 }
 
@@ -171,7 +175,8 @@ std::string distances(const SceneDescription& scene, const Model& model) {
 std::string unitNames(const Units& units) {
   if (!units.given) return "";
   return "macro unitsOfScene yes //\nstring unitLength = \"" + units.length + "\";\nstring unitForce = \"" +
-         units.force + "\";\nstring unitStress = \"" + units.stress + "\";\n";
+         units.force + "\";\nstring unitStress = \"" + units.stress + "\";\nstring unitTime = \"" +
+         units.time + "\";\n";
 }
 
 std::string script(const SceneDescription& scene, const Model& model,
@@ -188,7 +193,7 @@ std::string script(const SceneDescription& scene, const Model& model,
       << "macro eachBody(what)";
   for (int b = 0; b < bodies; ++b) out << " what(" << b + 1 << ')';
   out << " //\n";
-  for (int b = 0; b < bodies; ++b) writeBody(out, scene.bodies[b], meshFiles[b], b + 1, scene.units.stress);
+  for (int b = 0; b < bodies; ++b) writeBody(out, scene.bodies[b], meshFiles[b], b + 1, scene.units);
   out << creeps(scene) << relaxes(scene) << "\n// Boundary conditions and loads, functions of x, y and t\n";
   for (int b = 0; b < bodies; ++b) writeConditions(out, scene.bodies[b], b + 1, scene.degree);
   out << rollers(scene) << heldPoints(scene)
@@ -200,8 +205,8 @@ std::string script(const SceneDescription& scene, const Model& model,
   }
   out << "];\n"
       << distances(scene, model) << "string variant = \"" << word(scene.contacts.front().variant)
-      << "\";\nreal endTime = " << shortest(scene.time.end) << ";  // [s]\nint steps = " << scene.time.steps
-      << ";  // backward Euler, equal steps\n\n";
+      << "\";\nreal endTime = " << shortest(scene.time.end) << ";  // [" << scene.units.time
+      << "]\nint steps = " << scene.time.steps << ";  // backward Euler, equal steps\n\n";
   for (const char* part : {"bodies", "supports", "lines", "coupling", "contact", "picture", "loop"}) {
     out << "include " << freefemString(method + '/' + part + ".idp", scene.path + ": the FreeFEM method")
         << '\n';

@@ -103,7 +103,8 @@ void requireHeld(const SceneDescription& scene, const Model& model) {
     const std::string reason = outcome.unheld() ? outcome.detail
                                : loose.empty()  ? ""
                                                 : "no contact is closed that would hold " + loose;
-    if (!reason.empty()) throw UnheldBodyError("t = " + shortest(time) + " s: " + reason);
+    if (!reason.empty())
+      throw UnheldBodyError("t = " + shortest(time) + " " + scene.units.time + ": " + reason);
   }
 }
 

@@ -129,7 +129,8 @@ void checkKinks(const LintInput& input, const SampledDatum& datum, Faults& fault
                subject + firstOf(late) + ", the run ends at " + shortest(time.end));
   if (!between.empty())
     faults.add("kink-between-steps", placeOf(*datum.value),
-               subject + firstOf(between) + ", within a step: steps are " + shortest(step) + " s long");
+               subject + firstOf(between) + ", within a step: steps are " + shortest(step) + " " +
+                   input.scene.units.time + " long");
 }
 
 }  // namespace

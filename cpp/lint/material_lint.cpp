@@ -87,8 +87,8 @@ void checkSteps(const LintInput& input, const PlacedMaterial& material, double l
   constexpr double lands = 1e-9;
   if (hard && firstYield > 0 && std::abs(firstYield / step - std::round(firstYield / step)) < lands)
     faults.add("lands-on-yield", input.where({"time", "steps"}),
-               subject + "a step ends at t = " + shortest(firstYield) +
-                   " s, where the traction reaches the yield stress");
+               subject + "a step ends at t = " + shortest(firstYield) + " " + input.scene.units.time +
+                   ", where the traction reaches the yield stress");
 }
 
 void checkFlow(const LintInput& input, const PlacedMaterial& material, double largest, double afterFirstStep,
@@ -115,10 +115,11 @@ void checkFlow(const LintInput& input, const PlacedMaterial& material, double la
     return;
   }
   const double relaxation = 2 * flow.viscosity / e;
+  const std::string unit = " " + input.scene.units.time;
   if (time.end < frozen * relaxation)
     faults.add("viscosity-large", material.where("viscosity"),
-               subject + "relaxes in 2 viscosity/E = " + shortest(relaxation) + " s, the run ends at " +
-                   shortest(time.end) + " s: nothing has time to flow");
+               subject + "relaxes in 2 viscosity/E = " + shortest(relaxation) + unit + ", the run ends at " +
+                   shortest(time.end) + unit + ": nothing has time to flow");
   if (!time.controlled()) checkSteps(input, material, largest, afterFirstStep, firstYield, faults);
 }
 
@@ -132,11 +133,12 @@ void checkCreep(const LintInput& input, const PlacedMaterial& material, const No
   const double rate = creep.referenceRate * std::pow(largest / creep.referenceStress, creep.exponent) *
                       relaxingModulus(material.description.elasticity, input.scene.plane) /
                       largest;  // elastic strains [1/s]
-  const std::string loads = material.subject + "under loads of the order of " + shortest(largest) + " Pa ";
+  const std::string loads = material.subject + "under loads of the order of " + shortest(largest) + " " +
+                            input.scene.units.stress + " ";
   if (rate * time.end < frozen)
     faults.add("viscosity-large", material.where("reference_rate"),
-               loads + "the run of " + shortest(time.end) + " s creeps by " + shortest(rate * time.end) +
-                   " of the elastic strain: nothing has time to flow");
+               loads + "the run of " + shortest(time.end) + " " + input.scene.units.time + " creeps by " +
+                   shortest(rate * time.end) + " of the elastic strain: nothing has time to flow");
   if (!time.controlled() && rate * time.end / time.steps > tooStiff)
     faults.add("viscosity-small", material.where("reference_rate"),
                loads + "a step creeps by " + shortest(rate * time.end / time.steps) +
@@ -146,10 +148,12 @@ void checkCreep(const LintInput& input, const PlacedMaterial& material, const No
 void checkRelaxation(const LintInput& input, const PlacedMaterial& material,
                      const Viscoelasticity& viscoelasticity, Faults& faults) {
   constexpr double frozen = 1e-3;
+  const std::string unit = " " + input.scene.units.time;
   if (input.scene.time.end < frozen * viscoelasticity.relaxationTime)
     faults.add("viscosity-large", material.where("relaxation_time"),
-               material.subject + "relaxation_time = " + shortest(viscoelasticity.relaxationTime) +
-                   " s, the run ends at " + shortest(input.scene.time.end) + " s: nothing has time to flow");
+               material.subject + "relaxation_time = " + shortest(viscoelasticity.relaxationTime) + unit +
+                   ", the run ends at " + shortest(input.scene.time.end) + unit +
+                   ": nothing has time to flow");
 }
 
 /// The first time at which the largest traction reaches the yield stress; 0 where it does not.

@@ -108,8 +108,9 @@ std::string drivingDatum(const MeshedScene& input, double from, double to) {
   }
   if (most == nullptr) return "";
   char sizes[160];
-  std::snprintf(sizes, sizeof sizes, ", of size %.4g at t = %.6g s and %.4g at t = %.6g s",
-                most->largest(from), from, most->largest(to), to);
+  const char* unit = input.scene.units.time.c_str();
+  std::snprintf(sizes, sizeof sizes, ", of size %.4g at t = %.6g %.16s and %.4g at t = %.6g %.16s",
+                most->largest(from), from, unit, most->largest(to), to, unit);
   return most->value->where + sizes;
 }
 

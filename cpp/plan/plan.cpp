@@ -148,7 +148,8 @@ class Planner {
     }
     const double tolerance = stepTolerance(scene_);
     const bool forRounds = inRounds() && !elastic;
-    const std::string equal = counted(time.steps, "step") + " of " + shortest(time.end / time.steps) + " s";
+    const std::string equal =
+        counted(time.steps, "step") + " of " + shortest(time.end / time.steps) + " " + scene_.units.time;
     const std::string chosen = "steps chosen by an error in time of " + shortest(tolerance) +
                                (forRounds ? " in the last round" : "");
     add("time", true, (tolerance > 0 ? chosen : equal) + ", " + word(time.scheme),

@@ -5,8 +5,8 @@ namespace mortier {
 std::vector<std::string> historyColumns(const std::vector<Quantity>& quantities, const Units& units) {
   const auto in = [](const std::string& name, const std::string& unit) { return name + '[' + unit + ']'; };
   std::vector<std::string> names{"step",
-                                 "time[s]",
-                                 "time_step[s]",
+                                 in("time", units.time),
+                                 in("time_step", units.time),
                                  "estimate",
                                  "rejections",
                                  "guarded",

@@ -70,10 +70,10 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
 }
 
 std::string logStepsHeader(const Units& units) {
-  return format("%6s  %10s  %4s  %13s  %10s  %16s  %10s  %12s  %10s\n", "step", "time[s]", "iter",
-                "active(+/-)", "|residual|", ("penetration[" + units.area() + "]").c_str(),
-                ("max p[" + units.stress + "]").c_str(), "viscoplastic",
-                ("force[" + units.forcePerDepth() + "]").c_str());
+  return format("%6s  %10s  %4s  %13s  %10s  %16s  %10s  %12s  %10s\n", "step",
+                ("time[" + units.time + "]").c_str(), "iter", "active(+/-)", "|residual|",
+                ("penetration[" + units.area() + "]").c_str(), ("max p[" + units.stress + "]").c_str(),
+                "viscoplastic", ("force[" + units.forcePerDepth() + "]").c_str());
 }
 
 std::string logRoundsHeader() {
@@ -191,8 +191,8 @@ std::string logAccuracy(const RunFacts& facts, const Model& model, const Accurac
                    sagitta) +
             facts.units.length + "\n";
   if (accuracy.largest > 0 && accuracy.largestTime < accuracy.time)
-    text += format("           largest of the run: %.2g %% of its largest stress, at t = %.5g s\n",
-                   100 * accuracy.largest, accuracy.largestTime);
+    text += format("           largest of the run: %.2g %% of its largest stress, at t = %.5g %s\n",
+                   100 * accuracy.largest, accuracy.largestTime, facts.units.time.c_str());
   if (accuracy.bound) text += logBound(*accuracy.bound);
   if (accuracy.bound && accuracy.flow) text += logFlow(*accuracy.flow);
   if (accuracy.step) text += logStep(*accuracy.step);
@@ -209,7 +209,8 @@ std::string logPeaks(const Peaks& peaks, const StepReport& last, const Units& un
     constexpr double same = 1e-9;
     if (!(peak.value > (1 + same) * end)) return;
     text += (text.empty() ? "peaks      " : ", ") + std::string(name) +
-            format(" %.5g %s at t = %.5g s (%.5g at the end)", peak.value, unit.c_str(), peak.time, end);
+            format(" %.5g %s at t = %.5g %s (%.5g at the end)", peak.value, unit.c_str(), peak.time,
+                   units.time.c_str(), end);
   };
   add("von Mises", peaks.vonMises, last.vonMises, units.stress);
   add("pressure", peaks.pressure, last.maxPressure, units.stress);
@@ -218,9 +219,10 @@ std::string logPeaks(const Peaks& peaks, const StepReport& last, const Units& un
   if (!text.empty()) text += "\n";
   if (peaks.motion.value > 1)
     text += format(
-        "warning    displacements reach %.2g times the size of a body at t = %.5g s; they are taken as small "
+        "warning    displacements reach %.2g times the size of a body at t = %.5g %s; they are taken as "
+        "small "
         "here\n",
-        peaks.motion.value, peaks.motion.time);
+        peaks.motion.value, peaks.motion.time, units.time.c_str());
   return text;
 }
 
@@ -247,9 +249,10 @@ std::string logRanges(const RunFacts& facts, const std::vector<QuantityRange>& r
   std::string text;
   for (size_t i = 0; i < ranges.size(); ++i) {
     const QuantityRange& range = ranges[i];
+    const char* unit = facts.units.time.c_str();
     text += (i == 0 ? "in the run " : ", ") + facts.quantities[i].name +
-            format(" %.5g (t = %.5g s) to %.5g (t = %.5g s)", range.smallest, range.smallestTime,
-                   range.largest, range.largestTime);
+            format(" %.5g (t = %.5g %s) to %.5g (t = %.5g %s)", range.smallest, range.smallestTime, unit,
+                   range.largest, range.largestTime, unit);
   }
   return text.empty() ? text : text + "\n";
 }

@@ -217,8 +217,10 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
   json["scene"] = facts.scene;
   json["title"] = facts.title;
   if (facts.units.given)
-    json["units"] = {
-        {"length", facts.units.length}, {"force", facts.units.force}, {"stress", facts.units.stress}};
+    json["units"] = {{"length", facts.units.length},
+                     {"force", facts.units.force},
+                     {"stress", facts.units.stress},
+                     {"time", facts.units.time}};
   json["plane"] = facts.plane;
   json["settings"] = facts.settings;
   json["status"] = word(report.status);

@@ -138,7 +138,8 @@ std::vector<std::string> loadsBetweenSteps(const SceneDescription& scene, const 
         if (i == std::exchange(last, i)) continue;
         if (const double part = beyondEnds(course, k * i, k * (i + 1)); part > most) {
           most = part;
-          warning = expression.where + text(": between t = %.6g and %.6g s", k * i, k * (i + 1)) +
+          warning = expression.where + text(": between t = %.6g and %.6g ", k * i, k * (i + 1)) +
+                    scene.units.time +
                     text(", a step, it goes %.0f %% of its range beyond both ends", 100 * part, 0);
         }
       }

@@ -18,22 +18,26 @@ const Dimension* dimensionOf(const std::string& path) {
          "core"}}},
       {"body.initial_stress.", {dimensions::stress, {"s11", "s22", "s12", "s33"}}},
       {"body.region.initial_stress.", {dimensions::stress, {"s11", "s22", "s12", "s33"}}},
-      {"body.material.", {dimensions::stress, {"young", "yield_stress"}}},
-      {"body.region.material.", {dimensions::stress, {"young", "yield_stress"}}},
       {"body.force.", {dimensions::bodyForce, {"x", "y"}}},
       {"body.boundary.", {dimensions::length, {"ux", "uy", "un", "ut"}}},
       {"contact.", {dimensions::length, {"gap"}}},
       {"quantity.", {dimensions::length, {"about", "displacement.point"}}},
-      {"time.", {dimensions::time, {"end", "breaks"}}},
-      {"accuracy.", {dimensions::time, {"max_seconds"}}}};
+      {"time.", {dimensions::time, {"end", "breaks"}}}};
+  static const std::pair<const char*, Dimension> materials[] = {
+      {"young", dimensions::stress},        {"yield_stress", dimensions::stress},
+      {"viscosity", dimensions::viscosity}, {"reference_stress", dimensions::stress},
+      {"reference_rate", dimensions::rate}, {"relaxation_time", dimensions::time}};
   static const std::map<std::string, Dimension> keys = [] {
-    std::map<std::string, Dimension> all{{"body.material.viscosity", dimensions::viscosity},
-                                         {"body.region.material.viscosity", dimensions::viscosity},
-                                         {"body.boundary.tx", dimensions::stress},
+    std::map<std::string, Dimension> all{{"body.boundary.tx", dimensions::stress},
                                          {"body.boundary.ty", dimensions::stress},
-                                         {"body.boundary.pressure", dimensions::stress}};
+                                         {"body.boundary.pressure", dimensions::stress},
+                                         {"contact.shear_limit", dimensions::stress},
+                                         {"accuracy.max_seconds", dimensions::time}};
     for (const auto& [table, of] : tables)
       for (const char* key : of.second) all[table + key] = of.first;
+    for (const auto& [key, dimension] : materials)
+      for (const char* table : {"body.material.", "body.region.material."})
+        all[std::string(table) + key] = dimension;
     return all;
   }();
   const auto found = keys.find(path);
@@ -42,13 +46,16 @@ const Dimension* dimensionOf(const std::string& path) {
 
 class Converter {
  public:
-  explicit Converter(const Units& units) : units_(units) {}
+  explicit Converter(const Units& units) : units_(units), ofTheClock_(units) {
+    ofTheClock_.time = "s";
+    ofTheClock_.timeInSi = Units().timeInSi;
+  }
 
   void convertTable(Node& table, const std::string& path) const {
     for (Node& member : table.members) {
       const std::string at = path + (path.empty() ? "" : ".") + member.key;
       if (const Dimension* dimension = dimensionOf(at)) {
-        convert(member, member.key, *dimension);
+        convert(member, member.key, *dimension, at == "accuracy.max_seconds" ? ofTheClock_ : units_);
       } else {
         convertTable(member, at);
         for (Node& element : member.elements) convertTable(element, at);
@@ -58,28 +65,29 @@ class Converter {
 
  private:
   /// A value, a list of them, or a table in time.
-  void convert(Node& node, const std::string& key, const Dimension& dimension) const {
-    for (Node& element : node.elements) convert(element, key, dimension);
+  static void convert(Node& node, const std::string& key, const Dimension& dimension, const Units& units) {
+    for (Node& element : node.elements) convert(element, key, dimension, units);
     for (Node& member : node.members)
-      convert(member, member.key, member.key == "time" ? dimensions::time : dimension);
+      convert(member, member.key, member.key == "time" ? dimensions::time : dimension, units);
     if (!node.isString()) return;
     const auto read = numberAndUnit(node.text);
     if (!read) return;
     const auto reject = [&](const std::string& expected) {
       throw InputError(node.where + ": " + key + " = " + node.quoted() + ", expected " + expected);
     };
-    if (!units_.given)
+    if (!units.given)
       reject("a number, or units = \"m, N, Pa\" at the top of the scene: without them no number has a unit");
     const auto unit = unitOf(read->unit);
     if (!unit || !(unit->dimension == dimension))
-      reject("a number in " + units_.nameOf(dimension) + " or what can be converted to it" +
+      reject("a number in " + units.nameOf(dimension) + " or what can be converted to it" +
              (unit ? "" : "; " + read->unit + " is no unit that is known"));
     node.kind = Node::Kind::number;
-    node.value = units_.in({read->number * unit->factor, unit->decades, unit->dimension});
+    node.value = units.in({read->number * unit->factor, unit->decades, unit->dimension});
     node.text.clear();
   }
 
   const Units& units_;
+  Units ofTheClock_;  ///< wall time is in seconds
 };
 
 }  // namespace
@@ -90,7 +98,8 @@ Units readUnits(const Node& scene) {
   const auto reject = [&](const std::string& expected) {
     throw InputError(node->where + ": units = " + node->quoted() + ", " + expected);
   };
-  if (!node->isString()) reject("expected a length, a force and a stress, as in \"mm, N, MPa\"");
+  if (!node->isString())
+    reject("expected a length, a force and a stress, as in \"mm, N, MPa\", and a time where it is not s");
   try {
     return Units::from(node->text);
   } catch (const InputError& error) {

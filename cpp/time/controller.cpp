@@ -234,7 +234,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
   const double flowing = taker.flowing();
   const auto giveUp = [&](Status status, double t1, const std::string& why) {
     std::ostringstream reason;
-    reason << "step " << report.step << " at t = " << t1 << " s: " << why;
+    reason << "step " << report.step << " at t = " << t1 << ": " << why;
     report.status = status;
     report.reason = reason.str();
   };

@@ -39,7 +39,7 @@ void advance(StepTaker& taker, const State& state, double t1, StepReport& report
     if (outcome.unheld() || parts == smallest) {
       report.status = outcome.unheld() ? Status::unheld : Status::failed;
       std::ostringstream reason;
-      reason << "step " << report.step << " at t = " << time << " s: " << outcome.detail;
+      reason << "step " << report.step << " at t = " << time << ": " << outcome.detail;
       report.reason = reason.str();
       return;
     }

@@ -72,17 +72,18 @@ TEST(Units, knowTheirDimension) {
   EXPECT_EQ(unitOf("N/mm^2")->dimension, dimensions::stress);
   EXPECT_EQ(unitOf("kJ/m^3")->dimension, dimensions::stress);
   EXPECT_EQ(unitOf("GPa h")->dimension, dimensions::viscosity);
-  for (const char* none : {"", " ", "x", "N/", "/N", "N//m", "m^", "m^0", "m^9", "m2", "Nm", "kpsi", "kmin",
+  EXPECT_EQ(unitOf("1/h")->dimension, dimensions::rate);
+  for (const char* none : {"", " ", "x", "N/", "/N", "N//m", "1/", "1//s", "m^", "m^0", "m^9", "m2", "Nm", "kpsi", "kmin",
                            "m^2^2", "MPa\ns", "<b>"})
     EXPECT_FALSE(unitOf(none)) << none;
 }
 
 TEST(Units, standBehindNumbersAlone) {
-  for (const char* text : {"210 GPa", " -0.1mm ", "1e-3 m", "+.5 N/mm^2", "5. MPa s", "3 apples"})
+  for (const char* text : {"210 GPa", " -0.1mm ", "1e-3 m", "+.5 N/mm^2", "5. MPa s", "3 apples", "2e-5 1/h"})
     EXPECT_TRUE(numberAndUnit(text)) << text;
   EXPECT_EQ(numberAndUnit("-1.5e3 kN/m")->number, -1500);
   EXPECT_EQ(numberAndUnit("-1.5e3 kN/m")->unit, "kN/m");
-  for (const char* text : {"", "GPa", "-10*t", "2", "1 + x", "2 min(t, 1)", "-", "nan", "inf m", "0x10 m",
+  for (const char* text : {"", "GPa", "-10*t", "2", "1 + x", "2 min(t, 1)", "2 1/", "1/s", "2/s", "-", "nan", "inf m", "0x10 m",
                            "1e5", "sin(t)", "t < 1 ? 2 : 3", "1.5.2 m."})
     EXPECT_FALSE(numberAndUnit(text)) << text;
 }

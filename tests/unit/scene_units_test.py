@@ -54,6 +54,35 @@ class SceneUnits(OfTwoBlocks):
                 if name != "rung":
                     self.assertAlmostEqual(float(x), float(y), delta=1e-9 * abs(float(x)) + 1e-15, msg=name)
 
+    def test_a_scene_in_hours_is_that_in_seconds(self):
+        _, plain = self.run_of("plain", TWO_BLOCKS)
+        log, hours = self.run_of("hours", 'units = "m, N, Pa, h"\n' + MEASURED)
+        self.assertIn("  time[h]  ", log)
+        self.assertEqual(hours[0][1:3], ["time[h]", "time_step[h]"])
+        for a, b in zip(plain[1:], hours[1:]):
+            for name, x, y in zip(plain[0], a, b):
+                if name != "rung":
+                    expected = float(x) / (3600 if name.startswith("time") else 1)
+                    self.assertAlmostEqual(expected, float(y), delta=1e-9 * abs(expected) + 1e-15, msg=name)
+        self.assertEqual(json.loads(self.read("hours/summary.json"))["units"]["time"], "h")
+        self.assertEqual(Result(self.folder / "hours").time_unit, "h")
+        self.mortier("freefem", "hours.toml", "hours.edp")
+        self.assertIn("// viscosity [Pa h]", self.read("hours.edp"))
+
+    def test_every_material_has_units(self):
+        flow = 'viscosity = 10, yield_stress = 1'
+        for law, key, value, plain in (
+                ('law = "norton", exponent = 3, reference_rate = 1e-4', "reference_stress", "2 GPa", 2000),
+                ('law = "norton", exponent = 3, reference_stress = 10', "reference_rate", "1e-3 1/s", 3.6),
+                ('law = "maxwell"', "relaxation_time", "30 min", 0.5)):
+            with self.subTest(key):
+                rows = []
+                for given in (f'"{value}"', plain):
+                    _, history = self.run_of(
+                        "law", 'units = "mm, N, MPa, h"\n' + TWO_BLOCKS.replace(flow, f"{law}, {key} = {given}"))
+                    rows.append(history[-1])
+                self.assertEqual(*rows)
+
     def test_labels_are_those_of_the_scene(self):
         text = 'units = "mm, N, MPa"\n' + TWO_BLOCKS.replace("young = 3e11", 'young = "300 GPa"') + ASKED
         log, history = self.run_of("out", text)
@@ -67,7 +96,7 @@ class SceneUnits(OfTwoBlocks):
         for wrong in (r"\bPa\b", r"N/m\b", r"\d m\b"):
             self.assertNotRegex(log, wrong)
         summary = json.loads(self.read("out/summary.json"))
-        self.assertEqual(summary["units"], {"length": "mm", "force": "N", "stress": "MPa"})
+        self.assertEqual(summary["units"], {"length": "mm", "force": "N", "stress": "MPa", "time": "s"})
         self.assertEqual(summary["quantities"]["top"]["unit"], "mm")
         result = Result(self.folder / "out")
         self.assertEqual((result.length_unit, result.stress_unit), ("mm", "MPa"))
@@ -97,6 +126,8 @@ class SceneUnits(OfTwoBlocks):
                 ("scene", "body.upper.material.young=1e999 GPa", "expected young > 0"),
                 ("scene", "body.upper.boundary.ty=3 N/mm", "expected a number in MPa"),
                 ("scene", "time.end=1 m", "expected a number in s"),
+                ("scene", "units=mm, N, MPa, h, s", "each once"),
+                ("scene", "contact.shear_limit=3 s", "expected a number in MPa"),
                 ("plain", "body.upper.material.young=3 GPa",
                  'young = "3 GPa", expected a number, or units = "m, N, Pa" at the top of the scene'),
                 ("plain", "body.upper.boundary.ty=3 kPa", "without them no number has a unit")):
