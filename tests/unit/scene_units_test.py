@@ -70,7 +70,8 @@ class SceneUnits(OfTwoBlocks):
         self.assertIn("// viscosity [Pa h]", self.read("hours.edp"))
 
     def test_every_material_has_units(self):
-        flow = 'viscosity = 10, yield_stress = 1'
+        flow = 'viscosity = 10, yield_stress = 1, projection = "elasticity"'
+        units = 'units = "mm, N, MPa, h"\n'
         for law, key, value, plain in (
                 ('law = "norton", exponent = 3, reference_rate = 1e-4', "reference_stress", "2 GPa", 2000),
                 ('law = "norton", exponent = 3, reference_stress = 10', "reference_rate", "1e-3 1/s", 3.6),
@@ -78,8 +79,8 @@ class SceneUnits(OfTwoBlocks):
             with self.subTest(key):
                 rows = []
                 for given in (f'"{value}"', plain):
-                    _, history = self.run_of(
-                        "law", 'units = "mm, N, MPa, h"\n' + TWO_BLOCKS.replace(flow, f"{law}, {key} = {given}"))
+                    text = TWO_BLOCKS.replace(flow, f"{law}, {key} = {given}")
+                    _, history = self.run_of("law", units + text)
                     rows.append(history[-1])
                 self.assertEqual(*rows)
 
