@@ -97,6 +97,7 @@ LaneVector OverstressFlow::backStress(const Point& point) const {
 // nothing is infinite where g is.
 OverstressFlow::Answer OverstressFlow::linearise(const Point& point) const {
   constexpr double reach = 100;  // in yield stresses, for v >> sigma_Y/E
+  constexpr double trace = 1e-10;
   const double H = law_.kinematicHardening;
   const double K = law_.isotropicHardening;
   LaneVector v = point.strain;
@@ -114,10 +115,12 @@ OverstressFlow::Answer OverstressFlow::linearise(const Point& point) const {
 
   const Lanes thetaOfFlow = flow.dp / flow.mises;
   const Lanes theta = thetaOfFlow / (1 + H * thetaOfFlow);
-  // g as along/resistance: both are finite.
+  // g as along/resistance: both are finite. A body that flows as it likes would have a singular tangent: the
+  // tangent of plasticity keeps a trace of elasticity, the residual does not.
+  const double tangent = std::max(H + K, trace * least_);
   const Lanes along = law_.viscous() ? flow.slope : select(flow.flowing, Lanes(1), Lanes(0));
   const Lanes resistance =
-      law_.viscous() ? 1 + (H + K) * flow.slope : select(flow.flowing, Lanes(H + K), Lanes(1));
+      law_.viscous() ? 1 + (H + K) * flow.slope : select(flow.flowing, Lanes(tangent), Lanes(1));
   LaneVector h;
   LaneVector hu;
   LaneVector y;

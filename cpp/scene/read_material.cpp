@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "scene/words.h"
 
 namespace mortier {
@@ -81,6 +82,21 @@ MaterialDescription readMaterial(const Node& node, const std::string& path, cons
                                     table.number("relaxed_fraction", between(0, 1))};
   if (law == viscoplastic) material.flow = readOverstress(table);
   return material;
+}
+
+void requireRates(const BodyDescription& body, const SceneDescription& scene) {
+  std::vector<const MaterialDescription*> materials{&body.material};
+  for (const RegionDescription& region : body.regions)
+    if (region.material) materials.push_back(&*region.material);
+  const std::string asked = scene.time.scheme == Scheme::crankNicolson ? "scheme = \"crank-nicolson\""
+                            : scene.time.controlled()                  ? "time.tolerance"
+                            : scene.accuracy.energy > 0                ? "accuracy"
+                                                                       : "";
+  for (const MaterialDescription* material : materials)
+    if (const auto* law = material->as<Overstress>(); law != nullptr && !law->viscous() && !asked.empty())
+      throw InputError(body.where + ": body " + body.name +
+                       ": viscosity = 0, expected viscosity > 0 beside " + asked +
+                       ": plasticity has no rate at a given stress");
 }
 
 }  // namespace mortier

@@ -179,7 +179,7 @@ TEST(Overstress, flowIsThatOfThreeDimensions) {
       if (material->components() > n) {
         EXPECT_NEAR(rate(n, 0), static_cast<double>(p), 1e-12 * (1 + law.exponent) * static_cast<double>(p));
       }
-      EXPECT_TRUE(material->flows(stress, 0, &total));
+      EXPECT_EQ(material->flows(stress, 0, &total), over > 0);
     }
   }
 }
