@@ -56,8 +56,8 @@ void checkElasticity(const LintInput& input, const PlacedMaterial& material, dou
                    shortest(std::round(100 * nominal / e.young)) + " %");
 }
 
-/// The flow beyond a yield stress as that of Perzyna's law, by its rate at twice the yield stress; a viscosity
-/// of 0 is plasticity. Nothing for other laws.
+/// The flow beyond a yield stress as that of Perzyna's law, by its rate at twice the yield stress; a
+/// viscosity of 0 is plasticity. Nothing for other laws.
 std::optional<Viscoplasticity> beyondYield(const MaterialDescription& material) {
   if (const auto* flow = material.as<Viscoplasticity>()) return *flow;
   const auto* law = material.as<Overstress>();

@@ -30,9 +30,9 @@ const char* nameOf(Rung rung) {
 
 namespace {
 
-/// Whether a body flows, and none at a corner at which Newton's method could turn in circles: by a law without
-/// a yield stress, or by one that is linearised where the strain leads. It may have a long way to come down
-/// from elasticity.
+/// Whether a body flows, and none at a corner at which Newton's method could turn in circles: by a law
+/// without a yield stress, or by one that is linearised where the strain leads. It may have a long way to
+/// come down from elasticity.
 bool flowsWithoutCorner(const Model& model) {
   bool flows = false;
   for (const Body& body : model.bodies) {

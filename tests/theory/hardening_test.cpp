@@ -15,8 +15,8 @@ using namespace scenes;
 constexpr Scheme schemes[] = {Scheme::backwardEuler, Scheme::crankNicolson, Scheme::sdirk2};
 constexpr Elasticity elasticity{100, 0.3};
 
-/// A bar that is pulled (plane stress) or a square that is sheared (plane strain), by the equivalent stress and
-/// strain, with a sign.
+/// A bar that is pulled (plane stress) or a square that is sheared (plane strain), by the equivalent
+/// stress and strain, with a sign.
 struct OnePath {
   Model model;
   double modulus = 0;  ///< of the equivalent stress over the equivalent strain [Pa]
@@ -184,9 +184,9 @@ TEST(Hardening, plasticityIsExactOnStraightPaths) {
       }
 }
 
-/// Two bars side by side under a platen that presses them with the mean stress P (in yield stresses), the foot
-/// of the first one raised by `lift` and lowered again, cycle by cycle. \returns how far the platen sinks in
-/// each cycle.
+/// Two bars side by side under a platen that presses them with the mean stress P (in yield stresses), the
+/// foot of the first one raised by `lift` and lowered again, cycle by cycle. \returns how far the platen
+/// sinks in each cycle.
 std::vector<double> sinking(double P, double lift, double hardening, int cyclesOfLift) {
   constexpr double stiff = 1e9;
   Overstress law{1};
@@ -228,8 +228,8 @@ std::vector<double> sinking(double P, double lift, double hardening, int cyclesO
   return each;
 }
 
-// Bree's problem with two bars (Parkes): stresses P -+ E lift/2. They stay elastic up to E lift/2 = 1 - P, shake
-// down up to 2 (1 - P), and beyond that sink in each cycle by lift - 4 (sigma_Y - P)/E.
+// Bree's problem with two bars (Parkes): stresses P -+ E lift/2. They stay elastic up to E lift/2 = 1 - P,
+// shake down up to 2 (1 - P), and beyond that sink in each cycle by lift - 4 (sigma_Y - P)/E.
 TEST(Hardening, barsShakeDownOrRatchetAtBreesLimits) {
   const double E = elasticity.young;
   for (const double P : {0.7, 0.85}) {

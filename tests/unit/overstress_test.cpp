@@ -16,8 +16,8 @@ namespace {
 
 constexpr Elasticity elasticity{200, 0.3};
 
-/// The step under a given strain in extended precision, on three directions: with the trial t = s0 + E strain,
-///   z = (t - H eps_v0/a)/(1 + kappa (e a + H)),   dp = kappa vM(z),   s = t - kappa e a z,
+/// The step under a given strain in extended precision, on three directions: with t = s0 + E strain,
+///   z = (t - H eps_v0/a)/(1 + kappa (e a + H)),  dp = kappa vM(z),  s = t - kappa e a z,
 ///   vM(z) = sigma_Y + K (p0 + dp) + sigma0 (dp/(weight rate0))^(1/m),   kappa by bisection.
 struct Direct {
   LongArray e;
