@@ -1,5 +1,5 @@
-// Secondary creep by Norton's law, n = 5, as in the tests of NAFEMS (R0027, Selected benchmarks for creep): one
-// square under uniaxial and biaxial loads and displacements, held for 1000 h. And a beam in bending.
+// Secondary creep by Norton's law, n = 5, as in the tests of NAFEMS (R0027): one square under uniaxial and
+// biaxial loads and displacements, held for 1000 h. And a beam in bending.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -48,9 +48,8 @@ Model squareUnder(const Asked& asked, Plane plane) {
   return model;
 }
 
-/// p, q, s33, and strains of the same, at the end: s' = E (e' - A vM^4 a s) with what is asked held, by
-/// Runge-Kutta's method.
-struct Point1 {
+/// The end of a point where what is asked is held, by Runge-Kutta's method.
+struct End {
   Eigen::Vector3d stress;  ///< s11, s22, s33 [MPa]
   Eigen::Vector3d flow = Eigen::Vector3d::Zero();
 };
@@ -79,7 +78,7 @@ Eigen::Vector3d stressOf(const Asked& asked, Plane plane, const Eigen::Vector3d&
   return A.inverse() * right;
 }
 
-Point1 exact(const Asked& asked, Plane plane) {
+End exact(const Asked& asked, Plane plane) {
   const auto rate = [&](const Eigen::Vector3d& flow) -> Eigen::Vector3d {
     const Eigen::Vector3d s = stressOf(asked, plane, flow);
     const Eigen::Vector3d deviator = s.array() - s.mean();
@@ -127,7 +126,7 @@ TEST(CreepBenchmarks, squaresUnderLoadsAndDisplacements) {
         march(model, state, memory, {.end = hours, .steps = 10, .scheme = Scheme::sdirk2, .tolerance = 1e-3},
               {}, [](const State&, const StepReport&) {});
     ASSERT_EQ(run.status, Status::converged) << name << ": " << run.reason;
-    const Point1 expected = exact(asked, plane);
+    const End expected = exact(asked, plane);
     const BodyState& body = state.bodies[0];
     const Eigen::Vector3d s = toCartesian(body.stress.col(0).head<3>());
     const Eigen::Vector3d e = toCartesian(body.viscoplasticStrain.col(0).head<3>());
