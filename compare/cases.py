@@ -103,6 +103,11 @@ NORTON = ('body.material={young=100, poisson=0.3, law="norton", reference_stress
 SOLID = ('body.material={young=100, poisson=0.3, law="standard-solid", relaxation_time=0.4, '
          'relaxed_fraction=0.3}',)
 
+OVERSTRESS = 'body.material={young=100, poisson=0.3, law="viscoplastic", yield_stress=1, '
+POWER = (OVERSTRESS + 'reference_stress=2, reference_rate=0.5, exponent=4, kinematic_hardening=5}',)
+GROWING = (OVERSTRESS + 'viscosity=1, kinematic_hardening=5, isotropic_hardening=10}',)
+PLASTIC = (OVERSTRESS + 'viscosity=0, kinematic_hardening=5, isotropic_hardening=10}',)
+
 
 def scene_cases():
     """Every scene with both variants, and changes of them for what no scene has."""
@@ -133,6 +138,11 @@ def scene_cases():
         SceneCase("turned", "mortar", "Maxwell, plane strain",
                   ('body.material={young=100, poisson=0.3, law="maxwell", relaxation_time=0.4}',
                    'plane="strain"')),
+        SceneCase("sloped", "interpolation", "power of the overstress", (*POWER, "time.steps=3")),
+        SceneCase("turned", "mortar", "power of the overstress, plane strain", (*POWER, 'plane="strain"')),
+        SceneCase("sloped", "mortar", "hardening", (*GROWING, "time.steps=3")),
+        SceneCase("sloped", "mortar", "plasticity", (*PLASTIC, "time.steps=3")),
+        SceneCase("turned", "interpolation", "plasticity, plane strain", (*PLASTIC, 'plane="strain"')),
         SceneCase("punch", "weighted", "linear, sides swapped: overlap in part", ("contact.swap=true",)),
         SceneCase("ring", "weighted", "linear"),
         SceneCase("sloped", "weighted", "linear, parted by a parabola", ("contact.gap=1e-5*x^2+2e-6",)),

@@ -91,6 +91,26 @@ std::string creeps(const SceneDescription& scene) {
              : "";
 }
 
+/// Flow by the overstress of every body; a yield stress of 0 where it has none.
+std::string overstresses(const SceneDescription& scene) {
+  std::string text;
+  bool any = false;
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    const auto* given = scene.bodies[b].material.as<Overstress>();
+    any = any || given != nullptr;
+    const std::string n = std::to_string(b + 1);
+    const Overstress law = given != nullptr ? *given : Overstress();
+    text += "real yieldO" + n + " = " + shortest(law.yieldStress) + ", sigmaO" + n + " = " +
+            shortest(law.referenceStress) + ", rateO" + n + " = " + shortest(law.referenceRate) + ", powerO" +
+            n + " = " + shortest(law.exponent) + ", backO" + n + " = " + shortest(law.kinematicHardening) +
+            ", growO" + n + " = " + shortest(law.isotropicHardening) + ";\n";
+  }
+  const std::string unit = "[" + scene.units.stress + "]";
+  return any ? "macro overstressed yes //  yield stress, overstress " + unit +
+                   ", its rate [1/s], exponent, kinematic and isotropic hardening " + unit + "\n" + text
+             : "";
+}
+
 using Kind = ConditionDescription::Kind;
 
 bool isRoller(const ConditionDescription& condition) {
@@ -194,7 +214,8 @@ std::string script(const SceneDescription& scene, const Model& model,
   for (int b = 0; b < bodies; ++b) out << " what(" << b + 1 << ')';
   out << " //\n";
   for (int b = 0; b < bodies; ++b) writeBody(out, scene.bodies[b], meshFiles[b], b + 1, scene.units);
-  out << creeps(scene) << relaxes(scene) << "\n// Boundary conditions and loads, functions of x, y and t\n";
+  out << creeps(scene) << relaxes(scene) << overstresses(scene)
+      << "\n// Boundary conditions and loads, functions of x, y and t\n";
   for (int b = 0; b < bodies; ++b) writeConditions(out, scene.bodies[b], b + 1, scene.degree);
   out << rollers(scene) << heldPoints(scene)
       << "\n// Contact: nonmortar body and label, mortar body and label; time\nint[int, int] contact = ";

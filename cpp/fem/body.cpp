@@ -234,7 +234,7 @@ Matrix Body::initialStress() const {
   for (int i = 0; i < points(); ++i) {
     const Eigen::Vector3d pqr = fromCartesian(given.col(i).head<3>());
     stress.col(i).head<3>() = pqr;
-    if (components > 3 && beyond[i] == 0) stress(3, i) = material_->outOfPlane(pqr, i);
+    if (material_->tensorComponents() > 3 && beyond[i] == 0) stress(3, i) = material_->outOfPlane(pqr, i);
   }
   return stress;
 }

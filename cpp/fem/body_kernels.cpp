@@ -151,7 +151,11 @@ void Body::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress
     if (stress.rows() == 3) return;
     for (int i = begin; i < end; ++i) {
       const auto [p, q, r] = strainOf(i);
-      stress(3, i) += law.beyond(0, i) * p + law.beyond(1, i) * q + law.beyond(2, i) * r;
+      for (Eigen::Index row = 3; row < stress.rows(); ++row) {
+        const Eigen::Index first = 4 * (row - 3);
+        stress(row, i) +=
+            law.beyond(first, i) * p + law.beyond(first + 1, i) * q + law.beyond(first + 2, i) * r;
+      }
     }
   });
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "base/counted.h"
 #include "lint/lint.h"
@@ -55,12 +56,21 @@ void checkElasticity(const LintInput& input, const PlacedMaterial& material, dou
                    shortest(std::round(100 * nominal / e.young)) + " %");
 }
 
+/// The flow beyond a yield stress as that of Perzyna's law, by its rate at twice the yield stress; a
+/// viscosity of 0 is plasticity. Nothing for other laws.
+std::optional<Viscoplasticity> beyondYield(const MaterialDescription& material) {
+  if (const auto* flow = material.as<Viscoplasticity>()) return *flow;
+  const auto* law = material.as<Overstress>();
+  if (law == nullptr) return std::nullopt;
+  const double rate = law->referenceRate * std::pow(law->yieldStress / law->referenceStress, law->exponent);
+  return Viscoplasticity{law->viscous() ? law->yieldStress / (3 * rate) : 0, law->yieldStress};
+}
+
 /// Equal steps, and how far each goes beside the yield stress and the time of relaxation.
-void checkSteps(const LintInput& input, const PlacedMaterial& material, double largest, double afterFirstStep,
-                double firstYield, Faults& faults) {
+void checkSteps(const LintInput& input, const PlacedMaterial& material, const Viscoplasticity& flow,
+                double largest, double afterFirstStep, double firstYield, Faults& faults) {
   constexpr double far = 3;
   constexpr double tooStiff = 1e13;
-  const Viscoplasticity& flow = *material.description.as<Viscoplasticity>();
   const TimePlan& time = input.scene.time;
   const std::string& subject = material.subject;
   const std::string& unit = input.scene.units.stress;
@@ -91,12 +101,11 @@ void checkSteps(const LintInput& input, const PlacedMaterial& material, double l
                    ", where the traction reaches the yield stress");
 }
 
-void checkFlow(const LintInput& input, const PlacedMaterial& material, double largest, double afterFirstStep,
-               double firstYield, Faults& faults) {
+void checkFlow(const LintInput& input, const PlacedMaterial& material, const Viscoplasticity& flow,
+               double largest, double afterFirstStep, double firstYield, Faults& faults) {
   constexpr double unreachable = 20;
   constexpr double frozen = 1e-3;
   constexpr double plastic = 0.1;
-  const Viscoplasticity& flow = *material.description.as<Viscoplasticity>();
   const double e = relaxingModulus(material.description.elasticity, input.scene.plane);
   const TimePlan& time = input.scene.time;
   const std::string& subject = material.subject;
@@ -120,7 +129,8 @@ void checkFlow(const LintInput& input, const PlacedMaterial& material, double la
     faults.add("viscosity-large", material.where("viscosity"),
                subject + "relaxes in 2 viscosity/E = " + shortest(relaxation) + unit + ", the run ends at " +
                    shortest(time.end) + unit + ": nothing has time to flow");
-  if (!time.controlled()) checkSteps(input, material, largest, afterFirstStep, firstYield, faults);
+  if (!time.controlled() && flow.viscosity > 0)
+    checkSteps(input, material, flow, largest, afterFirstStep, firstYield, faults);
 }
 
 /// The creep that the loads make, in all and in a step, beside the elastic strain.
@@ -207,11 +217,13 @@ void lintMaterials(const LintInput& input, Faults& faults) {
         stiffest = std::max(stiffest, time.end / time.steps / 2 / viscoelasticity->relaxationTime);
         checkRelaxation(input, material, *viscoelasticity, faults);
       }
-      const auto* flow = material.description.as<Viscoplasticity>();
-      if (flow == nullptr) continue;
+      const std::optional<Viscoplasticity> flow = beyondYield(material.description);
+      if (!flow) continue;
+      const double firstYield = yieldTime(data, time, flow->yieldStress);
+      checkFlow(input, material, *flow, largest, afterFirstStep, firstYield, faults);
+      if (flow->viscosity == 0) continue;
       stiffest = std::max(stiffest, time.end / time.steps / (4 * flow->viscosity) *
                                         relaxingModulus(material.description.elasticity, input.scene.plane));
-      checkFlow(input, material, largest, afterFirstStep, yieldTime(data, time, flow->yieldStress), faults);
     }
     const Node* body = input.bodyNode(b);
     const Node* table = body == nullptr ? nullptr : body->find("material");

@@ -8,7 +8,7 @@ namespace mortier {
 
 Linearisation Material::room(int points) const {
   Linearisation room{Matrix(components(), points), Matrix(symmetricTangent() ? 6 : 9, points)};
-  if (components() > 3) room.beyond.resize(symmetricTangent() ? 4 : 7, points);
+  if (components() > 3) room.beyond.resize(components() > 4 ? 9 : symmetricTangent() ? 4 : 7, points);
   return room;
 }
 

@@ -45,7 +45,8 @@ struct Linearisation {
   /// moduli are symmetric, 6 x points for the lower triangle.
   Matrix moduli;
   /// What a fourth stress component adds to H^-1 [Pa]: its row, and, where H^-1 is not symmetric, the first
-  /// three of its column: 4 or 7 x points. Empty where there are three components.
+  /// three of its column: 4 or 7 x points. Empty where there are three components. A fifth one adds the first
+  /// three of its row, what is on the diagonal, and that of both: 9 x points.
   Matrix beyond = {};
   int elastic = 0;  ///< points at which the moduli are those of elasticity, as far as they were counted
 };
@@ -63,7 +64,7 @@ inline std::array<double, 9> moduliAt(const Matrix& moduli, int point) {
   return {D[0], D[1], D[2], D[3], D[4], D[5], D[6], D[7], D[8]};
 }
 
-using PointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;  ///< by components
+using PointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 5, 1>;  ///< by components
 
 /// H^-1 of a point times a strain.
 inline PointVector stressOf(const Linearisation& law, const Eigen::Ref<const Vector>& strain, int point) {
@@ -74,7 +75,12 @@ inline PointVector stressOf(const Linearisation& law, const Eigen::Ref<const Vec
     const auto beyond = law.beyond.col(point);
     const Eigen::Index column = beyond.size() == 7 ? 4 : 0;
     stress.head<3>() += beyond.segment<3>(column) * strain[3];
-    stress[3] = beyond.head<4>().dot(strain);
+    stress[3] = beyond.head<4>().dot(strain.head<4>());
+    if (strain.size() > 4) {
+      stress.head<3>() += beyond.segment<3>(4) * strain[4];
+      stress[3] += beyond[8] * strain[4];
+      stress[4] = beyond.segment<3>(4).dot(strain.head<3>()) + beyond[8] * strain[3] + beyond[7] * strain[4];
+    }
   }
   return stress;
 }
@@ -101,8 +107,11 @@ class Material {
   virtual ~Material() = default;
   /// One for each part of the body.
   [[nodiscard]] virtual std::vector<LawDescription> laws() const = 0;
-  /// Number of stress components: those of the plane, and one beyond it.
+  /// Number of stress components: those of the plane, one beyond it, and what a law remembers in the form of
+  /// one: it does work on no strain of the body.
   [[nodiscard]] virtual int components() const = 0;
+  /// How many of them are those of the tensor.
+  [[nodiscard]] virtual int tensorComponents() const { return components(); }
   /// The stress beyond the plane that elasticity asks for beside p, q, r, without strain beyond it [Pa].
   [[nodiscard]] virtual double outOfPlane(const Eigen::Vector3d& stress, int point) const = 0;
   /// Whether the moduli are symmetric whatever the stress.
@@ -115,8 +124,12 @@ class Material {
   [[nodiscard]] virtual double stressScale() const = 0;
   /// Viscous over elastic compliance, theta e, for a step of `weight` [-].
   [[nodiscard]] virtual double stiffness(double weight) const = 0;
-  /// Whether the stress of a point is on or beyond yield.
-  [[nodiscard]] virtual bool flows(const Matrix& stress, int point) const = 0;
+  /// Whether the stress of a point is on or beyond yield; where that depends on the total strain, which is
+  /// not given, it may be.
+  [[nodiscard]] virtual bool flows(const Matrix& stress, int point, const Matrix* strain = nullptr) const = 0;
+  /// Whether it is linearised at the stress to which the strain leads (return mapping): Newton's method has
+  /// no corner then at which it could turn in circles.
+  [[nodiscard]] virtual bool returns() const { return false; }
 
   // Of the points [begin, end); what is filled is sized before.
 

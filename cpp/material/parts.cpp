@@ -66,6 +66,7 @@ class Parts final : public Material {
     return laws;
   }
   [[nodiscard]] int components() const override { return materials_.front()->components(); }
+  [[nodiscard]] int tensorComponents() const override { return materials_.front()->tensorComponents(); }
   [[nodiscard]] double outOfPlane(const Eigen::Vector3d& stress, int point) const override {
     return at(point).outOfPlane(stress, point);
   }
@@ -80,8 +81,11 @@ class Parts final : public Material {
     for (const auto& material : materials_) largest = std::max(largest, material->stiffness(weight));
     return largest;
   }
-  [[nodiscard]] bool flows(const Matrix& stress, int point) const override {
-    return at(point).flows(stress, point);
+  [[nodiscard]] bool flows(const Matrix& stress, int point, const Matrix* strain) const override {
+    return at(point).flows(stress, point, strain);
+  }
+  [[nodiscard]] bool returns() const override {
+    return std::any_of(materials_.begin(), materials_.end(), [](const auto& m) { return m->returns(); });
   }
 
   using Material::choosePenalty, Material::elasticStrain, Material::interiorPath, Material::viscoplasticRate;

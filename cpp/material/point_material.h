@@ -1,6 +1,7 @@
 // A material from the law of one point. A law is a small class with
 //
-//   static constexpr int components;              3, on p, q, r (stress.h), or 4, s33 beside them
+//   static constexpr int components;              3, on p, q, r (stress.h), or 4, s33 beside them; and those
+//                                                 that it remembers
 //   static constexpr bool linear, ofStrain;       its moduli depend on nothing; G depends on the total strain
 //   bool symmetric() const;                       whether its moduli are, whatever the stress
 //   double stressScale() const;                   [Pa], 0 for none
@@ -10,9 +11,12 @@
 //   Lanes penalty(stress) const;
 //   stress rate(stress, total strain) const;      G [1/s]
 //   stress elasticStrain(stress) const;           E^-1 s [-]
-//   mask or bool flows(stress) const;             of eight points or of one
+//   mask or bool flows(stress) const;             of eight points or of one; or, where G depends on the total
+//   bool flows(stress, total strain) const;       strain
 //   double outOfPlane(Eigen::Vector3d) const;     where there are 4 components
 //   ConeLaw cone(double weight) const;            where its interior path is known (interior_path.h)
+//   static constexpr int remembered;              how many components, the last, are none of the tensor
+//   static constexpr bool returns;                as in material.h
 //
 // E is any symmetric elliptic tensor and G any function: nothing else is assumed of them. Stresses and
 // strains are arrays of components, each for eight points (base/lanes.h); this class runs the law over a
@@ -54,8 +58,9 @@ class PointMaterial final : public Material {
 
   [[nodiscard]] std::vector<LawDescription> laws() const override { return {description_}; }
   [[nodiscard]] int components() const override { return n; }
+  [[nodiscard]] int tensorComponents() const override { return static_cast<int>(n) - remembered; }
   [[nodiscard]] double outOfPlane(const Eigen::Vector3d& stress, int /*point*/) const override {
-    if constexpr (n == 4) return law_.outOfPlane(stress);
+    if constexpr (n - remembered == 4) return law_.outOfPlane(stress);
     return 0;
   }
   [[nodiscard]] bool symmetricTangent() const override { return law_.symmetric(); }
@@ -63,10 +68,16 @@ class PointMaterial final : public Material {
   [[nodiscard]] bool ofStrain() const override { return Law::ofStrain; }
   [[nodiscard]] double stressScale() const override { return law_.stressScale(); }
   [[nodiscard]] double stiffness(double weight) const override { return law_.stiffness(weight); }
-  [[nodiscard]] bool flows(const Matrix& stress, int point) const override {
-    std::array<double, n> s;
-    for (size_t k = 0; k < n; ++k) s[k] = stress(static_cast<Eigen::Index>(k), point);
-    return law_.flows(s);
+  [[nodiscard]] bool flows(const Matrix& stress, int point, const Matrix* strain) const override {
+    const std::array<double, n> s = at(stress, point);
+    if constexpr (requires { law_.flows(s, s); })
+      return strain == nullptr || law_.flows(s, at(*strain, point));
+    else
+      return law_.flows(s);
+  }
+  [[nodiscard]] bool returns() const override {
+    if constexpr (requires { Law::returns; }) return Law::returns;
+    return false;
   }
 
   using Material::choosePenalty, Material::elasticStrain, Material::interiorPath, Material::viscoplasticRate;
@@ -134,6 +145,16 @@ class PointMaterial final : public Material {
 
  private:
   static constexpr size_t n = Law::components;
+  static constexpr int remembered = [] {
+    if constexpr (requires { Law::remembered; }) return Law::remembered;
+    return 0;
+  }();
+
+  static std::array<double, n> at(const Matrix& field, int point) {
+    std::array<double, n> s;
+    for (size_t k = 0; k < n; ++k) s[k] = field(static_cast<Eigen::Index>(k), point);
+    return s;
+  }
 
   static PointStep<n> pointStep(const Batch& batch, const MaterialStep& step, const Matrix& stress) {
     PointStep<n> point;
@@ -165,6 +186,9 @@ class PointMaterial final : public Material {
         batch.store(std::array<Lanes, 7>{H[3], H[7], H[11], H[15], H[12], H[13], H[14]},
                     result.beyond.data());
     }
+    if constexpr (n == 5)
+      batch.store(std::array<Lanes, 9>{H[3], H[8], H[13], H[18], H[4], H[9], H[14], H[24], H[19]},
+                  result.beyond.data());
   }
 
   Law law_;

@@ -68,11 +68,14 @@ class Planner {
     std::string projection;
     double yieldStress = INFINITY;
     std::string always;  // laws that flow at any stress
+    constexpr const char* withYieldStress[] = {"elastic", "Perzyna", "viscoplastic", "plastic"};
     for (const LawDescription& law : body.material().laws()) {
       if (!law.variant.empty()) projection = law.variant;
       for (const LawDescription::Parameter& parameter : law.parameters)
         if (parameter.name == "yield_stress") yieldStress = std::min(yieldStress, parameter.value);
-      if (law.name != "elastic" && law.name != "Perzyna") always = law.text();
+      if (std::none_of(std::begin(withYieldStress), std::end(withYieldStress),
+                       [&](const char* name) { return law.name == name; }))
+        always = law.text();
     }
     const std::string law = scene_.plane == Plane::strain ? "its tangent is symmetric in plane strain"
                             : projection.empty()

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "material/stress.h"
 #include "report/output_file.h"
+#include "solver/total_strain.h"
 
 namespace mortier {
 
@@ -152,18 +153,20 @@ PointVector allCartesian(PointVector s) {
 CellFields cellFields(const Body& body, const BodyState& state) {
   const auto cells = static_cast<Eigen::Index>(body.mesh().triangles.size());
   const Eigen::Index pointsPerCell = state.stress.cols() / cells;
-  const Eigen::Index components = state.stress.rows();
+  const Eigen::Index components = body.material().tensorComponents();
+  const Matrix strain = strainOfLaw(body.material(), state);
   CellFields fields{Matrix::Zero(components, cells), Matrix(components * pointsPerCell, cells),
                     Vector::Zero(cells), Matrix::Zero(components, cells), std::vector<int>(cells, 0)};
   const double weight = 1.0 / static_cast<double>(pointsPerCell);
   for (Eigen::Index point = 0; point < state.stress.cols(); ++point) {
     const Eigen::Index cell = point / pointsPerCell;
-    const PointVector stress = allCartesian(state.stress.col(point));
+    const PointVector stress = allCartesian(state.stress.col(point).head(components));
     fields.stress.col(cell) += weight * stress;
     fields.stressAtPoints.col(cell).segment(components * (point % pointsPerCell), components) = stress;
-    fields.vonMises[cell] += weight * vonMises(state.stress.col(point));
-    fields.viscoplasticStrain.col(cell) += weight * allCartesian(state.viscoplasticStrain.col(point));
-    if (body.material().flows(state.stress, static_cast<int>(point))) fields.viscoplastic[cell] = 1;
+    fields.vonMises[cell] += weight * vonMises(state.stress.col(point).head(components));
+    fields.viscoplasticStrain.col(cell) +=
+        weight * allCartesian(state.viscoplasticStrain.col(point).head(components));
+    if (body.material().flows(state.stress, static_cast<int>(point), &strain)) fields.viscoplastic[cell] = 1;
   }
   return fields;
 }

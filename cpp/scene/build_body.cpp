@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "base/error.h"
 #include "fem/element.h"
 #include "material/parts.h"
 #include "scene/check_data.h"
@@ -16,6 +17,8 @@ std::shared_ptr<const Material> buildMaterial(const MaterialDescription& descrip
   if (const auto* norton = description.as<NortonCreep>()) return nortonMaterial(elasticity, *norton, plane);
   if (const auto* viscoelasticity = description.as<Viscoelasticity>())
     return viscoelasticMaterial(elasticity, *viscoelasticity, plane);
+  if (const auto* overstress = description.as<Overstress>())
+    return overstressMaterial(elasticity, *overstress, plane);
   const auto* viscoplasticity = description.as<Viscoplasticity>();
   if (plane == Plane::strain) {
     return viscoplasticity ? planeStrainPerzynaMaterial(elasticity, *viscoplasticity)
@@ -38,6 +41,10 @@ std::shared_ptr<const Material> buildMaterial(const BodyDescription& body, const
   if (materials.size() == 1) {
     return materials.front();
   }
+  for (const auto& material : materials)
+    if (material->components() != materials.front()->components())
+      throw InputError(body.where + ": body " + body.name +
+                       ": isotropic_hardening in a part of it, expected it in all regions or in none");
   std::vector<int> materialOf;
   for (const int label : mesh.regions) {
     const auto found = number.find(label);

@@ -26,6 +26,8 @@ const Dimension* dimensionOf(const std::string& path) {
   static const std::pair<const char*, Dimension> materials[] = {
       {"young", dimensions::stress},        {"yield_stress", dimensions::stress},
       {"viscosity", dimensions::viscosity}, {"reference_stress", dimensions::stress},
+                                                                {"kinematic_hardening", dimensions::stress},
+                                                                {"isotropic_hardening", dimensions::stress},
       {"reference_rate", dimensions::rate}, {"relaxation_time", dimensions::time}};
   static const std::map<std::string, Dimension> keys = [] {
     std::map<std::string, Dimension> all{{"body.boundary.tx", dimensions::stress},

@@ -2,19 +2,22 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "scene/words.h"
 
 namespace mortier {
 namespace {
 
 /// Laws and their keys beside young and poisson.
-enum Law { elastic, perzyna, norton, maxwell, standardSolid };
-const Keys lawWords{"elastic", "perzyna", "norton", "maxwell", "standard-solid"};
+enum Law { elastic, perzyna, norton, maxwell, standardSolid, viscoplastic };
+const Keys lawWords{"elastic", "perzyna", "norton", "maxwell", "standard-solid", "viscoplastic"};
 const Keys keysOfLaw[] = {{},
                           {"viscosity", "yield_stress", "projection"},
                           {"reference_stress", "reference_rate", "exponent"},
                           {"relaxation_time"},
-                          {"relaxation_time", "relaxed_fraction"}};
+                          {"relaxation_time", "relaxed_fraction"},
+                          {"yield_stress", "viscosity", "reference_stress", "reference_rate", "exponent",
+                           "kinematic_hardening", "isotropic_hardening"}};
 
 bool has(const Keys& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
@@ -39,6 +42,24 @@ void requireKeysOf(int law, const TableReader& table) {
     }
 }
 
+/// By a viscosity, or a power of the overstress.
+Overstress readOverstress(const TableReader& table) {
+  Overstress law;
+  law.yieldStress = table.number("yield_stress", above(0));
+  if (table.find("viscosity") != nullptr) {
+    for (const char* key : {"reference_stress", "reference_rate", "exponent"})
+      if (table.find(key) != nullptr) table.reject(key, "either viscosity or a power of the overstress");
+    law.setViscosity(table.number("viscosity", atLeast(0)));
+  } else {
+    law.referenceStress = table.number("reference_stress", above(0));
+    law.referenceRate = table.number("reference_rate", above(0));
+    law.exponent = table.number("exponent", atLeast(1));
+  }
+  law.kinematicHardening = table.number("kinematic_hardening", atLeast(0), 0);
+  law.isotropicHardening = table.number("isotropic_hardening", atLeast(0), 0);
+  return law;
+}
+
 }  // namespace
 
 MaterialDescription readMaterial(const Node& node, const std::string& path, const std::string& subject) {
@@ -59,7 +80,23 @@ MaterialDescription readMaterial(const Node& node, const std::string& path, cons
   if (law == standardSolid)
     material.flow = Viscoelasticity{table.number("relaxation_time", above(0)),
                                     table.number("relaxed_fraction", between(0, 1))};
+  if (law == viscoplastic) material.flow = readOverstress(table);
   return material;
+}
+
+void requireRates(const BodyDescription& body, const SceneDescription& scene) {
+  std::vector<const MaterialDescription*> materials{&body.material};
+  for (const RegionDescription& region : body.regions)
+    if (region.material) materials.push_back(&*region.material);
+  const std::string asked = scene.time.scheme == Scheme::crankNicolson ? "scheme = \"crank-nicolson\""
+                            : scene.time.controlled()                  ? "time.tolerance"
+                            : scene.accuracy.energy > 0                ? "accuracy"
+                                                                       : "";
+  for (const MaterialDescription* material : materials)
+    if (const auto* law = material->as<Overstress>(); law != nullptr && !law->viscous() && !asked.empty())
+      throw InputError(body.where + ": body " + body.name +
+                       ": viscosity = 0, expected viscosity > 0 beside " + asked +
+                       ": plasticity has no rate at a given stress");
 }
 
 }  // namespace mortier

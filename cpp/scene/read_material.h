@@ -9,4 +9,7 @@ namespace mortier {
 /// \throws InputError of one line, also where a key belongs to another law.
 MaterialDescription readMaterial(const Node& node, const std::string& path, const std::string& subject);
 
+/// Plasticity has no rate at a given stress. \throws InputError where the steps of the scene need one.
+void requireRates(const BodyDescription& body, const SceneDescription& scene);
+
 }  // namespace mortier

@@ -8,6 +8,7 @@
 #include "scene/overrides.h"
 #include "scene/read_body.h"
 #include "scene/read_contact.h"
+#include "scene/read_material.h"
 #include "scene/read_quantity.h"
 #include "scene/read_time.h"
 #include "scene/table_reader.h"
@@ -100,6 +101,7 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
                        "\", expected a name of its own, there is one at " + scene.bodies[other].where);
     }
     requireInPlane(body, scene.plane);
+    requireRates(body, scene);
     scene.bodies.push_back(std::move(body));
   }
   for (const Node* contact : root.tables("contact")) {

@@ -17,7 +17,9 @@ const Keys& keysOf(const std::string& path) {
                                  "reference_rate",
                                  "exponent",
                                  "relaxation_time",
-                                 "relaxed_fraction"};
+                                 "relaxed_fraction",
+                                 "kinematic_hardening",
+                                 "isotropic_hardening"};
   static const std::map<std::string, Keys> tables = {
       {"",
        {"title", "plane", "body", "contact", "quantity", "time", "solver", "output", "check", "degree",

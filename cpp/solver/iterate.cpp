@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "solver/total_strain.h"
+
 namespace mortier {
 
 ActiveSets startingSets(const State& state0) {
@@ -87,9 +89,12 @@ std::vector<Vector> solvedGaps(const Model& model, const State& state0, const It
 }
 
 bool flows(const Model& model, const State& state) {
-  for (size_t b = 0; b < model.bodies.size(); ++b)
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Material& material = model.bodies[b].material();
+    const Matrix strain = strainOfLaw(material, state.bodies[b]);
     for (int i = 0; i < model.bodies[b].points(); ++i)
-      if (model.bodies[b].material().flows(state.bodies[b].stress, i)) return true;
+      if (material.flows(state.bodies[b].stress, i, &strain)) return true;
+  }
   return false;
 }
 

@@ -30,12 +30,13 @@ const char* nameOf(Rung rung) {
 
 namespace {
 
-/// Whether a body flows by a law without a yield stress, and none by one with it: Newton's method has no
-/// corner at which it could turn in circles, but a long way to come down from elasticity.
-bool flowsWithoutYield(const Model& model) {
+/// Whether a body flows, and none at a corner at which Newton's method could turn in circles: by a law
+/// without a yield stress, or by one that is linearised where the strain leads. It may have a long way to
+/// come down from elasticity.
+bool flowsWithoutCorner(const Model& model) {
   bool flows = false;
   for (const Body& body : model.bodies) {
-    if (body.material().stressScale() > 0) return false;
+    if (body.material().stressScale() > 0 && !body.material().returns()) return false;
     flows = flows || !body.material().linear();
   }
   return flows;
@@ -47,7 +48,7 @@ bool flowsWithoutYield(const Model& model) {
 // tangent the interior point method leads to the one solution.
 StepOutcome solveStep(StepSystem& system, const State& state0, const StepData& data, Iterate& guess,
                       Effort effort) {
-  const int plainIterations = flowsWithoutYield(system.model()) ? 25 : 7;
+  const int plainIterations = flowsWithoutCorner(system.model()) ? 25 : 7;
   constexpr int firstWalk = 60;
   constexpr int usualIterations = 300;
   constexpr int secondWalk = 100;

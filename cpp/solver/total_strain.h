@@ -14,4 +14,9 @@ inline Matrix totalStrain(const Material& material, const BodyState& state) {
   return strain;
 }
 
+/// That, where the law depends on it; nothing elsewhere.
+inline Matrix strainOfLaw(const Material& material, const BodyState& state) {
+  return material.ofStrain() ? totalStrain(material, state) : Matrix();
+}
+
 }  // namespace mortier

@@ -4,6 +4,7 @@
 
 #include "base/worst.h"
 #include "material/stress.h"
+#include "solver/total_strain.h"
 
 namespace mortier {
 
@@ -36,10 +37,12 @@ void measure(const Model& model, const State& state, StepReport& report) {
     const Body& body = model.bodies[b];
     const Matrix& stress = state.bodies[b].stress;
     body.material().elasticStrain(stress, strain);
+    const int tensor = body.material().tensorComponents();
+    const Matrix total = strainOfLaw(body.material(), state.bodies[b]);
     for (int i = 0; i < body.points(); ++i) {
       area += body.weights()[i];
-      if (body.material().flows(stress, i)) flowing += body.weights()[i];
-      report.vonMises = std::max(report.vonMises, vonMises(stress.col(i)));
+      if (body.material().flows(stress, i, &total)) flowing += body.weights()[i];
+      report.vonMises = std::max(report.vonMises, vonMises(stress.col(i).head(tensor)));
       report.energy += body.weights()[i] / 2 * stress.col(i).dot(strain.col(i));
     }
     double largest = 0;

@@ -102,7 +102,9 @@ Largest largestMises(const Model& model, const State& state, const Quantity& qua
   Largest largest;
   const std::vector<Point> places = model.bodies[quantity.body].places();
   const Matrix& stress = state.bodies[quantity.body].stress;
-  for (Eigen::Index i = 0; i < stress.cols(); ++i) largest.raise(vonMises(stress.col(i)), places[i]);
+  const int tensor = model.bodies[quantity.body].material().tensorComponents();
+  for (Eigen::Index i = 0; i < stress.cols(); ++i)
+    largest.raise(vonMises(stress.col(i).head(tensor)), places[i]);
   return largest;
 }
 

@@ -112,8 +112,10 @@ std::vector<Matrix> StepTaker::throughStages(const std::vector<std::vector<Matri
     std::vector<Matrix> flow = error;
     for (size_t b = 0; b < flow.size(); ++b) {
       flow[b] = (flow[b] - shift[b]) / stage.diagonal;
+      const Matrix total = strainWithin(b, stage.time);
       for (int p = 0; p < model_.bodies[b].points(); ++p)
-        if (!model_.bodies[b].material().flows(solutions_[i].bodies[b].stress, p)) flow[b].col(p).setZero();
+        if (!model_.bodies[b].material().flows(solutions_[i].bodies[b].stress, p, &total))
+          flow[b].col(p).setZero();
     }
     flows.push_back(std::move(flow));
   }
@@ -174,27 +176,26 @@ std::vector<Response> StepTaker::change(size_t stage) const {
   return change;
 }
 
-double StepTaker::share(const Matrix& (*stressOf)(const StepTaker&, size_t)) const {
+double StepTaker::share(double fraction) const {
   int points = 0;
   int flowing = 0;
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     if (model_.bodies[b].material().linear()) continue;
     points += model_.bodies[b].points();
+    const Matrix& stress = fraction > 0 ? solutions_.back().bodies[b].stress : state_.bodies[b].stress;
+    const Matrix strain = strainWithin(b, fraction);
     for (int i = 0; i < model_.bodies[b].points(); ++i)
-      flowing += model_.bodies[b].material().flows(stressOf(*this, b), i) ? 1 : 0;
+      flowing += model_.bodies[b].material().flows(stress, i, &strain) ? 1 : 0;
   }
   return points > 0 ? static_cast<double>(flowing) / points : 0;
 }
 
 double StepTaker::flowing() const {
-  return share(
-      [](const StepTaker& taker, size_t b) -> const Matrix& { return taker.state_.bodies[b].stress; });
+  return share(0);
 }
 
 double StepTaker::flowingAtEnd() const {
-  return share([](const StepTaker& taker, size_t b) -> const Matrix& {
-    return taker.solutions_.back().bodies[b].stress;
-  });
+  return share(1);
 }
 
 /// The stress at the end of the attempt had it gone on as it began; nothing where that is not known.
@@ -221,8 +222,9 @@ std::vector<Response> StepTaker::turn() const {
     const Matrix& end = solutions_.back().bodies[b].stress;
     Matrix stress = Matrix::Zero(end.rows(), end.cols());
     // Without a yield stress there is no onset to turn at.
+    const Matrix strain = strainWithin(b, 1);
     for (int i = 0; i < end.cols() && material.stressScale() > 0; ++i) {
-      if (!material.flows(end, i)) continue;
+      if (!material.flows(end, i, &strain)) continue;
       stress.col(i) = end.col(i) - expected[b].col(i);
       stress.col(i) *= part * stress.col(i).norm() / material.stressScale();
     }
@@ -236,17 +238,18 @@ double StepTaker::onset() const {
   // The polynomial through the stages knows how the load bends,
   // the stress before the first flow how it would go on.
   const std::vector<Matrix> expected = onwards();
-  const auto anyFlows = [&](size_t b, const Matrix& stress) {
+  const auto anyFlows = [&](size_t b, const Matrix& stress, const Matrix& strain) {
     for (int i = 0; i < model_.bodies[b].points(); ++i)
-      if (model_.bodies[b].material().flows(stress, i)) return true;
+      if (model_.bodies[b].material().flows(stress, i, &strain)) return true;
     return false;
   };
   const auto flowsAt = [&](double fraction) {
     for (size_t b = 0; b < model_.bodies.size(); ++b) {
       if (model_.bodies[b].material().linear()) continue;
       const Matrix& start = state_.bodies[b].stress;
-      if (anyFlows(b, stressWithin(b, fraction))) return true;
-      if (!expected.empty() && anyFlows(b, start + fraction * (expected[b] - start))) return true;
+      const Matrix strain = strainWithin(b, fraction);
+      if (anyFlows(b, stressWithin(b, fraction), strain)) return true;
+      if (!expected.empty() && anyFlows(b, start + fraction * (expected[b] - start), strain)) return true;
     }
     return false;
   };

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/total_strain.h"
 #include "time/measure.h"
 
 namespace mortier {
@@ -134,8 +135,11 @@ std::vector<Matrix> StepTaker::ratesOf(const Iterate& stage, double weight) cons
     if (material.linear()) continue;
     Matrix elastic;
     material.elasticStrain(stress - state_.bodies[b].stress, elastic);
+    Matrix total = strainOfLaw(material, state_.bodies[b]);
+    if (total.size() > 0) total += strain;
+    if (total.size() > 0 && !shift_.empty()) total += shift_[b];
     for (int i = 0; i < stress.cols(); ++i)
-      if (material.flows(stress, i)) rates[b].col(i) = (strain.col(i) - elastic.col(i)) / weight;
+      if (material.flows(stress, i, &total)) rates[b].col(i) = (strain.col(i) - elastic.col(i)) / weight;
   }
   return rates;
 }

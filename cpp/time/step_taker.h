@@ -85,7 +85,7 @@ class StepTaker {
   [[nodiscard]] double dissipated(size_t body) const;
   void countWork();
   [[nodiscard]] std::vector<Matrix> onwards() const;
-  [[nodiscard]] double share(const Matrix& (*stressOf)(const StepTaker&, size_t)) const;
+  [[nodiscard]] double share(double fraction) const;
 
   const Model& model_;
   State& state_;

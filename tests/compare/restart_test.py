@@ -23,6 +23,10 @@ QUANTITIES = ("quantity=[{name='work', work={body='upper'}}, {name='outside', ex
 NORTON = ('body.upper.material={young=3e11, poisson=0.3, law="norton", reference_stress=5, '
           'reference_rate=0.05, exponent=4}')
 
+HARDENING = ('body.upper.material={young=3e11, poisson=0.3, law="viscoplastic", yield_stress=3, '
+             'reference_stress=5, reference_rate=0.05, exponent=4, kinematic_hardening=20, '
+             'isotropic_hardening=30}')
+
 # Settings and threads of the runs that are killed. The upper body is Perzyna in all of them but those with
 # NORTON.
 CASES = [
@@ -42,6 +46,8 @@ CASES = [
     (["time.scheme=sdirk2", "time.tolerance=1e-5", QUANTITIES], 1),
     ([NORTON, "contact.variant=mortar", "time.scheme=sdirk2", "time.tolerance=1e-4"], 2),
     ([NORTON, "plane=strain", "contact.variant=mortar", "time.scheme=crank-nicolson"], 1),
+    ([HARDENING, "contact.variant=interpolation", "time.scheme=sdirk2"], 1),
+    ([HARDENING, "plane=strain", "contact.variant=mortar", "time.scheme=sdirk2", "time.tolerance=1e-4"], 2),
 ]
 KILLS = 20
 MEASURED = {"summary.json": [["solve_time_s"], ["wall_time_s"], ["peak_memory_mib"], ["threads"]],

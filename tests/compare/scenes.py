@@ -111,10 +111,13 @@ mesh = "lower.mesh"
 [body.material]
 young = 1e4
 poisson = 0.3
-law = "norton"
+law = "viscoplastic"
+yield_stress = 2
 reference_stress = 9
 reference_rate = 1e-3
 exponent = 4
+kinematic_hardening = 100
+isotropic_hardening = "0.1 kPa"
 [[body.boundary]]
 label = 1
 un = 0

@@ -40,13 +40,16 @@ FAULTS = [
     # laws
     ("young = 3e11", "law = \"nortn\", young = 3e11",
      "scene.toml:6: body upper: law = \"nortn\", expected one of elastic, perzyna, norton, "
-     "maxwell, standard-solid"),
+     "maxwell, standard-solid, viscoplastic"),
     ("young = 3e11", "law = \"norton\", young = 3e11",
-     "scene.toml:6: body upper: viscosity = 10, expected it beside law = \"perzyna\" only"),
+     "scene.toml:6: body upper: viscosity = 10, expected it beside law = \"perzyna\" or "
+     "\"viscoplastic\" only"),
     ("young = 3e11", "law = \"elastic\", young = 3e11",
-     "scene.toml:6: body upper: viscosity = 10, expected it beside law = \"perzyna\" only"),
+     "scene.toml:6: body upper: viscosity = 10, expected it beside law = \"perzyna\" or "
+     "\"viscoplastic\" only"),
     ("young = 3e11", "exponent = 5, young = 3e11",
-     "scene.toml:6: body upper: exponent = 5, expected it beside law = \"norton\" only"),
+     "scene.toml:6: body upper: exponent = 5, expected it beside law = \"norton\" or "
+     "\"viscoplastic\" only"),
     ("viscosity = 10, yield_stress = 1, projection = \"elasticity\"",
      "law = \"norton\", reference_stress = 1, exponent = 5",
      "scene.toml:6: body upper: reference_rate is missing, expected reference_rate > 0"),
@@ -59,6 +62,18 @@ FAULTS = [
     ("viscosity = 10, yield_stress = 1, projection = \"elasticity\"",
      "law = \"norton\", reference_stress = 1, reference_rate = inf, exponent = 5",
      "scene.toml:6: body upper: reference_rate = inf, expected reference_rate > 0"),
+    ("viscosity = 10, yield_stress = 1, projection = \"elasticity\"",
+     "law = \"viscoplastic\", yield_stress = 1, viscosity = 1, exponent = 2",
+     "scene.toml:6: body upper: exponent = 2, expected either viscosity or a power of the overstress"),
+    ("viscosity = 10, yield_stress = 1, projection = \"elasticity\"",
+     "law = \"viscoplastic\", yield_stress = 1, viscosity = -1",
+     "scene.toml:6: body upper: viscosity = -1, expected viscosity >= 0"),
+    ("viscosity = 10, yield_stress = 1, projection = \"elasticity\"",
+     "law = \"viscoplastic\", yield_stress = 1, viscosity = 1, kinematic_hardening = -1",
+     "scene.toml:6: body upper: kinematic_hardening = -1, expected kinematic_hardening >= 0"),
+    ("viscosity = 10, yield_stress = 1, projection = \"elasticity\"",
+     "law = \"viscoplastic\", yield_stress = 1, exponent = 3, reference_rate = 1",
+     "scene.toml:6: body upper: reference_stress is missing, expected reference_stress > 0"),
     ("young = 3e11", "relaxation_time = 1, young = 3e11",
      "scene.toml:6: body upper: relaxation_time = 1, expected it beside law = \"maxwell\" or "
      "\"standard-solid\" only"),

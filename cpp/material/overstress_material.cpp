@@ -1,0 +1,146 @@
+// The law of overstress.h in both planes, with what its hardening needs: the total strain, a component rho.
+#include "material/overstress.h"
+
+namespace mortier {
+namespace {
+
+/// \tparam tensor  components of the stress  \tparam kinematic, isotropic  whether it hardens like that
+template <int tensor, bool kinematic, bool isotropic>
+class OverstressLaw {
+ public:
+  static constexpr int remembered = isotropic ? 1 : 0;
+  static constexpr int components = tensor + remembered;
+  static constexpr bool linear = false;
+  static constexpr bool ofStrain = kinematic;
+  static constexpr bool returns = true;
+  using Stress = std::array<Lanes, components>;
+  using Numbers = std::array<double, components>;
+
+  OverstressLaw(const OverstressFlow& flow, const Elasticity& elasticity)
+      : flow_(flow),
+        poisson_(elasticity.poisson),
+        bulk_(elasticity.young / (1 - 2 * elasticity.poisson)),
+        K_(flow.law().isotropicHardening) {}
+
+  static bool symmetric() { return true; }
+  [[nodiscard]] double stressScale() const { return flow_.law().yieldStress; }
+  [[nodiscard]] double stiffness(double weight) const { return flow_.stiffness(weight); }
+  static Lanes penalty(const Stress& /*stress*/) { return 0; }
+  [[nodiscard]] double outOfPlane(const Eigen::Vector3d& stress) const {
+    return poisson_ * std::numbers::sqrt2 * stress[0];
+  }
+  [[nodiscard]] bool flows(const Numbers& stress) const requires(!kinematic) {
+    return flow_.flows(parts(stress).deviator, {}, rhoOf(stress));
+  }
+  [[nodiscard]] bool flows(const Numbers& stress, const Numbers& total) const requires kinematic {
+    return flow_.flows(parts(stress).deviator, parts(total).deviator, rhoOf(stress));
+  }
+  [[nodiscard]] Stress rate(const Stress& stress, const Stress& total) const {
+    const auto [rate, p] = flow_.rate(parts(stress).deviator, parts(total).deviator, rhoOf(stress));
+    return whole(Split<Lanes>{rate, 0}, p);
+  }
+  [[nodiscard]] Stress elasticStrain(const Stress& stress) const {
+    Split<Lanes> s = parts(stress);
+    for (int k = 0; k < 3; ++k) s.deviator[k] *= 1 / flow_.elasticModulus(k);
+    s.pressure *= 1 / bulk_;
+    return whole(s, isotropic ? rhoOf(stress) / K_ : Lanes(0));
+  }
+  [[nodiscard]] PointAnswer<components> linearise(const PointStep<components>& point) const {
+    return joined(point, flow_.linearise(own(point)), 1);
+  }
+  /// Elasticity, and what it remembers, meet the law halfway.
+  [[nodiscard]] PointAnswer<components> regularise(const PointStep<components>& point,
+                                                   const Lanes& /*penalty*/) const {
+    return joined(point, flow_.regularise(own(point)), 0.5);
+  }
+
+ private:
+  /// The directions of the flow, and the pressure of plane strain.
+  template <class Scalar>
+  static Split<Scalar> parts(const std::array<Scalar, components>& s) {
+    if constexpr (tensor == 4)
+      return split(std::array<Scalar, 4>{s[0], s[1], s[2], s[3]});
+    else
+      return {{s[0], s[1], s[2]}, 0};
+  }
+  template <class Scalar>
+  static Scalar rhoOf(const std::array<Scalar, components>& s) {
+    if constexpr (isotropic) return s[tensor];
+    return 0;
+  }
+  static Stress whole(const Split<Lanes>& s, const Lanes& rho) {
+    Stress all;
+    if constexpr (tensor == 4) {
+      const std::array<Lanes, 4> four = mortier::joined(s);
+      std::copy(four.begin(), four.end(), all.begin());
+    } else {
+      std::copy(s.deviator.begin(), s.deviator.end(), all.begin());
+    }
+    if constexpr (isotropic) all[tensor] = rho;
+    return all;
+  }
+  static OverstressFlow::Point own(const PointStep<components>& point) {
+    return {parts(point.stress).deviator,
+            parts(point.stress0).deviator,
+            parts(point.strain).deviator,
+            parts(point.total).deviator,
+            rhoOf(point.stress0),
+            rhoOf(point.strain),
+            point.weight};
+  }
+  [[nodiscard]] PointAnswer<components> joined(const PointStep<components>& point,
+                                               const OverstressFlow::Answer& answer, double part) const {
+    Lanes pressure = 0;
+    if constexpr (tensor == 4)
+      pressure = part * (bulk_ * parts(point.strain).pressure - parts(point.stress).pressure +
+                         parts(point.stress0).pressure);
+    PointAnswer<components> all;
+    all.flows = answer.flows;
+    all.predictor = point.stress;
+    all.change = whole({answer.change, pressure}, isotropic ? part * (answer.rho - rhoOf(point.stress)) : 0);
+    for (size_t k = 0; k < components; ++k) all.predictor[k] += all.change[k];
+    constexpr size_t n = components;
+    constexpr size_t t = tensor;
+    if constexpr (tensor == 4) {
+      const std::array<Lanes, 16> moduli = joinedModuli(answer.moduli, Lanes(bulk_));
+      for (size_t j = 0; j < t; ++j)
+        for (size_t i = 0; i < t; ++i) all.moduli[n * j + i] = moduli[t * j + i];
+    } else {
+      for (size_t j = 0; j < t; ++j)
+        for (size_t i = 0; i < t; ++i) all.moduli[n * j + i] = answer.moduli[t * j + i];
+    }
+    if constexpr (isotropic) {
+      const Stress mixed = whole({answer.mixed, 0}, answer.ofRho);
+      for (size_t k = 0; k < n; ++k) all.moduli[n * t + k] = all.moduli[n * k + t] = mixed[k];
+    }
+    return all;
+  }
+
+  OverstressFlow flow_;
+  double poisson_;
+  double bulk_;  ///< E/(1-2 nu) [Pa]
+  double K_;
+};
+
+template <int tensor>
+std::shared_ptr<const Material> make(const OverstressFlow& flow, const Elasticity& elasticity) {
+  LawDescription description = describe(elasticity, flow.law());
+  if (flow.law().isotropicHardening > 0)
+    return pointMaterial(OverstressLaw<tensor, true, true>(flow, elasticity), std::move(description));
+  if (flow.law().kinematicHardening > 0)
+    return pointMaterial(OverstressLaw<tensor, true, false>(flow, elasticity), std::move(description));
+  return pointMaterial(OverstressLaw<tensor, false, false>(flow, elasticity), std::move(description));
+}
+
+}  // namespace
+
+std::shared_ptr<const Material> overstressMaterial(const Elasticity& elasticity, const Overstress& law,
+                                                   Plane plane) {
+  requireValid(elasticity);
+  requireValid(law);
+  const Eigen::Array3d e = elasticity.moduli();
+  if (plane == Plane::stress) return make<3>(OverstressFlow({e[0], e[1]}, {0.5, 1.5}, law), elasticity);
+  return make<4>(OverstressFlow({e[1], e[1]}, {1.5, 1.5}, law), elasticity);
+}
+
+}  // namespace mortier
