@@ -104,6 +104,16 @@ SOLID = ('body.material={young=100, poisson=0.3, law="standard-solid", relaxatio
          'relaxed_fraction=0.3}',)
 
 
+# Pressed, pushed along, pulled back until some nodes slip, on a sloped line and on two level ones.
+THERE_AND_BACK = "{time=[0, 1, 2, 3], value=[0, 0, 1e-3, 4e-4]}"
+RUBBED = ("contact.friction=0.3", "time.end=3", "time.steps=12", "body.lower.boundary=[{label=1, ux=0, uy=0}]",
+          f'body.upper.boundary=[{{label=3, uy="-1e-3*min(t, 1)", ux={THERE_AND_BACK}}}]')
+STACK_RUBBED = ("contact.friction=0.2", "contact.1.friction=0", "contact.1.shear_limit=20", "time.end=3",
+                "time.steps=12", "body.bottom.boundary=[{label=1, ux=0, uy=0}]",
+                'body.middle.boundary=[{label=4, ux="1e-4*t"}, {label=2, uy=0}]',
+                f'body.top.boundary=[{{label=3, uy="-1e-3*min(t, 1)", ux={THERE_AND_BACK}}}]')
+
+
 def scene_cases():
     """Every scene with both variants, and changes of them for what no scene has."""
     return ([SceneCase(name, variant, changes=changes) for name, changes in SCENES.items()
@@ -137,6 +147,12 @@ def scene_cases():
         SceneCase("ring", "weighted", "linear"),
         SceneCase("sloped", "weighted", "linear, parted by a parabola", ("contact.gap=1e-5*x^2+2e-6",)),
         SceneCase("stack", "weighted", "linear, held on the left up to the contact lines", HELD),
+        # Friction
+        SceneCase("sloped", "mortar", "friction, rubbed", RUBBED),
+        SceneCase("sloped", "interpolation", "friction, rubbed, sides swapped", (*RUBBED, "contact.swap=true")),
+        SceneCase("sloped", "weighted", "friction, rubbed, plane strain", (*RUBBED, 'plane="strain"')),
+        SceneCase("stack", "mortar", "friction of two laws", STACK_RUBBED),
+        SceneCase("stack", "interpolation", "friction of two laws", STACK_RUBBED),
         # Quadratic displacements
         SceneCase("compression", "interpolation", "quadratic", ("degree=2", "time.steps=4")),
         SceneCase("compression", "weighted", "quadratic", ("degree=2", "time.steps=4", "contact.swap=true")),

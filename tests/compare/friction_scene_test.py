@@ -79,9 +79,6 @@ class FrictionScene(OfTwoBlocks):
                 self.write(scene)
                 errors = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=2).stderr
                 self.assertTrue(re.match(r"mortier: scene.toml:\d+: " + what, errors), errors)
-        self.write(FRICTION_KEYS)
-        errors = self.mortier("freefem", "scene.toml", "script.edp", code=2).stderr
-        self.assertIn("friction", errors)
 
 
 if __name__ == "__main__":
