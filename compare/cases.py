@@ -109,6 +109,31 @@ GROWING = (OVERSTRESS + 'viscosity=1, kinematic_hardening=5, isotropic_hardening
 PLASTIC = (OVERSTRESS + 'viscosity=0, kinematic_hardening=5, isotropic_hardening=10}',)
 
 
+# Pressed, pushed along, pulled back until some nodes slip, on a sloped line and on two level ones.
+THERE_AND_BACK = "{time=[0, 1, 2, 3], value=[0, 0, 1e-3, 4e-4]}"
+RUBBED = ("contact.friction=0.3", "time.end=3", "time.steps=12",
+          "body.lower.boundary=[{label=1, ux=0, uy=0}]",
+          f'body.upper.boundary=[{{label=3, uy="-1e-3*min(t, 1)", ux={THERE_AND_BACK}}}]')
+STACK_RUBBED = ("contact.friction=0.2", "contact.1.friction=0", "contact.1.shear_limit=20", "time.end=3",
+                "time.steps=12", "body.bottom.boundary=[{label=1, ux=0, uy=0}]",
+                'body.middle.boundary=[{label=4, ux="1e-4*t"}, {label=2, uy=0}]',
+                f'body.top.boundary=[{{label=3, uy="-1e-3*min(t, 1)", ux={THERE_AND_BACK}}}]')
+ON_A_SLOPE = ("body.lower.boundary=[{label=1, ux=0, uy=0}]", 'body.upper.boundary=[{label=3, ty="-10*t"}]')
+STACK_OF_FREE_BODIES = ("contact.friction=0.4", "time.steps=8",
+                        "body.bottom.boundary=[{label=1, ux=0, uy=0}]",
+                        "body.middle.boundary=[{label=2, tx=0}]",
+                        'body.top.boundary=[{label=3, ty="-10*min(4*t, 1)", tx="2*min(4*t, 1)*sin(9*t)"}]')
+CREEPS_RUBBED = ('body.material={young=2e5, poisson=0.3, law="norton", reference_stress=100, '
+                 'reference_rate=1e-3, exponent=3}',)
+# Blocks that flow, pressed, pushed along and pulled back.
+FLOWING = (SOFT, "contact.friction=0.3", "time.end=3", "time.steps=12",
+           "body.upper.mesh=shared-meshes/block-upper-3.mesh",
+           "body.lower.mesh=shared-meshes/block-lower-5.mesh",
+           "body.lower.boundary=[{label=1, ux=0, uy=0}]",
+           'body.upper.boundary=[{label=3, uy="-0.04*min(t, 1)", '
+           'ux={time=[0, 1, 2, 3], value=[0, 0, 0.03, 0.01]}}]')
+
+
 def scene_cases():
     """Every scene with both variants, and changes of them for what no scene has."""
     return ([SceneCase(name, variant, changes=changes) for name, changes in SCENES.items()
@@ -147,6 +172,23 @@ def scene_cases():
         SceneCase("ring", "weighted", "linear"),
         SceneCase("sloped", "weighted", "linear, parted by a parabola", ("contact.gap=1e-5*x^2+2e-6",)),
         SceneCase("stack", "weighted", "linear, held on the left up to the contact lines", HELD),
+        # Friction
+        SceneCase("sloped", "mortar", "friction, rubbed", RUBBED),
+        SceneCase("sloped", "interpolation", "friction, rubbed, sides swapped",
+                  (*RUBBED, "contact.swap=true")),
+        SceneCase("sloped", "weighted", "friction, rubbed, plane strain", (*RUBBED, 'plane="strain"')),
+        SceneCase("stack", "mortar", "friction of two laws", STACK_RUBBED),
+        SceneCase("stack", "interpolation", "friction of two laws", STACK_RUBBED),
+        SceneCase("compression", "mortar", "friction, flowing", FLOWING),
+        SceneCase("compression", "interpolation", "friction, flowing, plane strain, sides swapped",
+                  (*FLOWING, "contact.swap=true", "plane=\"strain\"")),
+        SceneCase("sloped", "mortar", "friction, Norton creep", (*RUBBED, *CREEPS_RUBBED)),
+        SceneCase("sloped", "mortar", "friction, a block on a slope",
+                  (*ON_A_SLOPE, "contact.friction=0.501")),
+        SceneCase("sloped", "interpolation", "friction, a block on a slope, sides swapped",
+                  (*ON_A_SLOPE, "contact.friction=0.55", "contact.swap=true")),
+        SceneCase("stack", "mortar", "friction, free bodies", STACK_OF_FREE_BODIES),
+        SceneCase("stack", "weighted", "friction, free bodies", STACK_OF_FREE_BODIES),
         # Quadratic displacements
         SceneCase("compression", "interpolation", "quadratic", ("degree=2", "time.steps=4")),
         SceneCase("compression", "weighted", "quadratic", ("degree=2", "time.steps=4", "contact.swap=true")),

@@ -89,6 +89,8 @@ def compare(first, second, within=None):
                           f"{len(a.stress)} and {len(b.stress)} triangles")
     if not np.array_equal(first.contact.vertex, second.contact.vertex):
         faults.append("contact nodes: other vertices")
+    if (first.contact.friction is None) != (second.contact.friction is None):
+        faults.append("friction in one of them alone")
     if faults:
         return Verdict([], faults)
 
@@ -107,6 +109,9 @@ def compare(first, second, within=None):
         Difference("contact position", relative(first.contact.position, second.contact.position,
                                                 np.ptp(second.contact.position)), POSITION),
     ]
+    if first.contact.friction is not None:
+        differences.append(Difference("friction", relative(first.contact.friction, second.contact.friction,
+                                                           force), FORCE))
     differences += quantity_differences(first, second, within)
     # Scalars, against the size of their kind: a penetration of 1e-18 m^2 has no digits of its own.
     scales = {"von_mises_min": (stress, STRESS), "von_mises_max": (stress, STRESS),

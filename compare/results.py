@@ -58,6 +58,7 @@ class Contact:
     force: np.ndarray  # nodal [N/m]
     pressure: np.ndarray = None  # [Pa]; None where the code does not write it
     interface: np.ndarray = None  # from 0; None where the code does not write it
+    friction: np.ndarray = None  # nodal, along the line [N/m]; None where no interface has any
 
 
 @dataclass
@@ -129,7 +130,8 @@ def contact_of(rows):
     def column(name):
         return np.array([float(row[name]) for row in rows])
     return Contact(column("vertex").astype(int), np.column_stack([column("x"), column("y")]), column("gap"),
-                   column("force"), column("pressure"), column("interface").astype(int))
+                   column("force"), column("pressure"), column("interface").astype(int),
+                   column("friction") if rows and "friction" in rows[0] else None)
 
 
 def read_history(folder):
@@ -159,8 +161,9 @@ def read_freefem(folder):
         if (path := folder / f"{name}.stress_at_points.txt").exists():
             table = read_table(path, 9, 12)
             body.stress_at_points = table.reshape(len(table), 3, -1)
-    table = read_table(folder / "contact.txt", 5)
-    contact = Contact(table[:, 0].astype(int), table[:, 1:3], table[:, 3], table[:, 4])
+    table = read_table(folder / "contact.txt", 5, 6)
+    contact = Contact(table[:, 0].astype(int), table[:, 1:3], table[:, 3], table[:, 4],
+                      friction=table[:, 5] if table.shape[1] > 5 else None)
     return finished(Run("FreeFEM", folder, bodies, contact, summary))
 
 
@@ -183,6 +186,8 @@ def finished(run):
         require_finite(run.folder, f"stress of {name}", body.stress)
     require_finite(run.folder, "contact forces", run.contact.force)
     require_finite(run.folder, "contact gaps", run.contact.gap)
+    if run.contact.friction is not None:
+        require_finite(run.folder, "friction", run.contact.friction)
     require_finite(run.folder, "contact nodes", run.contact.position)
     try:
         final = run.summary["final"]

@@ -106,8 +106,8 @@ std::string overstresses(const SceneDescription& scene) {
             ", growO" + n + " = " + shortest(law.isotropicHardening) + ";\n";
   }
   const std::string unit = "[" + scene.units.stress + "]";
-  return any ? "macro overstressed yes //  yield stress, overstress " + unit +
-                   ", its rate [1/s], exponent, kinematic and isotropic hardening " + unit + "\n" + text
+  return any ? "macro overstressed yes //  yield stress, overstress " + unit + ", its rate [1/" +
+                   scene.units.time + "], exponent, kinematic and isotropic hardening " + unit + "\n" + text
              : "";
 }
 
@@ -191,6 +191,23 @@ std::string distances(const SceneDescription& scene, const Model& model) {
   return text.empty() ? text : "macro distances " + text + "//  interface, its bodies, distance\n";
 }
 
+/// Of every interface; none where there is no friction.
+std::string friction(const SceneDescription& scene) {
+  std::string coefficients;
+  std::string limits;
+  bool any = false;
+  for (const ContactDescription& contact : scene.contacts) {
+    const std::string comma = coefficients.empty() ? "" : ", ";
+    coefficients += comma + shortest(contact.friction.coefficient);
+    limits += comma + shortest(contact.friction.limit);
+    any = any || contact.friction.any();
+  }
+  if (!any) return "";
+  return "macro rough yes //  friction of each: Coulomb's coefficient, Tresca's limit\nreal[int] friction = "
+         "[" +
+         coefficients + "], shearLimit = [" + limits + "];\n";
+}
+
 /// Other labels than those of SI.
 std::string unitNames(const Units& units) {
   if (!units.given) return "";
@@ -225,10 +242,12 @@ std::string script(const SceneDescription& scene, const Model& model,
         << ", " << mortar.label << ']';
   }
   out << "];\n"
-      << distances(scene, model) << "string variant = \"" << word(scene.contacts.front().variant)
-      << "\";\nreal endTime = " << shortest(scene.time.end) << ";  // [" << scene.units.time
-      << "]\nint steps = " << scene.time.steps << ";  // backward Euler, equal steps\n\n";
-  for (const char* part : {"bodies", "supports", "lines", "coupling", "contact", "picture", "loop"}) {
+      << friction(scene) << distances(scene, model) << "string variant = \""
+      << word(scene.contacts.front().variant) << "\";\nreal endTime = " << shortest(scene.time.end)
+      << ";  // [" << scene.units.time << "]\nint steps = " << scene.time.steps
+      << ";  // backward Euler, equal steps\n\n";
+  for (const char* part :
+       {"bodies", "supports", "lines", "coupling", "friction", "contact", "picture", "loop"}) {
     out << "include " << freefemString(method + '/' + part + ".idp", scene.path + ": the FreeFEM method")
         << '\n';
   }
@@ -247,7 +266,6 @@ void requireKnown(const SceneDescription& scene) {
       refuse(contact.where + ": contact: variant = " + word(contact.variant),
              "one variant for all interfaces");
     }
-    if (contact.friction.any()) refuse(contact.where + ": contact: friction", "none");
   }
   if (scene.time.scheme != Scheme::backwardEuler) {
     refuse(scene.path + ": scheme = " + word(scene.time.scheme), "backward-euler");

@@ -1,7 +1,5 @@
 #include "scene/build.h"
 
-#include "base/error.h"
-#include "fem/rigid_modes.h"
 #include "scene/build_body.h"
 #include "scene/build_contact.h"
 
@@ -13,16 +11,6 @@ namespace {
 std::vector<double> sampleTimes(const TimePlan& plan) {
   const double step = plan.end / (plan.steps > 0 ? plan.steps : 100);
   return {0, step, 0.5 * plan.end, plan.end - step, plan.end};
-}
-
-/// \throws InputError  where there is friction, and a body that its supports leave free to move
-void requireHeldBesideFriction(const SceneDescription& description, const Model& model) {
-  if (!anyRough(model)) return;
-  for (size_t b = 0; b < model.bodies.size(); ++b)
-    if (rigidModes(model.bodies[b]).cols() > 0)
-      throw InputError(
-          description.bodies[b].where + ": body " + model.bodies[b].name() +
-          ": friction is not yet for bodies that contact alone holds, expected supports (ux, uy)");
 }
 
 }  // namespace
@@ -39,7 +27,6 @@ Model buildModel(ResolvedScene& scene) {
   for (const ContactDescription& contact : description.contacts) {
     addContact(description, contact, model);
   }
-  requireHeldBesideFriction(description, model);
   return model;
 }
 

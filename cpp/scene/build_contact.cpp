@@ -64,9 +64,13 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
   std::vector<const TriangleMesh*> meshes;
   for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
   std::vector<ContactPair> pairs{pair};
-  for (const ContactInterface& interface : model.interfaces) pairs.push_back(interface.pair());
+  std::vector<bool> rough{contact.friction.any()};
+  for (const ContactInterface& interface : model.interfaces) {
+    pairs.push_back(interface.pair());
+    rough.push_back(interface.rough());
+  }
   try {
-    requireMemory(meshes, pairs, scene.degree);
+    requireMemory(meshes, pairs, scene.degree, rough);
     addInterface(model, pair, options);
     if (contact.friction.any()) requireStraight(model.interfaces.back(), model);
   } catch (const FaultError& error) {

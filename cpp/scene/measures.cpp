@@ -23,12 +23,14 @@ const Dimension* dimensionOf(const std::string& path) {
       {"contact.", {dimensions::length, {"gap"}}},
       {"quantity.", {dimensions::length, {"about", "displacement.point"}}},
       {"time.", {dimensions::time, {"end", "breaks"}}}};
-  static const std::pair<const char*, Dimension> materials[] = {
-      {"young", dimensions::stress},        {"yield_stress", dimensions::stress},
-      {"viscosity", dimensions::viscosity}, {"reference_stress", dimensions::stress},
+  static const std::pair<const char*, Dimension> materials[] = {{"young", dimensions::stress},
+                                                                {"yield_stress", dimensions::stress},
+                                                                {"viscosity", dimensions::viscosity},
+                                                                {"reference_stress", dimensions::stress},
                                                                 {"kinematic_hardening", dimensions::stress},
                                                                 {"isotropic_hardening", dimensions::stress},
-      {"reference_rate", dimensions::rate}, {"relaxation_time", dimensions::time}};
+                                                                {"reference_rate", dimensions::rate},
+                                                                {"relaxation_time", dimensions::time}};
   static const std::map<std::string, Dimension> keys = [] {
     std::map<std::string, Dimension> all{{"body.boundary.tx", dimensions::stress},
                                          {"body.boundary.ty", dimensions::stress},

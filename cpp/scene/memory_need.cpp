@@ -19,7 +19,7 @@ struct SideSize {
   double dofs = 0;  ///< of the nodes, that take part: one each where the line is parallel to an axis
 };
 
-SideSize sizeOf(const TriangleMesh& mesh, int label, int degree) {
+SideSize sizeOf(const TriangleMesh& mesh, int label, int degree, bool rough) {
   constexpr double parallel = 1e-9;
   const auto edges = edgesOn(mesh, label);
   bool alongX = true;
@@ -30,7 +30,7 @@ SideSize sizeOf(const TriangleMesh& mesh, int label, int degree) {
     alongY = alongY && d.x() <= parallel * d.y();
   }
   const auto nodes = static_cast<double>(degree * edges.size() + 1);
-  return {nodes, (alongX || alongY ? 1 : 2) * nodes};
+  return {nodes, ((alongX || alongY) && !rough ? 1 : 2) * nodes};
 }
 
 /// Of a body with so many nodes, in 8 bytes.
@@ -42,7 +42,7 @@ double needOf(size_t nodes) {
 }  // namespace
 
 double memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs,
-                  int degree) {
+                  int degree, const std::vector<bool>& rough) {
   constexpr double program = 12 << 17;  // in 8 bytes: code and libraries, 12 MiB
   double need = program;
   // By Euler's formula a mesh has about as many edges as vertices and triangles together.
@@ -51,10 +51,12 @@ double memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vec
         needOf(mesh->vertices.size() * (degree == 1 ? 1 : 2) + (degree == 1 ? 0 : mesh->triangles.size()));
   std::vector<double> dofs(meshes.size(), 0);
   double conditions = 0;
-  for (const ContactPair& pair : pairs) {
-    const SideSize nonmortar = sizeOf(*meshes[pair.nonmortar.body], pair.nonmortar.label, degree);
-    const SideSize mortar = sizeOf(*meshes[pair.mortar.body], pair.mortar.label, degree);
-    conditions += nonmortar.nodes;
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    const ContactPair& pair = pairs[k];
+    const bool along = k < rough.size() && rough[k];
+    const SideSize nonmortar = sizeOf(*meshes[pair.nonmortar.body], pair.nonmortar.label, degree, along);
+    const SideSize mortar = sizeOf(*meshes[pair.mortar.body], pair.mortar.label, degree, along);
+    conditions += (along ? 2 : 1) * nonmortar.nodes;
     dofs[pair.nonmortar.body] += nonmortar.dofs;
     dofs[pair.mortar.body] += mortar.dofs;
   }
@@ -72,8 +74,12 @@ double memoryNeed(const Model& model) {
   std::vector<const TriangleMesh*> meshes;
   for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
   std::vector<ContactPair> pairs;
-  for (const ContactInterface& interface : model.interfaces) pairs.push_back(interface.pair());
-  return memoryNeed(meshes, pairs, model.bodies.front().degree());
+  std::vector<bool> rough;
+  for (const ContactInterface& interface : model.interfaces) {
+    pairs.push_back(interface.pair());
+    rough.push_back(interface.rough());
+  }
+  return memoryNeed(meshes, pairs, model.bodies.front().degree(), rough);
 }
 
 double availableMemory() {
@@ -100,8 +106,8 @@ std::string aboutMemory(double bytes) {
 }
 
 void requireMemory(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs,
-                   int degree) {
-  const double need = memoryNeed(meshes, pairs, degree);
+                   int degree, const std::vector<bool>& rough) {
+  const double need = memoryNeed(meshes, pairs, degree, rough);
   const double available = availableMemory();
   if (need <= available) return;
   throw FaultError("the run needs " + aboutMemory(need) + " of memory, expected at most the " +

@@ -64,20 +64,8 @@ Friction readFriction(const TableReader& table, const SceneDescription& scene) {
   };
   refuse(scene.degree != 1, "degree = 2");
   refuse(scene.solver.method != Method::newton, "solver.method = penalty-duality");
-  refuse(scene.time.scheme != Scheme::backwardEuler, "time.scheme other than backward-euler");
   refuse(scene.time.controlled(), "steps chosen by their error (time.tolerance)");
   refuse(scene.accuracy.energy > 0 || scene.accuracy.bound, "[accuracy]");
-  for (const BodyDescription& body : scene.bodies) {
-    const auto given = [](const std::optional<Expression>& stress) { return stress.has_value(); };
-    bool flows = body.material.flows();
-    bool stressed = std::any_of(body.initialStress.begin(), body.initialStress.end(), given);
-    for (const RegionDescription& region : body.regions) {
-      flows = flows || (region.material && region.material->flows());
-      stressed = stressed || std::any_of(region.initialStress.begin(), region.initialStress.end(), given);
-    }
-    refuse(flows, "bodies that flow: " + body.name);
-    refuse(stressed, "initial_stress: body " + body.name);
-  }
   return friction;
 }
 

@@ -93,6 +93,7 @@ class Curve {
       const ContactSolution contact = condensed.solveContact();
       if (!std::move(condensed).expand(contact, place.iterate, total)) return result;
       before.iterate.active = place.iterate.active;
+      before.iterate.slipping = place.iterate.slipping;
       result.direction = directionWith(*tangent, before, along);
       // No more than a decade at once.
       const double size = -dot(along, difference(place, predicted)) / dot(along, result.direction);
@@ -123,7 +124,7 @@ class Curve {
       system_.model().bodies[b].material().viscoplasticRate(stress, rate, &whole);
       flow.push_back(std::numbers::ln10 * weightAt(place) * rate);
     }
-    Direction result{tangent.respond(flow, place.iterate.active), 1};
+    Direction result{tangent.respond(flow, place.iterate), 1};
     const double length = std::copysign(std::sqrt(dot(result, result)), dot(along, result));
     result.decades /= length;
     for (auto& [displacement, stress] : result.response) {

@@ -47,9 +47,19 @@ std::optional<FrictionSets> allOpen(const FrictionSystem& system) {
 /// one, the path has a corner that it cannot turn.
 std::optional<FrictionSolution> alongPath(FrictionSystem& system, int& events) {
   constexpr double turn = 0.754877666246693;
-  const FrictionProblem problem = system.problem();
+  constexpr double strong = 1e-5;
+  // Springs on free motions become a part of W, strong enough to leave its digits there.
+  Matrix sprung;
+  Vector at = system.q();
+  if (const FreeMotions* free = system.problem().motions) {
+    const double spring = std::max(free->spring, strong * free->stiffness);
+    sprung = system.problem().W + free->G * free->G.transpose() / spring;
+    at -= free->G * (free->z0 + free->load / spring);
+  }
+  const FrictionProblem problem{system.problem().motions != nullptr ? sprung : system.problem().W,
+                                system.problem().rows};
   for (const double nearby : {0.0, 1e-9, 1e-7}) {
-    Vector q = system.q();
+    Vector q = at;
     const double largest = q.lpNorm<Eigen::Infinity>();
     for (Eigen::Index i = 0; i < q.size(); ++i) {
       const double place = turn * static_cast<double>(i + 1);

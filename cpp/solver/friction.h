@@ -30,10 +30,21 @@ struct FrictionRows {
   FrictionLaw law;
 };
 
+/// Rigid motions z that only contact holds, and springs on them (friction_motions.h):
+///   w = q + W x - G z,   G' x + spring (z - z0) = load.
+struct FreeMotions {
+  Matrix G;              ///< conditions x motions
+  Vector load;           ///< on the motions [N/m]
+  Vector z0;             ///< [m]
+  double spring = 0;     ///< [N/m^2]
+  double stiffness = 0;  ///< of contact against the motions, about [N/m^2]
+};
+
 struct FrictionProblem {
   /// Of all conditions [m^2/N]. One that no free motion changes has a zero on the diagonal and no force.
   const Matrix& W;
   const FrictionRows& rows;
+  const FreeMotions* motions = nullptr;  ///< none where supports hold all bodies
 
   [[nodiscard]] Eigen::Index normals() const {
     return W.rows() - static_cast<Eigen::Index>(rows.node.size());
@@ -62,6 +73,7 @@ struct FrictionSolution {
   int solves = 0;         ///< dense systems that were solved
   int events = 0;         ///< changes of set on the path, 0 where none was taken
   bool singular = false;  ///< a system was singular but for rounding: conditions depend on each other
+  Vector rigid = {};      ///< z, of free motions [m]
 };
 
 /// \param q  (g, v) without forces [m]. \param first  the sets to begin with, as those of the step before.

@@ -76,8 +76,15 @@ FrictionSets FrictionSystem::allHeld() const {
   return sets;
 }
 
+Vector FrictionSystem::motionOf(const Trial& trial) const {
+  Vector motion = q_ + problem_.W * trial.force;
+  if (problem_.motions != nullptr) motion -= problem_.motions->G * trial.rigid;
+  return motion;
+}
+
 bool FrictionSystem::solveOn(const FrictionLaw& law, const FrictionSets& sets, Trial& trial) {
-  constexpr double negligible = 1e-12;  // as in ActiveFactor
+  const FreeMotions* free = problem_.motions;
+  const double negligible = free != nullptr ? 1e-15 : 1e-12;  // as in ActiveFactor
   stopIfInterrupted();
   const Eigen::Index n = normals();
   std::vector<Eigen::Index> rows;
@@ -90,8 +97,18 @@ bool FrictionSystem::solveOn(const FrictionLaw& law, const FrictionSets& sets, T
     if (sticks(law, sets, k)) rows.push_back(row);
     if (slips(k)) trial.force[row] = sets.slip[k] * law.limit[row - n];
   }
-  // t = +-(mu p + c) of nodes that slip follows p.
-  Matrix A = problem_.W(rows, rows);
+  // t = +-(mu p + c) of nodes that slip follows p. The motions come last, in a unit in which G is as W.
+  const auto held = static_cast<Eigen::Index>(rows.size());
+  const Eigen::Index motions = free != nullptr ? free->G.cols() : 0;
+  const double unit = motions > 0 ? compliance_.maxCoeff() / free->G.cwiseAbs().maxCoeff() : 1;
+  Matrix A(held + motions, held + motions);
+  A.topLeftCorner(held, held) = problem_.W(rows, rows);
+  if (motions > 0) {
+    A.topRightCorner(held, motions) = -unit * free->G(rows, Eigen::all);
+    A.bottomLeftCorner(motions, held) = unit * free->G(rows, Eigen::all).transpose();
+    A.bottomRightCorner(motions, motions) = unit * unit * free->spring * Matrix::Identity(motions, motions);
+    trial.rigid = free->z0;
+  }
   std::vector<Eigen::Index> columnOf(n, -1);
   for (size_t j = 0; j < rows.size() && rows[j] < n; ++j) columnOf[rows[j]] = static_cast<Eigen::Index>(j);
   const auto forEachFollower = [&](auto visit) {
@@ -102,11 +119,13 @@ bool FrictionSystem::solveOn(const FrictionLaw& law, const FrictionSets& sets, T
     }
   };
   forEachFollower([&](Eigen::Index row, Eigen::Index column, double part) {
-    if (part != 0) A.col(column) += part * problem_.W(rows, row);
+    if (part == 0) return;
+    A.col(column).head(held) += part * problem_.W(rows, row);
+    if (motions > 0) A.col(column).tail(motions) += part * unit * free->G.row(row).transpose();
   });
-  trial.motion = q_ + problem_.W * trial.force;
+  trial.motion = motionOf(trial);
   trial.index = 1;
-  if (rows.empty()) return true;
+  if (A.rows() == 0) return true;
   ++solves_;
   DenseFactor factor;
   if (!factor.factorise(std::move(A), false) || !(factor.leastPivot() > negligible)) {
@@ -114,14 +133,19 @@ bool FrictionSystem::solveOn(const FrictionLaw& law, const FrictionSets& sets, T
     return false;
   }
   trial.index = factor.sign();
-  for (int repetition = 0; repetition < 2; ++repetition) {  // the second takes rounding away
-    Matrix change = -trial.motion(rows);
+  for (int repetition = 0; repetition < 2 + (motions > 0 ? 2 : 0); ++repetition) {  // rounding goes away
+    Matrix change(held + motions, 1);
+    change.topRows(held) = -trial.motion(rows);
+    if (motions > 0)
+      change.bottomRows(motions) =
+          unit * (free->load - free->G.transpose() * trial.force - free->spring * (trial.rigid - free->z0));
     factor.solve(change);
-    trial.force(rows) += change.col(0);
+    trial.force(rows) += change.col(0).head(held);
+    if (motions > 0) trial.rigid += unit * change.col(0).tail(motions);
     forEachFollower([&](Eigen::Index row, Eigen::Index column, double part) {
       trial.force[row] += part * change(column, 0);
     });
-    trial.motion = q_ + problem_.W * trial.force;
+    trial.motion = motionOf(trial);
   }
   return trial.force.allFinite();
 }
@@ -175,8 +199,8 @@ double FrictionSystem::residual(const FrictionLaw& law, const Trial& trial) cons
 FrictionSolution FrictionSystem::solution(const FrictionLaw& law, const FrictionSets& sets,
                                           const Trial& trial) const {
   const Eigen::Index n = normals();
-  FrictionSolution result{true, trial.force, trial.motion, sets, residual(law, trial), trial.index,
-                          0,    0,           false};
+  FrictionSolution result{true, trial.force, trial.motion, sets,       residual(law, trial), trial.index,
+                          0,    0,           false,        trial.rigid};
   for (Eigen::Index i = 0; i < n; ++i) {
     if (sets.closed[i] != 0) result.motion[i] = 0;
     result.force[i] = sets.closed[i] != 0 ? std::max(trial.force[i], 0.0) : 0;

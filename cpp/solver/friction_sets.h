@@ -42,8 +42,10 @@ class FrictionSystem {
     Vector force;
     Vector motion;
     int index = 1;
+    Vector rigid = {};
   };
   bool solveOn(const FrictionLaw& law, const FrictionSets& sets, Trial& trial);
+  [[nodiscard]] Vector motionOf(const Trial& trial) const;
   [[nodiscard]] FrictionSets next(const FrictionLaw& law, const FrictionSets& sets, const Trial& trial) const;
   [[nodiscard]] double residual(const FrictionLaw& law, const Trial& trial) const;
   [[nodiscard]] FrictionSolution solution(const FrictionLaw& law, const FrictionSets& sets,

@@ -121,7 +121,10 @@ StepOutcome interiorPoint(StepSystem& system, const Step& step, int maxIteration
       }
       for (size_t k = 0; k < iterate.contactForce.size(); ++k)
         iterate.contactForce[k] += length * (next.contactForce[k] - iterate.contactForce[k]);
+      for (size_t k = 0; k < iterate.frictionForce.size(); ++k)
+        iterate.frictionForce[k] += length * (next.frictionForce[k] - iterate.frictionForce[k]);
       iterate.active = next.active;
+      iterate.slipping = next.slipping;
     }
     solution = iterate;
     const int left = maxIterations - total.iterations;

@@ -43,13 +43,46 @@ std::string StepSystem::looseMotion(const State& state0, const Iterate& solution
     for (Eigen::Index i = 0; i < gap.size(); ++i)
       if (solution.active[k][i] == 0 && gap[i] < -touching * size) closed.row(firstRow_[k] + i).setZero();
   }
+  const std::vector<int> slipping = freeAlong(solution);
+  for (const int row : slipping) closed.row(row).setZero();
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(closed.transpose() * closed);
   if (eigen.eigenvalues()[0] > heldFraction * contact_.G.squaredNorm()) return "";
   const Vector z = eigen.eigenvectors().col(0);
+  // Where some nodes would go on to slip and others back, those stick in the end, whichever way it goes.
+  double onwards = 0;
+  double back = 0;
+  for (const int row : slipping) {
+    const int sign = slipOf(solution, row);
+    const double way = sign * contact_.G.row(row).dot(z);
+    onwards = std::max(onwards, way);
+    back = std::max(back, -way);
+  }
+  if (std::min(onwards, back) > negligibleMotion * std::max(onwards, back)) return "";
   bool untouched = true;
   for (size_t b = 0; b < bodies_.size(); ++b)
     untouched = untouched && (motionOf(z, b).norm() <= negligibleMotion || u[b].isZero(0));
   return untouched ? "" : describeRigid(z);
+}
+
+int StepSystem::slipOf(const Iterate& solution, int row) const {
+  size_t k = static_cast<size_t>(row - rows());
+  for (const std::vector<signed char>& part : solution.slipping) {
+    if (k < part.size()) return part[k];
+    k -= part.size();
+  }
+  return 0;
+}
+
+std::vector<int> StepSystem::freeAlong(const Iterate& solution) const {
+  const Vector p = joined(solution.contactForce);
+  std::vector<int> free;
+  for (size_t k = 0; k < friction_.node.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    const bool bears = p[friction_.node[k]] > 0 || friction_.law.limit[at] > 0;
+    const int row = rows() + static_cast<int>(k);
+    if (!bears || slipOf(solution, row) != 0) free.push_back(row);
+  }
+  return free;
 }
 
 std::string StepSystem::describeRigid(const Vector& z) const {

@@ -6,6 +6,7 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/worst.h"
+#include "solver/friction_motions.h"
 #include "solver/total_strain.h"
 
 namespace mortier {
@@ -230,15 +231,25 @@ StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const I
 
 ContactSolution StepSystem::Condensed::solveFriction() const {
   const Matrix& W = system_->contact_.W;
-  const FrictionSolution found =
-      mortier::solveFriction({W, system_->friction_}, slack - W * p0, {active, slipping});
+  const ContactProblem& contact = system_->contact_;
+  LooseFriction loose;
+  const Vector q = slack - W * p0;
+  if (contact.G.cols() > 0) {
+    loose = solveLooseFriction(W, system_->friction_, contact.G, balance + contact.G.transpose() * p0,
+                               contact.force, contact.proximal, q, {active, slipping});
+  } else {
+    loose.solution = mortier::solveFriction({W, system_->friction_}, q, {active, slipping});
+    loose.balanced = true;
+  }
+  const FrictionSolution& found = loose.solution;
   ContactSolution solution;
   solution.outcome = found.solved     ? ContactSolution::Outcome::solved
                      : found.singular ? ContactSolution::Outcome::dependent
                                       : ContactSolution::Outcome::cycled;
-  solution.rigid = Vector::Zero(0);
+  solution.rigid = loose.rigid;
   solution.pivots = found.solves + found.events;
   if (!found.solved) return solution;
+  if (!loose.balanced) solution.outcome = ContactSolution::Outcome::unbalanced;
   solution.change = found.force - p0;
   solution.active = found.sets.closed;
   solution.slipping = found.sets.slip;
@@ -267,7 +278,9 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
                                              counted(contact.pivots, "active set") + ", the work of " +
                                              counted(std::lround(contact.work), "dense factorisation"));
   if (contact.outcome == ContactSolution::Outcome::unbalanced)
-    return outcome.fail(Reason::unheld, "contact cannot hold " + system_->describeRigid(contact.rigid));
+    return outcome.fail(Reason::unheld, (system_->rough() ? "contact and its friction cannot hold "
+                                                          : "contact cannot hold ") +
+                                            system_->describeRigid(contact.rigid));
   system_->forEachBody([&](int b) {
     const Body& body = system_->model_.bodies[b];
     const Linearisation& law = system_->bodies_[b].law();

@@ -79,7 +79,7 @@ class StepSystem {
   std::optional<StuckPlace> furthest(const Step& step, Iterate& iterate, double weight);
 
   /// Factorised::respond with the last tangent, factorised anew where points began or ceased to flow since.
-  std::vector<Response> respond(const std::vector<Matrix>& error, const ActiveSets& active);
+  std::vector<Response> respond(const std::vector<Matrix>& error, const Iterate& on);
 
   /// The rigid motion, in words, that no closed contact of a solution of a step holds, though no load drives
   /// it: the bodies could be anywhere along it. Empty where there is none, or only of bodies that nothing has
@@ -110,6 +110,9 @@ class StepSystem {
  private:
   void requireHeld();
   [[nodiscard]] std::string describeRigid(const Vector& z) const;
+  /// Rows along the line that resist no motion: they slip, or nothing presses; and how one slips.
+  [[nodiscard]] std::vector<int> freeAlong(const Iterate& solution) const;
+  [[nodiscard]] int slipOf(const Iterate& solution, int row) const;
   [[nodiscard]] Vector motionOf(const Vector& z, size_t body) const {
     return z.segment(firstMotion_[body], firstMotion_[body + 1] - firstMotion_[body]);
   }
@@ -160,11 +163,11 @@ class StepSystem::Factorised {
   /// Condenses the forces that are out of balance to the contact conditions.
   [[nodiscard]] Condensed condense(const Step& step, const Iterate& iterate) const;
   [[nodiscard]] const ContactProblem& contact() const { return system_->contact_; }
-  /// With these contacts kept closed and the others open:
-  ///   s = H^-1 (B d - error),   sum |T| B' s + C_A' p = 0,   C_A d = 0.
+  /// With the contacts that are closed in `on` kept closed and the others open:
+  ///   s = H^-1 (B d - error),   sum |T| B' s + C_A' p = 0,   C_A d = 0;
+  /// with friction what sticks goes on to stick, and what slips has t = +-mu p.
   /// \param error  per body, a strain added in every triangle (components x points).
-  [[nodiscard]] std::vector<Response> respond(const std::vector<Matrix>& error,
-                                              const ActiveSets& active) const;
+  [[nodiscard]] std::vector<Response> respond(const std::vector<Matrix>& error, const Iterate& on) const;
 
  private:
   StepSystem* system_;

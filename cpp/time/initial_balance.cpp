@@ -21,6 +21,9 @@ StepOutcome balanceElastically(const Model& model, State& state, const SolverOpt
     body.stress = std::move(balanced.stress);
   }
   state.contactForce = std::move(iterate.contactForce);
+  state.frictionForce = std::move(iterate.frictionForce);
+  state.slipping = std::move(iterate.slipping);
+  state.frictionWork += frictionWork(model, iterate);
   return outcome;
 }
 

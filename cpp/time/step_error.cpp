@@ -165,7 +165,7 @@ std::vector<Matrix> StepTaker::carried(const std::vector<Matrix>& strain) {
 }
 
 std::vector<Response> StepTaker::response(const std::vector<Matrix>& strain) {
-  return system_.respond(strain, solutions_.back().active);
+  return system_.respond(strain, solutions_.back());
 }
 
 std::vector<Response> StepTaker::change(size_t stage) const {

@@ -116,6 +116,13 @@ FAULTS = [
     ("pressure forgotten from step to step", "loop", "sr0 = sr; sv0 = sv;", "sr0 = sr;", "thick-cylinder",
      "mortar as it stands", ""),
     ("contact that pulls", "contact", "p(i) < -tinyForce", "false", "open-close", "as it stands", ""),
+    ("tangent turned the other way", "coupling", "second ? 0 - entryV(e) : entryV(e)",
+     "second ? entryV(e) : 0 - entryV(e)", "sloped", "mortar friction", "friction"),
+    ("slip from the beginning", "loop", "g0(i) = Cu(i)", "g0(i) = 0*Cu(i)", "sloped", "mortar friction", ""),
+    ("bound of pressures for forces", "friction", "*rowLength(normalOf(row))", "*1", "stack",
+     "mortar friction", ""),
+    ("slip that goes on against t", "friction", "side*gd(i) < -tinySlip", "false", "sloped",
+     "mortar friction", ""),
     ("third body as the second", "bodies", "eP[b] = young[b]", "eP[b] = young[min(b, 1)]", "stack",
      "as it stands", "displacement"),
 ]

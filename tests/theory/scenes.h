@@ -42,7 +42,8 @@ inline TriangleMesh square(double lowerY, int cells) {
 }
 
 /// Two bodies in contact between the bottom of the upper and the top of the lower one.
-inline Model contactModel(Body upper, Body lower, CouplingKind coupling, int nonmortarBody) {
+inline Model contactModel(Body upper, Body lower, CouplingKind coupling, int nonmortarBody,
+                          const InterfaceOptions& options = {}) {
   Model model;
   model.bodies.push_back(std::move(upper));
   model.bodies.push_back(std::move(lower));
@@ -50,7 +51,7 @@ inline Model contactModel(Body upper, Body lower, CouplingKind coupling, int non
   const ContactSide lowerSide{lowerBody, top};
   const bool first = nonmortarBody == upperBody;
   const ContactPair pair{first ? upperSide : lowerSide, first ? lowerSide : upperSide, coupling};
-  addInterface(model, pair);
+  addInterface(model, pair, options);
   return model;
 }
 

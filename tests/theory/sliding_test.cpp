@@ -16,17 +16,10 @@ constexpr double mu = 0.3;
 
 Model roughModel(Body upper, Body lower, CouplingKind coupling, int nonmortarBody, const Friction& friction,
                  const std::function<double(const Point&)>& gap = {}) {
-  Model model;
-  model.bodies.push_back(std::move(upper));
-  model.bodies.push_back(std::move(lower));
-  const ContactSide upperSide{upperBody, bottom};
-  const ContactSide lowerSide{lowerBody, top};
-  const bool first = nonmortarBody == upperBody;
   InterfaceOptions options;
   options.friction = friction;
   options.gap = gap;
-  addInterface(model, {first ? upperSide : lowerSide, first ? lowerSide : upperSide, coupling}, options);
-  return model;
+  return contactModel(std::move(upper), std::move(lower), coupling, nonmortarBody, options);
 }
 
 /// Blocks of different meshes and stiffnesses (nu = 0) under the pressure p and the shear stress s: the plate
