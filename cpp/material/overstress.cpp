@@ -176,7 +176,6 @@ OverstressFlow::Answer OverstressFlow::regularise(const Point& point) const {
   answer.flows = true;
   answer.moduli = diagonalMinusRankOne(D, 0, {}, {});
   answer.rho = rho - law_.isotropicHardening * flow.dp;
-  answer.mixed = {};
   answer.ofRho = law_.isotropicHardening;
   return answer;
 }

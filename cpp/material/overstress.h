@@ -51,10 +51,10 @@ class OverstressFlow {
   /// The law linearised: changes of the stress and rho, moduli.
   struct Answer {
     LaneVector change;
-    Lanes rho;                    ///< at the end [Pa]
+    Lanes rho = 0;                ///< at the end [Pa]
     std::array<Lanes, 9> moduli;  ///< of the stress
-    LaneVector mixed;             ///< of rho and the stress
-    Lanes ofRho;                  ///< of rho
+    LaneVector mixed{};           ///< of rho and the stress
+    Lanes ofRho = 0;              ///< of rho
     bool flows = false;
   };
   [[nodiscard]] Answer linearise(const Point& point) const;

@@ -80,10 +80,12 @@ class OverstressLaw {
     return all;
   }
   static OverstressFlow::Point own(const PointStep<components>& point) {
+    LaneVector total{};
+    if constexpr (kinematic) total = parts(point.total).deviator;
     return {parts(point.stress).deviator,
             parts(point.stress0).deviator,
             parts(point.strain).deviator,
-            parts(point.total).deviator,
+            total,
             rhoOf(point.stress0),
             rhoOf(point.strain),
             point.weight};
