@@ -16,6 +16,7 @@ std::shared_ptr<const Material> buildMaterial(const MaterialDescription& descrip
   if (const auto* norton = description.as<NortonCreep>()) return nortonMaterial(elasticity, *norton, plane);
   if (const auto* viscoelasticity = description.as<Viscoelasticity>())
     return viscoelasticMaterial(elasticity, *viscoelasticity, plane);
+  if (const auto* own = description.as<OwnLaw>()) return ownMaterial(elasticity, *own, plane);
   const auto* viscoplasticity = description.as<Viscoplasticity>();
   if (plane == Plane::strain) {
     return viscoplasticity ? planeStrainPerzynaMaterial(elasticity, *viscoplasticity)

@@ -2,19 +2,22 @@
 
 #include <algorithm>
 
+#include "scene/read_own_law.h"
 #include "scene/words.h"
 
 namespace mortier {
 namespace {
 
 /// Laws and their keys beside young and poisson.
-enum Law { elastic, perzyna, norton, maxwell, standardSolid };
-const Keys lawWords{"elastic", "perzyna", "norton", "maxwell", "standard-solid"};
+enum Law { elastic, perzyna, norton, maxwell, standardSolid, expression, registered };
+const Keys lawWords{"elastic", "perzyna", "norton", "maxwell", "standard-solid", "expression"};
 const Keys keysOfLaw[] = {{},
                           {"viscosity", "yield_stress", "projection"},
                           {"reference_stress", "reference_rate", "exponent"},
                           {"relaxation_time"},
-                          {"relaxation_time", "relaxed_fraction"}};
+                          {"relaxation_time", "relaxed_fraction"},
+                          {"rate11", "rate22", "rate12", "rate33", "parameters", "isotropic"},
+                          {"parameters", "isotropic"}};
 
 bool has(const Keys& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
@@ -22,8 +25,9 @@ bool has(const Keys& keys, const std::string& key) {
 
 /// Without `law` it is Perzyna's where a key of that says so.
 int lawOf(const TableReader& table) {
+  if (isRegistered(table)) return registered;
   const bool flows = table.find("viscosity") != nullptr || table.find("yield_stress") != nullptr;
-  return table.oneOf("law", lawWords, flows ? perzyna : elastic);
+  return table.oneOf("law", withRegistered(lawWords), flows ? perzyna : elastic);
 }
 
 void requireKeysOf(int law, const TableReader& table) {
@@ -33,13 +37,17 @@ void requireKeysOf(int law, const TableReader& table) {
       // An elastic body may keep the projection it had when it flowed; the linter names it.
       if (table.find(key) == nullptr || has(keysOfLaw[law], key) || (!given && key == "projection")) continue;
       std::string laws;
-      for (size_t l = 0; l < std::size(keysOfLaw); ++l)
+      for (size_t l = 0; l < lawWords.size(); ++l)
         if (has(keysOfLaw[l], key)) laws += (laws.empty() ? "\"" : " or \"") + lawWords[l] + '"';
       table.reject(key, "it beside law = " + laws + " only");
     }
 }
 
 }  // namespace
+
+const Keys& lawsOfMortier() {
+  return lawWords;
+}
 
 MaterialDescription readMaterial(const Node& node, const std::string& path, const std::string& subject) {
   const TableReader table(node, path, subject);
@@ -59,6 +67,8 @@ MaterialDescription readMaterial(const Node& node, const std::string& path, cons
   if (law == standardSolid)
     material.flow = Viscoelasticity{table.number("relaxation_time", above(0)),
                                     table.number("relaxed_fraction", between(0, 1))};
+  if (law == expression) material.flow = readExpressionLaw(table);
+  if (law == registered) material.flow = readRegisteredLaw(table);
   return material;
 }
 

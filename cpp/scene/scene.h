@@ -12,6 +12,7 @@
 #include "base/units.h"
 #include "contact/interface.h"
 #include "material/norton.h"
+#include "material/own_material.h"
 #include "material/viscoelastic.h"
 #include "mesh/read.h"
 #include "scene/expression.h"
@@ -21,7 +22,7 @@
 namespace mortier {
 
 /// What a material does beside elasticity; the first: nothing.
-using FlowLaw = std::variant<std::monostate, Viscoplasticity, NortonCreep, Viscoelasticity>;
+using FlowLaw = std::variant<std::monostate, Viscoplasticity, NortonCreep, Viscoelasticity, OwnLaw>;
 
 struct MaterialDescription {
   Elasticity elasticity;

@@ -17,7 +17,13 @@ const Keys& keysOf(const std::string& path) {
                                  "reference_rate",
                                  "exponent",
                                  "relaxation_time",
-                                 "relaxed_fraction"};
+                                 "relaxed_fraction",
+                                 "rate11",
+                                 "rate22",
+                                 "rate12",
+                                 "rate33",
+                                 "parameters",
+                                 "isotropic"};
   static const std::map<std::string, Keys> tables = {
       {"",
        {"title", "plane", "body", "contact", "quantity", "time", "solver", "output", "check", "degree",
