@@ -9,8 +9,6 @@
 
 namespace mortier {
 
-namespace {
-
 std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description, Plane plane) {
   const Elasticity& elasticity = description.elasticity;
   if (const auto* norton = description.as<NortonCreep>()) return nortonMaterial(elasticity, *norton, plane);
@@ -24,6 +22,8 @@ std::shared_ptr<const Material> buildMaterial(const MaterialDescription& descrip
   }
   return viscoplasticity ? perzynaMaterial(elasticity, *viscoplasticity) : elasticMaterial(elasticity);
 }
+
+namespace {
 
 /// One material, or as many as regions ask for.
 std::shared_ptr<const Material> buildMaterial(const BodyDescription& body, const TriangleMesh& mesh,
