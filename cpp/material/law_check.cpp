@@ -159,7 +159,7 @@ class Trial {
   std::mt19937 random_{1};
   std::vector<Vector> stresses_;
   std::vector<Vector> strains_;
-  LawCheck result_{.dissipation = 1};
+  LawCheck result_;
 };
 
 }  // namespace

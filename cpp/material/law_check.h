@@ -22,9 +22,9 @@ struct LawCheck {
   int samples = 0;
   int numbers = 0;           ///< samples at which the rate is finite
   double lipschitz = 0;      ///< L [1/s]
-  Vector steepest;           ///< stress at which it is that [Pa]
+  Vector steepest = {};      ///< stress at which it is that [Pa]
   double monotony = 0;       ///< least eigenvalue of the symmetric part of dG/ds, over L [-]
-  double dissipation = 0;    ///< least s : G/(|s|_C |G|_E) [-]
+  double dissipation = 1;    ///< least s : G/(|s|_C |G|_E) [-]
   double turning = 0;        ///< largest |G(Q s Q') - Q G Q'| over the largest |G| of such stresses [-]
   double tangent = 0;        ///< largest relative distance of ds/dstrain from differences [-]
   Vector worstTangent = {};  ///< stress at which it is that [Pa]
