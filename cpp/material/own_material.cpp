@@ -79,6 +79,7 @@ class OwnMaterial final : public Material {
       const Solved& at = local.solved[i - begin];
       const Vec predictor = local.points.stress.col(i - begin) + at.direction;
       change.add(Vector(predictor - stress.col(i)));
+      if (!isOnLaw(local, i - begin)) change.add(Vector(at.direction));
       result.predictor.col(i) = predictor;
       store(at.moduli, i, result);
     }
@@ -94,6 +95,7 @@ class OwnMaterial final : public Material {
       const Vec towards =
           local.points.stress.col(i - begin) + local.solved[i - begin].direction - stress.col(i);
       change.add(Vector(towards));
+      if (!isOnLaw(local, i - begin)) change.add(Vector(local.solved[i - begin].direction));
       result.predictor.col(i) = stress.col(i) + relaxation * towards;
       store(E_, i, result);
     }
@@ -213,7 +215,8 @@ class OwnMaterial final : public Material {
     return result;
   }
 
-  /// Whether the last step of Newton's method leaves nothing, or rounding.
+  /// Whether the last step of Newton's method leaves nothing, or rounding. Elsewhere that step may lead to the
+  /// iterate itself, as across a jump of the rate, and is itself what the law asks for.
   [[nodiscard]] static bool isOnLaw(const Local& local, int i) {
     constexpr double enough = 1e-10;    // of the terms of the residual: what is left is its square
     constexpr double rounding = 1e-15;  // of the stress

@@ -32,6 +32,12 @@ const std::map<std::string, Function>& functions() {
   return all;
 }
 
+const std::map<std::string, double>& constants() {
+  static const std::map<std::string, double> all{
+      {"pi", std::numbers::pi}, {"_pi", std::numbers::pi}, {"_e", std::numbers::e}};
+  return all;
+}
+
 }  // namespace
 
 class FormulaReader {
@@ -186,8 +192,8 @@ class FormulaReader {
     for (size_t k = 0; k < formulas_.variables_.size(); ++k)
       if (formulas_.variables_[k] == name) return append(Op::variable, static_cast<int>(k));
     if (formulas_.named_.count(name) > 0) return named(name);
-    if (name == "pi" || name == "_pi") return formulas_.append({Op::number, -1, -1, -1, std::numbers::pi});
-    if (name == "_e") return formulas_.append({Op::number, -1, -1, -1, std::numbers::e});
+    if (const auto constant = constants().find(name); constant != constants().end())
+      return formulas_.append({Op::number, -1, -1, -1, constant->second});
     at_ = begin;
     reject("unknown name " + name);
   }
@@ -224,6 +230,10 @@ class FormulaReader {
 
 Formulas::Formulas(std::vector<std::string> variables, std::map<std::string, Text> named)
     : variables_(std::move(variables)), named_(std::move(named)) {}
+
+bool Formulas::isWord(const std::string& name) {
+  return functions().count(name) + constants().count(name) > 0;
+}
 
 void Formulas::add(const Text& expression) {
   results_.push_back(FormulaReader(*this, expression).read());

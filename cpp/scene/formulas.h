@@ -21,6 +21,8 @@ class Formulas {
 
   /// \param named  abbreviations of the user's own: they may hold variables, and each other
   Formulas(std::vector<std::string> variables, std::map<std::string, Text> named);
+  /// Whether the language has a function or a constant of that name.
+  static bool isWord(const std::string& name);
 
   /// Reads an expression; it is the next result of evaluate(). \throws InputError `where, expected an
   /// expression in ... (what is wrong, at which character)`.

@@ -82,9 +82,10 @@ OwnLaw readExpressionLaw(const TableReader& table) {
   std::map<std::string, Formulas::Text> named;
   for (const auto& [name, node] : parametersOf(table)) {
     for (const std::string& component : components)
-      if (name == component)
+      if (name == component || Formulas::isWord(name))
         throw InputError(table.message(
-            node->where, "parameters." + name + ", expected another name than that of a component"));
+            node->where,
+            "parameters." + name + ", expected another name than those of components and functions"));
     named[name] = textOf(table, "parameters." + name, *node);
     if (node->isNumeric()) own.parameters[name] = node->value;
   }

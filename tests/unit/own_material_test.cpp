@@ -219,6 +219,31 @@ TEST(OwnMaterial, pointsAreIndependent) {
   EXPECT_TRUE(together.predictor.allFinite());  // from the stress at the start of the step
 }
 
+/// Flows where the stress is more than 1.
+struct Jump {
+  static constexpr bool ofStrain = false;
+  template <class Number>
+  Components<Number> rateOf(const Components<Number>& s, const Components<Number>&) const {
+    return alongDeviator(s, select(mises(s) > Number(1), Number(1e3), Number(0)));
+  }
+};
+
+// No stress is on the law: none is taken for one that is, the elastic one least of all.
+TEST(OwnMaterial, aJumpIsNotTakenForASolution) {
+  const auto material = ownMaterial(elasticity, named(rateLaw(Jump())), Plane::strain);
+  const Matrix zero = Matrix::Zero(4, 1);
+  const Matrix strain = Eigen::Vector4d(0, 0.02, 0, 0);
+  Matrix stress = zero;
+  Linearisation law = material->room(1);
+  for (int k = 0; k < 20; ++k) {
+    EXPECT_GT(material->linearise({1, zero, strain, false}, stress, law, 0, 1).change, 1e-3);
+    EXPECT_GT(material->regularise({1, zero, strain, false}, stress, Vector::Zero(1), 1, law, 0, 1).change,
+              1e-3);
+    material->linearise({1, zero, strain, false}, stress, law, 0, 1);
+    stress = law.predictor;
+  }
+}
+
 struct Broken {
   static constexpr bool ofStrain = true;
   template <class Number>
