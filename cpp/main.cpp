@@ -13,6 +13,7 @@
 #include "commands/complain.h"
 #include "commands/exit_code.h"
 #include "commands/freefem.h"
+#include "commands/law.h"
 #include "commands/mesh_options.h"
 #include "commands/run.h"
 #include "commands/scene_argument.h"
@@ -94,6 +95,21 @@ int dispatch(int argc, char** argv) {
   freefemApp->add_option("SCENE", freefemCommand.scene, "scene, a TOML file");
   freefemApp->add_option("FILE", freefemCommand.file, ".edp file to write (default: standard output)");
   freefemApp->add_option("--set", freefemCommand.settings, settingsHelp)->type_name("KEY=VALUE");
+
+  LawCommand lawCommand;
+  CLI::App* lawApp = app.add_subcommand(
+      "law", "try the laws of a scene at random stresses (docs/check.md); exit code 0 or 1");
+  lawApp->add_option("SCENE", lawCommand.scene, "scene, a TOML file");
+  lawApp->add_option("--set", lawCommand.settings, settingsHelp)->type_name("KEY=VALUE");
+  lawApp->add_option("--stress", lawCommand.stress, "largest stress (default: that of the scene's data)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("S");
+  lawApp->add_option("--strain", lawCommand.strain, "largest strain (default: that stress over young)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("E");
+  lawApp->add_option("--samples", lawCommand.samples, "how many stresses (default 100)")
+      ->check(CLI::Range(1, 1000000))
+      ->type_name("N");
 
   StudyCommand studyCommand;
   CLI::App* studyApp = app.add_subcommand("study", "error against cost over a sweep of runs (docs/study.md)");
@@ -180,6 +196,10 @@ int dispatch(int argc, char** argv) {
   if (*freefemApp) {
     giveBackScene(freefemCommand.settings, freefemCommand.scene);
     return writeFreefem(freefemCommand);
+  }
+  if (*lawApp) {
+    giveBackScene(lawCommand.settings, lawCommand.scene);
+    return tryLaws(lawCommand);
   }
   if (*studyApp) {
     return study(studyCommand);

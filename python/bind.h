@@ -9,6 +9,8 @@ namespace mortier::python {
 void bindScene(pybind11::module_& module);
 /// States of runs as arrays.
 void bindFields(pybind11::module_& module);
+/// Laws that are callables.
+void bindLaw(pybind11::module_& module);
 /// Runs of scenes, and their steps one after another.
 void bindRun(pybind11::module_& module);
 

@@ -7,6 +7,7 @@
 #include "bind.h"
 #include "commands/run.h"
 #include "commands/version.h"
+#include "law.h"
 
 namespace py = pybind11;
 
@@ -21,6 +22,8 @@ void raise(const char* type, const std::exception& error) {
 void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(std::move(thrown));
+  } catch (const mortier::python::PythonError& error) {
+    error.restore();
   } catch (const mortier::InputError& error) {
     raise("InputError", error);
   } catch (const mortier::UnheldBodyError& error) {
@@ -41,5 +44,6 @@ PYBIND11_MODULE(_core, module) {
   module.attr("version") = mortier::version;
   mortier::python::bindScene(module);
   mortier::python::bindFields(module);
+  mortier::python::bindLaw(module);
   mortier::python::bindRun(module);
 }

@@ -279,6 +279,7 @@ void requireKnown(const SceneDescription& scene) {
     if (stressed || !body.regions.empty()) {
       refuse(body.where + ": body " + body.name + ": regions or initial stress", "neither");
     }
+    if (const auto* own = body.material.as<OwnLaw>()) refuse(own->where, "a law of mortier's own");
   }
 }
 

@@ -10,8 +10,6 @@
 
 namespace mortier {
 
-namespace {
-
 std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description, Plane plane) {
   const Elasticity& elasticity = description.elasticity;
   if (const auto* norton = description.as<NortonCreep>()) return nortonMaterial(elasticity, *norton, plane);
@@ -19,6 +17,7 @@ std::shared_ptr<const Material> buildMaterial(const MaterialDescription& descrip
     return viscoelasticMaterial(elasticity, *viscoelasticity, plane);
   if (const auto* overstress = description.as<Overstress>())
     return overstressMaterial(elasticity, *overstress, plane);
+  if (const auto* own = description.as<OwnLaw>()) return ownMaterial(elasticity, *own, plane);
   const auto* viscoplasticity = description.as<Viscoplasticity>();
   if (plane == Plane::strain) {
     return viscoplasticity ? planeStrainPerzynaMaterial(elasticity, *viscoplasticity)
@@ -26,6 +25,8 @@ std::shared_ptr<const Material> buildMaterial(const MaterialDescription& descrip
   }
   return viscoplasticity ? perzynaMaterial(elasticity, *viscoplasticity) : elasticMaterial(elasticity);
 }
+
+namespace {
 
 /// One material, or as many as regions ask for.
 std::shared_ptr<const Material> buildMaterial(const BodyDescription& body, const TriangleMesh& mesh,

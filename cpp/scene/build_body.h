@@ -8,6 +8,9 @@
 
 namespace mortier {
 
+/// \throws InputError
+std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description, Plane plane);
+
 /// Data are tried at `times` [s].
 /// \throws InputError with one line that names the scene's file and line, or the mesh's.
 Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescription& scene,

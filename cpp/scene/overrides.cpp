@@ -89,7 +89,9 @@ void setInArray(Node& array, const Setting& setting, size_t depth, const std::st
 void set(Node& table, const Setting& setting, size_t depth, const std::string& schemaPath) {
   const std::string& word = setting.path[depth];
   const Keys& keys = keysOf(schemaPath);
-  const bool named = schemaPath == "body.mesh.parameters";  // by the geometry, not by the schema
+  // By the geometry or the law, not by the schema.
+  const bool named = schemaPath == "body.mesh.parameters" || schemaPath == "body.material.parameters" ||
+                     schemaPath == "body.region.material.parameters";
   if (!table.isTable() || (!named && std::find(keys.begin(), keys.end(), word) == keys.end())) {
     const std::string guess = nearest(word, keys);
     throw InputError(

@@ -3,21 +3,25 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "scene/read_own_law.h"
 #include "scene/words.h"
 
 namespace mortier {
 namespace {
 
 /// Laws and their keys beside young and poisson.
-enum Law { elastic, perzyna, norton, maxwell, standardSolid, viscoplastic };
-const Keys lawWords{"elastic", "perzyna", "norton", "maxwell", "standard-solid", "viscoplastic"};
+enum Law { elastic, perzyna, norton, maxwell, standardSolid, viscoplastic, expression, registered };
+const Keys lawWords{"elastic",        "perzyna",      "norton",    "maxwell",
+                    "standard-solid", "viscoplastic", "expression"};
 const Keys keysOfLaw[] = {{},
                           {"viscosity", "yield_stress", "projection"},
                           {"reference_stress", "reference_rate", "exponent"},
                           {"relaxation_time"},
                           {"relaxation_time", "relaxed_fraction"},
                           {"yield_stress", "viscosity", "reference_stress", "reference_rate", "exponent",
-                           "kinematic_hardening", "isotropic_hardening"}};
+                           "kinematic_hardening", "isotropic_hardening"},
+                          {"rate11", "rate22", "rate12", "rate33", "parameters", "isotropic"},
+                          {"parameters", "isotropic"}};
 
 bool has(const Keys& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
@@ -25,8 +29,9 @@ bool has(const Keys& keys, const std::string& key) {
 
 /// Without `law` it is Perzyna's where a key of that says so.
 int lawOf(const TableReader& table) {
+  if (isRegistered(table)) return registered;
   const bool flows = table.find("viscosity") != nullptr || table.find("yield_stress") != nullptr;
-  return table.oneOf("law", lawWords, flows ? perzyna : elastic);
+  return table.oneOf("law", withRegistered(lawWords), flows ? perzyna : elastic);
 }
 
 void requireKeysOf(int law, const TableReader& table) {
@@ -36,7 +41,7 @@ void requireKeysOf(int law, const TableReader& table) {
       // An elastic body may keep the projection it had when it flowed; the linter names it.
       if (table.find(key) == nullptr || has(keysOfLaw[law], key) || (!given && key == "projection")) continue;
       std::string laws;
-      for (size_t l = 0; l < std::size(keysOfLaw); ++l)
+      for (size_t l = 0; l < lawWords.size(); ++l)
         if (has(keysOfLaw[l], key)) laws += (laws.empty() ? "\"" : " or \"") + lawWords[l] + '"';
       table.reject(key, "it beside law = " + laws + " only");
     }
@@ -62,6 +67,10 @@ Overstress readOverstress(const TableReader& table) {
 
 }  // namespace
 
+const Keys& lawsOfMortier() {
+  return lawWords;
+}
+
 MaterialDescription readMaterial(const Node& node, const std::string& path, const std::string& subject) {
   const TableReader table(node, path, subject);
   MaterialDescription material;
@@ -81,6 +90,8 @@ MaterialDescription readMaterial(const Node& node, const std::string& path, cons
     material.flow = Viscoelasticity{table.number("relaxation_time", above(0)),
                                     table.number("relaxed_fraction", between(0, 1))};
   if (law == viscoplastic) material.flow = readOverstress(table);
+  if (law == expression) material.flow = readExpressionLaw(table);
+  if (law == registered) material.flow = readRegisteredLaw(table);
   return material;
 }
 

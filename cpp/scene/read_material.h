@@ -6,6 +6,9 @@
 
 namespace mortier {
 
+/// The words that `law` may be, beside those of registered laws.
+const Keys& lawsOfMortier();
+
 /// \throws InputError of one line, also where a key belongs to another law.
 MaterialDescription readMaterial(const Node& node, const std::string& path, const std::string& subject);
 

@@ -13,6 +13,7 @@
 #include "contact/interface.h"
 #include "material/norton.h"
 #include "material/overstress.h"
+#include "material/own_material.h"
 #include "material/viscoelastic.h"
 #include "mesh/read.h"
 #include "scene/expression.h"
@@ -22,7 +23,8 @@
 namespace mortier {
 
 /// What a material does beside elasticity; the first: nothing.
-using FlowLaw = std::variant<std::monostate, Viscoplasticity, NortonCreep, Viscoelasticity, Overstress>;
+using FlowLaw =
+    std::variant<std::monostate, Viscoplasticity, NortonCreep, Viscoelasticity, Overstress, OwnLaw>;
 
 struct MaterialDescription {
   Elasticity elasticity;

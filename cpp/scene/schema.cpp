@@ -19,7 +19,13 @@ const Keys& keysOf(const std::string& path) {
                                  "relaxation_time",
                                  "relaxed_fraction",
                                  "kinematic_hardening",
-                                 "isotropic_hardening"};
+                                 "isotropic_hardening",
+                                 "rate11",
+                                 "rate22",
+                                 "rate12",
+                                 "rate33",
+                                 "parameters",
+                                 "isotropic"};
   static const std::map<std::string, Keys> tables = {
       {"",
        {"title", "plane", "body", "contact", "quantity", "time", "solver", "output", "check", "degree",

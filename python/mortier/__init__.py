@@ -6,8 +6,9 @@
 """
 from mortier._core import Contact, Step, version as __version__
 from mortier.errors import Error, FreeMotion, InputError, OutputError, StepError
+from mortier.laws import forget_law, register_law
 from mortier.run import Run
 from mortier.scene import Fault, Mesh, Scene, check, load
 
 __all__ = ["Contact", "Error", "Fault", "FreeMotion", "InputError", "Mesh", "OutputError", "Run", "Scene",
-           "Step", "StepError", "__version__", "check", "load"]
+           "Step", "StepError", "__version__", "check", "forget_law", "load", "register_law"]

@@ -1,0 +1,130 @@
+#include "commands/law.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "base/error.h"
+#include "base/printable.h"
+#include "commands/exit_code.h"
+#include "material/law_check.h"
+#include "material/stress.h"
+#include "plan/loads.h"
+#include "scene/build.h"
+#include "scene/build_body.h"
+#include "scene/document.h"
+
+namespace mortier {
+namespace {
+
+/// The stress that the data of the scene ask for [Pa].
+double stressOfData(const SceneDescription& scene, const Model& model) {
+  MeshedScene meshed{scene, {}};
+  for (const Body& body : model.bodies) meshed.meshes.push_back(&body.mesh());
+  const std::vector<SampledDatum> data = sampledData(meshed);
+  double largest = 0;
+  for (const double t : trialTimes(scene.time)) largest = std::max(largest, nominalStress(scene, data, t));
+  return largest;
+}
+
+std::string digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+std::string atStress(const Vector& stress, const std::string& unit) {
+  if (stress.size() == 0) return "";
+  const Eigen::Vector3d s = toCartesian(stress.head<3>());
+  std::string text = " at s11 = " + digits(s[0]) + ", s22 = " + digits(s[1]) + ", s12 = " + digits(s[2]);
+  if (stress.size() > 3) text += ", s33 = " + digits(stress[3]);
+  return text + " " + unit;
+}
+
+/// A line for each thing that is tried.
+class Verdicts {
+ public:
+  void line(const char* what, bool right, const std::string& text) {
+    wrong_ = wrong_ || !right;
+    std::printf("  %-12s %s%s\n", what, right ? "" : "WRONG: ", text.c_str());
+  }
+  [[nodiscard]] bool wrong() const { return wrong_; }
+
+ private:
+  bool wrong_ = false;
+};
+
+void judge(const LawCheck& check, const Material& material, bool isotropic, const SceneDescription& scene,
+           Verdicts& verdicts) {
+  constexpr double tangentIsRight = 1e-4;
+  constexpr double turns = 1e-9;
+  constexpr double makesEnergy = -1e-9;
+  const std::string& unit = scene.units.stress;
+  verdicts.line(
+      "rate", check.numbers == check.samples,
+      "a number at " + std::to_string(check.numbers) + " of " + std::to_string(check.samples) + " stresses");
+  if (check.lipschitz == 0) {
+    verdicts.line("flow", true, "none at these stresses");
+    return;
+  }
+  verdicts.line("tangent", check.tangent <= tangentIsRight,
+                digits(check.tangent) + " off differences, over ten decades of the step" +
+                    (check.tangent <= tangentIsRight ? "" : "," + atStress(check.worstTangent, unit)));
+  const bool turned = check.turning <= turns;
+  verdicts.line("isotropy", turned || !isotropic,
+                digits(check.turning) +
+                    (turned ? " off when axes turn" : " off when axes turn: it is not isotropic") +
+                    (isotropic ? "" : ", and not said to be"));
+  const bool dissipates = check.dissipation >= makesEnergy;
+  verdicts.line("dissipation", dissipates || material.ofStrain(),
+                "s : G is at least " + digits(check.dissipation) + " |s| |G|" +
+                    (dissipates            ? ""
+                     : material.ofStrain() ? ": it gives back what the strain has stored"
+                                           : ": it makes energy"));
+  const bool anyStep = check.monotone() && !material.ofStrain();
+  verdicts.line("monotone", true,
+                std::string(check.monotone() ? "yes" : "no") + ", least slope " + digits(check.monotony) +
+                    " of the largest");
+  const double longest = scene.time.end / scene.time.steps;
+  const double limit = 1 / check.lipschitz;
+  std::string steps = "steps below " + digits(limit) + " s have one solution (Proposition 1)";
+  if (anyStep)
+    steps += ", and all others, as it is monotone";
+  else if (!scene.time.controlled() && longest >= limit)
+    steps += "; those of the scene are " + digits(longest / limit) + " times as long";
+  verdicts.line("Lipschitz", std::isfinite(check.lipschitz),
+                digits(check.lipschitz) + " 1/s" + atStress(check.steepest, unit));
+  verdicts.line("steps", true, steps);
+}
+
+}  // namespace
+
+int tryLaws(const LawCommand& command) {
+  ResolvedScene resolved = resolveScene(readScene(command.scene, command.settings));
+  const Model model = buildModel(resolved);
+  const SceneDescription& scene = resolved.description;
+  const double stress = command.stress > 0 ? command.stress : stressOfData(scene, model);
+  if (!(stress > 0))
+    throw InputError(command.scene + ": no datum of the scene asks for a stress, expected --stress");
+  Verdicts verdicts;
+  for (const BodyDescription& body : scene.bodies)
+    for (const MaterialDescription* description : materialsOf(body)) {
+      const auto material = buildMaterial(*description, scene.plane);
+      const auto* own = description->as<OwnLaw>();
+      const double strain = command.strain > 0 ? command.strain : stress / description->elasticity.young;
+      std::string name = "body " + body.name;
+      for (const RegionDescription& region : body.regions)
+        if (region.material && &*region.material == description)
+          name += " region " + std::to_string(region.label);
+      std::printf("%s: %s, plane %s, stresses up to %s %s\n", printable(name).c_str(),
+                  material->laws().front().text().c_str(), word(scene.plane).c_str(), digits(stress).c_str(),
+                  scene.units.stress.c_str());
+      if (!description->flows())
+        std::puts("  elastic");
+      else
+        judge(checkLaw(*material, {stress, strain, command.samples}), *material,
+              own == nullptr || own->isotropic, scene, verdicts);
+    }
+  return verdicts.wrong() ? exitFailed : exitDone;
+}
+
+}  // namespace mortier

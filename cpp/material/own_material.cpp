@@ -1,0 +1,350 @@
+#include "material/own_material.h"
+
+#include <Eigen/LU>
+#include <limits>
+
+#include "base/error.h"
+#include "base/worst.h"
+#include "material/stress.h"
+
+namespace mortier {
+namespace {
+
+/// Components from p, q, r and, where n is 4, s33 (stress.h).
+template <int n>
+Eigen::Matrix<double, 4, n> componentsBy() {
+  constexpr double h = std::numbers::sqrt2 / 2;
+  Eigen::Matrix<double, 4, n> T = Eigen::Matrix<double, 4, n>::Zero();
+  T(0, 0) = T(0, 1) = T(1, 0) = T(2, 2) = h;
+  T(1, 1) = -h;
+  if constexpr (n == 4) T(3, 3) = 1;
+  return T;
+}
+/// The inverse.
+template <int n>
+Eigen::Matrix<double, n, 4> byComponents() {
+  Eigen::Matrix<double, n, 4> F = componentsBy<n>().transpose();
+  F(2, 2) = std::numbers::sqrt2;
+  return F;
+}
+
+template <int n>
+Eigen::Matrix<double, n, n> elasticityTensor(const Elasticity& elasticity) {
+  using Tensor = Eigen::Matrix<double, n, n>;
+  if constexpr (n == 3) return elasticity.moduli().matrix().asDiagonal();
+  const double shear = elasticity.young / (1 + elasticity.poisson);
+  const double bulk = elasticity.young / (1 - 2 * elasticity.poisson);
+  Eigen::Matrix<double, n, 1> volume = Eigen::Matrix<double, n, 1>::Zero();
+  volume[0] = rootTwoThirds;
+  volume[n - 1] = overRoot3;
+  return shear * Tensor::Identity() + (bulk - shear) * volume * volume.transpose();
+}
+
+template <int n>
+class OwnMaterial final : public Material {
+ public:
+  using Vec = Eigen::Matrix<double, n, 1>;
+  using Mat = Eigen::Matrix<double, n, n>;
+
+  OwnMaterial(const OwnLaw& own, const Elasticity& elasticity, LawDescription description)
+      : law_(own.law),
+        description_(std::move(description)),
+        E_(elasticityTensor<n>(elasticity)),
+        C_(E_.inverse()),
+        poisson_(elasticity.poisson) {}
+
+  [[nodiscard]] std::vector<LawDescription> laws() const override { return {description_}; }
+  [[nodiscard]] int components() const override { return n; }
+  [[nodiscard]] double outOfPlane(const Eigen::Vector3d& stress, int /*point*/) const override {
+    return n == 4 ? poisson_ * std::numbers::sqrt2 * stress[0] : 0;
+  }
+  [[nodiscard]] bool symmetricTangent() const override { return false; }
+  [[nodiscard]] bool linear() const override { return false; }
+  [[nodiscard]] bool ofStrain() const override { return law_->ofStrain(); }
+  [[nodiscard]] double stressScale() const override { return 0; }
+  /// Not known without a stress.
+  [[nodiscard]] double stiffness(double weight) const override { return weight > 0 ? 1 : 0; }
+  [[nodiscard]] bool flows(const Matrix& stress, int point) const override {
+    if (ofStrain()) return true;
+    Points at(stress.col(point));
+    evaluate(at, nullptr);
+    return (at.rate.array() != 0).any();
+  }
+
+  LawReport linearise(const MaterialStep& step, const Matrix& stress, Linearisation& result, int begin,
+                      int end) const override {
+    const Local local = solve(step, stress, 1, begin, end);
+    Worst change;
+    for (int i = begin; i < end; ++i) {
+      const Solved& at = local.solved[i - begin];
+      const Vec predictor = local.points.stress.col(i - begin) + at.direction;
+      change.add(Vector(predictor - stress.col(i)));
+      if (!isOnLaw(local, i - begin)) change.add(Vector(at.direction));
+      result.predictor.col(i) = predictor;
+      store(at.moduli, i, result);
+    }
+    return {change.value(), 0};
+  }
+
+  /// With D = E: t solves 2 E^-1 t + weight G(t) = strain + E^-1 (s0 + s).
+  LawReport regularise(const MaterialStep& step, const Matrix& stress, const Vector& /*penalty*/,
+                       double relaxation, Linearisation& result, int begin, int end) const override {
+    const Local local = solve(step, stress, 2, begin, end);
+    Worst change;
+    for (int i = begin; i < end; ++i) {
+      const Vec towards =
+          local.points.stress.col(i - begin) + local.solved[i - begin].direction - stress.col(i);
+      change.add(Vector(towards));
+      if (!isOnLaw(local, i - begin)) change.add(Vector(local.solved[i - begin].direction));
+      result.predictor.col(i) = stress.col(i) + relaxation * towards;
+      store(E_, i, result);
+    }
+    return {change.value(), 0};
+  }
+
+  void choosePenalty(const Matrix& /*stress*/, Vector& penalty, int begin, int end) const override {
+    penalty.segment(begin, end - begin).setZero();
+  }
+  void viscoplasticRate(const MaterialState& state, Matrix& rate, int begin, int end) const override {
+    Points at(state.stress.middleCols(begin, end - begin));
+    if (ofStrain()) at.total = state.strain->middleCols(begin, end - begin);
+    evaluate(at, nullptr);
+    rate.middleCols(begin, end - begin) = at.rate;
+  }
+  void elasticStrain(const Matrix& stress, Matrix& strain, int begin, int end) const override {
+    strain.middleCols(begin, end - begin) = C_ * stress.middleCols(begin, end - begin);
+  }
+  [[nodiscard]] std::unique_ptr<InteriorPath> interiorPath(const PathStart& start,
+                                                           std::vector<int> points) const override {
+    return newtonPath(*this, start, std::move(points));
+  }
+
+ private:
+  /// Points that are evaluated together, on p, q, r, s33.
+  struct Points {
+    explicit Points(Matrix s) : stress(std::move(s)) {}
+    Matrix stress;
+    Matrix total = {};  ///< strain, where the law depends on it
+    Matrix rate = {};
+  };
+
+  /// The law at the stress to which Newton's method has come: r, its size, H^-1 r and ds/dstrain.
+  struct Solved {
+    double residual = std::numeric_limits<double>::infinity();
+    double size = 0;  ///< of the terms of r, in the norm of the residual
+    Vec direction = Vec::Constant(std::numeric_limits<double>::quiet_NaN());
+    Mat moduli = Mat::Constant(std::numeric_limits<double>::quiet_NaN());
+  };
+  struct Local {
+    Points points;
+    std::vector<Solved> solved;
+  };
+
+  [[nodiscard]] double norm(const Vec& strain) const { return std::sqrt(strain.dot(E_ * strain)); }
+
+  void evaluate(Points& at, Matrix* slopes) const {
+    const Eigen::Index points = at.stress.cols();
+    Matrix strain = Matrix::Zero(4, points);
+    if (ofStrain() && at.total.size() > 0) strain = componentsBy<n>() * at.total;
+    if (n == 3) strain.row(3).setConstant(std::numeric_limits<double>::quiet_NaN());
+    Matrix rate(4, points);
+    if (slopes != nullptr) slopes->resize(law_->slopeRows(), points);
+    law_->evaluate(componentsBy<n>() * at.stress, strain, rate, slopes);
+    if (n == 3) rate.row(3).setZero();
+    at.rate = byComponents<n>() * rate;
+  }
+
+  /// Derivatives by components as those by p, q, r, s33.
+  static Mat turned(Eigen::Matrix4d slopes) {
+    if constexpr (n == 3) {
+      slopes.row(3).setZero();
+      slopes.col(3).setZero();
+    }
+    return byComponents<n>() * slopes * componentsBy<n>();
+  }
+
+  /// compliances E^-1 s + weight G(s) = rhs at all points, from `stress` or from where the residual is less.
+  Local solve(const MaterialStep& step, const Matrix& stress, double compliances, int begin, int end) const {
+    const int count = end - begin;
+    Local local{Points(stress.middleCols(begin, count)), std::vector<Solved>(count)};
+    const Matrix start = step.stress0.middleCols(begin, count);
+    Matrix rhs = step.strain.middleCols(begin, count) + C_ * start;
+    if (compliances > 1) rhs += C_ * local.points.stress;
+    if (ofStrain())
+      local.points.total = step.strain0->middleCols(begin, count) + step.strain.middleCols(begin, count);
+    const Problem problem{step.weight, compliances, rhs};
+    if (!(step.weight > 0)) {
+      local.points.stress = E_ * rhs / compliances;
+      for (Solved& each : local.solved) each = {0, 0, Vec::Zero(), E_ / compliances};
+      return local;
+    }
+    solveEach(problem, start, local);
+    return local;
+  }
+
+  struct Problem {
+    double weight;
+    double compliances;
+    const Matrix& rhs;
+  };
+
+  /// The law of the points `which` at stresses of theirs.
+  std::vector<Solved> linearised(const Problem& problem, const Points& all, const std::vector<int>& which,
+                                 const Matrix& stress) const {
+    Points at(stress);
+    if (all.total.size() > 0) at.total = all.total(Eigen::all, which);
+    Matrix slopes;
+    evaluate(at, &slopes);
+    std::vector<Solved> result(which.size());
+    for (size_t k = 0; k < which.size(); ++k) {
+      const auto column = static_cast<Eigen::Index>(k);
+      const Vec elastic = problem.compliances * (C_ * stress.col(column));
+      const Vec flow = problem.weight * at.rate.col(column);
+      const Vec r = problem.rhs.col(which[k]) - elastic - flow;
+      if (!r.allFinite()) continue;
+      const auto slopesAt = [&](int row) {
+        return turned(Eigen::Map<const Eigen::Matrix4d>(&slopes(row, column)));
+      };
+      const Mat inverse =
+          Mat(problem.compliances * C_ + problem.weight * slopesAt(0)).partialPivLu().inverse();
+      Solved solved{norm(r), norm(elastic) + norm(flow) + norm(problem.rhs.col(which[k])), inverse * r,
+                    inverse};
+      if (ofStrain()) solved.moduli = inverse * (Mat::Identity() - problem.weight * slopesAt(16));
+      if (solved.direction.allFinite() && solved.moduli.allFinite()) result[k] = solved;
+    }
+    return result;
+  }
+
+  /// Whether the last step of Newton's method leaves nothing, or rounding. Elsewhere that step may lead to the
+  /// iterate itself, as across a jump of the rate, and is itself what the law asks for.
+  [[nodiscard]] static bool isOnLaw(const Local& local, int i) {
+    constexpr double enough = 1e-10;    // of the terms of the residual: what is left is its square
+    constexpr double rounding = 1e-15;  // of the stress
+    const Solved& at = local.solved[i];
+    return at.residual <= enough * at.size ||
+           at.direction.norm() <= rounding * local.points.stress.col(i).norm();
+  }
+
+  /// Takes the stresses `from` of the points `which` where their residual is less.
+  void takeBetter(const Problem& problem, const std::vector<int>& which, const Matrix& from,
+                  Local& local) const {
+    if (which.empty()) return;
+    const std::vector<Solved> others = linearised(problem, local.points, which, from(Eigen::all, which));
+    for (size_t k = 0; k < which.size(); ++k)
+      if (others[k].residual < local.solved[which[k]].residual) {
+        local.solved[which[k]] = others[k];
+        local.points.stress.col(which[k]) = from.col(which[k]);
+      }
+  }
+
+  /// Solves the law from the iterate or from the start of the step. Where a kink of the law stops that, as the
+  /// yield surface seen from within, from the stress of no flow, which is beyond.
+  void solveEach(const Problem& problem, const Matrix& start, Local& local) const {
+    constexpr double good = 1e-3;
+    constexpr int fewShort = 4;
+    constexpr int manyShort = 60;
+    const int count = static_cast<int>(start.cols());
+    std::vector<int> all(count);
+    for (int i = 0; i < count; ++i) all[i] = i;
+    local.solved = linearised(problem, local.points, all, local.points.stress);
+    std::vector<int> far;
+    for (int i = 0; i < count; ++i)
+      if (!(local.solved[i].residual <= good * local.solved[i].size)) far.push_back(i);
+    takeBetter(problem, far, start, local);
+    descend(problem, all, fewShort, local);
+
+    std::vector<int> stuck;
+    for (int i = 0; i < count; ++i)
+      if (!isOnLaw(local, i)) stuck.push_back(i);
+    if (stuck.empty()) return;
+    const Local before = local;
+    for (const int i : stuck) local.solved[i] = Solved();
+    takeBetter(problem, stuck, E_ * problem.rhs / problem.compliances, local);
+    descend(problem, stuck, manyShort, local);
+    for (const int i : stuck)
+      if (!(local.solved[i].residual <= before.solved[i].residual)) {
+        local.solved[i] = before.solved[i];
+        local.points.stress.col(i) = before.points.stress.col(i);
+      }
+  }
+
+  /// Newton's method at each of the points, with a step length of its own, until so many were short.
+  void descend(const Problem& problem, std::vector<int> active, int mostShort, Local& local) const {
+    constexpr int rounds = 400;
+    constexpr double descent = 1e-4;
+    constexpr double isShort = 1e-3;
+    constexpr double shortest = 1e-6;
+    Vector part = Vector::Ones(local.points.stress.cols());
+    std::vector<int> shortOnes(part.size());
+    for (int round = 0; round < rounds; ++round) {
+      std::erase_if(active, [&](int i) {
+        return !std::isfinite(local.solved[i].residual) || isOnLaw(local, i) || shortOnes[i] > mostShort;
+      });
+      if (active.empty()) return;
+      Matrix trial(n, active.size());
+      for (size_t k = 0; k < active.size(); ++k)
+        trial.col(static_cast<Eigen::Index>(k)) =
+            local.points.stress.col(active[k]) + part[active[k]] * local.solved[active[k]].direction;
+      const std::vector<Solved> next = linearised(problem, local.points, active, trial);
+      for (size_t k = 0; k < active.size(); ++k) {
+        const int i = active[k];
+        const bool descends = next[k].residual <= (1 - descent * part[i]) * local.solved[i].residual;
+        // Where no step is short enough the law has a kink: the slopes beyond it lead on.
+        const bool crosses = part[i] < shortest && std::isfinite(next[k].residual);
+        if (part[i] < isShort && (descends || crosses)) ++shortOnes[i];
+        if (part[i] < shortest * shortest) shortOnes[i] = mostShort + 1;
+        if (descends || crosses) {
+          local.solved[i] = next[k];
+          local.points.stress.col(i) = trial.col(static_cast<Eigen::Index>(k));
+          part[i] = 1;
+        } else {
+          part[i] /= 2;
+        }
+      }
+    }
+  }
+
+  static void store(const Mat& H, int point, Linearisation& result) {
+    result.moduli.col(point) = H.template topLeftCorner<3, 3>().reshaped();
+    if constexpr (n == 4) {
+      result.beyond.col(point).template head<4>() = H.row(3).transpose();
+      result.beyond.col(point).template tail<3>() = H.col(3).template head<3>();
+    }
+  }
+
+  std::shared_ptr<const RateLaw> law_;
+  LawDescription description_;
+  Mat E_;
+  Mat C_;
+  double poisson_;
+};
+
+/// \throws InputError where a component of the rate is not a number without stress and strain.
+void requireRateAtRest(const OwnLaw& law, Plane plane) {
+  constexpr const char* names[] = {"11", "22", "12", "33"};
+  Matrix strain = Matrix::Zero(4, 1);
+  if (plane == Plane::stress) strain(3, 0) = std::numeric_limits<double>::quiet_NaN();
+  Matrix rate = Matrix::Zero(4, 1);
+  law.law->evaluate(Matrix::Zero(4, 1), strain, rate, nullptr);
+  for (int k = 0; k < (plane == Plane::stress ? 3 : 4); ++k)
+    if (!std::isfinite(rate(k, 0)))
+      throw InputError(law.where + ", expected a rate that is a number without stress and strain, is " +
+                       (std::isnan(rate(k, 0)) ? "not one" : "infinite") + " in component " + names[k] +
+                       (plane == Plane::stress ? " (e33 is not known in plane stress)" : ""));
+}
+
+}  // namespace
+
+std::shared_ptr<const Material> ownMaterial(const Elasticity& elasticity, const OwnLaw& law, Plane plane) {
+  requireValid(elasticity);
+  if (plane == Plane::strain && !law.inPlaneStrain)
+    throw InputError(law.where + ", expected rate33 beside the others in plane strain");
+  requireRateAtRest(law, plane);
+  LawDescription description = describe(law.name, elasticity);
+  for (const auto& [name, value] : law.parameters) description.parameters.push_back({name, value, ""});
+  if (plane == Plane::stress)
+    return std::make_shared<OwnMaterial<3>>(law, elasticity, std::move(description));
+  return std::make_shared<OwnMaterial<4>>(law, elasticity, std::move(description));
+}
+
+}  // namespace mortier

@@ -1,0 +1,126 @@
+#include "scene/read_own_law.h"
+
+#include <cctype>
+#include <cmath>
+
+#include "base/error.h"
+#include "scene/formulas.h"
+#include "scene/registered_laws.h"
+
+namespace mortier {
+namespace {
+
+constexpr int strainBegins = 4;
+const std::vector<std::string> components{"s11", "s22", "s12", "s33", "e11", "e22", "e12", "e33"};
+
+class ExpressionLaw final : public RateLaw {
+ public:
+  explicit ExpressionLaw(Formulas rates) : rates_(std::move(rates)) {
+    for (int k = strainBegins; k < 2 * strainBegins; ++k) ofStrain_ = ofStrain_ || rates_.dependsOn(k);
+  }
+  [[nodiscard]] bool ofStrain() const override { return ofStrain_; }
+  void evaluate(const Matrix& stress, const Matrix& strain, Matrix& rate, Matrix* slopes) const override {
+    std::tuple<std::vector<Dual<0>>, std::vector<Dual<4>>, std::vector<Dual<8>>> work;
+    const auto rateOf = [&]<int n>(const Dual<n>* in, Dual<n>* out) {
+      rates_.evaluate(in, out, std::get<std::vector<Dual<n>>>(work));
+    };
+    if (ofStrain_)
+      evaluateInLanes<true>(rateOf, stress, strain, rate, slopes);
+    else
+      evaluateInLanes<false>(rateOf, stress, strain, rate, slopes);
+  }
+
+ private:
+  Formulas rates_;
+  bool ofStrain_ = false;
+};
+
+/// Whether an expression may hold it.
+bool isWord(const std::string& name) {
+  if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front())) != 0) return false;
+  for (const unsigned char c : name)
+    if (std::isalnum(c) == 0 && c != '_') return false;
+  return true;
+}
+
+Formulas::Text textOf(const TableReader& table, const std::string& name, const Node& node) {
+  const std::string where = table.message(node.where, name + " = " + node.quoted());
+  if (node.isNumeric() && std::isfinite(node.value)) return {shortest(node.value), where};
+  if (!node.isString()) throw InputError(where + ", expected a finite number or an expression");
+  return {node.text, where};
+}
+
+std::map<std::string, const Node*> parametersOf(const TableReader& table) {
+  std::map<std::string, const Node*> result;
+  const Node* parameters = table.find("parameters");
+  if (parameters == nullptr) return result;
+  if (!parameters->isTable()) table.reject("parameters", "a table, { eta = 10, ... }");
+  for (const Node& each : parameters->members) {
+    if (!isWord(each.key))
+      throw InputError(
+          table.message(each.where, "parameters." + each.key + ", expected a name of letters, digits and _"));
+    result[each.key] = &each;
+  }
+  return result;
+}
+
+}  // namespace
+
+bool isRegistered(const TableReader& table) {
+  const Node* law = table.find("law");
+  return law != nullptr && law->isString() && registeredLaw(law->text);
+}
+
+Keys withRegistered(Keys words) {
+  for (const std::string& name : registeredLaws()) words.push_back(name);
+  return words;
+}
+
+OwnLaw readExpressionLaw(const TableReader& table) {
+  OwnLaw own;
+  own.name = "expression";
+  std::map<std::string, Formulas::Text> named;
+  for (const auto& [name, node] : parametersOf(table)) {
+    for (const std::string& component : components)
+      if (name == component || Formulas::isWord(name))
+        throw InputError(table.message(
+            node->where,
+            "parameters." + name + ", expected another name than those of components and functions"));
+    named[name] = textOf(table, "parameters." + name, *node);
+    if (node->isNumeric()) own.parameters[name] = node->value;
+  }
+  Formulas rates(components, named);
+  for (const char* key : {"rate11", "rate22", "rate12", "rate33"}) {
+    own.inPlaneStrain = table.find(key) != nullptr;  // of the last one
+    if (own.inPlaneStrain || std::string(key) != "rate33")
+      rates.add(textOf(table, key, table.require(key, "an expression of the stress, [1/s]")));
+    else
+      rates.add({"0", ""});
+  }
+  // One that is not used is read too: what is wrong in it is wrong.
+  Formulas all = rates;
+  for (const auto& [name, text] : named) all.add({name, text.where});
+  own.law = std::make_shared<ExpressionLaw>(std::move(rates));
+  own.isotropic = table.boolean("isotropic", false);
+  const Node& first = table.require("rate11", "");
+  own.where = table.message(first.where, "law = \"expression\"");
+  return own;
+}
+
+OwnLaw readRegisteredLaw(const TableReader& table) {
+  OwnLaw own;
+  own.name = table.string("law");
+  own.where = table.message(table.find("law")->where, "law = \"" + own.name + '"');
+  for (const auto& [name, node] : parametersOf(table)) {
+    const auto [text, where] = textOf(table, "parameters." + name, *node);
+    if (!node->isNumeric()) throw InputError(where + ", expected a finite number");
+    own.parameters[name] = node->value;
+  }
+  const LawParameters parameters(own.parameters, own.where);
+  own.law = registeredLaw(own.name)(parameters);
+  parameters.requireAllUsed();
+  own.isotropic = table.boolean("isotropic", false);
+  return own;
+}
+
+}  // namespace mortier

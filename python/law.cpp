@@ -1,0 +1,176 @@
+// Laws of scenes as Python callables of NumPy arrays: a batch of points at once, columns as in docs/python.md.
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <optional>
+
+#include "base/error.h"
+#include "bind.h"
+#include "law.h"
+#include "scene/registered_laws.h"
+
+namespace py = pybind11;
+
+namespace mortier::python {
+
+namespace {
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+struct PythonObjects {
+  py::object rate;
+  py::object derivative;  ///< or None
+  py::dict parameters;
+};
+
+class PythonLaw final : public RateLaw {
+ public:
+  /// The interpreter lock is held.
+  PythonLaw(PythonObjects objects, bool ofStrain, std::string name)
+      : objects_(new PythonObjects(std::move(objects))), ofStrain_(ofStrain), name_(std::move(name)) {}
+  ~PythonLaw() override {
+    if (Py_IsInitialized() == 0) return;  // with the interpreter its objects have gone
+    const py::gil_scoped_acquire held;
+    delete objects_;
+  }
+  PythonLaw(const PythonLaw&) = delete;
+  PythonLaw& operator=(const PythonLaw&) = delete;
+
+  [[nodiscard]] bool ofStrain() const override { return ofStrain_; }
+  void evaluate(const Matrix& stress, const Matrix& strain, Matrix& rate, Matrix* slopes) const override {
+    const py::gil_scoped_acquire held;
+    try {
+      rate = rateAt(stress, strain);
+      if (slopes == nullptr) return;
+      if (objects_->derivative.is_none())
+        difference(stress, strain, *slopes);
+      else
+        *slopes = derivativeAt(stress, strain);
+    } catch (const py::error_already_set& error) {
+      throw PythonError(error);
+    }
+  }
+
+ private:
+  /// As rows of points.
+  static Numbers rowsOf(const Matrix& columns) {
+    Numbers rows({columns.cols(), columns.rows()});
+    std::copy_n(columns.data(), columns.size(), rows.mutable_data());
+    return rows;
+  }
+
+  [[nodiscard]] Numbers call(const py::object& callable, const Matrix& stress, const Matrix& strain) const {
+    return Numbers(callable(rowsOf(stress), rowsOf(strain), **objects_->parameters));
+  }
+
+  void requireShape(const Numbers& is, bool right, const char* what, const std::string& expected) const {
+    if (!right)
+      throw InputError("law \"" + name_ + "\": " + what + " of shape " +
+                       std::string(py::str(is.attr("shape"))) + ", expected " + expected);
+  }
+
+  [[nodiscard]] Matrix rateAt(const Matrix& stress, const Matrix& strain) const {
+    const Numbers rates = call(objects_->rate, stress, strain);
+    const bool right = rates.ndim() == 2 && rates.shape(0) == stress.cols() && rates.shape(1) == 4;
+    requireShape(rates, right, "a rate", "(" + std::to_string(stress.cols()) + ", 4)");
+    return Eigen::Map<const Matrix>(rates.data(), 4, stress.cols());
+  }
+
+  /// (points, 4, 4): [point, component of the rate, of the stress]; (points, 4, 8) with those of the strain.
+  [[nodiscard]] Matrix derivativeAt(const Matrix& stress, const Matrix& strain) const {
+    const Numbers all = call(objects_->derivative, stress, strain);
+    const py::ssize_t directions = slopeRows() / 4;
+    const bool right =
+        all.ndim() == 3 && all.shape(0) == stress.cols() && all.shape(1) == 4 && all.shape(2) == directions;
+    requireShape(all, right, "a derivative",
+                 "(" + std::to_string(stress.cols()) + ", 4, " + std::to_string(directions) + ")");
+    Matrix slopes(slopeRows(), stress.cols());
+    for (py::ssize_t i = 0; i < all.shape(0); ++i)
+      for (py::ssize_t c = 0; c < 4; ++c)
+        for (py::ssize_t k = 0; k < directions; ++k) slopes(4 * k + c, i) = all.at(i, c, k);
+    return slopes;
+  }
+
+  /// Central differences, each as large as rounding asks beside the largest component, in one call.
+  void difference(const Matrix& stress, const Matrix& strain, Matrix& slopes) const {
+    constexpr double part = 6e-6;  // the third root of what doubles resolve
+    const Eigen::Index points = stress.cols();
+    const Eigen::Index directions = slopeRows() / 4;
+    const auto stepOf = [&](const Matrix& of, Eigen::Index i) {
+      const double all = of.topRows(3).cwiseAbs().maxCoeff();
+      const double own = of.col(i).head<3>().cwiseAbs().maxCoeff();
+      const double size = own > 0 ? own : all;
+      return size > 0 ? part * size : part * part;
+    };
+    Matrix s = stress.replicate(1, 2 * directions);
+    Matrix e = strain.replicate(1, 2 * directions);
+    for (Eigen::Index k = 0; k < directions; ++k)
+      for (Eigen::Index i = 0; i < points; ++i) {
+        Matrix& moved = k < 4 ? s : e;
+        const double h = stepOf(k < 4 ? stress : strain, i);
+        moved(k % 4, 2 * k * points + i) += h;
+        moved(k % 4, (2 * k + 1) * points + i) -= h;
+      }
+    const Matrix rates = rateAt(s, e);
+    for (Eigen::Index k = 0; k < directions; ++k)
+      for (Eigen::Index i = 0; i < points; ++i) {
+        const Matrix& of = k < 4 ? s : e;
+        const Eigen::Index above = 2 * k * points + i;
+        const Eigen::Index below = above + points;
+        const double h = of(k % 4, above) - of(k % 4, below);
+        slopes.col(i).segment<4>(4 * k) =
+            std::isfinite(h) ? Vector((rates.col(above) - rates.col(below)) / h) : Vector::Zero(4);
+      }
+  }
+
+  PythonObjects* objects_;
+  bool ofStrain_;
+  std::string name_;
+};
+
+/// A callable that is handed over to threads without the interpreter lock.
+struct Held {
+  explicit Held(py::object of) : object(std::move(of)) {}
+  ~Held() {
+    if (Py_IsInitialized() == 0) {
+      object.release();
+      return;
+    }
+    const py::gil_scoped_acquire held;
+    object = py::object();
+  }
+  Held(const Held&) = delete;
+  Held& operator=(const Held&) = delete;
+  py::object object;
+};
+
+void registerCallable(const std::string& name, const py::object& rate, const py::object& derivative,
+                      bool ofStrain) {
+  const auto heldRate = std::make_shared<Held>(rate);
+  const auto heldDerivative = std::make_shared<Held>(derivative);
+  registerLaw(name, [=](const LawParameters& parameters) -> std::shared_ptr<const RateLaw> {
+    const py::gil_scoped_acquire held;
+    py::dict numbers;
+    for (const auto& [key, value] : parameters.all()) numbers[py::str(key)] = value;
+    return std::make_shared<PythonLaw>(PythonObjects{heldRate->object, heldDerivative->object, numbers},
+                                       ofStrain, name);
+  });
+}
+
+}  // namespace
+
+PythonError::PythonError(const py::error_already_set& error)
+    : std::runtime_error("a law in Python raised an error"),
+      error_(new py::error_already_set(error), [](py::error_already_set* old) {
+        const py::gil_scoped_acquire held;
+        delete old;
+      }) {}
+
+void bindLaw(py::module_& module) {
+  module.def("register_law", &registerCallable);
+  module.def("forget_law", &forgetLaw);
+}
+
+}  // namespace mortier::python

@@ -1,0 +1,210 @@
+"""Laws of one's own, as expressions: runs beside the built-in laws that they repeat; mortier law."""
+import csv
+import unittest
+
+from support import InFolder, mortier
+
+MISES = "sqrt(s11^2 + s22^2 + s33^2 - s11*s22 - s22*s33 - s33*s11 + 3*s12^2)"
+SCENE = """\
+plane = "PLANE"
+[[body]]
+name = "upper"
+mesh = {{ shape = "rectangle", cells = [4, 4], lower = [0, 0], upper = [1, 1] }}
+[body.material]
+young = 2e11
+poisson = 0.3
+{law}
+[[body.boundary]]
+label = 3
+ty = "-1e8*(1 + 0.5*x)*min(t, 0.3)"
+ux = 0
+[[body]]
+name = "lower"
+mesh = {{ shape = "rectangle", cells = [5, 3], lower = [0, -1], upper = [1, 0] }}
+material = {{ young = 2e11, poisson = 0.3 }}
+[[body.boundary]]
+label = 1
+ux = 0
+uy = 0
+[contact]
+nonmortar = {{ body = "upper", label = 1 }}
+mortar = {{ body = "lower", label = 3 }}
+[time]
+end = 1
+steps = 5
+"""
+
+
+def along_deviator(factor, parameters, more=""):
+    """A law whose rate is a factor times the deviator."""
+    lines = [f'rate{c} = "({factor})*(s{c}{"" if c == "12" else " - mean"}){more.format(c=c)}"'
+             for c in ("11", "22", "12", "33")]
+    return "\n".join(['law = "expression"', "isotropic = true", *lines,
+                      f'parameters = {{ mises = "{MISES}", mean = "(s11 + s22 + s33)/3", {parameters} }}'])
+
+
+NORTON = along_deviator("1.5*r0/s0*(mises/s0)^(n - 1)", "s0 = 1e7, r0 = 1e-4, n = 5")
+MAXWELL = along_deviator("1.3/(E*tau)", "E = 2e11, tau = 0.1")
+PERZYNA = along_deviator("max(0, 1 - Y/mises)/(2*eta)", "eta = 1e9, Y = 1e7")
+# In plane strain, where e33 is 0.
+SOLID = along_deviator("1.3/(E*tau)", 'E = 2e11, tau = 0.1, g = 0.3, em11 = "(e11 + e22)/3", em22 = "em11", '
+                       'em33 = "em11", em12 = 0', " - g/tau*(e{c} - em{c})")
+PAIRS = {
+    "norton": ('law = "norton"\nreference_stress = 1e7\nreference_rate = 1e-4\nexponent = 5', NORTON,
+               ("stress", "strain")),
+    "maxwell": ('law = "maxwell"\nrelaxation_time = 0.1', MAXWELL, ("stress", "strain")),
+    "perzyna": ("viscosity = 1e9\nyield_stress = 1e7", PERZYNA, ("strain",)),
+    "standard solid": ('law = "standard-solid"\nrelaxation_time = 0.1\nrelaxed_fraction = 0.3', SOLID,
+                       ("strain",)),
+}
+COMPARED = ("max_pressure[Pa]", "von_mises_max[Pa]", "displacement_max[m]", "elastic_energy[J/m]",
+            "contact_force[N/m]")
+
+
+class OwnLaw(InFolder):
+    def history(self, law, plane, *settings):
+        self.write(SCENE.replace("PLANE", plane).format(law=law))
+        self.mortier("run", "scene.toml", "--quiet", "--out", "out", *(["--set", *settings] if settings else []))
+        return list(csv.DictReader(self.read("out/history.csv").splitlines()))
+
+    def compare(self, name, plane, *settings):
+        built_in, own, _ = PAIRS[name]
+        with self.subTest(name, plane=plane, settings=settings):
+            expected, rows = self.history(built_in, plane, *settings), self.history(own, plane, *settings)
+            self.assertEqual(len(rows), len(expected))
+            for column in COMPARED:
+                values = [float(row[column]) for row in rows]
+                others = [float(row[column]) for row in expected]
+                off = max(abs(a - b) for a, b in zip(values, others)) / max(map(abs, others))
+                self.assertLess(off, 1e-10, column)
+
+    def test_equals_the_built_in_law(self):
+        for name, (_, _, planes) in PAIRS.items():
+            for plane in planes:
+                for scheme in ("backward-euler", "sdirk2", "crank-nicolson"):
+                    self.compare(name, plane, f"time.scheme={scheme}")
+        self.compare("norton", "strain", "degree=2")
+        self.compare("perzyna", "strain", "contact.variant=interpolation")
+
+    def test_steps_chosen_by_their_error_are_the_same(self):
+        built_in, own, _ = PAIRS["maxwell"]
+        settings = ("time.scheme=sdirk2", "time.tolerance=1e-3")
+        expected, rows = self.history(built_in, "strain", *settings), self.history(own, "strain", *settings)
+        self.assertEqual([row["step"] for row in rows], [row["step"] for row in expected])
+        for row, other in zip(rows, expected):
+            self.assertAlmostEqual(float(row["time[s]"]), float(other["time[s]"]), delta=1e-6)
+
+    def test_parameters_can_be_set(self):
+        slow = self.history(MAXWELL, "strain", "body.upper.material.parameters.tau=10")
+        fast = self.history(MAXWELL, "strain")
+        self.assertGreater(float(slow[-1]["von_mises_max[Pa]"]), 1.01 * float(fast[-1]["von_mises_max[Pa]"]))
+
+    def test_threads_change_nothing(self):
+        self.write(SCENE.replace("PLANE", "strain").format(law=NORTON))
+        for name, threads in (("one", 1), ("two", 2)):
+            self.mortier("run", "scene.toml", "--quiet", "--out", name, "--threads", threads)
+        results = []
+        for name in ("one", "two"):
+            rows = list(csv.DictReader(self.read(f"{name}/history.csv").splitlines()))
+            results.append([[row[column] for column in COMPARED] for row in rows])
+        self.assertEqual(*results)
+
+
+class Law(InFolder):
+    """mortier law."""
+
+    def told(self, law, *arguments, plane="strain", code=0):
+        self.write(SCENE.replace("PLANE", plane).format(law=law))
+        done = mortier("law", "scene.toml", *arguments, cwd=self.folder)
+        self.assertEqual((done.returncode, done.stderr), (code, ""))
+        return {line.split()[0]: line for line in done.stdout.splitlines() if line.startswith("  ")}
+
+    def test_constants_of_theory(self):
+        # L of Maxwell's body is 1/tau, that of Perzyna's law E/(1 + nu)/(2 eta).
+        for law, lipschitz in ((MAXWELL, 10), (PERZYNA, 2e11 / 1.3 / 2e9)):
+            told = self.told(law, "--stress", "1e9")
+            self.assertAlmostEqual(float(told["Lipschitz"].split()[1]) / lipschitz, 1, delta=1e-2)
+            self.assertIn("monotone     yes", told["monotone"])
+            self.assertIn("all others", told["steps"])
+            self.assertLess(float(told["tangent"].split()[1]), 1e-6)
+            self.assertLess(float(told["isotropy"].split()[1]), 1e-12)
+
+    def test_built_in_laws_are_right(self):
+        for built_in, _, planes in PAIRS.values():
+            for plane in planes:
+                told = self.told(built_in, plane=plane)
+                self.assertNotIn("WRONG", "".join(told.values()))
+
+    def test_names_what_is_wrong(self):
+        turned = NORTON.replace('rate12 = "', 'rate12 = "2*')
+        self.assertIn("WRONG", self.told(turned, code=1)["isotropy"])
+        self.assertNotIn("WRONG", self.told(turned.replace("isotropic = true", "isotropic = false"))["isotropy"])
+        heating = along_deviator("-1e-12", "k = 1").replace("isotropic = true", "")
+        told = self.told(heating, code=1)
+        self.assertIn("it makes energy", told["dissipation"])
+        self.assertIn("monotone     no", told["monotone"])
+        self.assertIn("times as long", self.told(heating.replace("-1e-12", "-1e-9"), code=1)["steps"])
+        jump = along_deviator("mises > 1e6 ? 1e-12 : 0*log(1e5 - mises)", "k = 1")
+        self.assertIn("WRONG", self.told(jump, code=1)["rate"])
+
+    def test_wants_a_stress(self):
+        self.write(SCENE.replace("PLANE", "strain").format(law=NORTON).replace(
+            'ty = "-1e8*(1 + 0.5*x)*min(t, 0.3)"', "uy = 0"))
+        self.reject("scene.toml: no datum of the scene asks for a stress, expected --stress", "law",
+                    "scene.toml")
+        self.reject("--stress: ", "law", "scene.toml", "--stress", "-1")
+
+
+class Hostile(InFolder):
+    def refuse(self, message, law, plane="strain"):
+        self.write(SCENE.replace("PLANE", plane).format(law=law))
+        for command in (["run", "scene.toml", "--quiet", "--out", "out"], ["law", "scene.toml"]):
+            self.reject("scene.toml:" + message, *command)
+
+    def test_wrong_laws_are_one_line(self):
+        at = "10: body upper: "
+        names = "s11, s22, s12, s33, e11, e22, e12, e33, "
+        for change, message in (
+                (("rate11 = \"", "rate11 = \"foo + "),
+                 f"{at}rate11 = \"foo + (1.5*r0/s0*(mises/s0)^(n - 1))*(s11 - mean)\", expected an expression "
+                 f"in {names}mean, mises, n, r0, s0 (unknown name foo, at character 1)"),
+                (("rate22", "rate21"), "11: body upper: unknown key rate21"),
+                (("n = 5", "n = \"r0 +\""), "14: body upper: parameters.n = \"r0 +\", expected an expression"),
+                (("n = 5", "n = \"2*n\""), "14: body upper: parameters.n = \"2*n\", expected an expression"),
+                (("n = 5", "n = inf"), "14: body upper: parameters.n = inf, expected a finite number or"),
+                (("n = 5", "n = [1]"), "14: body upper: parameters.n = "),
+                (("n = 5", "n = 5, s11 = 1"), "14: body upper: parameters.s11, expected another name"),
+                (("n = 5", "n = 5, sin = 1"), "14: body upper: parameters.sin, expected another name"),
+                (("n = 5", "n = 5, a-b = 1"), "14: body upper: parameters.a-b, expected a name of letters"),
+                (("n = 5", "n = -1"), f"{at}law = \"expression\", expected a rate that is a number without "
+                                      "stress and strain"),
+                (("rate33 = ", "viscosity = 1 #"), "13: body upper: viscosity = 1, expected it beside"),
+                (("isotropic = true", "isotropic = 1"), "9: body upper: isotropic = 1, expected true or false"),
+        ):
+            with self.subTest(change=change):
+                self.refuse(message, NORTON.replace(*change))
+        self.refuse(f"{at}law = \"expression\", expected rate33 beside the others in plane strain",
+                    "\n".join(line for line in NORTON.splitlines() if not line.startswith("rate33")))
+        self.refuse(f"{at}law = \"expression\", expected a rate that is a number without stress and strain, is "
+                    "not one in component 11 (e33 is not known in plane stress)",
+                    NORTON.replace("rate11 = \"", "rate11 = \"e33 + "), plane="stress")
+        self.refuse("8: body upper: law = \"own\", expected one of elastic, perzyna", 'law = "own"')
+
+    def test_freefem_refuses(self):
+        self.write(SCENE.replace("PLANE", "strain").format(law=NORTON))
+        self.reject("scene.toml:10: body upper: law = \"expression\", expected a law of mortier's own",
+                    "freefem", "scene.toml", "out.edp")
+
+    def test_steps_that_cannot_be_solved_are_one_line(self):
+        pushed = SCENE.replace('ty = "-1e8*(1 + 0.5*x)*min(t, 0.3)"', 'uy = "-1e-4*t"')
+        for scene, factor in ((SCENE, "mises > 2e6 ? log(-1) : 1e-12"), (pushed, "mises > 2e6 ? 1e-3 : 0")):
+            with self.subTest(factor):
+                self.write(scene.replace("PLANE", "strain").format(law=along_deviator(factor, "k = 1")))
+                done = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=1)
+                self.assertRegex(done.stderr, r"^mortier: scene.toml: step \d+ at t = ")
+                self.assertIn("out.failed", self.names())
+                self.assertNotIn("nan", self.read("out.failed/history.csv").lower())
+
+
+if __name__ == "__main__":
+    unittest.main()
