@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scene/read_elasticity.h"
 #include "scene/words.h"
 
 namespace mortier {
@@ -44,7 +45,7 @@ void requireKeysOf(int law, const TableReader& table) {
 MaterialDescription readMaterial(const Node& node, const std::string& path, const std::string& subject) {
   const TableReader table(node, path, subject);
   MaterialDescription material;
-  material.elasticity = {table.number("young", above(0)), table.number("poisson", between(-1, 0.5))};
+  readElasticity(table, material);
   const auto projection = static_cast<Projection>(table.oneOf("projection", projectionWords, 1));
   const int law = lawOf(table);
   requireKeysOf(law, table);
@@ -59,6 +60,7 @@ MaterialDescription readMaterial(const Node& node, const std::string& path, cons
   if (law == standardSolid)
     material.flow = Viscoelasticity{table.number("relaxation_time", above(0)),
                                     table.number("relaxed_fraction", between(0, 1))};
+  requireTakesElasticity(table, material);
   return material;
 }
 
