@@ -132,6 +132,10 @@ FLOWING = (SOFT, "contact.friction=0.3", "time.end=3", "time.steps=12",
            "body.lower.boundary=[{label=1, ux=0, uy=0}]",
            'body.upper.boundary=[{label=3, uy="-0.04*min(t, 1)", '
            'ux={time=[0, 1, 2, 3], value=[0, 0, 0.03, 0.01]}}]')
+WOOD = ('body.material={elasticity="orthotropic", young1=100, young2=30, young3=20, poisson12=0.3, '
+        'poisson13=0.2, poisson23=0.25, shear12=15, angle="0.3 + x*y"}',)
+GENERAL = ('body.material={elasticity="general", angle=0.4, '
+           'stiffness=[[90, 20, 5, 30], [20, 70, 1, 20], [5, 1, 30, 0], [30, 20, 0, 80]]}', 'plane="strain"')
 
 
 def scene_cases():
@@ -168,6 +172,21 @@ def scene_cases():
         SceneCase("sloped", "mortar", "hardening", (*GROWING, "time.steps=3")),
         SceneCase("sloped", "mortar", "plasticity", (*PLASTIC, "time.steps=3")),
         SceneCase("turned", "interpolation", "plasticity, plane strain", (*PLASTIC, 'plane="strain"')),
+        SceneCase("sloped", "mortar", "orthotropic, turning axes", WOOD),
+        SceneCase("turned", "interpolation", "orthotropic, plane strain", (*WOOD, 'plane="strain"')),
+        SceneCase("turned", "weighted", "any elasticity, plane strain, quadratic", (*GENERAL, "degree=2")),
+        SceneCase("ring", "mortar", "heated",
+                  ("body.material.expansion=1e-3", "body.ring.temperature=50*t*(1+x*y)", "time.steps=2")),
+        SceneCase("ring", "weighted", "heated, plane strain, quadratic",
+                  ("body.material.expansion=1e-3", "body.plate.temperature=-50*t*x", 'plane="strain"',
+                   "degree=2")),
+        SceneCase("sloped", "mortar", "standard linear solid, heated, plane strain",
+                  (*SOLID, "body.material.expansion=1e-3", "body.upper.temperature=t*(1+x)",
+                   'plane="strain"', "time.steps=3")),
+        SceneCase("sloped", "interpolation", "a distance that changes",
+                  (SOFT, "contact.gap=(1e-3*x^2+1e-3)*cos(3*t)")),
+        SceneCase("sloped", "weighted", "a distance that changes, quadratic",
+                  (SOFT, "contact.gap=(1e-3*x^2+1e-3)*cos(3*t)", "degree=2")),
         SceneCase("punch", "weighted", "linear, sides swapped: overlap in part", ("contact.swap=true",)),
         SceneCase("ring", "weighted", "linear"),
         SceneCase("sloped", "weighted", "linear, parted by a parabola", ("contact.gap=1e-5*x^2+2e-6",)),

@@ -1,6 +1,7 @@
 #include "commands/freefem.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
@@ -111,6 +112,46 @@ std::string overstresses(const SceneDescription& scene) {
              : "";
 }
 
+/// One macro for all bodies whose elasticity is not isotropic; none where there are none.
+std::string anisotropies(const SceneDescription& scene) {
+  std::string text;
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    const auto& own = scene.bodies[b].material.anisotropy;
+    if (!own) continue;
+    const std::string begin =
+        std::to_string(b + 1) + ", " + (own->angle ? "(" + freefemExpression(*own->angle) + ")" : "0.");
+    const auto with = [](std::string all, const std::vector<double>& numbers) {
+      for (const double number : numbers) all += ", " + shortest(number);
+      return all + ") ";
+    };
+    if (const auto* o = std::get_if<Orthotropy>(&own->moduli)) {
+      const auto orOne = [](double x, double other) { return std::isnan(x) ? other : x; };
+      text += with("orthotropy(" + begin, {o->young[0], o->young[1], orOne(o->young[2], 1), o->poisson[0],
+                                           orOne(o->poisson[1], 0), orOne(o->poisson[2], 0), o->shear});
+      continue;
+    }
+    const Matrix& c = std::get<Matrix>(own->moduli);
+    const auto across = [&](int j) { return c.rows() > 3 ? c(3, j) : 0; };
+    text += with("stiffness(" + begin,
+                 {c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2), across(0), across(1), across(2)});
+  }
+  return text.empty() ? text : "macro anisotropic " + text + "//  body, angle of axis 1, constants\n";
+}
+
+/// One macro for all bodies with a temperature; none where there are none.
+std::string temperatures(const SceneDescription& scene) {
+  std::string text;
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    const auto& temperature = scene.bodies[b].temperature;
+    if (!temperature) continue;
+    text += "temperature(" + std::to_string(b + 1) + ", " + shortest(scene.bodies[b].material.expansion[0]) +
+            ", " +
+            (temperature->file.empty() ? "\"\"" : freefemString(temperature->file, temperature->where)) +
+            ", " + freefemExpression(temperature->value) + ") ";
+  }
+  return text.empty() ? text : "macro temperatures " + text + "//  body, expansion, file, factor\n";
+}
+
 using Kind = ConditionDescription::Kind;
 
 bool isRoller(const ConditionDescription& condition) {
@@ -188,7 +229,11 @@ std::string distances(const SceneDescription& scene, const Model& model) {
             std::to_string(pair.mortar.body + 1) + ", " +
             (contact.gap ? freefemExpression(*contact.gap) : "0.") + ") ";
   }
-  return text.empty() ? text : "macro distances " + text + "//  interface, its bodies, distance\n";
+  const bool moves = std::any_of(scene.contacts.begin(), scene.contacts.end(),
+                                 [](const ContactDescription& c) { return c.gap && c.gap->inTime; });
+  return text.empty() ? text
+                      : "macro distances " + text + "//  interface, its bodies, distance\n" +
+                            (moves ? "macro distancesMove yes //  they change in time\n" : "");
 }
 
 /// Of every interface; none where there is no friction.
@@ -231,7 +276,7 @@ std::string script(const SceneDescription& scene, const Model& model,
   for (int b = 0; b < bodies; ++b) out << " what(" << b + 1 << ')';
   out << " //\n";
   for (int b = 0; b < bodies; ++b) writeBody(out, scene.bodies[b], meshFiles[b], b + 1, scene.units);
-  out << creeps(scene) << relaxes(scene) << overstresses(scene)
+  out << creeps(scene) << relaxes(scene) << overstresses(scene) << anisotropies(scene) << temperatures(scene)
       << "\n// Boundary conditions and loads, functions of x, y and t\n";
   for (int b = 0; b < bodies; ++b) writeConditions(out, scene.bodies[b], b + 1, scene.degree);
   out << rollers(scene) << heldPoints(scene)
@@ -280,6 +325,11 @@ void requireKnown(const SceneDescription& scene) {
       refuse(body.where + ": body " + body.name + ": regions or initial stress", "neither");
     }
     if (const auto* own = body.material.as<OwnLaw>()) refuse(own->where, "a law of mortier's own");
+    const MaterialDescription& material = body.material;
+    if (material.anisotropy && material.flows())
+      refuse(material.anisotropy->where, "\"isotropic\" beside flow");
+    if (material.anisotropy && body.temperature)
+      refuse(body.temperature->where + ": temperature", "none beside elasticity that is not isotropic");
   }
 }
 

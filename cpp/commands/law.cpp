@@ -92,7 +92,7 @@ void judge(const LawCheck& check, const Material& material, bool isotropic, cons
   else if (!scene.time.controlled() && longest >= limit)
     steps += "; those of the scene are " + digits(longest / limit) + " times as long";
   verdicts.line("Lipschitz", std::isfinite(check.lipschitz),
-                digits(check.lipschitz) + " 1/s" + atStress(check.steepest, unit));
+                digits(check.lipschitz) + " 1/" + scene.units.time + atStress(check.steepest, unit));
   verdicts.line("steps", true, steps);
 }
 
@@ -108,7 +108,9 @@ int tryLaws(const LawCommand& command) {
   Verdicts verdicts;
   for (const BodyDescription& body : scene.bodies)
     for (const MaterialDescription* description : materialsOf(body)) {
-      const auto material = buildMaterial(*description, scene.plane);
+      MaterialDescription inItsAxes = *description;
+      if (inItsAxes.anisotropy) inItsAxes.anisotropy->angle.reset();
+      const auto material = buildMaterial(inItsAxes, scene.plane, {});
       const auto* own = description->as<OwnLaw>();
       const double strain = command.strain > 0 ? command.strain : stress / description->elasticity.young;
       std::string name = "body " + body.name;

@@ -101,6 +101,7 @@ struct Integrals {
   Triplets mass;
   Triplets D;  ///< of the difference from the motions of the rows' own nodes, where these are given
   Triplets M;
+  Triplets N;  ///< of the shape functions themselves
   Vector distance;
 };
 
@@ -127,6 +128,8 @@ Integrals integrate(const SmoothPart& part, const FacingLine& mortar, const Dist
             addEntries(row[i], nodes.segment(k, 1), EdgeValues::Constant(1, w), value, result.D);
           }
           addEntries(row[i], across, -w * sight.psi, sight.normal, result.M);
+          for (Eigen::Index k = 0; k < nodes.size(); ++k)
+            result.N.emplace_back(row[i], nodes[k], w * sight.phi[k]);
           result.distance[row[i]] += w * g0;
         }
       });
@@ -161,13 +164,16 @@ Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mor
   const auto matrix = [n](const ElementLine& line, const Triplets& entries) {
     return assembled(n, 2 * static_cast<Eigen::Index>(line.traceNodes()), entries);
   };
-  if (n == 0) return {{}, Sparse(0, 0), matrix(part, {}), matrix(mortar, {}), Vector()};
+  if (n == 0) return {{}, Sparse(0, 0), matrix(part, {}), matrix(mortar, {}), Vector(), {}};
   const Integrals integrals = integrate(part, mortar, distance, rows, own);
 
   Coupling result;
   result.nodes = rows.nodes();
   result.mass = assembled(n, n, integrals.mass);
   result.C1 = matrix(part, ownMotion);
+  Triplets atNodes;  // what is given holds at the nodes
+  for (int i = 0; i < n; ++i) atNodes.emplace_back(i, rows.nodes()[i], 1);
+  result.N = assembled(n, part.traceNodes(), kind == CouplingKind::weighted ? integrals.N : atNodes);
   if (kind == CouplingKind::interpolation) {
     Triplets seen;
     result.distance = Vector::Zero(n);
@@ -188,6 +194,7 @@ Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mor
     result.C1 = lumped.inverse() * matrix(part, integrals.D);
     result.C2 = lumped.inverse() * matrix(mortar, integrals.M);
     result.distance = lumped.inverse() * integrals.distance;
+    result.N = lumped.inverse() * result.N;
     result.mass = Sparse(lumped);
   }
   return result;

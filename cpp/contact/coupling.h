@@ -52,6 +52,7 @@ struct Coupling {
   Eigen::SparseMatrix<double> C1;    ///< rows x 2 (trace nodes of the part): columns 2 node + component
   Eigen::SparseMatrix<double> C2;    ///< rows x 2 (trace nodes of the facing line)
   Vector distance;                   ///< g0, as the rows see it [m]
+  Eigen::SparseMatrix<double> N;     ///< rows x trace nodes: g0 of a distance that is given at the nodes
 };
 
 /// The degree of the row functions on a line whose trace has a degree.

@@ -192,6 +192,7 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
   Triplets rows1;
   Triplets rows2;
   Triplets mass;
+  Triplets given;
   std::vector<double> distances;
   for (size_t k = 0; k < parts.size(); ++k) {
     if (facing[k].empty()) continue;
@@ -227,16 +228,36 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
     if (!options.gap && options.initial != InitialGap::close)
       sagitta_ = std::max(sagitta_, unknownSagitta(part, facing[k]));
     penetration_.add(part, facing[k], distance);
+    if (!options.gapInTime) continue;
+    for (int j = 0; j < coupling.N.outerSize(); ++j)
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(coupling.N, j); entry; ++entry)
+        given.emplace_back(firstRow + static_cast<int>(entry.row()), part.number(j), entry.value());
+    for (int j = 0; j < part.traceNodes(); ++j)
+      gapNodes_.emplace_back(part.number(j), nonmortarMesh.nodes.places[part.number(j)]);
   }
   const auto n = static_cast<Eigen::Index>(nonmortarNodes_.size());
   C1_ = assembled(n, 2 * static_cast<Eigen::Index>(nonmortarMesh.nodes.count()), rows1);
   C2_ = assembled(n, 2 * static_cast<Eigen::Index>(mortarMesh.nodes.count()), rows2);
   mass_ = assembled(n, n, mass);
   distance_ = Eigen::Map<const Vector>(distances.data(), n);
+  if (!options.gapInTime) return;
+  gapInTime_ = options.gapInTime;
+  N_ = assembled(n, nonmortarMesh.nodes.count(), given);
 }
 
-Vector ContactInterface::gap(const Vector& uNonmortar, const Vector& uMortar) const {
-  return jump(uNonmortar, uMortar) - distance_;
+Vector ContactInterface::nodalGap(double t) const {
+  if (!distanceMoves()) return {};
+  Vector gap = Vector::Zero(N_.cols());
+  for (const auto& [node, place] : gapNodes_) gap[node] = gapInTime_(place, t);
+  return gap;
+}
+
+Vector ContactInterface::distance(double t) const {
+  return distanceMoves() ? Vector(N_ * nodalGap(t)) : distance_;
+}
+
+Vector ContactInterface::gap(const Vector& uNonmortar, const Vector& uMortar, double t) const {
+  return jump(uNonmortar, uMortar) - distance(t);
 }
 
 void ContactInterface::subtractForces(const Vector& p, Vector& fNonmortar, Vector& fMortar) const {
@@ -258,14 +279,13 @@ Vector ContactInterface::contactPressure(const Vector& p) const {
 }
 
 std::vector<GapSquare> ContactInterface::gapSquares(const Vector& p, const Vector& uNonmortar,
-                                                    const Vector& uMortar) const {
+                                                    const Vector& uMortar, double t) const {
   std::vector<int> pressed;
   for (int row = 0; row < rows(); ++row)
     if (p[row] > 0) pressed.push_back(nonmortarNodes_[row]);
   std::sort(pressed.begin(), pressed.end());
-  return penetration_.squares(uNonmortar, uMortar, [&](int vertex) {
-    return std::binary_search(pressed.begin(), pressed.end(), vertex);
-  });
+  const auto presses = [&](int vertex) { return std::binary_search(pressed.begin(), pressed.end(), vertex); };
+  return penetration_.squares(uNonmortar, uMortar, presses, nodalGap(t));
 }
 
 }  // namespace mortier

@@ -57,6 +57,8 @@ struct InterfaceOptions {
   InitialGap initial = InitialGap::asMeshed;  ///< of no effect where `gap` is given
   std::function<double(const Point&)> gap =
       {};  ///< distance at a nonmortar node instead of that as meshed [m]
+  /// The same where it changes in time; `gap` is then that of t = 0.
+  std::function<double(const Point&, double t)> gapInTime = {};
   /// Whether the motion of a vertex along a direction is prescribed; none is where empty.
   std::function<bool(int, const Point&)> nonmortarHeld = {};
   std::function<bool(int, const Point&)> mortarHeld = {};
@@ -92,7 +94,11 @@ class ContactInterface {
   [[nodiscard]] const std::vector<Point>& normals() const { return normals_; }
   [[nodiscard]] const ConstraintRows& C1() const { return C1_; }             ///< on the nonmortar body
   [[nodiscard]] const ConstraintRows& C2() const { return C2_; }             ///< on the mortar body
-  [[nodiscard]] const Vector& initialDistance() const { return distance_; }  ///< g0 [m]
+  [[nodiscard]] const Vector& initialDistance() const { return distance_; }  ///< g0 at t = 0 [m]
+  /// Whether g0 changes in time.
+  [[nodiscard]] bool distanceMoves() const { return static_cast<bool>(gapInTime_); }
+  /// g0 at a time [m].
+  [[nodiscard]] Vector distance(double t) const;
   [[nodiscard]] const Friction& friction() const { return friction_; }
   /// Whether there is friction. Then every row of C has one beside it for the slip T u, with the same
   /// weights, along n turned by +90 degrees: the direction of the nonmortar line, with its body to the left.
@@ -127,15 +133,15 @@ class ContactInterface {
   [[nodiscard]] Vector jump(const Vector& uNonmortar, const Vector& uMortar) const {
     return C1_ * uNonmortar + C2_ * uMortar;
   }
-  /// g = C u - g0 [m].
-  [[nodiscard]] Vector gap(const Vector& uNonmortar, const Vector& uMortar) const;
+  /// g = C u - g0(t) [m].
+  [[nodiscard]] Vector gap(const Vector& uNonmortar, const Vector& uMortar, double t = 0) const;
   /// f -= C' p on both bodies' nodal forces [N/m].
   void subtractForces(const Vector& p, Vector& fNonmortar, Vector& fMortar) const;
   /// mass^-1 p: nodal values of the contact pressure [Pa] for nodal forces p [N/m].
   [[nodiscard]] Vector contactPressure(const Vector& p) const;
   /// Integral over Gamma_C of ((u1 - u2).n - distance)_+, exact where the nonmortar line is straight [m^2].
-  [[nodiscard]] double interpenetration(const Vector& uNonmortar, const Vector& uMortar) const {
-    return penetration_.of(uNonmortar, uMortar);
+  [[nodiscard]] double interpenetration(const Vector& uNonmortar, const Vector& uMortar, double t = 0) const {
+    return penetration_.of(uNonmortar, uMortar, nodalGap(t));
   }
   /// The largest depth to which the bodies overlap at a point [m]. The rows see means.
   [[nodiscard]] double deepestOverlap(const Vector& uNonmortar, const Vector& uMortar) const {
@@ -144,11 +150,13 @@ class ContactInterface {
   /// What nodal forces p [N/m] leave of the gap between the nodes: its square where they press, that of the
   /// overlap elsewhere.
   [[nodiscard]] std::vector<GapSquare> gapSquares(const Vector& p, const Vector& uNonmortar,
-                                                  const Vector& uMortar) const;
+                                                  const Vector& uMortar, double t = 0) const;
   /// The common refinement of the two lines where displacements are linear.
   [[nodiscard]] std::vector<RefinedPiece> pieces() const { return penetration_.pieces(); }
 
  private:
+  /// What is given at a time at the nodes of the nonmortar line, by node; empty where it does not change.
+  [[nodiscard]] Vector nodalGap(double t) const;
   void assemble(const std::vector<SmoothPart>& parts, const std::vector<FacingLine>& facing,
                 const ContactMesh& nonmortarMesh, const ContactMesh& mortarMesh,
                 const InterfaceOptions& options);
@@ -164,6 +172,9 @@ class ContactInterface {
   ConstraintRows T2_;
   Eigen::SparseMatrix<double> mass_;
   Vector distance_;
+  std::function<double(const Point&, double t)> gapInTime_;
+  std::vector<std::pair<int, Point>> gapNodes_;  ///< where it is given, with their places
+  Eigen::SparseMatrix<double> N_;                ///< g0 = N times what is given by node
   double overlap_ = 0;
   double sagitta_ = 0;
   double polygonTurn_ = 0;

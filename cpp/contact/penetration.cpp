@@ -93,17 +93,21 @@ void PenetrationIntegral::add(const SmoothPart& part, const FacingLine& mortar, 
   }
 }
 
-double PenetrationIntegral::Place::jump(const Vector& uNonmortar, const Vector& uMortar) const {
+double PenetrationIntegral::Place::jump(const Vector& uNonmortar, const Vector& uMortar,
+                                        const Vector& gap) const {
   Point u = Point::Zero();
   for (Eigen::Index k = 0; k < phi.size(); ++k) u += phi[k] * uNonmortar.segment<2>(2 * nonmortar[k]);
   for (Eigen::Index k = 0; k < psi.size(); ++k) u -= psi[k] * uMortar.segment<2>(2 * mortar[k]);
-  return u.dot(normal) - distance;
+  if (gap.size() == 0) return u.dot(normal) - distance;
+  double given = 0;
+  for (Eigen::Index k = 0; k < phi.size(); ++k) given += phi[k] * gap[nonmortar[k]];
+  return u.dot(normal) - given;
 }
 
-double PenetrationIntegral::of(const Vector& uNonmortar, const Vector& uMortar) const {
+double PenetrationIntegral::of(const Vector& uNonmortar, const Vector& uMortar, const Vector& gap) const {
   double integral = 0;
   for (const Stretch& stretch : stretches_) {
-    const auto jump = [&](int k) { return places_[stretch.first + k].jump(uNonmortar, uMortar); };
+    const auto jump = [&](int k) { return places_[stretch.first + k].jump(uNonmortar, uMortar, gap); };
     integral += stretch.length * (stretch.parabola ? Parabola(jump(0), jump(1), jump(2)).positiveMean()
                                                    : positiveMean(jump(0), jump(1)));
   }
@@ -117,11 +121,12 @@ double PenetrationIntegral::deepest(const Vector& uNonmortar, const Vector& uMor
 }
 
 std::vector<GapSquare> PenetrationIntegral::squares(const Vector& uNonmortar, const Vector& uMortar,
-                                                    const std::function<bool(int)>& pressed) const {
+                                                    const std::function<bool(int)>& pressed,
+                                                    const Vector& given) const {
   std::vector<GapSquare> result;
   result.reserve(stretches_.size());
   for (const Stretch& stretch : stretches_) {
-    const auto jump = [&](int k) { return places_[stretch.first + k].jump(uNonmortar, uMortar); };
+    const auto jump = [&](int k) { return places_[stretch.first + k].jump(uNonmortar, uMortar, given); };
     const Parabola gap = stretch.parabola ? Parabola(jump(0), jump(1), jump(2))
                                           : Parabola(jump(0), (jump(0) + jump(1)) / 2, jump(1));
     const Place& place = places_[stretch.first];

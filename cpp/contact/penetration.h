@@ -34,14 +34,16 @@ class PenetrationIntegral {
   /// Adds a part of the nonmortar line with what it faces.
   void add(const SmoothPart& part, const FacingLine& mortar, const DistanceAt& distance);
   /// Displacements by dofs of the two bodies [m]. \returns [m^2]
-  [[nodiscard]] double of(const Vector& uNonmortar, const Vector& uMortar) const;
+  /// \param gap  by node of the nonmortar mesh, in place of the distance that was added; or empty [m]
+  [[nodiscard]] double of(const Vector& uNonmortar, const Vector& uMortar, const Vector& gap = {}) const;
   /// The largest jump at a point of the common refinement or in the middle between two,
   /// 0 where all are negative [m].
   [[nodiscard]] double deepest(const Vector& uNonmortar, const Vector& uMortar) const;
   /// The integral of the squared jump where a vertex of the nonmortar element is `pressed`, of its squared
   /// positive part elsewhere.
   [[nodiscard]] std::vector<GapSquare> squares(const Vector& uNonmortar, const Vector& uMortar,
-                                               const std::function<bool(int vertex)>& pressed) const;
+                                               const std::function<bool(int vertex)>& pressed,
+                                               const Vector& gap = {}) const;
   /// The common refinement of linear traces; that of others is not given.
   [[nodiscard]] std::vector<RefinedPiece> pieces() const;
 
@@ -52,7 +54,7 @@ class PenetrationIntegral {
     EdgeValues phi, psi;          ///< their shape functions there
     Point normal;
     double distance = 0;
-    [[nodiscard]] double jump(const Vector& uNonmortar, const Vector& uMortar) const;
+    [[nodiscard]] double jump(const Vector& uNonmortar, const Vector& uMortar, const Vector& gap = {}) const;
   };
   /// Between a place and the next one, or the next but one where it is a parabola.
   struct Stretch {

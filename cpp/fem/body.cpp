@@ -71,13 +71,13 @@ Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> 
   assembly_ = TangentAssembly(triangleData(), frameOf_, material_->symmetricTangent());
 }
 
-std::vector<Point> Body::places() const {
+std::vector<Point> placesOfPoints(const TriangleMesh& mesh, const ElementNodes& nodes) {
   std::vector<Point> places;
-  places.reserve(weights_.size());
-  withElement(degree(), [&](auto element) {
+  withElement(nodes.degree, [&](auto element) {
     using Element = decltype(element);
-    for (size_t t = 0; t < mesh_.triangles.size(); ++t)
-      for (const Point& place : Element::tabulate(placesOf<Element>(nodes_, t)).places)
+    places.reserve(Element::points * mesh.triangles.size());
+    for (size_t t = 0; t < mesh.triangles.size(); ++t)
+      for (const Point& place : Element::tabulate(placesOf<Element>(nodes, t)).places)
         places.push_back(place);
   });
   return places;
@@ -215,6 +215,14 @@ void Body::addForces(double t, Vector& f) const {
         }
       }
   });
+}
+
+Matrix Body::thermalStrain(double t) const {
+  const std::vector<Point> places = this->places();
+  Vector temperature(points());
+  for (int i = 0; i < points(); ++i)
+    temperature[i] = conditions_.temperature(places[i].x(), places[i].y(), t);
+  return conditions_.expansion * temperature.asDiagonal();
 }
 
 Matrix Body::initialStress() const {

@@ -45,7 +45,12 @@ struct Conditions {
   std::vector<Traction> tractions;
   std::vector<BodyForce> forces;
   std::vector<InitialStress> initialStresses = {};
+  Function temperature = {};  ///< above that at which nothing is strained [K]; none where empty
+  Matrix expansion = {};      ///< thermal strain per kelvin, components x points [1/K]
 };
+
+/// Places of the quadrature points of all triangles, one triangle after the other [m].
+std::vector<Point> placesOfPoints(const TriangleMesh& mesh, const ElementNodes& nodes);
 
 class Body {
  public:
@@ -69,7 +74,7 @@ class Body {
   [[nodiscard]] const std::vector<double>& weights() const { return weights_; }
 
   /// Places of the points [m].
-  [[nodiscard]] std::vector<Point> places() const;
+  [[nodiscard]] std::vector<Point> places() const { return placesOfPoints(mesh_, nodes_); }
 
   // Equations. A node has two, less those of its prescribed motions: along the axes, or along the normal and
   // the tangent of a turned support.
@@ -103,6 +108,10 @@ class Body {
 
   /// Stress at t = 0 (components x points) [Pa].
   [[nodiscard]] Matrix initialStress() const;
+  /// Whether the body has a temperature that strains it.
+  [[nodiscard]] bool heated() const { return conditions_.temperature && conditions_.expansion.size() > 0; }
+  /// Thermal strain at time t (components x points) [-]. \pre heated()
+  [[nodiscard]] Matrix thermalStrain(double t) const;
   [[nodiscard]] bool hasInitialStress() const { return !conditions_.initialStresses.empty(); }
   /// sum |T| B' s: nodal forces (dofs) of a stress field (components x points) [N/m].
   [[nodiscard]] Vector internalForce(const Matrix& stress) const;

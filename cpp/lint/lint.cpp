@@ -98,7 +98,9 @@ void requireHeld(const SceneDescription& scene, const Model& model) {
   for (int i = 0; i <= count; ++i) {
     const double time = i == 0 ? first : plan.end * i / count;
     Iterate iterate = startingIterate(begin);
-    const StepOutcome outcome = solveStep(system, begin, {time, 0, {}}, iterate);
+    StepData data{time, 0, {}};
+    addThermalStrain(model, begin, data);
+    const StepOutcome outcome = solveStep(system, begin, data, iterate);
     const std::string loose = outcome.converged() && i == 0 ? system.looseMotion(begin, iterate) : "";
     const std::string reason = outcome.unheld() ? outcome.detail
                                : loose.empty()  ? ""

@@ -42,7 +42,8 @@ void checkDatum(const LintInput& input, const SampledDatum& datum, Faults& fault
           "initial-displacement", placeOf(*datum.value),
           subject + "a displacement of " + shortest(initial) + " " + length +
               " is prescribed at t = 0, where the run begins unstressed: only its change has an effect");
-  } else if (flows(body) && datum.largest(0) > 0) {
+  } else if ((datum.kind == Kind::traction || datum.kind == Kind::force) && flows(body) &&
+             datum.largest(0) > 0) {
     faults.add("initial-load", placeOf(*datum.value),
                subject + "a load of " + shortest(datum.largest(0)) + " " +
                    (datum.kind == Kind::force ? input.scene.units.bodyForce() : input.scene.units.stress) +
@@ -146,7 +147,8 @@ void lintLoads(const LintInput& input, Faults& faults) {
     checkKinks(input, datum, faults);
     const bool moves = changesInTime(datum, time);
     changes = changes || moves;
-    any = any || moves || (datum.kind != Kind::displacement && datum.largest(0) > 0);
+    any = any || moves ||
+          (datum.kind != Kind::displacement && datum.kind != Kind::distance && datum.largest(0) > 0);
   }
   for (size_t b = 0; b < input.meshes.size(); ++b) {
     complete = complete && input.meshes[b] != nullptr;
@@ -170,7 +172,8 @@ void lintLoads(const LintInput& input, Faults& faults) {
   if (!any) {
     faults.add(
         "no-load", input.where({"body"}),
-        "no traction, body force, prescribed displacement, interference or initial stress is other than 0");
+        "no traction, body force, prescribed displacement, temperature, interference or initial stress is "
+        "other than 0");
     return;
   }
   const bool elastic = std::none_of(input.scene.bodies.begin(), input.scene.bodies.end(), flows);

@@ -204,7 +204,9 @@ void lintMaterials(const LintInput& input, Faults& faults) {
   for (size_t b = 0; b < input.scene.bodies.size(); ++b) {
     double onBody = 0;
     for (const SampledDatum& datum : data) {
-      if (datum.body != b || datum.kind == SampledDatum::Kind::displacement) continue;
+      if (datum.body != b ||
+          (datum.kind != SampledDatum::Kind::traction && datum.kind != SampledDatum::Kind::force))
+        continue;
       for (const double t : trialTimes(time))
         onBody =
             std::max(onBody, datum.largest(t) * (datum.kind == SampledDatum::Kind::force ? datum.size : 1));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace mortier {
 
@@ -51,6 +52,24 @@ std::vector<SampledDatum> sampledData(const MeshedScene& input) {
     }
     for (const std::optional<Expression>& force : input.scene.bodies[b].force)
       if (force) data.push_back({SampledDatum::Kind::force, b, &*force, thinned(mesh.vertices), size});
+    if (const auto& temperature = input.scene.bodies[b].temperature) {
+      double expansion = 0;
+      for (const MaterialDescription* material : materialsOf(input.scene.bodies[b]))
+        for (const double each : material->expansion) expansion = std::max(expansion, std::abs(each));
+      data.push_back({SampledDatum::Kind::temperature, b, &temperature->value, thinned(mesh.vertices),
+                      1 / std::max(expansion, std::numeric_limits<double>::min())});
+    }
+  }
+  for (const ContactDescription& contact : input.scene.contacts) {
+    const int b = bodyIndex(input.scene, contact.nonmortar.body);
+    if (!contact.gap || !contact.gap->inTime || input.meshes[b] == nullptr) continue;
+    const TriangleMesh& mesh = *input.meshes[b];
+    std::vector<Point> points;
+    for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
+      if (mesh.boundaryLabels[e] == contact.nonmortar.label)
+        for (const int v : mesh.boundaryEdges[e]) points.push_back(mesh.vertices[v]);
+    data.push_back({SampledDatum::Kind::distance, static_cast<size_t>(b), &*contact.gap,
+                    thinned(std::move(points)), extent(mesh)});
   }
   return data;
 }
@@ -84,7 +103,11 @@ double nominalStress(const SceneDescription& scene, const std::vector<SampledDat
       case SampledDatum::Kind::force:
         result = std::max(result, datum.largest(t) * datum.size);
         break;
+      case SampledDatum::Kind::temperature:
+        result = std::max(result, datum.largest(t) / datum.size * young);
+        break;
       case SampledDatum::Kind::displacement:
+      case SampledDatum::Kind::distance:
         result = std::max(result, datum.change(0, t) / datum.size * young);
         break;
     }

@@ -20,12 +20,12 @@ std::vector<const MaterialDescription*> materialsOf(const BodyDescription& body)
 
 /// A condition of a body with the points at which it is tried.
 struct SampledDatum {
-  enum class Kind { displacement, traction, force };
+  enum class Kind { displacement, traction, force, temperature, distance };
   Kind kind = Kind::traction;
   size_t body = 0;
   const Expression* value = nullptr;
   std::vector<Point> points;
-  double size = 0;  ///< extent of the body [m]
+  double size = 0;  ///< extent of the body [m]; of a temperature 1 over the largest expansion [K]
 
   /// Largest |value| over the points at a time.
   [[nodiscard]] double largest(double t) const;
@@ -43,7 +43,8 @@ std::vector<double> trialTimes(const TimePlan& plan);
 bool changesInTime(const SampledDatum& datum, const TimePlan& plan);
 
 /// The stress that the data of the scene ask for at a time, by order of magnitude [Pa]: tractions as they
-/// are, body forces times the extent, prescribed displacements over the extent times Young's modulus.
+/// are, body forces times the extent, prescribed displacements and changes of distances over the extent times
+/// Young's modulus, thermal strain times that.
 double nominalStress(const SceneDescription& scene, const std::vector<SampledDatum>& data, double t);
 
 /// The datum whose change from one time to another asks for the largest stress: the scene's words with file

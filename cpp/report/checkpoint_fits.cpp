@@ -21,10 +21,11 @@ bool areLike(const std::vector<Values>& values, const std::vector<Values>& model
 }
 
 bool isLike(const BodyState& body, const BodyState& model) {
-  const auto& [external, contact, dissipated] = body.work;
+  const auto& [external, contact, dissipated, thermal] = body.work;
   return isLike(body.displacement, model.displacement) && isLike(body.stress, model.stress) &&
          isLike(body.viscoplasticStrain, model.viscoplasticStrain) && std::isfinite(external) &&
-         std::isfinite(contact) && std::isfinite(dissipated);
+         std::isfinite(contact) && std::isfinite(dissipated) && std::isfinite(thermal) &&
+         isLike(body.thermalStrain, model.thermalStrain);
 }
 
 bool isLike(const BodyIncrement& increment, const BodyState& model) {
@@ -71,6 +72,7 @@ void requireFits(const Checkpoint& checkpoint, const Model& model, const std::st
                 std::equal(given.slipping.begin(), given.slipping.end(), begin.slipping.begin(),
                            begin.slipping.end(), isSlipping),
             "friction");
+    require(std::isfinite(given.gapWork), "work of distances");
   };
   requireState(state);
   require(memory.controller.trial >= 0, "trial");

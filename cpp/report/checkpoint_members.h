@@ -30,9 +30,9 @@ MORTIER_MEMBERS(Peaks, vonMises, pressure, contactForce, displacement, motion, e
 MORTIER_MEMBERS(FlowBoundMemory, obstacle, moved, begin, misfit, opening, growth, load, loadOff, motion,
                 motionOff)
 MORTIER_MEMBERS(AccuracyMemory, energy, error, time, flow)
-MORTIER_MEMBERS(WorkDone, external, contact, dissipated)
-MORTIER_MEMBERS(BodyState, displacement, stress, viscoplasticStrain, work)
-MORTIER_MEMBERS(State, time, bodies, contactForce, gap, frictionForce, slipping, frictionWork)
+MORTIER_MEMBERS(WorkDone, external, contact, dissipated, thermal)
+MORTIER_MEMBERS(BodyState, displacement, stress, viscoplasticStrain, work, thermalStrain)
+MORTIER_MEMBERS(State, time, bodies, contactForce, gap, frictionForce, slipping, frictionWork, gapWork)
 MORTIER_MEMBERS(TwoPartVector, high, low)
 MORTIER_MEMBERS(BodyIncrement, displacement, stress)
 MORTIER_MEMBERS(ErrorNorms, stress, displacement)

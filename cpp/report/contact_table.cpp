@@ -5,8 +5,8 @@ namespace mortier {
 ContactFields contactFields(const Model& model, const State& state, size_t interface) {
   const ContactInterface& of = model.interfaces[interface];
   const ContactPair& pair = of.pair();
-  const Vector gap =
-      of.gap(state.bodies[pair.nonmortar.body].displacement, state.bodies[pair.mortar.body].displacement);
+  const Vector gap = of.gap(state.bodies[pair.nonmortar.body].displacement,
+                            state.bodies[pair.mortar.body].displacement, state.time);
   const Vector& force = state.contactForce[interface];
   const Vector none = Vector::Zero(of.rows());
   const std::vector<Point>& places = model.bodies[pair.nonmortar.body].elementNodes().places;

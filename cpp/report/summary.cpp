@@ -87,6 +87,7 @@ Json finalState(const Model& model, const State& state, const StepReport& last) 
                {"viscoplastic_fraction", last.viscoplasticFraction},
                {"active_nodes", last.active}};
   if (anyRough(model)) json["friction_work"] = state.frictionWork;
+  if (anyDistanceMoves(model)) json["gap_work"] = state.gapWork;
   return json;
 }
 

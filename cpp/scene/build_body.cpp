@@ -5,12 +5,36 @@
 #include "base/error.h"
 #include "fem/element.h"
 #include "material/parts.h"
+#include "scene/build_temperature.h"
 #include "scene/check_data.h"
 #include "scene/finite_value.h"
 
 namespace mortier {
 
-std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description, Plane plane) {
+namespace {
+
+/// Elasticity that is not isotropic, turned at every one of the places where its angle varies.
+std::shared_ptr<const Material> buildAnisotropic(const MaterialDescription& description, Plane plane,
+                                                 const std::vector<Point>& places) {
+  const AnisotropyDescription& own = *description.anisotropy;
+  StressLaw flow;
+  if (const auto* perzyna = description.as<Viscoplasticity>()) flow = *perzyna;
+  if (const auto* norton = description.as<NortonCreep>()) flow = *norton;
+  const Anisotropy anisotropy = own.in(plane);
+  if (!own.angle) return anisotropicMaterial(anisotropy, flow, plane);
+  requireFinite(*own.angle, places, {0});
+  if (own.angle->constant)
+    return anisotropicMaterial(turned(anisotropy, own.angle->value(0, 0, 0)), flow, plane);
+  std::vector<double> angles;
+  for (const Point& place : places) angles.push_back(own.angle->value(place.x(), place.y(), 0));
+  return turnedMaterial(anisotropicMaterial(anisotropy, flow, plane), angles);
+}
+
+}  // namespace
+
+std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description, Plane plane,
+                                              const std::vector<Point>& places) {
+  if (description.anisotropy) return buildAnisotropic(description, plane, places);
   const Elasticity& elasticity = description.elasticity;
   if (const auto* norton = description.as<NortonCreep>()) return nortonMaterial(elasticity, *norton, plane);
   if (const auto* viscoelasticity = description.as<Viscoelasticity>())
@@ -30,13 +54,13 @@ namespace {
 
 /// One material, or as many as regions ask for.
 std::shared_ptr<const Material> buildMaterial(const BodyDescription& body, const TriangleMesh& mesh,
-                                              Plane plane, int pointsOfATriangle) {
-  std::vector<std::shared_ptr<const Material>> materials{buildMaterial(body.material, plane)};
+                                              Plane plane, const std::vector<Point>& places) {
+  std::vector<std::shared_ptr<const Material>> materials{buildMaterial(body.material, plane, places)};
   std::map<int, int> number;
   for (const RegionDescription& region : body.regions) {
     if (region.material) {
       number[region.label] = static_cast<int>(materials.size());
-      materials.push_back(buildMaterial(*region.material, plane));
+      materials.push_back(buildMaterial(*region.material, plane, places));
     }
   }
   if (materials.size() == 1) {
@@ -49,7 +73,8 @@ std::shared_ptr<const Material> buildMaterial(const BodyDescription& body, const
   std::vector<int> materialOf;
   for (const int label : mesh.regions) {
     const auto found = number.find(label);
-    materialOf.insert(materialOf.end(), pointsOfATriangle, found == number.end() ? 0 : found->second);
+    materialOf.insert(materialOf.end(), places.size() / mesh.regions.size(),
+                      found == number.end() ? 0 : found->second);
   }
   return materialOfParts(std::move(materials), std::move(materialOf));
 }
@@ -87,8 +112,9 @@ Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescri
   for (const RegionDescription& region : body.regions) {
     addInitialStress(region.initialStress, region.label, conditions);
   }
-  const int points = withElement(scene.degree, [](auto element) { return decltype(element)::points; });
-  const std::shared_ptr<const Material> material = buildMaterial(body, mesh, scene.plane, points);
+  const std::vector<Point> places = placesOfPoints(mesh, elementNodes(mesh, scene.degree));
+  const std::shared_ptr<const Material> material = buildMaterial(body, mesh, scene.plane, places);
+  addTemperature(body, mesh, scene.plane, places, times, conditions);
   return {body.name, std::move(mesh), material, std::move(conditions), scene.degree};
 }
 

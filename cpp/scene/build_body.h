@@ -8,8 +8,10 @@
 
 namespace mortier {
 
+/// \param places  the points of the material, which an angle of its axes may depend on.
 /// \throws InputError
-std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description, Plane plane);
+std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description, Plane plane,
+                                              const std::vector<Point>& places);
 
 /// Data are tried at `times` [s].
 /// \throws InputError with one line that names the scene's file and line, or the mesh's.

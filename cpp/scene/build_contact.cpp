@@ -7,6 +7,7 @@
 #include "base/fault_error.h"
 #include "contact/smooth_part.h"
 #include "mesh/boundary_line.h"
+#include "scene/finite_value.h"
 #include "scene/memory_need.h"
 
 namespace mortier {
@@ -58,8 +59,12 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
     for (const BoundaryStretch& stretch : body.elementNodes().boundary)
       if (body.mesh().boundaryLabels[stretch.edge] == pair.nonmortar.label)
         for (const int node : stretch.nodes) points.push_back(body.elementNodes().places[node]);
-    requireFinite(*contact.gap, points, {0});
+    requireFinite(*contact.gap, points, {0, contact.gap->inTime ? scene.time.end : 0});
     options.gap = [value = contact.gap->value](const Point& x) { return value(x.x(), x.y(), 0); };
+    if (contact.gap->inTime)
+      options.gapInTime = [value = finiteValue(*contact.gap)](const Point& x, double t) {
+        return value(x.x(), x.y(), t);
+      };
   }
   std::vector<const TriangleMesh*> meshes;
   for (const Body& body : model.bodies) meshes.push_back(&body.mesh());

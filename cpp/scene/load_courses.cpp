@@ -83,7 +83,13 @@ void forEachDatum(const SceneDescription& scene, const Model& model,
     }
     for (const std::optional<Expression>& force : scene.bodies[b].force)
       if (force) call(*force, samplePoints(mesh, nullptr));
+    if (const auto& temperature = scene.bodies[b].temperature)
+      call(temperature->value, samplePoints(mesh, nullptr));
   }
+  for (const ContactDescription& contact : scene.contacts)
+    if (contact.gap && contact.gap->inTime)
+      call(*contact.gap, samplePoints(model.bodies[bodyIndex(scene, contact.nonmortar.body)].mesh(),
+                                      &contact.nonmortar.label));
 }
 
 std::string text(const char* pattern, double a, double b) {

@@ -11,7 +11,7 @@
 namespace mortier {
 
 struct LoadCourses {
-  std::vector<Course> data;  ///< displacements, tractions and body forces that vary, at points where they act
+  std::vector<Course> data;    ///< what acts and varies, at points where it acts
   std::vector<double> breaks;  ///< their kinks and jumps and the breaks that the scene names, ascending [s]
 };
 

@@ -29,6 +29,11 @@ const Dimension* dimensionOf(const std::string& path) {
                                                                 {"reference_stress", dimensions::stress},
                                                                 {"kinematic_hardening", dimensions::stress},
                                                                 {"isotropic_hardening", dimensions::stress},
+                                                                {"young1", dimensions::stress},
+                                                                {"young2", dimensions::stress},
+                                                                {"young3", dimensions::stress},
+                                                                {"shear12", dimensions::stress},
+                                                                {"stiffness", dimensions::stress},
                                                                 {"reference_rate", dimensions::rate},
                                                                 {"relaxation_time", dimensions::time}};
   static const std::map<std::string, Dimension> keys = [] {

@@ -118,6 +118,20 @@ std::string pathOf(const Node& node, const std::string& scenePath) {
   return (std::filesystem::path(scenePath).parent_path() / path).lexically_normal().string();
 }
 
+/// A datum, or a file of nodal values with a factor in x, y and t.
+TemperatureDescription readTemperature(const TableReader& owner, const std::string& scenePath,
+                                       const std::string& subject) {
+  const Node& node = *owner.find("temperature");
+  const std::string where = node.where + ": " + subject;
+  if (!node.isTable() || node.find("file") == nullptr) return {owner.expression("temperature"), "", where};
+  const TableReader table(node, "body.temperature", subject + ": temperature");
+  static_cast<void>(table.string("file"));
+  const Node& file = *table.find("file");
+  return {table.find("factor") != nullptr ? table.expression("factor")
+                                          : constantExpression(1, table.message(file.where, "factor = 1")),
+          pathOf(file, scenePath), where};
+}
+
 /// Beside a file there is nothing that says what a mesh is of.
 void requireFileKeys(const TableReader& table) {
   const Keys known{"file", "region", "size", "parameters"};
@@ -189,6 +203,7 @@ BodyDescription readBody(const Node& node, const std::string& scenePath, size_t 
       }
     }
   }
+  if (table.find("temperature") != nullptr) body.temperature = readTemperature(table, scenePath, subject);
   for (const Node* boundary : table.tables("boundary")) {
     readBoundary(*boundary, body);
   }

@@ -82,8 +82,8 @@ ContactDescription readContact(const Node& node, const SceneDescription& scene) 
   contact.initial = static_cast<InitialGap>(table.oneOf("initial", initialWords, 0));
   if (const Node* gap = table.find("gap")) {
     contact.gap = table.expression("gap");
-    if (contact.gap->inTime) {
-      table.reject("gap", "a distance in x and y, the same at all times");
+    if (contact.gap->inTime && scene.accuracy.bound) {
+      table.reject("gap", "a distance that does not change in time beside accuracy.bound");
     }
     if (table.find("initial") != nullptr) {
       throw InputError(table.message(gap->where, "gap beside initial, expected one of them"));

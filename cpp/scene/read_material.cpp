@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "scene/read_elasticity.h"
 #include "scene/read_own_law.h"
 #include "scene/words.h"
 
@@ -74,7 +75,7 @@ const Keys& lawsOfMortier() {
 MaterialDescription readMaterial(const Node& node, const std::string& path, const std::string& subject) {
   const TableReader table(node, path, subject);
   MaterialDescription material;
-  material.elasticity = {table.number("young", above(0)), table.number("poisson", between(-1, 0.5))};
+  readElasticity(table, material);
   const auto projection = static_cast<Projection>(table.oneOf("projection", projectionWords, 1));
   const int law = lawOf(table);
   requireKeysOf(law, table);
@@ -92,6 +93,7 @@ MaterialDescription readMaterial(const Node& node, const std::string& path, cons
   if (law == viscoplastic) material.flow = readOverstress(table);
   if (law == expression) material.flow = readExpressionLaw(table);
   if (law == registered) material.flow = readRegisteredLaw(table);
+  requireTakesElasticity(table, material);
   return material;
 }
 

@@ -32,6 +32,27 @@ void requireInPlane(const BodyDescription& body, Plane plane) {
   }
 }
 
+/// What the bound of the error, refined meshes and the note's algorithm cannot have.
+void requireKnownTo(const SceneDescription& scene, const BodyDescription& body) {
+  const auto require = [&](const MaterialDescription& material) {
+    if (!material.anisotropy) return;
+    if (scene.accuracy.bound)
+      throw InputError(material.anisotropy->where + ", expected \"isotropic\" beside accuracy.bound");
+    if (scene.solver.method != Method::newton)
+      throw InputError(material.anisotropy->where +
+                       ", expected \"isotropic\" beside solver.method = \"penalty-duality\"");
+  };
+  require(body.material);
+  for (const RegionDescription& region : body.regions)
+    if (region.material) require(*region.material);
+  if (!body.temperature) return;
+  if (scene.accuracy.bound)
+    throw InputError(body.temperature->where + ": temperature, expected none beside accuracy.bound");
+  if (scene.accuracy.energy > 0 && !body.temperature->file.empty())
+    throw InputError(body.temperature->where +
+                     ": temperature.file, expected a datum beside accuracy: vertices come and go");
+}
+
 void readAccuracy(const TableReader& accuracy, SceneDescription& scene) {
   scene.accuracy.bound = accuracy.boolean("bound", false);
   scene.accuracy.energy = scene.accuracy.bound ? accuracy.number("energy", between(0, 1), 0)
@@ -102,6 +123,7 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
     }
     requireInPlane(body, scene.plane);
     requireRates(body, scene);
+    requireKnownTo(scene, body);
     scene.bodies.push_back(std::move(body));
   }
   for (const Node* contact : root.tables("contact")) {

@@ -11,6 +11,7 @@
 
 #include "base/units.h"
 #include "contact/interface.h"
+#include "material/anisotropy.h"
 #include "material/norton.h"
 #include "material/overstress.h"
 #include "material/own_material.h"
@@ -26,9 +27,21 @@ namespace mortier {
 using FlowLaw =
     std::variant<std::monostate, Viscoplasticity, NortonCreep, Viscoelasticity, Overstress, OwnLaw>;
 
+/// Elasticity that is not isotropic, in axes that may be turned.
+struct AnisotropyDescription {
+  std::variant<Orthotropy, Matrix> moduli;  ///< or the stiffness: stresses of (e11, e22, 2 e12, e33) [Pa]
+  std::optional<Expression> angle;          ///< from x to axis 1, in x, y [rad]
+  std::string where;                        ///< what a message about it begins with
+
+  /// In the axes of the material. \throws InputError where it is not elliptic.
+  [[nodiscard]] Anisotropy in(Plane plane) const;
+};
+
 struct MaterialDescription {
-  Elasticity elasticity;
+  Elasticity elasticity;  ///< beside an anisotropy only its order of magnitude
   FlowLaw flow;
+  std::optional<AnisotropyDescription> anisotropy = {};
+  std::array<double, 3> expansion{};  ///< thermal strain per kelvin along the axes [1/K]
 
   [[nodiscard]] bool flows() const { return flow.index() > 0; }
   /// The parameters of a law; null where the material follows another.
@@ -68,12 +81,21 @@ struct RegionDescription {
   std::string where;
 };
 
+/// Temperature above that at which nothing is strained: a datum, times nodal values of a file where there is
+/// one [K].
+struct TemperatureDescription {
+  Expression value;
+  std::string file;  ///< empty: none
+  std::string where;
+};
+
 struct BodyDescription {
   std::string name;
   MeshSource mesh;
   std::string meshWhere;
   MaterialDescription material;
   std::optional<Expression> force[2];  ///< x and y [N/m^3]
+  std::optional<TemperatureDescription> temperature = {};
   std::vector<ConditionDescription> conditions;
   StressDescription initialStress;
   std::vector<RegionDescription> regions;
@@ -95,7 +117,7 @@ struct ContactDescription {
   std::string choice;      ///< why the nonmortar side is that one, where the program has chosen
   CouplingKind variant = CouplingKind::mortar;  ///< by default `weighted` where displacements are quadratic
   InitialGap initial = InitialGap::asMeshed;
-  std::optional<Expression> gap;  ///< in x, y [m]
+  std::optional<Expression> gap;  ///< [m]
   Friction friction;
   std::string where;
 };

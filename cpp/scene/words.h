@@ -16,9 +16,9 @@ inline const Keys schemeWords{"backward-euler", "crank-nicolson", "sdirk2"};    
 inline const Keys methodWords{"newton", "penalty-duality"};                                 // Method
 inline const Keys linearWords{"multifrontal", "suitesparse"};                               // LinearEngine
 inline const Keys quantityKeys{"reaction",                                                  // Quantity::Kind
-                               "contact_force",     "displacement",   "stored_energy",
-                               "dissipated_energy", "work",           "external_work",
-                               "largest_pressure",  "contact_length", "largest_mises"};
+                               "contact_force",  "displacement",  "stored_energy", "dissipated_energy",
+                               "work",           "external_work", "thermal_work",  "largest_pressure",
+                               "contact_length", "largest_mises"};
 inline const Keys componentWords{"x", "y", "moment"};  // Quantity::Component
 
 }  // namespace mortier

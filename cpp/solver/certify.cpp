@@ -54,7 +54,7 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
           wrongSlip.add((sign == 0 ? std::abs(slip[k][i]) : -sign * slip[k][i]) / length.value());
       }
     }
-    const Vector g = interface.gap(u[b1], u[b2]) / length.value();
+    const Vector g = interface.gap(u[b1], u[b2], step.data.time) / length.value();
     for (Eigen::Index i = 0; i < g.size(); ++i) {
       if (iterate.active[k][i] != 0)
         gapOnActive.add(std::abs(g[i]));

@@ -32,6 +32,27 @@ Iterate startingIterate(const State& state0) {
 void prescribe(const Model& model, const Step& step, Iterate& iterate) {
   for (size_t b = 0; b < model.bodies.size(); ++b)
     model.bodies[b].prescribeIncrement(step.state0.time, step.data.time, iterate.bodies[b].increment);
+  iterate.distanceChange.clear();
+  if (!anyDistanceMoves(model)) return;
+  for (const ContactInterface& interface : model.interfaces)
+    iterate.distanceChange.emplace_back(interface.distance(step.data.time) -
+                                        interface.distance(step.state0.time));
+}
+
+void addThermalStrain(const Model& model, const State& state0, StepData& data) {
+  if (std::none_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.heated(); }))
+    return;
+  const bool shifted = !data.shift.empty();
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    data.thermal.push_back(body.heated()
+                               ? Matrix(body.thermalStrain(data.time) - state0.bodies[b].thermalStrain)
+                               : Matrix(Matrix::Zero(body.material().components(), body.points())));
+    if (shifted)
+      data.shift[b] += data.thermal[b];
+    else
+      data.shift.push_back(data.thermal[b]);
+  }
 }
 
 void updateStrain(const Model& model, const Step& step, size_t body, Iterate& iterate) {
@@ -56,8 +77,16 @@ std::vector<Vector> gaps(const Model& model, const State& state0, const Iterate&
     const TwoPartVector& u2 = iterate.bodies[interface.pair().mortar.body].increment;
     // The parts apart: the first no longer changes where the iteration ends.
     result.emplace_back((state0.gap[k] + interface.jump(u1.high, u2.high)) + interface.jump(u1.low, u2.low));
+    if (!iterate.distanceChange.empty()) result.back() -= iterate.distanceChange[k];
   }
   return result;
+}
+
+double gapWork(const State& state0, const Iterate& solution) {
+  double work = 0;
+  for (size_t k = 0; k < solution.distanceChange.size(); ++k)
+    work -= (state0.contactForce[k] + solution.contactForce[k]).dot(solution.distanceChange[k]) / 2;
+  return work;
 }
 
 std::vector<Vector> slips(const Model& model, const Iterate& iterate) {

@@ -15,6 +15,8 @@ struct StepData {
   double weight = 0;          ///< time step times the scheme's diagonal coefficient [s]
   std::vector<Matrix> shift;  ///< per body, components x points; empty for none
   bool startSolved = false;   ///< the start of the step is the solution of the one before
+  /// What of `shift` is a change of thermal strain, per body; empty for none.
+  std::vector<Matrix> thermal = {};
 };
 
 /// The same with the state at its start.
@@ -53,6 +55,8 @@ struct Iterate {
   ActiveSets active;
   std::vector<Vector> frictionForce;  ///< t per interface
   SlipSets slipping;
+  /// What the distances g0 change by in the step, per interface; empty where none does [m].
+  std::vector<Vector> distanceChange = {};
   double wrongForce = 0;  ///< the largest negative p of the last linear solve, before it was set to 0 [N/m]
 };
 
@@ -62,7 +66,10 @@ ActiveSets startingSets(const State& state0);
 /// Nothing moved yet, contact forces and active sets as in `state0`.
 Iterate startingIterate(const State& state0);
 
-/// Puts the change of the prescribed displacements up to t1 into the increment.
+/// Adds the change of thermal strain from `state0` to its time to the data of a step.
+void addThermalStrain(const Model& model, const State& state0, StepData& data);
+
+/// Puts the change of the prescribed displacements and of the distances up to t1 into the iterate.
 void prescribe(const Model& model, const Step& step, Iterate& iterate);
 
 /// iterate.bodies[body].strain becomes B du - shift.
@@ -76,6 +83,10 @@ std::vector<Vector> gaps(const Model& model, const State& state0, const Iterate&
 
 /// The gaps of a solution: exactly 0 on active nodes, in place of what rounding left there.
 std::vector<Vector> solvedGaps(const Model& model, const State& state0, const Iterate& solution);
+
+/// What distances that change do on the bodies in a step: less the means of the forces times the changes
+/// [J/m].
+double gapWork(const State& state0, const Iterate& solution);
 
 /// T du per interface: the slip of the step; empty where there is no friction.
 std::vector<Vector> slips(const Model& model, const Iterate& iterate);

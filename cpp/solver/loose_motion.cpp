@@ -38,7 +38,8 @@ std::string StepSystem::looseMotion(const State& state0, const Iterate& solution
   Matrix closed = contact_.G;
   for (size_t k = 0; k < model_.interfaces.size(); ++k) {
     const ContactPair& pair = model_.interfaces[k].pair();
-    const Vector gap = model_.interfaces[k].gap(u[pair.nonmortar.body], u[pair.mortar.body]);
+    Vector gap = model_.interfaces[k].gap(u[pair.nonmortar.body], u[pair.mortar.body], state0.time);
+    if (!solution.distanceChange.empty()) gap -= solution.distanceChange[k];
     const double size = extent(model_.bodies[pair.nonmortar.body].mesh());
     for (Eigen::Index i = 0; i < gap.size(); ++i)
       if (solution.active[k][i] == 0 && gap[i] < -touching * size) closed.row(firstRow_[k] + i).setZero();

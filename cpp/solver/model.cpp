@@ -21,6 +21,11 @@ bool anyRough(const Model& model) {
                      [](const ContactInterface& interface) { return interface.rough(); });
 }
 
+bool anyDistanceMoves(const Model& model) {
+  return std::any_of(model.interfaces.begin(), model.interfaces.end(),
+                     [](const ContactInterface& interface) { return interface.distanceMoves(); });
+}
+
 void addInterface(Model& model, const ContactPair& pair, InterfaceOptions options) {
   const Body& nonmortar = model.bodies[pair.nonmortar.body];
   const Body& mortar = model.bodies[pair.mortar.body];

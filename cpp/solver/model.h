@@ -15,6 +15,8 @@ struct Model {
 
 /// Whether any interface has friction.
 bool anyRough(const Model& model);
+/// Whether the distance of any interface changes in time.
+bool anyDistanceMoves(const Model& model);
 
 /// Adds an interface between bodies of the model; which nodes their supports hold is taken from them.
 /// \throws InputError

@@ -13,6 +13,7 @@ struct WorkDone {
   double external = 0;    ///< by loads and supports
   double contact = 0;     ///< by other bodies
   double dissipated = 0;  ///< integral of s : G, what the body has turned into heat
+  double thermal = 0;     ///< by thermal strain: minus the integral of s : its rate
 };
 
 struct BodyState {
@@ -20,6 +21,7 @@ struct BodyState {
   Matrix stress;              ///< components x points, basis of material/stress.h [Pa]
   Matrix viscoplasticStrain;  ///< components x points [-]
   WorkDone work = {};
+  Matrix thermalStrain = {};  ///< components x points [-]; empty where the body has no temperature
 };
 
 struct State {
@@ -33,6 +35,7 @@ struct State {
   std::vector<Vector> frictionForce;               ///< t: what the nonmortar body exerts along the line [N/m]
   std::vector<std::vector<signed char>> slipping;  ///< sign of t where the node slipped last, 0: it stuck
   double frictionWork = 0;                         ///< dissipated by friction so far [J/m]
+  double gapWork = 0;  ///< done on the bodies so far by distances that change in time [J/m]
 };
 
 /// The state of the solver itself that a run needs to resume, per body; empty before the first step.

@@ -80,6 +80,7 @@ Step StepSystem::step(const State& state0, const StepData& data) {
     Matrix& strain = step.strains0[b];
     strain = totalStrain(body.material(), state0.bodies[b]);
     if (const Matrix* shift = step.shift(b)) strain += *shift;
+    if (!data.thermal.empty()) strain -= data.thermal[b];
   }
   return step;
 }

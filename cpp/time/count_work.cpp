@@ -7,6 +7,7 @@
 // forces that are linear in the displacement), and in elastic bodies it is what is stored, to rounding. The
 // dissipation takes the weights of the scheme, by which it is never negative:
 //   D1 - D0 = sum |T| k sum b_i s_i : G_i.
+// Thermal strain that changes by a adds 1/2 sum |T| (s0 + s1) : a on the right: less that is its work.
 // docs/theory.md says what is left between both where bodies flow.
 #include "time/nodal_forces.h"
 #include "time/step_taker.h"
@@ -70,6 +71,11 @@ void StepTaker::countWork() {
     work.external += (before.dot(du) + load.dot(du) + workOfSupports(body, after, du)) / 2;
     work.contact -= (contact0.dot(du) + contact1.dot(du)) / 2;
     work.dissipated += dissipated(b);
+    if (!body.heated()) continue;
+    const Matrix change = body.thermalStrain(t1_) - state_.bodies[b].thermalStrain;
+    const Matrix mean = (state_.bodies[b].stress + end.bodies[b].stress) / 2;
+    for (int i = 0; i < body.points(); ++i)
+      work.thermal -= body.weights()[i] * mean.col(i).dot(change.col(i));
   }
 }
 

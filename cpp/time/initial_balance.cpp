@@ -11,7 +11,9 @@ namespace mortier {
 StepOutcome balanceElastically(const Model& model, State& state, const SolverOptions& options) {
   StepSystem system(model, options);
   Iterate iterate = startingIterate(state);
-  StepOutcome outcome = solveStep(system, state, {state.time, 0, {}}, iterate);
+  StepData data{state.time, 0, {}};
+  addThermalStrain(model, state, data);
+  StepOutcome outcome = solveStep(system, state, data, iterate);
   if (!outcome.converged()) return outcome;
   state.gap = solvedGaps(model, state, iterate);
   for (size_t b = 0; b < model.bodies.size(); ++b) {
@@ -19,6 +21,7 @@ StepOutcome balanceElastically(const Model& model, State& state, const SolverOpt
     BodyIterate& balanced = iterate.bodies[b];
     body.displacement += balanced.increment.value();
     body.stress = std::move(balanced.stress);
+    if (model.bodies[b].heated()) body.thermalStrain = model.bodies[b].thermalStrain(state.time);
   }
   state.contactForce = std::move(iterate.contactForce);
   state.frictionForce = std::move(iterate.frictionForce);

@@ -112,8 +112,11 @@ void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& p
 
 /// Whether no load, no support and no overlap moves the bodies in the first moment.
 bool balanced(const Model& model, const State& state) {
-  for (size_t b = 0; b < model.bodies.size(); ++b)
-    if (!model.bodies[b].load(state.time).isZero(0) || !state.bodies[b].displacement.isZero(0)) return false;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    if (!body.load(state.time).isZero(0) || !state.bodies[b].displacement.isZero(0)) return false;
+    if (body.heated() && !body.thermalStrain(state.time).isZero(0)) return false;
+  }
   return std::all_of(state.gap.begin(), state.gap.end(),
                      [](const Vector& gap) { return (gap.array() <= 0).all(); });
 }
@@ -149,6 +152,7 @@ State initialState(const Model& model) {
     BodyState initial{Vector::Zero(body.dofs()), body.initialStress(),
                       Matrix::Zero(components, body.points())};
     body.prescribe(0, initial.displacement);
+    if (body.heated()) initial.thermalStrain = Matrix::Zero(components, body.points());
     state.bodies.push_back(std::move(initial));
   }
   for (const ContactInterface& interface : model.interfaces) {

@@ -23,7 +23,7 @@ void measure(const Model& model, const State& state, StepReport& report) {
     const Vector& p = state.contactForce[k];
     report.penetration +=
         interface.interpenetration(state.bodies[interface.pair().nonmortar.body].displacement,
-                                   state.bodies[interface.pair().mortar.body].displacement);
+                                   state.bodies[interface.pair().mortar.body].displacement, state.time);
     report.maxPressure = std::max(report.maxPressure, interface.contactPressure(p).maxCoeff());
     report.contactForce += p.sum();
     const Point force = resultant(model, state, k);

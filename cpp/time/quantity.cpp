@@ -153,7 +153,7 @@ bool hasComponent(Quantity::Kind kind) {
 bool needsWork(const Quantity& quantity) {
   using Kind = Quantity::Kind;
   return quantity.kind == Kind::dissipatedEnergy || quantity.kind == Kind::work ||
-         quantity.kind == Kind::externalWork;
+         quantity.kind == Kind::externalWork || quantity.kind == Kind::thermalWork;
 }
 
 int firstSupport(const Body& body, int label, const std::optional<Point>& point) {
@@ -196,6 +196,8 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
         return body.work.external + body.work.contact;
       case Kind::externalWork:
         return body.work.external;
+      case Kind::thermalWork:
+        return body.work.thermal;
       case Kind::largestPressure:
         return largestPressure(model, state, quantity).value;
       case Kind::contactLength:

@@ -27,6 +27,7 @@ struct Quantity {
     dissipatedEnergy,  ///< integral of s : G over the body and the time since the run began
     work,              ///< of all forces on the body since then, those of contact included
     externalWork,      ///< of its loads and supports
+    thermalWork,       ///< of its thermal strain: minus the integral of s : its rate
     largestPressure,   ///< of the contact pressure, 0 where there is none
     contactLength,     ///< of the part of Gamma_C where nodes press
     largestMises

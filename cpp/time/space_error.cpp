@@ -7,15 +7,33 @@
 
 namespace mortier {
 
-SpaceErrorEstimator::SpaceErrorEstimator(const Model& model) : model_(model) {
-  const Eigen::Vector3d alongX = fromCartesian({1, 0, 0});
-  for (const Body& body : model.bodies) {
-    bodies_.emplace_back(body);
+namespace {
+
+/// Strain over stress along x, or along the stiffest of four directions where these differ by more than
+/// rounding [1/Pa].
+Vector stiffestCompliance(const Body& body) {
+  constexpr double differs = 1 - 1e-9;
+  const Eigen::Vector3d along[] = {{1, 0, 0}, {0, 1, 0}, {0.5, 0.5, 0.5}, {0.5, 0.5, -0.5}};
+  Vector result;
+  for (const Eigen::Vector3d& cartesian : along) {
     Matrix stress = Matrix::Zero(body.material().components(), body.points());
-    stress.topRows<3>().colwise() = alongX;
+    stress.topRows<3>().colwise() = fromCartesian(cartesian);
     Matrix strain;
     body.material().elasticStrain(stress, strain);
-    compliances_.emplace_back((stress.array() * strain.array()).colwise().sum().transpose());
+    const Vector compliance = (stress.array() * strain.array()).colwise().sum().transpose();
+    if (result.size() == 0) result = compliance;
+    for (Eigen::Index i = 0; i < result.size(); ++i)
+      if (compliance[i] < differs * result[i]) result[i] = compliance[i];
+  }
+  return result;
+}
+
+}  // namespace
+
+SpaceErrorEstimator::SpaceErrorEstimator(const Model& model) : model_(model) {
+  for (const Body& body : model.bodies) {
+    bodies_.emplace_back(body);
+    compliances_.push_back(stiffestCompliance(body));
   }
   for (const ContactInterface& interface : model.interfaces) {
     const auto of = [&](const ContactSide& side) {
@@ -95,7 +113,7 @@ void SpaceErrorEstimator::addGaps(size_t interface, const State& state,
   if (!bounded) return;
   for (const GapSquare& square :
        contact.gapSquares(state.contactForce[interface], state.bodies[nonmortar.body].displacement,
-                          state.bodies[mortar.body].displacement)) {
+                          state.bodies[mortar.body].displacement, state.time)) {
     const int triangle = lines_[interface][0].triangleOf(square.nonmortar);
     const Compliance compliance =
         complianceOf(state, nonmortar.body, triangle) +

@@ -51,6 +51,9 @@ Matrix StepTaker::strainWithin(size_t body, double fraction) const {
   Matrix ofStage(strain.rows(), strain.cols());
   for (size_t i = 0; i < solutions_.size() && fraction > 0; ++i) {
     of.strain(solutions_[i].bodies[body].increment, nullptr, ofStage, 0, of.points());
+    if (of.heated())
+      ofStage -= of.thermalStrain(state_.time + tableau_.stages[i].time * (t1_ - state_.time)) -
+                 state_.bodies[body].thermalStrain;
     strain += at[i + 1] * ofStage;
   }
   return strain;

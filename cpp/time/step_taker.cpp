@@ -65,7 +65,8 @@ StepOutcome StepTaker::solveStages(double t1, Effort effort) {
     const Stage& stage = tableau_.stages[i];
     shiftOf(stage, k);
     const double time = stage.time == 1 ? t1 : state_.time + stage.time * k;
-    const StepData data{time, stage.diagonal * k, shift_, memory_.run.steps > 0};
+    StepData data{time, stage.diagonal * k, shift_, memory_.run.steps > 0};
+    addThermalStrain(model_, state_, data);
     Iterate iterate = guess(i, k);
     StepOutcome outcome = solveStep(system_, state_, data, iterate, effort);
     outcome.iterations += total.iterations;
@@ -161,6 +162,7 @@ void StepTaker::commit() {
   if (countsWork_) countWork();
   state_.gap = solvedGaps(model_, state_, solutions_.back());
   state_.frictionWork += frictionWork(model_, solutions_.back());
+  state_.gapWork += gapWork(state_, solutions_.back());
   memory_.increments.clear();
   memory_.timeStep = t1_ - state_.time;
   for (size_t i = 0; i < solutions_.size(); ++i) {
@@ -171,6 +173,7 @@ void StepTaker::commit() {
       BodyIterate& step = solutions_[i].bodies[b];
       if (last) {
         body.displacement += step.increment.value();
+        if (model_.bodies[b].heated()) body.thermalStrain = model_.bodies[b].thermalStrain(t1_);
         model_.bodies[b].prescribe(t1_, body.displacement);  // sums of increments would drift
       }
       // The state takes the stress of the last stage, the memory the increments.

@@ -9,7 +9,8 @@ import subprocess
 import unittest
 
 from mutations import explore, require_whole
-from scenes import BODY_KEYS, CONTACT_KEYS, FRICTION_KEYS, GEOMETRY_KEYS, ONE_BODY, SHAPE_KEYS, TWO_BLOCKS
+from scenes import (BODY_KEYS, CONTACT_KEYS, ELASTIC_KEYS, FRICTION_KEYS, GEOMETRY_KEYS, ONE_BODY, SHAPE_KEYS,
+                    TWO_BLOCKS, lower_heat)
 from support import PROGRAM, ROOT, OfTwoBlocks, mortier, told, warned
 
 LONG = ("--set", "time.steps=1000000")
@@ -43,7 +44,8 @@ class Environment(OfTwoBlocks):
         return [name for name in self.names("out") if ".tmp-" in name or ".mortier-" in name]
 
     def test_scenes_are_sound_before_they_are_changed(self):
-        for scene in (TWO_BLOCKS, CONTACT_KEYS, BODY_KEYS, FRICTION_KEYS, ONE_BODY, SHAPE_KEYS):
+        self.write(lower_heat(18), "lower.heat")
+        for scene in (TWO_BLOCKS, CONTACT_KEYS, BODY_KEYS, ELASTIC_KEYS, FRICTION_KEYS, ONE_BODY, SHAPE_KEYS):
             self.write(scene)
             self.mortier("run", "scene.toml", "--quiet", "--out", "out")
             require_whole(self.folder / "out")
@@ -54,8 +56,8 @@ class Environment(OfTwoBlocks):
                 for key in re.findall(r"\w+", inner)}
         self.assertGreater(len(keys), 40)
         written = set(re.findall(r"\w+(?= = )|(?<=\[)\w+|(?<=\.)\w+(?=\])",
-                                 CONTACT_KEYS + BODY_KEYS + FRICTION_KEYS + GEOMETRY_KEYS + SHAPE_KEYS +
-                                 ONE_BODY))
+                                 CONTACT_KEYS + BODY_KEYS + ELASTIC_KEYS + FRICTION_KEYS + GEOMETRY_KEYS +
+                                 SHAPE_KEYS + ONE_BODY))
         self.assertEqual(keys - written, set())
 
     def test_mutated_scenes_and_meshes(self):

@@ -203,6 +203,52 @@ end = 4
 steps = 8
 """
 
+# Elasticity with axes, temperature, distance in time.
+ELASTIC_KEYS = """\
+plane = "strain"
+units = "m, N, Pa"
+[[body]]
+name = "upper"
+mesh = { shape = "rectangle", lower = [0, 0], upper = [1, 1], cells = [2, 2], cut = "both" }
+temperature = "10*t*(1 + x)"
+boundary = [ { label = 3, ux = 0, uy = 0 } ]
+[body.material]
+elasticity = "orthotropic"
+young1 = "10 Pa"
+young2 = 5
+young3 = 4
+poisson12 = 0.2
+poisson13 = 0.1
+poisson23 = 0.3
+shear12 = 3
+angle = "0.3 + atan2(y, x)/4"
+expansion = [1e-4, 2e-4, 3e-4]
+[[body]]
+name = "lower"
+mesh = { shape = "rectangle", lower = [0, -1], upper = [1, 0], cells = [3, 2], cut = "both" }
+temperature = { file = "lower.heat", factor = "t" }
+boundary = [ { label = 1, ux = 0, uy = 0 } ]
+[body.material]
+elasticity = "general"
+stiffness = [["9 Pa", 2, 0.5, 3], [2, 7, 0.1, 2], [0.5, 0.1, 3, 0], [3, 2, 0, 8]]
+expansion = 1e-4
+[contact]
+sides = [ { body = "upper", label = 1 }, { body = "lower", label = 3 } ]
+gap = "-1e-3*t*(1 + x)"
+[[quantity]]
+name = "heated"
+thermal_work = { body = "upper" }
+[time]
+end = 1
+steps = 2
+"""
+
+
+def lower_heat(count):
+    """Nodal temperatures of the lower body: one number a line."""
+    return "".join(f"{5 + 0.5*i}\n" for i in range(count))
+
+
 # Two squares side by side in one geometry, PARTS_GEO as parts.geo; the other keys that a scene can have.
 GEOMETRY_KEYS = """\
 [[body]]

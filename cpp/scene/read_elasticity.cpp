@@ -1,0 +1,119 @@
+#include "scene/read_elasticity.h"
+
+#include <cmath>
+
+#include "base/error.h"
+
+namespace mortier {
+namespace {
+
+enum Kind { isotropic, orthotropic, general };
+const Keys kinds{"isotropic", "orthotropic", "general"};
+const Keys keysOfKind[] = {
+    {"young", "poisson"},
+    {"young1", "young2", "young3", "poisson12", "poisson13", "poisson23", "shear12", "angle"},
+    {"stiffness", "angle"}};
+
+void requireKeysOf(int kind, const TableReader& table) {
+  for (size_t other = 0; other < kinds.size(); ++other)
+    for (const std::string& key : keysOfKind[other]) {
+      if (key == "angle" ? kind != isotropic : static_cast<int>(other) == kind) continue;
+      if (table.find(key) == nullptr) continue;
+      const std::string beside = key == "angle" ? "\"orthotropic\" or \"general\"" : '"' + kinds[other] + '"';
+      table.reject(key, "it beside elasticity = " + beside + " only");
+    }
+}
+
+/// NaN where it is not given: plane strain asks for it then.
+double ifGiven(const TableReader& table, const std::string& key, const Range& range) {
+  return table.find(key) == nullptr ? NAN : table.number(key, range);
+}
+
+Orthotropy readOrthotropy(const TableReader& table) {
+  return {{table.number("young1", above(0)), table.number("young2", above(0)),
+           ifGiven(table, "young3", above(0))},
+          {table.number("poisson12", anyNumber()), ifGiven(table, "poisson13", anyNumber()),
+           ifGiven(table, "poisson23", anyNumber())},
+          table.number("shear12", above(0))};
+}
+
+Matrix readStiffness(const TableReader& table) {
+  const std::string expected = "three rows of three numbers, or four of four in plane strain";
+  const Node& node = table.require("stiffness", expected);
+  const size_t n = node.elements.size();
+  if (!node.isArray() || (n != 3 && n != 4)) table.reject("stiffness", expected);
+  Matrix stiffness(n, n);
+  for (size_t i = 0; i < n; ++i) {
+    const Node& row = node.elements[i];
+    if (!row.isArray() || row.elements.size() != n) table.reject("stiffness", expected);
+    for (size_t j = 0; j < n; ++j) {
+      if (!row.elements[j].isNumeric() || !std::isfinite(row.elements[j].value))
+        throw InputError(table.message(row.elements[j].where, "stiffness has " + row.elements[j].quoted() +
+                                                                  ", expected finite numbers"));
+      stiffness(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = row.elements[j].value;
+    }
+  }
+  return stiffness;
+}
+
+void readExpansion(const TableReader& table, MaterialDescription& material) {
+  const Node* node = table.find("expansion");
+  if (node == nullptr) return;
+  if (!node->isArray()) {
+    material.expansion.fill(table.number("expansion", anyNumber()));
+    return;
+  }
+  const std::vector<double> values = table.numbers("expansion");
+  if (values.size() != 3 || !material.anisotropy)
+    table.reject("expansion", "a number, or one for each of the three axes beside elasticity that has axes");
+  std::copy(values.begin(), values.end(), material.expansion.begin());
+}
+
+}  // namespace
+
+Anisotropy AnisotropyDescription::in(Plane plane) const {
+  try {
+    if (const auto* stiffness = std::get_if<Matrix>(&moduli)) return anisotropyOf(*stiffness, plane);
+    const auto& orthotropy = std::get<Orthotropy>(moduli);
+    const bool third = !std::isnan(orthotropy.young[2]);
+    const bool all = third && !std::isnan(orthotropy.poisson[1]) && !std::isnan(orthotropy.poisson[2]);
+    if (plane != Plane::stress && !all)
+      throw InputError("expected young3, poisson13 and poisson23 as well in plane strain");
+    return anisotropyOf(orthotropy, plane);
+  } catch (const InputError& error) {
+    throw InputError(where + ": " + error.what());
+  }
+}
+
+void readElasticity(const TableReader& table, MaterialDescription& material) {
+  const int kind = table.oneOf("elasticity", kinds, isotropic);
+  requireKeysOf(kind, table);
+  if (kind == isotropic) {
+    material.elasticity = {table.number("young", above(0)), table.number("poisson", between(-1, 0.5))};
+  } else {
+    AnisotropyDescription& own = material.anisotropy.emplace();
+    own.where = table.message(table.find("elasticity")->where, "elasticity = \"" + kinds[kind] + '"');
+    if (kind == orthotropic) {
+      own.moduli = readOrthotropy(table);
+      material.elasticity.young = std::get<Orthotropy>(own.moduli).young[0];
+    } else {
+      own.moduli = readStiffness(table);
+      material.elasticity.young = std::get<Matrix>(own.moduli).cwiseAbs().maxCoeff();
+    }
+    if (table.find("angle") != nullptr) {
+      own.angle = table.expression("angle");
+      if (own.angle->inTime) table.reject("angle", "an angle in x and y, the same at all times");
+    }
+  }
+  readExpansion(table, material);
+}
+
+void requireTakesElasticity(const TableReader& table, const MaterialDescription& material) {
+  if (!material.anisotropy) return;
+  if (material.flow.index() > 0 && !material.as<Viscoplasticity>() && !material.as<NortonCreep>())
+    table.reject("elasticity", "\"isotropic\" beside this law");
+  if (const auto* flow = material.as<Viscoplasticity>(); flow && flow->projection != Projection::frobenius)
+    table.reject("projection", "\"frobenius\" beside elasticity that is not isotropic");
+}
+
+}  // namespace mortier

@@ -1,0 +1,367 @@
+"""Elasticity with axes, thermal strain and distances in time, as a user meets them, against exact values."""
+import csv
+import json
+import math
+import unittest
+
+import numpy as np
+
+from scenes import ELASTIC_KEYS, lower_heat
+from support import InFolder
+
+import results
+
+WOOD = ('elasticity = "orthotropic", young1 = 10, young2 = 3, poisson12 = 0.3, shear12 = 1.5')
+WOOD_ACROSS = WOOD + ", young3 = 2, poisson13 = 0.2, poisson23 = 0.25"
+
+# A square, turned by TURN with its loads and axes.
+SQUARE = """\
+plane = "PLANE"
+degree = DEGREE
+[[body]]
+name = "block"
+mesh = { shape = "quadrilateral", corners = [CORNERS], cells = [3, 4] }
+material = { WOOD, angle = ANGLE }
+boundary = [ { label = 1, un = 0 }, { label = 4, un = 0 },
+             { label = 3, pressure = -2 }, { label = 2, pressure = 1 } ]
+[[quantity]]
+name = "energy"
+stored_energy = { body = "block" }
+[[quantity]]
+name = "mises"
+largest_mises = { body = "block" }
+[time]
+end = 1
+steps = 1
+[check]
+allow = ["initial-load", "constant-loads"]
+"""
+
+# A quarter of a large plate with a hole, pulled along x.
+HOLE = """\
+degree = 2
+[[body]]
+name = "plate"
+mesh = { shape = "annulus", inner = 1, outer = 60, span = "quarter", cells = [6, 6] }
+material = { WOOD }
+boundary = [ { label = 3, un = 0 }, { label = 4, un = 0 }, { label = 2, tx = "x/sqrt(x^2+y^2)" } ]
+[accuracy]
+energy = 1e-3
+[time]
+end = 1
+steps = 1
+[check]
+allow = ["constant-loads"]
+""".replace("WOOD", WOOD)
+
+# A block between two walls, or in a corner.
+BLOCK = """\
+plane = "PLANE"
+[[body]]
+name = "block"
+mesh = { shape = "rectangle", lower = [0, 0], upper = [2, 1], cells = [4, 2] }
+temperature = "100*t"
+material = { young = 1e5, poisson = 0.3, expansion = 1e-5 }
+boundary = [ { label = 1, uy = 0 }, { label = 4, ux = 0 } BESIDE ]
+[[quantity]]
+name = "heat"
+thermal_work = { body = "block" }
+[[quantity]]
+name = "stored"
+stored_energy = { body = "block" }
+[[quantity]]
+name = "work"
+work = { body = "block" }
+[[quantity]]
+name = "grows"
+displacement = { body = "block", point = [2, 1] }
+component = "x"
+[[quantity]]
+name = "wall"
+reaction = { body = "block", label = 4 }
+component = "x"
+[time]
+end = 1
+steps = 3
+"""
+
+# A quarter of a ring in another, degree 2: inner radius 10, fit 20, outer radius 40.
+FIT = """\
+plane = "PLANE"
+degree = 2
+[[body]]
+name = "shaft"
+mesh = { shape = "annulus", inner = 10, outer = 20, span = "quarter", cells = [12, 8] }
+temperature = "SHAFT"
+material = { young = 2e5, poisson = 0.3, expansion = 1.2e-5 }
+boundary = [ { label = 3, un = 0 }, { label = 4, un = 0 } ]
+[[body]]
+name = "hub"
+mesh = { shape = "annulus", inner = 20, outer = 40, span = "quarter", cells = [10, 8] }
+temperature = "HUB"
+material = { young = 1e5, poisson = 0.25, expansion = 2.3e-5 }
+boundary = [ { label = 3, un = 0 }, { label = 4, un = 0 } ]
+[contact]
+nonmortar = { body = "shaft", label = 2 }
+mortar = { body = "hub", label = 1 }
+gap = -0.01
+[[quantity]]
+name = "pressure"
+largest_pressure = { body = "hub", label = 1 }
+[[quantity]]
+name = "heat"
+thermal_work = { body = "hub" }
+[time]
+end = 1
+steps = 2
+"""
+
+# Two blocks, one on the other, with a plate that is pushed in between.
+SHIM = """\
+[[body]]
+name = "upper"
+mesh = { shape = "rectangle", lower = [0, 1], upper = [1, 2], cells = [3, 3] }
+material = { young = 10, poisson = 0 }
+boundary = [ { label = 3, ux = 0, uy = 0 } ]
+[[body]]
+name = "lower"
+mesh = { shape = "rectangle", lower = [0, 0], upper = [1, 1], cells = [4, 3] }
+material = { young = 10, poisson = 0 }
+boundary = [ { label = 1, ux = 0, uy = 0 } ]
+[contact]
+nonmortar = { body = "upper", label = 1 }
+mortar = { body = "lower", label = 3 }
+gap = { time = [0, 1, 2], value = [0.001, -0.01, 0.001] }
+variant = "mortar"
+[[quantity]]
+name = "pressed"
+contact_force = { body = "lower", label = 3 }
+component = "y"
+[[quantity]]
+name = "above"
+work = { body = "upper" }
+[[quantity]]
+name = "below"
+work = { body = "lower" }
+[[quantity]]
+name = "stored"
+stored_energy = { body = "upper" }
+[time]
+end = 2
+steps = 22
+"""
+
+
+class OfScene(InFolder):
+    def run_it(self, text, *settings, folder="out"):
+        self.write(text)
+        arguments = [word for setting in settings for word in ("--set", setting)]
+        self.mortier("run", "scene.toml", "--quiet", "--out", folder, *arguments)
+        return json.loads(self.read(folder + "/summary.json"))
+
+    def value(self, summary, name):
+        return summary["quantities"][name]["value"]
+
+    def refuse(self, text, message, *settings):
+        self.write(text)
+        arguments = [word for setting in settings for word in ("--set", setting)]
+        errors = self.mortier("run", "scene.toml", "--quiet", "--out", "out", *arguments, code=2).stderr
+        self.assertIn(message, errors)
+
+
+class Axes(OfScene):
+    def square(self, turn, angle, plane="stress", degree=1):
+        c, s = math.cos(turn), math.sin(turn)
+        corners = [[2*x*c - y*s, 2*x*s + y*c] for x, y in [(0, 0), (1, 0), (1, 1), (0, 1)]]
+        return (SQUARE.replace("CORNERS", ", ".join(str(corner) for corner in corners))
+                .replace("WOOD", WOOD if plane == "stress" else WOOD_ACROSS)
+                .replace("ANGLE", angle).replace("PLANE", plane).replace("DEGREE", str(degree)))
+
+    def test_axes_and_mesh_turned_together(self):
+        for plane in ("stress", "strain"):
+            for degree in (1, 2):
+                first = self.run_it(self.square(0, "0.3", plane, degree))
+                for turn in (0.7, -2.1):
+                    for angle in (str(0.3 + turn), f'"{0.3 + turn} + 0*x"'):
+                        with self.subTest(plane=plane, degree=degree, turn=turn, angle=angle):
+                            other = self.run_it(self.square(turn, angle, plane, degree))
+                            for name in ("energy", "mises"):
+                                one = self.value(first, name)
+                                self.assertLessEqual(abs(self.value(other, name) - one), 1e-12*abs(one))
+
+    def test_uniform_stress_strains_as_the_constants_say(self):
+        summary = self.run_it(self.square(0, "0").replace('stored_energy = { body = "block" }',
+                              'displacement = { body = "block", point = [2, 1] }\ncomponent = "y"'))
+        # s11 = -1, s22 = 2 on the rectangle of 2 by 1
+        self.assertAlmostEqual(self.value(summary, "energy"), 2/3 + 0.3/10, delta=1e-13)
+
+    def test_what_is_not_elliptic_or_not_known_is_refused(self):
+        text = self.square(0, "0")
+        self.refuse(text, "the smallest eigenvalue of the compliance is ", "body.material.poisson12=2")
+        self.refuse(text, "expected young3, poisson13 and poisson23 as well in plane strain", "plane=strain")
+        self.refuse(text, 'expected "isotropic" beside accuracy.bound', "accuracy.bound=true")
+        self.refuse(text, 'expected "isotropic" beside solver.method = "penalty-duality"',
+                    "solver.method=penalty-duality")
+        self.refuse(text, "young = 3, expected it beside elasticity = \"isotropic\" only",
+                    "body.material.young=3")
+        self.refuse(text.replace("angle = 0", 'law = "maxwell", relaxation_time = 1'),
+                    'expected "isotropic" beside this law')
+        self.refuse(text.replace("angle = 0", 'viscosity = 1, yield_stress = 1, projection = "compliance"'),
+                    'expected "frobenius" beside elasticity that is not isotropic')
+        self.refuse(text, "the same at all times", "body.material.angle=t")
+
+
+    def test_a_hole_in_an_orthotropic_plate(self):
+        """Lekhnitskii: under a pull along axis 1 the stress at the hole is 1 + n times that across it and
+        -(E2/E1)^(1/2) times that ahead of it, n^2 = 2 ((E1/E2)^(1/2) - nu12) + E1/G12."""
+        self.run_it(HOLE)
+        body = results.read_vtu(next((self.folder / "out").glob("plate_*.vtu")))
+        n = math.sqrt(2*(math.sqrt(10/3) - 0.3) + 10/1.5)
+        for place, exact, component in (((0, 1), 1 + n, 0), ((1, 0), -math.sqrt(3/10), 1)):
+            vertex = np.argmin(np.linalg.norm(body.points - place, axis=1))
+            stresses = []
+            for corners, stress in zip(body.triangles, body.stress_at_points):
+                for k in range(3):
+                    if corners[k] == vertex:  # linear, by its values at 2/3, 1/6, 1/6
+                        stresses.append(2*stress[k][component] - stress.mean(axis=0)[component])
+            self.assertAlmostEqual(np.mean(stresses)/exact, 1, delta=0.01)
+
+
+class Heat(OfScene):
+    def test_free_expansion_has_no_stress(self):
+        for plane, part in (("stress", 1), ("strain", 1.3)):
+            summary = self.run_it(BLOCK.replace("PLANE", plane).replace("BESIDE", ""))
+            if plane == "stress":
+                self.assertLess(summary["final"]["von_mises_max"], 1e-10)
+            self.assertAlmostEqual(self.value(summary, "grows"), 2*1e-3*part, delta=1e-15)
+
+    def test_a_bar_between_walls(self):
+        """s11 = -E alpha T, in plane strain -E alpha T/(1 - nu); heat is the only work."""
+        for plane, part in (("stress", 1), ("strain", 1/0.7)):
+            for scheme in ("backward-euler", "crank-nicolson", "sdirk2"):
+                with self.subTest(plane=plane, scheme=scheme):
+                    text = BLOCK.replace("PLANE", plane).replace("BESIDE", ", { label = 2, ux = 0 }")
+                    summary = self.run_it(text, f"time.scheme={scheme}")
+                    self.assertAlmostEqual(self.value(summary, "wall"), 100*part, delta=1e-10)
+                    stored = self.value(summary, "stored")
+                    heat = self.value(summary, "heat")
+                    self.assertAlmostEqual(stored, heat + self.value(summary, "work"), delta=1e-13)
+                    if plane == "stress":
+                        self.assertAlmostEqual(stored, 0.5*100*1e-3*2, delta=1e-13)
+                    self.assertLess(abs(self.value(summary, "work")), 1e-13)
+
+    def test_nodal_temperatures_are_linear_between(self):
+        """A temperature that is linear in x and y strains as its expression does."""
+        text = BLOCK.replace("PLANE", "strain").replace("BESIDE", ", { label = 2, ux = 0 }")
+        by_datum = self.run_it(text, 'body.temperature=t*(20 + 30*x + 40*y)')
+        self.mortier("mesh", "rectangle", "--cells", "4,2", "--upper", "2,1", "block.mesh")
+        lines = self.read("block.mesh").splitlines()
+        first = lines.index("Vertices") + 2
+        count = int(lines[first - 1])
+        places = [list(map(float, line.split()[:2])) for line in lines[first:first + count]]
+        self.write("".join(f"{20 + 30*x + 40*y}\n" for x, y in places), "heat.txt")
+        table = 'temperature = { file = "heat.txt", factor = "t" }'
+        of_file = text.replace('temperature = "100*t"', table)
+        by_file = self.run_it(of_file)
+        for name in ("heat", "stored", "wall", "grows"):
+            one = self.value(by_datum, name)
+            self.assertLessEqual(abs(self.value(by_file, name) - one), 1e-12*abs(one))
+        self.write("1\n2\n", "heat.txt")
+        self.refuse(of_file, f"has 2, expected {count} finite numbers, one for each vertex of the mesh")
+        self.refuse(of_file, "expected a datum beside accuracy", "accuracy.energy=0.1")
+        self.refuse(text, "temperature, expected none beside accuracy.bound", "accuracy.bound=true")
+        self.refuse(text.replace(", expansion = 1e-5", ""), "expected expansion in a material of the body")
+
+    @staticmethod
+    def lame(plane, shaft, hub):
+        """Pressure of the fit: the interference that is there plus what the temperatures add, over the
+        compliances of both rings."""
+        a2, b, b2, c2 = 100, 20, 400, 1600
+        rings = []
+        for e, nu, alpha, heat in ((2e5, 0.3, 1.2e-5, shaft), (1e5, 0.25, 2.3e-5, hub)):
+            if plane == "strain":
+                e, nu, alpha = e/(1 - nu**2), nu/(1 - nu), alpha*(1 + nu)
+            rings.append((e, nu, alpha*heat))
+        (e1, nu1, hot1), (e2, nu2, hot2) = rings
+        over = 0.01 + b*(hot1 - hot2)
+        return over/b/(((b2 + a2)/(b2 - a2) - nu1)/e1 + ((c2 + b2)/(c2 - b2) + nu2)/e2)
+
+    def test_a_fit_heated_and_cooled(self):
+        for plane in ("stress", "strain"):
+            for shaft, hub in ((0, 0), (80, 0), (0, -40), (100, 20), (-30, 0)):
+                with self.subTest(plane=plane, shaft=shaft, hub=hub):
+                    text = FIT.replace("PLANE", plane)
+                    text = text.replace("SHAFT", f"{shaft}*t").replace("HUB", f"{hub}*t")
+                    if hub == 0:
+                        text = text.replace(f'temperature = "{hub}*t"\n', "").replace(
+                            'name = "heat"\nthermal_work = { body = "hub" }',
+                            'name = "heat"\nstored_energy = { body = "hub" }')
+                    if shaft == 0:
+                        text = text.replace('temperature = "0*t"\n', "")
+                    exact = self.lame(plane, shaft, hub)
+                    self.assertGreater(exact, 0)
+                    pressure = self.value(self.run_it(text), "pressure")
+                    self.assertAlmostEqual(pressure/exact, 1, delta=2e-3)
+
+    def test_a_fit_that_comes_loose_is_named(self):
+        text = FIT.replace("PLANE", "stress").replace('"SHAFT"', "0").replace("HUB", "60*t")
+        text = text.replace('temperature = 0\n', "")
+        self.assertLess(self.lame("stress", 0, 60), 0)
+        self.assertEqual(self.value(self.run_it(text), "pressure"), 0)
+        # Nothing but the fit holds the shaft along the line of symmetry that is left.
+        free = text.replace('boundary = [ { label = 3, un = 0 }, { label = 4, un = 0 } ]\n[[body]]',
+                            '[[body]]', 1).replace("quarter", "full").replace(
+            'boundary = [ { label = 3, un = 0 }, { label = 4, un = 0 } ]',
+            'boundary = [ { label = 2, ux = 0, uy = 0 } ]')
+        self.write(free)
+        errors = self.mortier("run", "scene.toml", "--quiet", "--out", "free", code=3).stderr
+        self.assertIn("shaft", errors)
+
+
+class Distance(OfScene):
+    def test_a_plate_between_two_blocks(self):
+        """Each block takes half of what the plate is thicker than the gap; the plate does the work."""
+        for variant in ("mortar", "interpolation", "weighted"):
+            for degree in (1, 2):
+                with self.subTest(variant=variant, degree=degree):
+                    summary = self.run_it(SHIM, f"contact.variant={variant}", f"degree={degree}",
+                                          "output.every=1")
+                    rows = list(csv.DictReader(self.read("out/history.csv").splitlines()))
+                    for row in rows:
+                        t = float(row["time[s]"])
+                        gap = 0.001 - 0.011*t if t <= 1 else -0.01 + 0.011*(t - 1)
+                        self.assertAlmostEqual(float(row["pressed[N/m]"]), -10*max(0, -gap)/2, delta=1e-13)
+                    half = [row for row in rows if abs(float(row["time[s]"]) - 1) < 1e-9][0]
+                    stored = 0.5*10*0.005**2
+                    self.assertAlmostEqual(float(half["stored[J/m]"]), stored, delta=1e-15)
+                    self.assertAlmostEqual(float(half["above[J/m]"]), stored, delta=1e-15)
+                    self.assertAlmostEqual(float(half["below[J/m]"]), stored, delta=1e-15)
+                    self.assertLess(abs(summary["final"]["gap_work"]), 1e-15)
+                    self.assertGreater(summary["verification"]["gap_on_active"], -1)
+                    at_one = self.run_it(SHIM, f"contact.variant={variant}", f"degree={degree}",
+                                         "time.end=1", "time.steps=11")
+                    self.assertAlmostEqual(at_one["final"]["gap_work"], 2*stored, delta=1e-15)
+                    contact = list(csv.DictReader(self.read("out/contact.csv").splitlines()))
+                    self.assertTrue(all(abs(float(row["gap"])) < 1e-14 for row in contact))
+
+    def test_steps_chosen_by_their_error_end_at_its_kinks(self):
+        self.run_it(SHIM, "time.tolerance=1e-3", "time.scheme=sdirk2")
+        rows = list(csv.DictReader(self.read("out/history.csv").splitlines()))
+        self.assertTrue(any(float(row["time[s]"]) == 1 for row in rows))
+
+    def test_a_bound_of_the_error_is_refused(self):
+        self.refuse(SHIM, "expected a distance that does not change in time beside accuracy.bound",
+                    "accuracy.bound=true")
+
+
+class AllKeys(OfScene):
+    def test_a_stopped_run_is_resumed_to_the_same_bytes(self):
+        self.write(lower_heat(18), "lower.heat")
+        self.run_it(ELASTIC_KEYS, "time.steps=6", "output.every=1", folder="whole")
+        self.mortier("run", "scene.toml", "--quiet", "--out", "whole2", "--set", "time.steps=6",
+                     "output.every=1", "--threads", "2")
+        self.assertEqual(self.read("whole/history.csv"), self.read("whole2/history.csv"))
+
+
+if __name__ == "__main__":
+    unittest.main()
