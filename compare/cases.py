@@ -83,7 +83,7 @@ class SceneCase:
 SCENES = {
     "sloped": (), "broken-line": (), "stack": (), "exact-contact": (), "edge": (), "punch": (),
     "eccentric-punch": (), "receding": (), "turned": (), "cut-ring": (), "hertz": (), "ring": (),
-    "thick-cylinder": (), "open-close": ("time.scheme=backward-euler",),
+    "sphere": (), "thick-cylinder": (), "open-close": ("time.scheme=backward-euler",),
 }
 # Those that it does not, and why (the beginning of what mortier freefem says behind the scene's name).
 UNKNOWN_TO_FREEFEM = {"cook": "no contact interface"}
@@ -187,6 +187,12 @@ def scene_cases():
                   (SOFT, "contact.gap=(1e-3*x^2+1e-3)*cos(3*t)")),
         SceneCase("sloped", "weighted", "a distance that changes, quadratic",
                   (SOFT, "contact.gap=(1e-3*x^2+1e-3)*cos(3*t)", "degree=2")),
+        SceneCase("sphere", "weighted", "sides swapped", ("contact.swap=true",)),
+        SceneCase("sphere", "weighted", "quadratic, body forces and tractions",
+                  ("degree=2", "body.block.force.y=-2*x", 'body.ball.boundary.3.tx="-10*y*t"')),
+        SceneCase("sloped", "mortar", "a cone that flows", (SOFT, 'plane="axisymmetric"', "time.steps=4")),
+        SceneCase("sloped", "mortar", "a cone that creeps",
+                  (*NORTON, 'plane="axisymmetric"', "time.steps=3")),
         SceneCase("punch", "weighted", "linear, sides swapped: overlap in part", ("contact.swap=true",)),
         SceneCase("ring", "weighted", "linear"),
         SceneCase("sloped", "weighted", "linear, parted by a parabola", ("contact.gap=1e-5*x^2+2e-6",)),

@@ -100,6 +100,28 @@ def hertz_peak(run):
     return run.contact.pressure.max() / np.sqrt(np.sum(run.contact.force) * 52500 / (np.pi * 50))
 
 
+def sphere_of_hertz(run):
+    """Peak pressure and radius of contact by theory for the contact force [MPa, mm]: steel of radius 50 mm on
+    aluminium."""
+    compliance = (1 - 0.3**2) / 210000 + (1 - 0.33**2) / 70000
+    force = np.sum(run.contact.force)
+    radius = (0.75 * force * compliance * 50) ** (1 / 3)
+    return 1.5 * force / (np.pi * radius**2), radius
+
+
+def sphere_peak(run):
+    return run.contact.pressure.max() / sphere_of_hertz(run)[0]
+
+
+def sphere_radius(run):
+    """Where the square of the pressure, linear in that of the radius, would vanish; over theory."""
+    exact = sphere_of_hertz(run)[1]
+    r = run.contact.position[:, 0]
+    inside = r < 0.9 * exact
+    slope, constant = np.polyfit(r[inside] ** 2, run.contact.pressure[inside] ** 2, 1)
+    return np.sqrt(-constant / slope) / exact
+
+
 def creep_rate(run):
     """Radial velocity on the inner circle in the second half of the run."""
     liner = run.bodies["liner"]
@@ -138,6 +160,9 @@ GALLERY = [
     Entry("hertz", [Number("peak pressure over sqrt(F E*/(pi R))", hertz_peak, 1, 2e-2,
                            "half-width 0.13 R, where Hertz takes parabolas; the mesh")], 1,
           ((-25, 25), (-25, 18))),
+    Entry("sphere", [Number("peak pressure over Hertz's", sphere_peak, 1, 1e-2, "the mesh: 12 elements"),
+                     Number("radius of contact over Hertz's", sphere_radius, 1, 1e-2, "the same")], 1,
+          ((0, 25), (-18, 18))),
     Entry("receding", [Number("half-width of contact", lambda run: end_of_contact(run, 1), 1.324165, 1e-2,
                               "the mesh: an element at the end of contact is 0.08"),
                        Number("p(0)/P", receding_pressure, 0.713081, 1e-2,

@@ -22,8 +22,9 @@ namespace {
 void requireInPlane(const BodyDescription& body, Plane plane) {
   const auto require = [&](const StressDescription& stress) {
     if (plane == Plane::stress && stress[3]) {
-      throw InputError(stress[3]->where +
-                       ", expected plane = \"strain\" beside it: s33 is 0 in plane stress");
+      throw InputError(
+          stress[3]->where +
+          ", expected plane = \"strain\" beside it, or \"axisymmetric\": s33 is 0 in plane stress");
     }
   };
   require(body.initialStress);
@@ -34,8 +35,15 @@ void requireInPlane(const BodyDescription& body, Plane plane) {
 
 /// What the bound of the error, refined meshes and the note's algorithm cannot have.
 void requireKnownTo(const SceneDescription& scene, const BodyDescription& body) {
+  const std::string inThePlane = ", expected plane = \"stress\" or \"strain\" beside it";
+  const bool axisymmetric = scene.plane == Plane::axisymmetric;
   const auto require = [&](const MaterialDescription& material) {
+    if (const auto* own = material.as<OwnLaw>(); own != nullptr && axisymmetric)
+      throw InputError(own->where + inThePlane);
+    if (material.as<Overstress>() != nullptr && axisymmetric)
+      throw InputError(body.where + ": body " + body.name + ": law = \"viscoplastic\"" + inThePlane);
     if (!material.anisotropy) return;
+    if (axisymmetric) throw InputError(material.anisotropy->where + inThePlane);
     if (scene.accuracy.bound)
       throw InputError(material.anisotropy->where + ", expected \"isotropic\" beside accuracy.bound");
     if (scene.solver.method != Method::newton)
@@ -46,6 +54,7 @@ void requireKnownTo(const SceneDescription& scene, const BodyDescription& body) 
   for (const RegionDescription& region : body.regions)
     if (region.material) require(*region.material);
   if (!body.temperature) return;
+  if (axisymmetric) throw InputError(body.temperature->where + ": temperature" + inThePlane);
   if (scene.accuracy.bound)
     throw InputError(body.temperature->where + ": temperature, expected none beside accuracy.bound");
   if (scene.accuracy.energy > 0 && !body.temperature->file.empty())
@@ -68,6 +77,17 @@ void readAccuracy(const TableReader& accuracy, SceneDescription& scene) {
     accuracy.reject("energy", "it only beside time.scheme = sdirk2 or backward-euler, whose error is known");
   if (scene.solver.method != Method::newton)
     accuracy.reject("energy", "it only beside solver.method = newton, by whose tangent errors are estimated");
+}
+
+/// What is not known of bodies that turn about an axis.
+void requireAboutAxis(const TableReader& root, const SceneDescription& scene) {
+  if (scene.plane != Plane::axisymmetric) return;
+  if (scene.accuracy.bound)
+    root.reject("plane", "stress or strain beside accuracy.bound: no bound is known of axisymmetric bodies");
+  for (const QuantityDescription& quantity : scene.quantities)
+    if (quantity.component == Quantity::Component::moment)
+      throw InputError(quantity.where + ": quantity " + quantity.name +
+                       ": component = \"moment\", expected x or y: forces of a whole ring have no moment");
 }
 
 void readOptions(const TableReader& root, SceneDescription& scene) {
@@ -108,6 +128,7 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   scene.path = path;
   scene.title = root.string("title", "");
   scene.plane = static_cast<Plane>(root.oneOf("plane", planeWords, 0));
+  scene.units.wholeRing = scene.plane == Plane::axisymmetric;
   scene.degree = root.integer("degree", 1, scene.degree);
   if (scene.degree > 2) root.reject("degree", "1 or 2");
   readOptions(root, scene);
@@ -128,6 +149,9 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   }
   for (const Node* contact : root.tables("contact")) {
     scene.contacts.push_back(readContact(*contact, scene));
+    if (scene.plane == Plane::axisymmetric && scene.contacts.back().friction.any())
+      throw InputError(scene.contacts.back().where +
+                       ": contact: friction, expected plane = \"stress\" or \"strain\" beside it");
     if (scene.accuracy.energy > 0 && scene.degree == 2 &&
         scene.contacts.back().variant == CouplingKind::mortar) {
       throw InputError(
@@ -144,10 +168,12 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   for (const Node* quantity : root.tables("quantity")) {
     scene.quantities.push_back(readQuantity(*quantity, scene));
   }
+  requireAboutAxis(root, scene);
   return scene;
 }
 
 std::string nameOfPlace(const ConditionDescription& condition) {
+  if (condition.onAxis) return "the axis";
   if (condition.point) return "point " + shortest(*condition.point);
   return "label " + (condition.labelName.empty() ? std::to_string(condition.label) : condition.labelName);
 }

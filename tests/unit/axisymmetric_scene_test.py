@@ -1,0 +1,95 @@
+"""Scenes of bodies of revolution: what they are told in whole rings, and what is refused."""
+import csv
+import json
+import math
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "compare"))
+
+import support  # noqa: E402
+
+# A tube of radii 1 and 2 between plates, and a disc on it.
+TUBE = """\
+plane = "axisymmetric"
+[[body]]
+name = "tube"
+mesh = { shape = "rectangle", lower = [1, 0], upper = [2, 1], cells = 3, cut = "both" }
+material = { young = 100, poisson = 0.3 }
+boundary = [ { label = 1, uy = 0 } ]
+[[body]]
+name = "disc"
+mesh = { shape = "rectangle", lower = [0, 1], upper = [2, 2], cells = 4, cut = "both" }
+material = { young = 100, poisson = 0.3 }
+boundary = [ { label = 3, pressure = 2 } ]
+[contact]
+nonmortar = { body = "tube", label = 3 }
+mortar = { body = "disc", label = 1 }
+[[quantity]]
+name = "below"
+reaction = { body = "tube", label = 1 }
+component = "y"
+[[quantity]]
+name = "energy"
+stored_energy = { body = "disc" }
+[time]
+end = 1
+steps = 1
+"""
+
+
+class Axisymmetric(support.OfTwoBlocks):
+    def test_forces_are_of_the_whole_ring(self):
+        self.write(TUBE)
+        self.mortier("run", "scene.toml")
+        summary = json.loads(self.read("out/scene/summary.json"))
+        self.assertEqual(summary["plane"], "axisymmetric")
+        below = summary["quantities"]["below"]
+        self.assertEqual(below["unit"], "N")
+        self.assertAlmostEqual(below["value"], 2 * 4 * math.pi, delta=1e-10)
+        self.assertEqual(summary["quantities"]["energy"]["unit"], "J")
+        self.assertLess(summary["verification"]["force_balance"], 1e-13)
+        last = list(csv.DictReader(self.read("out/scene/history.csv").splitlines()))[-1]
+        self.assertAlmostEqual(float(last["contact_force[N]"]), 2 * 4 * math.pi, delta=1e-10)
+        self.assertIn("elastic_energy[J]", last)
+        self.assertIn("whole rings", self.mortier("check", "scene.toml").stdout)
+
+    def test_units_of_a_scene(self):
+        self.write('units = "mm, N, MPa"\n' + TUBE)
+        self.mortier("run", "scene.toml")
+        header = self.read("out/scene/history.csv").splitlines()[0].split(",")
+        self.assertIn("contact_force[N]", header)
+        self.assertIn("elastic_energy[N mm]", header)
+
+    def refused(self, scene, message):
+        self.write(scene)
+        result = self.mortier("run", "scene.toml", "--quiet", code=2)
+        self.assertEqual(len(result.stderr.splitlines()), 1)
+        self.assertIn(message, result.stderr)
+
+    def test_what_cannot_be_is_refused(self):
+        self.refused(TUBE.replace("lower = [0, 1]", "lower = [-1, 1]"), "expected x >= 0 beside plane")
+        self.refused(TUBE.replace('component = "y"', 'component = "moment"'), "have no moment")
+        self.refused(TUBE + "[accuracy]\nbound = true\n", "no bound is known of axisymmetric bodies")
+        self.refused(TUBE.replace("{ label = 3, pressure", "{ label = 4, ux = 1 }, { label = 3, pressure"),
+                     "expected the 0 that the axis prescribes there")
+
+    def test_a_roller_on_the_axis_is_no_contradiction(self):
+        self.write(TUBE.replace("{ label = 3, pressure", "{ label = 4, un = 0 }, { label = 3, pressure"))
+        self.mortier("run", "scene.toml")
+
+    def test_only_the_motion_along_the_axis_is_free(self):
+        self.write(TUBE.replace("{ label = 1, uy = 0 }", "{ label = 4, pressure = 1 }"))
+        result = self.mortier("run", "scene.toml", "--quiet", code=3)
+        self.assertIn("translation along (0, 1)", result.stderr)
+
+    def test_rounds_reach_what_is_asked(self):
+        self.write(TUBE)
+        self.mortier("run", "scene.toml", "--accuracy", "0.05")
+        accuracy = json.loads(self.read("out/scene/summary.json"))["accuracy"]
+        self.assertTrue(accuracy["reached"])
+
+
+if __name__ == "__main__":
+    unittest.main()
