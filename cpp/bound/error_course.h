@@ -3,9 +3,9 @@
 //   Z' + lambda e  <=  delta + |r'| sqrt(2 Z) + kappa Z,      kappa = rho'/rho,   rho linear in each step,
 //
 // it is Z <= rho Y^2/2 and lambda (integral of e/rho) <= A + R Y at every time, Y = sqrt(2 A) + R,
-// A = Z(0)/rho(0) + integral of delta/rho, R = integral of |r'|/sqrt(rho). Of all e that obey this the integral
-// of sqrt(e) is largest where that of e/rho follows the greatest convex function below A + R Y, over the
-// integral of rho (docs/bounds.md has the proofs).
+// A = Z(0)/rho(0) + integral of delta/rho, R = integral of |r'|/sqrt(rho). Of all e that obey this the
+// integral of sqrt(e) is largest where that of e/rho follows the greatest convex function below A + R Y, over
+// the integral of rho (docs/bounds.md has the proofs).
 #pragma once
 
 #include <array>

@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "base/interrupt.h"
@@ -167,9 +166,9 @@ class FlowIntegrals {
   PointVector point_, rate_;
 };
 
-/// A stress whose overstress is but rounding is taken back to the yield surface.
+/// A stress whose overstress is but what a run leaves of its law is taken back to the yield surface.
 PointVector withoutRounding(FlowPotential& potential, int triangle, const PointVector& t) {
-  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+  constexpr double rounding = 1e-10;
   const double rate = potential.rates(triangle, Matrix(t)).norm();
   const bool little = rate <= rounding * potential.fluidity()[triangle] * t.norm();
   return little && rate > 0 ? PointVector((1 - rounding) * t) : t;

@@ -95,8 +95,6 @@ TotalBoundRecord::Moment TotalBoundRecord::begin(const State& state, TotalBoundM
     memory.fixed.misfit += bodies_[b].misfit(moment.bodies[b], pair.bodies[b]) / 2;
   }
   memory.any.misfit = memory.fixed.misfit + pair.lifting.gap;
-  memory.fixed.sums.front() = memory.fixed.misfit;
-  memory.any.sums.front() = memory.any.misfit;
   memory.oscillation = pair.oscillation.relative();
   return moment;
 }
@@ -170,7 +168,7 @@ TotalBoundRecord::Moment TotalBoundRecord::step(const State& state, int number,
   }
   const double change = std::sqrt(misfit.change);
   memory.fixed.add(weights[0], 1, timeStep, misfit.flow[0], change);
-  // Integral of p^ G(u^)'/rho.
+  // Integral of p^ G(u^)'/rho; from rest also what the integral of p^ G(u)/rho begins with.
   double opening = 0;
   for (size_t i = 0; i < moment.contact.size(); ++i) {
     const Contact& before = now_->contact[i];
@@ -185,8 +183,11 @@ TotalBoundRecord::Moment TotalBoundRecord::step(const State& state, int number,
     }
     const auto moments = momentsOfLinear(pressure, after.length);
     opening += moments[0] * opens[0] + moments[1] * opens[1];
+    if (!now_->rest) continue;
+    const auto first = momentsOfLinear(after.pressure, after.length);
+    opening += first[0] * before.gap[0] + first[1] * before.gap[1];
   }
-  memory.any.add(weights[1], factor, timeStep, misfit.flow[1] + opening, change);
+  if (memory.closes.empty()) memory.any.add(weights[1], factor, timeStep, misfit.flow[1] + opening, change);
   if (memory.closes.empty() && !(std::isfinite(memory.any.misfit) && std::isfinite(memory.any.growth)))
     memory.closes = "bodies flow in the first step";
   if (!memory.moved.empty() && !memory.closes.empty())
@@ -226,7 +227,7 @@ void TotalBoundRecord::look(const State& state, int number) {
 void TotalBoundRecord::add(const std::string& obstacle) {
   memory_ = std::move(nextMemory_);
   now_ = std::move(next_);
-  if (memory_.obstacle.empty()) memory_.obstacle = obstacle;
+  if (!obstacle.empty()) memory_.obstacle = obstacle;
   if (memory_.obstacle.empty()) return;
   memory_.stress.clear();
   now_.reset();
