@@ -5,44 +5,11 @@
 #include <optional>
 
 #include "base/interrupt.h"
+#include "bound/part_stress.h"
 #include "material/stress.h"
 
 namespace mortier {
 namespace {
-
-using PointMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
-/// Of s^ at the vertices of the parts.
-using PartStress = std::array<PointVector, 9>;
-
-/// A place in a part by its barycentric coordinates, and its share of the part's area: as one of the vertices
-/// of small triangles, or as the centroid of one.
-struct Place {
-  std::array<double, 3> at;
-  double share = 0;
-  bool vertex = false;
-};
-
-/// Of the small triangles that cut each side of a part into so many.
-std::vector<Place> placesIn(int cuts) {
-  std::vector<Place> places;
-  const double n = cuts;
-  for (int i = 0; i <= cuts; ++i)
-    for (int j = 0; i + j <= cuts; ++j) {
-      const int l = cuts - i - j;
-      const int sides = (i == 0 ? 1 : 0) + (j == 0 ? 1 : 0) + (l == 0 ? 1 : 0);
-      const int meet = sides == 0 ? 6 : sides == 1 ? 3 : 1;
-      places.push_back({{i / n, j / n, l / n}, meet / (3 * n * n), true});
-      if (l > 0) places.push_back({{(i + 1. / 3) / n, (j + 1. / 3) / n, (l - 2. / 3) / n}, 1 / (n * n)});
-      if (l > 1) places.push_back({{(i + 2. / 3) / n, (j + 2. / 3) / n, (l - 4. / 3) / n}, 1 / (n * n)});
-    }
-  return places;
-}
-
-/// Integral of v : A v over a part of area 1, v linear.
-double square(const PointMatrix& A, const PointVector& a, const PointVector& b, const PointVector& c) {
-  const PointVector sum = a + b + c;
-  return (a.dot(A * a) + b.dot(A * b) + c.dot(A * c) + sum.dot(A * sum)) / 12;
-}
 
 /// A stress t, and what its integrals are.
 struct Candidate {
@@ -91,29 +58,6 @@ class Misfits {
     return E.inverse();
   }
 
-  /// s^ - s at the vertices of the parts. What is not of the plane is free: it is chosen as the law would.
-  [[nodiscard]] PartStress addedIn(int triangle) const {
-    const CompositeTriangle element = loaded_.elementOf(triangle);
-    const Point& f = loaded_.forceOn(triangle);
-    const std::array<Stress, 9> plane =
-        element.stressOf(loaded_.momentsOf(triangle) - element.momentsOf(loaded_.stress()[triangle]) -
-                             element.momentsOfLoad(f),
-                         f);
-    PartStress result;
-    for (int i = 0; i < 9; ++i) {
-      result[i].resize(state_.stress.rows());
-      result[i].head<3>() = fromCartesian(plane[i]);
-    }
-    if (state_.stress.rows() > 3) {
-      const int parent = loaded_.parents()[triangle];
-      const auto D = moduliAt(law_.moduli, parent);
-      const Eigen::Vector3d beyond =
-          Eigen::Map<const Eigen::Matrix3d>(D.data()).inverse() * law_.beyond.col(parent).head<3>();
-      for (PointVector& each : result) each[3] = beyond.dot(each.head<3>());
-    }
-    return result;
-  }
-
   /// The stress that the law nearly has where the strain is less by `strain`.
   PointVector stressWithout(int triangle, const PointVector& strain, const PointVector& rate) {
     constexpr int most = 30;
@@ -149,7 +93,7 @@ class Misfits {
     std::vector<PointMatrix> compliances(count);
     for (int i = 0; i < count; ++i) {
       const int t = first + i;
-      added[i] = addedIn(t);
+      added[i] = addedIn(loaded_, t, law_, n);
       compliances[i] = complianceOf(t);
       candidates[i].push_back({stress.col(i), rates.col(i)});
       const Eigen::Vector3d lowered = loaded_.strainIn(t, lowered_);
@@ -194,8 +138,10 @@ class Misfits {
     const double fluidity = potential_.fluidity()[t];
     const auto integral = [&](const PointMatrix& A, const PointVector& off) {
       double sum = 0;
-      for (int part = 0; part < 3; ++part)
-        sum += square(A, added[3 * part] + off, added[3 * part + 1] + off, added[3 * part + 2] + off) / 3;
+      for (int part = 0; part < 3; ++part) {
+        const PointVector v[] = {added[3 * part] + off, added[3 * part + 1] + off, added[3 * part + 2] + off};
+        sum += product(A, v, v) / 3;
+      }
       return area * sum;
     };
     const PointMatrix half = fluidity / 2 * PointMatrix::Identity(state_.stress.rows(), state_.stress.rows());

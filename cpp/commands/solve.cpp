@@ -57,9 +57,12 @@ Solved solve(Solving solving) {
   solving.error.moveTo(state);
   AccuracyRecord accuracies(model, solving.error, accuracySoFar);
   std::optional<FlowBoundRecord> flow;
-  if (scene.accuracy.bound && FlowBoundRecord::applies(model))
+  std::optional<TotalBoundRecord> total;
+  if (scene.accuracy.bound && FlowBoundRecord::applies(model)) {
     flow.emplace(model, Steps{scene.time.scheme == Scheme::backwardEuler, scene.time.controlled()}, state,
                  accuracySoFar.flow);
+    total.emplace(model, state, accuracySoFar.total);
+  }
 
   // A failure leaves the last good step in `state`, an interruption in what is kept here.
   State keptState = state;
@@ -68,6 +71,7 @@ Solved solve(Solving solving) {
     solving.checkpoints.write(empty, written, last, at, with, accuracySoFar);
   };
   const Observer observe = [&](const State&, const StepReport& report) {
+    if (total) total->look(state, report.step);  // what may be interrupted comes first
     solving.error.moveTo(state);
     const bool again = report.step == 0 && memory.controller.trial > 1;
     if (again) {
@@ -92,7 +96,10 @@ Solved solve(Solving solving) {
     if (solving.alsoObserve) solving.alsoObserve(state, report);
     if (report.step > 0) log.step(report);
     last = report;
-    if (flow) flow->add(state, report);
+    if (flow) {
+      flow->add(state, report);
+      total->add(accuracySoFar.flow.obstacle);
+    }
     if (!solving.onlyTheStart && report.step > 0 && state.time < scene.time.end && solving.checkpoints.due())
       save(files->sync(), state, memory);
     keptState = state;
@@ -120,7 +127,10 @@ Solved solve(Solving solving) {
   log.finish();
   solved.files = files->close(state, last.step);
   solved.accuracy = accuracies.atEnd(report.peaks);
-  if (flow) solved.accuracy.flow = flow->atEnd(state);
+  if (flow) {
+    solved.accuracy.flow = flow->atEnd(state);
+    solved.accuracy.total = total->atEnd(state, *solved.accuracy.flow);
+  }
   return solved;
 }
 

@@ -8,6 +8,7 @@
 #include "bound/energy_bound.h"
 #include "bound/flow_bound.h"
 #include "bound/step_bound.h"
+#include "bound/total_bound.h"
 #include "time/report.h"
 #include "time/space_error.h"
 
@@ -25,6 +26,7 @@ struct Accuracy {
   double time = 0;         ///< of the last state [s]
   std::optional<EnergyBound> bound = {};  ///< of the last state, where it is asked for
   std::optional<FlowBound> flow = {};     ///< of the steps up to it, where bodies flow
+  std::optional<TotalBound> total = {};   ///< of steps and meshes together, where bodies flow
   std::optional<StepBound> step = {};     ///< of the meshes in the last step, where bodies flow
 };
 
@@ -34,6 +36,7 @@ struct AccuracyMemory {
   double error = 0;   ///< largest integral of e : E^-1 e [J/m]
   double time = 0;    ///< and when [s]
   FlowBoundMemory flow;
+  TotalBoundMemory total;
 };
 
 /// Estimates the last state, those that are kept, and on the way those at which the elastic energy has

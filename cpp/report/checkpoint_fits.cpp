@@ -48,6 +48,24 @@ bool isTime(double time) {
   return std::isfinite(time) && time >= 0;
 }
 
+bool isCourse(const ErrorCourse& course) {
+  return course.growth >= 0 && course.misfit >= 0 && course.drift >= 0 && !course.lengths.empty() &&
+         course.lengths.size() == course.sums.size();
+}
+
+/// Stresses by the triangles of the matched meshes; none where nothing is bounded.
+bool fitsBodies(const std::vector<Matrix>& stress, const Model& model) {
+  if (stress.empty()) return true;
+  const MatchedMeshes meshes = matchedMeshes(model);
+  if (stress.size() != model.bodies.size() || !meshes.obstacle.empty()) return false;
+  for (size_t b = 0; b < stress.size(); ++b)
+    if (stress[b].rows() != model.bodies[b].material().components() ||
+        stress[b].cols() != static_cast<Eigen::Index>(meshes.bodies[b].parents.size()) ||
+        !stress[b].allFinite())
+      return false;
+  return true;
+}
+
 bool isStatus(Status status) {
   return status == Status::converged || status == Status::failed || status == Status::unheld;
 }
@@ -97,6 +115,9 @@ void requireFits(const Checkpoint& checkpoint, const Model& model, const std::st
               isTime(accuracy.flow.begin) && isTime(accuracy.flow.misfit) && isTime(accuracy.flow.opening) &&
               accuracy.flow.growth >= 0,
           "accuracy");
+  require(isCourse(accuracy.total.fixed) && isCourse(accuracy.total.any) &&
+              isTime(accuracy.total.oscillation) && fitsBodies(accuracy.total.stress, model),
+          "bound");
   require(memory.run.quantities.size() == quantities &&
               (last.quantities.empty() || last.quantities.size() == quantities),
           "number of quantities");

@@ -29,7 +29,9 @@ MORTIER_MEMBERS(QuantityRange, start, smallest, smallestTime, largest, largestTi
 MORTIER_MEMBERS(Peaks, vonMises, pressure, contactForce, displacement, motion, energy)
 MORTIER_MEMBERS(FlowBoundMemory, obstacle, moved, begin, misfit, opening, growth, load, loadOff, motion,
                 motionOff)
-MORTIER_MEMBERS(AccuracyMemory, energy, error, time, flow)
+MORTIER_MEMBERS(ErrorCourse, growth, misfit, drift, lengths, sums)
+MORTIER_MEMBERS(TotalBoundMemory, obstacle, moved, closes, oscillation, fixed, any, contact, stress)
+MORTIER_MEMBERS(AccuracyMemory, energy, error, time, flow, total)
 MORTIER_MEMBERS(WorkDone, external, contact, dissipated, thermal)
 MORTIER_MEMBERS(BodyState, displacement, stress, viscoplasticStrain, work, thermalStrain)
 MORTIER_MEMBERS(State, time, bodies, contactForce, gap, frictionForce, slipping, frictionWork, gapWork)

@@ -154,6 +154,25 @@ std::string logFlow(const FlowBound& bound) {
   return text + "\n";
 }
 
+std::string logTotal(const TotalBound& bound) {
+  const std::string none = "           no guaranteed bound of steps and meshes: ";
+  if (!bound.obstacle.empty()) return none + bound.obstacle + "\n";
+  const bool any = !bound.moved.empty();
+  const double error = (any ? bound.any : bound.fixed).strain;
+  if (error > 0 && !(error < bound.strainNorm)) return none + "nothing below 100 %\n";
+  std::string text = format("           guaranteed of steps and meshes: viscoplastic strain to %.2g %%",
+                            error > 0 ? 100 * error / (bound.strainNorm - error) : 0);
+  if (!any && !(bound.closes.empty() && bound.any.strain <= bound.fixed.strain)) {
+    text += ", contact closed and open as in the run";
+    if (bound.closes.empty() && bound.any.strain < bound.strainNorm)
+      text += format("; to %.2g %% whatever contact does",
+                     100 * bound.any.strain / (bound.strainNorm - bound.any.strain));
+  }
+  if (const double off = std::max(bound.oscillation, bound.data); off > linear)
+    text += format(", for data that are linear; these are off by %.1g %%", 100 * off);
+  return text + "\n";
+}
+
 std::string logStep(const StepBound& bound) {
   const std::string none = "           no guaranteed bound of the last step: ";
   if (!bound.obstacle.empty()) return none + bound.obstacle + "\n";
@@ -195,6 +214,7 @@ std::string logAccuracy(const RunFacts& facts, const Model& model, const Accurac
                    100 * accuracy.largest, accuracy.largestTime, facts.units.time.c_str());
   if (accuracy.bound) text += logBound(*accuracy.bound);
   if (accuracy.bound && accuracy.flow) text += logFlow(*accuracy.flow);
+  if (accuracy.bound && accuracy.total) text += logTotal(*accuracy.total);
   if (accuracy.step) text += logStep(*accuracy.step);
   if (accuracy.all == 0 && accuracy.largest == 0) return text;
   for (const std::string& doubt : facts.doubts) text += "           not reliable: " + doubt + "\n";

@@ -157,6 +157,27 @@ Json jsonOf(const FlowBound& bound) {
   return json;
 }
 
+Json jsonOf(const TotalBound& bound) {
+  if (!bound.obstacle.empty()) return {{"viscoplastic_strain", nullptr}, {"reason", bound.obstacle}};
+  const auto all = [&](const TotalBound::Errors& errors) {
+    return Json{{"viscoplastic_strain", over(errors.strain, bound.strainNorm)},
+                {"stress", over(errors.stress, bound.stressNorm)}};
+  };
+  Json json = {{"viscoplastic_strain", nullptr}, {"stress", nullptr}};
+  if (bound.moved.empty())
+    json = all(bound.fixed);
+  else
+    json["reason"] = bound.moved;
+  json["any_contact"] = {{"viscoplastic_strain", nullptr}, {"stress", nullptr}};
+  if (bound.closes.empty())
+    json["any_contact"] = all(bound.any);
+  else
+    json["any_contact"]["reason"] = bound.closes;
+  json["lift"] = over(bound.lifted, bound.strainNorm);
+  json["data"] = std::max(bound.oscillation, bound.data);
+  return json;
+}
+
 Json jsonOf(const StepBound& bound) {
   if (!bound.obstacle.empty()) return {{"viscoplastic_strain", nullptr}, {"reason", bound.obstacle}};
   return {{"viscoplastic_strain", over(bound.strain, bound.strainNorm)},
@@ -181,6 +202,7 @@ Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy)
     json["largest"] = {{"body", accuracy.worstBody}, {"at", {accuracy.worst[0], accuracy.worst[1]}}};
   if (accuracy.bound) json["bound"] = jsonOf(*accuracy.bound);
   if (accuracy.bound && accuracy.flow) json["bound"]["time"] = jsonOf(*accuracy.flow);
+  if (accuracy.bound && accuracy.total) json["bound"]["total"] = jsonOf(*accuracy.total);
   if (accuracy.bound && accuracy.step) json["bound"]["step"] = jsonOf(*accuracy.step);
   return json;
 }

@@ -80,6 +80,36 @@ class Bound(OfTwoBlocks):
         _, accuracy = self.bound(ELASTIC)
         self.assertNotIn("time", accuracy["bound"])
 
+    def test_steps_and_meshes_of_bodies_that_flow_have_a_bound_together(self):
+        flowing = TWO_BLOCKS.replace('"elasticity"', '"frobenius"')
+        log, accuracy = self.bound(flowing, "--set", "time.steps=20")
+        found = accuracy["bound"]["total"]
+        strain = found["viscoplastic_strain"]
+        self.assertIn(f"guaranteed of steps and meshes: viscoplastic strain to {100 * strain:.2g} %, "
+                      "contact closed and open as in the run; to", log)
+        # Mortar is exact here: what is left is what the steps do.
+        self.assertAlmostEqual(strain, 1.16 / 19, delta=0.1 / 19)
+        self.assertTrue(strain < found["any_contact"]["viscoplastic_strain"] < 1.3 * strain)
+        self.assertLess(found["lift"], 1e-9)
+        self.assertLess(found["data"], 1e-12)
+        _, other = self.bound(flowing.replace("3e11", "3e-4").replace("-10*t", "-1e-9*t")
+                              .replace("yield_stress = 1", "yield_stress = 1e-10"), "--set", "time.steps=20")
+        self.assertAlmostEqual(other["bound"]["total"]["viscoplastic_strain"], strain, delta=1e-9)
+        log, accuracy = self.bound(flowing, "--set", "contact.variant=interpolation", "time.steps=10")
+        found = accuracy["bound"]["total"]
+        self.assertGreater(found["viscoplastic_strain"], strain)
+        self.assertEqual(found["any_contact"]["reason"], "bodies flow in the first step")
+        for settings, reason in [
+                (["time.scheme=sdirk2"], "steps are not those of backward Euler"),
+                (["degree=2"], "displacements are quadratic"),
+                (["body.upper.material.projection=elasticity"],
+                 "the flow of upper has no potential: Perzyna (elasticity)")]:
+            log, accuracy = self.bound(flowing, "--set", *settings)
+            self.assertIn(f"no guaranteed bound of steps and meshes: {reason}\n", log)
+            self.assertEqual(accuracy["bound"]["total"], {"viscoplastic_strain": None, "reason": reason})
+        _, accuracy = self.bound(ELASTIC)
+        self.assertNotIn("total", accuracy["bound"])
+
     def test_the_last_step_of_bodies_that_flow_has_a_bound_of_its_own(self):
         law = ', viscosity = 10, yield_stress = 1, projection = "frobenius" }'
         flowing = ELASTIC.replace(" }\n", law + "\n", 1)

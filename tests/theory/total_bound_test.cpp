@@ -1,0 +1,276 @@
+// The guaranteed bound of what steps and meshes do together to bodies that flow: against an exact solution,
+// and against finer meshes and shorter steps.
+#include "bound/total_bound.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+
+#include "material/plane_strain.h"
+#include "theory/random_scene.h"
+#include "theory/refined_model.h"
+
+namespace mortier {
+namespace {
+
+using namespace scenes;
+
+struct Bounded {
+  State state;
+  TotalBound bound;
+};
+
+Bounded boundedRun(const Model& model, const TimePlan& plan) {
+  Bounded result{initialState(model), {}};
+  FlowBoundMemory flowMemory;
+  TotalBoundMemory memory;
+  FlowBoundRecord flow(model, {true, plan.controlled()}, result.state, flowMemory);
+  TotalBoundRecord record(model, result.state, memory);
+  const RunReport report =
+      march(model, result.state, plan, {}, [&](const State& state, const StepReport& step) {
+        record.look(state, step.step);
+        flow.add(state, step);
+        record.add(flowMemory.obstacle);
+      });
+  EXPECT_EQ(report.status, Status::converged);
+  result.bound = record.atEnd(result.state, flow.atEnd(result.state));
+  return result;
+}
+
+/// ||eps_p - other||, of uniform others.
+double strainBetween(const Model& model, const State& state, const Vector& other) {
+  double sum = 0;
+  for (size_t b = 0; b < model.bodies.size(); ++b)
+    for (int i = 0; i < model.bodies[b].points(); ++i)
+      sum += model.bodies[b].weights()[i] * (state.bodies[b].viscoplasticStrain.col(i) - other).squaredNorm();
+  return std::sqrt(sum);
+}
+
+/// The viscoplastic strain of a stress -10 t e_y e_y, by Simpson's rule.
+Vector flownUnder10(const Material& material) {
+  Vector exact = Vector::Zero(3);
+  constexpr int parts = 20000;
+  const auto rate = [&](double t) {
+    Matrix g;
+    material.viscoplasticRate(fromCartesian({0, -10 * t, 0}), g);
+    return Vector(g.col(0));
+  };
+  for (int i = 0; i < parts; ++i) {
+    const double h = 0.9 / parts;
+    const double t = 0.1 + i * h;
+    exact += h / 6 * (rate(t) + 4 * rate(t + h / 2) + rate(t + h));
+  }
+  return exact;
+}
+
+// ---- an exact solution: the note's test, where the stress is -10 t e_y e_y
+TEST(TotalBound, isAboveAndNearTheErrorOfTheNotesTest) {
+  struct Case {
+    CouplingKind coupling;
+    std::array<int, 2> cells;
+    double young;
+    int steps;
+    double most;
+  };
+  std::vector<Case> cases{{CouplingKind::mortar, {2, 3}, 3e11, 10, 1.25},
+                          {CouplingKind::mortar, {2, 3}, 10, 20, 1.25},
+                          {CouplingKind::interpolation, {8, 3}, 3e11, 20, 1.3},
+                          {CouplingKind::interpolation, {3, 8}, 3e11, 20, 2},
+                          {CouplingKind::interpolation, {3, 8}, 10, 20, 6}};
+  if (std::getenv("MORTIER_LONG_TOTALS") != nullptr) {
+    cases.clear();
+    for (const int steps : {10, 20, 100, 1000})
+      for (const std::array<int, 2> cells : {std::array{6, 16}, std::array{16, 6}}) {
+        cases.push_back({CouplingKind::mortar, cells, 3e11, steps, 1.4});
+        if (steps < 1000) cases.push_back({CouplingKind::interpolation, cells, 3e11, steps, 2});
+      }
+  }
+  for (const auto& [coupling, cells, young, steps, most] : cases) {
+    const auto material = perzynaMaterial({young, 0.3}, noteLaw(Projection::frobenius));
+    const Model model = compression(cells[0], cells[1], material, coupling, upperBody);
+    const auto [state, bound] = boundedRun(model, {.end = 1, .steps = steps});
+    ASSERT_EQ(bound.obstacle + bound.moved, "");
+    const double error = strainBetween(model, state, flownUnder10(*material));
+    std::cout << nameOf(coupling) << " " << cells[0] << ":" << cells[1] << ", E = " << young << ", " << steps
+              << " steps: error of the viscoplastic strain " << 100 * error / bound.strainNorm
+              << " %, bound over error " << bound.fixed.strain / error << ", whatever contact does "
+              << bound.any.strain / error << ", the lift's part " << bound.lifted / error << "\n";
+    EXPECT_GE(bound.fixed.strain, error);
+    EXPECT_LE(bound.fixed.strain, most * error);
+    // Forces grow from nothing: the price is sqrt(ln(10)/2)/0.9 where the rate is bounded alike at all times.
+    if (coupling == CouplingKind::mortar) {
+      EXPECT_EQ(bound.closes, "");
+      EXPECT_GE(bound.any.strain, bound.fixed.strain);
+      EXPECT_LE(bound.any.strain, 1.3 * bound.fixed.strain);
+    }
+    EXPECT_LE(bound.data, 1e-12);
+    EXPECT_LE(bound.oscillation, 1e-12);
+    if (coupling == CouplingKind::mortar) {
+      EXPECT_LE(bound.lifted, 1e-9 * error);
+    }
+  }
+}
+
+// ---- finer meshes and shorter steps
+struct Distance {
+  double strain = 0;
+  double stress = 0;
+};
+
+/// Between a state and one on finer meshes.
+Distance distance(const Refined& fine, const State& state, const State& other) {
+  Distance squares;
+  for (size_t b = 0; b < state.bodies.size(); ++b) {
+    const Body& body = fine.model.bodies[b];
+    Matrix stress = other.bodies[b].stress;
+    Matrix strain = other.bodies[b].viscoplasticStrain;
+    for (Eigen::Index t = 0; t < stress.cols(); ++t) {
+      stress.col(t) -= state.bodies[b].stress.col(fine.parents[b][t]);
+      strain.col(t) -= state.bodies[b].viscoplasticStrain.col(fine.parents[b][t]);
+    }
+    Matrix elastic;
+    body.material().elasticStrain(stress, elastic);
+    for (int i = 0; i < body.points(); ++i) {
+      squares.stress += body.weights()[i] * stress.col(i).dot(elastic.col(i));
+      squares.strain += body.weights()[i] * strain.col(i).squaredNorm();
+    }
+  }
+  return {std::sqrt(squares.strain), std::sqrt(squares.stress)};
+}
+
+TEST(TotalBound, isAboveTheDistanceFromFinerMeshesAndShorterSteps) {
+  for (const Plane plane : {Plane::stress, Plane::strain})
+    for (const double young : {1e4, 20.0})
+      for (const CouplingKind coupling : couplings) {
+        const Elasticity elasticity{young, 0.3};
+        const Viscoplasticity law = noteLaw(Projection::frobenius);
+        const bool strain = plane == Plane::strain;
+        const auto flows =
+            strain ? planeStrainPerzynaMaterial(elasticity, law) : perzynaMaterial(elasticity, law);
+        const auto elastic = strain ? planeStrainElasticMaterial(elasticity) : elasticMaterial(elasticity);
+        const Function load = [](double x, double, double t) { return -t * (5 + 3 * x); };
+        Body upper("upper", square(0, 2), flows, {{{left, 0, constant(0)}}, {{top, 1, load}}, {}});
+        Body lower("lower", square(-1, 3), elastic,
+                   {{{left, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}});
+        const Model model = contactModel(std::move(upper), std::move(lower), coupling, upperBody);
+        const Refined fine = refined(model, 2);
+        const Bounded coarse = boundedRun(model, {.end = 1, .steps = 8});
+        const Bounded close = boundedRun(fine.model, {.end = 1, .steps = 32});
+        ASSERT_EQ(coarse.bound.obstacle + close.bound.obstacle, "");
+        const Distance off = distance(fine, coarse.state, close.state);
+        std::cout << (strain ? "plane strain" : "plane stress") << ", E = " << young << ", "
+                  << nameOf(coupling) << ": bound over distance " << coarse.bound.fixed.strain / off.strain
+                  << " (viscoplastic strain), " << coarse.bound.fixed.stress / off.stress << " (stress), "
+                  << coarse.bound.any.strain / off.strain << " whatever contact does" << coarse.bound.moved
+                  << coarse.bound.closes << "\n";
+        ASSERT_EQ(coarse.bound.moved + close.bound.moved, "");
+        EXPECT_LE(off.strain, coarse.bound.fixed.strain + close.bound.fixed.strain);
+        EXPECT_LE(off.stress, coarse.bound.fixed.stress + close.bound.fixed.stress);
+        EXPECT_LE(coarse.bound.fixed.strain, 12 * off.strain);
+      }
+}
+
+/// Most have no bound: contact opens there while bodies flow, or closes.
+TEST(TotalBound, isAboveTheDistanceInRandomScenes) {
+  const char* wanted = std::getenv("MORTIER_RANDOM_TOTALS");
+  const unsigned count = wanted != nullptr ? std::atoi(wanted) : 40;
+  unsigned bounded = 0;
+  for (unsigned seed = 0; seed < count; ++seed) {
+    Randoms random(seed + 2000);
+    RandomScene scene(seed);
+    const Model elastic = scene.model();
+    Model model;
+    const bool strain = random.below(2) == 0;
+    std::vector<std::shared_ptr<const Material>> materials;
+    for (const Body& body : elastic.bodies) {
+      const Elasticity elasticity{std::exp(random.normal()), 0.1 * random.below(5)};
+      const Viscoplasticity law{std::pow(10, -2.0 + random.below(4)), 0.03 * std::exp(random.normal()),
+                                Projection::frobenius};
+      materials.push_back(strain ? planeStrainPerzynaMaterial(elasticity, law)
+                                 : perzynaMaterial(elasticity, law));
+      model.bodies.emplace_back(body.name(), body.mesh(), materials.back(), body.conditions());
+    }
+    for (const ContactInterface& interface : elastic.interfaces) addInterface(model, interface.pair());
+    const Refined fine = refined(model, 1);
+    State state = initialState(model);
+    const auto [coarseState, coarse] = boundedRun(model, {.end = 1, .steps = 4});
+    if (!coarse.obstacle.empty() || !coarse.closes.empty()) continue;
+    const auto [fineState, close] = boundedRun(fine.model, {.end = 1, .steps = 16});
+    if (!close.obstacle.empty() || !close.closes.empty()) continue;
+    ++bounded;
+    const Distance off = distance(fine, coarseState, fineState);
+    EXPECT_LE(off.strain, coarse.any.strain + close.any.strain + 1e-9 * coarse.strainNorm)
+        << "scene " << seed;
+    EXPECT_LE(off.stress, coarse.any.stress + close.any.stress + 1e-9 * coarse.stressNorm)
+        << "scene " << seed;
+  }
+  std::cout << bounded << " of " << count << " have a bound\n";
+  EXPECT_GE(bounded, 1U);
+}
+
+TEST(TotalBound, tellsWhichConditionFails) {
+  const auto boundUnder = [&](const Function& load, Projection projection, double lowerY, int steps) {
+    const auto material = perzynaMaterial({1e3, 0.3}, noteLaw(projection));
+    Body upper("upper", square(0, 1), material, {{{left, 0, constant(0)}}, {{top, 1, load}}, {}});
+    Body lower("lower", square(lowerY, 1), material,
+               {{{left, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}});
+    return boundedRun(contactModel(std::move(upper), std::move(lower), CouplingKind::mortar, upperBody),
+                      {.end = 1, .steps = steps})
+        .bound;
+  };
+  const Function load = [](double, double, double t) { return -10 * t; };
+  EXPECT_EQ(boundUnder(load, Projection::frobenius, -1, 8).obstacle, "");
+  EXPECT_EQ(boundUnder(load, Projection::elasticity, -1, 8).obstacle,
+            "the flow of upper has no potential: Perzyna (elasticity)");
+  EXPECT_EQ(boundUnder(constant(-5), Projection::frobenius, -1, 8).obstacle,
+            "what acts at the start is not in balance");
+  // With a flow in the first step there is nothing whatever contact does.
+  const TotalBound first = boundUnder(load, Projection::frobenius, -1, 4);
+  EXPECT_EQ(first.obstacle + first.moved, "");
+  EXPECT_EQ(first.closes, "bodies flow in the first step");
+  // Contact that opens, or closes, while the top is moved.
+  const auto moved = [&](const Function& rise) {
+    const auto material = perzynaMaterial({1e3, 0.3}, noteLaw(Projection::frobenius));
+    Body upper("upper", square(0, 1), material, {{{top, 0, constant(0)}, {top, 1, rise}}, {}, {}});
+    Body lower("lower", square(-1, 1), material,
+               {{{bottom, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}});
+    return boundedRun(contactModel(std::move(upper), std::move(lower), CouplingKind::mortar, upperBody),
+                      {.end = 1, .steps = 16})
+        .bound;
+  };
+  const TotalBound opens =
+      moved([](double, double, double t) { return t < 0.5 ? -0.02 * t : -0.01 + 0.2 * (t - 0.5); });
+  EXPECT_EQ(opens.obstacle, "");
+  EXPECT_EQ(opens.moved, "contact opens in step 9");
+  EXPECT_EQ(opens.closes, "");
+  const TotalBound closes =
+      moved([](double, double, double t) { return t < 0.5 ? 0.02 * t : 0.01 - 0.1 * (t - 0.5); });
+  EXPECT_EQ(closes.obstacle, "contact closes in step 10, a gap becomes smaller in step 9");
+}
+
+TEST(TotalBound, goesOnFromAStateAsIfItHadNotStopped) {
+  const Model model = compression(2, 3, perzynaMaterial({50, 0.3}, noteLaw(Projection::frobenius)),
+                                  CouplingKind::interpolation, upperBody);
+  State state = initialState(model);
+  TotalBoundMemory whole;
+  TotalBoundMemory parts;
+  TotalBoundRecord record(model, state, whole);
+  auto other = std::make_unique<TotalBoundRecord>(model, state, parts);
+  (void)march(model, state, {.end = 1, .steps = 12}, {}, [&](const State& now, const StepReport& report) {
+    for (TotalBoundRecord* each : {&record, other.get()}) {
+      each->look(now, report.step);
+      each->add("");
+    }
+    if (report.step == 5) other = std::make_unique<TotalBoundRecord>(model, now, parts);
+  });
+  EXPECT_GT(whole.fixed.misfit, 0);
+  for (const auto course : {&TotalBoundMemory::fixed, &TotalBoundMemory::any}) {
+    EXPECT_EQ((whole.*course).misfit, (parts.*course).misfit);
+    EXPECT_EQ((whole.*course).drift, (parts.*course).drift);
+    EXPECT_EQ((whole.*course).sums, (parts.*course).sums);
+  }
+}
+
+}  // namespace
+}  // namespace mortier
