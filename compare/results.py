@@ -58,7 +58,10 @@ class Contact:
     force: np.ndarray  # nodal [N/m]
     pressure: np.ndarray = None  # [Pa]; None where the code does not write it
     interface: np.ndarray = None  # from 0; None where the code does not write it
-    friction: np.ndarray = None  # nodal, along the line [N/m]; None where no interface has any
+    # None where no interface has friction or the code does not write it
+    friction: np.ndarray = None  # nodal, along the line [N/m]
+    shear: np.ndarray = None  # [Pa]
+    slipping: np.ndarray = None  # sign of the shear stress where it slipped in the last step, else 0
 
 
 @dataclass
@@ -131,7 +134,8 @@ def contact_of(rows):
         return np.array([float(row[name]) for row in rows])
     return Contact(column("vertex").astype(int), np.column_stack([column("x"), column("y")]), column("gap"),
                    column("force"), column("pressure"), column("interface").astype(int),
-                   column("friction") if rows and "friction" in rows[0] else None)
+                   *(column(name) if rows and name in rows[0] else None
+                     for name in ("friction", "shear", "slipping")))
 
 
 def read_history(folder):
@@ -186,8 +190,9 @@ def finished(run):
         require_finite(run.folder, f"stress of {name}", body.stress)
     require_finite(run.folder, "contact forces", run.contact.force)
     require_finite(run.folder, "contact gaps", run.contact.gap)
-    if run.contact.friction is not None:
-        require_finite(run.folder, "friction", run.contact.friction)
+    for name in ("friction", "shear", "slipping"):
+        if getattr(run.contact, name) is not None:
+            require_finite(run.folder, name, getattr(run.contact, name))
     require_finite(run.folder, "contact nodes", run.contact.position)
     try:
         final = run.summary["final"]

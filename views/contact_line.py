@@ -37,6 +37,10 @@ class ContactLine:
         contact = run.contact
         self.gap, self.force, self.pressure = contact.gap[self.rows], contact.force[
             self.rows], contact.pressure[self.rows]
+        # Along the line as it is drawn, what the nonmortar body exerts; None without friction.
+        side = -1.0 if self.flipped else 1.0
+        self.shear = None if contact.shear is None else side * contact.shear[self.rows]
+        self.slipping = None if contact.slipping is None else contact.slipping[self.rows] != 0
 
         # Segments of the polygon, and normals at its nodes: the mean of those beside a node.
         ends = np.flatnonzero(np.diff(self.lengths) > 0)
@@ -44,7 +48,7 @@ class ContactLine:
         self.length = np.hypot(*self.along.T)
         self.along = self.along / self.length[:, None]
         self.begin, self.segments = self.lengths[ends], ends
-        side = -1.0 if self.flipped else 1.0  # to the right of the line as it was: out of the nonmortar body
+        # To the right of the line as it was: out of the nonmortar body.
         normals = side * np.stack([self.along[:, 1], -self.along[:, 0]], 1)
         at_nodes = np.zeros_like(self.points)
         np.add.at(at_nodes, ends, normals)

@@ -15,12 +15,14 @@ NOT_DRAWN = {"step", "time", "time_step", "estimate", "rejections", "guarded", "
 
 
 def contact(views, exact=None):
-    """Pressure and gap along the line of every interface, all views in one. exact:
+    """Pressure, with friction the shear stress too, and gap along the line of every interface, all views in
+    one. exact:
     a pressure to draw beside them."""
     lines = [each.result.lines(each.run) for each in views]
     n = max(map(len, lines))
     if n == 0:
         return None
+    rough = any(line.shear is not None for of_view in lines for line in of_view)
     figure, axes = plt.subplots(2, n, figsize=(1.2 + 5.2 * n, 5.6), sharex="col", squeeze=False,
                                 layout="constrained")
     for i, (each, of_view) in enumerate(zip(views, lines)):
@@ -28,6 +30,10 @@ def contact(views, exact=None):
         style = {"color": colour, "marker": marker, "ms": 4.5, "mfc": "white", "lw": width}
         for (above, below), line in zip(axes.T, of_view):
             above.plot(line.abscissa, line.pressure, label=label_of(each, views), **style)
+            if line.shear is not None:
+                above.plot(line.abscissa, line.shear, color=colour, lw=width, ls="--")
+                above.plot(line.abscissa[line.slipping], line.shear[line.slipping], color=colour,
+                           marker=marker, ms=4.5, ls="")
             below.plot(line.abscissa, line.gap, **{**style, "ls": ""})
             x, gap = line.jump or (line.abscissa, line.gap)
             below.plot(x, gap, color=colour, lw=width)
@@ -42,14 +48,15 @@ def contact(views, exact=None):
             below.set_ylim(-smallest, smallest)
         pressures = np.concatenate([of_view[i].pressure for of_view in lines if len(of_view) > i])
         low, high = pressures.min(), pressures.max()
-        if high - low <= ROUNDING * high:
+        if high - low <= ROUNDING * high and not rough:
             above.set_ylim(0, 1.2 * high)
         if exact is not None:
             above.axhline(exact, color=INK, lw=1.1, ls=(0, (5, 3)), label="exact")
         below.axhline(0, color=INK, lw=0.8)
         above.grid()
         below.grid()
-    axes[0, 0].set_ylabel(labelled("contact pressure", views[0].result.stress_unit))
+    what = "pressure; dashed: shear stress,\nmarks where it slips" if rough else "contact pressure"
+    axes[0, 0].set_ylabel(labelled(what, views[0].result.stress_unit))
     axes[1, 0].set_ylabel(labelled("gap, marks: as the nodes see it", views[0].result.length_unit))
     words = time_words(views[0].result, views[0].step)
     figure.suptitle(f"{views[0].result.title}, {words}" if len(views) == 1 else words, x=0.02, ha="left",

@@ -126,6 +126,8 @@ def run_data(result, share):
             jump = line.jump if line.jump is not None and len(line.jump[0]) * len(kept) < 200_000 else None
             lines[k]["steps"].append({"pressure": numbers(line.pressure), "gap": numbers(line.gap),
                                       "force": numbers(line.force),
+                                      **({"shear": numbers(line.shear), "slipping": line.slipping.tolist()}
+                                         if line.shear is not None else {}),
                                       "jump": [numbers(each) for each in jump] if jump is not None else None})
     listed = [{"name": name, "words": field.words, "unit": field.unit, "vertex": field.by_vertex,
                "signed": field.signed}

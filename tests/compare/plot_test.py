@@ -100,6 +100,20 @@ class Pictures(InSharedFolder):
                     self.assertTrue(axes.xaxis.get_major_ticks()[0].label1.get_visible())
             pictures.plt.close("all")
 
+    def test_shear_is_drawn_where_there_is_friction(self):
+        solve(self.folder, "rubbed", "output.every=1", "contact.friction=0.15",
+              "body.material.yield_stress=100",
+              "body.lower.boundary=[{label=1, ux=0, uy=0}]",
+              "body.upper.boundary=[{label=3, uy='-1e-11*t', ux='8e-12*t'}]")
+        column = pictures.view(runs.Result(self.folder / "rubbed"))
+        contact, figure = column.run.contact, curves.contact([column])
+        shear, slips = figure.axes[0].lines[1:3]
+        self.assertGreater(np.abs(contact.shear).max(), 0)
+        np.testing.assert_array_equal(shear.get_ydata(), contact.shear)
+        np.testing.assert_array_equal(slips.get_xdata(), contact.position[contact.slipping != 0, 0])
+        self.assertTrue(0 < len(slips.get_xdata()) < len(contact.shear))
+        pictures.plt.close(figure)
+
     def test_legends_cover_nothing(self):
         """Curves that fill their axes, names that fit in one row and names that do not."""
         for names in (("a", "b", "c"), tuple(f"{letter * 40} of a long name" for letter in "abc")):

@@ -91,7 +91,9 @@ function chart({
 function drawContact(panel) {
   const {run, r} = panel, step = stepOf(run);
   panel.contact.replaceChildren(...run.lines.flatMap((line, k) => {
-    const {pressure, gap, jump} = line.steps[step], small = 1e-9 * line.length,
+    const {pressure, gap, jump, shear, slipping} = line.steps[step],
+                          slips = (slipping || []).flatMap((slip, i) => slip ? [i] : []),
+                          small = 1e-9 * line.length,
                           xWords = withUnit(line.name, run.units.length),
                           where = `${line.nonmortar} on ${line.mortar}`;
     const others = run.group.runs.flatMap(
@@ -112,6 +114,20 @@ function drawContact(panel) {
         also: range("pressure"),
         series: [{x: line.x, y: pressure, run: r, marks: true, name: "pressure"}]
       }),
+      ...(shear ? [chart({
+        id: `shear${r}-${k}`,
+        title: `shear stress, ${withUnit(where, run.units.stress)}; marks: it slips`,
+        xWords,
+        also: range("shear"),
+        series: [
+          {x: line.x, y: shear, run: r, name: "sticks"},
+          ...(slips.length
+            ? [{x: slips.map(i => line.x[i]), y: slips.map(i => shear[i]), run: r, marks: true, line: false,
+                name: "slips"}]
+            : [])
+        ]
+      })]
+                : []),
       chart({
         id: `gap${r}-${k}`,
         title: `gap, ${withUnit(where, run.units.length)}; marks: as the nodes see it`,

@@ -83,6 +83,11 @@ def _(case):
     case.scene = case.scene[:lower] + case.scene[lower:].replace("young = 3e11", "young = 2e9")
 
 
+@fault("friction-large", "[contact]")
+def _(case):
+    case.replace("label = 3 }\n", "label = 3 }\nfriction = 1.2\n")
+
+
 @fault("interpolation-unmatched", "[contact]")
 def _(case):
     case.replace("label = 3 }\n", "label = 3 }\nvariant = \"interpolation\"\n")
