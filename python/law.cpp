@@ -1,4 +1,4 @@
-// Laws of scenes as Python callables of NumPy arrays: a batch of points at once, columns as in docs/python.md.
+// Laws of scenes as Python callables of NumPy arrays, many points at once (docs/python.md).
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>

@@ -23,9 +23,12 @@ struct Dual {
 /// dx * slope, 0 where the slope is.
 template <int n>
 void addAlong(Dual<n>& result, const Dual<n>& x, const Lanes& dx) {
-  const bool ordinary = n == 0 || all_of(abs(dx) <= std::numeric_limits<double>::max());
-  for (int k = 0; k < n; ++k)
-    result.slope[k] += ordinary ? dx * x.slope[k] : select(x.slope[k] == 0, 0, dx * x.slope[k]);
+  if constexpr (n > 0) {
+    if (all_of(abs(dx) <= std::numeric_limits<double>::max()))
+      for (int k = 0; k < n; ++k) result.slope[k] += dx * x.slope[k];
+    else
+      for (int k = 0; k < n; ++k) result.slope[k] += select(x.slope[k] == 0, 0, dx * x.slope[k]);
+  }
 }
 template <int n>
 Dual<n> along(const Lanes& value, const Dual<n>& x, const Lanes& dx) {
@@ -178,7 +181,10 @@ inline Lanes power(const Lanes& x, double y) {
 }
 template <int n>
 Dual<n> pow(const Dual<n>& x, double y) {
-  return n == 0 ? Dual<n>(power(x.value, y)) : along(power(x.value, y), x, y * power(x.value, y - 1));
+  const Lanes value = power(x.value, y);
+  if constexpr (n == 0) return value;
+  if (none_of(x.value == 0)) return along(value, x, y * value / x.value);
+  return along(value, x, y * power(x.value, y - 1));
 }
 template <int n>
 Dual<n> pow(const Dual<n>& x, const Dual<n>& y) {

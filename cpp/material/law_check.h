@@ -3,7 +3,7 @@
 //   G -> elastic solution (s, eps) with the viscoplastic strain k G -> G(s, eps),
 // and elasticity, contact or not, takes a change dg of that strain to changes with
 //   |ds|_C^2 + |deps|_E^2 <= |dg|_E^2.
-// So with the Lipschitz constant L of G, |dG|_E <= L (|ds|_C^2 + |deps|_E^2)^(1/2), each step with k < 1/L has
+// With the Lipschitz constant L of G, |dG|_E <= L (|ds|_C^2 + |deps|_E^2)^(1/2), each step with k < 1/L has
 // one solution (Proposition 1 of the note: k0 = 1/L). Where G is monotone and depends on the stress alone, as
 // the gradient of a convex function is, each step has one whatever its length.
 #pragma once

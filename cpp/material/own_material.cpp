@@ -215,8 +215,8 @@ class OwnMaterial final : public Material {
     return result;
   }
 
-  /// Whether the last step of Newton's method leaves nothing, or rounding. Elsewhere that step may lead to the
-  /// iterate itself, as across a jump of the rate, and is itself what the law asks for.
+  /// Whether the last step of Newton's method leaves nothing, or rounding. Elsewhere that step may lead to
+  /// the iterate itself, as across a jump of the rate, and is itself what the law asks for.
   [[nodiscard]] static bool isOnLaw(const Local& local, int i) {
     constexpr double enough = 1e-10;    // of the terms of the residual: what is left is its square
     constexpr double rounding = 1e-15;  // of the stress
@@ -237,8 +237,8 @@ class OwnMaterial final : public Material {
       }
   }
 
-  /// Solves the law from the iterate or from the start of the step. Where a kink of the law stops that, as the
-  /// yield surface seen from within, from the stress of no flow, which is beyond.
+  /// Solves the law from the iterate or from the start of the step. Where a kink of the law stops that, as
+  /// the yield surface seen from within, from the stress of no flow, which is beyond.
   void solveEach(const Problem& problem, const Matrix& start, Local& local) const {
     constexpr double good = 1e-3;
     constexpr int fewShort = 4;

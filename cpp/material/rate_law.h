@@ -30,9 +30,9 @@ class RateLaw {
  public:
   virtual ~RateLaw() = default;
   [[nodiscard]] virtual bool ofStrain() const = 0;
-  /// Columns are points. `stress` [Pa], `strain` [-] and `rate` [1/s] have 4 rows, as Components; `slopes`, if
-  /// any, has the 4 x 4 derivatives by the stress [1/(Pa s)], column major, and, where G depends on the strain,
-  /// those by it [1/s] after them. Several threads may call it.
+  /// Columns are points; `stress` [Pa], `strain` [-], `rate` [1/s] have 4 rows, as Components. `slopes`, if
+  /// any, has the 4 x 4 derivatives by the stress [1/(Pa s)], column major, and, where G depends on the
+  /// strain, those by it [1/s] after them. Several threads may call it.
   virtual void evaluate(const Matrix& stress, const Matrix& strain, Matrix& rate, Matrix* slopes) const = 0;
   /// Rows of `slopes`.
   [[nodiscard]] int slopeRows() const { return ofStrain() ? 32 : 16; }
@@ -82,7 +82,8 @@ class TypedRateLaw final : public RateLaw {
  public:
   explicit TypedRateLaw(Law law) : law_(std::move(law)) {}
   [[nodiscard]] bool ofStrain() const override { return Law::ofStrain; }
-  void evaluate(const Matrix& stress, const Matrix& strain, Matrix& rate, Matrix* slopes) const override {
+  [[gnu::flatten]] void evaluate(const Matrix& stress, const Matrix& strain, Matrix& rate,
+                                 Matrix* slopes) const override {
     evaluateInLanes<Law::ofStrain>(
         [this]<int n>(const Dual<n>* in, Dual<n>* out) {
           const Components<Dual<n>> all = law_.rateOf(Components<Dual<n>>{in[0], in[1], in[2], in[3]},

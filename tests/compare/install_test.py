@@ -67,6 +67,31 @@ class Install(InSharedFolder):
         for row, (_, _, force) in zip(history, rows[1:]):
             self.assertAlmostEqual(float(row["contact_force[N/m]"]), float(force), delta=1e-14 * float(force))
 
+        self.compare_own_law(build / "own_law", package / "bin/mortier")
+
+    def compare_own_law(self, example, program):
+        """The example's law beside the same one as expressions."""
+        mises = "sqrt(s11^2 + s22^2 + s33^2 - s11*s22 - s22*s33 - s33*s11 + 3*s12^2)"
+        rates = "".join(f'rate{c} = "flow*(s{c}{"" if c == "12" else " - mean"})"\n'
+                        for c in ("11", "22", "12", "33"))
+        expression = (f'law = "expression"\n{rates}[body.material.parameters]\nratio = "{mises}/stress"\n'
+                      'mean = "(s11 + s22 + s33)/3"\n'
+                      'flow = "1.5*rate/stress*(ratio > 1e-4 ? sinh(ratio)/ratio : 1 + ratio^2/6)"\n')
+        scene = self.folder / "own.toml"
+        for law in (expression, 'law = "sinh-creep"\n[body.material.parameters]\n'):
+            scene.write_text('plane = "strain"\n[[body]]\nname = "bar"\nmesh = { shape = "rectangle", '
+                             'cells = 2, lower = [0, 0], upper = [1, 1] }\n[body.material]\nyoung = 2e11\n'
+                             f'poisson = 0.3\n{law}rate = 1e-3\nstress = 2e7\n[[body.boundary]]\n'
+                             'label = 1\nux = 0\nuy = 0\n[[body.boundary]]\nlabel = 3\n'
+                             'uy = "1e-3*min(t, 0.5)"\n[time]\nend = 1\nsteps = 4\n')
+            if law is expression:
+                output(program, "run", scene, "--quiet", "--out", self.folder / "own")
+        history = list(csv.DictReader((self.folder / "own/history.csv").read_text().splitlines()))
+        rows = [line.split() for line in output(example, scene).splitlines()]
+        self.assertEqual(len(rows), 5)
+        for row, (_, largest) in zip(history, rows[1:]):
+            self.assertAlmostEqual(float(row["von_mises_max[Pa]"]) / float(largest), 1, delta=1e-10)
+
     def test_pictures_and_reports_of_the_installed_program(self):
         program = self.prefix / "bin/mortier"
         output(program, "run", ROOT / "scenes/compression.toml", "--quiet", "--out", "drawn", "--set",

@@ -181,8 +181,9 @@ TEST(OwnMaterial, regularisedLawIsMet) {
     Linearisation theirs = builtIn->room(1);
     own->regularise(step, stress, Vector::Zero(1), 1, ours, 0, 1);
     builtIn->regularise(step, stress, Vector::Zero(1), 1, theirs, 0, 1);
-    if (name.find("Perzyna") == std::string::npos)
+    if (name.find("Perzyna") == std::string::npos) {
       EXPECT_LE((ours.predictor - theirs.predictor).norm(), 1e-11 * theirs.predictor.norm()) << name;
+    }
     Matrix rate;
     Matrix elastic;
     Matrix back;
