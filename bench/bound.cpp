@@ -39,10 +39,10 @@ void row(int cells, CouplingKind coupling, int rounds) {
     unit.push_back(secondsOf([&] { bare.factoriseAndSolve(1); }));
     cost.push_back(secondsOf([&] { bound = energyBound(model, state); }));
   }
-  std::printf("%9zu %-14s %8.0f %8.0f %6.2f %8.3f   %s\n", triangles, nameOf(coupling),
+  std::printf("%9zu %-14s %8.0f %8.0f %6.2f %8.3f %9.1e   %s\n", triangles, nameOf(coupling),
               1e9 * median(unit) / static_cast<double>(triangles),
               1e9 * median(cost) / static_cast<double>(triangles), median(cost) / median(unit),
-              bound.bound / std::sqrt(error), bound.obstacle.c_str());
+              bound.bound / std::sqrt(error), bound.imbalance, bound.obstacle.c_str());
   std::fflush(stdout);
 }
 

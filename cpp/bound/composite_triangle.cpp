@@ -186,8 +186,8 @@ double CompositeTriangle::energyOf(const Moments& m, const Point& f) const {
   else
     values = loadValues(f);
   const Moments moments = momentsInReference(m);
-  for (int c = 0; c < 3; ++c) values.col(c) += reference().stress[c] * moments;
-  Eigen::Matrix3d products = values.transpose() * values;
+  for (int c = 0; c < 3; ++c) values.col(c) += reference().stress[c].lazyProduct(moments);
+  Eigen::Matrix3d products = values.transpose().lazyProduct(values);
   for (int part = 0; part < 3; ++part) {
     const Eigen::RowVector3d sum = values.middleRows<3>(3 * part).colwise().sum();
     products += sum.transpose() * sum;
@@ -268,7 +268,7 @@ std::array<Stress, 9> CompositeTriangle::stressOf(const Moments& m, const Point&
 
 double CompositeTriangle::defect(const Moments& m) const {
   const Moments moments = momentsInReference(m);
-  const Eigen::Matrix<double, 30, 1> left = reference().defects * moments;
+  const Eigen::Matrix<double, 30, 1> left = reference().defects.lazyProduct(moments);
   return left.cwiseAbs().maxCoeff() / std::max(moments.cwiseAbs().maxCoeff(), 1e-300) *
          m.cwiseAbs().maxCoeff();
 }

@@ -6,6 +6,7 @@
 
 #include "base/interrupt.h"
 #include "bound/relaxation.h"
+#include "bound/strip_balance.h"
 #include "fem/rigid_modes.h"
 #include "linear/condensing_solver.h"
 #include "material/stress.h"
@@ -15,6 +16,9 @@ namespace {
 
 /// Directions that make a smaller angle are one [rad].
 constexpr double same = 1e-9;
+
+/// A body of fewer triangles is solved as a whole for what is out of balance.
+constexpr size_t many = 1000;
 
 /// (p, q, r) of (s11, s22, s12), and the same for strains.
 Eigen::Matrix3d toBasis() {
@@ -255,6 +259,10 @@ std::vector<double> LoadedBody::tangent() const {
 bool LoadedBody::equilibrate(std::vector<Stress>& stress) const {
   constexpr int most = 4;
   constexpr double enough = 1e-10;  // of the largest force
+  Vector left = leftOver(load_, stress);
+  const double size =
+      std::max(body_.gather(left).lpNorm<Eigen::Infinity>(), body_.gather(load_).lpNorm<Eigen::Infinity>());
+  if (stress.size() >= many && balanceStrip(body_, sides_, moduli_, size, left, stress)) return true;
   std::vector<double> values = tangent();
   pin(values);
   auto solver = multifrontalSolver(body_.pattern(), {});
@@ -262,8 +270,7 @@ bool LoadedBody::equilibrate(std::vector<Stress>& stress) const {
     solver = suiteSparseSolver(body_.pattern(), {});
     if (!solver->factorise(values)) return false;
   }
-  Vector x = body_.gather(leftOver(load_, stress));
-  const double size = std::max(x.lpNorm<Eigen::Infinity>(), body_.gather(load_).lpNorm<Eigen::Infinity>());
+  Vector x = body_.gather(left);
   for (int i = 0; i < most; ++i) {
     solver->condense(x);
     solver->expand(x);

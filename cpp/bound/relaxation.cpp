@@ -10,7 +10,7 @@ namespace mortier {
 namespace {
 
 /// More iterations are not worthwhile where two of them take no more than this part of the energy.
-constexpr double worthwhile = 0.01;
+const double worthwhile = std::getenv("W") ? std::atof(std::getenv("W")) : 0.01;
 constexpr int mostIterations = 200;
 
 /// A body of fewer triangles is solved directly.
@@ -83,7 +83,7 @@ int Relaxation::iterate(double worthwhile) {
     const CompositeTriangle element = elementOf(t);
     MomentMatrix K = element.airyEnergy();
     const AiryModes off = element.airyOf(differenceOf(t, element));
-    AiryModes b = -K * off;
+    AiryModes b = -K.lazyProduct(off);
     double energy = -b.dot(off);
     if (forces_[t] != Point(0, 0)) {
       const AiryModes load = element.airyLoadProduct(forces_[t]);
