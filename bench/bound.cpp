@@ -20,7 +20,8 @@ using namespace mortier::scenes;
 
 void row(int cells, CouplingKind coupling, int rounds) {
   const std::array<HalfOpenContact, 2> exact{{{{1, 0.3}, false}, {{1, 0.3}, true}}};
-  const Model model = contactModel(exact[0].body(cells), exact[1].body(3 * cells / 2 + 1), coupling, upperBody);
+  const Model model =
+      contactModel(exact[0].body(cells), exact[1].body(3 * cells / 2 + 1), coupling, upperBody);
   const State state = run(model, 1, 1).state;
   BareCholmod bare;
   double error = 0;

@@ -33,12 +33,13 @@ Eigen::Matrix<double, 9, 9> massMatrix() {
 }
 
 struct Reference {
-  std::array<Table, 3> stress;  ///< by components: values of the stress with given moments
+  Eigen::Matrix<double, 27, 12> stresses;  ///< values of the stress with given moments, by components
+  std::array<Table, 3> stress;             ///< the same
   Eigen::Matrix<double, 9, 9> mass = massMatrix();
   /// Of components a, b = 00, 11, 22, 01, 02, 12: the energy of moments by a coefficient.
   std::array<MomentMatrix, 6> energies;
   std::array<MomentMatrix, 6> airyEnergies;  ///< the same by Airy modes
-  Eigen::Matrix<double, 30, 12> defects;  ///< what is off in the stress of moments
+  Eigen::Matrix<double, 30, 12> defects;     ///< what is off in the stress of moments
 
   static constexpr int column(int part, int vertex, int component) {
     return 9 * component + 3 * part + vertex;
@@ -76,6 +77,7 @@ struct Reference {
     given.topRows<12>().setIdentity();
     const Eigen::Matrix<double, 27, 12> all =
         Eigen::MatrixXd(conditions).colPivHouseholderQr().solve(Eigen::MatrixXd(given));
+    stresses = all;
     for (int c = 0; c < 3; ++c) stress[c] = all.middleRows<9>(9 * c);
     defects = conditions * all - given;
     const MomentMatrix airy = momentsOfAiry(referenceCorners);
@@ -88,6 +90,14 @@ struct Reference {
     }
   }
 };
+
+/// A x, a column after the other: small matrices that lie in few cache lines.
+template <class Columns>
+Eigen::Matrix<double, Columns::RowsAtCompileTime, 1> times(const Columns& A, const Moments& x) {
+  Eigen::Matrix<double, Columns::RowsAtCompileTime, 1> result = x[0] * A.col(0);
+  for (int c = 1; c < 12; ++c) result += x[c] * A.col(c);
+  return result;
+}
 
 const Reference& reference() {
   static const Reference only;
@@ -110,8 +120,8 @@ CompositeTriangle::CompositeTriangle(const std::array<Point, 3>& corners, const 
       c * c, d * d, 2 * c * d,   //
       a * c, b * d, a * d + b * c;
   P /= J_;
-  reference_ = J_ * P.transpose() * compliance * P;
-  toReference_ = P.inverse();
+  fromReference_ = P;
+  reference_ = J_ * P.transpose().lazyProduct(compliance.lazyProduct(P).eval());
 }
 
 namespace {
@@ -180,19 +190,19 @@ AiryModes CompositeTriangle::airyOf(const Moments& m) const {
 }
 
 double CompositeTriangle::energyOf(const Moments& m, const Point& f) const {
-  Eigen::Matrix<double, 9, 3> values;
-  if (f == Point(0, 0))
-    values.setZero();
-  else
-    values = loadValues(f);
-  const Moments moments = momentsInReference(m);
-  for (int c = 0; c < 3; ++c) values.col(c) += reference().stress[c].lazyProduct(moments);
-  Eigen::Matrix3d products = values.transpose().lazyProduct(values);
-  for (int part = 0; part < 3; ++part) {
-    const Eigen::RowVector3d sum = values.middleRows<3>(3 * part).colwise().sum();
-    products += sum.transpose() * sum;
-  }
-  return products.cwiseProduct(reference_).sum() / 72;
+  Eigen::Matrix<double, 27, 1> values = times(reference().stresses, momentsInReference(m));
+  if (f != Point(0, 0)) values += loadValues(f).reshaped();
+  double energy = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j <= i; ++j) {
+      const auto a = values.segment<9>(9 * i);
+      const auto b = values.segment<9>(9 * j);
+      double product = a.dot(b);
+      for (int part = 0; part < 9; part += 3)
+        product += (a[part] + a[part + 1] + a[part + 2]) * (b[part] + b[part + 1] + b[part + 2]);
+      energy += (i == j ? 1 : 2) * reference_(i, j) * product;
+    }
+  return energy / 72;
 }
 
 Moments CompositeTriangle::momentsOf(const Stress& stress) const {
@@ -223,11 +233,12 @@ Moments CompositeTriangle::momentsOfLoad(const Point& f) const {
 /// Components of the reference triangle by vertices of the parts.
 Eigen::Matrix<double, 9, 3> CompositeTriangle::loadValues(const Point& f) const {
   const Point centre = (x_[0] + x_[1] + x_[2]) / 3;
+  const Eigen::Matrix3d toReference = fromReference_.inverse();
   Eigen::Matrix<double, 9, 3> values;
   for (int part = 0; part < 3; ++part)
     for (int k = 0; k < 3; ++k) {
       const Point y = k == 2 ? Point(0, 0) : Point(x_[(part + k) % 3] - centre);
-      values.row(3 * part + k) = (toReference_ * Stress(-f.x() * y.x(), -f.y() * y.y(), 0)).transpose();
+      values.row(3 * part + k) = (toReference * Stress(-f.x() * y.x(), -f.y() * y.y(), 0)).transpose();
     }
   return values;
 }
@@ -260,15 +271,14 @@ std::array<Stress, 9> CompositeTriangle::stressOf(const Moments& m, const Point&
   Eigen::Matrix<double, 9, 3> values = loadValues(f);
   const Moments moments = momentsInReference(m);
   for (int c = 0; c < 3; ++c) values.col(c) += reference().stress[c] * moments;
-  const Eigen::Matrix3d fromReference = toReference_.inverse();
   std::array<Stress, 9> result;
-  for (int i = 0; i < 9; ++i) result[i] = fromReference * values.row(i).transpose();
+  for (int i = 0; i < 9; ++i) result[i] = fromReference_ * values.row(i).transpose();
   return result;
 }
 
 double CompositeTriangle::defect(const Moments& m) const {
   const Moments moments = momentsInReference(m);
-  const Eigen::Matrix<double, 30, 1> left = reference().defects.lazyProduct(moments);
+  const Eigen::Matrix<double, 30, 1> left = times(reference().defects, moments);
   return left.cwiseAbs().maxCoeff() / std::max(moments.cwiseAbs().maxCoeff(), 1e-300) *
          m.cwiseAbs().maxCoeff();
 }

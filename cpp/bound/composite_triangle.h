@@ -65,8 +65,8 @@ class CompositeTriangle {
   Eigen::Matrix2d F_;
   Eigen::Matrix2d inverse_;  ///< of F
   double J_;
-  Eigen::Matrix3d reference_;    ///< J P'S P, P taking (S11, S22, S12) to (s11, s22, s12)
-  Eigen::Matrix3d toReference_;  ///< P^-1
+  Eigen::Matrix3d reference_;      ///< J P'S P, P taking (S11, S22, S12) to (s11, s22, s12)
+  Eigen::Matrix3d fromReference_;  ///< P
 };
 
 /// What units of the Airy modes of a triangle do to its moments.

@@ -249,7 +249,7 @@ class Lifting {
 
   const std::vector<LiftedBody>& bodies_;
   std::vector<std::vector<Eigen::Vector3d>> strains_;  ///< of w, by bodies and triangles
-  std::vector<std::vector<size_t>> strained_;            ///< triangles that may be, by bodies
+  std::vector<std::vector<size_t>> strained_;          ///< triangles that may be, by bodies
   std::vector<std::vector<int>> near_;
   std::vector<std::vector<int>> supportOf_;
   std::vector<std::vector<std::vector<int>>> facingAt_;  ///< by bodies and vertices

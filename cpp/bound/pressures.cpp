@@ -32,9 +32,9 @@ void matchResultants(const ContactInterface& interface, const TriangleMesh& mesh
       const int row = piece->rows[k];
       const auto m = momentsOfLinear(piece->values[k], piece->length);
       for (int end = 0; end < 2; ++end) {
-        const Point x = (cut.mesh.vertices[piece->vertices[0][end]] -
-                         mesh.vertices[interface.nonmortarNodes().front()]) /
-                        scale;
+        const Point x =
+            (cut.mesh.vertices[piece->vertices[0][end]] - mesh.vertices[interface.nonmortarNodes().front()]) /
+            scale;
         const Eigen::Vector3d part = resultant(x, spread[row] * m[end] * piece->normal);
         left -= part;
         M.col(0) += part;
@@ -62,7 +62,8 @@ std::vector<Vector> spreadPressures(const Model& model, const State& state, cons
     for (const MatchedPiece& piece : meshes.pieces)
       if (piece.interface == static_cast<int>(i)) pieces.push_back(&piece);
     if (!pieces.empty())
-      matchResultants(interface, model.bodies[body].mesh(), forces[i], pieces, meshes.bodies[body], spread[i]);
+      matchResultants(interface, model.bodies[body].mesh(), forces[i], pieces, meshes.bodies[body],
+                      spread[i]);
   }
   return spread;
 }

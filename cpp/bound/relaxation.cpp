@@ -10,7 +10,7 @@ namespace mortier {
 namespace {
 
 /// More iterations are not worthwhile where two of them take no more than this part of the energy.
-const double worthwhile = std::getenv("W") ? std::atof(std::getenv("W")) : 0.01;
+constexpr double worthwhile = 0.002;
 constexpr int mostIterations = 200;
 
 /// A body of fewer triangles is solved directly.

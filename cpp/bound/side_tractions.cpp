@@ -172,8 +172,8 @@ Sides::Sides(const TriangleMesh& mesh) : ofTriangle_(3 * mesh.triangles.size()) 
   sides_.reserve(halves.size() / 2 + mesh.boundaryEdges.size());
   std::vector<std::array<int, 2>> atVertices;
   for (size_t i = 0; i < halves.size(); ++i) {
-    const bool second = i > 0 && halves[i].edge[0] == halves[i - 1].edge[0] &&
-                        halves[i].edge[1] == halves[i - 1].edge[1];
+    const bool second =
+        i > 0 && halves[i].edge[0] == halves[i - 1].edge[0] && halves[i].edge[1] == halves[i - 1].edge[1];
     const int triangle = halves[i].place / 3;
     const int k = halves[i].place % 3;
     if (!second) {

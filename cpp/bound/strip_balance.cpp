@@ -10,9 +10,7 @@
 namespace mortier {
 namespace {
 
-/// Rings at least, and the part of a body that is taken where more are needed for it.
-constexpr int fewestRings = 4;
-constexpr double share = 0.05;
+constexpr int rings = 3;
 /// Forces that are no more than this part of all are balanced.
 constexpr double balanced = 1e-13;
 /// Stiffness of springs, over that of the equations, for strips that nothing else holds.
@@ -34,8 +32,7 @@ class Strip {
         reached[v] = 1;
         ring.push_back(v);
       }
-    const double enough = share * static_cast<double>(mesh.triangles.size());
-    for (int i = 0; !ring.empty() && (i < fewestRings || static_cast<double>(triangles_.size()) < enough); ++i) {
+    for (int i = 0; i < rings; ++i) {
       std::vector<int> next;
       for (const int v : ring)
         for (const int t : sides_.trianglesAt(v)) {
@@ -59,36 +56,39 @@ class Strip {
 
   bool factorise() {
     struct Entry {
-      int column, row;
+      int row;
       double value;
     };
-    std::vector<Entry> entries;
-    entries.reserve(21 * triangles_.size());
+    std::vector<std::vector<Entry>> columns(equations_.size());
     for (const int t : triangles_) {
       const Eigen::Matrix<double, 3, 6> B = strains(t);
       const Eigen::Matrix<double, 6, 6> K = body_.weights()[t] * B.transpose() * moduli_[t] * B;
       const std::array<int, 6> at = equationsOf(t);
       for (int i = 0; i < 6; ++i)
-        for (int j = 0; j < 6; ++j)
-          if (at[i] >= 0 && at[j] >= 0 && at[i] >= at[j]) entries.push_back({at[j], at[i], K(i, j)});
+        for (int j = 0; j < 6; ++j) {
+          if (at[j] < 0 || at[i] < at[j]) continue;
+          std::vector<Entry>& column = columns[at[j]];
+          const auto found = std::find_if(column.begin(), column.end(),
+                                          [&](const Entry& each) { return each.row == at[i]; });
+          if (found == column.end())
+            column.push_back({at[i], K(i, j)});
+          else
+            found->value += K(i, j);
+        }
     }
-    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-      return a.column != b.column ? a.column < b.column : a.row < b.row;
-    });
     SparsePattern pattern;
     pattern.size = static_cast<int>(equations_.size());
-    pattern.columnStart.assign(pattern.size + 1, 0);
+    pattern.columnStart = {0};
     std::vector<double> values;
-    for (size_t k = 0; k < entries.size(); ++k) {
-      const auto& [column, row, value] = entries[k];
-      if (k == 0 || entries[k - 1].column != column || entries[k - 1].row != row) {
-        ++pattern.columnStart[column + 1];
+    for (std::vector<Entry>& column : columns) {
+      std::sort(column.begin(), column.end(), [](const Entry& a, const Entry& b) { return a.row < b.row; });
+      column.front().value *= 1 + spring;  // the diagonal
+      for (const auto& [row, value] : column) {
         pattern.rows.push_back(row);
-        values.push_back(0);
+        values.push_back(value);
       }
-      values.back() += row == column ? (1 + spring) * value : value;
+      pattern.columnStart.push_back(pattern.entries());
     }
-    for (int c = 0; c < pattern.size; ++c) pattern.columnStart[c + 1] += pattern.columnStart[c];
     solver_ = multifrontalSolver(pattern, {});
     return solver_->factorise(values);
   }
@@ -108,7 +108,8 @@ class Strip {
       stress[t] += toCartesian(s);
       const Eigen::Matrix<double, 6, 1> forces = body_.weights()[t] * B.transpose() * s;
       for (int i = 0; i < 3; ++i)
-        left.segment<2>(2 * body_.mesh().triangles[t][i]) -= directions(t, i).transpose() * forces.segment<2>(2 * i);
+        left.segment<2>(2 * body_.mesh().triangles[t][i]) -=
+            directions(t, i).transpose() * forces.segment<2>(2 * i);
     }
   }
 
@@ -126,8 +127,7 @@ class Strip {
     std::array<int, 6> result{};
     for (int i = 0; i < 3; ++i) {
       const auto parts = body_.parts(body_.mesh().triangles[t][i], Point(0, 0));
-      for (int k = 0; k < 2; ++k)
-        result[2 * i + k] = parts[k].equation < 0 ? -1 : number_[parts[k].equation];
+      for (int k = 0; k < 2; ++k) result[2 * i + k] = parts[k].equation < 0 ? -1 : number_[parts[k].equation];
     }
     return result;
   }
@@ -136,8 +136,7 @@ class Strip {
     const auto& v = body_.mesh().triangles[t];
     Eigen::Matrix<double, 3, 6> B;
     for (int i = 0; i < 3; ++i) {
-      const Point opposite =
-          body_.mesh().vertices[v[(i + 2) % 3]] - body_.mesh().vertices[v[(i + 1) % 3]];
+      const Point opposite = body_.mesh().vertices[v[(i + 2) % 3]] - body_.mesh().vertices[v[(i + 1) % 3]];
       const Point g = Point(-opposite.y(), opposite.x()) / (2 * body_.weights()[t]);
       Eigen::Matrix<double, 3, 2> ofCorner;
       ofCorner.col(0) = fromCartesian({g.x(), 0, g.y() / 2});

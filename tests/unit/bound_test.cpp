@@ -7,10 +7,12 @@
 #include <random>
 
 #include "bound/matched_meshes.h"
+#include "bound/pressures.h"
 #include "bound/relaxation.h"
 #include "bound/strip_balance.h"
 #include "material/stress.h"
 #include "mesh/generate.h"
+#include "theory/half_open_contact.h"
 #include "theory/scenes.h"
 
 namespace mortier {
@@ -291,6 +293,31 @@ TEST(Relaxation, keepsEquilibriumAndLowersTheEnergyToThatOfAnExactStress) {
     }
     found.expectBalance();
     EXPECT_NEAR(relaxation.energies().sum(), found.best, 1e-9 * found.best);
+  }
+}
+
+// ---- pressures
+TEST(SpreadPressures, haveTheForceAndTheMomentOfTheNodalForces) {
+  const std::array<HalfOpenContact, 2> exact{{{{1, 0.3}, false}, {{1, 0.3}, true}}};
+  for (const CouplingKind coupling : couplings) {
+    const Model model = contactModel(exact[0].body(6), exact[1].body(10), coupling, upperBody);
+    const State state = run(model, 1, 1).state;
+    const MatchedMeshes meshes = matchedMeshes(model);
+    const std::vector<Vector> spread = spreadPressures(model, state, meshes);
+    double force = state.contactForce[0].sum();
+    const double all = force;
+    double moment = 0;
+    for (int row = 0; row < model.interfaces[0].rows(); ++row)
+      moment += model.bodies[0].mesh().vertices[model.interfaces[0].nonmortarNodes()[row]].x() *
+                state.contactForce[0][row];
+    for (const MatchedPiece& piece : meshes.pieces) {
+      const auto m = momentsOfLinear(pressureOn(piece, spread), piece.length);
+      force -= m[0] + m[1];
+      for (int end = 0; end < 2; ++end)
+        moment -= m[end] * meshes.bodies[0].mesh.vertices[piece.vertices[0][end]].x();
+    }
+    EXPECT_NEAR(force, 0, 1e-13 * all);
+    EXPECT_NEAR(moment, 0, 1e-13 * all);
   }
 }
 
