@@ -64,7 +64,7 @@ class OwnMaterial final : public Material {
   [[nodiscard]] double stressScale() const override { return 0; }
   /// Not known without a stress.
   [[nodiscard]] double stiffness(double weight) const override { return weight > 0 ? 1 : 0; }
-  [[nodiscard]] bool flows(const Matrix& stress, int point) const override {
+  [[nodiscard]] bool flows(const Matrix& stress, int point, const Matrix* /*strain*/) const override {
     if (ofStrain()) return true;
     Points at(stress.col(point));
     evaluate(at, nullptr);

@@ -25,8 +25,9 @@ class TurnedMaterial final : public Material {
   [[nodiscard]] bool ofStrain() const override { return inner_->ofStrain(); }
   [[nodiscard]] double stressScale() const override { return inner_->stressScale(); }
   [[nodiscard]] double stiffness(double weight) const override { return inner_->stiffness(weight); }
-  [[nodiscard]] bool flows(const Matrix& stress, int point) const override {
-    return inner_->flows(in(stress, point, point + 1), 0);
+  [[nodiscard]] bool flows(const Matrix& stress, int point, const Matrix* strain) const override {
+    const Matrix own = strain == nullptr ? Matrix() : in(*strain, point, point + 1);
+    return inner_->flows(in(stress, point, point + 1), 0, strain == nullptr ? nullptr : &own);
   }
 
   using Material::choosePenalty, Material::elasticStrain, Material::interiorPath, Material::viscoplasticRate;

@@ -1,0 +1,112 @@
+#include "commands/freefem_materials.h"
+
+#include <variant>
+
+#include "commands/freefem_expression.h"
+#include "commands/freefem_text.h"
+#include "scene/document.h"
+
+namespace mortier {
+namespace {
+
+/// Relaxation time of every body and the part of its shear modulus that is left; 0 where it does not relax.
+std::string relaxes(const SceneDescription& scene) {
+  std::string text;
+  bool any = false;
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    const auto* law = scene.bodies[b].material.as<Viscoelasticity>();
+    any = any || law != nullptr;
+    const std::string n = std::to_string(b + 1);
+    text += "real tauM" + n + " = " + shortest(law ? law->relaxationTime : 0) + ", leftM" + n + " = " +
+            shortest(law ? law->relaxedFraction : 0) + ";\n";
+  }
+  return any ? "macro relaxing yes //  shear relaxes: time [" + scene.units.time +
+                   "] and the part that is left\n" + text
+             : "";
+}
+
+/// Reference stress, rate and exponent of every body; a rate of 0 where it does not creep by Norton's law.
+std::string creeps(const SceneDescription& scene) {
+  std::string text;
+  bool any = false;
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    const auto* creep = scene.bodies[b].material.as<NortonCreep>();
+    any = any || creep != nullptr;
+    const std::string n = std::to_string(b + 1);
+    text += "real sigmaN" + n + " = " + shortest(creep ? creep->referenceStress : 1) + ", rateN" + n + " = " +
+            shortest(creep ? creep->referenceRate : 0) + ", powerN" + n + " = " +
+            shortest(creep ? creep->exponent : 1) + ";\n";
+  }
+  const std::string unit = "[" + scene.units.stress + "]";
+  return any ? "macro norton yes //  creep: reference stress " + unit + " and rate [1/" + scene.units.time +
+                   "], exponent\n" + text
+             : "";
+}
+
+/// Flow by the overstress of every body; a yield stress of 0 where it has none.
+std::string overstresses(const SceneDescription& scene) {
+  std::string text;
+  bool any = false;
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    const auto* given = scene.bodies[b].material.as<Overstress>();
+    any = any || given != nullptr;
+    const std::string n = std::to_string(b + 1);
+    const Overstress law = given != nullptr ? *given : Overstress();
+    text += "real yieldO" + n + " = " + shortest(law.yieldStress) + ", sigmaO" + n + " = " +
+            shortest(law.referenceStress) + ", rateO" + n + " = " + shortest(law.referenceRate) + ", powerO" +
+            n + " = " + shortest(law.exponent) + ", backO" + n + " = " + shortest(law.kinematicHardening) +
+            ", growO" + n + " = " + shortest(law.isotropicHardening) + ";\n";
+  }
+  const std::string unit = "[" + scene.units.stress + "]";
+  return any ? "macro overstressed yes //  yield stress, overstress " + unit + ", its rate [1/" +
+                   scene.units.time + "], exponent, kinematic and isotropic hardening " + unit + "\n" + text
+             : "";
+}
+
+/// One macro for all bodies whose elasticity is not isotropic; none where there are none.
+std::string anisotropies(const SceneDescription& scene) {
+  std::string text;
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    const auto& own = scene.bodies[b].material.anisotropy;
+    if (!own) continue;
+    const std::string begin =
+        std::to_string(b + 1) + ", " + (own->angle ? "(" + freefemExpression(*own->angle) + ")" : "0.");
+    const auto with = [](std::string all, const std::vector<double>& numbers) {
+      for (const double number : numbers) all += ", " + shortest(number);
+      return all + ") ";
+    };
+    if (const auto* o = std::get_if<Orthotropy>(&own->moduli)) {
+      const auto orOne = [](double x, double other) { return std::isnan(x) ? other : x; };
+      text += with("orthotropy(" + begin, {o->young[0], o->young[1], orOne(o->young[2], 1), o->poisson[0],
+                                           orOne(o->poisson[1], 0), orOne(o->poisson[2], 0), o->shear});
+      continue;
+    }
+    const Matrix& c = std::get<Matrix>(own->moduli);
+    const auto across = [&](int j) { return c.rows() > 3 ? c(3, j) : 0; };
+    text += with("stiffness(" + begin,
+                 {c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2), across(0), across(1), across(2)});
+  }
+  return text.empty() ? text : "macro anisotropic " + text + "//  body, angle of axis 1, constants\n";
+}
+
+/// One macro for all bodies with a temperature; none where there are none.
+std::string temperatures(const SceneDescription& scene) {
+  std::string text;
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    const auto& temperature = scene.bodies[b].temperature;
+    if (!temperature) continue;
+    text += "temperature(" + std::to_string(b + 1) + ", " + shortest(scene.bodies[b].material.expansion[0]) +
+            ", " +
+            (temperature->file.empty() ? "\"\"" : freefemString(temperature->file, temperature->where)) +
+            ", " + freefemExpression(temperature->value) + ") ";
+  }
+  return text.empty() ? text : "macro temperatures " + text + "//  body, expansion, file, factor\n";
+}
+
+}  // namespace
+
+std::string freefemMaterials(const SceneDescription& scene) {
+  return creeps(scene) + relaxes(scene) + overstresses(scene) + anisotropies(scene) + temperatures(scene);
+}
+
+}  // namespace mortier

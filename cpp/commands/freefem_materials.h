@@ -1,0 +1,13 @@
+// What the materials of a FreeFEM script have beside isotropic elasticity and Perzyna's law.
+#pragma once
+
+#include <string>
+
+#include "scene/scene.h"
+
+namespace mortier {
+
+/// Macros and numbers of every body (freefem/README.md); nothing where no body has any of it.
+std::string freefemMaterials(const SceneDescription& scene);
+
+}  // namespace mortier
