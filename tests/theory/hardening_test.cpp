@@ -184,6 +184,36 @@ TEST(Hardening, plasticityIsExactOnStraightPaths) {
       }
 }
 
+// A block on a wider one, pressed unevenly: what viscosity adds falls with it.
+TEST(Hardening, plasticityIsTheLimitOfSmallViscosity) {
+  for (const Plane plane : {Plane::stress, Plane::strain}) {
+    const auto pressed = [&](double viscosity) {
+      Overstress law{1, 0, 1, 1, 8, 5};
+      law.setViscosity(viscosity);
+      const auto material = overstressMaterial(elasticity, law, plane);
+      const Function load = [](double x, double, double t) { return -2 * t * (1 + x); };
+      Body upper("upper", square(0, 3), material, {{{left, alongX, constant(0)}}, {{top, alongY, load}}, {}});
+      Body lower("lower", crissCrossMesh({.lower = {0, -1}, .upper = {2, 0}, .cellsX = 5, .cellsY = 3}),
+                 material, {{{left, alongX, constant(0)}, {bottom, alongY, constant(0)}}, {}, {}});
+      const auto [state, report] =
+          run(contactModel(std::move(upper), std::move(lower), CouplingKind::mortar, upperBody), 1, 8);
+      EXPECT_EQ(report.status, Status::converged) << report.reason;
+      EXPECT_LE(report.iterations, 60);
+      return state.bodies[0].displacement;
+    };
+    const Vector plastic = pressed(0);
+    std::vector<double> viscosities;
+    std::vector<double> errors;
+    for (const double viscosity : {1e-2, 1e-3, 1e-4}) {
+      viscosities.push_back(viscosity);
+      errors.push_back((pressed(viscosity) - plastic).norm() / plastic.norm());
+    }
+    std::cout << "viscosity 1e-2, 1e-3, 1e-4: " << errors[0] << " " << errors[1] << " " << errors[2] << "\n";
+    EXPECT_NEAR(fittedOrder(viscosities, errors), 1, 0.05);
+    EXPECT_LE(errors.back(), 1e-4);
+  }
+}
+
 /// Two bars side by side under a platen that presses them with the mean stress P (in yield stresses), the
 /// foot of the first one raised by `lift` and lowered again, cycle by cycle. \returns how far the platen
 /// sinks in each cycle.
