@@ -21,6 +21,12 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
     force.add(body.largestForce(unknowns.stress));
     force.add(body.largestForce(stress0));  // of which rounding is left
     force.add(step.loads[b]);
+    // Of what expands freely rounding is left of the stress that it would have.
+    if (body.heated() && !step.data.thermal.empty()) {
+      Matrix held = step.state0.bodies[b].thermalStrain + step.data.thermal[b];
+      for (int i = 0; i < body.points(); ++i) held.col(i) = stressOf(bodies_[b].law(), held.col(i), i).eval();
+      force.add(body.largestForce(held));
+    }
     // A body that moves without any load and does not flow has forces that are nothing but rounding.
     if (bodies_[b].law().elastic == body.points())
       force.add(roundingOfMotion * bodies_[b].law().moduli.lpNorm<Eigen::Infinity>() *
