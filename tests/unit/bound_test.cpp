@@ -275,6 +275,7 @@ struct LinearStress {
 };
 
 TEST(Relaxation, keepsEquilibriumAndLowersTheEnergyToThatOfAnExactStress) {
+  std::array<double, 2> least{};
   for (const bool directly : {false, true}) {
     LinearStress found(8);
     Relaxation relaxation = found.relaxation();
@@ -292,8 +293,10 @@ TEST(Relaxation, keepsEquilibriumAndLowersTheEnergyToThatOfAnExactStress) {
       }
     }
     found.expectBalance();
-    EXPECT_NEAR(relaxation.energies().sum(), found.best, 1e-9 * found.best);
+    least[directly ? 1 : 0] = relaxation.energies().sum();
+    EXPECT_LE(least[directly ? 1 : 0], found.best);
   }
+  EXPECT_NEAR(least[0], least[1], 1e-9 * least[1]);
 }
 
 // ---- pressures
@@ -359,9 +362,10 @@ TEST(StripBalance, takesUpForcesThatBalanceEachOtherInAFewRings) {
   Vector left = balanced;
   ASSERT_TRUE(balanceStrip(found.body, found.sides, found.moduli, 1, left, found.stress));
   EXPECT_LE((found.forces() - balanced).cwiseAbs().maxCoeff(), 1e-12);
-  for (size_t t = 0; t < found.stress.size(); ++t)
-    if (found.body.mesh().vertices[found.body.mesh().triangles[t][0]].y() > 0.2)
-      EXPECT_TRUE(found.stress[t].isZero(0));
+  for (size_t t = 0; t < found.stress.size(); ++t) {
+    const bool far = found.body.mesh().vertices[found.body.mesh().triangles[t][0]].y() > 0.2;
+    EXPECT_TRUE(!far || found.stress[t].isZero(0));
+  }
 }
 
 TEST(StripBalance, leavesForcesThatTheRestOfTheBodyHasToHold) {
