@@ -201,8 +201,8 @@ std::string script(const SceneDescription& scene, const Model& model,
       << word(scene.contacts.front().variant) << "\";\nreal endTime = " << shortest(scene.time.end)
       << ";  // [" << scene.units.time << "]\nint steps = " << scene.time.steps
       << ";  // backward Euler, equal steps\n\n";
-  for (const char* part :
-       {"bodies", "supports", "lines", "coupling", "friction", "contact", "picture", "loop"}) {
+  for (const char* part : {"bodies", "strain", "supports", "lines", "coupling", "friction", "system", "law",
+                           "contact", "picture", "loop"}) {
     out << "include " << freefemString(method + '/' + part + ".idp", scene.path + ": the FreeFEM method")
         << '\n';
   }

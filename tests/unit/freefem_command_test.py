@@ -44,7 +44,7 @@ class Script(support.OfTwoBlocks):
                      "macro loads2 + int2d(Body2)(0.*v2) //",
                      "int[int, int] contact = [[2, 3, 1, 1]];", "string variant = \"mortar\";",
                      "int steps = 4;  // backward Euler, equal steps", "include \"freefem/bodies.idp\"",
-                     "include \"freefem/supports.idp\""]:
+                     "include \"freefem/strain.idp\"", "include \"freefem/supports.idp\""]:
             self.assertIn(line, text)
         self.assertNotIn("rollers", "".join(text))
         self.assertNotIn("distances", "".join(text))
