@@ -68,8 +68,9 @@ void expectHydrostatic(const Pair& pair, double& worst) {
       }
 }
 
+/// Straight lines through the origin on y = 0, level ones on y = -1 and 1.
 Map tilted(double slope) {
-  return [slope](const Point& x) { return Point(x.x(), x.y() + slope * x.x()); };
+  return [slope](const Point& x) { return Point(x.x(), x.y() + slope * x.x() * (1 - std::abs(x.y()))); };
 }
 
 TriangleMesh mapped(TriangleMesh mesh, const Map& map) {
@@ -81,7 +82,7 @@ TriangleMesh mapped(TriangleMesh mesh, const Map& map) {
 TEST(AxisymmetricContact, patchOfRingsOnEachOther) {
   double worst = 0;
   for (const double inner : {0.0, 1.0})
-    for (const double slope : {0.0, 0.5})  // flat, or cones
+    for (const double slope : {0.0, 0.25})  // flat, or cones
       expectHydrostatic({"stacked",
                          {mapped(shakenSection(inner, 2, 0, 1, 4, 1), tilted(slope)),
                           mapped(shakenSection(inner, 2, -1, 1, 7, 2), tilted(slope))},
@@ -170,7 +171,7 @@ TEST(AxisymmetricContact, hertz) {
   for (const int degree : {1, 2})
     for (const int nonmortar : {0, 1}) {
       Model model;
-      const int cells = degree == 1 ? 24 : 12;
+      const int cells = degree == 1 ? 40 : 20;
       const double indent = 0.04 * 0.04 * 1.02;
       model.bodies.emplace_back("ball", halfDiscMesh({{0, 0}, 1, 0.06, cells, true}),
                                 planeStrainElasticMaterial(ball),
@@ -186,7 +187,7 @@ TEST(AxisymmetricContact, hertz) {
                                 planeStrainElasticMaterial(plate),
                                 Conditions{{{bottom, alongY, constant(0)}}, {}, {}}, degree, true);
       const ContactSide sides[] = {{0, 1}, {1, top}};
-      addAxisymmetric(model, sides[nonmortar], sides[1 - nonmortar], CouplingKind::weighted);
+      addAxisymmetric(model, sides[nonmortar], sides[1 - nonmortar], CouplingKind::mortar);
       const auto [state, report] = run(model, 1, 1);
       ASSERT_EQ(report.status, Status::converged) << report.reason;
       const ContactInterface& interface = model.interfaces[0];
@@ -199,7 +200,7 @@ TEST(AxisymmetricContact, hertz) {
       std::vector<std::pair<double, double>> squares;
       for (Eigen::Index i = 0; i < p.size(); ++i) {
         const double r = carrier.elementNodes().places[interface.nonmortarNodes()[i]].x();
-        if (p[i] > 0 && r < 0.9 * exactRadius) squares.emplace_back(r * r, pressure[i] * pressure[i]);
+        if (p[i] > 0 && r < 0.7 * exactRadius) squares.emplace_back(r * r, pressure[i] * pressure[i]);
       }
       const Hertz found = fitted(squares);
       std::cout << "sphere on a plane, degree " << degree << ", nonmortar " << carrier.name() << ": a "
@@ -263,12 +264,13 @@ TEST(AxisymmetricContact, flatPunch) {
     double worst = 0;
     for (Eigen::Index i = 0; i < p.size(); ++i) {
       const double r = carrier.elementNodes().places[interface.nonmortarNodes()[i]].x();
-      if (r < 0.9) worst = std::max(worst, std::abs(pressure[i] * 2 * pi * std::sqrt(1 - r * r) / found - 1));
+      if (r < 0.75)
+        worst = std::max(worst, std::abs(pressure[i] * 2 * pi * std::sqrt(1 - r * r) / force - 1));
     }
     std::cout << "flat punch, nonmortar " << carrier.name() << ": force " << found / force
-              << " of Boussinesq's, error of the pressure within 0.9 a at most " << worst << "\n";
+              << " of Boussinesq's, error of the pressure within 0.75 a at most " << worst << "\n";
     EXPECT_NEAR(found / force, 1, 0.01);
-    EXPECT_LE(worst, 0.02);
+    EXPECT_LE(worst, 0.015);
   }
 }
 
