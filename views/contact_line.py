@@ -17,9 +17,9 @@ def boundary_edges(triangles):
 
 
 class ContactLine:
-    def __init__(self, run, nonmortar, mortar, rows, scale=1.0):
+    def __init__(self, run, nonmortar, mortar, rows, scale=1.0, axes=("x", "y")):
         """rows: of run.contact, the nodes of the line in its order, the nonmortar body to the left; scale: of
-        the displacements in the traces of both sides."""
+        the displacements in the traces of both sides; axes: names of the coordinates."""
         self.scale = scale
         self.nonmortar, self.mortar = nonmortar, mortar
         across = run.contact.position[rows[-1]] - run.contact.position[rows[0]]
@@ -30,7 +30,7 @@ class ContactLine:
         self.lengths = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(self.points, axis=0).T))])
         # The coordinate that grows along the line names its points better than the length does.
         self.abscissa, self.name = self.lengths, "length along the line"
-        for name, values in zip("xy", self.points.T):
+        for name, values in zip(axes, self.points.T):
             if (np.diff(values) >= 0).all() and np.ptp(values) > 0.8 * self.lengths[-1]:
                 self.abscissa, self.name = values, name
                 break

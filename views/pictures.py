@@ -112,8 +112,8 @@ def draw_whole(axes, view, scale, window, field, values, norm, colours):
     axes.set_xlim(window[0], window[1])
     axes.set_ylim(window[2], window[3])
     unit = view.result.length_unit
-    axes.set_xlabel(labelled("x", unit))
-    axes.set_ylabel(labelled("y", unit))
+    axes.set_xlabel(labelled(view.result.axes[0], unit))
+    axes.set_ylabel(labelled(view.result.axes[1], unit))
 
 
 def whole_window(views, scale):

@@ -22,6 +22,7 @@ class Field:
 
 
 STRESSES, STRAINS = ("s11", "s22", "s12", "s33"), ("e11", "e22", "e12", "e33")
+AROUND_AXIS = (" (radial)", " (axial)", " (shear)", " (hoop)")  # what these are of bodies of revolution
 
 
 class Result:
@@ -42,6 +43,9 @@ class Result:
                 for each in self.interfaces):
             raise results.ResultError(f"{self.folder / 'summary.json'}: interfaces of bodies that "
                                       "there are not")
+        revolved = self.summary.get("plane") == "axisymmetric"
+        self.axes = ("r", "z") if revolved else ("x", "y")
+        self.meanings = AROUND_AXIS if revolved else ("",) * 4
         self.kept = results.kept_steps(self.folder)
         self.tables = results.contact_tables(self.folder)
         self.history = results.read_history(self.folder)
@@ -117,7 +121,8 @@ class Result:
         for k, interface in enumerate(self.interfaces):
             rows = np.flatnonzero(run.contact.interface == k)
             if len(rows) > 1:
-                found.append(ContactLine(run, interface["nonmortar"], interface["mortar"], rows, scale))
+                found.append(ContactLine(run, interface["nonmortar"], interface["mortar"], rows, scale,
+                                         self.axes))
         return found
 
     def fields(self, run):
@@ -127,13 +132,16 @@ class Result:
                       lambda body: body.cells["von_mises"])]
         components = min(body.stress.shape[1] for body in run.bodies.values())
         for c in range(components):
-            made.append(Field(STRESSES[c], f"stress {STRESSES[c]}", stress, False, True,
+            made.append(Field(STRESSES[c], f"stress {STRESSES[c]}{self.meanings[c]}", stress, False, True,
                               lambda body, c=c: body.stress[:, c]))
         made += [Field("u", "displacement", length, True, False, lambda body: np.hypot(*body.displacement.T)),
-                 Field("ux", "displacement x", length, True, True, lambda body: body.displacement[:, 0]),
-                 Field("uy", "displacement y", length, True, True, lambda body: body.displacement[:, 1])]
+                 Field("ux", f"displacement {self.axes[0]}", length, True, True,
+                       lambda body: body.displacement[:, 0]),
+                 Field("uy", f"displacement {self.axes[1]}", length, True, True,
+                       lambda body: body.displacement[:, 1])]
         for c in range(components):
-            made.append(Field(STRAINS[c], f"viscoplastic strain {STRAINS[c]}", "", False, True,
+            made.append(Field(STRAINS[c], f"viscoplastic strain {STRAINS[c]}{self.meanings[c]}", "", False,
+                              True,
                               lambda body, c=c: body.cells["viscoplastic_strain"].reshape(len(body.triangles),
                                                                                           -1)[:, c]))
         made += [Field("viscoplastic", "beyond yield", "", False, False,

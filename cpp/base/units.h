@@ -37,7 +37,8 @@ struct Units {
   std::string length = "m";
   std::string force = "N";
   std::string stress = "Pa";
-  bool given = false;  ///< whether the scene says them
+  bool given = false;      ///< whether the scene says them
+  bool wholeRing = false;  ///< whether forces and energies are of whole rings, not per depth
   Measure lengthInSi{1, 0, dimensions::length};
   Measure forceInSi{1, 0, dimensions::force};
 
@@ -45,9 +46,10 @@ struct Units {
   static Units from(const std::string& text);
 
   [[nodiscard]] std::string area() const { return length + "^2"; }
-  /// Forces, moments and energies are per depth.
-  [[nodiscard]] std::string forcePerDepth() const { return force + "/" + length; }
+  /// Forces, moments and energies are per depth, or of whole rings.
+  [[nodiscard]] std::string forcePerDepth() const { return wholeRing ? force : force + "/" + length; }
   [[nodiscard]] std::string energyPerDepth() const {
+    if (wholeRing) return given ? force + " " + length : "J";
     return given ? force + " " + length + "/" + length : "J/m";
   }
   [[nodiscard]] std::string bodyForce() const { return force + "/" + length + "^3"; }

@@ -96,8 +96,11 @@ bool isRoller(const ConditionDescription& condition) {
 
 /// Loads by the rules that mortier takes (docs/theory.md), for they decide what nodal forces are; with
 /// quadratic displacements by FreeFEM's own of degree 5. A macro must not be empty.
-void writeConditions(std::ostream& out, const BodyDescription& body, int number, int degree) {
+void writeConditions(std::ostream& out, const BodyDescription& body, int number,
+                     const SceneDescription& scene) {
   const std::string n = std::to_string(number);
+  const std::string own = scene.plane == Plane::axisymmetric ? "*2*pi*x" : "";  // beside FreeFEM's rules
+  const int degree = scene.degree;
   std::ostringstream supports;
   std::ostringstream loads;
   for (const ConditionDescription& c : body.conditions) {
@@ -109,13 +112,14 @@ void writeConditions(std::ostream& out, const BodyDescription& body, int number,
       const std::string direction =
           c.component == alongNormal ? "(N.x*v1 + N.y*v2)" : "v" + std::to_string(c.component + 1);
       loads << (degree == 1 ? "+ simpson(" + n + ", " : "+ int1d(Body" + n + ", ") << c.label
-            << (degree == 1 ? ", (" : ")((") << value << ")*" << direction << ") ";
+            << (degree == 1 ? ", (" : ")((") << value << ")*" << direction << (degree == 1 ? "" : own)
+            << ") ";
     }
   }
   for (const int c : {0, 1}) {
     if (body.force[c]) {
       loads << (degree == 1 ? "+ midpoints(" + n + ", (" : "+ int2d(Body" + n + ")((")
-            << freefemExpression(*body.force[c]) << ")*v" << c + 1 << ") ";
+            << freefemExpression(*body.force[c]) << ")*v" << c + 1 << (degree == 1 ? "" : own) << ") ";
     }
   }
   const auto orNothing = [&](const std::ostringstream& terms, const char* nothing) {
@@ -190,7 +194,7 @@ std::string script(const SceneDescription& scene, const Model& model,
   out << " //\n";
   for (int b = 0; b < bodies; ++b) writeBody(out, scene.bodies[b], meshFiles[b], b + 1, scene.units.stress);
   out << creeps(scene) << relaxes(scene) << "\n// Boundary conditions and loads, functions of x, y and t\n";
-  for (int b = 0; b < bodies; ++b) writeConditions(out, scene.bodies[b], b + 1, scene.degree);
+  for (int b = 0; b < bodies; ++b) writeConditions(out, scene.bodies[b], b + 1, scene);
   out << rollers(scene) << heldPoints(scene)
       << "\n// Contact: nonmortar body and label, mortar body and label; time\nint[int, int] contact = ";
   for (size_t k = 0; k < model.interfaces.size(); ++k) {

@@ -76,9 +76,9 @@ struct Made {
 
 Made make(const MeshCommand& command) {
   const auto [cells1, cells2] = parsePair<int>("--cells", command.cells, true);
-  const std::string word = !command.cut.empty()           ? command.cut
-                           : command.family == "halfdisc" ? "both"
-                                                          : "rising";
+  const std::string word = !command.cut.empty()               ? command.cut
+                           : command.family.ends_with("disc") ? "both"
+                                                              : "rising";
   const Cut cut = parseWord<Cut>("--cut", word,
                                  {{"rising", Cut::rising}, {"falling", Cut::falling}, {"both", Cut::both}});
   if (command.family == "quadrilateral") {
@@ -96,9 +96,12 @@ Made make(const MeshCommand& command) {
             quarters == 4 ? "1 inner circle, 2 outer circle"
                           : "1 inner circle, 2 outer circle, 3 first side, 4 last side"};
   }
-  if (command.family == "halfdisc") {
-    return {halfDiscMesh({parsePoint("--lowest", command.lowest), command.radius, command.core, cells1}, cut),
-            "1 arc near the lowest point, 2 flat side, 3 rest of the arc"};
+  if (command.family.ends_with("disc")) {
+    const bool quarter = command.family == "quarterdisc";
+    return {halfDiscMesh(
+                {parsePoint("--lowest", command.lowest), command.radius, command.core, cells1, quarter}, cut),
+            std::string("1 arc near the lowest point, 2 flat side, 3 rest of the arc") +
+                (quarter ? ", 4 vertical side" : "")};
   }
   Rectangle shape{parsePoint("--lower", command.lower), parsePoint("--upper", command.upper), cells1, cells2};
   if (!command.focus.empty()) {

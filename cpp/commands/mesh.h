@@ -9,7 +9,7 @@ namespace mortier {
 
 /// `mortier mesh FAMILY`: a labelled mesh of a simple shape (mesh/generate.h), options as given.
 struct MeshCommand {
-  std::string family;  ///< rectangle, crisscross, quadrilateral, annulus, halfdisc
+  std::string family;  ///< rectangle, crisscross, quadrilateral, annulus, halfdisc, quarterdisc
   std::string file;
   std::string cells = "1";    ///< N or N1,N2
   std::string cut;            ///< rising, falling, both; empty: that of the family

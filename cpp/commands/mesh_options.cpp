@@ -17,7 +17,7 @@ CLI::App* addFamily(CLI::App& mesh, MeshCommand& command, const std::string& nam
   if (name != "crisscross")
     family->add_option("--cut", command.cut,
                        std::string("diagonals of the cells: rising, falling, both (default ") +
-                           (name == "halfdisc" ? "both)" : "rising)"));
+                           (name.ends_with("disc") ? "both)" : "rising)"));
   family->add_option("FILE", command.file, "Medit .mesh file to write")->required();
   family->footer("Boundary labels: " + labels + ".");
   family->callback([&command, name] { command.family = name; });
@@ -56,13 +56,16 @@ std::function<int()> addMeshCommand(CLI::App& app) {
   annulus->add_option("--inner", command->inner, "inner radius [m] (default 1)");
   annulus->add_option("--outer", command->outer, "outer radius [m] (default 2)");
   annulus->add_option("--span", command->span, "quarter, half or full (default), from the x axis");
-  CLI::App* halfDisc =
-      addFamily(mesh, *command, "halfdisc", "lower half of a disc, fine around its lowest point",
-                "cells on half the width of the fine core",
-                "1 arc within 45 degrees of the lowest point, 2 flat side, 3 rest of the arc");
-  halfDisc->add_option("--lowest", command->lowest, "lowest point [m] (default 0,0)")->type_name("X,Y");
-  halfDisc->add_option("--radius", command->radius, "radius [m] (default 1)");
-  halfDisc->add_option("--core", command->core, "half width of the core [m] (default 0.1)");
+  for (const auto& [name, what, more] :
+       {std::tuple("halfdisc", "lower half of a disc, fine around its lowest point", ""),
+        std::tuple("quarterdisc", "right half of that, the section of a sphere", ", 4 vertical side")}) {
+    CLI::App* disc = addFamily(
+        mesh, *command, name, what, "cells on half the width of the fine core",
+        std::string("1 arc within 45 degrees of the lowest point, 2 flat side, 3 rest of the arc") + more);
+    disc->add_option("--lowest", command->lowest, "lowest point [m] (default 0,0)")->type_name("X,Y");
+    disc->add_option("--radius", command->radius, "radius [m] (default 1)");
+    disc->add_option("--core", command->core, "half width of the core [m] (default 0.1)");
+  }
 
   const auto file = std::make_shared<std::string>();
   CLI::App* info = mesh.add_subcommand("info", "counts, labels, extents, worst triangle");

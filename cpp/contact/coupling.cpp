@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "mesh/axis.h"
+
 namespace mortier {
 namespace {
 
@@ -102,13 +104,15 @@ struct Integrals {
   Triplets D;  ///< of the difference from the motions of the rows' own nodes, where these are given
   Triplets M;
   Vector distance;
+  Vector lengths;
 };
 
 /// \param own  directions of contact at the nodes of the rows, or empty: no motion is subtracted
 Integrals integrate(const SmoothPart& part, const FacingLine& mortar, const DistanceAt& distance,
-                    const Rows& rows, const std::vector<Point>& own) {
+                    const Rows& rows, const std::vector<Point>& own, bool axisymmetric) {
   Integrals result;
   result.distance = Vector::Zero(rows.count());
+  result.lengths = Vector::Zero(rows.count());
   atGaussPoints(
       part, mortar, rows,
       [&](const Segment& segment, const EdgeNodes& row, double s, const EdgeValues& chi, double weight) {
@@ -116,9 +120,12 @@ Integrals integrate(const SmoothPart& part, const FacingLine& mortar, const Dist
         const double g0 = distance(segment.nonmortar, s, sight);
         const EdgeNodes nodes = part.nodesOf(segment.nonmortar);
         const EdgeNodes across = mortar.nodesOf(segment.mortar);
+        const double depth =
+            axisymmetric ? circumference(part.at(segment.nonmortar, part.partAt(segment.nonmortar, s))) : 1;
         for (Eigen::Index i = 0; i < row.size(); ++i) {
           if (row[i] < 0) continue;
-          const double w = weight * sight.stretch * chi[i];
+          const double w = weight * sight.stretch * chi[i] * depth;
+          result.lengths[row[i]] += weight * sight.stretch * chi[i];
           for (Eigen::Index j = 0; j < row.size(); ++j)
             if (row[j] >= 0) result.mass.emplace_back(row[i], row[j], w * chi[j]);
           for (Eigen::Index k = 0; k < nodes.size(); ++k) {
@@ -148,7 +155,7 @@ Sparse projected(const Factor& mass, const Sparse& B) {
 }  // namespace
 
 Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
-                const DistanceAt& distance, const std::vector<char>& merged) {
+                const DistanceAt& distance, const std::vector<char>& merged, bool axisymmetric) {
   const Rows rows(kind, part, mortar, merged);
   const Eigen::Index n = rows.count();
   std::vector<Point> own;  // directions at the nodes
@@ -161,11 +168,12 @@ Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mor
   const auto matrix = [n](const ElementLine& line, const Triplets& entries) {
     return assembled(n, 2 * static_cast<Eigen::Index>(line.traceNodes()), entries);
   };
-  if (n == 0) return {{}, Sparse(0, 0), matrix(part, {}), matrix(mortar, {}), Vector()};
-  const Integrals integrals = integrate(part, mortar, distance, rows, own);
+  if (n == 0) return {{}, Sparse(0, 0), matrix(part, {}), matrix(mortar, {}), Vector(), Vector()};
+  const Integrals integrals = integrate(part, mortar, distance, rows, own, axisymmetric);
 
   Coupling result;
   result.nodes = rows.nodes();
+  result.lengths = integrals.lengths;
   result.mass = assembled(n, n, integrals.mass);
   result.C1 = matrix(part, ownMotion);
   if (kind == CouplingKind::interpolation) {

@@ -52,6 +52,7 @@ struct Coupling {
   Eigen::SparseMatrix<double> C1;    ///< rows x 2 (trace nodes of the part): columns 2 node + component
   Eigen::SparseMatrix<double> C2;    ///< rows x 2 (trace nodes of the facing line)
   Vector distance;                   ///< g0, as the rows see it [m]
+  Vector lengths;                    ///< int chi ds, by rows [m]
 };
 
 /// The degree of the row functions on a line whose trace has a degree.
@@ -62,7 +63,10 @@ inline int rowDegree(CouplingKind kind, int traceDegree) {
 /// \param distance  of the bodies, where x1(s) sees
 /// \param merged  vertices of the part without a row of their own (empty: none). No rows when no vertex lies
 /// within the overlap.
+/// \param axisymmetric  whether the line turns about the axis x = 0: integrals are over the whole surface
+/// then, ds 2 pi r of the nonmortar line, and the mass is in [m^2]
 Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
-                const DistanceAt& distance = distanceOfCurves, const std::vector<char>& merged = {});
+                const DistanceAt& distance = distanceOfCurves, const std::vector<char>& merged = {},
+                bool axisymmetric = false);
 
 }  // namespace mortier

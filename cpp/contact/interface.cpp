@@ -145,7 +145,7 @@ ContactInterface::ContactInterface(const ContactPair& pair, const TriangleMesh& 
 
 ContactInterface::ContactInterface(const ContactPair& pair, const ContactMesh& nonmortarMesh,
                                    const ContactMesh& mortarMesh, const InterfaceOptions& options)
-    : pair_(pair), friction_(options.friction) {
+    : pair_(pair), friction_(options.friction), axisymmetric_(options.axisymmetric) {
   const BoundaryLine nonmortar = boundaryLine(nonmortarMesh.mesh, nonmortarMesh.nodes, pair.nonmortar.label);
   const BoundaryLine mortar = boundaryLine(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label);
   const std::string names = nonmortarMesh.mesh.name + " label " + std::to_string(pair.nonmortar.label) +
@@ -193,6 +193,7 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
   Triplets rows2;
   Triplets mass;
   std::vector<double> distances;
+  std::vector<double> lengths;
   for (size_t k = 0; k < parts.size(); ++k) {
     if (facing[k].empty()) continue;
     const SmoothPart& part = parts[k];
@@ -207,7 +208,7 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
         gap += sight.phi[j] * options.gap(nonmortarMesh.nodes.places[part.number(nodes[j])]);
       return gap;
     };
-    Coupling coupling = couple(pair_.coupling, part, facing[k], distance, merged);
+    Coupling coupling = couple(pair_.coupling, part, facing[k], distance, merged, axisymmetric_);
     if (options.gap && pair_.coupling != CouplingKind::weighted)  // what is given holds at the nodes
       for (size_t i = 0; i < coupling.nodes.size(); ++i)
         coupling.distance[static_cast<Eigen::Index>(i)] =
@@ -226,13 +227,15 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
     distances.insert(distances.end(), coupling.distance.begin(), coupling.distance.end());
     if (!options.gap && options.initial != InitialGap::close)
       sagitta_ = std::max(sagitta_, unknownSagitta(part, facing[k]));
-    penetration_.add(part, facing[k], distance);
+    penetration_.add(part, facing[k], distance, axisymmetric_);
+    lengths.insert(lengths.end(), coupling.lengths.begin(), coupling.lengths.end());
   }
   const auto n = static_cast<Eigen::Index>(nonmortarNodes_.size());
   C1_ = assembled(n, 2 * static_cast<Eigen::Index>(nonmortarMesh.nodes.count()), rows1);
   C2_ = assembled(n, 2 * static_cast<Eigen::Index>(mortarMesh.nodes.count()), rows2);
   mass_ = assembled(n, n, mass);
   distance_ = Eigen::Map<const Vector>(distances.data(), n);
+  lengths_ = Eigen::Map<const Vector>(lengths.data(), n);
 }
 
 Vector ContactInterface::gap(const Vector& uNonmortar, const Vector& uMortar) const {

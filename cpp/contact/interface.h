@@ -61,6 +61,7 @@ struct InterfaceOptions {
   std::function<bool(int, const Point&)> nonmortarHeld = {};
   std::function<bool(int, const Point&)> mortarHeld = {};
   Friction friction = {};
+  bool axisymmetric = false;  ///< whether the bodies turn about the axis x = 0: forces are in [N] then
 };
 
 /// Rows of C on one body: conditions x dofs (2 node + component), without entries that are zero.
@@ -109,7 +110,8 @@ class ContactInterface {
   [[nodiscard]] Vector frictionBound(const Vector& p) const;
   /// f -= T' t on both bodies' nodal forces [N/m]; t is what the nonmortar body exerts along the line.
   void subtractFriction(const Vector& t, Vector& fNonmortar, Vector& fMortar) const;
-  /// Mass of the row functions, rows x rows [m]: nodal forces are the mass times the contact pressure.
+  /// Mass of the row functions, rows x rows [m], or over the whole surface [m^2]: nodal
+  /// forces are the mass times the contact pressure.
   [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
   /// Held end nodes of the nonmortar line that have no condition: merged into their neighbours, or left out.
   [[nodiscard]] int heldEnds() const { return heldEnds_; }
@@ -122,6 +124,10 @@ class ContactInterface {
   /// Share of the shorter line that faces the other.
   [[nodiscard]] double overlap() const { return overlap_; }
   [[nodiscard]] int rows() const { return static_cast<int>(distance_.size()); }
+  /// Of the line, by rows: integrals of the row functions [m].
+  [[nodiscard]] Vector lengths() const {
+    return axisymmetric_ ? lengths_ : Vector(mass_ * Vector::Ones(rows()));
+  }
 
   /// C u; displacements by dofs of the two bodies [m].
   [[nodiscard]] Vector jump(const Vector& uNonmortar, const Vector& uMortar) const {
@@ -164,6 +170,8 @@ class ContactInterface {
   ConstraintRows T2_;
   Eigen::SparseMatrix<double> mass_;
   Vector distance_;
+  bool axisymmetric_ = false;
+  Vector lengths_;
   double overlap_ = 0;
   double sagitta_ = 0;
   double polygonTurn_ = 0;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "mesh/axis.h"
+
 namespace mortier {
 namespace {
 
@@ -62,7 +64,8 @@ EdgeNodes numbers(const ElementLine& line, int element) {
 
 }  // namespace
 
-void PenetrationIntegral::add(const SmoothPart& part, const FacingLine& mortar, const DistanceAt& distance) {
+void PenetrationIntegral::add(const SmoothPart& part, const FacingLine& mortar, const DistanceAt& distance,
+                              bool axisymmetric) {
   const bool quadratic = part.degree() > 1 || mortar.degree() > 1;
   for (const Segment& segment : commonRefinement(part.s, mortar.s)) {
     const EdgeNodes nonmortarNodes = numbers(part, segment.nonmortar);
@@ -75,20 +78,24 @@ void PenetrationIntegral::add(const SmoothPart& part, const FacingLine& mortar, 
     // Between its ends the distance of two curves is not linear: the chord of a curve hides what is below it.
     const double length = segment.end - segment.begin;
     const double element = part.s[segment.nonmortar + 1] - part.s[segment.nonmortar];
+    const auto depthAt = [&](double along) {
+      const int e = segment.nonmortar;
+      return axisymmetric ? circumference(part.at(e, part.partAt(e, segment.begin + along * length))) : 1;
+    };
     const Place begin = place(segment.begin);
     const Place middle = place(segment.begin + length / 2);
     const Place end = place(segment.end);
     const auto first = static_cast<int>(places_.size());
     if (quadratic) {
       places_.insert(places_.end(), {begin, middle, end});
-      stretches_.push_back({first, true, length, element});
+      stretches_.push_back({first, true, length, element, depthAt(0.5)});
     } else if (std::abs(middle.distance - (begin.distance + end.distance) / 2) <= straight * length) {
       places_.insert(places_.end(), {begin, end});
-      stretches_.push_back({first, false, length, element});
+      stretches_.push_back({first, false, length, element, depthAt(0.5)});
     } else {
       places_.insert(places_.end(), {begin, middle, end});
-      stretches_.push_back({first, false, length / 2, element});
-      stretches_.push_back({first + 1, false, length / 2, element});
+      stretches_.push_back({first, false, length / 2, element, depthAt(0.25)});
+      stretches_.push_back({first + 1, false, length / 2, element, depthAt(0.75)});
     }
   }
 }
@@ -130,7 +137,7 @@ std::vector<GapSquare> PenetrationIntegral::squares(const Vector& uNonmortar, co
     result.push_back({nonmortar,
                       {place.mortar[0], place.mortar[1]},
                       stretch.element,
-                      stretch.length * (any ? gap.squareMean() : gap.positiveSquareMean())});
+                      stretch.depth * stretch.length * (any ? gap.squareMean() : gap.positiveSquareMean())});
   }
   return result;
 }

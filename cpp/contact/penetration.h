@@ -17,7 +17,7 @@ namespace mortier {
 struct GapSquare {
   std::array<int, 2> nonmortar, mortar;  ///< vertex numbers of the two elements
   double element = 0;                    ///< length of the nonmortar one [m]
-  double integral = 0;                   ///< [m^3]
+  double integral = 0;                   ///< [m^3], of the whole surface [m^4]
 };
 
 /// A piece of the common refinement, from its begin to its end along the nonmortar line.
@@ -31,9 +31,10 @@ struct RefinedPiece {
 
 class PenetrationIntegral {
  public:
-  /// Adds a part of the nonmortar line with what it faces.
-  void add(const SmoothPart& part, const FacingLine& mortar, const DistanceAt& distance);
-  /// Displacements by dofs of the two bodies [m]. \returns [m^2]
+  /// Adds a part of the nonmortar line with what it faces, which may turn about the axis x = 0.
+  void add(const SmoothPart& part, const FacingLine& mortar, const DistanceAt& distance,
+           bool axisymmetric = false);
+  /// Displacements by dofs of the two bodies [m]. \returns [m^2], in the plane of the mesh whatever turns
   [[nodiscard]] double of(const Vector& uNonmortar, const Vector& uMortar) const;
   /// The largest jump at a point of the common refinement or in the middle between two,
   /// 0 where all are negative [m].
@@ -60,6 +61,7 @@ class PenetrationIntegral {
     bool parabola = false;
     double length = 0;
     double element = 0;  ///< length of the nonmortar one [m]
+    double depth = 1;    ///< circumference in the middle where the line turns about the axis [m]
   };
   std::vector<Place> places_;
   std::vector<Stretch> stretches_;

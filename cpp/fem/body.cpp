@@ -26,6 +26,11 @@ Point placeOf(const std::array<double, n>& shapes, const std::array<Point, n>& x
   return place;
 }
 
+Conditions withAxisHeld(Conditions conditions) {
+  conditions.displacements.push_back(heldOnAxis());
+  return conditions;
+}
+
 void requireLabel(const TriangleMesh& mesh, const std::string& body, int label) {
   if (std::find(mesh.boundaryLabels.begin(), mesh.boundaryLabels.end(), label) == mesh.boundaryLabels.end())
     throw InputError("body " + body + ": label = " + std::to_string(label) +
@@ -35,17 +40,18 @@ void requireLabel(const TriangleMesh& mesh, const std::string& body, int label) 
 }  // namespace
 
 Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> material,
-           Conditions conditions, int degree)
+           Conditions conditions, int degree, bool axisymmetric)
     : name_(std::move(name)),
-      mesh_(std::move(mesh)),
+      mesh_(axisymmetric ? meshAboutAxis(std::move(mesh)) : std::move(mesh)),
       nodes_(mortier::elementNodes(mesh_, degree)),
       material_(std::move(material)),
-      conditions_(std::move(conditions)),
-      supports_(mesh_, nodes_, conditions_.displacements) {
+      conditions_(axisymmetric ? withAxisHeld(std::move(conditions)) : std::move(conditions)),
+      supports_(mesh_, nodes_, conditions_.displacements),
+      axisymmetric_(axisymmetric) {
   for (const auto& condition : conditions_.displacements)
-    if (!condition.point)
+    if (!condition.point && !condition.onAxis)
       requireLabel(mesh_, name_, condition.label);
-    else if (vertexAt(mesh_, *condition.point) < 0)
+    else if (condition.point && vertexAt(mesh_, *condition.point) < 0)
       throw InputError("body " + name_ + ": a point that is held is no vertex of " + mesh_.name);
   for (const auto& condition : conditions_.tractions) requireLabel(mesh_, name_, condition.label);
   withElement(degree, [&](auto element) {
@@ -56,11 +62,19 @@ Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> 
     for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
       const auto table = Element::tabulate(placesOf<Element>(nodes_, t));
       for (int i = 0; i < Element::points; ++i) {
+        if (axisymmetric_ && !(table.places[i].x() > 0))
+          throw InputError(mesh_.name + ": triangle " + std::to_string(t + 1) +
+                           " reaches over the axis by its curved side, expected a finer mesh there");
         if (!(table.weights[i] > 0))
           throw InputError(mesh_.name + ": triangle " + std::to_string(t + 1) +
                            " is turned inside out by its curved side, expected a finer mesh there");
-        weights_.push_back(table.weights[i]);
+        weights_.push_back(table.weights[i] * depthAt(table.places[i]));
+        if (axisymmetric_)
+          for (const double shape : Element::shapes(Element::interior[i]))
+            hoops_.push_back(shape / table.places[i].x());
         largestGradient_ = std::max(largestGradient_, table.gradients[i].template lpNorm<Eigen::Infinity>());
+        for (size_t a = hoops_.size(); axisymmetric_ && a > hoops_.size() - Element::nodes; --a)
+          largestGradient_ = std::max(largestGradient_, std::abs(hoops_[a - 1]));
         for (int a = 1; a < Element::nodes; ++a)
           for (int c = 0; c < 2; ++c)
             gradients_.push_back(table.gradients[i](c, a) * (std::numbers::sqrt2 / 2));
@@ -182,7 +196,7 @@ void Body::addTractions(double t, Vector& f) const {
         std::array<double, Element::edgeNodes> sums{};
         for (const auto& [s, toNode] : Element::edgeRule()) {
           const Point at = placeOf(Element::edgeShapes(s), x);
-          const double value = traction.value(at.x(), at.y(), t);
+          const double value = depthAt(at) * traction.value(at.x(), at.y(), t);
           for (int a = 0; a < Element::edgeNodes; ++a) sums[a] += toNode[a] * value;
           if (Element::straight && s != Element::edgeRule().back().at) continue;
           // The direction times the length of the edge.
@@ -208,8 +222,8 @@ void Body::addForces(double t, Vector& f) const {
         const auto x = placesOf<Element>(nodes_, tri);
         for (const auto& [at, toNode] : Element::loadRule()) {
           const Point place = placeOf(Element::shapes(at), x);
-          const double value =
-              Element::areaAt(at, x) / Element::loadDivisor * force.value(place.x(), place.y(), t);
+          const double value = depthAt(place) * Element::areaAt(at, x) / Element::loadDivisor *
+                               force.value(place.x(), place.y(), t);
           for (int a = 0; a < Element::nodes; ++a)
             f[2 * nodes_.of(tri)[a] + force.component] += toNode[a] * value;
         }
@@ -234,7 +248,7 @@ Matrix Body::initialStress() const {
   for (int i = 0; i < points(); ++i) {
     const Eigen::Vector3d pqr = fromCartesian(given.col(i).head<3>());
     stress.col(i).head<3>() = pqr;
-    if (components > 3 && beyond[i] == 0) stress(3, i) = material_->outOfPlane(pqr, i);
+    if (components > 3 && beyond[i] == 0 && !axisymmetric_) stress(3, i) = material_->outOfPlane(pqr, i);
   }
   return stress;
 }

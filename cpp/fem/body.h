@@ -13,6 +13,7 @@
 #include "fem/supports.h"
 #include "fem/tangent_assembly.h"
 #include "material/material.h"
+#include "mesh/axis.h"
 #include "mesh/element_nodes.h"
 #include "mesh/triangle_mesh.h"
 
@@ -32,8 +33,8 @@ struct BodyForce {
   Function value;
 };
 
-/// Stress at t = 0, one component (0: s11, 1: s22, 2: s12, 3: s33 in plane strain), in a region or everywhere
-/// [Pa]; later ones replace earlier ones.
+/// Stress at t = 0, one component (0: s11, 1: s22, 2: s12, 3: s33 in plane strain or around the axis), in a
+/// region or everywhere [Pa]; later ones replace earlier ones.
 struct InitialStress {
   int component = 0;
   std::optional<int> region;
@@ -50,10 +51,12 @@ struct Conditions {
 class Body {
  public:
   /// \param degree  of the displacements, 1 or 2
-  /// \throws InputError when a condition names a label or a point that the mesh does not have, or where a
-  /// triangle with a curved side is turned inside out.
+  /// \param axisymmetric  whether it turns about the axis x = 0 (mesh/axis.h): the material has four
+  /// components then, integrals are of the whole ring, and forces are in [N]
+  /// \throws InputError when a condition names a label or a point that the mesh does not have, where a
+  /// triangle with a curved side is turned inside out, or where the mesh lies beyond the axis.
   Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> material, Conditions conditions,
-       int degree = 1);
+       int degree = 1, bool axisymmetric = false);
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
@@ -61,12 +64,15 @@ class Body {
   /// Nodes of the displacement: the vertices of the mesh, and what lies between them.
   [[nodiscard]] const ElementNodes& elementNodes() const { return nodes_; }
   [[nodiscard]] int degree() const { return nodes_.degree; }
+  [[nodiscard]] bool axisymmetric() const { return axisymmetric_; }
   [[nodiscard]] int nodes() const { return nodes_.count(); }
   [[nodiscard]] int dofs() const { return 2 * nodes(); }
   /// Quadrature points, triangle by triangle: columns of stresses, strains and moduli.
   [[nodiscard]] int points() const { return static_cast<int>(weights_.size()); }
-  /// Quadrature weights, the area in all [m^2].
+  /// Quadrature weights, the area in all [m^2], or the volume of the whole ring [m^3].
   [[nodiscard]] const std::vector<double>& weights() const { return weights_; }
+  /// What an area or a length at a place of the mesh stands for: times 1, or the circumference [m].
+  [[nodiscard]] double depthAt(const Point& place) const { return axisymmetric_ ? circumference(place) : 1; }
 
   /// Places of the points [m].
   [[nodiscard]] std::vector<Point> places() const;
@@ -120,14 +126,25 @@ class Body {
   /// Pattern of the tangent over equations; symmetric where the material's tangent is.
   [[nodiscard]] const SparsePattern& pattern() const { return assembly_.pattern(); }
   /// K = sum |T| B' H^-1 B (moduli 9 or 6 x points) as values of pattern().
-  void tangent(const Matrix& moduli, std::vector<double>& values, Threads& threads = Threads::none()) const;
+  void tangent(const Matrix& moduli, std::vector<double>& values, Threads& threads = Threads::none()) const {
+    tangent(TangentModuli{moduli}, values, threads);
+  }
+  /// The same with what strains around the axis need.
+  void tangent(const Linearisation& law, std::vector<double>& values,
+               Threads& threads = Threads::none()) const {
+    tangent(TangentModuli{law.moduli, axisymmetric_ ? &law.beyond : nullptr}, values, threads);
+  }
 
  private:
   void numberEquations();
   /// By the directions of a support [m].
   [[nodiscard]] std::array<double, 2> prescribedAt(const NodeSupport& support, double t) const;
-  [[nodiscard]] TriangleData triangleData() const { return {nodes_, equations_, weights_, gradients_}; }
-  void addSupported(const Matrix& moduli, std::vector<double>& values) const;
+  [[nodiscard]] TriangleData triangleData() const {
+    return {nodes_, equations_, weights_, gradients_, hoops_};
+  }
+  void tangent(const TangentModuli& moduli, std::vector<double>& values, Threads& threads) const;
+  void addSupported(const TangentModuli& moduli, std::vector<double>& values) const;
+  void hoopStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
   template <class Element>
   void strainOf(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
   void addTractions(double t, Vector& f) const;
@@ -145,6 +162,8 @@ class Body {
   std::vector<double> weights_;
   std::vector<double>
       gradients_;  ///< of all shape functions of a triangle but the first, over sqrt2, by points
+  bool axisymmetric_ = false;
+  std::vector<double> hoops_;  ///< of all shape functions of a triangle their value over r, by points
   double largestGradient_ = 0;
   TangentAssembly assembly_;
 };

@@ -7,7 +7,8 @@
 namespace mortier {
 
 // With G = gradient / sqrt2, a nodal displacement (ux, uy) strains p, q, r by
-//   B = [Gx Gy; Gx -Gy; Gy Gx].
+//   B = [Gx Gy; Gx -Gy; Gy Gx],
+// and, where the body turns about the axis, the circumference by [N/r 0], N the shape function at the point.
 // The gradients of one triangle sum to zero: differences to its first node keep rigid motions exact.
 
 Vector Body::internalForce(const Matrix& stress) const {
@@ -26,6 +27,9 @@ Vector Body::internalForce(const Matrix& stress) const {
         f[2 * triangle[a]] += (p + q) * G[2 * a] + r * G[2 * a + 1];
         f[2 * triangle[a] + 1] += (p - q) * G[2 * a + 1] + r * G[2 * a];
       }
+      if (!axisymmetric_) continue;
+      const double hoop = weights_[i] * stress(3, column);
+      for (int a = 0; a < Element::nodes; ++a) f[2 * triangle[a]] += hoop * hoops_[Element::nodes * i + a];
     }
   });
   return f;
@@ -35,10 +39,14 @@ double Body::largestForce(const Matrix& stress) const {
   const TriangleData triangles = triangleData();
   double largest = 0;
   withElement(degree(), [&](auto element) {
+    using Element = decltype(element);
     for (size_t i = 0; i < weights_.size(); ++i) {
       const auto s = stress.col(static_cast<Eigen::Index>(i)).head<3>().cwiseAbs();
-      for (const double gradient : triangles.gradientsOf<decltype(element)>(i))
+      for (const double gradient : triangles.gradientsOf<Element>(i))
         largest = std::max(largest, weights_[i] * std::abs(gradient) * s.maxCoeff());
+      for (size_t a = Element::nodes * i; axisymmetric_ && a < Element::nodes * (i + 1); ++a)
+        largest =
+            std::max(largest, weights_[i] * std::abs(hoops_[a] * stress(3, static_cast<Eigen::Index>(i))));
     }
   });
   return largest;
@@ -51,6 +59,24 @@ void Body::strain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, i
     strain.bottomRows(strain.rows() - 3).middleCols(begin, end - begin) =
         -shift->bottomRows(strain.rows() - 3).middleCols(begin, end - begin);
   withElement(degree(), [&](auto element) { strainOf<decltype(element)>(u, shift, strain, begin, end); });
+  if (axisymmetric_) hoopStrain(u, shift, strain, begin, end);
+}
+
+void Body::hoopStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const {
+  const int n = nodes_.perTriangle();
+  const int pointsOfTriangle = points() / static_cast<int>(mesh_.triangles.size());
+  for (int i = begin; i < end; ++i) {
+    const int* triangle = nodes_.of(i / pointsOfTriangle);
+    DoubleDouble sum{0, 0};
+    for (int a = 0; a < n; ++a) {
+      const double overRadius = hoops_[static_cast<size_t>(n) * i + a];
+      DoubleDouble product = DoubleDouble::product(overRadius, u.high[2 * triangle[a]]);
+      product.low += overRadius * u.low[2 * triangle[a]];
+      sum += product;
+    }
+    if (shift != nullptr) sum += DoubleDouble{-(*shift)(3, i), 0};
+    strain(3, i) = sum.value();
+  }
 }
 
 template <class Element>
@@ -148,6 +174,15 @@ void Body::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress
       const std::array<double, 9> D = moduliAt(law.moduli, i);
       for (int c = 0; c < 3; ++c) stress(c, i) += D[c] * p + D[3 + c] * q + D[6 + c] * r;
     }
+    for (int i = begin; i < end && axisymmetric_; ++i) {
+      const int* triangle = &nodes_.triangles[static_cast<size_t>(Element::nodes) * (i / Element::points)];
+      double hoop = 0;
+      for (int a = 0; a < Element::nodes; ++a)
+        hoop += hoops_[static_cast<size_t>(Element::nodes) * i + a] * d[2 * triangle[a]];
+      const BeyondModuli beyond = beyondAt(law.beyond, i);
+      for (int c = 0; c < 3; ++c) stress(c, i) += beyond.column[c] * hoop;
+      stress(3, i) += beyond.corner * hoop;
+    }
     if (stress.rows() == 3) return;
     for (int i = begin; i < end; ++i) {
       const auto [p, q, r] = strainOf(i);
@@ -156,12 +191,12 @@ void Body::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress
   });
 }
 
-void Body::tangent(const Matrix& moduli, std::vector<double>& values, Threads& threads) const {
+void Body::tangent(const TangentModuli& moduli, std::vector<double>& values, Threads& threads) const {
   assembly_.assemblePlain(triangleData(), moduli, values, threads);
   addSupported(moduli, values);
 }
 
-void Body::addSupported(const Matrix& moduli, std::vector<double>& values) const {
+void Body::addSupported(const TangentModuli& moduli, std::vector<double>& values) const {
   withElement(degree(), [&](auto element) {
     using Element = decltype(element);
     constexpr int dofs = 2 * Element::nodes;
@@ -170,6 +205,7 @@ void Body::addSupported(const Matrix& moduli, std::vector<double>& values) const
       for (int i = Element::points * t; i < Element::points * (t + 1); ++i) {
         // B T: strains of the motions along the frames of the nodes.
         Eigen::Matrix<double, 3, dofs> B;
+        Eigen::Matrix<double, 1, dofs> hoop = Eigen::Matrix<double, 1, dofs>::Zero();
         const auto G = triangleData().template gradientsOf<Element>(i);
         for (int a = 0; a < Element::nodes; ++a) {
           const double gx = G[2 * a];
@@ -178,9 +214,19 @@ void Body::addSupported(const Matrix& moduli, std::vector<double>& values) const
           const int frame = frameOf_.empty() ? -1 : frameOf_[nodes_.of(t)[a]];
           if (frame >= 0) Ba = Ba * frames_[frame].transpose();
           B.template middleCols<2>(2 * a) = Ba;
+          if (!axisymmetric_) continue;
+          Eigen::RowVector2d around(hoops_[static_cast<size_t>(Element::nodes) * i + a], 0);
+          if (frame >= 0) around = around * frames_[frame].transpose();
+          hoop.template segment<2>(2 * a) = around;
         }
-        const std::array<double, 9> D = moduliAt(moduli, i);
+        const std::array<double, 9> D = moduliAt(moduli.plane, i);
         K += weights_[i] * (B.transpose() * Eigen::Map<const Eigen::Matrix3d>(D.data()) * B);
+        if (!axisymmetric_) continue;
+        const BeyondModuli beyond = beyondAt(*moduli.beyond, i);
+        const Eigen::Vector3d row(beyond.row[0], beyond.row[1], beyond.row[2]);
+        const Eigen::Vector3d column(beyond.column[0], beyond.column[1], beyond.column[2]);
+        K += weights_[i] * (B.transpose() * column * hoop +
+                            hoop.transpose() * (row.transpose() * B + beyond.corner * hoop));
       }
       for (int j = 0; j < dofs; ++j)
         for (int i = 0; i < dofs; ++i)

@@ -35,6 +35,7 @@ struct LinearTriangle {
   static constexpr int points = 1;
   static constexpr int edgeNodes = 2;
   static constexpr bool straight = true;  ///< its sides
+  static constexpr std::array<Barycentric, points> interior{{{1.0 / 3, 1.0 / 3, 1.0 / 3}}};
 
   struct Tabulation {
     std::array<double, points> weights{};                           ///< their sum is the area [m^2]

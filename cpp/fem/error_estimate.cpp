@@ -52,6 +52,19 @@ Terms<Element> termsAt(const Point& x) {
   return result;
 }
 
+/// The radius at a place of a triangle over its mean: by that its weights are to be multiplied.
+double radiusOverMean(const Body& body, Eigen::Index triangle, const Barycentric& place) {
+  const auto& corners = body.mesh().triangles[triangle];
+  double radius = 0;
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double corner = body.mesh().vertices[corners[k]].x();
+    radius += place[k] * corner;
+    sum += corner;
+  }
+  return 3 * radius / sum;
+}
+
 /// The fits of one region: polynomials of the degree of the displacements to the stresses at the points of
 /// the element.
 template <class Element>
@@ -241,6 +254,7 @@ ErrorEstimate ErrorEstimator::estimate(const Matrix& stress) const {
       const auto& toNode = rule[at + i % n].toNode;
       double area = 0;
       for (int k = 0; k < n; ++k) area += body_.weights()[n * (i / n) + k];
+      if (body_.axisymmetric()) area *= radiusOverMean(body_, i / n, rule[at + i % n].at);
       const double weight = area * std::accumulate(toNode.begin(), toNode.end(), 0.0) / Element::loadDivisor;
       add(i / n, weight * there.col(i).dot(strain.col(i)));
     }

@@ -99,6 +99,8 @@ Matrix freeMotions(const Body& body, const RigidComponents& components, const st
       }
     }
     if (prescribed > 0) held.block<3, 3>(at, at) += ofSupports / prescribed;
+    // A ring strains under all but the motion along its axis.
+    if (body.axisymmetric()) held.diagonal().segment<3>(at) += Eigen::Vector3d(1, 0, 1);
   }
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(held);
   return eigen.eigenvectors().leftCols((eigen.eigenvalues().array() <= heldFraction).count());

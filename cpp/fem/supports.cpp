@@ -115,6 +115,14 @@ Supports::Supports(const TriangleMesh& mesh, const ElementNodes& nodes,
         hold(held[vertex], axis(component), static_cast<int>(c));
         continue;
       }
+      if (conditions[c].onAxis) {
+        for (int node = 0; node < nodes.count(); ++node) {
+          if (nodes.places[node].x() != 0) continue;
+          held[node].node = node;
+          hold(held[node], axis(component), static_cast<int>(c));
+        }
+        continue;
+      }
       for (size_t e = 0; e < nodes.boundary.size(); ++e) {
         if (!conditions[c].actsOn(mesh.boundaryLabels[nodes.boundary[e].edge])) continue;
         for (const int node : nodes.boundary[e].nodes) {

@@ -21,9 +21,15 @@ struct PrescribedDisplacement {
   int component = 0;
   Function value;
   std::optional<Point> point = {};  ///< where the vertex is, in place of the label [m]
+  bool onAxis = false;              ///< of all nodes with x = 0, in place of the label
 
-  [[nodiscard]] bool actsOn(int boundary) const { return !point && label == boundary; }
+  [[nodiscard]] bool actsOn(int boundary) const { return !point && !onAxis && label == boundary; }
 };
+
+/// Nodes on the axis of a body of revolution stay there.
+inline PrescribedDisplacement heldOnAxis() {
+  return {0, alongX, [](double, double, double) { return 0.0; }, std::nullopt, true};
+}
 
 /// A node that may move along one direction only, or not at all.
 struct NodeSupport {

@@ -10,7 +10,8 @@ namespace mortier {
 namespace {
 
 // With G = gradient / sqrt2, a nodal displacement (ux, uy) strains p, q, r by
-//   B = [Gx Gy; Gx -Gy; Gy Gx].
+//   B = [Gx Gy; Gx -Gy; Gy Gx],
+// and of a body that turns about the axis the fourth component by the row [N/r 0], N the shape function.
 
 /// B_a' D B_b for a column of B_b, D the moduli (3 x 3, column major): the column's two entries in the rows
 /// of node a.
@@ -18,9 +19,20 @@ struct ColumnOfDB {
   double sum;         ///< of the rows p and q of D B
   double difference;  ///< of these
   double r;
+  double hoop = 0;
 
   [[nodiscard]] Eigen::Vector2d times(double gx, double gy) const {
     return {sum * gx + r * gy, difference * gy + r * gx};
+  }
+  [[nodiscard]] Eigen::Vector2d times(double gx, double gy, double overRadius) const {
+    return times(gx, gy) + Eigen::Vector2d(hoop * overRadius, 0);
+  }
+  /// With the strain around the axis, and its stress.
+  void addHoop(const BeyondModuli& D, double p, double q, double shear, double strain) {
+    sum += (D.column[0] + D.column[1]) * strain;
+    difference += (D.column[0] - D.column[1]) * strain;
+    r += D.column[2] * strain;
+    hoop = D.row[0] * p + D.row[1] * q + D.row[2] * shear + D.corner * strain;
   }
 };
 
@@ -153,8 +165,8 @@ void TangentAssembly::placeBlocks(const TriangleData& triangles, const std::vect
 // Both rows of a node follow each other in every column, and its second column is its first one (where
 // symmetric: without its first row). Every entry is a sum over triangles in their order, whichever part it
 // lies in.
-template <class Element>
-void TangentAssembly::assemblePlain(const TriangleData& triangles, const Matrix& moduli,
+template <class Element, bool aboutAxis>
+void TangentAssembly::assemblePlain(const TriangleData& triangles, const TangentModuli& moduli,
                                     std::vector<double>& values, Threads& threads) const {
   constexpr int n = Element::nodes;
   constexpr int points = Element::points;
@@ -173,21 +185,35 @@ void TangentAssembly::assemblePlain(const TriangleData& triangles, const Matrix&
       for (int a = 0; a < n; ++a) equation[a] = equations[2 * nodes[a]];
       for (int i = points * t; i < points * (t + 1); ++i) {
         const std::array<double, 2 * n> G = triangles.gradientsOf<Element>(i);
-        const std::array<double, 9> D = moduliAt(moduli, i);
+        const std::array<double, 9> D = moduliAt(moduli.plane, i);
+        [[maybe_unused]] BeyondModuli beyond;
+        [[maybe_unused]] const double* overRadius = nullptr;
+        if constexpr (aboutAxis) {
+          beyond = beyondAt(*moduli.beyond, i);
+          overRadius = &triangles.hoops[static_cast<size_t>(n) * i];
+        }
         const double weight = triangles.weights[i];
         for (int b = 0; b < n; ++b) {
           if (equation[b] < part.firstColumn || equation[b] >= part.endColumn) continue;
           const double gx = weight * G[2 * b];
           const double gy = weight * G[2 * b + 1];
-          const ColumnOfDB x = columnOfDB(D, gx, gx, gy);
-          const ColumnOfDB y = columnOfDB(D, gy, -gy, gx);
+          ColumnOfDB x = columnOfDB(D, gx, gx, gy);
+          ColumnOfDB y = columnOfDB(D, gy, -gy, gx);
+          if constexpr (aboutAxis) {
+            x.addHoop(beyond, gx, gx, gy, weight * overRadius[b]);
+            y.addHoop(beyond, gy, -gy, gx, 0);
+          }
+          const auto rows = [&](const ColumnOfDB& column, int a) {
+            if constexpr (aboutAxis) return column.times(G[2 * a], G[2 * a + 1], overRadius[a]);
+            return column.times(G[2 * a], G[2 * a + 1]);
+          };
           double* columnX = first + start[equation[b]];
           double* columnY = first + start[equation[b] + 1] - (symmetric ? 1 : 0);
           for (int a = 0; a < n; ++a) {
             if (symmetric && equation[a] < equation[b]) continue;
             const int place = blocks[n * b + a];
-            const Eigen::Vector2d yy = y.times(G[2 * a], G[2 * a + 1]);
-            add(columnX + place, x.times(G[2 * a], G[2 * a + 1]));
+            const Eigen::Vector2d yy = rows(y, a);
+            add(columnX + place, rows(x, a));
             if (symmetric && a == b)
               columnY[place + 1] += yy[1];
             else
@@ -199,10 +225,15 @@ void TangentAssembly::assemblePlain(const TriangleData& triangles, const Matrix&
   });
 }
 
-void TangentAssembly::assemblePlain(const TriangleData& triangles, const Matrix& moduli,
+void TangentAssembly::assemblePlain(const TriangleData& triangles, const TangentModuli& moduli,
                                     std::vector<double>& values, Threads& threads) const {
-  withElement(triangles.nodes.degree,
-              [&](auto element) { assemblePlain<decltype(element)>(triangles, moduli, values, threads); });
+  withElement(triangles.nodes.degree, [&](auto element) {
+    using Element = decltype(element);
+    if (moduli.beyond != nullptr)
+      assemblePlain<Element, true>(triangles, moduli, values, threads);
+    else
+      assemblePlain<Element, false>(triangles, moduli, values, threads);
+  });
 }
 
 }  // namespace mortier

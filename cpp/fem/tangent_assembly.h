@@ -17,8 +17,9 @@ namespace mortier {
 struct TriangleData {
   const ElementNodes& nodes;
   const std::vector<int>& equations;     ///< of dof 2 node + component, ascending; -1 where there is none
-  const std::vector<double>& weights;    ///< of the quadrature points, triangle by triangle [m^2]
+  const std::vector<double>& weights;    ///< of the quadrature points, triangle by triangle [m^2] or [m^3]
   const std::vector<double>& gradients;  ///< of all but the first shape function, over sqrt2 [1/m]
+  const std::vector<double>& hoops;      ///< all shape functions over the radius [1/m]; empty in the plane
 
   [[nodiscard]] size_t count() const { return nodes.triangles.size() / nodes.perTriangle(); }
   /// At a point; the first x and y of a node come one after the other. They sum to zero.
@@ -40,6 +41,13 @@ struct TriangleData {
   }
 };
 
+/// H^-1 at the quadrature points: of the strains of the plane, and where bodies turn about an axis of that
+/// around it (Linearisation).
+struct TangentModuli {
+  const Matrix& plane;
+  const Matrix* beyond = nullptr;
+};
+
 class TangentAssembly {
  public:
   TangentAssembly() = default;
@@ -50,7 +58,7 @@ class TangentAssembly {
 
   /// values = sum |T| B' D B over the plain triangles: those whose nodes all have two equations along the
   /// axes.
-  void assemblePlain(const TriangleData& triangles, const Matrix& moduli, std::vector<double>& values,
+  void assemblePlain(const TriangleData& triangles, const TangentModuli& moduli, std::vector<double>& values,
                      Threads& threads) const;
 
   struct SupportedTriangle {
@@ -72,8 +80,8 @@ class TangentAssembly {
   void cutIntoParts(const std::vector<int>& equations);
   void placeBlocks(const TriangleData& triangles, const std::vector<int>& frameOf);
   [[nodiscard]] std::vector<int> entriesOf(const TriangleData& triangles, size_t t) const;
-  template <class Element>
-  void assemblePlain(const TriangleData& triangles, const Matrix& moduli, std::vector<double>& values,
+  template <class Element, bool aboutAxis>
+  void assemblePlain(const TriangleData& triangles, const TangentModuli& moduli, std::vector<double>& values,
                      Threads& threads) const;
   [[nodiscard]] int entry(int row, int column) const;
 

@@ -33,7 +33,7 @@ std::vector<PlacedMaterial> placedMaterials(const LintInput& input, size_t b) {
 
 /// What relaxes fastest: in plane strain the deviator, elsewhere the mean of s11 and s22.
 double relaxingModulus(const Elasticity& elasticity, Plane plane) {
-  return plane == Plane::strain ? elasticity.moduli()[1] : elasticity.moduli().maxCoeff();
+  return plane != Plane::stress ? elasticity.moduli()[1] : elasticity.moduli().maxCoeff();
 }
 
 void checkElasticity(const LintInput& input, const PlacedMaterial& material, double nominal, Faults& faults) {
@@ -42,9 +42,11 @@ void checkElasticity(const LintInput& input, const PlacedMaterial& material, dou
   const Elasticity& e = material.description.elasticity;
   const std::string& subject = material.subject;
   const std::string& unit = input.scene.units.stress;
-  if (input.scene.plane == Plane::strain && e.poisson > incompressible)
+  if (input.scene.plane != Plane::stress && e.poisson > incompressible)
     faults.add("poisson-limit", material.where("poisson"),
-               subject + "poisson = " + shortest(e.poisson) + " in plane strain is nearly incompressible");
+               subject + "poisson = " + shortest(e.poisson) + " in " +
+                   (input.scene.plane == Plane::strain ? "plane strain" : "axisymmetric bodies") +
+                   " is nearly incompressible");
   if (e.poisson < 0)
     faults.add("poisson-negative", material.where("poisson"),
                subject + "poisson = " + shortest(e.poisson) + " is negative");

@@ -63,6 +63,17 @@ inline std::array<double, 9> moduliAt(const Matrix& moduli, int point) {
   return {D[0], D[1], D[2], D[3], D[4], D[5], D[6], D[7], D[8]};
 }
 
+/// What the fourth component adds to them: its row and its column of H^-1, and where both meet [Pa].
+struct BeyondModuli {
+  std::array<double, 3> row, column;
+  double corner = 0;
+};
+inline BeyondModuli beyondAt(const Matrix& beyond, int point) {
+  const double* b = &beyond(0, point);
+  const double* column = beyond.rows() == 7 ? b + 4 : b;
+  return {{b[0], b[1], b[2]}, {column[0], column[1], column[2]}, b[3]};
+}
+
 using PointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;  ///< by components
 
 /// H^-1 of a point times a strain.

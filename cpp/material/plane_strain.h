@@ -13,8 +13,9 @@
 
 namespace mortier {
 
-/// Which component across the plane is zero.
-enum class Plane { stress, strain };
+/// What is zero across the plane; of bodies that turn about the axis x = 0 nothing is: the fourth strain is
+/// that of the circumference.
+enum class Plane { stress, strain, axisymmetric };
 
 /// A stress or a strain; Scalar is a number or a batch of them.
 template <class Scalar>

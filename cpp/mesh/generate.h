@@ -53,13 +53,15 @@ TriangleMesh annulusMesh(const Annulus& annulus, Cut cut = Cut::rising);
 /// The lower half of a disc, fine around its lowest point: equal cells in a core about that point, then
 /// cells that grow with the distance from it. For Hertz contact.
 struct HalfDisc {
-  Point lowest{0, 0};  ///< [m]
-  double radius = 1;   ///< [m]
-  double core = 0.1;   ///< half width of the core [m], below a third of the radius
-  int cells = 8;       ///< on the half width of the core
+  Point lowest{0, 0};    ///< [m]
+  double radius = 1;     ///< [m]
+  double core = 0.1;     ///< half width of the core [m], below a third of the radius
+  int cells = 8;         ///< on the half width of the core
+  bool quarter = false;  ///< only what is right of the lowest point: the section of a sphere
 };
 
-/// Labels: 1 the arc within 45 degrees of the lowest point, 2 the flat side on top, 3 the rest of the arc.
+/// Labels: 1 the arc within 45 degrees of the lowest point, 2 the flat side on top, 3 the rest of the arc; of
+/// a quarter 4 the vertical side.
 /// Symmetric to the last bit about the vertical axis where cells are cut by both diagonals; inside the arc
 /// every node has as many triangles as its neighbours, whatever the cut. \throws InputError
 TriangleMesh halfDiscMesh(const HalfDisc& disc, Cut cut = Cut::both);

@@ -59,6 +59,37 @@ struct HalfDiscGrid {
   }
 };
 
+/// The triangles right of a vertical line of edges, which get the label 4.
+TriangleMesh rightOf(double x, const TriangleMesh& whole) {
+  TriangleMesh mesh;
+  std::vector<int> number(whole.vertices.size(), -1);
+  for (size_t v = 0; v < number.size(); ++v)
+    if (whole.vertices[v].x() >= x) {
+      number[v] = static_cast<int>(mesh.vertices.size());
+      mesh.vertices.push_back(whole.vertices[v]);
+    }
+  for (size_t t = 0; t < whole.triangles.size(); ++t) {
+    const auto& corners = whole.triangles[t];
+    if (std::any_of(corners.begin(), corners.end(), [&](int v) { return number[v] < 0; })) continue;
+    mesh.triangles.push_back({number[corners[0]], number[corners[1]], number[corners[2]]});
+    if (!whole.regions.empty()) mesh.regions.push_back(whole.regions[t]);
+    for (size_t k = 0; k < 3; ++k) {
+      const int a = corners[k];
+      const int b = corners[(k + 1) % 3];
+      if (whole.vertices[a].x() != x || whole.vertices[b].x() != x) continue;
+      mesh.boundaryEdges.push_back({number[a], number[b]});
+      mesh.boundaryLabels.push_back(4);
+    }
+  }
+  for (size_t e = 0; e < whole.boundaryEdges.size(); ++e) {
+    const auto& [a, b] = whole.boundaryEdges[e];
+    if (number[a] < 0 || number[b] < 0) continue;
+    mesh.boundaryEdges.push_back({number[a], number[b]});
+    mesh.boundaryLabels.push_back(whole.boundaryLabels[e]);
+  }
+  return mesh;
+}
+
 }  // namespace
 
 TriangleMesh halfDiscMesh(const HalfDisc& disc, Cut cut) {
@@ -119,7 +150,8 @@ TriangleMesh halfDiscMesh(const HalfDisc& disc, Cut cut) {
   for (int r = 0; r < rings; ++r)
     for (int k = 0; k < 4 * m; ++k)
       addCell(mesh, {ringNode(r, k), ringNode(r, k + 1), ringNode(r + 1, k + 1), ringNode(r + 1, k)}, around);
-  return finished(std::move(mesh), name.str());
+  mesh = finished(std::move(mesh), name.str());
+  return disc.quarter ? finished(rightOf(disc.lowest.x(), mesh), "quarter of a " + name.str()) : mesh;
 }
 
 }  // namespace mortier

@@ -83,7 +83,7 @@ std::vector<std::string> estimateDoubts(const SceneDescription& scene, const Mod
   if (std::any_of(model.interfaces.begin(), model.interfaces.end(), falseStresses))
     doubts.emplace_back(
         "interpolation on meshes that do not match makes false stresses, of which it sees 0.34 to 0.8");
-  for (size_t b = 0; b < model.bodies.size() && scene.plane == Plane::strain; ++b) {
+  for (size_t b = 0; b < model.bodies.size() && scene.plane != Plane::stress; ++b) {
     const auto materials = materialsOf(scene.bodies[b]);
     const bool keepsVolume = std::any_of(
         materials.begin(), materials.end(),
@@ -113,7 +113,8 @@ std::vector<std::string> pointForceDoubts(const Model& model, const State& state
       const double size = std::hypot(force[0], force[1]);
       if (size > noticeable * largest)
         doubts.push_back("body " + body.name() + " is held at " + shortest(*held.point) + " by a force of " +
-                         twoDigits(size) + " N/m, whose energy at a point is infinite");
+                         twoDigits(size) + (body.axisymmetric() ? " N" : " N/m") +
+                         ", whose energy at a point is infinite");
     }
   }
   return doubts;

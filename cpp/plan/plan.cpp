@@ -38,6 +38,9 @@ class Planner {
           "degree = 2: six nodes a triangle, stresses at three points");
     if (scene_.plane == Plane::strain)
       add("scene", true, "plane strain", "plane = \"strain\": nothing moves across the plane, s33 is found");
+    if (scene_.plane == Plane::axisymmetric)
+      add("scene", true, "bodies of revolution, forces and energies of whole rings",
+          "plane = \"axisymmetric\": x is the distance from the axis, s33 the stress around it");
     if (anyRough(model_))
       add("scene", false, "inertia, finite strains and slips", "quasistatic, small strains");
     else
@@ -74,7 +77,10 @@ class Planner {
         if (parameter.name == "yield_stress") yieldStress = std::min(yieldStress, parameter.value);
       if (law.name != "elastic" && law.name != "Perzyna") always = law.text();
     }
-    const std::string law = scene_.plane == Plane::strain ? "its tangent is symmetric in plane strain"
+    const std::string law = scene_.plane != Plane::stress
+                                ? "its tangent is symmetric " + (scene_.plane == Plane::strain
+                                                                     ? std::string("in plane strain")
+                                                                     : std::string("in three dimensions"))
                             : projection.empty()
                                 ? "its tangent is symmetric"
                                 : "projection " + projection + " makes its tangent " +

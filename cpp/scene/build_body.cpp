@@ -17,7 +17,7 @@ std::shared_ptr<const Material> buildMaterial(const MaterialDescription& descrip
   if (const auto* viscoelasticity = description.as<Viscoelasticity>())
     return viscoelasticMaterial(elasticity, *viscoelasticity, plane);
   const auto* viscoplasticity = description.as<Viscoplasticity>();
-  if (plane == Plane::strain) {
+  if (plane != Plane::stress) {
     return viscoplasticity ? planeStrainPerzynaMaterial(elasticity, *viscoplasticity)
                            : planeStrainElasticMaterial(elasticity);
   }
@@ -54,6 +54,20 @@ void addInitialStress(const StressDescription& stress, std::optional<int> region
   }
 }
 
+/// Data that meet at a node agree, with the axis too.
+void requireOneDisplacement(const TriangleMesh& mesh, std::vector<PrescribedDisplacement> prescribed,
+                            std::vector<const ConditionDescription*> described, bool axisymmetric,
+                            const std::vector<double>& times) {
+  ConditionDescription axis;
+  axis.onAxis = true;
+  if (axisymmetric) {
+    axis.value.value = heldOnAxis().value;
+    prescribed.insert(prescribed.begin(), heldOnAxis());
+    described.insert(described.begin(), &axis);
+  }
+  requireOneDisplacement(Supports(mesh, prescribed), described, mesh, times);
+}
+
 }  // namespace
 
 Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescription& scene,
@@ -68,8 +82,10 @@ Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescri
       conditions.tractions.push_back({c.label, c.component, finiteValue(c.value)});
     }
   }
+  const bool axisymmetric = scene.plane == Plane::axisymmetric;
+  if (axisymmetric) mesh = meshAboutAxis(std::move(mesh));
   requireFiniteData(body, mesh, times);
-  requireOneDisplacement(Supports(mesh, conditions.displacements), displacements, mesh, times);
+  requireOneDisplacement(mesh, conditions.displacements, displacements, axisymmetric, times);
   for (const int c : {0, 1}) {
     if (body.force[c]) {
       conditions.forces.push_back({c, finiteValue(*body.force[c])});
@@ -81,7 +97,7 @@ Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescri
   }
   const int points = withElement(scene.degree, [](auto element) { return decltype(element)::points; });
   const std::shared_ptr<const Material> material = buildMaterial(body, mesh, scene.plane, points);
-  return {body.name, std::move(mesh), material, std::move(conditions), scene.degree};
+  return {body.name, std::move(mesh), material, std::move(conditions), scene.degree, axisymmetric};
 }
 
 }  // namespace mortier

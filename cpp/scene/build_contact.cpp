@@ -52,6 +52,7 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
   InterfaceOptions options;
   options.initial = contact.initial;
   options.friction = contact.friction;
+  options.axisymmetric = scene.plane == Plane::axisymmetric;
   if (contact.gap) {
     const Body& body = model.bodies[pair.nonmortar.body];
     std::vector<Point> points;

@@ -40,7 +40,8 @@ std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model
       refuse(label + " is no side of a contact, expected one");
     if (quantity.kind == Kind::displacement) {
       quantity.mean =
-          description.point ? meanAt(body.mesh(), *description.point) : meanOn(body.mesh(), quantity.label);
+          description.point ? meanAt(body.mesh(), *description.point)
+                            : meanOn(body.mesh(), quantity.label, body.axisymmetric());
       if (quantity.mean.empty())
         refuse("point = " + shortest(*description.point) + ", expected a point of body " + body.name());
     }

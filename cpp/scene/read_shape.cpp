@@ -9,14 +9,15 @@
 namespace mortier {
 namespace {
 
-const Keys shapeWords{"rectangle", "quadrilateral", "annulus", "halfdisc"};
+const Keys shapeWords{"rectangle", "quadrilateral", "annulus", "halfdisc", "quarterdisc"};
 const Keys cutWords{"rising", "falling", "both"};  // as Cut
 const Keys spanWords{"quarter", "half", "full"};
 
 const std::map<std::string, Keys> keysOfShape{{"rectangle", {"lower", "upper", "focus", "grading"}},
                                               {"quadrilateral", {"corners"}},
                                               {"annulus", {"centre", "inner", "outer", "span"}},
-                                              {"halfdisc", {"lowest", "radius", "core"}}};
+                                              {"halfdisc", {"lowest", "radius", "core"}},
+                                              {"quarterdisc", {"lowest", "radius", "core"}}};
 
 /// N or [N, M], such as "cells" and "grading" are.
 Point pairOf(const TableReader& table, const std::string& key, double fallback, bool whole) {
@@ -58,7 +59,7 @@ MeshShape readShape(const TableReader& table) {
   const auto cells1 = static_cast<int>(cells.x());
   const auto cells2 = static_cast<int>(cells.y());
   MeshShape shape;
-  shape.cut = static_cast<Cut>(table.oneOf("cut", cutWords, word == "halfdisc" ? 2 : 0));
+  shape.cut = static_cast<Cut>(table.oneOf("cut", cutWords, word.ends_with("disc") ? 2 : 0));
   const auto point = [&](const char* key, const Point& fallback) {
     return table.find(key) != nullptr ? table.point(key) : fallback;
   };
@@ -81,7 +82,7 @@ MeshShape readShape(const TableReader& table) {
   } else {
     if (cells1 != cells2) table.reject("cells", "N, on half the width of the core");
     shape.of = HalfDisc{point("lowest", {0, 0}), table.number("radius", above(0), 1),
-                        table.number("core", above(0), 0.1), cells1};
+                        table.number("core", above(0), 0.1), cells1, word == "quarterdisc"};
   }
   return shape;
 }

@@ -21,8 +21,9 @@ namespace {
 void requireInPlane(const BodyDescription& body, Plane plane) {
   const auto require = [&](const StressDescription& stress) {
     if (plane == Plane::stress && stress[3]) {
-      throw InputError(stress[3]->where +
-                       ", expected plane = \"strain\" beside it: s33 is 0 in plane stress");
+      throw InputError(
+          stress[3]->where +
+          ", expected plane = \"strain\" beside it, or \"axisymmetric\": s33 is 0 in plane stress");
     }
   };
   require(body.initialStress);
@@ -46,6 +47,17 @@ void readAccuracy(const TableReader& accuracy, SceneDescription& scene) {
     accuracy.reject("energy", "it only beside time.scheme = sdirk2 or backward-euler, whose error is known");
   if (scene.solver.method != Method::newton)
     accuracy.reject("energy", "it only beside solver.method = newton, by whose tangent errors are estimated");
+}
+
+/// What is not known of bodies that turn about an axis.
+void requireAboutAxis(const TableReader& root, const SceneDescription& scene) {
+  if (scene.plane != Plane::axisymmetric) return;
+  if (scene.accuracy.bound)
+    root.reject("plane", "stress or strain beside accuracy.bound: no bound is known of axisymmetric bodies");
+  for (const QuantityDescription& quantity : scene.quantities)
+    if (quantity.component == Quantity::Component::moment)
+      throw InputError(quantity.where + ": quantity " + quantity.name +
+                       ": component = \"moment\", expected x or y: forces of a whole ring have no moment");
 }
 
 void readOptions(const TableReader& root, SceneDescription& scene) {
@@ -86,6 +98,7 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   scene.path = path;
   scene.title = root.string("title", "");
   scene.plane = static_cast<Plane>(root.oneOf("plane", planeWords, 0));
+  scene.units.wholeRing = scene.plane == Plane::axisymmetric;
   scene.degree = root.integer("degree", 1, scene.degree);
   if (scene.degree > 2) root.reject("degree", "1 or 2");
   readOptions(root, scene);
@@ -120,10 +133,12 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   for (const Node* quantity : root.tables("quantity")) {
     scene.quantities.push_back(readQuantity(*quantity, scene));
   }
+  requireAboutAxis(root, scene);
   return scene;
 }
 
 std::string nameOfPlace(const ConditionDescription& condition) {
+  if (condition.onAxis) return "the axis";
   if (condition.point) return "point " + shortest(*condition.point);
   return "label " + (condition.labelName.empty() ? std::to_string(condition.label) : condition.labelName);
 }

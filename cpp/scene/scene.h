@@ -46,11 +46,12 @@ struct ConditionDescription {
   Expression value;
   std::string where;                ///< file and line of the label, or the --set that gave it
   std::optional<Point> point = {};  ///< in place of the label; resolveScene makes it that of a vertex [m]
+  bool onAxis = false;              ///< of the axis of revolution, in place of the label
 
-  [[nodiscard]] bool actsOn(int boundary) const { return !point && label == boundary; }
+  [[nodiscard]] bool actsOn(int boundary) const { return !point && !onAxis && label == boundary; }
 };
 
-/// "label 3" or "point [0.5, 1]".
+/// "label 3", "point [0.5, 1]" or "the axis".
 std::string nameOfPlace(const ConditionDescription& condition);
 
 /// s11, s22, s12, s33 at t = 0 [Pa].

@@ -8,7 +8,7 @@
 
 namespace mortier {
 
-inline const Keys planeWords{"stress", "strain"};                                           // Plane
+inline const Keys planeWords{"stress", "strain", "axisymmetric"};                           // Plane
 inline const Keys couplingWords{"interpolation", "mortar", "weighted"};                     // CouplingKind
 inline const Keys initialWords{"as-meshed", "close", "reject"};                             // InitialGap
 inline const Keys projectionWords(std::begin(projectionNames), std::end(projectionNames));  // Projection

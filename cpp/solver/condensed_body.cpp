@@ -86,7 +86,7 @@ CondensedBody::Factors CondensedBody::factorise() {
   result.changed = !(std::exchange(counted_, false) && elastic);
   elasticFactors_ = elastic;
   schurFactor_.clear();
-  body_.tangent(law_.moduli, values_, threads_);
+  body_.tangent(law_, values_, threads_);
   factorised_ = solver_->factorise(values_);
   if (!factorised_ && engine_ == LinearEngine::multifrontal && !body_.pattern().symmetric) {
     // UMFPACK pivots in the whole matrix.

@@ -41,6 +41,7 @@ std::map<int, Wrench> reactions(const Model& model, const State& state, int b) {
     }
     for (int i = 0; i < support.count; ++i) {
       const PrescribedDisplacement& held = body.conditions().displacements[support.conditions[i]];
+      if (held.onAxis) continue;
       result[firstSupport(body, held.label, held.point)].add(body.elementNodes().places[support.node],
                                                              along[i] * support.directions[i]);
     }
@@ -112,7 +113,7 @@ double contactLength(const Model& model, const State& state, const Quantity& qua
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
     if (!isSide(interface, quantity.body, quantity.label)) continue;
-    const Vector lengths = interface.mass() * Vector::Ones(interface.rows());
+    const Vector lengths = interface.lengths();
     for (Eigen::Index i = 0; i < lengths.size(); ++i)
       if (state.contactForce[k][i] > 0) length += lengths[i];
   }
@@ -234,14 +235,16 @@ std::vector<std::pair<int, double>> meanAt(const TriangleMesh& mesh, const Point
   return {};
 }
 
-std::vector<std::pair<int, double>> meanOn(const TriangleMesh& mesh, int label) {
+std::vector<std::pair<int, double>> meanOn(const TriangleMesh& mesh, int label, bool axisymmetric) {
   std::map<int, double> lengths;
   double sum = 0;
   for (const auto& [a, b] : edgesOn(mesh, label)) {
     const double length = (mesh.vertices[b] - mesh.vertices[a]).norm();
-    lengths[a] += length / 2;
-    lengths[b] += length / 2;
-    sum += length;
+    const double first = axisymmetric ? (2 * mesh.vertices[a].x() + mesh.vertices[b].x()) / 3 : 1;
+    const double second = axisymmetric ? (mesh.vertices[a].x() + 2 * mesh.vertices[b].x()) / 3 : 1;
+    lengths[a] += length / 2 * first;
+    lengths[b] += length / 2 * second;
+    sum += length / 2 * (first + second);
   }
   std::vector<std::pair<int, double>> weights;
   for (const auto& [vertex, length] : lengths) weights.emplace_back(vertex, length / sum);

@@ -111,8 +111,10 @@ double SpaceErrorEstimator::roundingOf(size_t body, double displacement) const {
   const double u = roundings * std::numeric_limits<double>::epsilon() * displacement;
   Matrix strain;
   of.material().elasticStrain(Matrix::Ones(of.material().components(), of.points()), strain);
+  const std::vector<Point> places = of.axisymmetric() ? of.places() : std::vector<Point>(of.points());
   double sum = 0;
-  for (int i = 0; i < of.points(); ++i) sum += u * u / strain.col(i).cwiseAbs().head<3>().minCoeff();
+  for (int i = 0; i < of.points(); ++i)
+    sum += of.depthAt(places[i]) * u * u / strain.col(i).cwiseAbs().head<3>().minCoeff();
   return sum;
 }
 

@@ -256,6 +256,11 @@ name = "disc"
 mesh = { shape = "halfdisc", lowest = [-5, -9], radius = 3, core = 0.9, cells = 1 }
 material = { young = 100, poisson = 0.3 }
 boundary = [ { label = 1, uy = 0, ux = 0 }, { label = 2, ty = -1 } ]
+[[body]]
+name = "quarter"
+mesh = { shape = "quarterdisc", lowest = [-5, -19], radius = 3, core = 0.9, cells = 1 }
+material = { young = 100, poisson = 0.3 }
+boundary = [ { label = 1, uy = 0, ux = 0 }, { label = 2, ty = -1 } ]
 [time]
 end = 1
 steps = 1

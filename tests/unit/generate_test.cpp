@@ -204,6 +204,14 @@ TEST(HalfDisc, isRoundSymmetricAndFineAtItsLowestPoint) {
       }
       if (cut == Cut::both) before = lack;
     }
+  for (const Cut cut : cuts) {
+    const TriangleMesh half = halfDiscMesh({lowest, R, 10, 4}, cut);
+    const TriangleMesh quarter = halfDiscMesh({lowest, R, 10, 4, true}, cut);
+    EXPECT_TRUE(closedByLabels(quarter));
+    EXPECT_EQ(2 * quarter.triangles.size(), half.triangles.size());
+    EXPECT_NEAR(2 * area(quarter), area(half), 1e-12 * R * R);
+    for (const Point& p : boundaryLine(quarter, 4).points) EXPECT_EQ(p.x(), lowest.x());
+  }
   for (const HalfDisc& wrong :
        {HalfDisc{{0, 0}, 0, 0.1, 2}, HalfDisc{{0, 0}, 1, 0.5, 2}, HalfDisc{{0, 0}, 1, 0, 2},
         HalfDisc{{0, 0}, 1, 0.1, 0}, HalfDisc{{0, NAN}, 1, 0.1, 2}})

@@ -39,6 +39,8 @@ class MeshCommand(OfTwoBlocks):
                  "annulus of radii 3 and 2 about (0, 0), expected"),
                 (["quadrilateral", "--cells", "2", "--corners", "0,0", "0,1", "1,1", "1,0"],
                  "quadrilateral (0, 0)"),
+                (["quarterdisc", "--cells", "2", "--core", "0.5"],
+                 "half disc of radius 1 on (0, 0): core 0.5, expected"),
                 (["halfdisc", "--cells", "2", "--core", "0.5"],
                  "half disc of radius 1 on (0, 0): core 0.5, expected")]:
             with self.subTest(arguments=arguments):
