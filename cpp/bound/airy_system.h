@@ -2,9 +2,9 @@
 //
 //   E(x) = E(0) - 2 b'x + x'K x,
 //
-// x their modes: value and gradient at each vertex, the mean normal derivative at each side. With K = D + L + L',
-// D the blocks of vertices and the diagonal of sides, vertices before sides, conjugate gradients preconditioned
-// by symmetric Gauss-Seidel, (D + L) D^-1 (D + L'), work with
+// x their modes: value and gradient at each vertex, the mean normal derivative at each side. With
+// K = D + L + L', D the blocks of vertices and the diagonal of sides, vertices before sides, conjugate
+// gradients preconditioned by symmetric Gauss-Seidel, (D + L) D^-1 (D + L'), work with
 //
 //   (D + L)^-1 K (D + L')^-1 p = t + (D + L)^-1 (p - D t),      t = (D + L')^-1 p,
 //
@@ -35,8 +35,8 @@ class AirySystem {
   [[nodiscard]] double atSide(int side) const { return x_[firstSide_ + side]; }
 
  private:
-  /// The coupling of a side: with its two ends, the lower number first, and the vertices opposite; of these ends
-  /// with each other; with sides of greater number.
+  /// The coupling of a side: with its two ends, the lower number first, and the vertices opposite; of these
+  /// ends with each other; with sides of greater number.
   struct Coupling {
     std::array<int, 4> vertices;
     std::array<int, 4> others;

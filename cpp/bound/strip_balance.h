@@ -1,7 +1,7 @@
-// Nodal forces that are out of balance next to a contact line, taken up by stresses in a few rings of triangles
-// around them: an elastic solution of the strip, whose inner rim is free. Forces and couples on it balance each
-// other, or its supports hold it, where pressures have the force and the couple of the nodal forces
-// (pressures.h).
+// Nodal forces that are out of balance next to a contact line, taken up by stresses in a few rings of
+// triangles around them: an elastic solution of the strip, whose inner rim is free. Forces and couples on it
+// balance each other, or its supports hold it, where pressures have the force and the couple of the nodal
+// forces (pressures.h).
 #pragma once
 
 #include <vector>
