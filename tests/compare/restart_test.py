@@ -47,7 +47,6 @@ CASES = [
     ([NORTON, "contact.variant=mortar", "time.scheme=sdirk2", "time.tolerance=1e-4"], 2),
     ([NORTON, "plane=strain", "contact.variant=mortar", "time.scheme=crank-nicolson"], 1),
     ([HARDENING, "contact.variant=interpolation", "time.scheme=sdirk2"], 1),
-    ([HARDENING, "plane=strain", "contact.variant=mortar", "time.scheme=sdirk2", "time.tolerance=1e-4"], 2),
 ]
 KILLS = 20
 MEASURED = {"summary.json": [["solve_time_s"], ["wall_time_s"], ["peak_memory_mib"], ["threads"]],
