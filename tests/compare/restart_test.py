@@ -49,7 +49,6 @@ CASES = [
       "body.upper.boundary=[{label=3, uy='-0.1*t', ux='0.1*sin(9*t)'}]"], 2),
     ([NORTON, "plane=strain", "contact.variant=mortar", "time.scheme=crank-nicolson"], 1),
     ([HARDENING, "contact.variant=interpolation", "time.scheme=sdirk2"], 1),
-    ([HARDENING, "plane=strain", "contact.variant=mortar", "time.scheme=sdirk2", "time.tolerance=1e-4"], 2),
 ]
 KILLS = 20
 MEASURED = {"summary.json": [["solve_time_s"], ["wall_time_s"], ["peak_memory_mib"], ["threads"]],
