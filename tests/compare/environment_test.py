@@ -52,7 +52,7 @@ class Environment(OfTwoBlocks):
 
     def test_scenes_hold_every_key(self):
         tables = re.search(r"tables = \{(.*?)\n  \};", (ROOT / "cpp/scene/schema.cpp").read_text(), re.S)[1]
-        keys = {key for inner in re.findall(r"\{\"[\w.]*\", \{(.*?)\}\}", tables, re.S)
+        keys = {key for inner in re.findall(r"\{\"[\w.]*\",\s*\{(.*?)\}\}", tables, re.S)
                 for key in re.findall(r"\w+", inner)}
         self.assertGreater(len(keys), 40)
         written = set(re.findall(r"\w+(?= = )|(?<=\[)\w+|(?<=\.)\w+(?=\])",
