@@ -49,8 +49,11 @@ bool isTime(double time) {
 }
 
 bool isCourse(const ErrorCourse& course) {
+  const auto areSums = [](const std::vector<double>& all) {
+    return std::all_of(all.begin(), all.end(), [](double each) { return each >= 0; });
+  };
   return course.growth >= 0 && course.misfit >= 0 && course.drift >= 0 && !course.lengths.empty() &&
-         course.lengths.size() == course.sums.size();
+         course.lengths.size() == course.sums.size() && areSums(course.lengths) && areSums(course.sums);
 }
 
 /// Stresses by the triangles of the matched meshes; none where nothing is bounded.

@@ -75,7 +75,12 @@ TEST(Checkpoint, ofAnotherModelIsRefused) {
       [](Checkpoint& c) { c.memory.increments[0][1].displacement.low.resize(1); },
       [](Checkpoint& c) { c.memory.solver.libraries.resize(5); },
       [&](Checkpoint& c) { c.memory.controller.timeStep = nan; },
-      [&](Checkpoint& c) { c.memory.timeStep = -1; }};
+      [&](Checkpoint& c) { c.memory.timeStep = -1; },
+      [](Checkpoint& c) { c.accuracy.total.stress.resize(1); },
+      [](Checkpoint& c) { c.accuracy.total.stress.assign(2, Matrix::Zero(3, 1)); },
+      [](Checkpoint& c) { c.accuracy.total.fixed.lengths.clear(); },
+      [&](Checkpoint& c) { c.accuracy.total.any.misfit = nan; },
+      [&](Checkpoint& c) { c.accuracy.total.any.sums.back() = nan; }};
   for (size_t i = 0; i < changes.size(); ++i) {
     Checkpoint changed = checkpointOf(model);
     changes[i](changed);
