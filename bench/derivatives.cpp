@@ -110,7 +110,7 @@ void formulas(const Matrix& stress, Matrix& slopes) {
   }();
   Matrix rate(4, points);
   std::vector<Dual<4>> work;
-  mortier::evaluateInLanes<false>(
+  mortier::evaluateEach<false>(
       [&]<int n>(const Dual<n>* in, Dual<n>* out) {
         if constexpr (n == 4) law.evaluate(in, out, work);
       },

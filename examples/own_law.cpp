@@ -23,10 +23,8 @@ struct SinhCreep {
     const Number b = s.c22 - mean;
     const Number c = s.c33 - mean;
     const Number relative = sqrt(1.5 * (a * a + b * b + c * c + 2 * (s.c12 * s.c12))) / stress;
-    // sinh(x)/x, which is 1 at 0.
-    const Number small = 1 + relative * relative / 6;
-    const Number ratio =
-        select(relative < Number(1e-4), small, (exp(relative) - exp(-relative)) / (2 * relative));
+    Number ratio = 1 + relative * relative / 6;  // sinh(x)/x near 0
+    if (relative > 1e-4) ratio = (exp(relative) - exp(-relative)) / (2 * relative);
     const Number flow = 1.5 * rate / stress * ratio;
     return {flow * a, flow * b, flow * s.c12, flow * c};
   }

@@ -1,4 +1,4 @@
-// A viscoplastic rate of one's own, G(sigma, eps) [1/s], at many points at once, with its derivatives. As a
+// A viscoplastic rate of one's own, G(sigma, eps) [1/s], at many points, with its derivatives. As a
 // small type in C++ it is
 //
 //   struct Creep {
@@ -38,42 +38,30 @@ class RateLaw {
   [[nodiscard]] int slopeRows() const { return ofStrain() ? 32 : 16; }
 };
 
-/// Runs `rateOf(Dual<n> in[8], Dual<n> out[4])`, which is generic in n, over all points: in are the
-/// components of stress and strain.
+/// Runs `rateOf(Dual<n> in[8], Dual<n> out[4])`, which is generic in n, at each point: in are the components
+/// of stress and strain.
 template <bool ofStrain, class RateOf>
-void evaluateInLanes(const RateOf& rateOf, const Matrix& stress, const Matrix& strain, Matrix& rate,
-                     Matrix* slopes) {
-  constexpr int directions = ofStrain ? 8 : 4;
-  const int points = static_cast<int>(stress.cols());
-  const auto run = [&]<int n>(std::array<Dual<n>, 8> in, const Batch& batch) {
+void evaluateEach(const RateOf& rateOf, const Matrix& stress, const Matrix& strain, Matrix& rate,
+                  Matrix* slopes) {
+  const auto run = [&]<int n>(std::array<Dual<n>, 8> in) {
     std::array<Dual<n>, 4> out;
-    rateOf(in.data(), out.data());
-    batch.store(std::array<Lanes, 4>{out[0].value, out[1].value, out[2].value, out[3].value}, rate.data());
-    if constexpr (n > 0) {
-      std::array<Lanes, 4 * n> all;
-      for (int k = 0; k < n; ++k)
-        for (int c = 0; c < 4; ++c) all[4 * k + c] = out[c].slope[k];
-      batch.store(all, slopes->data());
+    for (int k = 0; k < n; ++k) in[k].slope[k] = 1;
+    for (Eigen::Index i = 0; i < stress.cols(); ++i) {
+      for (int k = 0; k < 4; ++k) {
+        in[k].value = stress(k, i);
+        in[4 + k].value = strain(k, i);
+      }
+      rateOf(in.data(), out.data());
+      for (int c = 0; c < 4; ++c) {
+        rate(c, i) = out[c].value;
+        for (int k = 0; k < n; ++k) (*slopes)(4 * k + c, i) = out[c].slope[k];
+      }
     }
   };
-  for (int i = 0; i < points; i += laneCount) {
-    const Batch batch(i, points);
-    const std::array<Lanes, 4> s = batch.load<4>(stress.data());
-    const std::array<Lanes, 4> e = batch.load<4>(strain.data());
-    const auto start = [&]<int n>() {
-      std::array<Dual<n>, 8> in;
-      for (int k = 0; k < 4; ++k) {
-        in[k] = s[k];
-        in[4 + k] = e[k];
-      }
-      for (int k = 0; k < n; ++k) in[k].slope[k] = 1;
-      return in;
-    };
-    if (slopes == nullptr)
-      run.template operator()<0>(start.template operator()<0>(), batch);
-    else
-      run.template operator()<directions>(start.template operator()<directions>(), batch);
-  }
+  if (slopes == nullptr)
+    run(std::array<Dual<0>, 8>{});
+  else
+    run(std::array<Dual<ofStrain ? 8 : 4>, 8>{});
 }
 
 /// The rate law of a type as above.
@@ -82,9 +70,8 @@ class TypedRateLaw final : public RateLaw {
  public:
   explicit TypedRateLaw(Law law) : law_(std::move(law)) {}
   [[nodiscard]] bool ofStrain() const override { return Law::ofStrain; }
-  [[gnu::flatten]] void evaluate(const Matrix& stress, const Matrix& strain, Matrix& rate,
-                                 Matrix* slopes) const override {
-    evaluateInLanes<Law::ofStrain>(
+  void evaluate(const Matrix& stress, const Matrix& strain, Matrix& rate, Matrix* slopes) const override {
+    evaluateEach<Law::ofStrain>(
         [this]<int n>(const Dual<n>* in, Dual<n>* out) {
           const Components<Dual<n>> all = law_.rateOf(Components<Dual<n>>{in[0], in[1], in[2], in[3]},
                                                       Components<Dual<n>>{in[4], in[5], in[6], in[7]});

@@ -8,9 +8,11 @@ namespace {
 
 using Op = Formulas::Op;
 
-template <int n>
-Dual<n> truth(const LaneMask& mask) {
-  return select(mask, Lanes(1), Lanes(0));
+/// A function of one number and its derivative.
+template <int n, class Function, class Derivative>
+Dual<n> applied(const Dual<n>& x, Function function, Derivative derivative) {
+  if constexpr (n == 0) return function(x.value);
+  return along(function(x.value), x, derivative(x.value));
 }
 
 /// Functions of one number by their C++ names, and their derivatives.
@@ -58,7 +60,7 @@ Dual<n> ofOne(Op op, const Dual<n>& x) {
     case Op::abs:
       return abs(x);
     case Op::sign:
-      return sign(x);
+      return x.value > 0 ? 1.0 : x.value < 0 ? -1.0 : 0.0;
     default:
       return is([](double a) { return std::floor(a + 0.5); }, [](double) { return 0.0; });
   }
@@ -66,11 +68,8 @@ Dual<n> ofOne(Op op, const Dual<n>& x) {
 
 template <int n>
 Dual<n> arcOf(const Dual<n>& y, const Dual<n>& x) {
-  const Lanes angle([&](auto lane) {
-    return std::atan2(static_cast<double>(y.value[lane]), static_cast<double>(x.value[lane]));
-  });
-  const Lanes square = x.value * x.value + y.value * y.value;
-  return along(angle, y, x.value / square, x, -y.value / square);
+  const double square = x.value * x.value + y.value * y.value;
+  return along(std::atan2(y.value, x.value), y, x.value / square, x, -y.value / square);
 }
 
 }  // namespace
@@ -95,19 +94,19 @@ Dual<n> Formulas::apply(const Operation& operation, const Dual<n>* done) {
     case Op::power:
       return operation.number != 0 ? pow(a, operation.number) : pow(a, b);
     case Op::less:
-      return truth<n>(a.value < b.value);
+      return a.value < b.value ? 1.0 : 0.0;
     case Op::lessOrEqual:
-      return truth<n>(a.value <= b.value);
+      return a.value <= b.value ? 1.0 : 0.0;
     case Op::equal:
-      return truth<n>(a.value == b.value);
+      return a.value == b.value ? 1.0 : 0.0;
     case Op::notEqual:
-      return truth<n>(a.value != b.value);
+      return a.value != b.value ? 1.0 : 0.0;
     case Op::both:
-      return truth<n>(a.value != 0 && b.value != 0);
+      return (a.value != 0 && b.value != 0) ? 1.0 : 0.0;
     case Op::either:
-      return truth<n>(a.value != 0 || b.value != 0);
+      return (a.value != 0 || b.value != 0) ? 1.0 : 0.0;
     case Op::choose:
-      return select(a.value != 0, b, done[operation.c]);
+      return a.value != 0 ? b : done[operation.c];
     case Op::min:
       return min(a, b);
     case Op::max:
@@ -141,7 +140,7 @@ int Formulas::append(const Operation& operation) {
     std::vector<Dual<0>> done(operations_.size());
     for (const int i : {own.a, own.b, own.c})
       if (i >= 0) done[i] = operations_[i].number;
-    own = {Op::number, -1, -1, -1, apply(own, done.data()).value[0]};
+    own = {Op::number, -1, -1, -1, apply(own, done.data()).value};
   }
   if (own.op == Op::power && isNumber(own.b)) own.number = operations_[own.b].number;
   if (own.op == Op::power && isNumber(own.b) && own.number == 0) own = {Op::number, -1, -1, -1, 1};

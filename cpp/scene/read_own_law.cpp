@@ -25,9 +25,9 @@ class ExpressionLaw final : public RateLaw {
       rates_.evaluate(in, out, std::get<std::vector<Dual<n>>>(work));
     };
     if (ofStrain_)
-      evaluateInLanes<true>(rateOf, stress, strain, rate, slopes);
+      evaluateEach<true>(rateOf, stress, strain, rate, slopes);
     else
-      evaluateInLanes<false>(rateOf, stress, strain, rate, slopes);
+      evaluateEach<false>(rateOf, stress, strain, rate, slopes);
   }
 
  private:

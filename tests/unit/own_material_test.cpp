@@ -225,7 +225,7 @@ struct Jump {
   static constexpr bool ofStrain = false;
   template <class Number>
   Components<Number> rateOf(const Components<Number>& s, const Components<Number>&) const {
-    return alongDeviator(s, select(mises(s) > Number(1), Number(1e3), Number(0)));
+    return alongDeviator(s, Number(mises(s) > 1 ? 1e3 : 0.0));
   }
 };
 
