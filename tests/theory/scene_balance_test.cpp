@@ -123,11 +123,12 @@ TEST_P(SceneBalance, ofForcesAndEnergies) {
             continue;
           }
           sum = std::max(sum, outOfBalance(model, now, b, contacts, size));
-          const auto& [u0, s0, e0, work0] = before.bodies[b];
-          const auto& [u1, s1, e1, work1] = now.bodies[b];
-          flow[b] += product(model.bodies[b], s0 + s1, e1 - e0) / 2;
-          euler[b] += product(model.bodies[b], s1, e1 - e0);
-          worstGain = std::max(worstGain, work0.dissipated - work1.dissipated);
+          const BodyState& begin = before.bodies[b];
+          const BodyState& end = now.bodies[b];
+          const Matrix flowed = end.viscoplasticStrain - begin.viscoplasticStrain;
+          flow[b] += product(model.bodies[b], begin.stress + end.stress, flowed) / 2;
+          euler[b] += product(model.bodies[b], end.stress, flowed);
+          worstGain = std::max(worstGain, begin.work.dissipated - end.work.dissipated);
         }
         worstForce = std::max({worstForce, sum, contacts.head<2>().cwiseAbs().maxCoeff()});
         largestForce = std::max(largestForce, size);
