@@ -1,7 +1,7 @@
-// Numbers with their derivatives (forward mode of automatic differentiation) for laws of one's own: a value and
-// its slopes along n directions, as Ceres' Jet and Eigen's AutoDiffScalar; Dual<0> is a value alone. Where a
-// slope is 0 a product with it is 0 whatever the other factor, so that sqrt(s11^2) has the slope 0 at 0, not
-// NaN as with those.
+// Numbers with their derivatives (forward mode of automatic differentiation) for laws of one's own: a value
+// and its slopes along n directions, as Ceres' Jet and Eigen's AutoDiffScalar have them; Dual<0> is a value
+// alone. Where a slope is 0 a product with it is 0 whatever the other factor, so that sqrt(s11^2) has the
+// slope 0 at 0, not NaN as with those.
 #pragma once
 
 #include <array>
