@@ -1,5 +1,5 @@
-// What the rate of a law and its 4 x 4 derivatives by the stress cost a point: mortier's own numbers beside the
-// libraries of Debian that the compiler finds, and beside differences of muParser.
+// What the rate of a law and its 4 x 4 derivatives by the stress cost a point: mortier's own numbers beside
+// the libraries of Debian that the compiler finds, and beside differences of muParser.
 // The law is Norton's. Nanoseconds a point, and the ratio to a type in C++.
 #include <Eigen/Core>
 // after it
