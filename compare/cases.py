@@ -188,8 +188,6 @@ def scene_cases():
         SceneCase("sloped", "weighted", "a distance that changes, quadratic",
                   (SOFT, "contact.gap=(1e-3*x^2+1e-3)*cos(3*t)", "degree=2")),
         SceneCase("sphere", "weighted", "sides swapped", ("contact.swap=true",)),
-        SceneCase("sphere", "weighted", "quadratic, body forces and tractions",
-                  ("degree=2", "body.block.force.y=-2*x", 'body.ball.boundary.3.tx="-10*y*t"')),
         SceneCase("sloped", "mortar", "a cone that flows, around an axis",
                   (SOFT, 'plane="axisymmetric"', "time.steps=4", "body.upper.boundary.2.tx=-5*t",
                    "body.lower.boundary.2.tx=-5*t")),

@@ -43,13 +43,23 @@ class Result:
                 for each in self.interfaces):
             raise results.ResultError(f"{self.folder / 'summary.json'}: interfaces of bodies that "
                                       "there are not")
-        revolved = self.summary.get("plane") == "axisymmetric"
-        self.axes = ("r", "z") if revolved else ("x", "y")
-        self.meanings = AROUND_AXIS if revolved else ("",) * 4
         self.kept = results.kept_steps(self.folder)
         self.tables = results.contact_tables(self.folder)
         self.history = results.read_history(self.folder)
         self.steps_read = {}
+
+    @property
+    def revolved(self):
+        return self.summary.get("plane") == "axisymmetric"
+
+    @property
+    def axes(self):
+        return ("r", "z") if self.revolved else ("x", "y")
+
+    @property
+    def meanings(self):
+        """Of the components of stress and strain, behind their names."""
+        return AROUND_AXIS if self.revolved else ("",) * 4
 
     @property
     def failed(self):

