@@ -251,6 +251,23 @@ bool isOneCurve(const SmoothPart& part) {
   });
 }
 
+/// \throws InputError where quadratic triangles have curved sides: FreeFEM's are straight.
+void requireStraightSides(const SceneDescription& scene, const Model& model) {
+  constexpr double rounding = 1e-12;
+  if (scene.degree != 2) return;
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    const TriangleMesh& mesh = model.bodies[b].mesh();
+    for (size_t e = 0; e < mesh.edgeMiddles.size(); ++e) {
+      const auto& [from, to] = mesh.boundaryEdges[e];
+      const Point side = mesh.vertices[to] - mesh.vertices[from];
+      const Point off = mesh.edgeMiddles[e] - mesh.vertices[from] - side / 2;
+      if (off.allFinite() && off.norm() > rounding * side.norm())
+        refuse(scene.bodies[b].meshWhere + ": body " + scene.bodies[b].name + ": a mesh with curved sides",
+               "straight ones beside degree = 2");
+    }
+  }
+}
+
 /// \throws InputError where a line of contact has corners that count, is closed or is made of several curves.
 void requireSmooth(const SceneDescription& scene, const Model& model) {
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
@@ -282,6 +299,7 @@ int writeFreefem(const FreefemCommand& command) {
   const SceneDescription& scene = resolved.description;
   requireKnown(scene);
   requireSmooth(scene, model);
+  requireStraightSides(scene, model);
 
   // 2. The meshes that FreeFEM does not read, beside the script.
   std::vector<std::string> meshFiles;

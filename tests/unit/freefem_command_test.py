@@ -93,6 +93,16 @@ class Script(support.OfTwoBlocks):
                     f"without corners {ALL}",
                     "freefem", "scene.toml")
 
+    def test_quadratic_triangles_with_curved_sides(self):
+        arc = 'mesh = { shape = "halfdisc", radius = 1, core = 0.3, lowest = [0, 0], cells = 4 }\n'
+        scene = TWO_BLOCKS.replace('mesh = "upper.mesh"\n', arc).replace("label = 4\nux", "label = 2\nux")
+        scene = scene.replace("label = 3\nty", "label = 2\nty")
+        self.assertIn(arc, scene)
+        self.write(scene)
+        self.assertEqual(self.mortier("freefem", "scene.toml", "linear.edp").returncode, 0)
+        self.reject("scene.toml:5: body upper: a mesh with curved sides, expected straight ones beside "
+                    f"degree = 2 {ALL}", "freefem", "scene.toml", "quadratic.edp", "--set", "degree=2")
+
     def test_no_interface(self):
         self.write(TWO_BLOCKS[:TWO_BLOCKS.index("[contact]")] + TWO_BLOCKS[TWO_BLOCKS.index("[time]"):])
         self.reject(f"scene.toml: no contact interface, expected one at least {ALL}", "freefem", "scene.toml")
