@@ -1,4 +1,5 @@
 """What the Python tests share. Each is run by ctest, or alone: MORTIER=build/mortier /usr/bin/python3 FILE"""
+import json
 import os
 import re
 import subprocess
@@ -87,3 +88,20 @@ class InSharedFolder(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
+
+
+class OfScene(InFolder):
+    def run_it(self, text, *settings, folder="out"):
+        self.write(text)
+        arguments = [word for setting in settings for word in ("--set", setting)]
+        self.mortier("run", "scene.toml", "--quiet", "--out", folder, *arguments)
+        return json.loads(self.read(folder + "/summary.json"))
+
+    def value(self, summary, name):
+        return summary["quantities"][name]["value"]
+
+    def refuse(self, text, message, *settings):
+        self.write(text)
+        arguments = [word for setting in settings for word in ("--set", setting)]
+        errors = self.mortier("run", "scene.toml", "--quiet", "--out", "out", *arguments, code=2).stderr
+        self.assertIn(message, errors)

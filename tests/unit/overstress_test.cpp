@@ -121,6 +121,9 @@ TEST(Overstress, stepAndTangentAreThoseOfTheLaw) {
           worst = std::max(worst, error);
           EXPECT_LE(error, 1e-9) << static_cast<int>(plane) << ' ' << (&law - laws) << ' ' << weight << ' '
                                  << size;
+          // The tangent of plasticity without hardening keeps 1e-10 of elasticity.
+          const bool perfect = !law.viscous() && law.kinematicHardening + law.isotropicHardening == 0;
+          const double trace = perfect ? 2e-10 : 0;
           material->linearise({weight, stress0, strains, false, &total0}, s, at, 0, 1);
           for (int j = 0; j < 3; ++j) {
             const Long h = 1e-4L * strain.abs().maxCoeff();
@@ -139,8 +142,8 @@ TEST(Overstress, stepAndTangentAreThoseOfTheLaw) {
             const double off =
                 (column - difference.col(0)).cwiseAbs().maxCoeff() / 200 / std::min(1.0, 1.0 / size);
             worstTangent = std::max(worstTangent, off);
-            EXPECT_LE(off, 3e-7) << static_cast<int>(plane) << ' ' << (&law - laws) << ' ' << weight << ' '
-                                 << size;
+            EXPECT_LE(off, std::max(1e-7, trace * size))
+                << static_cast<int>(plane) << ' ' << (&law - laws) << ' ' << weight << ' ' << size;
           }
         }
   std::cout << "stress " << worst << ", tangent against differences " << worstTangent << "\n";
