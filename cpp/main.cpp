@@ -118,6 +118,10 @@ int dispatch(int argc, char** argv) {
                        "folder of the result (default: out/ and the study's name)");
   studyApp->add_option("--jobs", studyCommand.jobs, "runs at once (default: one a processor)")
       ->check(CLI::Range(1, 1024));
+  studyApp
+      ->add_option("--scheduler", studyCommand.scheduler,
+                   "address of a dask scheduler whose workers make the runs (docs/study.md)")
+      ->type_name("ADDRESS");
   studyApp->add_flag("--quiet", studyCommand.quiet, "print nothing but errors");
 
   PlotCommand plotCommand;

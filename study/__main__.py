@@ -18,11 +18,15 @@ from problems import RunFailure  # noqa: E402
 
 def arguments():
     parser = argparse.ArgumentParser(prog="mortier study", description=__doc__.splitlines()[0])
-    parser.add_argument("study", metavar="STUDY", help="study, a TOML file")
+    parser.add_argument("study", metavar="STUDY",
+                        help="study, a TOML file; -: one run of a study of another machine, as a worker of "
+                             "--scheduler makes it, from standard input")
     parser.add_argument("--out", type=Path, metavar="DIR",
                         help="folder of the result (default: out/ and the study's name)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N",
                         help="runs at once (default: one a processor; wall times count only with 1)")
+    parser.add_argument("--scheduler", metavar="ADDRESS",
+                        help="runs are made by the workers of this dask scheduler instead")
     parser.add_argument("--quiet", action="store_true", help="prints nothing but errors")
     found = parser.parse_args()
     if found.jobs < 1:
@@ -40,12 +44,17 @@ def study(given, say):
     import report
     import table
     from folder import Folder
-    from sweep import Runner
+    from sweep import Here, Runner
 
+    place = None
+    if given.scheduler is not None:
+        require("distributed")
+        from cluster import Workers
+        place = Workers(given.scheduler, say)
     out = given.out or Path("out") / plan.path.stem
     with Folder(out) as folder:
         # 2. The runs that are not done yet.
-        runner = Runner(plan, folder, given.jobs, say)
+        runner = Runner(plan, folder, place or Here(folder, given.jobs), say)
         measurements = runner.run()
         rows = table.rows(plan, measurements)
 
@@ -73,6 +82,10 @@ def main():
     def say(line):
         if not given.quiet:
             print(shown(line), file=out, flush=True)
+    if given.study == "-":
+        require("numpy")
+        import remote
+        return code_of(remote.serve, "a run for a study", expected="a task", kept="nothing is kept")
     return code_of(lambda: study(given, say), given.study, expected="a study (docs/study.md)",
                    kept="finished runs are kept", place=given.out or "out")
 

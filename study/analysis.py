@@ -26,8 +26,8 @@ class Series:
 
     def label(self, shown):
         """The sweep and those fixed axes that tell its series apart."""
-        return ", ".join([self.sweep,
-                          *(value_text(axis, self.fixed[axis]) for axis in shown.get(self.sweep, ()))])
+        return ", ".join([self.sweep, *(value_text(axis, self.fixed[axis])
+                                        for axis in shown.get(self.sweep, ()) if axis in self.fixed)])
 
 
 def value_text(axis, value):
@@ -36,40 +36,35 @@ def value_text(axis, value):
 
 def series_of(plan, rows):
     """Every series of the finished rows."""
-    result = []
-    for sweep in plan.sweeps:
-        mine = [row for row in rows if row["sweep"] == sweep.name and row["status"] == DONE]
-        axes = list(dict.fromkeys(axis for case in sweep.cases for axis, _ in case.values))
-        several = [axis for axis in axes if len({dict(case.values)[axis] for case in sweep.cases}) > 1]
-        axis = next((each for each in RUNNING if each in several), several[0] if several else "")
-        groups = {}
-        for row in mine:
-            fixed = {each: str(row[each]) for each in axes if each != axis}
-            groups.setdefault(tuple(fixed.items()), []).append(row)
-        for fixed, members in groups.items():
-            members.sort(key=lambda row: (number(row, axis) is None, number(row, axis) or 0,
-                                          str(row.get(axis, ""))))
-            result.append(Series(sweep.name, dict(fixed), axis, members))
-    return result
+    return [each for sweep in plan.sweeps
+            for each in along(sweep, rows, next((axis for axis in RUNNING if axis in varying(sweep)),
+                                                (varying(sweep) or [""])[0]))]
 
 
 def along_levels(plan, rows):
     """Series along the meshes where both meshes and steps vary."""
-    result = []
-    for sweep in plan.sweeps:
-        axes = list(dict.fromkeys(axis for case in sweep.cases for axis, _ in case.values))
-        several = [axis for axis in axes if len({dict(case.values)[axis] for case in sweep.cases}) > 1]
-        if "level" not in several or not set(several) & {"steps", "tolerance"}:
-            continue
-        groups = {}
-        for row in rows:
-            if row["sweep"] == sweep.name and row["status"] == DONE:
-                fixed = {each: str(row[each]) for each in axes if each != "level"}
-                groups.setdefault(tuple(fixed.items()), []).append(row)
-        for fixed, members in groups.items():
-            members.sort(key=lambda row: number(row, "level"))
-            result.append(Series(sweep.name, dict(fixed), "level", members))
-    return result
+    return [each for sweep in plan.sweeps
+            if "level" in varying(sweep) and set(varying(sweep)) & {"steps", "tolerance"}
+            for each in along(sweep, rows, "level")]
+
+
+def varying(sweep):
+    """The axes of a sweep that take more than one value."""
+    axes = dict.fromkeys(axis for case in sweep.cases for axis, _ in case.values)
+    return [axis for axis in axes if len({dict(case.values)[axis] for case in sweep.cases}) > 1]
+
+
+def along(sweep, rows, axis):
+    """The series of a sweep in which one axis runs."""
+    axes = dict.fromkeys(each for case in sweep.cases for each, _ in case.values)
+    groups = {}
+    for row in rows:
+        if row["sweep"] == sweep.name and row["status"] == DONE:
+            fixed = {each: str(row[each]) for each in axes if each != axis}
+            groups.setdefault(tuple(fixed.items()), []).append(row)
+    for members in groups.values():
+        members.sort(key=lambda row: (number(row, axis) is None, number(row, axis) or 0, str(row.get(axis, ""))))
+    return [Series(sweep.name, dict(fixed), axis, members) for fixed, members in groups.items()]
 
 
 def distinguishing(series):
