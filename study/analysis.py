@@ -63,7 +63,8 @@ def along(sweep, rows, axis):
             fixed = {each: str(row[each]) for each in axes if each != axis}
             groups.setdefault(tuple(fixed.items()), []).append(row)
     for members in groups.values():
-        members.sort(key=lambda row: (number(row, axis) is None, number(row, axis) or 0, str(row.get(axis, ""))))
+        members.sort(key=lambda row: (number(row, axis) is None, number(row, axis) or 0,
+                                      str(row.get(axis, ""))))
     return [Series(sweep.name, dict(fixed), axis, members) for fixed, members in groups.items()]
 
 

@@ -67,8 +67,8 @@ class Workers:
 
 
 def on_worker():
-    """make(task, files, truth): what a worker does. A function in a function is sent as it stands: a worker has
-    no module of the study."""
+    """make(task, files, truth): what a worker does. A function in a function is sent as it stands: a worker
+    has no module of the study."""
 
     def make(task, files, truth):
         import os
@@ -90,7 +90,8 @@ def on_worker():
         with tempfile.TemporaryFile() as answer, tempfile.TemporaryFile() as complaint:
             try:
                 child = subprocess.Popen([program, "study", "-"], stdin=subprocess.PIPE, stdout=answer,
-                                         stderr=complaint, env={**os.environ, "TMPDIR": worker.local_directory})
+                                         stderr=complaint,
+                                         env={**os.environ, "TMPDIR": worker.local_directory})
                 rest = pickle.dumps((files, truth, worker.state.nthreads))
                 child.stdin.write(task + len(rest).to_bytes(8, "little") + rest)
                 child.stdin.flush()

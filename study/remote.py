@@ -49,8 +49,8 @@ def stamp():
 
 
 def files_of(plan, meshes, cases):
-    """absolute path -> bytes of every file that the runs read: the scene, and what a text in it or the value
-    of an axis names. StudyError: a file that is named by an absolute path has no place of its own elsewhere."""
+    """absolute path -> bytes, pickled, of every file that the runs read: the scene, and what a text in it or
+    the value of an axis names. StudyError: an absolute path, which is another place on another machine."""
     scene = Path(os.path.abspath(plan.scene))
     named = [(scene.parent, text) for text in texts(tomllib.loads(scene.read_text(encoding="utf-8")))]
     named += [(Path.cwd(), text) for case in cases for _, value in case.values for text in texts(value)]
