@@ -6,10 +6,14 @@
 #include <cmath>
 #include <cstddef>
 #include <experimental/simd>
+#include <utility>
+#include <vector>
 
 extern "C" {
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 void dgetrf_(const int* m, const int* n, double* a, const int* lda, int* ipiv, int* info);
+void dlaswp_(const int* n, double* a, const int* lda, const int* first, const int* last, const int* ipiv,
+             const int* step);
 int blas_thread_shutdown_() __attribute__((weak));  // of OpenBLAS, where it has threads
 }
 
@@ -36,12 +40,12 @@ double dot(const double* x, const double* y, int n) {
   return result;
 }
 
-/// Of a matrix of `rows` rows, as swapRows does with rows.
-void swapColumns(double* A, int rows, const int* interchange, int n) {
+/// In the first `rows` rows, as swapRows does with rows.
+void swapColumns(double* A, int ld, int rows, const int* interchange, int n) {
   for (int k = 0; k < n; ++k)
     if (interchange[k] != k)
-      std::swap_ranges(A + static_cast<size_t>(rows) * k, A + static_cast<size_t>(rows) * (k + 1),
-                       A + static_cast<size_t>(rows) * interchange[k]);
+      std::swap_ranges(A + static_cast<size_t>(ld) * k, A + static_cast<size_t>(ld) * k + rows,
+                       A + static_cast<size_t>(ld) * interchange[k]);
 }
 
 /// NaN anywhere in a factorised block has reached its diagonal.
@@ -88,7 +92,98 @@ void smallUpdate(const double* L21, int ldL, int pivots, const double* upper, in
   for (; j < rest; ++j) updateColumns<1>(L21, ldL, pivots, upper, ldU, rest, lower ? j : 0, j, update);
 }
 
+/// Rows and columns of a tile of a large front.
+constexpr int tile = 192;
+
+/// Calls work(begin, end) for the tiles of [from, to).
+template <class Work>
+void forEachTile(int from, int to, Threads& threads, const Work& work) {
+  threads.forEach((to - from + tile - 1) / tile,
+                  [&](int t) { work(from + tile * t, std::min(from + tile * (t + 1), to)); });
+}
+
+/// Calls work(row, rowEnd, column, columnEnd) for the tiles of rows [from, to) and columns [from, columns);
+/// with `lower`, for those on and below the diagonal.
+template <class Work>
+void forEachTile(int from, int to, int columns, bool lower, Threads& threads, const Work& work) {
+  std::vector<std::pair<int, int>> tiles;
+  for (int j = from; j < columns; j += tile)
+    for (int i = lower ? j : from; i < to; i += tile) tiles.emplace_back(i, j);
+  threads.forEach(static_cast<int>(tiles.size()), [&](int t) {
+    const auto [i, j] = tiles[t];
+    work(i, std::min(i + tile, to), j, std::min(j + tile, columns));
+  });
+}
+
+/// Rows [i, i1) and columns [j, j1) of C = beta C - A A', on and below the diagonal.
+void subtractSquare(const double* A, int ldA, int inner, double beta, double* C, int ldC, int i, int i1,
+                    int j, int j1) {
+  double* target = C + static_cast<size_t>(ldC) * j + i;
+  if (i == j)
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, j1 - j, inner, -1, A + j, ldA, beta, target, ldC);
+  const int below = std::max(i, j1);
+  if (below < i1)
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, i1 - below, j1 - j, inner, -1, A + below, ldA, A + j,
+                ldA, beta, target + (below - i), ldC);
+}
+
+/// L11 of a large pivot block.
+bool tiledCholesky(double* panel, int n, int pivots, Threads& threads) {
+  for (int k = 0; k < pivots; k += tile) {
+    const int next = std::min(k + tile, pivots);
+    const int width = next - k;
+    double* diagonal = panel + static_cast<size_t>(n) * k + k;
+    int info = 0;
+    dpotrf_("L", &width, diagonal, &n, &info);
+    if (info != 0) return false;
+    forEachTile(next, pivots, threads, [&](int i, int i1) {
+      cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, i1 - i, width, 1, diagonal,
+                  n, diagonal + (i - k), n);
+    });
+    forEachTile(next, pivots, pivots, true, threads, [&](int i, int i1, int j, int j1) {
+      subtractSquare(panel + static_cast<size_t>(n) * k, n, width, 1, panel, n, i, i1, j, j1);
+    });
+  }
+  return true;
+}
+
+/// L11 and U11 of a large pivot block, rows interchanged.
+bool tiledLU(double* panel, int n, int pivots, int* interchange, Threads& threads) {
+  const auto at = [&](int i, int j) { return panel + static_cast<size_t>(n) * j + i; };
+  for (int k = 0; k < pivots; k += tile) {
+    const int next = std::min(k + tile, pivots);
+    const int width = next - k;
+    const int height = pivots - k;
+    int info = 0;
+    dgetrf_(&height, &width, at(k, k), &n, interchange + k, &info);
+    if (info != 0) return false;
+    const int first = 1;
+    const int step = 1;
+    const auto swap = [&](int j, int j1) {
+      const int columns = j1 - j;
+      dlaswp_(&columns, at(k, j), &n, &first, &width, interchange + k, &step);
+    };
+    forEachTile(0, k, threads, swap);
+    forEachTile(next, pivots, threads, [&](int j, int j1) {
+      swap(j, j1);
+      cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasUnit, width, j1 - j, 1, at(k, k),
+                  n, at(k, j), n);
+    });
+    forEachTile(next, pivots, pivots, false, threads, [&](int i, int i1, int j, int j1) {
+      cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, i1 - i, j1 - j, width, -1, at(i, k), n, at(k, j),
+                  n, 1, at(i, j), n);
+    });
+    for (int i = k; i < next; ++i) interchange[i] += k;
+  }
+  return true;
+}
+
 }  // namespace
+
+bool isLarge(int n, int pivots) {
+  constexpr double least = 5e7;  // multiplications worth the locks of their tiles
+  return static_cast<double>(pivots) * n * n > least;
+}
 
 void useOneThread() {
   openblas_set_num_threads(1);
@@ -99,9 +194,20 @@ void endThreadsOfBlas() {
   if (blas_thread_shutdown_ != nullptr) blas_thread_shutdown_();
 }
 
-bool partialCholesky(double* panel, int n, int pivots, double* update) {
+bool partialCholesky(double* panel, int n, int pivots, double* update, Threads& threads) {
   const int rest = n - pivots;
   double* L21 = panel + pivots;
+  if (isLarge(n, pivots)) {
+    if (!tiledCholesky(panel, n, pivots, threads) || !finiteDiagonal(panel, n, pivots)) return false;
+    forEachTile(0, rest, threads, [&](int i, int i1) {
+      cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, i1 - i, pivots, 1, panel,
+                  n, L21 + i, n);
+    });
+    forEachTile(0, rest, rest, true, threads, [&](int i, int i1, int j, int j1) {
+      subtractSquare(L21, n, pivots, 0, update, rest, i, i1, j, j1);
+    });
+    return true;
+  }
   if (!isSmall(n, pivots)) {
     int info = 0;
     dpotrf_("L", &pivots, panel, &n, &info);
@@ -128,16 +234,34 @@ bool partialCholesky(double* panel, int n, int pivots, double* update) {
   return true;
 }
 
-bool partialLU(double* panel, int n, int pivots, double* upper, double* update, int* interchange) {
+bool partialLU(double* panel, int n, int pivots, double* upper, double* update, int* interchange,
+               Threads& threads) {
   const int rest = n - pivots;
   double* L21 = panel + pivots;
+  if (isLarge(n, pivots)) {
+    const bool regular = tiledLU(panel, n, pivots, interchange, threads);
+    for (int k = 0; k < pivots; ++k) --interchange[k];
+    if (!regular || !finiteDiagonal(panel, n, pivots)) return false;
+    forEachTile(0, rest, threads, [&](int i, int i1) {
+      swapColumns(upper + i, rest, i1 - i, interchange, pivots);
+      cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasUnit, i1 - i, pivots, 1, panel, n,
+                  upper + i, rest);
+      cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, i1 - i, pivots, 1, panel,
+                  n, L21 + i, n);
+    });
+    forEachTile(0, rest, rest, false, threads, [&](int i, int i1, int j, int j1) {
+      cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, i1 - i, j1 - j, pivots, -1, L21 + i, n, upper + j,
+                  rest, 0, update + static_cast<size_t>(rest) * j + i, rest);
+    });
+    return true;
+  }
   if (!isSmall(n, pivots)) {
     int info = 0;
     dgetrf_(&pivots, &pivots, panel, &n, interchange, &info);
     for (int k = 0; k < pivots; ++k) --interchange[k];
     if (info != 0 || !finiteDiagonal(panel, n, pivots)) return false;
     if (rest == 0) return true;
-    swapColumns(upper, rest, interchange, pivots);
+    swapColumns(upper, rest, rest, interchange, pivots);
     cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasUnit, rest, pivots, 1, panel, n,
                 upper, rest);
     cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, rest, pivots, 1, panel, n,
@@ -164,7 +288,7 @@ bool partialLU(double* panel, int n, int pivots, double* upper, double* update, 
       for (int i = k + 1; i < n; ++i) target[i] -= factor * pivot[i];
     }
   }
-  swapColumns(upper, rest, interchange, pivots);
+  swapColumns(upper, rest, rest, interchange, pivots);
   for (int k = 0; k < pivots; ++k)
     for (int j = k + 1; j < pivots; ++j) {
       const double factor = panel[static_cast<size_t>(n) * k + j];

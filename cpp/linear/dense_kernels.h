@@ -2,19 +2,25 @@
 // ones. Matrices are column major with leading dimension `ld`.
 #pragma once
 
+#include "base/parallel.h"
+
 namespace mortier::dense {
+
+/// Whether threads share the work of a front; its bits do not depend on how many they are.
+bool isLarge(int n, int pivots);
 
 /// Panel (n x pivots, lower triangle) becomes [L11; L21], update (updates x updates, lower triangle) -L21
 /// L21'.
 /// \returns false unless the pivot block is positive definite.
-bool partialCholesky(double* panel, int n, int pivots, double* update);
+bool partialCholesky(double* panel, int n, int pivots, double* update, Threads& threads);
 
 /// Panel (n x pivots) becomes [L11\U11; L21], upper (updates x pivots) from F12' to U12', update -L21 U12;
 /// the rows of the pivot block are interchanged as `interchange` (from 0) tells. \returns false when the
 /// pivot block is singular.
-bool partialLU(double* panel, int n, int pivots, double* upper, double* update, int* interchange);
+bool partialLU(double* panel, int n, int pivots, double* upper, double* update, int* interchange,
+               Threads& threads);
 
-/// Lets BLAS use one thread: bodies and pieces of the factorisation are what runs in parallel.
+/// Lets BLAS use one thread: bodies, pieces of the factorisation and tiles of large fronts run in parallel.
 void useOneThread();
 
 /// And ends the threads that BLAS began when it was loaded, one per core: they wait busily for a while. For a

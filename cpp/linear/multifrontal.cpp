@@ -50,7 +50,7 @@ class Multifrontal final : public CondensingSolver {
   [[nodiscard]] Matrix takeSchurComplement() override { return std::move(schur_); }
 
   void condense(Vector& f) const override {
-    Vector x = f(plan_.order);
+    Vector x = inOrder(f);
     std::vector<double*> passed(plan_.fronts.size());
     std::vector<std::unique_ptr<double[]>> stacks(pieces_.all.size());
     threads().upward(pieces_.parent, [&](int p) {
@@ -58,11 +58,11 @@ class Multifrontal final : public CondensingSolver {
       condensePiece(pieces_.all[p], x, stacks[p].get(), passed);
       for (const int child : pieces_.all[p].children) stacks[child].reset();
     });
-    f(plan_.order) = x;
+    putBack(x, f);
   }
 
   void expand(Vector& f) const override {
-    Vector x = f(plan_.order);
+    Vector x = inOrder(f);
     threads().downward(pieces_.parent, [&](int p) {
       Vector y(static_cast<Eigen::Index>(largest_));
       for (int s = pieces_.all[p].last; s >= pieces_.all[p].first; --s) {
@@ -82,7 +82,7 @@ class Multifrontal final : public CondensingSolver {
         }
       }
     });
-    f(plan_.order) = x;
+    putBack(x, f);
   }
 
  private:
@@ -96,6 +96,30 @@ class Multifrontal final : public CondensingSolver {
   [[nodiscard]] double* panel(int s) const { return panels_.get() + factors_[s].panel; }
   [[nodiscard]] double* upper(int s) const { return panels_.get() + factors_[s].upper; }
 
+  /// Calls work(begin, end) for parts of [0, n).
+  template <class Work>
+  void forEachPart(size_t n, size_t part, const Work& work) const {
+    if (n <= part) return work(0, n);
+    threads().forEach(static_cast<int>((n + part - 1) / part),
+                      [&](int i) { work(part * i, std::min(part * (i + 1), n)); });
+  }
+
+  static constexpr size_t equations = 1 << 15;  ///< of a vector, worth a lock
+
+  [[nodiscard]] Vector inOrder(const Vector& f) const {
+    Vector x(f.size());
+    forEachPart(plan_.order.size(), equations, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) x[i] = f[plan_.order[i]];
+    });
+    return x;
+  }
+
+  void putBack(const Vector& x, Vector& f) const {
+    forEachPart(plan_.order.size(), equations, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) f[plan_.order[i]] = x[i];
+    });
+  }
+
   bool factorisePiece(int p, const std::vector<double>& values) {
     const Piece& piece = pieces_.all[p];
     stacks_[p] = std::make_unique_for_overwrite<double[]>(piece.stack);
@@ -106,12 +130,19 @@ class Multifrontal final : public CondensingSolver {
       const size_t m = front.updates();
       double* update = top;
       const size_t held = front.panelSize() + (symmetric_ ? 0 : front.pivots * m);
-      std::fill_n(panel(s), held, 0.0);
+      const bool shared = dense::isLarge(static_cast<int>(front.rows.size()), front.pivots);
+      const size_t part = shared ? columns : std::max<size_t>(front.rows.size(), 1);
+      forEachPart(held, part * front.rows.size(),
+                  [&](size_t begin, size_t end) { std::fill(panel(s) + begin, panel(s) + end, 0.0); });
       assemble(s, values, 0, held, panel(s));
-      for (const int child : front.children) extendAddPanel(s, child);
+      forEachPart(front.pivots, part, [&](size_t begin, size_t end) {
+        for (const int child : front.children) extendAddPanel(s, child, begin, end);
+      });
       if (!eliminate(s, update)) return false;
       if (front.parent < 0) assemble(s, values, held, held + m * m, update);
-      for (const int child : front.children) extendAddUpdate(s, child, update);
+      forEachPart(m, part, [&](size_t begin, size_t end) {
+        for (const int child : front.children) extendAddUpdate(s, child, update, begin, end);
+      });
       updates_[s] = update;
       if (piece.children.empty() && !front.children.empty()) {
         updates_[s] = updates_[front.children.front()];
@@ -132,19 +163,24 @@ class Multifrontal final : public CondensingSolver {
     }
   }
 
-  /// How many of the rows of a child's update are pivots of its parent: they come first.
-  [[nodiscard]] size_t pivotsAmong(const std::vector<int>& rows, int pivots) const {
-    return std::lower_bound(rows.begin(), rows.end(), pivots) - rows.begin();
+  static constexpr size_t columns = 64;  ///< of a large front that a thread takes at once
+
+  /// How many rows of a child's update come before a row of its parent, in which the pivots come first.
+  [[nodiscard]] static size_t rowsBefore(const std::vector<int>& rows, size_t row) {
+    return std::lower_bound(rows.begin(), rows.end(), static_cast<int>(row)) - rows.begin();
   }
 
-  void extendAddPanel(int s, int childIndex) {
+  /// In the columns [begin, end) of the panel.
+  void extendAddPanel(int s, int childIndex, size_t begin, size_t end) {
     const Front& front = plan_.fronts[s];
     const std::vector<int>& rows = plan_.fronts[childIndex].inParent;
     const size_t n = front.rows.size();
     const size_t m = rows.size();
-    const size_t split = pivotsAmong(rows, front.pivots);
+    const size_t split = rowsBefore(rows, front.pivots);
+    const size_t first = rowsBefore(rows, begin);
+    const size_t last = rowsBefore(rows, end);
     const double* child = updates_[childIndex];
-    for (size_t j = 0; j < split; ++j) {
+    for (size_t j = first; j < last; ++j) {
       double* column = panel(s) + n * rows[j];
       for (size_t i = symmetric_ ? j : 0; i < m; ++i) column[rows[i]] += child[m * j + i];
     }
@@ -152,18 +188,20 @@ class Multifrontal final : public CondensingSolver {
     const size_t updates = front.updates();
     for (size_t j = split; j < m; ++j) {
       double* row = upper(s) + (rows[j] - front.pivots);
-      for (size_t i = 0; i < split; ++i) row[updates * rows[i]] += child[m * j + i];
+      for (size_t i = first; i < last; ++i) row[updates * rows[i]] += child[m * j + i];
     }
   }
 
-  void extendAddUpdate(int s, int childIndex, double* update) {
+  /// In the columns [begin, end) of the update.
+  void extendAddUpdate(int s, int childIndex, double* update, size_t begin, size_t end) {
     const Front& front = plan_.fronts[s];
     const std::vector<int>& rows = plan_.fronts[childIndex].inParent;
     const size_t updates = front.updates();
     const size_t m = rows.size();
-    const size_t split = pivotsAmong(rows, front.pivots);
+    const size_t split = rowsBefore(rows, front.pivots);
+    const size_t last = rowsBefore(rows, front.pivots + end);
     const double* child = updates_[childIndex];
-    for (size_t j = split; j < m; ++j) {
+    for (size_t j = rowsBefore(rows, front.pivots + begin); j < last; ++j) {
       double* column = update + updates * (rows[j] - front.pivots) - front.pivots;
       for (size_t i = symmetric_ ? j : split; i < m; ++i) column[rows[i]] += child[m * j + i];
     }
@@ -176,8 +214,9 @@ class Multifrontal final : public CondensingSolver {
       std::fill_n(update, front.updates() * front.updates(), 0.0);
       return true;
     }
-    if (symmetric_) return dense::partialCholesky(panel(s), n, front.pivots, update);
-    return dense::partialLU(panel(s), n, front.pivots, upper(s), update, pivots_.data() + factors_[s].pivot);
+    if (symmetric_) return dense::partialCholesky(panel(s), n, front.pivots, update, threads());
+    return dense::partialLU(panel(s), n, front.pivots, upper(s), update, pivots_.data() + factors_[s].pivot,
+                            threads());
   }
 
   void keepSchurComplement(const double* update) {

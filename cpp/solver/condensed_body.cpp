@@ -6,6 +6,7 @@
 #include <mutex>
 #include <utility>
 
+#include "base/blocks.h"
 #include "base/interrupt.h"
 #include "base/worst.h"
 
@@ -30,7 +31,7 @@ double CondensedBody::linearise(const Matrix& stress0, const Matrix* shift, Body
   law_.elastic = 0;
   std::mutex lock;
   Worst residual;
-  forEachBlock(body_, threads_, [&](int begin, int end) {
+  forEachBlock(body_.points(), threads_, [&](int begin, int end) {
     stopIfInterrupted();
     body_.strain(iterate.increment, shift, iterate.strain, begin, end);
     if (!law.inBlock) return;

@@ -88,13 +88,4 @@ class CondensedBody {
   Vector contactForce_;      ///< its part on the contact dofs
 };
 
-/// Calls work(begin, end) for all points of a body, a block at a time: points that stay in the cache from one
-/// loop over them to the next, a multiple of the lanes.
-template <class Work>
-void forEachBlock(const Body& body, Threads& threads, const Work& work) {
-  constexpr int block = 2048;
-  const int blocks = (body.points() + block - 1) / block;
-  threads.forEach(blocks, [&](int i) { work(block * i, std::min(block * (i + 1), body.points())); });
-}
-
 }  // namespace mortier

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/blocks.h"
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/worst.h"
@@ -289,7 +290,7 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
     Matrix& stress = iterate.bodies[b].stress;
     iterate.bodies[b].increment += d;
     stress.resizeLike(law.predictor);
-    forEachBlock(body, system_->threads_, [&](int begin, int end) {
+    forEachBlock(body.points(), system_->threads_, [&](int begin, int end) {
       stress.middleCols(begin, end - begin) = law.predictor.middleCols(begin, end - begin);
       body.addStressOf(d, law, stress, begin, end);
     });

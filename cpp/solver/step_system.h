@@ -100,6 +100,7 @@ class StepSystem {
   /// The same with those along the line of interfaces with friction, which come after all others.
   [[nodiscard]] Vector joined(const std::vector<Vector>& across, const std::vector<Vector>& along) const;
 
+  [[nodiscard]] Threads& threads() { return threads_; }
   void forEachBody(const Threads::Work& work) { threads_.forEach(static_cast<int>(bodies_.size()), work); }
   /// Uses CHOLMOD or UMFPACK from now on.
   void useLibraries();

@@ -101,7 +101,7 @@ void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& p
     run.special = taker.special();
     if (report.status != Status::converged) break;
     compareActive(before, taker.active(), report);
-    measure(model, state, report);
+    measure(model, state, taker.threads(), report);
     raise(run.peaks, report);
     report.quantities = evaluate(plan.quantities, model, state);
     for (size_t i = 0; i < report.quantities.size(); ++i)

@@ -1,10 +1,11 @@
 #include "time/measure.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "base/blocks.h"
 #include "base/worst.h"
 #include "material/stress.h"
-#include "solver/total_strain.h"
 
 namespace mortier {
 
@@ -17,7 +18,46 @@ void compareActive(const ActiveSets& before, const ActiveSets& after, StepReport
     }
 }
 
-void measure(const Model& model, const State& state, StepReport& report) {
+namespace {
+
+/// What a block of a body adds to a report.
+struct Part {
+  double area = 0;
+  double flowing = 0;  ///< area
+  double vonMises = 0;
+  double energy = 0;
+};
+
+Part partOf(const Body& body, const BodyState& state, int begin, int end) {
+  Part part;
+  const Material& material = body.material();
+  const int count = end - begin;
+  const Matrix stress = state.stress.middleCols(begin, count);
+  Matrix strain;
+  material.elasticStrain(stress, strain);
+  Matrix total;
+  if (material.ofStrain()) total = strain + state.viscoplasticStrain.middleCols(begin, count);
+  for (int i = 0; i < count; ++i) {
+    const double weight = body.weights()[begin + i];
+    part.area += weight;
+    if (material.flows(stress, i, &total)) part.flowing += weight;
+    part.vonMises = std::max(part.vonMises, vonMises(stress.col(i).head(material.tensorComponents())));
+    part.energy += weight / 2 * stress.col(i).dot(strain.col(i));
+  }
+  return part;
+}
+
+/// The largest displacement of a node [m].
+double largestDisplacement(const Vector& displacement) {
+  double square = 0;
+  for (Eigen::Index i = 0; i + 1 < displacement.size(); i += 2)
+    square = std::max(square, displacement.segment<2>(i).squaredNorm());
+  return std::sqrt(square);
+}
+
+}  // namespace
+
+void measure(const Model& model, const State& state, Threads& threads, StepReport& report) {
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
     const Vector& p = state.contactForce[k];
@@ -30,28 +70,26 @@ void measure(const Model& model, const State& state, StepReport& report) {
     report.resultantX += force.x();
     report.resultantY += force.y();
   }
-  double area = 0;
-  double flowing = 0;
-  Matrix strain;
+  Part all;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
-    const Matrix& stress = state.bodies[b].stress;
-    body.material().elasticStrain(stress, strain);
-    const int tensor = body.material().tensorComponents();
-    const Matrix total = strainOfLaw(body.material(), state.bodies[b]);
-    for (int i = 0; i < body.points(); ++i) {
-      area += body.weights()[i];
-      if (body.material().flows(stress, i, &total)) flowing += body.weights()[i];
-      report.vonMises = std::max(report.vonMises, vonMises(stress.col(i).head(tensor)));
-      report.energy += body.weights()[i] / 2 * stress.col(i).dot(strain.col(i));
+    std::vector<Part> parts(blocksOf(body.points()));
+    forEachBlock(body.points(), threads, [&](int begin, int end) {
+      parts[begin / itemsOfBlock] = partOf(body, state.bodies[b], begin, end);
+    });
+    for (const Part& part : parts) {
+      all.area += part.area;
+      all.flowing += part.flowing;
+      all.vonMises = std::max(all.vonMises, part.vonMises);
+      all.energy += part.energy;
     }
-    double largest = 0;
-    for (int v = 0; v < body.nodes(); ++v)
-      largest = std::max(largest, state.bodies[b].displacement.segment<2>(2 * v).norm());
+    const double largest = largestDisplacement(state.bodies[b].displacement);
     report.displacement = std::max(report.displacement, largest);
     report.motion = std::max(report.motion, largest / extent(body.mesh()));
   }
-  report.viscoplasticFraction = flowing / area;
+  report.vonMises = all.vonMises;
+  report.energy = all.energy;
+  report.viscoplasticFraction = all.flowing / all.area;
 }
 
 void raise(Peaks& peaks, const StepReport& report) {

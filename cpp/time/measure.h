@@ -1,6 +1,7 @@
 // The values that a step report gives of a state.
 #pragma once
 
+#include "base/parallel.h"
 #include "solver/iterate.h"
 #include "solver/model.h"
 #include "solver/state.h"
@@ -9,7 +10,7 @@
 namespace mortier {
 
 /// Fills what `report` says of the state, from penetration to viscoplastic share.
-void measure(const Model& model, const State& state, StepReport& report);
+void measure(const Model& model, const State& state, Threads& threads, StepReport& report);
 
 /// Raises the peaks of a run to those of a step.
 void raise(Peaks& peaks, const StepReport& report);

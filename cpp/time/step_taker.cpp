@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/blocks.h"
 #include "solver/total_strain.h"
 #include "time/measure.h"
 
@@ -101,7 +102,7 @@ void StepTaker::shiftOf(const Stage& stage, double k) {
 
 /// In steady flow the last increments, scaled to the step, are a good guess; a hard step before makes them a
 /// bad one.
-Iterate StepTaker::guess(size_t stage, double k) const {
+Iterate StepTaker::guess(size_t stage, double k) {
   constexpr double sameStep = 1e-9;
   Iterate iterate = startingIterate(state_);
   constexpr double farthest = 10;
@@ -111,7 +112,10 @@ Iterate StepTaker::guess(size_t stage, double k) const {
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyIncrement& last = memory_.increments[stage][b];
     iterate.bodies[b].increment = ratio * last.displacement;
-    iterate.bodies[b].stress += ratio * last.stress;
+    Matrix& stress = iterate.bodies[b].stress;
+    forEachBlock(static_cast<int>(stress.cols()), system_.threads(), [&](int begin, int end) {
+      stress.middleCols(begin, end - begin) += ratio * last.stress.middleCols(begin, end - begin);
+    });
   }
   return iterate;
 }
@@ -172,21 +176,27 @@ void StepTaker::commit() {
       BodyState& body = state_.bodies[b];
       BodyIterate& step = solutions_[i].bodies[b];
       if (last) {
-        body.displacement += step.increment.value();
+        forEachBlock(static_cast<int>(body.displacement.size()), system_.threads(), [&](int begin, int end) {
+          body.displacement.segment(begin, end - begin) += step.increment.high.segment(begin, end - begin) +
+                                                           step.increment.low.segment(begin, end - begin);
+        });
         if (model_.bodies[b].heated()) body.thermalStrain = model_.bodies[b].thermalStrain(t1_);
         model_.bodies[b].prescribe(t1_, body.displacement);  // sums of increments would drift
       }
       // The state takes the stress of the last stage, the memory the increments.
       if (last) step.stress.swap(body.stress);
-      step.stress = last ? body.stress - step.stress : step.stress - body.stress;
-      if (last && !model_.bodies[b].material().linear()) {
+      const Material& material = model_.bodies[b].material();
+      forEachBlock(model_.bodies[b].points(), system_.threads(), [&](int begin, int end) {
+        const auto part = [&](auto& all) { return all.middleCols(begin, end - begin); };
+        part(step.stress) = last ? Matrix(part(body.stress) - part(step.stress))
+                                 : Matrix(part(step.stress) - part(body.stress));
+        if (!last || material.linear()) return;
         // What the elastic part leaves of the strain of the step.
         Matrix elastic;
-        model_.bodies[b].material().elasticStrain(step.stress, elastic);
-        body.viscoplasticStrain -= elastic;
-        body.viscoplasticStrain += step.strain;
-        if (!shift_.empty()) body.viscoplasticStrain += shift_[b];
-      }
+        material.elasticStrain(part(step.stress), elastic);
+        part(body.viscoplasticStrain) += part(step.strain) - elastic;
+        if (!shift_.empty()) part(body.viscoplasticStrain) += part(shift_[b]);
+      });
       increments.push_back({std::move(step.increment), std::move(step.stress)});
     }
     if (!guarded_) memory_.increments.push_back(std::move(increments));

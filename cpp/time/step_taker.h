@@ -60,13 +60,14 @@ class StepTaker {
   [[nodiscard]] const SpecialConditions& special() const { return system_.special(); }
   /// Makes the result of the last attempt the state.
   void commit();
+  [[nodiscard]] Threads& threads() { return system_.threads(); }
   /// Active sets of the last step.
   [[nodiscard]] const ActiveSets& active() const { return active_; }
 
  private:
   StepOutcome solveStages(double t1, Effort effort);
   StepOutcome hold(StepOutcome outcome);
-  [[nodiscard]] Iterate guess(size_t stage, double k) const;
+  Iterate guess(size_t stage, double k);
   void shiftOf(const Stage& stage, double k);
   /// G at the start of the step.
   [[nodiscard]] std::vector<Matrix> startingRates() const;

@@ -1,4 +1,4 @@
-// The kernels of a front against Eigen, in the sizes done by loops and in those done by BLAS.
+// The kernels of a front against Eigen, in the sizes done by loops, by BLAS and by tiles.
 #include "linear/dense_kernels.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,8 @@ namespace {
 struct Size {
   int n, pivots;
 };
-constexpr Size sizes[] = {{1, 1}, {7, 3}, {13, 13}, {30, 5}, {150, 90}, {140, 140}};
+constexpr Size sizes[] = {{1, 1},     {7, 3},     {13, 13},   {30, 5},   {150, 90},
+                          {140, 140}, {460, 260}, {400, 400}, {390, 389}};
 constexpr double rounding = 1e-11;
 
 Matrix random(int n, bool symmetric) {
@@ -33,7 +34,7 @@ TEST(DenseKernels, partialCholeskyLeavesTheSchurComplement) {
     const int rest = n - pivots;
     Matrix panel = A.leftCols(pivots);
     Matrix update(rest, rest);
-    ASSERT_TRUE(dense::partialCholesky(panel.data(), n, pivots, update.data()));
+    ASSERT_TRUE(dense::partialCholesky(panel.data(), n, pivots, update.data(), Threads::none()));
     Matrix L = panel;
     L.topRows(pivots) = Matrix(panel.topRows(pivots).triangularView<Eigen::Lower>());
     EXPECT_LE((L * L.topRows(pivots).transpose() - A.leftCols(pivots)).cwiseAbs().maxCoeff(),
@@ -52,7 +53,8 @@ TEST(DenseKernels, partialLULeavesTheSchurComplement) {
     Matrix upper = A.topRightCorner(pivots, rest).transpose();
     Matrix update(rest, rest);
     std::vector<int> interchange(pivots);
-    ASSERT_TRUE(dense::partialLU(panel.data(), n, pivots, upper.data(), update.data(), interchange.data()));
+    ASSERT_TRUE(dense::partialLU(panel.data(), n, pivots, upper.data(), update.data(), interchange.data(),
+                                 Threads::none()));
     const Matrix L = Matrix(panel.topRows(pivots).triangularView<Eigen::UnitLower>());
     const Matrix U = Matrix(panel.topRows(pivots).triangularView<Eigen::Upper>());
     Matrix swapped = A.topRows(pivots);
@@ -64,6 +66,26 @@ TEST(DenseKernels, partialLULeavesTheSchurComplement) {
   }
 }
 
+TEST(DenseKernels, noBitDependsOnThreads) {
+  constexpr int n = 700;
+  constexpr int pivots = 420;
+  ASSERT_TRUE(dense::isLarge(n, pivots));
+  const Matrix A = random(n, false);
+  const Matrix symmetric = random(n, true);
+  const auto factored = [&](Threads& threads) {
+    std::vector<Matrix> all{symmetric.leftCols(pivots), Matrix::Zero(n - pivots, n - pivots),
+                            A.leftCols(pivots), A.topRightCorner(pivots, n - pivots).transpose(),
+                            Matrix::Zero(n - pivots, n - pivots)};
+    std::vector<int> interchange(pivots);
+    EXPECT_TRUE(dense::partialCholesky(all[0].data(), n, pivots, all[1].data(), threads));
+    EXPECT_TRUE(dense::partialLU(all[2].data(), n, pivots, all[3].data(), all[4].data(), interchange.data(),
+                                 threads));
+    return all;
+  };
+  Threads three(3);
+  EXPECT_EQ(factored(Threads::none()), factored(three));
+}
+
 TEST(DenseKernels, pivotsThatAreNoneAreRefused) {
   for (const auto& [n, pivots] : sizes)
     for (const double wrong :
@@ -71,13 +93,14 @@ TEST(DenseKernels, pivotsThatAreNoneAreRefused) {
       Matrix panel = random(n, true).leftCols(pivots);
       panel(pivots - 1, pivots - 1) = wrong;
       Matrix update(n - pivots, n - pivots);
-      EXPECT_FALSE(dense::partialCholesky(panel.data(), n, pivots, update.data())) << n << ", " << wrong;
+      EXPECT_FALSE(dense::partialCholesky(panel.data(), n, pivots, update.data(), Threads::none()))
+          << n << ", " << wrong;
       panel = random(n, false).leftCols(pivots);
       panel.col(pivots - 1).head(pivots).setConstant(wrong < 0 ? 0 : wrong);
       Matrix upper(n - pivots, pivots);
       std::vector<int> interchange(pivots);
       EXPECT_FALSE(dense::partialLU(panel.data(), n, pivots, upper.setZero().data(), update.data(),
-                                    interchange.data()))
+                                    interchange.data(), Threads::none()))
           << n << ", " << wrong;
     }
 }
