@@ -29,6 +29,7 @@ void measure(const Model& model, const State& state, StepReport& report) {
     const Point force = resultant(model, state, k);
     report.resultantX += force.x();
     report.resultantY += force.y();
+    if (interface.rough()) report.frictionWork.push_back(state.frictionWorkOf[k]);
   }
   double area = 0;
   double flowing = 0;
@@ -74,6 +75,19 @@ Point resultant(const Model& model, const State& state, size_t interface) {
   subtract(of.C1(), state.contactForce[interface]);
   if (of.rough()) subtract(of.T1(), state.frictionForce[interface]);
   return sum;
+}
+
+double frictionCouple(const Model& model, const State& state, size_t interface) {
+  const ContactInterface& of = model.interfaces[interface];
+  const auto turned = [&](int body) {  // by a right angle about the origin
+    const std::vector<Point>& places = model.bodies[body].elementNodes().places;
+    Vector u(2 * static_cast<Eigen::Index>(places.size()));
+    for (size_t v = 0; v < places.size(); ++v)
+      u.segment<2>(2 * static_cast<Eigen::Index>(v)) << -places[v].y(), places[v].x();
+    return u;
+  };
+  return -state.frictionForce[interface].dot(
+      of.slip(turned(of.pair().nonmortar.body), turned(of.pair().mortar.body)));
 }
 
 Certificate worse(const Certificate& a, const Certificate& b) {
