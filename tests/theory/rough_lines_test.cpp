@@ -62,7 +62,7 @@ TEST(RoughLines, hydrostaticPressureNeedsNoFriction) {
           EXPECT_LE(imbalanceBesideCouple(model, state), 1e-14);
         }
   std::cout << "stress error at most " << worst << ", nodal shear over pressure " << shear << "\n";
-  EXPECT_LE(worst, 1e-11);
+  EXPECT_LE(worst, 2e-13);
 }
 
 /// The upper body is pushed down and along, then back.
@@ -79,7 +79,7 @@ Model sheared(const Map& map, CouplingKind coupling, bool upperNonmortar, double
     model.bodies.push_back(
         {name, mapped(cells, lower, at), elasticMaterial({100, 0.3}), std::move(conditions)});
   };
-  body("upper", 5, 0, top, 1);
+  body("upper", 6, 0, top, 1);
   body("lower", 8, -1, bottom, 0);
   const ContactSide above{0, bottom};
   const ContactSide below{1, top};
@@ -215,7 +215,7 @@ TEST(RoughLines, pinTurnsInItsRing) {
       off.push_back(worst);
     }
     std::cout << "the pin's couple is off by " << off[0] << ", " << off[1] << "\n";
-    EXPECT_LE(off[1], 2e-3);
+    EXPECT_LE(off[1], 2e-4);
     EXPECT_LE(off[1], off[0] / 3.5);
   }
 }
@@ -268,14 +268,14 @@ TEST(RoughLines, cornersHaveTwoTangents) {
               if (step.step == 0) return;
               EXPECT_LE(imbalanceBesideCouple(model, now), 1e-13);
               if (now.time == 1) {
-                EXPECT_GT(now.contactForce[0].minCoeff(), 0);
-                EXPECT_GT(now.contactForce[1].minCoeff(), 0);
+                EXPECT_GT(now.contactForce[0].sum(), 0.5);
+                EXPECT_GT(now.contactForce[1].sum(), 0.5);
               }
             });
         ASSERT_EQ(report.status, Status::converged) << report.reason;
         EXPECT_LE(report.worst.friction, 1e-12);
         EXPECT_LE(report.worst.forceBalance, 1e-12);
-        EXPECT_EQ(report.special.dependent > 0, rigid && blockNonmortar);
+        EXPECT_EQ(report.special.dependent > 0, rigid);
         EXPECT_GT(state.contactForce[0].sum(), 0);
         EXPECT_EQ(state.contactForce[1].maxCoeff(), 0);
         EXPECT_GT(state.frictionWorkOf[0], 0);
@@ -308,8 +308,9 @@ TEST(RoughLines, blockHeldByABrokenLineAlone) {
     EXPECT_LE(report.worst.forceBalance, 1e-10);
     EXPECT_LE(imbalanceBesideCouple(model, state), 1e-13);
     const Point force = resultant(model, state, 0) * (upperNonmortar ? 1 : -1);
-    EXPECT_NEAR(force.x(), -2, 1e-9);
-    EXPECT_NEAR(force.y(), 10, 1e-9);
+    const double length = std::hypot(1, 0.5);  // of the loaded line
+    EXPECT_NEAR(force.x(), -2 * length, 1e-9);
+    EXPECT_NEAR(force.y(), 10 * length, 1e-9);
   }
 }
 
