@@ -78,6 +78,9 @@ int dispatch(int argc, char** argv) {
   runApp->add_option("--threads", runCommand.threads, "threads (default 1)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
+  runApp->add_flag_callback(
+      "--list-solutions", [&runCommand] { runCommand.settings.emplace_back("solver.list_solutions=true"); },
+      "with friction, look for other solutions of every step");
   runApp->add_flag("--quiet", runCommand.quiet, "no log and no progress bar");
 
   const std::function<int()> meshCommand = addMeshCommand(app);

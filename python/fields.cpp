@@ -82,7 +82,7 @@ void bindFields(py::module_& module) {
   step.def_property_readonly("number", [](const Step& of) { return of.report.step; });
   step.def_property_readonly("time", [](const Step& of) { return of.state.time; });
   step.def_property_readonly("values", [](const Step& of) {
-    return namedValues(historyColumns(of.of->facts.quantities, of.of->facts.units), of.row);
+    return namedValues(historyColumns(*of.of->model, of.of->facts.quantities, of.of->facts.units), of.row);
   });
   const auto field = [&step](const char* name, OfBody array) {
     step.def_property_readonly(name, byBodies(std::move(array)));
@@ -140,6 +140,10 @@ void bindFields(py::module_& module) {
   nodal("gap", &ContactFields::gap);
   nodal("force", &ContactFields::force);
   nodal("pressure", &ContactFields::pressure);
+  nodal("friction", &ContactFields::friction);
+  nodal("shear", &ContactFields::shear);
+  nodal("slip", &ContactFields::slip);
+  nodal("slipping", &ContactFields::slipping);
   contact.def_property_readonly("position", [](const Contact& c) {
     const std::vector<Point>& p = c.fields().place;
     return view(p.empty() ? nullptr : p.front().data(), {static_cast<Size>(p.size()), 2}, c.step);

@@ -107,7 +107,8 @@ Solved solveInMemory(const Attempt& attempt, const Observer& observe) {
 }
 
 std::vector<std::pair<std::string, HistoryColumn>> columnsOf(const Attempt& attempt, const Record& record) {
-  const std::vector<std::string> names = historyColumns(attempt.facts.quantities, attempt.facts.units);
+  const std::vector<std::string> names =
+      historyColumns(*attempt.model, attempt.facts.quantities, attempt.facts.units);
   std::vector<std::pair<std::string, HistoryColumn>> columns;
   for (size_t c = 0; c < names.size(); ++c) {
     HistoryColumn column = std::vector<double>();

@@ -111,7 +111,7 @@ const std::vector<FaultKind>& faultKinds() {
       {"nonmortar-stiffer", warning, "the nonmortar body is much the stiffer one",
        "exchange the sides (contact.swap): the pressure is then discretised on the softer body"},
       {"friction-large", warning, "friction so large that a step may have several solutions",
-       "check the coefficient; smaller steps follow one solution more closely"},
+       "check the coefficient; mortier run --list-solutions looks for others"},
       {"interpolation-unmatched", warning, "interpolation on meshes that do not match",
        "take variant = \"mortar\", it costs the same"},
       {"load-on-contact", warning, "a label in contact carries a traction",

@@ -90,6 +90,8 @@ void requireFits(const Checkpoint& checkpoint, const Model& model, const std::st
     require(areLike(given.contactForce, begin.contactForce), "contact force");
     require(areLike(given.gap, begin.gap), "gap");
     require(areLike(given.frictionForce, begin.frictionForce) && isTime(given.frictionWork) &&
+                given.frictionWorkOf.size() == begin.frictionWorkOf.size() &&
+                std::all_of(given.frictionWorkOf.begin(), given.frictionWorkOf.end(), isTime) &&
                 std::equal(given.slipping.begin(), given.slipping.end(), begin.slipping.begin(),
                            begin.slipping.end(), isSlipping),
             "friction");

@@ -20,10 +20,13 @@ MORTIER_MEMBERS(FilesSoFar, history, contact, fields)
 MORTIER_MEMBERS(Certificate, forceBalance, materialResidual, gapOnActive, openPenetration, sign,
                 complementarity, friction, rounding)
 MORTIER_MEMBERS(SpecialConditions, idle, dependent)
+MORTIER_MEMBERS(ListedSolution, index, residual, contact, friction, sets)
+MORTIER_MEMBERS(StepSolutions, ambiguous, listed)
+MORTIER_MEMBERS(SeveralSolutions, step, time, listed)
 MORTIER_MEMBERS(StepReport, step, time, timeStep, status, reason, rung, guarded, rejections, estimate,
                 iterations, factorisations, active, joined, left, penetration, maxPressure, contactForce,
                 resultantX, resultantY, vonMises, displacement, motion, energy, viscoplasticFraction,
-                certificate, quantities)
+                certificate, quantities, frictionWork, solutions)
 MORTIER_MEMBERS(Peak, value, time)
 MORTIER_MEMBERS(QuantityRange, start, smallest, smallestTime, largest, largestTime)
 MORTIER_MEMBERS(Peaks, vonMises, pressure, contactForce, displacement, motion, energy)
@@ -34,7 +37,8 @@ MORTIER_MEMBERS(TotalBoundMemory, obstacle, moved, closes, oscillation, fixed, a
 MORTIER_MEMBERS(AccuracyMemory, energy, error, time, flow, total)
 MORTIER_MEMBERS(WorkDone, external, contact, dissipated, thermal)
 MORTIER_MEMBERS(BodyState, displacement, stress, viscoplasticStrain, work, thermalStrain)
-MORTIER_MEMBERS(State, time, bodies, contactForce, gap, frictionForce, slipping, frictionWork, gapWork)
+MORTIER_MEMBERS(State, time, bodies, contactForce, gap, frictionForce, slipping, frictionWork, frictionWorkOf,
+                gapWork)
 MORTIER_MEMBERS(TwoPartVector, high, low)
 MORTIER_MEMBERS(BodyIncrement, displacement, stress)
 MORTIER_MEMBERS(ErrorNorms, stress, displacement)
@@ -49,10 +53,12 @@ MORTIER_MEMBERS(Checkpoint, identity, empty, files, last, state, memory, accurac
 template <class Archive>
 void visitMembers(Archive& archive, RunReport& whole) {
   auto& [status, reason, stuck, steps, iterations, maxIterationsInAStep, factorisations, pilotIterations,
-         rejected, timeError, guarded, solveSeconds, special, worst, peaks, quantities, rungs] = whole;
+         rejected, timeError, guarded, solveSeconds, special, worst, peaks, quantities, rungs, ambiguousSteps,
+         several] = whole;
   static_cast<void>(stuck);
   archive(status, reason, steps, iterations, maxIterationsInAStep, factorisations, pilotIterations, rejected,
-          timeError, guarded, solveSeconds, special, worst, peaks, quantities, rungs);
+          timeError, guarded, solveSeconds, special, worst, peaks, quantities, rungs, ambiguousSteps,
+          several);
 }
 
 }  // namespace mortier

@@ -2,7 +2,8 @@
 
 namespace mortier {
 
-std::vector<std::string> historyColumns(const std::vector<Quantity>& quantities, const Units& units) {
+std::vector<std::string> historyColumns(const Model& model, const std::vector<Quantity>& quantities,
+                                        const Units& units) {
   const auto in = [](const std::string& name, const std::string& unit) { return name + '[' + unit + ']'; };
   std::vector<std::string> names{"step",
                                  in("time", units.time),
@@ -32,6 +33,10 @@ std::vector<std::string> historyColumns(const std::vector<Quantity>& quantities,
                                  "complementarity",
                                  "open_penetration",
                                  "rounding"};
+  if (anyRough(model)) names.emplace_back("ambiguous");
+  for (size_t k = 0; k < model.interfaces.size(); ++k)
+    if (model.interfaces[k].rough())
+      names.push_back(in("friction_work_" + std::to_string(k), units.energyPerDepth()));
   for (const Quantity& quantity : quantities) names.push_back(in(quantity.name, quantity.unit(units)));
   return names;
 }
@@ -66,14 +71,17 @@ std::vector<HistoryValue> historyRow(const StepReport& r) {
                                 c.complementarity,
                                 c.openPenetration,
                                 c.rounding};
+  if (!r.frictionWork.empty()) row.emplace_back(r.solutions.ambiguous ? 1 : 0);
+  row.insert(row.end(), r.frictionWork.begin(), r.frictionWork.end());
   row.insert(row.end(), r.quantities.begin(), r.quantities.end());
   return row;
 }
 
-History::History(const std::string& folder, const std::vector<Quantity>& quantities, const Units& units)
+History::History(const std::string& folder, const Model& model, const std::vector<Quantity>& quantities,
+                 const Units& units)
     : file_(folder + "/history.csv") {
   const char* comma = "";
-  for (const std::string& name : historyColumns(quantities, units)) {
+  for (const std::string& name : historyColumns(model, quantities, units)) {
     file_ << comma << name;
     comma = ",";
   }

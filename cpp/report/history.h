@@ -1,5 +1,5 @@
-// history.csv: a row per step with everything that is reported of it and the quantities of the scene, units
-// in the header.
+// history.csv: a row per step with everything that is reported of it; with friction whether several solutions
+// are possible and the work of each interface that has it; the quantities of the scene. Units in the header.
 #pragma once
 
 #include <string>
@@ -14,13 +14,15 @@
 namespace mortier {
 
 /// The columns with their units, `time[s]`, and what stands in them.
-std::vector<std::string> historyColumns(const std::vector<Quantity>& quantities, const Units& units);
+std::vector<std::string> historyColumns(const Model& model, const std::vector<Quantity>& quantities,
+                                        const Units& units);
 using HistoryValue = std::variant<int, double, std::string_view>;
 std::vector<HistoryValue> historyRow(const StepReport& report);
 
 class History {
  public:
-  History(const std::string& folder, const std::vector<Quantity>& quantities, const Units& units);
+  History(const std::string& folder, const Model& model, const std::vector<Quantity>& quantities,
+          const Units& units);
   /// Goes on after what `keep` records.
   History(const std::string& folder, const FileRecord& keep) : file_(folder + "/history.csv", keep) {}
   void add(const StepReport& report);

@@ -90,6 +90,10 @@ std::string logRow(const StepReport& r) {
   std::string remarks = r.rung == Rung::newton ? "" : std::string("  ") + nameOf(r.rung);
   if (r.guarded) remarks += "  guarded";
   if (r.rejections > 0) remarks += "  " + std::to_string(r.rejections) + " rejected";
+  if (const size_t found = r.solutions.listed.size(); found > 1)
+    remarks += "  one of " + std::to_string(found) + " solutions";
+  else if (r.solutions.ambiguous)
+    remarks += "  several solutions possible";
   const std::string change = format("%d (+%d/-%d)", r.active, r.joined, r.left);
   return format("%6d  %10.5g  %4d  %13s  %10.1e  %16.1e  %10.5g  %11.0f%%  %10.5g%s\n", r.step, r.time,
                 r.iterations, change.c_str(),

@@ -42,7 +42,7 @@ void bringBack(const std::string& folder, const std::map<std::string, FileRecord
 
 ResultFiles::ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error,
                          const std::vector<Quantity>& quantities, const Units& units, int every)
-    : history_(folder, quantities, units),
+    : history_(folder, model, quantities, units),
       contact_(folder, model),
       fields_(folder, model, error),
       every_(every),

@@ -36,6 +36,7 @@ struct RunFacts {
   int plannedSteps = 0;
   double tolerance = 0;  ///< of a step; 0: equal steps
   int threads = 1;
+  bool listsSolutions = false;       ///< solver.list_solutions
   double accuracy = 0;               ///< asked for, relative, in the energy norm; 0: none
   bool reached = false;              ///< that
   std::vector<RoundFacts> rounds;    ///< none where no accuracy is asked for

@@ -56,6 +56,10 @@ Json interfaces(const RunFacts& facts, const Model& model, const State& state) {
                     {"sagitta", interface.sagitta()},
                     {"resultant", {force[0], force[1]}},
                     {"held_ends", interface.heldEnds()}});
+    if (!interface.rough()) continue;
+    list.back()["friction_work"] = state.frictionWorkOf[k];
+    if (!model.bodies[interface.pair().nonmortar.body].axisymmetric())
+      list.back()["couple"] = frictionCouple(model, state, k);
   }
   return list;
 }
@@ -104,6 +108,21 @@ Json jsonOf(const QuantityRange& range) {
   return {{"start", range.start},
           {"smallest", {{"value", range.smallest}, {"time", range.smallestTime}}},
           {"largest", {{"value", range.largest}, {"time", range.largestTime}}}};
+}
+
+Json jsonOf(const std::vector<SeveralSolutions>& several) {
+  Json list = Json::array();
+  for (const SeveralSolutions& step : several) {
+    Json solutions = Json::array();
+    for (const ListedSolution& each : step.listed)
+      solutions.push_back({{"index", each.index},
+                           {"residual", each.residual},
+                           {"contact_force", each.contact},
+                           {"friction_force", each.friction},
+                           {"sets", each.sets}});
+    list.push_back({{"step", step.step}, {"time", step.time}, {"solutions", std::move(solutions)}});
+  }
+  return list;
 }
 
 Json jsonOf(const EnergyBound& bound) {
@@ -286,7 +305,11 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
                           {"sign", report.worst.sign},
                           {"complementarity", report.worst.complementarity},
                           {"rounding", report.worst.rounding}};
-  if (anyRough(model)) json["verification"]["friction"] = report.worst.friction;
+  if (anyRough(model)) {
+    json["verification"]["friction"] = report.worst.friction;
+    json["ambiguous_steps"] = report.ambiguousSteps;
+    if (facts.listsSolutions) json["several_solutions"] = jsonOf(report.several);
+  }
   json["peaks"] = jsonOf(report.peaks);
   const std::vector<double> values = evaluate(facts.quantities, model, state);
   for (size_t i = 0; i < values.size(); ++i) {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/fault_error.h"
-#include "contact/smooth_part.h"
 #include "mesh/boundary_line.h"
 #include "scene/finite_value.h"
 #include "scene/memory_need.h"
@@ -18,17 +17,6 @@ std::string twoDigits(double x) {
   std::ostringstream text;
   text << std::setprecision(2) << x;
   return text.str();
-}
-
-/// \throws InputError  where a side of an interface with friction is not one straight line
-void requireStraight(const ContactInterface& interface, const Model& model) {
-  for (const ContactSide& side : {interface.pair().nonmortar, interface.pair().mortar}) {
-    const Body& body = model.bodies[side.body];
-    const std::vector<SmoothPart> parts = smoothParts(boundaryLine(body.mesh(), side.label));
-    if (parts.size() > 1 || !parts.front().straight)
-      throw InputError("friction is not yet for contact lines that are curved or have corners: label " +
-                       std::to_string(side.label) + " of body " + body.name());
-  }
 }
 
 }  // namespace
@@ -78,7 +66,6 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
   try {
     requireMemory(meshes, pairs, scene.degree, rough);
     addInterface(model, pair, options);
-    if (contact.friction.any()) requireStraight(model.interfaces.back(), model);
   } catch (const FaultError& error) {
     throw FaultError(contact.where + ": contact: " + error.what(), error.id());
   } catch (const InputError& error) {

@@ -11,9 +11,12 @@ namespace {
 
 using Kind = Quantity::Kind;
 
-bool isInContact(const Model& model, int body, int label) {
+/// Whether a label is a side of a contact, of one with friction if that is asked for.
+bool isInContact(const Model& model, int body, int label, bool rough) {
   return std::any_of(model.interfaces.begin(), model.interfaces.end(),
-                     [&](const ContactInterface& interface) { return isSide(interface, body, label); });
+                     [&](const ContactInterface& interface) {
+                       return isSide(interface, body, label) && (interface.rough() || !rough);
+                     });
 }
 
 }  // namespace
@@ -36,8 +39,10 @@ std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model
       refuse(label + " has no prescribed displacement, expected one that has: supports alone react");
     const bool isOfContact = quantity.kind == Kind::contactForce || quantity.kind == Kind::largestPressure ||
                              quantity.kind == Kind::contactLength;
-    if (isOfContact && !isInContact(model, quantity.body, quantity.label))
+    if (isOfContact && !isInContact(model, quantity.body, quantity.label, false))
       refuse(label + " is no side of a contact, expected one");
+    if (quantity.kind == Kind::frictionWork && !isInContact(model, quantity.body, quantity.label, true))
+      refuse(label + " is no side of a contact with friction, expected one");
     if (quantity.kind == Kind::displacement) {
       quantity.mean = description.point ? meanAt(body.mesh(), *description.point)
                                         : meanOn(body.mesh(), quantity.label, body.axisymmetric());

@@ -102,6 +102,7 @@ void readOptions(const TableReader& root, SceneDescription& scene) {
     scene.solver.maxIterations = solver.integer("max_iterations", 1, defaultIterations(scene.solver.method));
     scene.solver.linear = static_cast<LinearEngine>(solver.oneOf("linear", linearWords, 0));
     scene.solver.reduce = solver.boolean("reduce", scene.solver.reduce);
+    scene.solver.listSolutions = solver.boolean("list_solutions", false);
   }
   if (const Node* node = root.find("accuracy")) {
     readAccuracy(TableReader(*node, "accuracy", "accuracy"), scene);

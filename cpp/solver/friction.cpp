@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "solver/friction_path.h"
 #include "solver/friction_sets.h"
+#include "solver/friction_solutions.h"
 
 namespace mortier {
 namespace {
@@ -27,73 +27,73 @@ std::optional<FrictionSets> fromFixedBounds(FrictionSystem& system) {
   return sets;
 }
 
-/// The sets with which the path begins: everything is open, and t is what the limits c hold.
-std::optional<FrictionSets> allOpen(const FrictionSystem& system) {
-  const Matrix& W = system.problem().W;
-  const auto& [node, law] = system.problem().rows;
-  const Eigen::Index n = system.normals();
-  FrictionSets open{std::vector<char>(n, 0), std::vector<signed char>(node.size(), 1)};
-  if (law.limit.isZero(0)) return open;
-  Vector far = system.q();
-  far.head(n) = W.topRightCorner(n, law.limit.size()).cwiseAbs() * law.limit;
-  far.head(n) += W.diagonal().head(n) * far.head(n).maxCoeff() / W.diagonal().maxCoeff();
-  FrictionSystem apart(system.problem(), far);
-  const std::optional<FrictionSolution> held = apart.bounded(law.limit, open);
-  if (!held) return std::nullopt;
-  return held->sets;
-}
-
-/// Along the path, if need be on a problem nearby: where two things happen at once, as they do in a symmetric
-/// one, the path has a corner that it cannot turn.
-std::optional<FrictionSolution> alongPath(FrictionSystem& system, int& events) {
-  constexpr double turn = 0.754877666246693;
-  constexpr double strong = 1e-5;
-  // Springs on free motions become a part of W, strong enough to leave its digits there.
-  Matrix sprung;
-  Vector at = system.q();
-  if (const FreeMotions* free = system.problem().motions) {
-    const double spring = std::max(free->spring, strong * free->stiffness);
-    sprung = system.problem().W + free->G * free->G.transpose() / spring;
-    at -= free->G * (free->z0 + free->load / spring);
-  }
-  const FrictionProblem problem{system.problem().motions != nullptr ? sprung : system.problem().W,
-                                system.problem().rows};
-  for (const double nearby : {0.0, 1e-9, 1e-7}) {
-    Vector q = at;
-    const double largest = q.lpNorm<Eigen::Infinity>();
-    for (Eigen::Index i = 0; i < q.size(); ++i) {
-      const double place = turn * static_cast<double>(i + 1);
-      q[i] += nearby * largest * (place - std::floor(place) - 0.5);
-    }
-    const FrictionSystem moved(problem, q);
-    std::optional<FrictionSets> sets = allOpen(moved);
-    if (sets) sets = followPath(moved, std::move(*sets), events);
-    if (!sets) continue;
-    std::optional<FrictionSolution> solution = system.newton(problem.rows.law, std::move(*sets));
-    if (solution && solution->index > 0) return solution;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
-FrictionSolution solveFriction(const FrictionProblem& problem, const Vector& q, const FrictionSets& first) {
+/// What solveFriction does where conditions are independent.
+FrictionSolution solveIndependent(const FrictionProblem& problem, const Vector& q, const FrictionSets& first,
+                                  bool endWhereSingular) {
   FrictionSystem system(problem, q);
   int events = 0;
   // A solution of index -1 is one that no path of loads leads to: Newton's method may meet it.
   const auto good = [](const std::optional<FrictionSolution>& found) { return found && found->index > 0; };
   std::optional<FrictionSolution> found = system.newton(problem.rows.law, first);
-  if (!good(found)) found = system.newton(problem.rows.law, system.allHeld());
-  if (!good(found)) {
+  const auto goesOn = [&] { return !good(found) && !(endWhereSingular && system.singular()); };
+  if (goesOn()) found = system.newton(problem.rows.law, system.allHeld());
+  if (goesOn()) {
     std::optional<FrictionSets> nearby = fromFixedBounds(system);
     if (nearby) found = system.newton(problem.rows.law, std::move(*nearby));
   }
-  if (!good(found)) found = alongPath(system, events);
+  if (goesOn()) found = firstOnPath(system, events);
   FrictionSolution result = good(found) ? std::move(*found) : FrictionSolution();
   result.solves = system.solves();
   result.events = events;
   result.singular = !result.solved && system.singular();
+  result.ambiguous = system.ambiguous();
   return result;
+}
+
+/// Conditions that depend on each other, as the four at a corner of which both sides touch a rigid body: W
+/// is semidefinite. A compliance D of every condition is added, against x0, which follows x until D (x - x0)
+/// is nothing (as the springs of friction_motions.h): to it W is W + D.
+FrictionSolution solveDependent(const FrictionProblem& problem, const Vector& q, FrictionSets first) {
+  constexpr int repetitions = 8;
+  constexpr double weight = 1e-8;
+  constexpr double nothing = 1e-14;
+  const Vector D = weight * problem.W.diagonal().cwiseMax(0);
+  Matrix sum = problem.W;
+  sum.diagonal() += D;
+  Vector x0 = Vector::Zero(q.size());
+  FrictionSolution result;
+  int solves = 0;
+  int events = 0;
+  bool ambiguous = false;
+  for (int repetition = 0; repetition < repetitions; ++repetition) {
+    const Vector at = q - D.cwiseProduct(x0);
+    result = solveIndependent({sum, problem.rows, problem.motions}, at, first, false);
+    solves += result.solves;
+    events += result.events;
+    ambiguous = ambiguous || result.ambiguous;
+    if (!result.solved) break;
+    first = result.sets;
+    const Vector left = D.cwiseProduct(result.force - x0);
+    x0 = result.force;
+    const double size = q.lpNorm<Eigen::Infinity>() + (problem.W * x0).lpNorm<Eigen::Infinity>();
+    if (left.lpNorm<Eigen::Infinity>() <= nothing * size) break;
+  }
+  result.solves = solves;
+  result.events = events;
+  result.singular = true;
+  result.ambiguous = ambiguous;
+  return result;
+}
+
+}  // namespace
+
+FrictionSolution solveFriction(const FrictionProblem& problem, const Vector& q, const FrictionSets& first) {
+  FrictionSolution result = solveIndependent(problem, q, first, true);
+  if (result.solved || !result.singular) return result;
+  FrictionSolution dependent = solveDependent(problem, q, first);
+  dependent.solves += result.solves;
+  // A single set may be singular where conditions are independent.
+  return dependent.solved ? dependent : solveIndependent(problem, q, first, false);
 }
 
 }  // namespace mortier

@@ -72,8 +72,12 @@ struct FrictionSolution {
   int index = 0;          ///< sign of det A: 1 but for solutions that no path of loads leads to
   int solves = 0;         ///< dense systems that were solved
   int events = 0;         ///< changes of set on the path, 0 where none was taken
-  bool singular = false;  ///< a system was singular but for rounding: conditions depend on each other
+  bool singular = false;  ///< a system was singular but for rounding: conditions depend on each other, and
+                          ///< where it is solved x is one choice of many
   Vector rigid = {};      ///< z, of free motions [m]
+  /// Whether sets with det A < 0 were met: with some other q this problem has several solutions
+  /// (docs/theory.md).
+  bool ambiguous = false;
 };
 
 /// \param q  (g, v) without forces [m]. \param first  the sets to begin with, as those of the step before.

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "solver/friction_solutions.h"
+
 namespace mortier {
 
 LooseFriction solveLooseFriction(const Matrix& W, const FrictionRows& rows, const Matrix& G,
                                  const Vector& load, double usual, double weight, Vector q,
-                                 FrictionSets first) {
+                                 FrictionSets first, bool listAll) {
   constexpr int repetitions = 15;
   constexpr double balanced = 1e-14;
   constexpr double slow = 1e-12;  // three repetitions leave no more, unless the springs are too strong
@@ -31,6 +33,7 @@ LooseFriction solveLooseFriction(const Matrix& W, const FrictionRows& rows, cons
   LooseFriction result;
   int solves = 0;
   int events = 0;
+  bool ambiguous = false;
   double imbalance = 0;
   double beside = 0;
   Vector change;
@@ -38,6 +41,7 @@ LooseFriction solveLooseFriction(const Matrix& W, const FrictionRows& rows, cons
     result.solution = solveFriction({W, rows, &motions}, q, first);
     solves += result.solution.solves;
     events += result.solution.events;
+    ambiguous = ambiguous || result.solution.ambiguous;
     if (!result.solution.solved) return result;
     first = result.solution.sets;
     change = result.solution.rigid - motions.z0;
@@ -53,7 +57,9 @@ LooseFriction solveLooseFriction(const Matrix& W, const FrictionRows& rows, cons
   const double all = beside + usual * G.cwiseAbs().colwise().sum().maxCoeff();
   result.solution.solves = solves;
   result.solution.events = events;
+  result.solution.ambiguous = ambiguous;
   result.balanced = imbalance <= hopeless * all;
+  if (listAll && result.balanced) result.all = solutionsOnPath({W, rows, &motions}, q, result.solution);
   result.rigid = result.balanced ? Vector(result.solution.rigid + moved) : change;
   return result;
 }

@@ -12,14 +12,16 @@ namespace mortier {
 
 struct LooseFriction {
   FrictionSolution solution;
-  Vector rigid;           ///< z, or where unbalanced the motion of the bodies [m]
-  bool balanced = false;  ///< f is carried by contact
+  Vector rigid;                            ///< z, or where unbalanced the motion of the bodies [m]
+  bool balanced = false;                   ///< f is carried by contact
+  std::vector<FrictionSolution> all = {};  ///< where they are asked for (friction_solutions.h)
 };
 
 /// \param W, G  by conditions; symmetric or not. \param load  f. \param usual  a contact force beside which
 /// an imbalance is nothing but rounding. \param weight  of the springs, over the stiffness of contact [-].
+/// \param listAll  whether other solutions are looked for, under the springs of the last repetition.
 LooseFriction solveLooseFriction(const Matrix& W, const FrictionRows& rows, const Matrix& G,
                                  const Vector& load, double usual, double weight, Vector q,
-                                 FrictionSets first);
+                                 FrictionSets first, bool listAll = false);
 
 }  // namespace mortier

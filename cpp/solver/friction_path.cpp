@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "base/interrupt.h"
 
@@ -33,30 +34,38 @@ class Path {
     }
   }
 
-  std::optional<FrictionSets> follow(int& events) {
+  /// \param beyond  how far below 0 tau goes, over where it begins
+  /// \returns the sets on the passages through tau = 0: the first one, or all where it goes beyond
+  std::vector<FrictionSets> follow(double beyond, int& events) {
     const Eigen::Index most = 200 + 40 * W_.rows();
     constexpr int fresh = 50;
-    if (!invert()) return std::nullopt;
+    std::vector<FrictionSets> passages;
+    if (!invert()) return passages;
     locate();
     double tau = 0;
-    for (Eigen::Index i = 0; i < n_; ++i)
-      if (d_[i] > 0) tau = std::max(tau, -motion0_[i] / d_[i]);
+    double largest = 0;
+    for (Eigen::Index i = 0; i < n_; ++i) {
+      if (!(d_[i] > 0)) continue;
+      tau = std::max(tau, -motion0_[i] / d_[i]);
+      largest = std::max(largest, std::abs(motion0_[i] / d_[i]));
+    }
     for (Eigen::Index event = 0; event < most; ++event) {
       stopIfInterrupted();
       if (event > 0 && event % fresh == 0) {
-        if (!invert()) return std::nullopt;
+        if (!invert()) return passages;
         locate();
       }
       const double direction = sign_ > 0 ? -1 : 1;
       const Event next = nextEvent(tau, direction);
-      if (direction < 0 && next.step >= tau) return sets_;
-      if (!std::isfinite(next.step)) return std::nullopt;
+      if (direction * tau <= 0 && next.step >= -direction * tau) passages.push_back(sets_);
+      const bool ends = direction < 0 ? next.step >= tau + beyond * largest : !std::isfinite(next.step);
+      if (ends || (beyond == 0 && !passages.empty())) return passages;
       tau += direction * next.step;
       ++events;
-      if (!change(next, tau)) return std::nullopt;
+      if (!change(next, tau)) return passages;
       locate();
     }
-    return std::nullopt;
+    return passages;
   }
 
  private:
@@ -191,7 +200,14 @@ class Path {
 }  // namespace
 
 std::optional<FrictionSets> followPath(const FrictionSystem& system, FrictionSets first, int& events) {
-  return Path(system, std::move(first)).follow(events);
+  std::vector<FrictionSets> passages = Path(system, std::move(first)).follow(0, events);
+  if (passages.empty()) return std::nullopt;
+  return std::move(passages.front());
+}
+
+std::vector<FrictionSets> followPathBeyond(const FrictionSystem& system, FrictionSets first, int& events) {
+  constexpr double beyond = 3;
+  return Path(system, std::move(first)).follow(beyond, events);
 }
 
 }  // namespace mortier

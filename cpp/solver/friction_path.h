@@ -8,6 +8,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "solver/friction_sets.h"
 
@@ -18,5 +19,9 @@ namespace mortier {
 /// \returns nothing where the path cannot be followed: two events at one tau that are not the same, or
 /// rounding.
 std::optional<FrictionSets> followPath(const FrictionSystem& system, FrictionSets first, int& events);
+
+/// The same, on beyond tau = 0 down to -3 times where something first happens: the sets on all passages
+/// through tau = 0, downwards (det A > 0) and upwards, in their order. A path that is lost has those so far.
+std::vector<FrictionSets> followPathBeyond(const FrictionSystem& system, FrictionSets first, int& events);
 
 }  // namespace mortier

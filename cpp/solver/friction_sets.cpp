@@ -133,6 +133,7 @@ bool FrictionSystem::solveOn(const FrictionLaw& law, const FrictionSets& sets, T
     return false;
   }
   trial.index = factor.sign();
+  ambiguous_ = ambiguous_ || trial.index < 0;
   for (int repetition = 0; repetition < 2 + (motions > 0 ? 2 : 0); ++repetition) {  // rounding goes away
     Matrix change(held + motions, 1);
     change.topRows(held) = -trial.motion(rows);

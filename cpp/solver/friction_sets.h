@@ -36,6 +36,8 @@ class FrictionSystem {
 
   [[nodiscard]] int solves() const { return solves_; }
   [[nodiscard]] bool singular() const { return singular_; }
+  /// Whether det A < 0 on any sets that were solved on.
+  [[nodiscard]] bool ambiguous() const { return ambiguous_; }
 
  private:
   struct Trial {
@@ -57,6 +59,7 @@ class FrictionSystem {
   std::vector<char> idle_;
   int solves_ = 0;
   bool singular_ = false;
+  bool ambiguous_ = false;
 };
 
 }  // namespace mortier

@@ -100,13 +100,21 @@ std::vector<Vector> slips(const Model& model, const Iterate& iterate) {
   return result;
 }
 
-double frictionWork(const Model& model, const Iterate& solution) {
-  double work = 0;
+std::vector<double> frictionWork(const Model& model, const Iterate& solution) {
   const std::vector<Vector> slip = slips(model, solution);
+  std::vector<double> work(slip.size(), 0);
   for (size_t k = 0; k < slip.size(); ++k)
     for (Eigen::Index i = 0; i < slip[k].size(); ++i)
-      if (solution.slipping[k][i] != 0) work += std::max(0.0, solution.frictionForce[k][i] * slip[k][i]);
+      if (solution.slipping[k][i] != 0) work[k] += std::max(0.0, solution.frictionForce[k][i] * slip[k][i]);
   return work;
+}
+
+void addFrictionWork(const Model& model, const Iterate& solution, State& state) {
+  const std::vector<double> work = frictionWork(model, solution);
+  for (size_t k = 0; k < work.size(); ++k) {
+    state.frictionWorkOf[k] += work[k];
+    state.frictionWork += work[k];
+  }
 }
 
 std::vector<Vector> solvedGaps(const Model& model, const State& state0, const Iterate& solution) {

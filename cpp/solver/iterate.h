@@ -91,8 +91,11 @@ double gapWork(const State& state0, const Iterate& solution);
 /// T du per interface: the slip of the step; empty where there is no friction.
 std::vector<Vector> slips(const Model& model, const Iterate& iterate);
 
-/// What friction dissipates in a step; the rounding in slips of nodes that stick is none [J/m].
-double frictionWork(const Model& model, const Iterate& solution);
+/// What friction dissipates in a step, per interface; the rounding in slips of nodes that stick is none
+/// [J/m].
+std::vector<double> frictionWork(const Model& model, const Iterate& solution);
+/// Adds it to what the state has.
+void addFrictionWork(const Model& model, const Iterate& solution, State& state);
 
 /// Whether any point of the state flows.
 bool flows(const Model& model, const State& state);

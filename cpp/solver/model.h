@@ -46,6 +46,8 @@ struct SolverOptions {
   /// Leave out what changes nothing: factors of bodies in which nothing flows, steps in which nothing
   /// happens.
   bool reduce = true;
+  /// With friction, look for all solutions of the contact problem of every step (friction_solutions.h).
+  bool listSolutions = false;
   // Where two methods begin; their results do not depend on it.
   double proximalWeight = 1e-9;  ///< solver/complementarity.h [-]
   double firstOverstress = 100;  ///< of the interior point method, in yield stresses, far beyond any [-]

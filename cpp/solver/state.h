@@ -35,6 +35,7 @@ struct State {
   std::vector<Vector> frictionForce;               ///< t: what the nonmortar body exerts along the line [N/m]
   std::vector<std::vector<signed char>> slipping;  ///< sign of t where the node slipped last, 0: it stuck
   double frictionWork = 0;                         ///< dissipated by friction so far [J/m]
+  std::vector<double> frictionWorkOf;              ///< the same by interfaces; 0 without friction
   double gapWork = 0;  ///< done on the bodies so far by distances that change in time [J/m]
 };
 
@@ -66,6 +67,22 @@ struct Certificate {
 struct SpecialConditions {
   int idle = 0;       ///< no free motion changes them, both sides are held: they stay inactive
   int dependent = 0;  ///< others imply them: the forces are one choice of many
+};
+
+/// A solution of the contact problem of a step with friction.
+struct ListedSolution {
+  int index = 1;        ///< sign of det A (solver/friction.h)
+  double residual = 0;  ///< how far it is off its conditions, over the largest force [-]
+  double contact = 0;   ///< sum of p [N/m]
+  double friction = 0;  ///< sum of t [N/m]
+  std::string sets;     ///< by nodes: o open, c closed (no friction), s sticks, +, - slips (sign of t)
+};
+
+/// What is known of the solutions of a step.
+struct StepSolutions {
+  /// Whether sets with det A < 0 were met: for some gaps and slips these bodies have several solutions.
+  bool ambiguous = false;
+  std::vector<ListedSolution> listed = {};  ///< where they were looked for; the first one was taken
 };
 
 enum class Status { converged, failed, unheld };
@@ -102,7 +119,9 @@ struct StepReport {
   double energy = 0;                ///< elastic, integral of s : E^-1 s / 2 [J/m]
   double viscoplasticFraction = 0;  ///< share of the area beyond yield
   Certificate certificate;
-  std::vector<double> quantities;  ///< values of those of the plan (time/quantity.h)
+  std::vector<double> quantities;    ///< values of those of the plan (time/quantity.h)
+  std::vector<double> frictionWork;  ///< of each interface with friction, dissipated so far [J/m]
+  StepSolutions solutions;           ///< with friction
 };
 
 }  // namespace mortier

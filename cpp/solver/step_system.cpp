@@ -7,7 +7,6 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/worst.h"
-#include "solver/friction_motions.h"
 #include "solver/total_strain.h"
 
 namespace mortier {
@@ -51,26 +50,6 @@ StepSystem::StepSystem(const Model& model, const SolverOptions& options)
   }
   findFriction();
   requireHeld();
-}
-
-void StepSystem::findFriction() {
-  std::vector<Vector> limits;
-  for (size_t k = 0; k < model_.interfaces.size(); ++k) {
-    const ContactInterface& interface = model_.interfaces[k];
-    if (!interface.rough()) continue;
-    for (int i = 0; i < interface.rows(); ++i) friction_.node.push_back(firstRow_[k] + i);
-    limits.push_back(interface.frictionBound(Vector::Zero(interface.rows())));
-  }
-  FrictionLaw& law = friction_.law;
-  law = {Vector(friction_.node.size()), Vector(friction_.node.size())};
-  Eigen::Index row = 0;
-  size_t part = 0;
-  for (const ContactInterface& interface : model_.interfaces) {
-    if (!interface.rough()) continue;
-    law.coefficient.segment(row, interface.rows()).setConstant(interface.friction().coefficient);
-    law.limit.segment(row, interface.rows()) = limits[part++];
-    row += interface.rows();
-  }
 }
 
 Step StepSystem::step(const State& state0, const StepData& data) {
@@ -229,33 +208,6 @@ StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const I
   result.balance -= system_->contact_.G.transpose() * result.p0;
   result.active = joinedSets(iterate.active);
   return result;
-}
-
-ContactSolution StepSystem::Condensed::solveFriction() const {
-  const Matrix& W = system_->contact_.W;
-  const ContactProblem& contact = system_->contact_;
-  LooseFriction loose;
-  const Vector q = slack - W * p0;
-  if (contact.G.cols() > 0) {
-    loose = solveLooseFriction(W, system_->friction_, contact.G, balance + contact.G.transpose() * p0,
-                               contact.force, contact.proximal, q, {active, slipping});
-  } else {
-    loose.solution = mortier::solveFriction({W, system_->friction_}, q, {active, slipping});
-    loose.balanced = true;
-  }
-  const FrictionSolution& found = loose.solution;
-  ContactSolution solution;
-  solution.outcome = found.solved     ? ContactSolution::Outcome::solved
-                     : found.singular ? ContactSolution::Outcome::dependent
-                                      : ContactSolution::Outcome::cycled;
-  solution.rigid = loose.rigid;
-  solution.pivots = found.solves + found.events;
-  if (!found.solved) return solution;
-  if (!loose.balanced) solution.outcome = ContactSolution::Outcome::unbalanced;
-  solution.change = found.force - p0;
-  solution.active = found.sets.closed;
-  solution.slipping = found.sets.slip;
-  return solution;
 }
 
 ContactSolution StepSystem::Condensed::solveContact() const {

@@ -94,6 +94,10 @@ class StepSystem {
   /// The special contact conditions that were found so far.
   [[nodiscard]] const SpecialConditions& special() const { return special_; }
 
+  /// What was found of the solutions of the contact problems with friction since this was called last; those
+  /// listed are of the last one.
+  StepSolutions takeSolutions();
+
   /// One vector of all conditions from those of the interfaces, and the reverse.
   [[nodiscard]] Vector joined(const std::vector<Vector>& parts) const;
   [[nodiscard]] std::vector<Vector> parted(const Vector& all) const;
@@ -121,6 +125,7 @@ class StepSystem {
   /// Those across contact and those along it.
   [[nodiscard]] int conditions() const { return rows() + static_cast<int>(friction_.node.size()); }
   void findFriction();
+  [[nodiscard]] ListedSolution listed(const FrictionSolution& solution) const;
 
   const Model& model_;
   SolverOptions options_;
@@ -132,6 +137,7 @@ class StepSystem {
   ContactProblem contact_;           ///< its W is that of all conditions
   FrictionRows friction_;
   SpecialConditions special_;
+  StepSolutions solutions_;
   struct Loads {
     double time = NAN;
     std::vector<Vector> forces;  ///< per body

@@ -23,10 +23,10 @@ StepOutcome balanceElastically(const Model& model, State& state, const SolverOpt
     body.stress = std::move(balanced.stress);
     if (model.bodies[b].heated()) body.thermalStrain = model.bodies[b].thermalStrain(state.time);
   }
+  addFrictionWork(model, iterate, state);
   state.contactForce = std::move(iterate.contactForce);
   state.frictionForce = std::move(iterate.frictionForce);
   state.slipping = std::move(iterate.slipping);
-  state.frictionWork += frictionWork(model, iterate);
   return outcome;
 }
 

@@ -102,6 +102,10 @@ void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& p
     if (report.status != Status::converged) break;
     compareActive(before, taker.active(), report);
     measure(model, state, taker.threads(), report);
+    report.solutions = taker.takeSolutions();
+    if (report.solutions.ambiguous) ++run.ambiguousSteps;
+    if (report.solutions.listed.size() > 1)
+      run.several.push_back({report.step, report.time, report.solutions.listed});
     raise(run.peaks, report);
     report.quantities = evaluate(plan.quantities, model, state);
     for (size_t i = 0; i < report.quantities.size(); ++i)
@@ -163,6 +167,7 @@ State initialState(const Model& model) {
     const int along = interface.rough() ? interface.rows() : 0;
     state.frictionForce.push_back(Vector::Zero(along));
     state.slipping.emplace_back(along, static_cast<signed char>(0));
+    state.frictionWorkOf.push_back(0);
   }
   return state;
 }

@@ -69,6 +69,7 @@ void measure(const Model& model, const State& state, Threads& threads, StepRepor
     const Point force = resultant(model, state, k);
     report.resultantX += force.x();
     report.resultantY += force.y();
+    if (interface.rough()) report.frictionWork.push_back(state.frictionWorkOf[k]);
   }
   Part all;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
@@ -112,6 +113,19 @@ Point resultant(const Model& model, const State& state, size_t interface) {
   subtract(of.C1(), state.contactForce[interface]);
   if (of.rough()) subtract(of.T1(), state.frictionForce[interface]);
   return sum;
+}
+
+double frictionCouple(const Model& model, const State& state, size_t interface) {
+  const ContactInterface& of = model.interfaces[interface];
+  const auto turned = [&](int body) {  // by a right angle about the origin
+    const std::vector<Point>& places = model.bodies[body].elementNodes().places;
+    Vector u(2 * static_cast<Eigen::Index>(places.size()));
+    for (size_t v = 0; v < places.size(); ++v)
+      u.segment<2>(2 * static_cast<Eigen::Index>(v)) << -places[v].y(), places[v].x();
+    return u;
+  };
+  return -state.frictionForce[interface].dot(
+      of.slip(turned(of.pair().nonmortar.body), turned(of.pair().mortar.body)));
 }
 
 Certificate worse(const Certificate& a, const Certificate& b) {

@@ -18,6 +18,10 @@ void raise(Peaks& peaks, const StepReport& report);
 /// Resultant of nodal contact forces on the nonmortar body [N/m].
 Point resultant(const Model& model, const State& state, size_t interface);
 
+/// The moment that the forces of friction on both bodies leave: t times the distance across which they act,
+/// as meshed, of an interface with friction and not around an axis [N].
+double frictionCouple(const Model& model, const State& state, size_t interface);
+
 /// Counts how the active sets changed in a step.
 void compareActive(const ActiveSets& before, const ActiveSets& after, StepReport& report);
 

@@ -122,6 +122,13 @@ double contactLength(const Model& model, const State& state, const Quantity& qua
   return length;
 }
 
+double frictionWork(const Model& model, const State& state, const Quantity& quantity) {
+  double work = 0;
+  for (size_t k = 0; k < model.interfaces.size(); ++k)
+    if (isSide(model.interfaces[k], quantity.body, quantity.label)) work += state.frictionWorkOf[k];
+  return work;
+}
+
 }  // namespace
 
 std::string Quantity::unit(const Units& units) const {
@@ -143,7 +150,7 @@ std::string Quantity::unit(const Units& units) const {
 bool ofLabel(Quantity::Kind kind) {
   using Kind = Quantity::Kind;
   return kind == Kind::reaction || kind == Kind::contactForce || kind == Kind::displacement ||
-         kind == Kind::largestPressure || kind == Kind::contactLength;
+         kind == Kind::largestPressure || kind == Kind::contactLength || kind == Kind::frictionWork;
 }
 
 bool hasComponent(Quantity::Kind kind) {
@@ -205,6 +212,8 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
         return contactLength(model, state, quantity);
       case Kind::largestMises:
         return largestMises(model, state, quantity).value;
+      case Kind::frictionWork:
+        return frictionWork(model, state, quantity);
       default:
         return reaction(quantity);
     }

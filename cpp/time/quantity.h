@@ -30,7 +30,8 @@ struct Quantity {
     thermalWork,       ///< of its thermal strain: minus the integral of s : its rate
     largestPressure,   ///< of the contact pressure, 0 where there is none
     contactLength,     ///< of the part of Gamma_C where nodes press
-    largestMises
+    largestMises,
+    frictionWork  ///< dissipated along the label since the run began
   };
   enum class Component { x, y, moment };
 

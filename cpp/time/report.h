@@ -47,6 +47,13 @@ struct Peaks {
   Peak vonMises, pressure, contactForce, displacement, motion, energy;
 };
 
+/// A step of which several solutions were found.
+struct SeveralSolutions {
+  int step = 0;
+  double time = 0;                     ///< at its end [s]
+  std::vector<ListedSolution> listed;  ///< the first one was taken
+};
+
 struct RunReport {
   Status status = Status::converged;
   std::string reason;               ///< one line when the status is not converged
@@ -65,6 +72,8 @@ struct RunReport {
   Peaks peaks;
   std::vector<QuantityRange> quantities;  ///< of the plan
   std::map<std::string, int> rungs;       ///< how many steps took which (StepReport::rung)
+  int ambiguousSteps = 0;                 ///< StepSolutions::ambiguous
+  std::vector<SeveralSolutions> several;  ///< where they are looked for
 };
 
 }  // namespace mortier

@@ -165,7 +165,7 @@ double StepTaker::turnedShare() const {
 void StepTaker::commit() {
   if (countsWork_) countWork();
   state_.gap = solvedGaps(model_, state_, solutions_.back());
-  state_.frictionWork += frictionWork(model_, solutions_.back());
+  addFrictionWork(model_, solutions_.back(), state_);
   state_.gapWork += gapWork(state_, solutions_.back());
   memory_.increments.clear();
   memory_.timeStep = t1_ - state_.time;

@@ -58,6 +58,7 @@ class StepTaker {
   [[nodiscard]] std::optional<StuckPlace> stuck();
   /// The special contact conditions that were found so far.
   [[nodiscard]] const SpecialConditions& special() const { return system_.special(); }
+  StepSolutions takeSolutions() { return system_.takeSolutions(); }
   /// Makes the result of the last attempt the state.
   void commit();
   [[nodiscard]] Threads& threads() { return system_.threads(); }

@@ -93,7 +93,10 @@ def seen(run: Run, step: _core.Step) -> tuple[Any, Any]:
     sides = step.contact
     contact = results.contact_of([])
     if sides:
-        contact = results.Contact(*[np.concatenate([getattr(side, name) for side in sides])
-                                    for name in ("vertex", "position", "gap", "force", "pressure")],
-                                  np.repeat(np.arange(len(sides)), [len(side.vertex) for side in sides]))
+        def of_all(*names):
+            return [np.concatenate([getattr(side, name) for side in sides]) for name in names]
+        rough = "friction" in run.summary["verification"]
+        contact = results.Contact(*of_all("vertex", "position", "gap", "force", "pressure"),
+                                  np.repeat(np.arange(len(sides)), [len(side.vertex) for side in sides]),
+                                  *(of_all("friction", "shear", "slipping") if rough else ()))
     return result, results.Run("mortier", result.folder, bodies, contact, run.summary)

@@ -19,6 +19,7 @@ CASES = {
     "interpolation": ("compression.toml", {"time.steps": 5, "contact.variant": "interpolation"}),
     "degree-2": ("compression.toml", {"time.steps": 3, "degree": 2}),
     "curved": ("ring.toml", {}),
+    "friction": ("hertz.toml", {"contact.friction": 0.1, "time.steps": 3, "output.every": 1}),
     "viscoplastic": ("open-close.toml", {"time.tolerance": 1e-3}),
     "plane-strain": ("thick-cylinder.toml", {"time.steps": 4, "output.every": 2}),
     "accuracy": ("punch.toml", {"accuracy.energy": 0.2, "output.every": 1}),
@@ -49,20 +50,20 @@ class AsTheProgram(InSharedFolder):
                 self.assertEqual(told.returncode, 0, told.stderr)
                 run = mortier.load(SCENES / scene, set=changes).run()
                 self.assertEqual(run.folder, None)
-                self.compare(run, folder)
+                self.compare(run, folder, name)
                 self.assertEqual("bound" in run.summary["accuracy"], "bound" in name)
                 self.assertEqual("reached" in run.summary["accuracy"], "accuracy" in name)
 
-    def compare(self, run, folder):
+    def compare(self, run, folder, name):
         self.assertEqual(without_measured(run.summary),
                          without_measured(json.loads((folder / "summary.json").read_text())))
         # Numbers in the tables read back as the same bits.
         rows = list(csv.DictReader((folder / "history.csv").read_text().splitlines()))
         self.assertEqual([f"{name}[{unit}]" if unit else name for name, unit in run.units.items()],
                          list(rows[0]))
-        for (name, column), full in zip(run.history.items(), rows[0]):
-            told = [row[full] if name == "rung" else float(row[full]) for row in rows]
-            self.assertEqual(list(column), told, name)
+        for (key, column), full in zip(run.history.items(), rows[0]):
+            told = [row[full] if key == "rung" else float(row[full]) for row in rows]
+            self.assertEqual(list(column), told, key)
         contact = {}
         for row in csv.DictReader((folder / "contact.csv").read_text().splitlines()):
             contact.setdefault((int(row["step"]), int(row["interface"])), []).append(row)
@@ -74,6 +75,10 @@ class AsTheProgram(InSharedFolder):
                         for key in ("vertex", "x", "y", "gap", "force", "pressure", "time")}
                 for key in ("vertex", "gap", "force", "pressure"):
                     np.testing.assert_array_equal(getattr(side, key), told[key])
+                for key in ("friction", "shear", "slip", "slipping"):
+                    rows = contact[step.number, k]
+                    written = [float(row[key]) for row in rows] if name == "friction" else [0.0] * len(rows)
+                    np.testing.assert_array_equal(getattr(side, key), written)
                 np.testing.assert_array_equal(side.position, np.column_stack([told["x"], told["y"]]))
                 self.assertEqual(step.time, told["time"][0])
             for body, mesh in run.to_meshio(step).items():

@@ -198,9 +198,14 @@ nonmortar = { body = "plate", label = 1 }
 mortar = { body = "upper", label = 3 }
 variant = "weighted"
 shear_limit = 0.5
+[[quantity]]
+name = "rubbed"
+friction_work = { body = "upper", label = 1 }
 [time]
 end = 4
 steps = 8
+[solver]
+list_solutions = true
 """
 
 # Elasticity with axes, temperature, distance in time.

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "solver/friction_path.h"
+#include "solver/friction_solutions.h"
 #include "unit/enumerated_friction.h"
 #include "unit/load_patterns.h"
 
@@ -302,6 +303,70 @@ TEST(Friction, solutionsOfNegativeIndexAreLeft) {
   EXPECT_EQ(met, 3);
 }
 
+// A node on a spring at a slope, W = [1, c; c, 1], mu c > 1, drawn off by a and along by b > 2a: it lets go,
+// or it is jammed and sticks; between the two it slips and gives way, with det A = 1 - mu c < 0.
+TEST(Friction, wedgeHoldsOrLetsGo) {
+  constexpr double c = 0.8;
+  constexpr double mu = 2;
+  const FrictionCase wedge = frictionCase(Matrix{{1, c}, {c, 1}}, mu, Vector{{1, 3}});
+  const FrictionSolution taken = solveFriction(wedge.problem(), wedge.q, open(1));
+  ASSERT_TRUE(taken.solved);
+  EXPECT_EQ(taken.force, (Vector{{0, 0}}));
+  const std::vector<FrictionSolution> all = solutionsOnPath(wedge.problem(), wedge.q, taken);
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0].sets.closed[0], 0);
+  EXPECT_EQ(all[0].index, 1);
+  EXPECT_EQ(all[1].index, -1);
+  EXPECT_NEAR(all[1].force[0], 1 / (mu * c - 1), 1e-14);
+  EXPECT_NEAR(all[1].force[1], -mu / (mu * c - 1), 1e-14);
+  EXPECT_EQ(all[2].index, 1);
+  EXPECT_EQ(all[2].sets.slip[0], 0);
+  EXPECT_NEAR(all[2].force[0], (3 * c - 1) / (1 - c * c), 1e-14);
+  EXPECT_NEAR(all[2].force[1], (c - 3) / (1 - c * c), 1e-14);
+  for (const FrictionSolution& each : all) EXPECT_LE(each.residual, 1e-14);
+  // From the jammed state the solver stays there, and has met no sets with det A < 0.
+  const FrictionSolution jammed = solveFriction(wedge.problem(), wedge.q, {{1}, {0}});
+  EXPECT_EQ(jammed.sets.slip[0], 0);
+  EXPECT_FALSE(jammed.ambiguous);
+  const FrictionSolution slipping = solveFriction(wedge.problem(), wedge.q, {{1}, {-1}});
+  EXPECT_TRUE(slipping.ambiguous);
+  EXPECT_EQ(slipping.index, 1);
+}
+
+// What the path meets beyond its first solution are solutions, each once; it meets most that there are. Where
+// several were met, some sets have det A < 0.
+TEST(Friction, otherSolutionsAreFound) {
+  Randoms random(12);
+  int several = 0;
+  int complete = 0;
+  for (int trial = 0; trial < problems(20000) && several < 60; ++trial) {
+    const int n = 2 + trial % 4;
+    const double mu = 1 + 1.0 * random.below(1001) / 1000;
+    const FrictionCase c = randomFriction(random, n, mu);
+    const FrictionSolution taken = solveFriction(c.problem(), c.q, open(n));
+    ASSERT_TRUE(taken.solved);
+    const std::vector<FrictionSolution> all = solutionsOnPath(c.problem(), c.q, taken);
+    const std::vector<EnumeratedFriction> exact = enumerateFriction(c);
+    for (const FrictionSolution& one : all) {
+      EXPECT_EQ(std::count_if(exact.begin(), exact.end(),
+                              [&](const EnumeratedFriction& other) {
+                                return other.index == one.index &&
+                                       (one.force - other.force).lpNorm<Eigen::Infinity>() <=
+                                           1e-7 * (1 + other.force.lpNorm<Eigen::Infinity>());
+                              }),
+                1)
+          << "trial " << trial;
+      EXPECT_LE(one.residual, 1e-12);
+    }
+    if (exact.size() == 1) continue;
+    ++several;
+    complete += all.size() == exact.size() ? 1 : 0;
+  }
+  std::cout << "all solutions found in " << complete << " of " << several << " with several\n";
+  EXPECT_GE(several, 40);
+  EXPECT_GE(complete, 0.7 * several);
+}
+
 // Nothing moves a condition: across the line it carries no force, whatever its gap; along the line the bound,
 // if its supports slip.
 TEST(Friction, idleConditionsFollowTheirSupports) {
@@ -313,14 +378,36 @@ TEST(Friction, idleConditionsFollowTheirSupports) {
   EXPECT_EQ(solution.force, (Vector{{1, 0, -0.5, 0}}));
 }
 
-// Conditions that come twice: one of each suffices, if the path finds it; otherwise they are told.
-TEST(Friction, dependentConditionsAreSolvedOrTold) {
+// Conditions that come twice, and the four of a node in a rigid corner of any angle: the forces are one choice
+// of many, which share the load.
+TEST(Friction, dependentConditionsShareTheLoad) {
   const Matrix B{{1, 0}, {1, 0}, {0, 1}, {0, 1}};
-  const FrictionCase c = frictionCase(B * B.transpose(), 0.5, Vector{{-1, -1, 0.1, 0.1}});
-  const FrictionSolution solution = solveFriction(c.problem(), c.q, {{1, 1}, {0, 0}});
-  EXPECT_NE(solution.solved, solution.singular);
-  if (solution.solved) {
-    EXPECT_LE(worstFault(c, solution), 1e-12);
+  const FrictionCase twice = frictionCase(B * B.transpose(), 0.5, Vector{{-1, -1, 0.1, 0.1}});
+  const FrictionSolution solution = solveFriction(twice.problem(), twice.q, {{1, 1}, {0, 0}});
+  ASSERT_TRUE(solution.solved);
+  EXPECT_TRUE(solution.singular);
+  EXPECT_LE(worstFault(twice, solution), 1e-12);
+  EXPECT_NEAR(solution.force[0], 0.5, 1e-7);
+
+  Randoms random(9);
+  for (int trial = 0; trial < problems(300); ++trial) {
+    const int n = 2 + trial % 3;  // of which the first two are the corner's
+    const double angle = 0.3 + 0.02 * (trial % 120);
+    const double mu = 0.01 * (trial % 80);
+    Matrix C = Matrix::Zero(2 * n, 2 * n - 2);
+    C.row(0) << 1, 0, Vector::Zero(2 * n - 4).transpose();
+    C.row(1) << std::cos(angle), std::sin(angle), Vector::Zero(2 * n - 4).transpose();
+    C.row(n) << 0, 1, Vector::Zero(2 * n - 4).transpose();
+    C.row(n + 1) << -std::sin(angle), std::cos(angle), Vector::Zero(2 * n - 4).transpose();
+    for (int i = 2; i < n; ++i) C(i, 2 * i - 2) = C(n + i, 2 * i - 1) = 1;
+    const Vector root = random.vector((2 * n - 2) * (2 * n - 2));
+    const Eigen::Map<const Matrix> R(root.data(), 2 * n - 2, 2 * n - 2);
+    const Matrix S = R * R.transpose() + 0.1 * Matrix::Identity(2 * n - 2, 2 * n - 2);
+    Vector u = random.vector(2 * n - 2);
+    const FrictionCase c = frictionCase(C * S * C.transpose(), mu, C * u);
+    const FrictionSolution held = solveFriction(c.problem(), c.q, open(n));
+    ASSERT_TRUE(held.solved) << "trial " << trial;
+    EXPECT_LE(worstFault(c, held), 1e-9) << "trial " << trial;
   }
 }
 

@@ -133,9 +133,16 @@ TEST_F(Output, gapIsPositiveApart) {
 }
 
 TEST_F(Output, historyHasAsManyColumnsAsItsHeader) {
-  History history(path, {Quantity{"q"}}, Units::from("mm, N, MPa"));
+  Model model = blocksOfOneCell();
+  const ContactPair pair = model.interfaces[0].pair();
+  model.interfaces.clear();
+  InterfaceOptions rough;
+  rough.friction = {0.3, 0};
+  addInterface(model, pair, rough);
+  History history(path, model, {Quantity{"q"}}, Units::from("mm, N, MPa"));
   StepReport report;
   report.penetration = 1.25e-18;
+  report.frictionWork = {0.5};
   report.quantities = {7};
   history.add(report);
   history.close();
@@ -146,6 +153,8 @@ TEST_F(Output, historyHasAsManyColumnsAsItsHeader) {
   std::getline(text, row);
   EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(row.begin(), row.end(), ','));
   EXPECT_NE(row.find(",1.25e-18,"), std::string::npos);
+  EXPECT_NE(row.find(",0,0.5,7"), std::string::npos);
+  EXPECT_NE(header.find(",ambiguous,friction_work_0[N mm/mm],"), std::string::npos);
   EXPECT_NE(header.find(",max_pressure[MPa],"), std::string::npos);
   EXPECT_NE(header.find(",q[N/mm]"), std::string::npos);
 }
