@@ -13,7 +13,9 @@ def compare_runs(folder, settings, scene=COMPRESSION):
     """What is to be told of a scene in both codes; where one of them fails, only that."""
     try:
         ours = run_mortier(folder / "mortier", settings, scene)
-        theirs = run_freefem(folder / "freefem", settings, scene)
+        chosen = any(setting.startswith("time.tolerance=") for setting in settings)
+        steps_of = folder / "mortier" if chosen else None
+        theirs = run_freefem(folder / "freefem", settings, scene, steps_of=steps_of)
     except (RunError, results.ResultError) as error:
         return {"agree": False, "verdict": f"FAILED: {error}"}
     verdict = compare(ours, theirs)

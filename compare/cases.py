@@ -205,6 +205,8 @@ def scene_cases():
         SceneCase("compression", "mortar", "friction, flowing", FLOWING),
         SceneCase("compression", "interpolation", "friction, flowing, plane strain, sides swapped",
                   (*FLOWING, "contact.swap=true", "plane=\"strain\"")),
+        SceneCase("compression", "mortar", "friction, flowing, steps chosen by their error",
+                  (*FLOWING, "time.tolerance=0.03")),
         SceneCase("sloped", "mortar", "friction, Norton creep", (*RUBBED, *CREEPS_RUBBED)),
         SceneCase("sloped", "mortar", "friction, a block on a slope",
                   (*ON_A_SLOPE, "contact.friction=0.501")),

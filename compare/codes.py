@@ -48,12 +48,14 @@ def run_mortier(folder, settings=(), scene=COMPRESSION, cwd=ROOT):
     return run
 
 
-def run_freefem(folder, settings=(), scene=COMPRESSION, method="freefem", cwd=ROOT):
-    """Solves a scene with FreeFEM; another method than that of freefem/ is a folder like it."""
+def run_freefem(folder, settings=(), scene=COMPRESSION, method="freefem", cwd=ROOT, steps_of=None):
+    """Solves a scene with FreeFEM; another method than that of freefem/ is a folder like it. steps_of is a
+    folder of mortier's results, whose steps are taken."""
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     script = folder / "scene.edp"
-    call([MORTIER, "freefem", scene, script, *set_option(settings)], cwd)
+    steps = ["--steps-of", steps_of] if steps_of else []
+    call([MORTIER, "freefem", scene, script, *steps, *set_option(settings)], cwd)
     if method != "freefem":
         script.write_text(script.read_text().replace('include "freefem/', f'include "{method}/'))
     _, seconds = call([FREEFEM, "-nw", "-nw", "-ne", "-v", "0", script, "-quiet", "-out", folder], cwd)

@@ -98,6 +98,10 @@ int dispatch(int argc, char** argv) {
   freefemApp->add_option("SCENE", freefemCommand.scene, "scene, a TOML file");
   freefemApp->add_option("FILE", freefemCommand.file, ".edp file to write (default: standard output)");
   freefemApp->add_option("--set", freefemCommand.settings, settingsHelp)->type_name("KEY=VALUE");
+  freefemApp
+      ->add_option("--steps-of", freefemCommand.stepsOf,
+                   "results of a run of the scene, whose steps it takes")
+      ->type_name("FOLDER");
 
   LawCommand lawCommand;
   CLI::App* lawApp = app.add_subcommand(

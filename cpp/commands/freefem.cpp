@@ -11,6 +11,7 @@
 #include "commands/exit_code.h"
 #include "commands/freefem_expression.h"
 #include "commands/freefem_materials.h"
+#include "commands/freefem_steps.h"
 #include "commands/freefem_text.h"
 #include "commands/shipped.h"
 #include "contact/smooth_part.h"
@@ -172,8 +173,17 @@ std::string unitNames(const Units& units) {
          units.time + "\";\n";
 }
 
+/// The ends of steps that are not equal; none where they are.
+std::string stepEnds(const std::vector<double>& times) {
+  if (times.empty()) return "";
+  std::string text = "macro stepsGiven yes //\nreal[int] stepEnds = [";
+  for (size_t i = 0; i < times.size(); ++i)
+    text += (i == 0 ? "" : i % 6 == 0 ? ",\n  " : ", ") + shortest(times[i]);
+  return text + "];\n";
+}
+
 std::string script(const SceneDescription& scene, const Model& model,
-                   const std::vector<std::string>& meshFiles) {
+                   const std::vector<std::string>& meshFiles, const std::vector<double>& times) {
   const std::string method = methodFolder(scene.path);
   const int bodies = static_cast<int>(scene.bodies.size());
   std::ostringstream out;
@@ -199,8 +209,10 @@ std::string script(const SceneDescription& scene, const Model& model,
   out << "];\n"
       << friction(scene) << distances(scene, model) << "string variant = \""
       << word(scene.contacts.front().variant) << "\";\nreal endTime = " << shortest(scene.time.end)
-      << ";  // [" << scene.units.time << "]\nint steps = " << scene.time.steps
-      << ";  // backward Euler, equal steps\n\n";
+      << ";  // [" << scene.units.time << "]\n"
+      << stepEnds(times)
+      << "int steps = " << (times.empty() ? scene.time.steps : static_cast<int>(times.size()))
+      << ";  // backward Euler, " << (times.empty() ? "equal steps" : "steps of their own lengths") << "\n\n";
   for (const char* part : {"bodies", "strain", "supports", "lines", "coupling", "friction", "system", "law",
                            "contact", "picture", "loop"}) {
     out << "include " << freefemString(method + '/' + part + ".idp", scene.path + ": the FreeFEM method")
@@ -214,7 +226,7 @@ std::string script(const SceneDescription& scene, const Model& model,
 }
 
 /// \throws InputError for the first thing in the scene that the FreeFEM method does not know.
-void requireKnown(const SceneDescription& scene) {
+void requireKnown(const SceneDescription& scene, bool stepsGiven) {
   if (scene.contacts.empty()) refuse(scene.path + ": no contact interface", "one at least");
   for (const ContactDescription& contact : scene.contacts) {
     if (contact.variant != scene.contacts.front().variant) {
@@ -225,8 +237,9 @@ void requireKnown(const SceneDescription& scene) {
   if (scene.time.scheme != Scheme::backwardEuler) {
     refuse(scene.path + ": scheme = " + word(scene.time.scheme), "backward-euler");
   }
-  if (scene.time.controlled()) {
-    refuse(scene.path + ": tolerance = " + shortest(scene.time.tolerance), "equal steps");
+  if (scene.time.controlled() && !stepsGiven) {
+    refuse(scene.path + ": tolerance = " + shortest(scene.time.tolerance),
+           "equal steps, or those of a run (--steps-of)");
   }
   for (const BodyDescription& body : scene.bodies) {
     const bool stressed = std::any_of(body.initialStress.begin(), body.initialStress.end(),
@@ -297,7 +310,7 @@ int writeFreefem(const FreefemCommand& command) {
   ResolvedScene resolved = resolveScene(readScene(command.scene, command.settings));
   const Model model = buildModel(resolved);
   const SceneDescription& scene = resolved.description;
-  requireKnown(scene);
+  requireKnown(scene, !command.stepsOf.empty());
   requireSmooth(scene, model);
   requireStraightSides(scene, model);
 
@@ -315,7 +328,9 @@ int writeFreefem(const FreefemCommand& command) {
   }
 
   // 3. The script.
-  const std::string text = script(scene, model, meshFiles);
+  std::vector<double> times;
+  if (!command.stepsOf.empty()) times = stepsOfRun(command.stepsOf, scene.time.end);
+  const std::string text = script(scene, model, meshFiles, times);
   if (command.file.empty()) {
     std::cout << text;
     return exitDone;

@@ -10,6 +10,7 @@ struct FreefemCommand {
   std::string scene;
   std::string file;                   ///< empty: standard output
   std::vector<std::string> settings;  ///< key=value
+  std::string stepsOf;                ///< the folder of a run whose steps are to be taken; empty: none
 };
 
 /// \throws InputError also when the scene holds what the FreeFEM method does not know, OutputError

@@ -116,6 +116,10 @@ void requireFits(const Checkpoint& checkpoint, const Model& model, const std::st
                                          return a.rows() == b.stress.rows() && a.cols() == b.stress.cols();
                                        }),
           "error in time");
+  for (const SlipAndWork& error : {memory.controller.slip, memory.controller.missed})
+    require((error.slip.empty() || areLike(error.slip, begin.frictionForce)) && std::isfinite(error.work),
+            "error in time");
+  require(isTime(memory.controller.pairEnd), "step length");
   require(isTime(accuracy.energy) && isTime(accuracy.error) && isTime(accuracy.time) &&
               isTime(accuracy.flow.begin) && isTime(accuracy.flow.misfit) && isTime(accuracy.flow.opening) &&
               accuracy.flow.growth >= 0,

@@ -41,8 +41,10 @@ MORTIER_MEMBERS(State, time, bodies, contactForce, gap, frictionForce, slipping,
                 gapWork)
 MORTIER_MEMBERS(TwoPartVector, high, low)
 MORTIER_MEMBERS(BodyIncrement, displacement, stress)
-MORTIER_MEMBERS(ErrorNorms, stress, displacement)
-MORTIER_MEMBERS(ControllerMemory, trial, start, timeStep, scale, largest, local, strain, error, worst)
+MORTIER_MEMBERS(ErrorNorms, stress, displacement, friction)
+MORTIER_MEMBERS(SlipAndWork, slip, work)
+MORTIER_MEMBERS(ControllerMemory, trial, start, timeStep, scale, largest, local, strain, error, worst, slip,
+                missed, pairEnd)
 MORTIER_MEMBERS(SolverMemory, libraries, elasticFactors)
 MORTIER_MEMBERS(MarchMemory, begin, run, increments, timeStep, solver, controller)
 MORTIER_MEMBERS(Checkpoint, identity, empty, files, last, state, memory, accuracy)

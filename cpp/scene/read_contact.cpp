@@ -62,9 +62,7 @@ Friction readFriction(const TableReader& table, const SceneDescription& scene) {
   const auto refuse = [&](bool found, const std::string& what) {
     if (found) table.reject(key, "none: friction is not yet for " + what);
   };
-  refuse(scene.degree != 1, "degree = 2");
   refuse(scene.solver.method != Method::newton, "solver.method = penalty-duality");
-  refuse(scene.time.controlled(), "steps chosen by their error (time.tolerance)");
   refuse(scene.accuracy.energy > 0 || scene.accuracy.bound, "[accuracy]");
   return friction;
 }

@@ -86,8 +86,8 @@ ContactSolution holdClosed(const ContactProblem& problem, const Vector& slack, c
 
 }  // namespace
 
-std::vector<Response> StepSystem::Factorised::respond(const std::vector<Matrix>& error,
-                                                      const Iterate& on) const {
+std::vector<Response> StepSystem::Factorised::respond(const std::vector<Matrix>& error, const Iterate& on,
+                                                      const std::vector<Vector>& slip) const {
   const Model& model = system_->model_;
   std::vector<CondensedBody>& bodies = system_->bodies_;
   std::vector<Response> responses(bodies.size());
@@ -101,6 +101,11 @@ std::vector<Response> StepSystem::Factorised::respond(const std::vector<Matrix>&
   Vector slack = Vector::Zero(system_->conditions());
   for (size_t b = 0; b < bodies.size(); ++b)
     if (!bodies[b].contact().none()) slack -= bodies[b].contact().C * motion[b];
+  Eigen::Index row = system_->rows();
+  for (const Vector& part : slip) {
+    slack.segment(row, part.size()) += part;
+    row += part.size();
+  }
   const ContactSolution contact =
       holdClosed(system_->contact_, slack, heldConditions(on, system_->friction_));
   system_->forEachBody([&](int b) {
@@ -112,9 +117,11 @@ std::vector<Response> StepSystem::Factorised::respond(const std::vector<Matrix>&
   return responses;
 }
 
-std::vector<Response> StepSystem::respond(const std::vector<Matrix>& error, const Iterate& on) {
+std::vector<Response> StepSystem::respond(const std::vector<Matrix>& error, const Iterate& on,
+                                          const std::vector<Vector>& slip) {
   std::vector<Response> responses(bodies_.size());
-  if (std::all_of(error.begin(), error.end(), [](const Matrix& e) { return e.isZero(0); })) {
+  const auto none = [](const auto& part) { return part.isZero(0); };
+  if (std::all_of(error.begin(), error.end(), none) && std::all_of(slip.begin(), slip.end(), none)) {
     for (size_t b = 0; b < bodies_.size(); ++b)
       responses[b] = {Vector::Zero(model_.bodies[b].dofs()), Matrix::Zero(error[b].rows(), error[b].cols())};
     return responses;
@@ -123,7 +130,7 @@ std::vector<Response> StepSystem::respond(const std::vector<Matrix>& error, cons
   StepOutcome again;
   const auto stale = [](const CondensedBody& body) { return body.stale(); };
   if (std::any_of(bodies_.begin(), bodies_.end(), stale)) static_cast<void>(last.factorise(again));
-  return last.keepFactors().respond(error, on);
+  return last.keepFactors().respond(error, on, slip);
 }
 
 }  // namespace mortier

@@ -79,7 +79,8 @@ class StepSystem {
   std::optional<StuckPlace> furthest(const Step& step, Iterate& iterate, double weight);
 
   /// Factorised::respond with the last tangent, factorised anew where points began or ceased to flow since.
-  std::vector<Response> respond(const std::vector<Matrix>& error, const Iterate& on);
+  std::vector<Response> respond(const std::vector<Matrix>& error, const Iterate& on,
+                                const std::vector<Vector>& slip = {});
 
   /// The rigid motion, in words, that no closed contact of a solution of a step holds, though no load drives
   /// it: the bodies could be anywhere along it. Empty where there is none, or only of bodies that nothing has
@@ -174,7 +175,9 @@ class StepSystem::Factorised {
   ///   s = H^-1 (B d - error),   sum |T| B' s + C_A' p = 0,   C_A d = 0;
   /// with friction what sticks goes on to stick, and what slips has t = +-mu p.
   /// \param error  per body, a strain added in every triangle (components x points).
-  [[nodiscard]] std::vector<Response> respond(const std::vector<Matrix>& error, const Iterate& on) const;
+  /// \param slip  per interface, by which the nodes that stick have slipped besides [m]; empty for none.
+  [[nodiscard]] std::vector<Response> respond(const std::vector<Matrix>& error, const Iterate& on,
+                                              const std::vector<Vector>& slip = {}) const;
 
  private:
   StepSystem* system_;

@@ -10,28 +10,14 @@
 namespace mortier {
 namespace {
 
-constexpr double safety = 0.9;
-constexpr int mostOnsets = 6;  // attempts that may be told to end on the onset of flow
-constexpr int trials = 5;
-constexpr double leastFactor = 0.2;
-constexpr double failureFactor = 0.25;
+constexpr int mostOnsets = 6;       // attempts that may be told to end on the onset of flow
 constexpr double aim = 0.7;         // of the tolerance
 constexpr double unseenPart = 0.2;  // of the square root of the tolerance
-
-double relative(const ErrorNorms& error, const ErrorNorms& scale) {
-  const double s = error.stress > 0 ? error.stress / scale.stress : 0;
-  const double u = error.displacement > 0 ? error.displacement / scale.displacement : 0;
-  return std::isfinite(s) && std::isfinite(u) ? std::max(s, u) : 1;
-}
-
-ErrorNorms larger(const ErrorNorms& a, const ErrorNorms& b) {
-  return {std::max(a.stress, b.stress), std::max(a.displacement, b.displacement)};
-}
 
 }  // namespace
 
 Controller::Controller(const Model& model, const TimePlan& plan, MarchMemory& memory)
-    : plan_(plan), memory_(memory), measure_(model) {
+    : plan_(plan), memory_(memory), measure_(model), rough_(anyRough(model)) {
   for (const double t : plan.breaks)
     if (t > memory.begin && t < plan.end) stops_.push_back(t);
   stops_.push_back(plan.end);
@@ -108,19 +94,24 @@ void Controller::begin(const State& state) {
   own.scale = memory_.controller.scale;
   own.local = memory_.controller.local;
   own.largest = larger(memory_.controller.largest, measure_.sizeOf(state));
+  own.largest.friction = measure_.sizeOf(state).friction;  // of long steps it is too large by far
   const double begin = memory_.begin;
   memory_ = {};
   memory_.begin = begin;
   memory_.run = run;
   memory_.controller = own;
+  second_.reset();
 }
 
 bool Controller::beginAgain(State& state) {
   constexpr double least = 1e-4;  // by which the error of a step changes at once
   ControllerMemory& own = memory_.controller;
-  own.scale = own.largest;
+  const double foreseen = std::exchange(own.scale, own.largest).friction;
   if (worst() <= plan_.tolerance || own.trial >= trials) return false;
-  const double order = plan_.scheme == Scheme::backwardEuler ? 1 : 2;
+  // Where friction is what counts, errors were too small for their scale, and by as much fewer steps will do.
+  if (own.worst.friction > 0 && relative({0, 0, own.worst.friction}, own.scale) >= worst())
+    own.local = std::min(own.local * foreseen / own.scale.friction, aim * plan_.tolerance);
+  const double order = plan_.scheme == Scheme::backwardEuler || rough_ ? 1 : 2;
   const double next = order == 1 ? 0.8 : aim;  // many small steps are the easier to foresee
   own.local *= std::max(least, std::pow(next * plan_.tolerance / worst(), (order + 1) / order));
   // So many steps cannot be wrong by more in all.
@@ -133,18 +124,23 @@ bool Controller::beginAgain(State& state) {
 /// Adds the error of the step to what has been carried to its end. Flow does not amplify errors: where the
 /// linearised step does, points that flow and points that do not lie side by side, and the error is taken on
 /// as it was.
-void Controller::add(StepTaker& taker, std::vector<Matrix> local, double size) {
+void Controller::add(StepTaker& taker, std::vector<Matrix> local, double size, const SlipAndWork& missed) {
   ControllerMemory& own = memory_.controller;
   const std::vector<Matrix> before = std::exchange(own.strain, std::move(local));
   std::vector<Matrix> carried;
   if (!before.empty()) carried = taker.carried(before);
   for (size_t b = 0; b < before.size(); ++b) own.strain[b] += carried[b];
-  const ErrorNorms error = measure_.sizeOf(taker.response(own.strain));
+  addTo(own.slip, 1, missed);
+  if (!missed.slip.empty()) size += sizeOf(taker, missed);
+  const std::vector<Response> response = taker.response(own.strain, own.slip.slip);
+  if (rough_) own.slip.slip = taker.slipOf(response);  // what slips does not keep an error of its own
+  ErrorNorms error = measure_.sizeOf(response);
+  error.friction = std::abs(own.slip.work);
   const double bound = relative(own.error, own.scale) + size;
   if (!before.empty() && !(relative(error, own.scale) <= bound))
     for (size_t b = 0; b < before.size(); ++b) own.strain[b] += before[b] - carried[b];
   own.error = {std::min(std::max(error.stress, size * own.scale.stress), bound * own.scale.stress),
-               std::min(error.displacement, bound * own.scale.displacement)};
+               std::min(error.displacement, bound * own.scale.displacement), error.friction};
   own.worst = larger(own.worst, own.error);
 }
 
@@ -165,9 +161,13 @@ Controller::Judgement Controller::judge(StepTaker& taker, double t0, double t1) 
   result.size = relative(norms, own.scale);
   const double error = result.size / own.local;
   result.factor = std::clamp(safety * std::pow(error, -1.0 / taker.errorOrder()), leastFactor, largestFactor);
-  constexpr double rounding = 1.5;  // of times: the shortest step may come out a little longer
-  result.good = error <= 1 || t1 - t0 <= rounding * leastStep(t0);
+  result.good = error <= 1 || isShortest(t0, t1 - t0);
   return result;
+}
+
+bool Controller::isShortest(double t, double k) const {
+  constexpr double rounding = 1.5;  // of times: the shortest step may come out a little longer
+  return k <= rounding * leastStep(t);
 }
 
 /// What time resolves at t. Relaxation may begin at once, and take no more of the run than that.
@@ -239,14 +239,18 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     report.reason = reason.str();
   };
   while (true) {
-    const double t1 = nextTime(state.time, own.timeStep);
-    const double k = t1 - state.time;
+    const bool second = inPair(state.time);
+    const double end = second ? own.pairEnd : nextTime(state.time, own.timeStep);
+    const double k = end - state.time;
     if (memory_.run.steps + memory_.run.rejected + report.rejections >= plan_.maxSteps)
-      return giveUp(Status::failed, t1, "all of max_steps = " + std::to_string(plan_.maxSteps) + " are used");
-    Judgement judgement;
-    const StepOutcome outcome =
-        attempt(taker, state.time, t1, flowing >= allFlow && failures < easy ? Effort::little : Effort::usual,
-                flowing == 0 ? mostOnsets - report.rejections : 0, judgement);
+      return giveUp(Status::failed, end,
+                    "all of max_steps = " + std::to_string(plan_.maxSteps) + " are used");
+    Attempt step = attemptOfPair(taker, state.time, end,
+                                 flowing >= allFlow && failures < easy ? Effort::little : Effort::usual,
+                                 flowing == 0 ? mostOnsets - report.rejections : 0);
+    const StepOutcome& outcome = step.outcome;
+    const Judgement& judgement = step.judgement;
+    const double t1 = step.t1;
     report.iterations += outcome.iterations;
     report.factorisations += outcome.factorisations;
     if (!outcome.converged()) {
@@ -262,23 +266,36 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
       if (++failures == patience)
         return giveUp(outcome.unheld() ? Status::unheld : Status::failed, t1, outcome.detail);
       own.timeStep = failureFactor * k;
+      own.pairEnd = 0;
       continue;
     }
     failures = 0;
     // No trial makes the shortest steps more accurate.
     if (judgement.good && judgement.size > plan_.tolerance) own.trial = std::max(own.trial, trials);
-    const double factor = judgement.factor;
-    if (!judgement.good) {
+    double factor = judgement.factor;
+    const auto reject = [&] {
       ++report.rejections;
       own.timeStep = std::max(leastStep(state.time), k * factor);
+    };
+    if (!judgement.good) {
+      reject();
+      continue;
+    }
+    std::optional<StepTaker::Kept> kept;
+    if (step.beginsPair) kept = taker.kept();
+    if (outcome.rung != Rung::rest)
+      add(taker, std::move(step.judgement.strain), judgement.size,
+          second ? std::exchange(own.missed, {}) : SlipAndWork());
+    taker.commit();
+    if (step.beginsPair && !completePair(taker, step, end, report, factor)) {
+      taker.goBack(std::move(*kept));
+      reject();
       continue;
     }
     // A step that was only shortened to end on a stop tells nothing against a longer one.
     const bool shortened = k < own.timeStep && factor >= 1;
     const double grown = (report.rejections > 0 ? std::min(factor, 1.0) : factor) * k;
-    own.timeStep = std::max(leastStep(t1), shortened ? std::max(grown, own.timeStep) : grown);
-    if (outcome.rung != Rung::rest) add(taker, std::move(judgement.strain), judgement.size);
-    taker.commit();
+    if (!second) own.timeStep = std::max(leastStep(t1), shortened ? std::max(grown, own.timeStep) : grown);
     const ErrorNorms reached = measure_.sizeOf(state);
     own.scale = larger(own.scale, reached);
     own.largest = larger(own.largest, reached);

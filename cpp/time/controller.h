@@ -7,8 +7,13 @@
 //   k <- k 0.9 (error/local)^(-1/(p+1)),  by a factor between 1/5 and 5,
 // and a step with a larger error is rejected. Steps end on the breaks of the plan and jump over no part of
 // its data.
+//
+// Where there is friction only the slip of a whole step counts, and what a step misses of it no stage of the
+// step shows. So steps come in pairs, and a pair is good if one step of twice the length differs from it by
+// no more than the error that a step may have (slip_control.cpp).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "solver/model.h"
@@ -38,7 +43,11 @@ class Controller {
   [[nodiscard]] double worst() const;
 
  private:
+  static constexpr double safety = 0.9;
   static constexpr double largestFactor = 5;
+  static constexpr double leastFactor = 0.2;
+  static constexpr double failureFactor = 0.25;
+  static constexpr int trials = 5;
   /// What is known of an attempt that converged.
   struct Judgement {
     std::vector<Matrix> strain;     ///< its error (StepTaker::localError)
@@ -46,16 +55,33 @@ class Controller {
     double factor = largestFactor;  ///< by which the next step may be longer
     bool good = true;
   };
+  /// One that was made.
+  struct Attempt {
+    double t1 = 0;
+    StepOutcome outcome = {};
+    Judgement judgement = {};
+    SlipAndWork missed = {};  ///< by one step over the pair that it begins; the second is still to be added
+    bool beginsPair = false;
+  };
   [[nodiscard]] Judgement judge(StepTaker& taker, double t0, double t1) const;
   /// \param onsets  how often the step may still be shortened to end on the first onset of flow
   StepOutcome attempt(StepTaker& taker, double t0, double t1, Effort effort, int onsets,
                       Judgement& judgement);
+  /// \param end  of the step, or of the pair that it begins
+  Attempt attemptOfPair(StepTaker& taker, double t0, double end, Effort effort, int onsets);
+  /// Solves the second step of a pair, to `end`, and compares the pair with one step.
+  /// \returns whether it is good \param factor  by which the next pair may be longer
+  bool completePair(StepTaker& taker, const Attempt& first, double end, StepReport& report, double& factor);
+  [[nodiscard]] bool inPair(double t) const { return memory_.controller.pairEnd > t; }
   [[nodiscard]] bool turnsTooFar(const StepTaker& taker) const;
+  /// What that is of what is computed, relative.
+  [[nodiscard]] double sizeOf(StepTaker& taker, const SlipAndWork& missed) const;
   [[nodiscard]] double leastStep(double t) const;
+  [[nodiscard]] bool isShortest(double t, double k) const;
   [[nodiscard]] bool crawls(double t, double k) const;
   [[nodiscard]] double nextTime(double t, double k) const;
   [[nodiscard]] double stopAfter(double t) const;
-  void add(StepTaker& taker, std::vector<Matrix> local, double size);
+  void add(StepTaker& taker, std::vector<Matrix> local, double size, const SlipAndWork& missed);
 
   const TimePlan& plan_;
   MarchMemory& memory_;
@@ -63,6 +89,9 @@ class Controller {
   std::vector<double> nodes_;  ///< stage times of the scheme
   std::vector<double> stops_;  ///< breaks and the end
   double unseen_ = 0;          ///< part of a datum's range that a step may miss
+  bool rough_ = false;         ///< whether there is friction
+  /// The second step of a pair whose first one has been taken: solved, not committed.
+  std::optional<Attempt> second_;
 };
 
 }  // namespace mortier

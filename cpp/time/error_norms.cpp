@@ -5,7 +5,28 @@
 
 namespace mortier {
 
-ErrorMeasure::ErrorMeasure(const Model& model) : model_(model) {
+ErrorNorms larger(const ErrorNorms& a, const ErrorNorms& b) {
+  return {std::max(a.stress, b.stress), std::max(a.displacement, b.displacement),
+          std::max(a.friction, b.friction)};
+}
+
+double relative(const ErrorNorms& error, const ErrorNorms& scale) {
+  const auto part = [](double e, double of) { return e > 0 ? e / of : 0; };
+  const double s = part(error.stress, scale.stress);
+  const double u = part(error.displacement, scale.displacement);
+  const double f = part(error.friction, scale.friction);
+  return std::isfinite(s) && std::isfinite(u) && std::isfinite(f) ? std::max({s, u, f}) : 1;
+}
+
+void addTo(SlipAndWork& sum, double factor, const SlipAndWork& part) {
+  for (size_t k = 0; k < part.slip.size(); ++k) {
+    if (sum.slip.size() == k) sum.slip.emplace_back(Vector::Zero(part.slip[k].size()));
+    sum.slip[k] += factor * part.slip[k];
+  }
+  sum.work += factor * part.work;
+}
+
+ErrorMeasure::ErrorMeasure(const Model& model) : model_(model), rough_(anyRough(model)) {
   for (const Body& body : model.bodies) {
     for (const double weight : body.weights()) area_ += weight;
     extent_ = std::max(extent_, extent(body.mesh()));
@@ -45,7 +66,9 @@ ErrorNorms ErrorMeasure::sizeOf(const State& state) const {
     strain += norms.strain;
     displacement += meanSquare(state.bodies[b].displacement, b);
   }
-  return {std::sqrt(stress), std::max(std::sqrt(displacement), extent_ * std::sqrt(strain))};
+  constexpr double little = 1e-6;
+  return {std::sqrt(stress), std::max(std::sqrt(displacement), extent_ * std::sqrt(strain)),
+          rough_ ? std::max(state.frictionWork, little * stress) : 0};
 }
 
 ErrorNorms ErrorMeasure::sizeOf(const std::vector<Response>& error) const {
@@ -55,7 +78,7 @@ ErrorNorms ErrorMeasure::sizeOf(const std::vector<Response>& error) const {
     stress += normsOf(error[b].stress, b).energy;
     displacement += meanSquare(error[b].displacement, b);
   }
-  return {std::sqrt(stress), std::sqrt(displacement)};
+  return {std::sqrt(stress), std::sqrt(displacement), 0};
 }
 
 }  // namespace mortier

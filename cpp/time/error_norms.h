@@ -1,5 +1,5 @@
 // The norms in which errors in time are measured: the stress in the energy norm, which is blind where
-// equilibrium alone decides the stress, and the displacement in the mean.
+// equilibrium alone decides the stress, and the displacement in the mean; and what friction dissipates.
 #pragma once
 
 #include <vector>
@@ -11,12 +11,20 @@
 
 namespace mortier {
 
+ErrorNorms larger(const ErrorNorms& a, const ErrorNorms& b);
+
+/// The largest part of its scale that any of them is; 1 where that is none.
+double relative(const ErrorNorms& error, const ErrorNorms& scale);
+
+/// sum += factor part
+void addTo(SlipAndWork& sum, double factor, const SlipAndWork& part);
+
 class ErrorMeasure {
  public:
   explicit ErrorMeasure(const Model& model);
 
   /// Of a state. Where everything is held no displacement is a scale: what the elastic strain makes of the
-  /// extent is.
+  /// extent is. Where next to nothing slips the dissipation is none: a small part of the energy is.
   [[nodiscard]] ErrorNorms sizeOf(const State& state) const;
   [[nodiscard]] ErrorNorms sizeOf(const std::vector<Response>& error) const;
 
@@ -29,6 +37,7 @@ class ErrorMeasure {
   [[nodiscard]] double meanSquare(const Vector& displacement, size_t body) const;
 
   const Model& model_;
+  bool rough_;
   double area_ = 0;    ///< of all bodies [m^2]
   double extent_ = 0;  ///< of the largest [m]
 };

@@ -20,6 +20,13 @@ struct BodyIncrement {
 struct ErrorNorms {
   double stress = 0;        ///< energy norm [sqrt(J/m)]
   double displacement = 0;  ///< mean over the bodies [m]
+  double friction = 0;      ///< dissipated by friction since the run began [J/m]
+};
+
+/// What slips, or by how much computed slips are off: exact less computed.
+struct SlipAndWork {
+  std::vector<Vector> slip;  ///< T u per interface [m]; empty: none
+  double work = 0;           ///< that friction dissipates [J/m]
 };
 
 /// Of steps chosen by their error.
@@ -33,6 +40,10 @@ struct ControllerMemory {
   std::vector<Matrix> strain;  ///< error of the viscoplastic strain, exact less computed; empty: none
   ErrorNorms error;            ///< what it makes of stress and displacement
   ErrorNorms worst;            ///< the largest of any step so far
+  // With friction steps come in pairs, which are compared with one step of twice the length.
+  SlipAndWork slip;    ///< of all pairs so far
+  SlipAndWork missed;  ///< by the pair whose first step has been taken
+  double pairEnd = 0;  ///< where its second one ends [s]
 };
 
 struct MarchMemory {

@@ -167,8 +167,32 @@ std::vector<Matrix> StepTaker::carried(const std::vector<Matrix>& strain) {
   return throughStages(std::vector<std::vector<Matrix>>(tableau_.stages.size(), strain));
 }
 
-std::vector<Response> StepTaker::response(const std::vector<Matrix>& strain) {
-  return system_.respond(strain, solutions_.back());
+std::vector<Response> StepTaker::response(const std::vector<Matrix>& strain,
+                                          const std::vector<Vector>& slip) {
+  return system_.respond(strain, solutions_.back(), slip);
+}
+
+std::vector<Response> StepTaker::responseTo(const std::vector<Vector>& slip) {
+  std::vector<Matrix> none;
+  for (const Body& body : model_.bodies)
+    none.push_back(Matrix::Zero(body.material().components(), body.points()));
+  return response(none, slip);
+}
+
+SlipAndWork StepTaker::slip() const {
+  return {slips(model_, solutions_.back()), frictionWork(model_, solutions_.back())};
+}
+
+std::vector<Vector> StepTaker::slipOf(const std::vector<Response>& response) const {
+  std::vector<Vector> result;
+  for (const ContactInterface& interface : model_.interfaces) {
+    const ContactPair& pair = interface.pair();
+    result.emplace_back();
+    if (interface.rough())
+      result.back() =
+          interface.slip(response[pair.nonmortar.body].displacement, response[pair.mortar.body].displacement);
+  }
+  return result;
 }
 
 std::vector<Response> StepTaker::change(size_t stage) const {

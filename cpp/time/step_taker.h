@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -38,8 +39,18 @@ class StepTaker {
   [[nodiscard]] const std::vector<Response>& errorAtEnd() const { return reached_; }
   /// What an error of the viscoplastic strain at the start of the attempt has become at its end.
   std::vector<Matrix> carried(const std::vector<Matrix>& strain);
-  /// What displacement and stress make of an error of the viscoplastic strain at the end of the attempt.
-  std::vector<Response> response(const std::vector<Matrix>& strain);
+  /// What displacement and stress make of an error of the viscoplastic strain at the end of the attempt, and
+  /// of the slip of the nodes that stick there.
+  std::vector<Response> response(const std::vector<Matrix>& strain, const std::vector<Vector>& slip = {});
+  std::vector<Response> responseTo(const std::vector<Vector>& slip);
+  /// Slip and dissipation by friction of the last attempt.
+  [[nodiscard]] SlipAndWork slip() const;
+  /// The slip that such a response has, per interface.
+  [[nodiscard]] std::vector<Vector> slipOf(const std::vector<Response>& response) const;
+  /// What commit() changes.
+  using Kept = std::pair<State, MarchMemory>;
+  [[nodiscard]] Kept kept() const { return {state_, memory_}; }
+  void goBack(Kept kept) { std::tie(state_, memory_) = std::move(kept); }
   /// What the stress changes by from the start of the attempt to one of its stages; no displacement.
   [[nodiscard]] std::vector<Response> change(size_t stage) const;
   [[nodiscard]] size_t stages() const { return tableau_.stages.size(); }

@@ -157,14 +157,39 @@ steps = 1
         self.assertEqual(self.read("out/contact.csv"), contact)
         self.assertEqual(self.read("out/history.csv"), history)
 
+    def test_freefem_takes_the_steps_of_a_run(self):
+        self.write(FRICTION_KEYS)
+        chosen = ("--set", "time.tolerance=0.2", "--set", "contact.1.variant=mortar")
+        self.reject("scene.toml: tolerance = 0.2, expected equal steps, or those of a run (--steps-of) "
+                    "(all that the FreeFEM method knows)", "freefem", "scene.toml", "scene.edp", *chosen)
+        self.mortier("run", "scene.toml", "--quiet", "--out", "out", *chosen)
+        times = [float(row["time[s]"]) for row in csv.DictReader(self.read("out/history.csv").splitlines())]
+        self.mortier("freefem", "scene.toml", "scene.edp", "--steps-of", "out", *chosen)
+        script = self.read("scene.edp")
+        written = re.search(r"stepEnds = \[([^]]*)\]", script).group(1)
+        self.assertEqual([float(time) for time in written.split(",")], times)
+        self.assertIn(f"int steps = {len(times)};", script)
+        self.mortier("freefem", "scene.toml", "other.edp", "--set", "contact.1.variant=mortar")
+        self.assertNotIn("stepEnds", self.read("other.edp"))
+        for text, what in {
+                "step,time[s]\n1,2\n2,1\n": ":3: time 1, expected a number above the one before",
+                "step,time[s]\n1,2\n2,nan\n": ":3: time nan, expected",
+                "step,time[s]\n1,2\n2,5\n": ":3: time 5, expected",
+                "step\n1\n": ":1: no column time[...], expected the history of a run",
+                "step,time[s]\n1,2\n": ": no step to the end of the scene, expected a run that has ended",
+                "": ": cannot be read, expected the history of a run"}.items():
+            with self.subTest(text):
+                self.write(text, "out/history.csv")
+                errors = self.mortier("freefem", "scene.toml", "scene.edp", "--steps-of", "out", *chosen,
+                                      code=2).stderr
+                self.assertTrue(errors.startswith("mortier: out/history.csv" + what), errors)
+
     def test_what_it_is_not_yet_for_is_refused(self):
         self.write(FRICTION_KEYS)
         line = 1 + FRICTION_KEYS[:FRICTION_KEYS.index("friction = 0.3")].count("\n")
         here = f"scene.toml:{line}: contact: friction = 0.3, expected none: friction is not yet for "
         for setting, what in {
-                "degree=2": "degree = 2",
                 "solver.method=penalty-duality": "solver.method = penalty-duality",
-                "time.tolerance=1e-3": "steps chosen by their error (time.tolerance)",
                 "accuracy.energy=0.1": "[accuracy]",
                 "accuracy.bound=true": "[accuracy]"}.items():
             with self.subTest(setting):

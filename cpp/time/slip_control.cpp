@@ -1,0 +1,71 @@
+// Steps chosen by their error where there is friction: pairs of steps (controller.h).
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "time/controller.h"
+
+namespace mortier {
+
+/// What nodes that stick have missed of their slip they keep; of those that slip the friction is known, and
+/// where they are follows from the others (solver/respond.cpp).
+double Controller::sizeOf(StepTaker& taker, const SlipAndWork& missed) const {
+  ErrorNorms norms = measure_.sizeOf(taker.responseTo(missed.slip));
+  norms.friction = std::abs(missed.work);
+  return relative(norms, memory_.controller.scale);
+}
+
+Controller::Attempt Controller::attemptOfPair(StepTaker& taker, double t0, double end, Effort effort,
+                                              int onsets) {
+  Attempt step{end};
+  if (inPair(t0)) {
+    if (second_ && second_->t1 == end) return *std::exchange(second_, std::nullopt);
+    step.outcome = attempt(taker, t0, end, Effort::usual, 0, step.judgement);
+    step.judgement.good = true;  // as it was when the pair was begun
+    return step;
+  }
+  if (rough_) {
+    step.outcome = taker.attempt(end, effort);
+    if (!step.outcome.converged() || step.outcome.rung == Rung::rest) return step;
+    addTo(step.missed, -1, taker.slip());
+    step.t1 = t0 + (end - t0) / 2;
+    step.beginsPair = true;
+  }
+  const StepOutcome once = step.outcome;
+  step.outcome = attempt(taker, t0, step.t1, effort, onsets, step.judgement);
+  step.outcome.iterations += once.iterations;
+  step.outcome.factorisations += once.factorisations;
+  if (step.beginsPair && step.outcome.converged()) addTo(step.missed, 1, taker.slip());
+  return step;
+}
+
+bool Controller::completePair(StepTaker& taker, const Attempt& first, double end, StepReport& report,
+                              double& factor) {
+  constexpr double largest = 2;  // nodes change one by one: that none did in a pair says little of the next
+  ControllerMemory& own = memory_.controller;
+  Attempt second{end};
+  second.outcome = attempt(taker, first.t1, end, Effort::usual, 0, second.judgement);
+  bool good = second.outcome.converged() && second.judgement.good;
+  if (good) {
+    SlipAndWork missed = first.missed;
+    addTo(missed, 1, taker.slip());
+    const double size = sizeOf(taker, missed);
+    const double fits = safety * std::pow(size / own.local, -0.5);  // a pair misses k^2
+    factor = std::min({factor, second.judgement.factor, std::clamp(fits, leastFactor, largest)});
+    good = size <= own.local || isShortest(first.t1, end - first.t1);
+    if (good && size > plan_.tolerance) own.trial = std::max(own.trial, trials);
+    own.missed = std::move(missed);
+  } else {
+    factor = second.outcome.converged() ? second.judgement.factor : failureFactor;
+  }
+  if (good) {
+    own.pairEnd = end;
+    second_ = std::move(second);
+  } else {
+    report.iterations += second.outcome.iterations;
+    report.factorisations += second.outcome.factorisations;
+  }
+  return good;
+}
+
+}  // namespace mortier
