@@ -99,9 +99,10 @@ class Runner:
             truth = self.references[self.reference_of(case)]
             if isinstance(truth, RunFailure):
                 raise RunFailure(f"the reference run failed: {truth}")
+        ring = document.get("plane") == "axisymmetric"
         return {f"error {each.name}": repr(measure.error_of(each, run, truth, scenes.materials(document),
-                                                            self.plan.let,
-                                                           float(document["time"]["end"])))
+                                                            self.plan.let, float(document["time"]["end"]),
+                                                            ring))
                 for each in self.plan.errors}
 
 
