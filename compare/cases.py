@@ -125,6 +125,15 @@ STACK_OF_FREE_BODIES = ("contact.friction=0.4", "time.steps=8",
                         'body.top.boundary=[{label=3, ty="-10*min(4*t, 1)", tx="2*min(4*t, 1)*sin(9*t)"}]')
 CREEPS_RUBBED = ('body.material={young=2e5, poisson=0.3, law="norton", reference_stress=100, '
                  'reference_rate=1e-3, exponent=3}',)
+# Around an axis; there a pressure narrows the bodies outside.
+RING = 'plane="axisymmetric"'
+NARROWED = ("body.upper.boundary.2.tx=-5*t", "body.lower.boundary.2.tx=-5*t")
+CONES = (RING, "time.end=3", "time.steps=12", "body.lower.boundary=[{label=1, ux=0, uy=0}]",
+         'body.upper.boundary=[{label=3, uy={time=[0, 1, 2, 3], value=[0, -1e-3, -4e-4, -1e-3]}}]')
+DISCS_RUBBED = (RING, "contact.friction=0.2", "contact.1.friction=0", "contact.1.shear_limit=20", "time.end=3",
+                "time.steps=12", "body.bottom.boundary=[{label=1, ux=0, uy=0}]",
+                'body.middle.boundary=[{label=2, tx={time=[0, 1, 2, 3], value=[0, 0, 60, -20]}}]',
+                'body.top.boundary=[{label=3, uy="-1e-3*min(t, 1)"}]')
 # Blocks that flow, pressed, pushed along and pulled back.
 FLOWING = (SOFT, "contact.friction=0.3", "time.end=3", "time.steps=12",
            "body.upper.mesh=shared-meshes/block-upper-3.mesh",
@@ -191,6 +200,20 @@ def scene_cases():
         SceneCase("sloped", "mortar", "a cone that flows, around an axis",
                   (SOFT, 'plane="axisymmetric"', "time.steps=4", "body.upper.boundary.2.tx=-5*t",
                    "body.lower.boundary.2.tx=-5*t")),
+        SceneCase("sloped", "interpolation", "around an axis, heated, creeping",
+                  (*NORTON, RING, "time.steps=3", "body.material.expansion=1e-3",
+                   "body.upper.temperature=t*(1+x)")),
+        SceneCase("sloped", "weighted", "around an axis, heated, quadratic",
+                  (RING, "degree=2", "body.material.expansion=1e-5", "body.lower.temperature=20*t*(1+x*y)")),
+        SceneCase("sloped", "mortar", "around an axis, power of the overstress",
+                  (*POWER, RING, "time.steps=3", *NARROWED)),
+        SceneCase("sloped", "weighted", "around an axis, hardening",
+                  (*GROWING, RING, "time.steps=3", *NARROWED)),
+        SceneCase("sloped", "interpolation", "around an axis, plasticity",
+                  (*PLASTIC, RING, "time.steps=3", *NARROWED)),
+        SceneCase("sloped", "mortar", "around an axis, orthotropic, turning axes", (*WOOD, RING, *NARROWED)),
+        SceneCase("sloped", "weighted", "around an axis, any elasticity, quadratic",
+                  (*GENERAL[:1], RING, "degree=2", *NARROWED)),
         SceneCase("punch", "weighted", "linear, sides swapped: overlap in part", ("contact.swap=true",)),
         SceneCase("ring", "weighted", "linear"),
         SceneCase("sloped", "weighted", "linear, parted by a parabola", ("contact.gap=1e-5*x^2+2e-6",)),
@@ -208,6 +231,10 @@ def scene_cases():
         SceneCase("compression", "mortar", "friction, flowing, steps chosen by their error",
                   (*FLOWING, "time.tolerance=0.03")),
         SceneCase("sloped", "mortar", "friction, Norton creep", (*RUBBED, *CREEPS_RUBBED)),
+        SceneCase("sloped", "mortar", "friction, cones pressed and pulled", (*CONES, "contact.friction=0.3")),
+        SceneCase("sloped", "weighted", "friction, cones pressed and pulled",
+                  (*CONES, "contact.friction=0.3", "contact.swap=true")),
+        SceneCase("stack", "interpolation", "friction of two laws, around an axis", DISCS_RUBBED),
         SceneCase("sloped", "mortar", "friction, a block on a slope",
                   (*ON_A_SLOPE, "contact.friction=0.501")),
         SceneCase("sloped", "interpolation", "friction, a block on a slope, sides swapped",

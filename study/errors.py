@@ -6,6 +6,7 @@ from problems import StudyError
 from study_file import is_number, is_text
 
 FIELDS = {"energy": ("s11", "s22", "s12"), "displacement": ("ux", "uy"), "pressure": ("p",)}
+BEYOND = {"energy": ("s33",)}  # may be given as well
 SCALARS = ("von_mises_min", "von_mises_max", "interpenetration", "contact_force", "active_nodes",
            "displacement_min_x", "displacement_min_y", "displacement_max_x", "displacement_max_y")
 
@@ -67,7 +68,8 @@ def read_exact(table, quantity, bodies, names):
         tables = {body: table.table(body) for body in bodies}
     exact = {}
     for body, inner in tables.items():
+        given = [*components, *(c for c in BEYOND.get(quantity, ()) if c in inner.values)]
         exact[body] = {c: expression(inner, c, inner.take(c, "an expression", lambda v: True), names)
-                       for c in components}
+                       for c in given}
         inner.finish()
     return exact

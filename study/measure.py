@@ -133,11 +133,14 @@ def energy_density(stress, young, poisson):
             2 * (1 + poisson) * s12**2) / young
 
 
-def completed(stress, components, poisson):
+def completed(stress, components, poisson, ring=False):
     """An exact stress of the plane with the s33 that plane strain of an elastic body has,
-    where it is asked for."""
+    where it is asked for; that around an axis is to be given."""
     if stress.shape[-1] == components:
         return stress
+    if ring or stress.shape[-1] > components:
+        raise RunFailure("the exact solution has no s33, expected the stress around the axis" if ring else
+                         "the exact solution has s33, expected none in plane stress")
     return np.concatenate([stress, poisson * (stress[..., :1] + stress[..., 1:2])], -1)
 
 
@@ -147,10 +150,11 @@ def same_mesh(a, b):
             and np.abs(a.points - b.points).max() <= SAME * np.ptp(b.points))
 
 
-def field_error(quantity, run, truth, materials):
+def field_error(quantity, run, truth, materials, ring=False):
     """Energy norm of the stress error or L2 norm of the displacement error, relative.
 
-    truth: Exact, or a run; integrals are taken on the finer of both meshes.
+    truth: Exact, or a run; integrals are taken on the finer of both meshes, of bodies of revolution (ring) over
+    the whole ring.
     """
     difference = size = 0.0
     for name, body in run.bodies.items():
@@ -170,7 +174,9 @@ def field_error(quantity, run, truth, materials):
             exact = getattr(Sampled(truth), attribute)(name, points)
             value = getattr(ours, attribute)(name, points)
         if attribute == "stress":
-            exact = completed(exact, value.shape[-1], materials[name][1])
+            exact = completed(exact, value.shape[-1], materials[name][1], ring)
+        if ring:
+            weights = weights * points[..., 0]
         difference += (weights * norm(value - exact)).sum()
         size += (weights * norm(exact)).sum()
     return relative(np.sqrt(difference), np.sqrt(size))
@@ -184,18 +190,20 @@ def on_quadrature(body, attribute):
     return np.einsum("qi,tij->tqj", between_points(POINTS), body.stress_at_points)
 
 
-def pressure_error(run, truth):
-    """L2 norm of the pressure error on the nonmortar line, relative."""
-    s, p, position = pressure_line(run)
+def pressure_error(run, truth, ring=False):
+    """L2 norm of the pressure error on the nonmortar line, relative; ring: on the surface that it sweeps."""
+    s, p, position = pressure_line(run, ring)
     nodes, weights = GAUSS
     if not isinstance(truth, Exact):
-        other_s, other_p, _ = pressure_line(truth)
+        other_s, other_p, _ = pressure_line(truth, ring)
         cuts = np.union1d(s, other_s[(other_s > s[0]) & (other_s < s[-1])])
     else:
         cuts = s
     h = np.diff(cuts)
     at = cuts[:-1, None] + h[:, None] * (nodes + 1) / 2
     w = h[:, None] * weights / 2
+    if ring:
+        w = w * np.interp(at, s, position[:, 0])
     if isinstance(truth, Exact):
         points = np.stack([np.interp(at, s, position[:, 0]), np.interp(at, s, position[:, 1])], -1)
         exact = truth("", points)[..., 0]
@@ -205,7 +213,7 @@ def pressure_error(run, truth):
     return relative(np.sqrt(difference), np.sqrt((w * exact**2).sum()))
 
 
-def pressure_line(run):
+def pressure_line(run, ring=False):
     """Arc length, pressure and position of the nonmortar nodes in order;
     M^-1 p where a code gives forces only."""
     if run.contact is None:
@@ -224,9 +232,11 @@ def pressure_line(run):
     h = np.diff(s)
     mass = np.zeros((len(s), len(s)))
     i = np.arange(len(h))
-    mass[i, i] += h / 3
-    mass[i + 1, i + 1] += h / 3
-    mass[i, i + 1] = mass[i + 1, i] = h / 6
+    # what the ends of an element stand for: 1, or the circumference
+    a, b = (2 * np.pi * position[i, 0], 2 * np.pi * position[i + 1, 0]) if ring else (1, 1)
+    mass[i, i] += h * (3 * a + b) / 12
+    mass[i + 1, i + 1] += h * (a + 3 * b) / 12
+    mass[i, i + 1] = mass[i + 1, i] = h * (a + b) / 12
     return s, np.linalg.solve(mass, run.contact.force[order]), position
 
 
@@ -236,12 +246,13 @@ def relative(difference, size):
     return float(difference / size)
 
 
-def error_of(measure, run, truth, materials, let, time):
-    """One error of a run; truth is the reference run, or None where the measure has an exact value."""
+def error_of(measure, run, truth, materials, let, time, ring=False):
+    """One error of a run; truth is the reference run, or None where the measure has an exact value; ring:
+    whether bodies are of revolution."""
     if measure.quantity in ("energy", "displacement", "pressure"):
         against = Exact(measure.exact, let, time) if measure.exact is not None else truth
-        return pressure_error(run, against) if measure.quantity == "pressure" \
-            else field_error(measure.quantity, run, against, materials)
+        return pressure_error(run, against, ring) if measure.quantity == "pressure" \
+            else field_error(measure.quantity, run, against, materials, ring)
     exact = measure.exact if measure.exact is not None else truth.scalars[measure.quantity]
     if measure.quantity not in run.scalars:
         raise RunFailure(f"no {measure.quantity} in this result")

@@ -55,9 +55,10 @@ def errors(plan, meshes, case, run, truth):
     if isinstance(truth, RunFailure):
         raise RunFailure(f"the reference run failed: {truth}")
     document = scenes.load(plan.scene, codes.settings_of(case, meshes))
+    ring = document.get("plane") == "axisymmetric"
     return {f"error {each.name}": repr(measure.error_of(each, run, truth and truth.run,
                                                         scenes.materials(document), plan.let,
-                                                        float(document["time"]["end"])))
+                                                        float(document["time"]["end"]), ring))
             for each in plan.errors}
 
 

@@ -83,8 +83,8 @@ std::string anisotropies(const SceneDescription& scene) {
     }
     const Matrix& c = std::get<Matrix>(own->moduli);
     const auto across = [&](int j) { return c.rows() > 3 ? c(3, j) : 0; };
-    text += with("stiffness(" + begin,
-                 {c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2), across(0), across(1), across(2)});
+    text += with("stiffness(" + begin, {c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2), across(0),
+                                        across(1), across(2), across(3)});
   }
   return text.empty() ? text : "macro anisotropic " + text + "//  body, angle of axis 1, constants\n";
 }

@@ -233,10 +233,11 @@ void Body::addForces(double t, Vector& f) const {
 
 Matrix Body::thermalStrain(double t) const {
   const std::vector<Point> places = this->places();
-  Vector temperature(points());
+  Matrix strain = Matrix::Zero(material_->components(), points());  // what a law remembers has none
   for (int i = 0; i < points(); ++i)
-    temperature[i] = conditions_.temperature(places[i].x(), places[i].y(), t);
-  return conditions_.expansion * temperature.asDiagonal();
+    strain.col(i).head(conditions_.expansion.rows()) =
+        conditions_.expansion.col(i) * conditions_.temperature(places[i].x(), places[i].y(), t);
+  return strain;
 }
 
 Matrix Body::initialStress() const {

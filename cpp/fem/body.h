@@ -47,7 +47,7 @@ struct Conditions {
   std::vector<BodyForce> forces;
   std::vector<InitialStress> initialStresses = {};
   Function temperature = {};  ///< above that at which nothing is strained [K]; none where empty
-  Matrix expansion = {};      ///< thermal strain per kelvin, components x points [1/K]
+  Matrix expansion = {};      ///< thermal strain per kelvin, components of the tensor x points [1/K]
 };
 
 /// Places of the quadrature points of all triangles, one triangle after the other [m].

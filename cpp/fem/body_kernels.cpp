@@ -182,6 +182,7 @@ void Body::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress
       const BeyondModuli beyond = beyondAt(law.beyond, i);
       for (int c = 0; c < 3; ++c) stress(c, i) += beyond.column[c] * hoop;
       stress(3, i) += beyond.corner * hoop;
+      if (stress.rows() > 4) stress(4, i) += law.beyond(8, i) * hoop;
     }
     if (stress.rows() == 3) return;
     for (int i = begin; i < end; ++i) {

@@ -337,8 +337,9 @@ void requireRateAtRest(const OwnLaw& law, Plane plane) {
 
 std::shared_ptr<const Material> ownMaterial(const Elasticity& elasticity, const OwnLaw& law, Plane plane) {
   requireValid(elasticity);
-  if (plane == Plane::strain && !law.inPlaneStrain)
-    throw InputError(law.where + ", expected rate33 beside the others in plane strain");
+  if (plane != Plane::stress && !law.inPlaneStrain)
+    throw InputError(law.where + ", expected rate33 beside the others " +
+                     (plane == Plane::strain ? "in plane strain" : "around an axis"));
   requireRateAtRest(law, plane);
   LawDescription description = describe(law.name, elasticity);
   for (const auto& [name, value] : law.parameters) description.parameters.push_back({name, value, ""});

@@ -80,7 +80,8 @@ class Planner {
                        [&](const char* name) { return law.name == name; }))
         always = law.text();
     }
-    const std::string law = scene_.plane != Plane::stress
+    const std::string law = !symmetric && projection.empty() ? "its tangent is unsymmetric"
+                            : scene_.plane != Plane::stress
                                 ? "its tangent is symmetric " + (scene_.plane == Plane::strain
                                                                      ? std::string("in plane strain")
                                                                      : std::string("in three dimensions"))

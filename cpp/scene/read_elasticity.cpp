@@ -78,7 +78,8 @@ Anisotropy AnisotropyDescription::in(Plane plane) const {
     const bool third = !std::isnan(orthotropy.young[2]);
     const bool all = third && !std::isnan(orthotropy.poisson[1]) && !std::isnan(orthotropy.poisson[2]);
     if (plane != Plane::stress && !all)
-      throw InputError("expected young3, poisson13 and poisson23 as well in plane strain");
+      throw InputError(std::string("expected young3, poisson13 and poisson23 as well ") +
+                       (plane == Plane::strain ? "in plane strain" : "around an axis"));
     return anisotropyOf(orthotropy, plane);
   } catch (const InputError& error) {
     throw InputError(where + ": " + error.what());

@@ -35,15 +35,8 @@ void requireInPlane(const BodyDescription& body, Plane plane) {
 
 /// What the bound of the error, refined meshes and the note's algorithm cannot have.
 void requireKnownTo(const SceneDescription& scene, const BodyDescription& body) {
-  const std::string inThePlane = ", expected plane = \"stress\" or \"strain\" beside it";
-  const bool axisymmetric = scene.plane == Plane::axisymmetric;
   const auto require = [&](const MaterialDescription& material) {
-    if (const auto* own = material.as<OwnLaw>(); own != nullptr && axisymmetric)
-      throw InputError(own->where + inThePlane);
-    if (material.as<Overstress>() != nullptr && axisymmetric)
-      throw InputError(body.where + ": body " + body.name + ": law = \"viscoplastic\"" + inThePlane);
     if (!material.anisotropy) return;
-    if (axisymmetric) throw InputError(material.anisotropy->where + inThePlane);
     if (scene.accuracy.bound)
       throw InputError(material.anisotropy->where + ", expected \"isotropic\" beside accuracy.bound");
     if (scene.solver.method != Method::newton)
@@ -54,7 +47,6 @@ void requireKnownTo(const SceneDescription& scene, const BodyDescription& body) 
   for (const RegionDescription& region : body.regions)
     if (region.material) require(*region.material);
   if (!body.temperature) return;
-  if (axisymmetric) throw InputError(body.temperature->where + ": temperature" + inThePlane);
   if (scene.accuracy.bound)
     throw InputError(body.temperature->where + ": temperature, expected none beside accuracy.bound");
   if (scene.accuracy.energy > 0 && !body.temperature->file.empty())
@@ -150,9 +142,6 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   }
   for (const Node* contact : root.tables("contact")) {
     scene.contacts.push_back(readContact(*contact, scene));
-    if (scene.plane == Plane::axisymmetric && scene.contacts.back().friction.any())
-      throw InputError(scene.contacts.back().where +
-                       ": contact: friction, expected plane = \"stress\" or \"strain\" beside it");
     if (scene.accuracy.energy > 0 && scene.degree == 2 &&
         scene.contacts.back().variant == CouplingKind::mortar) {
       throw InputError(

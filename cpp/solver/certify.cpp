@@ -5,6 +5,17 @@
 #include "solver/step_system.h"
 
 namespace mortier {
+namespace {
+
+/// The largest depth of a body: 1, or the circumference where it turns about the axis [m].
+double depthOf(const Body& body) {
+  if (!body.axisymmetric()) return 1;
+  double depth = 0;
+  for (const Point& vertex : body.mesh().vertices) depth = std::max(depth, body.depthAt(vertex));
+  return depth;
+}
+
+}  // namespace
 
 Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double materialResidual) const {
   constexpr double roundingOfMotion = 1e-15;
@@ -30,7 +41,7 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
     // A body that moves without any load and does not flow has forces that are nothing but rounding.
     if (bodies_[b].law().elastic == body.points())
       force.add(roundingOfMotion * bodies_[b].law().moduli.lpNorm<Eigen::Infinity>() *
-                unknowns.increment.high.lpNorm<Eigen::Infinity>());
+                unknowns.increment.high.lpNorm<Eigen::Infinity>() * depthOf(body));
     length.add(extent(body.mesh()));
     length.add(u[b]);
     rounding.add(bodies_[b].rounding(stress0, unknowns, u[b]));

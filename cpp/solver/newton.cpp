@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "base/counted.h"
 #include "solver/methods.h"
@@ -13,6 +14,11 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
   constexpr double hopeless = 1e3;
   constexpr double cancelling = 10;
   constexpr int patience = 2;
+  // Triangles far from an axis are the stiffest, as theirs are the widest rings, while contact next to it has
+  // the forces: what a solve rounds there is more than elsewhere, and is gone after another one.
+  constexpr double roundedInRings = 1e-12;
+  const std::vector<Body>& bodies = system.model().bodies;
+  bool polish = std::any_of(bodies.begin(), bodies.end(), [](const Body& b) { return b.axisymmetric(); });
   int outOfBalance = 0;
   double balance = NAN;  // of the last iterate on the law
   StepOutcome outcome;
@@ -45,6 +51,8 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
     if (!(linearised.residual() <= limits.tolerance) || residual > cancelling) continue;
     const Certificate certificate = system.certify(step, iterate, linearised.residual());
     balance = certificate.forceBalance;
+    if (balance > roundedInRings && outcome.iterations < limits.iterations && std::exchange(polish, false))
+      continue;
     if (balance <= std::max(balanceTolerance, limits.tolerance * 1e-2)) {
       outcome.converge(certificate);
       return outcome;

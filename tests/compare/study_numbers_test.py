@@ -102,6 +102,42 @@ class Norms(unittest.TestCase):
         size = (1 - nu**2) * (1 / 3 + 1) - nu * (1 + nu)
         self.assertAlmostEqual(error, np.sqrt((1 - nu**2) / 16 / 18 / size), places=12)
 
+    def test_norms_of_whole_rings(self):
+        """Weighted by the radius: s - exact = (x - xc, 0, 0, 0) on the square, the integral of x (x - xc)^2
+        over a right triangle is xc |T| h^2/18 + |T| h^3/270 or minus that, and both kinds sum up."""
+        run = square(4)
+        body = run.bodies["b"]
+        body.stress = np.column_stack([body.stress, 0 * body.stress[:, 0]])
+        fields = {"s11": "x", "s22": "1", "s12": "0", "s33": "0"}
+        error = measure.field_error("energy", run, self.exact(**fields), self.MATERIALS, ring=True)
+        xc, third = body.points[body.triangles].mean(1)[:, 0], np.where(np.arange(32) < 16, 1, -1) / 270
+        size = 1 / 4 + 1 / 2 - 2 * 0.25 / 3  # of x (x^2 + 1 - 2 nu x)
+        self.assertAlmostEqual(error, np.sqrt(((xc / 16 / 18 + third / 64) / 32).sum() / size), places=12)
+        with self.assertRaisesRegex(RunFailure, "expected the stress around the axis"):
+            measure.field_error("energy", run, self.exact(s11="x", s22="1", s12="0"), self.MATERIALS, True)
+        with self.assertRaisesRegex(RunFailure, "expected none in plane stress"):
+            measure.field_error("energy", square(4), self.exact(**fields), self.MATERIALS)
+        # u = (x, 2 y) against (0, 2 y): x^3 over x^3 + 4 x y^2
+        error = measure.field_error("displacement", square(3), self.exact(ux="0", uy="2*y"), self.MATERIALS,
+                                    ring=True)
+        self.assertAlmostEqual(error, np.sqrt(1 / 4 / (2 / 3)), places=12)
+
+    def test_pressure_of_a_ring_from_nodal_forces(self):
+        r = np.array([0.5, 0.7, 1.2, 1.5])
+        at, weights = np.polynomial.legendre.leggauss(4)
+        force = np.zeros(4)
+        for i, (a, b) in enumerate(zip(r[:-1], r[1:])):
+            x = a + (b - a) * (at + 1) / 2
+            w = (b - a) / 2 * weights * 2 * np.pi * x * (1 + x)
+            force[i] += (w * (b - x) / (b - a)).sum()
+            force[i + 1] += (w * (x - a) / (b - a)).sum()
+        run = results.Run("test", Path("."), {}, results.Contact(
+            np.arange(4), np.column_stack([r, 0 * r]), 0 * r, force), {})
+        self.assertLess(measure.pressure_error(run, self.exact(p="1 + x"), ring=True), 1e-14)
+        # x over x (2 + x)^2
+        error = measure.pressure_error(run, self.exact(p="2 + x"), ring=True)
+        self.assertAlmostEqual(error, np.sqrt(1 / (4 + 13 / 3 + 5 / 4)), places=12)
+
     def test_against_a_finer_run(self):
         coarse, fine = square(2), square(8)
         self.assertLess(measure.field_error("displacement", coarse, fine, self.MATERIALS), 1e-14)
