@@ -65,7 +65,7 @@ Friction readFriction(const TableReader& table, const SceneDescription& scene) {
   refuse(scene.degree != 1, "degree = 2");
   refuse(scene.solver.method != Method::newton, "solver.method = penalty-duality");
   refuse(scene.time.controlled(), "steps chosen by their error (time.tolerance)");
-  refuse(scene.accuracy.energy > 0 || scene.accuracy.bound, "[accuracy]");
+  refuse(scene.accuracy.asked() > 0 || scene.accuracy.bound, "[accuracy]");
   return friction;
 }
 
