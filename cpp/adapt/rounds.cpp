@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "base/counted.h"
@@ -49,10 +50,7 @@ ResolvedScene Rounds::scene() const {
 }
 
 Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
-  constexpr double short_ = 2;
-  constexpr double stalled = 0.9;
-  constexpr int often = 2;
-  constexpr double first = 0.5;
+  if (aims()) return judgeAim(result, seconds);
   const double asked = description_.accuracy.energy;
   const double before = meshError_;
   double sum = 0;
@@ -75,7 +73,35 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
     timeTolerance_ = timeShare();
     return Verdict::goOn;
   }
+  return goOn(result, before, ofMeshes, seconds);
+}
 
+Rounds::Verdict Rounds::judgeAim(RoundResult result, double seconds) {
+  const AimedError& aim = *result.aim;
+  const double before = meshError_;
+  ++done_;
+  trusted_ = std::numeric_limits<double>::infinity();
+  if (!aim.obstacle.empty()) return stop(aim.obstacle);
+  const double size = std::abs(aim.value);
+  if (size == 0 && aim.error > 0) return stop("the quantity is 0, which no relative error is of");
+  double sum = 0;
+  for (const Vector& part : aim.parts) sum += part.sum();
+  result.errors = aim.parts;
+  for (Vector& part : result.errors) part *= sum > 0 ? aim.error / sum : 0;
+  result.energy = size;
+  meshError_ = trusted_ = size > 0 ? std::sqrt(aim.error / size) : 0;
+  meshes_.learn(result.errors);
+  const double asked = std::sqrt(description_.accuracy.tolerance);
+  least_ = aim.proved ? 1 : least;
+  if ((aim.proved || done_ > 1) && trusted_ <= least_ * asked) return Verdict::reached;
+  return goOn(result, before, least_ * asked, seconds);
+}
+
+Rounds::Verdict Rounds::goOn(const RoundResult& result, double before, double ofMeshes, double seconds) {
+  constexpr double short_ = 2;
+  constexpr double stalled = 0.9;
+  constexpr int often = 2;
+  constexpr double first = 0.5;
   // On coarse meshes a round may fall short and go on all the same.
   const bool fell = meshError_ < stalled * before;
   shortfalls_ = aim_ > 0 && meshError_ > short_ * aim_ && !fell ? shortfalls_ + 1 : 0;

@@ -10,6 +10,10 @@
 // which is to halve the error: on the first meshes an estimate is not trusted, and no rate is known. Where
 // stresses are unbounded what it does not see is added before it is believed (adapt/adapted_meshes.h).
 //
+// Where refinement aims at a quantity J, the parts of its error by triangles, products of an error of u and
+// one of the adjoint, go with the mesh like squares of errors in the energy norm, and take their place: E is
+// the root of the error of J over what is asked of it. A proved one is believed in the first round, too.
+//
 // Where a bound is asked for and there is one, it has to be below what is asked for, too: what it is over the
 // estimate, it is taken to be over that of the rounds to come.
 #pragma once
@@ -24,6 +28,15 @@
 
 namespace mortier {
 
+/// The error of a quantity, and where it comes from.
+struct AimedError {
+  std::string obstacle;       ///< why nothing is known of it
+  double value = 0;           ///< of the quantity
+  double error = 0;           ///< of the value
+  bool proved = false;        ///< or an estimate
+  std::vector<Vector> parts;  ///< of the error, by bodies and triangles, nearly
+};
+
 /// What a round has found.
 struct RoundResult {
   std::vector<Vector> errors;  ///< of the meshes, squared, by bodies and triangles [J/m]
@@ -33,6 +46,7 @@ struct RoundResult {
   /// The proved one, relative, if there is one: called where the estimate is small enough; empty where a
   /// bound is not wanted.
   std::function<std::optional<double>()> bound = {};
+  std::optional<AimedError> aim = {};  ///< where refinement aims at a quantity
 };
 
 class Rounds {
@@ -47,12 +61,15 @@ class Rounds {
   /// Why the accuracy is not reached.
   [[nodiscard]] const std::string& reason() const { return reason_; }
   /// Of the last round, relative, with what the estimate does not see of unbounded stresses.
-  [[nodiscard]] double meshError() const { return trusted_; }
+  [[nodiscard]] double meshError() const { return aims() ? trusted_ * trusted_ : trusted_; }
   /// Doubts about the estimate beside those of plan/estimate_doubts.h.
   [[nodiscard]] std::vector<std::string> doubts() const;
 
  private:
   Verdict stop(const std::string& reason);
+  [[nodiscard]] bool aims() const { return !description_.accuracy.quantity.empty(); }
+  Verdict judgeAim(RoundResult result, double seconds);
+  Verdict goOn(const RoundResult& result, double before, double ofMeshes, double seconds);
   [[nodiscard]] double timeShare() const;
   /// \param cost  what a round on the present meshes takes [s]
   bool refine(const RoundResult& result, double aim, double cost, double seconds);

@@ -6,12 +6,39 @@
 #include "bound/pressures.h"
 
 namespace mortier {
+namespace {
 
-Admissible::Admissible(const Model& model, const State& state, double weight) {
-  obstacle = construct(model, state, weight);
+/// Rows that had no pressure give their force to the nearest that had. \returns whether there is one
+bool pressWhereItDid(const std::vector<Vector>& before, const MatchedMeshes& meshes,
+                     std::vector<Vector>& spread) {
+  std::vector<Vector> widths;
+  for (const Vector& each : spread) widths.emplace_back(Vector::Zero(each.size()));
+  for (const MatchedPiece& piece : meshes.pieces)
+    for (int k = 0; k < 2 && piece.rows[k] >= 0; ++k)
+      widths[piece.interface][piece.rows[k]] += piece.length * (piece.values[k][0] + piece.values[k][1]) / 2;
+  for (size_t i = 0; i < spread.size(); ++i)
+    for (Eigen::Index row = 0; row < spread[i].size(); ++row) {
+      if (before[i][row] > 0 || spread[i][row] == 0) continue;
+      Eigen::Index nearest = -1;
+      for (Eigen::Index other = 0; other < spread[i].size(); ++other)
+        if (before[i][other] > 0 && widths[i][other] > 0 &&
+            (nearest < 0 || std::abs(other - row) < std::abs(nearest - row)))
+          nearest = other;
+      if (nearest < 0) return false;
+      spread[i][nearest] += spread[i][row] * widths[i][row] / widths[i][nearest];
+      spread[i][row] = 0;
+    }
+  return true;
 }
 
-std::string Admissible::construct(const Model& model, const State& state, double weight) {
+}  // namespace
+
+Admissible::Admissible(const Model& model, const State& state, double weight, const EarlierContact& earlier) {
+  obstacle = construct(model, state, weight, earlier);
+}
+
+std::string Admissible::construct(const Model& model, const State& state, double weight,
+                                  const EarlierContact& earlier) {
   for (const Body& body : model.bodies) {
     if (body.degree() != 1) return "displacements are quadratic";
     for (const PrescribedDisplacement& held : body.conditions().displacements)
@@ -27,6 +54,8 @@ std::string Admissible::construct(const Model& model, const State& state, double
     if (bodies[b].hasCurvedSupport()) return model.bodies[b].name() + " is held along a curve";
 
   spread = spreadPressures(model, state, meshes);
+  if (!earlier.pressures.empty() && !pressWhereItDid(earlier.pressures, meshes, spread))
+    return "contact presses where nothing of the line did";
   if (!balancePressures(model, meshes, bodies, spread))
     return "bodies that contact alone holds are not in equilibrium with a pressure that is nowhere negative";
   std::vector<std::array<double, 2>> pressures;
@@ -61,7 +90,7 @@ std::string Admissible::construct(const Model& model, const State& state, double
     strictness.mismatch /= largest;
   }
   if (!strictness.broken().empty()) return strictness.broken();
-  lifting = lift(lifted, model, meshes.pieces, pressures);
+  lifting = lift(lifted, model, meshes.pieces, pressures, earlier.gaps);
   if (!lifting.obstacle.empty()) return lifting.obstacle;
   strictness.leastGap = leastGapOf(model, meshes.pieces, lifting.displacements);
   return strictness.broken();

@@ -3,6 +3,7 @@
 // (relaxation.h), and a displacement u^ that penetrates nowhere (lift.h). What makes it strict is checked.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,13 @@
 #include "bound/matched_meshes.h"
 
 namespace mortier {
+
+/// Contact at an earlier time, which has to go on: no gap may be smaller, nothing may press that did not.
+/// Empty where it need not.
+struct EarlierContact {
+  std::vector<std::array<double, 2>> gaps;  ///< at begin and end of each piece [m]
+  std::vector<Vector> pressures;            ///< coefficients of p^
+};
 
 /// Its members refer to each other.
 struct Admissible {
@@ -25,12 +33,12 @@ struct Admissible {
 
   /// \param weight  time step times the scheme's diagonal coefficient, of bodies that flow [s]
   /// \throws Interrupted
-  Admissible(const Model& model, const State& state, double weight = 0);
+  Admissible(const Model& model, const State& state, double weight = 0, const EarlierContact& earlier = {});
   Admissible(const Admissible&) = delete;
   Admissible& operator=(const Admissible&) = delete;
 
  private:
-  std::string construct(const Model& model, const State& state, double weight);
+  std::string construct(const Model& model, const State& state, double weight, const EarlierContact& earlier);
 };
 
 }  // namespace mortier

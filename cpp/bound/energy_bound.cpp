@@ -12,7 +12,9 @@ double EnergyBound::relative() const {
   return bound / (norm - bound);
 }
 
-EnergyBound energyBound(const Model& model, const State& state, const std::vector<Functional>& functionals) {
+namespace {
+
+EnergyBound boundOf(const Model& model, const State& state, const std::vector<Functional>& functionals) {
   EnergyBound result;
   for (const Body& body : model.bodies)
     if (body.degree() == 1 && !body.material().linear()) {
@@ -41,6 +43,14 @@ EnergyBound energyBound(const Model& model, const State& state, const std::vecto
   result.oscillation = pair.oscillation.relative();
   result.bound = std::sqrt(stress + lifts + 2 * pair.lifting.gap);
   result.quantities = enclose({model, pair.meshes, pair.bodies, pair.spread, pair.lifting}, functionals);
+  return result;
+}
+
+}  // namespace
+
+EnergyBound energyBound(const Model& model, const State& state, const std::vector<Functional>& functionals) {
+  EnergyBound result = boundOf(model, state, functionals);
+  if (!result.obstacle.empty()) result.quantities.assign(functionals.size(), {result.obstacle});
   return result;
 }
 

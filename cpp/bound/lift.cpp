@@ -18,7 +18,8 @@ constexpr double worthwhile = 1e-3;  ///< of what a sweep took away: it was the 
 class Lifting {
  public:
   Lifting(const std::vector<LiftedBody>& bodies, const Model& model, const std::vector<MatchedPiece>& pieces,
-          const std::vector<std::array<double, 2>>& pressure)
+          const std::vector<std::array<double, 2>>& pressure,
+          const std::vector<std::array<double, 2>>& floors)
       : bodies_(bodies) {
     for (const LiftedBody& each : bodies) {
       displacements_.push_back(each.displacement);
@@ -31,6 +32,10 @@ class Lifting {
       supportOf_.push_back(std::move(supportOf));
     }
     collect(model, pieces, pressure);
+    floors_.assign(facing_.size(), 0);
+    for (size_t k = 0; k < floors.size(); ++k)
+      for (int end = 0; end < 2; ++end) floors_[facingOfPiece_[k][end]] = floors[k][end];
+    for (size_t i = 0; i < facing_.size(); ++i) facing_[i].gap -= floors_[i];  // counted from there on
     spreadRings();
   }
 
@@ -56,7 +61,9 @@ class Lifting {
       lift.energies.push_back(std::move(energies));
     }
     lift.leastGap = facing_.empty() ? 0 : std::numeric_limits<double>::max();
-    for (const Facing& each : facing_) {
+    for (size_t i = 0; i < facing_.size(); ++i) {
+      Facing& each = facing_[i];
+      each.gap += floors_[i];
       lift.gap += each.weight * each.gap;
       lift.leastGap = std::min(lift.leastGap, each.gap);
     }
@@ -248,6 +255,7 @@ class Lifting {
   std::vector<std::vector<int>> supportOf_;
   std::vector<std::vector<std::vector<int>>> facingAt_;  ///< by bodies and vertices
   std::vector<Facing> facing_;
+  std::vector<double> floors_;
   std::vector<std::array<int, 2>> facingOfPiece_;
   std::vector<Vector> displacements_;  ///< u^ by bodies
   struct Moving {
@@ -259,8 +267,9 @@ class Lifting {
 }  // namespace
 
 Lift lift(const std::vector<LiftedBody>& bodies, const Model& model, const std::vector<MatchedPiece>& pieces,
-          const std::vector<std::array<double, 2>>& pressure) {
-  return Lifting(bodies, model, pieces, pressure).result();
+          const std::vector<std::array<double, 2>>& pressure,
+          const std::vector<std::array<double, 2>>& floors) {
+  return Lifting(bodies, model, pieces, pressure, floors).result();
 }
 
 }  // namespace mortier

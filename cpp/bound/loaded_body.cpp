@@ -196,6 +196,12 @@ void LoadedBody::pull(int label, const Point& traction) {
   }
 }
 
+void LoadedBody::push(int triangle, const Point& force) {
+  forces_[triangle] += force;
+  for (const int v : mesh().triangles[triangle])
+    load_.segment<2>(2 * v) += body_.weights()[triangle] / 3 * force;
+}
+
 CompositeTriangle LoadedBody::elementOf(int triangle) const {
   const auto& v = mesh().triangles[triangle];
   return {{mesh().vertices[v[0]], mesh().vertices[v[1]], mesh().vertices[v[2]]}, compliances_[triangle]};

@@ -94,6 +94,8 @@ class LoadedBody {
   [[nodiscard]] LoadedBody unloaded(const Vector& near) const;
   /// A constant traction on a label [Pa].
   void pull(int label, const Point& traction);
+  /// A constant body force on a triangle [N/m^3].
+  void push(int triangle, const Point& force);
   [[nodiscard]] const Body& body() const { return body_; }
   /// Values of the tangent's pattern.
   [[nodiscard]] std::vector<double> tangent() const;

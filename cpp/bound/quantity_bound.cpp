@@ -50,6 +50,7 @@ class Enclosing {
       std::vector<Stress> lifted = body.stressOf(pair.lifting.displacements[b] - body.lifted().displacement);
       products_.emplace_back();
       sizes_.emplace_back();
+      misfits_.emplace_back(Vector::Zero(static_cast<Eigen::Index>(lifted.size())));
       for (int t = 0; t < static_cast<int>(lifted.size()); ++t) {
         lifted[t] += body.stress()[t];
         const CompositeTriangle element = body.elementOf(t);
@@ -58,18 +59,56 @@ class Enclosing {
         const Moments load = element.loadProduct(f);
         products_[b].emplace_back(element.energy() * d + load);
         sizes_[b].emplace_back(roundings * (element.energy().cwiseAbs() * d.cwiseAbs() + load.cwiseAbs()));
-        Q_ += (d.dot(products_[b][t]) + d.dot(load) + element.loadEnergy(f)) / 4;
+        misfits_[b][t] = (d.dot(products_[b][t]) + d.dot(load) + element.loadEnergy(f)) / 4;
       }
       lifted_.push_back(std::move(lifted));
+      Q_ += misfits_[b].sum();
     }
     Q_ = std::max(Q_, 0.0);
+    for (size_t k = 0; k < pair.meshes.pieces.size(); ++k) {
+      const auto& [first, last] = pair.lifting.facingOfPiece[k];
+      addAt(k,
+            integral(pair.meshes.pieces[k].length, pressureOn(pair.meshes.pieces[k], pair.spread),
+                     {facing_[first].gap, facing_[last].gap}),
+            misfits_);
+    }
   }
 
   [[nodiscard]] Enclosure enclose(const Functional& functional) const {
     if (!functional.obstacle.empty()) return {functional.obstacle};
     const Goal goal = goalOf(pair_, functional);
+    Enclosure result = enclose(functional, goal);
+    if (!result.obstacle.empty()) return result;
+    if (functional.point) {
+      const Vector& u = pair_.bodies[functional.body].lifted().displacement;
+      result.estimate = result.error(goal.loads[functional.body].dot(u));
+      result.obstacle = "displacements at a point have none, means of a label have";
+    }
+    if (functional.kind != Functional::Kind::meanPressure) return result;
+    const Goal other = goalOf(pair_, functional, Against::above);
+    Enclosure above = enclose(functional, other);
+    if (!above.obstacle.empty()) return above;
+    std::vector<Vector> between = none();
+    for (size_t k = 0; k < pair_.meshes.pieces.size(); ++k) {
+      const auto& [first, last] = pair_.lifting.facingOfPiece[k];
+      addAt(k,
+            integral(pair_.meshes.pieces[k].length, pressureOn(pair_.meshes.pieces[k], pair_.spread),
+                     {other.r[first] - goal.r[first], other.r[last] - goal.r[last]}) /
+                2,
+            between);
+    }
+    between = onOwnMeshes(between);
+    for (size_t b = 0; b < between.size(); ++b)
+      above.parts[b] = (above.parts[b] + result.parts[b]) / 2 + between[b];
+    above.lower = std::max(0.0, result.lower);
+    return above;
+  }
+
+ private:
+  [[nodiscard]] Enclosure enclose(const Functional& functional, const Goal& goal) const {
     if (!goal.obstacle.empty()) return {goal.obstacle};
     Enclosure result{"no adjoint displacement and stress were found", -infinite, infinite};
+    double least = infinite;
     // First as if contact stayed as it is, then with z and q cut to what costs nothing in R.
     double c = infinite;
     for (int i = 0; i < tries; ++i) {
@@ -80,6 +119,8 @@ class Enclosing {
         result.obstacle.clear();
         result.lower = std::max(result.lower, trial->centre - remainder);
         result.upper = std::min(result.upper, trial->centre + remainder);
+        if (remainder < least) result.parts = partsOf(*trial, remainder);
+        least = std::min(least, remainder);
       }
       if (!(Q_ > 0)) break;
       c = trial->misfit / (2 * std::sqrt(Q_));
@@ -87,14 +128,56 @@ class Enclosing {
     return result;
   }
 
- private:
   static constexpr int tries = 3;
   struct Trial {
     double centre = 0;  ///< the quantity less R
     double misfit = 0;  ///< |E eps z - t|
     double c = 0;
-    double rounding = 0;  ///< what forces left over in triangles, and glue that is off, may do
+    double rounding = 0;               ///< what forces left over in triangles, and glue that is off, may do
+    std::vector<Vector> misfits = {};  ///< |E eps z - t|^2 by bodies and triangles
   };
+
+  [[nodiscard]] std::vector<Vector> none() const {
+    std::vector<Vector> result;
+    for (const LoadedBody& body : pair_.bodies)
+      result.emplace_back(Vector::Zero(static_cast<Eigen::Index>(body.mesh().triangles.size())));
+    return result;
+  }
+  /// Adds a value to the triangles on both sides of a piece, half to each.
+  void addAt(size_t piece, double value, std::vector<Vector>& to) const {
+    const MatchedPiece& at = pair_.meshes.pieces[piece];
+    const auto& [nonmortar, mortar, coupling] = pair_.model.interfaces[at.interface].pair();
+    for (int side = 0; side < 2; ++side) {
+      const int body = side == 0 ? nonmortar.body : mortar.body;
+      const auto& [first, last] = at.vertices[side];
+      for (const int t : pair_.bodies[body].lifted().sides.trianglesAt(first)) {
+        const auto& v = pair_.bodies[body].mesh().triangles[t];
+        if (std::find(v.begin(), v.end(), last) != v.end()) to[body][t] += value / 2;
+      }
+    }
+  }
+  [[nodiscard]] std::vector<Vector> onOwnMeshes(const std::vector<Vector>& values) const {
+    std::vector<Vector> result;
+    for (size_t b = 0; b < values.size(); ++b) {
+      const std::vector<int>& parents = pair_.bodies[b].parents();
+      result.emplace_back(
+          Vector::Zero(static_cast<Eigen::Index>(pair_.model.bodies[b].mesh().triangles.size())));
+      for (size_t t = 0; t < parents.size(); ++t)
+        result[b][parents[t]] += values[b][static_cast<Eigen::Index>(t)];
+    }
+    return result;
+  }
+  /// What triangles add to R: products of both misfits in them, which sum to `remainder`.
+  [[nodiscard]] std::vector<Vector> partsOf(const Trial& trial, double remainder) const {
+    std::vector<Vector> products = none();
+    double sum = 0;
+    for (size_t b = 0; b < products.size(); ++b) {
+      products[b] = (misfits_[b].array().max(0) * trial.misfits[b].array().max(0)).sqrt();
+      sum += products[b].sum();
+    }
+    for (Vector& product : products) product *= sum > 0 ? remainder / sum : 0;
+    return onOwnMeshes(products);
+  }
 
   [[nodiscard]] std::optional<Trial> attempt(const Functional& functional, const Goal& goal, double c) const {
     const auto glued = displacement(goal, c);
@@ -105,7 +188,10 @@ class Enclosing {
     std::vector<LoadedBody> bodies;
     bodies.reserve(pair_.bodies.size());
     for (size_t b = 0; b < pair_.bodies.size(); ++b) bodies.push_back(pair_.bodies[b].unloaded(z[b]));
-    bodies[functional.body].pull(functional.label, goal.traction);
+    if (goal.triangle >= 0)
+      bodies[functional.body].push(goal.triangle, goal.force);
+    else
+      bodies[functional.body].pull(functional.label, goal.traction);
     const auto q = adjointPressure(glued->solution.forces, bodies, c);
     if (!q) return std::nullopt;
     for (size_t k = 0; k < q->size(); ++k)
@@ -133,6 +219,7 @@ class Enclosing {
       left = std::max(left, leftOf(bodies[b]));
       moved = std::max(moved, z[b].lpNorm<Eigen::Infinity>());
       misfit += bodies[b].energies().sum();
+      trial.misfits.push_back(bodies[b].energies());
       trial.centre += goal.loads[b].dot(pair_.lifting.displacements[b]) + workIn(b, z[b], bodies[b]);
     }
     trial.misfit = std::sqrt(std::max(misfit, 0.0));
@@ -153,8 +240,18 @@ class Enclosing {
       const Point mean = (z.segment<2>(2 * v[0]) + z.segment<2>(2 * v[1]) + z.segment<2>(2 * v[2])) / 3;
       twice -= workOf(body.momentsOf(t), v, z) + body.body().weights()[t] * body.forceOn(t).dot(mean);
       twice += adjoint.momentsOf(t).dot(products_[b][t]);
+      if (!adjoint.forceOn(t).isZero(0)) twice += loadProduct(b, t, adjoint.forceOn(t));
     }
     return twice / 2;
+  }
+  /// What a body force of the adjoint adds to (s^ - s(u^), E^-1 t) beside the moments of t.
+  [[nodiscard]] double loadProduct(size_t b, int t, const Point& f) const {
+    const LoadedBody& body = pair_.bodies[b];
+    const CompositeTriangle element = body.elementOf(t);
+    const Point& g = body.forceOn(t);
+    const Moments d = body.momentsOf(t) - element.momentsOf(lifted_[b][t]) - element.momentsOfLoad(g);
+    return d.dot(element.loadProduct(f)) - element.momentsOfLoad(f).dot(products_[b][t]) +
+           (element.loadEnergy(f + g) - element.loadEnergy(f) - element.loadEnergy(g)) / 2;
   }
 
   struct Adjoint {
@@ -226,6 +323,7 @@ class Enclosing {
   double moved_ = 0;                            ///< largest |u^| [m]
   std::vector<std::vector<Stress>> lifted_;     ///< s(u^) by bodies and triangles
   std::vector<std::vector<Moments>> sizes_;     ///< rounding of what follows: thin triangles cancel in it
+  std::vector<Vector> misfits_;                 ///< what Q consists of, by bodies and triangles
   std::vector<std::vector<Moments>> products_;  ///< with moments of t: the energy product of s^ - s(u^) and t
 };
 

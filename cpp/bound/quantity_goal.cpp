@@ -78,9 +78,51 @@ std::string weigh(const AdmissiblePair& pair, const Functional& functional, Vect
   return "";
 }
 
+/// r of a part of the line: at a vertex the least, or the largest, of what each piece there allows.
+void weighPart(const AdmissiblePair& pair, const Functional& functional, Against side, Vector& r) {
+  std::vector<char> seen(pair.lifting.facing.size(), 0);
+  const std::vector<Point>& places = pair.bodies[functional.body].mesh().vertices;
+  const double size = functional.part->size();
+  for (size_t k = 0; k < pair.meshes.pieces.size(); ++k) {
+    const MatchedPiece& piece = pair.meshes.pieces[k];
+    const auto& [nonmortar, mortar, coupling] = pair.model.interfaces[piece.interface].pair();
+    std::array<double, 2> values{};
+    for (int of = 0; of < 2; ++of) {
+      const ContactSide& at = of == 0 ? nonmortar : mortar;
+      if (at.body != functional.body || at.label != functional.label) continue;
+      const double first = functional.part->along(places[piece.vertices[of][0]]);
+      const double last = functional.part->along(places[piece.vertices[of][1]]);
+      values =
+          side == Against::below ? functional.part->below(first, last) : functional.part->above(first, last);
+    }
+    for (int end = 0; end < 2; ++end) {
+      const int i = pair.lifting.facingOfPiece[k][end];
+      const double value = values[end] / size;
+      if (std::exchange(seen[i], 1) == 0)
+        r[i] = value;
+      else
+        r[i] = side == Against::below ? std::min(r[i], value) : std::max(r[i], value);
+    }
+  }
+}
+
+/// The first triangle in which a point is; -1 for none.
+int triangleAt(const TriangleMesh& mesh, const Point& x) {
+  const auto cross = [](const Point& u, const Point& v) { return u.x() * v.y() - u.y() * v.x(); };
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& v = mesh.triangles[t];
+    bool inside = true;
+    for (int i = 0; i < 3; ++i)
+      inside = inside && cross(mesh.vertices[v[(i + 1) % 3]] - mesh.vertices[v[i]],
+                               x - mesh.vertices[v[i]]) >= -rounding * doubleArea(mesh, static_cast<int>(t));
+    if (inside) return static_cast<int>(t);
+  }
+  return -1;
+}
+
 }  // namespace
 
-Goal goalOf(const AdmissiblePair& pair, const Functional& functional) {
+Goal goalOf(const AdmissiblePair& pair, const Functional& functional, Against side) {
   Goal goal;
   for (const LoadedBody& body : pair.bodies) {
     goal.held.emplace_back(Vector::Zero(body.body().dofs()));
@@ -92,6 +134,18 @@ Goal goalOf(const AdmissiblePair& pair, const Functional& functional) {
     goal.obstacle = reactionValues(functional, body.body(), goal.held[functional.body]);
   } else if (functional.kind == Functional::Kind::contactForce) {
     goal.obstacle = weigh(pair, functional, goal.r);
+  } else if (functional.kind == Functional::Kind::meanPressure) {
+    weighPart(pair, functional, side, goal.r);
+  } else if (functional.point) {
+    goal.triangle = triangleAt(body.mesh(), *functional.point);
+    if (goal.triangle < 0) {
+      goal.obstacle = "the point is in no triangle";
+      return goal;
+    }
+    goal.force = functional.direction / body.body().weights()[goal.triangle];
+    LoadedBody pushed = body.unloaded(goal.held[functional.body]);
+    pushed.push(goal.triangle, goal.force);
+    goal.loads[functional.body] = pushed.load();
   } else {
     double length = 0;
     for (const auto& [a, b] : edgesOn(body.mesh(), functional.label))

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <new>
 #include <utility>
 
@@ -53,7 +54,7 @@ bool TotalBoundRecord::atRest(const State& state) const {
 }
 
 TotalBoundRecord::Moment TotalBoundRecord::rest(const State& state, TotalBoundMemory& memory) const {
-  Moment moment{state, {}, {}, true};
+  Moment moment{state, {}, {}, {}, true};
   const MatchedMeshes meshes = matchedMeshes(model_);
   memory.obstacle = meshes.obstacle;
   if (!memory.obstacle.empty()) return moment;
@@ -89,7 +90,7 @@ TotalBoundRecord::Moment TotalBoundRecord::begin(const State& state, TotalBoundM
   const Admissible pair(model_, state);
   memory.obstacle = pair.obstacle;
   if (!memory.obstacle.empty()) return {};
-  Moment moment{state, {}, contactOf(pair)};
+  Moment moment{state, {}, contactOf(pair), pair.spread};
   for (size_t b = 0; b < bodies_.size(); ++b) {
     moment.bodies.push_back(bodies_[b].start(state.bodies[b], pair.bodies[b], pair.lifting.displacements[b]));
     memory.fixed.misfit += bodies_[b].misfit(moment.bodies[b], pair.bodies[b]) / 2;
@@ -99,6 +100,24 @@ TotalBoundRecord::Moment TotalBoundRecord::begin(const State& state, TotalBoundM
   return moment;
 }
 
+/// Whether a gap becomes smaller.
+bool TotalBoundRecord::closes(const std::vector<Contact>& contact) const {
+  double largest = extent_;
+  for (const RunFields& body : now_->bodies) largest = std::max(largest, largestOf(body.displacement));
+  for (size_t i = 0; i < contact.size(); ++i)
+    for (int end = 0; end < 2; ++end)
+      if (contact[i].gap[end] < now_->contact[i].gap[end] - roundings * largest) return true;
+  return false;
+}
+
+/// Whether a place is pressed that was not.
+bool TotalBoundRecord::pressesAnew(const std::vector<Contact>& contact) const {
+  for (size_t i = 0; i < contact.size(); ++i)
+    for (int end = 0; end < 2; ++end)
+      if (!now_->rest && contact[i].pressure[end] > 0 && now_->contact[i].pressure[end] == 0) return true;
+  return false;
+}
+
 /// By how much the pressure grows at most in a step; notes where there is no bound whatever contact does.
 double TotalBoundRecord::growthTo(const std::vector<Contact>& contact, int number,
                                   TotalBoundMemory& memory) const {
@@ -106,16 +125,13 @@ double TotalBoundRecord::growthTo(const std::vector<Contact>& contact, int numbe
   const auto stop = [&](const std::string& why) {
     if (memory.closes.empty()) memory.closes = why + inStep(number);
   };
-  double largest = extent_;
-  for (const RunFields& body : now_->bodies) largest = std::max(largest, largestOf(body.displacement));
+  if (closes(contact)) stop("a gap becomes smaller");
+  if (pressesAnew(contact)) stop("contact presses where it did not");
   for (size_t i = 0; i < contact.size(); ++i)
     for (int end = 0; end < 2; ++end) {
       const double p0 = now_->contact[i].pressure[end];
       const double p1 = contact[i].pressure[end];
-      if (contact[i].gap[end] < now_->contact[i].gap[end] - roundings * largest)
-        stop("a gap becomes smaller");
       if (now_->rest || p1 <= p0) continue;
-      if (p0 == 0) stop("contact presses where it did not");
       growth = std::max(growth, p1 / p0);
     }
   return growth;
@@ -147,14 +163,31 @@ TotalBoundRecord::Moment TotalBoundRecord::step(const State& state, int number,
     return moment;
   }
   const double timeStep = state.time - now_->state.time;
-  const Admissible pair(model_, state, weightAt(state.time));
-  memory.obstacle = pair.obstacle;
+  memory.earlier = {};
+  auto found = std::make_unique<const Admissible>(model_, state, weightAt(state.time));
+  memory.obstacle = found->obstacle;
   if (!memory.obstacle.empty()) {
     memory.obstacle += inStep(number);
     return {};
   }
-  Moment moment{state, {}, contactOf(pair)};
+  Moment moment{state, {}, contactOf(*found)};
   classify(moment.contact, number, memory);
+  // Where contact is not closed and open as in the run u^ and p^ have but to be of those that do not close
+  // gaps and press nowhere anew.
+  if (!memory.moved.empty() && memory.closes.empty() &&
+      (closes(moment.contact) || pressesAnew(moment.contact))) {
+    for (const Contact& each : now_->contact) memory.earlier.gaps.push_back(each.gap);
+    memory.earlier.pressures = now_->pressures;
+    auto other = std::make_unique<const Admissible>(model_, state, weightAt(state.time), memory.earlier);
+    if (other->obstacle.empty()) {
+      found = std::move(other);
+      moment.contact = contactOf(*found);
+    } else {
+      memory.earlier = {};
+    }
+  }
+  moment.pressures = found->spread;
+  const Admissible& pair = *found;
   const double factor = growthTo(moment.contact, number, memory);
   const std::vector<StepWeights> weights{memory.fixed.weights(1),
                                          memory.any.weights(std::isfinite(factor) ? factor : 1)};
@@ -203,8 +236,8 @@ void TotalBoundRecord::goOn() {
     now_ = begin(first_, memory);
     return;
   }
-  const Admissible pair(model_, first_, weightAt(first_.time));
-  now_ = {first_, {}, contactOf(pair)};
+  const Admissible pair(model_, first_, weightAt(first_.time), memory_.earlier);
+  now_ = {first_, {}, contactOf(pair), pair.spread};
   for (size_t b = 0; b < bodies_.size(); ++b) {
     now_->bodies.push_back(bodies_[b].fields(first_.bodies[b], pair.bodies[b], pair.lifting.displacements[b],
                                              weightAt(first_.time)));

@@ -9,6 +9,7 @@
 // grow, whatever contact does, unless gaps become smaller (docs/bounds.md has the proofs).
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <string>
@@ -29,6 +30,7 @@ struct TotalBoundMemory {
   ErrorCourse fixed, any;
   std::vector<char> contact;   ///< of the pieces of contact lines: Touch
   std::vector<Matrix> stress;  ///< s~ by bodies
+  EarlierContact earlier;      ///< by which u^ and p^ of the last step were made
 };
 
 struct TotalBound {
@@ -72,7 +74,8 @@ class TotalBoundRecord {
     State state;
     std::vector<RunFields> bodies;
     std::vector<Contact> contact;
-    bool rest = false;  ///< nothing acts, and nothing has been
+    std::vector<Vector> pressures = {};  ///< coefficients of p^
+    bool rest = false;                   ///< nothing acts, and nothing has been
   };
 
   [[nodiscard]] bool atRest(const State& state) const;
@@ -84,6 +87,8 @@ class TotalBoundRecord {
   [[nodiscard]] double growthTo(const std::vector<Contact>& contact, int number,
                                 TotalBoundMemory& memory) const;
   void classify(const std::vector<Contact>& contact, int number, TotalBoundMemory& memory) const;
+  [[nodiscard]] bool closes(const std::vector<Contact>& contact) const;
+  [[nodiscard]] bool pressesAnew(const std::vector<Contact>& contact) const;
 
   const Model& model_;
   TotalBoundMemory& memory_;

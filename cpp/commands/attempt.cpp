@@ -27,7 +27,8 @@ std::string joinedOnce(std::vector<std::string> words) {
 RunFacts factsOf(const SceneDescription& scene, const AttemptOptions& options) {
   RunFacts facts;
   facts.sceneText = options.sceneText;
-  facts.accuracy = scene.accuracy.energy;
+  facts.accuracy = scene.accuracy.asked();
+  facts.aim = scene.accuracy.quantity;
   facts.scene = scene.path;
   facts.title = scene.title;
   facts.units = scene.units;

@@ -10,20 +10,24 @@ namespace mortier {
 namespace {
 
 /// What a bound needs to know of a quantity.
-Functional functionalOf(const Quantity& quantity, bool atPoint) {
+Functional functionalOf(const Quantity& quantity, const std::optional<Point>& point) {
   using Kind = Functional::Kind;
   Functional result{quantity.kind == Quantity::Kind::reaction       ? Kind::reaction
                     : quantity.kind == Quantity::Kind::contactForce ? Kind::contactForce
+                    : quantity.kind == Quantity::Kind::meanPressure ? Kind::meanPressure
                                                                     : Kind::displacement,
                     quantity.body, quantity.label};
-  if (!hasComponent(quantity.kind)) result.obstacle = "only forces and mean displacements have one";
+  result.part = quantity.part;
+  if (!hasComponent(quantity.kind) && !quantity.part)
+    result.obstacle = "only forces, mean displacements and mean pressures have one";
   if (quantity.component == Quantity::Component::moment) {
     result.turn = 1;
     result.about = quantity.about;
   } else {
     result.direction = Point::Unit(quantity.component == Quantity::Component::x ? 0 : 1);
   }
-  if (atPoint) result.obstacle = "displacements at a point have none, means of a label have";
+  if (point && quantity.kind == Quantity::Kind::displacement) result.point = point;
+  if (point && quantity.kind == Quantity::Kind::reaction) result.obstacle = "forces at a point have none";
   return result;
 }
 
@@ -49,8 +53,13 @@ EnergyBound boundOf(const Attempt& attempt) {
     std::vector<Functional> functionals;
     functionals.reserve(quantities.size());
     for (size_t i = 0; i < quantities.size(); ++i)
-      functionals.push_back(functionalOf(quantities[i], attempt.scene().quantities[i].point.has_value()));
-    return energyBound(*attempt.model, attempt.solved.state, functionals);
+      functionals.push_back(functionalOf(quantities[i], attempt.scene().quantities[i].point));
+    EnergyBound bound = energyBound(*attempt.model, attempt.solved.state, functionals);
+    for (size_t i = 0; i < quantities.size(); ++i)
+      if (quantities[i].kind == Quantity::Kind::largestPressure)
+        bound.quantities[i].estimate =
+            largestPressureError(quantities[i], *attempt.model, attempt.solved.state);
+    return bound;
   });
 }
 

@@ -53,7 +53,7 @@ std::string putInPlace(const Attempt& attempt, OutputFolder& folder) {
   const Solved& solved = attempt.solved;
   const std::string& path = folder.temporary();
   Manifest manifest{solved.report.status != Status::converged, solved.files};
-  if (attempt.scene().accuracy.energy > 0)
+  if (attempt.scene().accuracy.asked() > 0)
     for (const Body& body : attempt.model->bodies) {
       OutputFile file(path + "/" + body.name() + ".mesh");
       file << meditText(body.mesh());
@@ -73,8 +73,10 @@ Ending endingOf(const Attempt& attempt, const std::string& shortfall, const std:
                 std::to_string(attempt.solved.last.step) + " is in " +
                 (folder.empty() ? "memory" : folder + ", which mortier plot draws")};
   if (shortfall.empty()) return {};
-  return {exitFailed, scene.path + ": accuracy " + shortest(scene.accuracy.energy) + " not reached: " +
-                          shortfall + "; the best result is in " + (folder.empty() ? "memory" : folder)};
+  return {exitFailed, scene.path + ": accuracy " + shortest(scene.accuracy.asked()) +
+                          (scene.accuracy.quantity.empty() ? "" : " of " + scene.accuracy.quantity) +
+                          " not reached: " + shortfall + "; the best result is in " +
+                          (folder.empty() ? "memory" : folder)};
 }
 
 }  // namespace mortier

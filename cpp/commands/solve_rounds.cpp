@@ -1,5 +1,6 @@
 #include "commands/solve_rounds.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <new>
 #include <utility>
@@ -38,10 +39,24 @@ std::string failureOf(const std::function<void()>& work) {
   return "";
 }
 
+/// The error of the quantity that is aimed at, as far as it is known.
+AimedError aimOf(const Attempt& round) {
+  const std::vector<Quantity>& quantities = round.facts.quantities;
+  const auto at = std::find_if(quantities.begin(), quantities.end(),
+                               [&](const Quantity& each) { return each.name == round.facts.aim; });
+  const EnergyBound& bound = *round.solved.accuracy.bound;
+  if (bound.quantities.empty()) return {bound.obstacle, 0, 0, false, {}};
+  const Enclosure& enclosure = bound.quantities[at - quantities.begin()];
+  const double value = evaluate({*at}, *round.model, round.solved.state)[0];
+  const bool proved = enclosure.obstacle.empty();
+  if (!proved && !enclosure.estimate) return {enclosure.obstacle, value, 0, false, {}};
+  return {"", value, proved ? enclosure.error(value) : *enclosure.estimate, proved, enclosure.parts};
+}
+
 }  // namespace
 
 std::optional<Rounds> beginRounds(ResolvedScene& resolved) {
-  if (!(resolved.description.accuracy.energy > 0)) return std::nullopt;
+  if (!(resolved.description.accuracy.asked() > 0)) return std::nullopt;
   Rounds rounds(std::move(resolved));
   resolved = rounds.scene();
   return rounds;
@@ -61,7 +76,10 @@ std::string solveRounds(Rounds& rounds, std::unique_ptr<Attempt>& attempt, const
     const double end = processSeconds();
     const double time = round.solved.report.timeError;
     RoundResult result{errors.errors(), errors.energy(), time, end - begin};
-    if (round.scene().accuracy.bound)
+    if (!round.facts.aim.empty()) {
+      round.solved.accuracy.bound = boundOf(round);
+      result.aim = aimOf(round);
+    } else if (round.scene().accuracy.bound)
       result.bound = [&]() -> std::optional<double> {
         const EnergyBound& bound = round.solved.accuracy.bound.emplace(boundOf(round));
         return bound.obstacle.empty() ? std::optional(bound.relative()) : std::nullopt;

@@ -52,7 +52,7 @@ void lintSettling(const SceneDescription& scene, const std::string& doubt, Fault
 /// Whether the meshes of the scene are first ones, which the run refines until an accuracy is reached: how
 /// fine they are and which side is the finer one is not for the scene to say.
 inline bool refinesMeshes(const SceneDescription& scene) {
-  return scene.accuracy.energy > 0;
+  return scene.accuracy.asked() > 0;
 }
 
 // What the linter looks for, one file each.

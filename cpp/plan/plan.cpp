@@ -32,7 +32,8 @@ class Planner {
       add("scene", true,
           "rounds on meshes that are refined until the estimated error is small enough; numbers of nodes and "
           "memory are those of the first ones",
-          "accuracy.energy = " + shortest(scene_.accuracy.energy));
+          scene_.accuracy.quantity.empty() ? "accuracy.energy = " + shortest(scene_.accuracy.energy)
+                                           : "accuracy.quantity = " + scene_.accuracy.quantity);
     if (scene_.degree == 2)
       add("scene", true, "quadratic displacements",
           "degree = 2: six nodes a triangle, stresses at three points");
@@ -54,7 +55,7 @@ class Planner {
     plan_.push_back({part, modelled, what, why});
   }
 
-  [[nodiscard]] bool inRounds() const { return scene_.accuracy.energy > 0; }
+  [[nodiscard]] bool inRounds() const { return scene_.accuracy.asked() > 0; }
 
   void planBody(size_t b) {
     const Body& body = model_.bodies[b];

@@ -260,11 +260,15 @@ std::string logQuantities(const RunFacts& facts, const Model& model, const State
             quantities[i].unit(facts.units);
     if (const auto place = placeOf(quantities[i], model, state))
       text += format(" at (%.4g, %.4g)", place->x(), place->y());
-    if (!bound || !bound->obstacle.empty()) continue;
+    if (!bound || bound->quantities.empty()) continue;
     const Enclosure& enclosure = bound->quantities[i];
-    text += enclosure.obstacle.empty() ? format(" +- %.2g (guaranteed%s)", enclosure.error(values[i]),
-                                                bound->oscillation > linear ? " for linear data" : "")
-                                       : " (no bound: " + enclosure.obstacle + ")";
+    if (enclosure.obstacle.empty())
+      text += format(" +- %.2g (guaranteed%s)", enclosure.error(values[i]),
+                     bound->oscillation > linear ? " for linear data" : "");
+    else if (enclosure.estimate)
+      text += format(" +- %.2g (an estimate)", *enclosure.estimate);
+    else if (bound->obstacle.empty())
+      text += " (no bound: " + enclosure.obstacle + ")";
   }
   return text.empty() ? text : text + "\n";
 }

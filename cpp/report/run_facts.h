@@ -38,6 +38,7 @@ struct RunFacts {
   int threads = 1;
   bool listsSolutions = false;       ///< solver.list_solutions
   double accuracy = 0;               ///< asked for, relative, in the energy norm; 0: none
+  std::string aim;                   ///< the quantity of which it is asked for; empty: the stress
   bool reached = false;              ///< that
   std::vector<RoundFacts> rounds;    ///< none where no accuracy is asked for
   size_t best = 0;                   ///< the round of the result, from 0

@@ -70,7 +70,7 @@ Json rounds(const RunFacts& facts) {
     list.push_back({{"triangles", round.triangles},
                     {"unknowns", round.unknowns},
                     {"steps", round.steps},
-                    {"mesh", round.mesh},
+                    {"mesh", std::isfinite(round.mesh) ? Json(round.mesh) : Json(nullptr)},
                     {"time", round.time},
                     {"seconds", round.seconds}});
   return list;
@@ -149,9 +149,13 @@ Json jsonOf(const StuckPlace& stuck, const RunFacts& facts, const Model& model) 
 
 /// Of the error of a quantity.
 Json jsonOf(const EnergyBound& bound, size_t quantity, double value) {
-  if (!bound.obstacle.empty()) return {{"error", nullptr}, {"reason", bound.obstacle}};
+  if (bound.quantities.empty()) return {{"error", nullptr}, {"reason", bound.obstacle}};
   const Enclosure& enclosure = bound.quantities[quantity];
-  if (!enclosure.obstacle.empty()) return {{"error", nullptr}, {"reason", enclosure.obstacle}};
+  if (!enclosure.obstacle.empty()) {
+    Json json = {{"error", nullptr}, {"reason", enclosure.obstacle}};
+    if (enclosure.estimate) json["estimate"] = *enclosure.estimate;
+    return json;
+  }
   return {{"error", enclosure.error(value)}, {"lower", enclosure.lower}, {"upper", enclosure.upper}};
 }
 
@@ -325,8 +329,10 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
   if (facts.tolerance > 0) json["accuracy"]["time"] = report.timeError;
   if (facts.accuracy > 0) {
     json["accuracy"]["asked"] = facts.accuracy;
+    if (!facts.aim.empty()) json["accuracy"]["quantity"] = facts.aim;
     json["accuracy"]["reached"] = facts.reached;
-    json["accuracy"]["mesh"] = facts.rounds.empty() ? accuracy.largest : facts.rounds[facts.best].mesh;
+    const double mesh = facts.rounds.empty() ? accuracy.largest : facts.rounds[facts.best].mesh;
+    json["accuracy"]["mesh"] = std::isfinite(mesh) ? Json(mesh) : Json(nullptr);
     if (!facts.rounds.empty()) json["accuracy"]["round"] = facts.best + 1;
     json["accuracy"]["time"] = report.timeError;
     json["rounds"] = rounds(facts);

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "mesh/boundary_line.h"
 #include "scene/document.h"
+#include "time/mean_pressure.h"
 #include "time/nodal_forces.h"
 
 namespace mortier {
@@ -38,7 +40,7 @@ std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model
     if (quantity.kind == Kind::reaction && firstSupport(body, quantity.label, quantity.point) < 0)
       refuse(label + " has no prescribed displacement, expected one that has: supports alone react");
     const bool isOfContact = quantity.kind == Kind::contactForce || quantity.kind == Kind::largestPressure ||
-                             quantity.kind == Kind::contactLength;
+                             quantity.kind == Kind::contactLength || quantity.kind == Kind::meanPressure;
     if (isOfContact && !isInContact(model, quantity.body, quantity.label, false))
       refuse(label + " is no side of a contact, expected one");
     if (quantity.kind == Kind::frictionWork && !isInContact(model, quantity.body, quantity.label, true))
@@ -48,6 +50,17 @@ std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model
                                         : meanOn(body.mesh(), quantity.label, body.axisymmetric());
       if (quantity.mean.empty())
         refuse("point = " + shortest(*description.point) + ", expected a point of body " + body.name());
+    }
+    if (quantity.kind == Kind::meanPressure) {
+      const BoundaryLine line = boundaryLine(body.mesh(), quantity.label);
+      try {
+        quantity.part = description.part ? LinePart(line, description.part->from, description.part->to,
+                                                    description.part->margin)
+                                         : LinePart(line);
+      } catch (const InputError& error) {
+        refuse(label + ": " + error.what());
+      }
+      quantity.shares = meanPressureShares(model, quantity.body, quantity.label, *quantity.part);
     }
     quantities.push_back(std::move(quantity));
   }

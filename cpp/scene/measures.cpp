@@ -21,7 +21,9 @@ const Dimension* dimensionOf(const std::string& path) {
       {"body.force.", {dimensions::bodyForce, {"x", "y"}}},
       {"body.boundary.", {dimensions::length, {"ux", "uy", "un", "ut"}}},
       {"contact.", {dimensions::length, {"gap"}}},
-      {"quantity.", {dimensions::length, {"about", "displacement.point"}}},
+      {"quantity.",
+       {dimensions::length,
+        {"about", "displacement.point", "mean_pressure.from", "mean_pressure.to", "mean_pressure.margin"}}},
       {"time.", {dimensions::time, {"end", "breaks"}}}};
   static const std::pair<const char*, Dimension> materials[] = {{"young", dimensions::stress},
                                                                 {"yield_stress", dimensions::stress},

@@ -103,7 +103,7 @@ void requireRates(const BodyDescription& body, const SceneDescription& scene) {
     if (region.material) materials.push_back(&*region.material);
   const std::string asked = scene.time.scheme == Scheme::crankNicolson ? "scheme = \"crank-nicolson\""
                             : scene.time.controlled()                  ? "time.tolerance"
-                            : scene.accuracy.energy > 0                ? "accuracy"
+                            : scene.accuracy.asked() > 0               ? "accuracy"
                                                                        : "";
   for (const MaterialDescription* material : materials)
     if (const auto* law = material->as<Overstress>(); law != nullptr && !law->viscous() && !asked.empty())

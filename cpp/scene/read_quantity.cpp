@@ -7,6 +7,20 @@
 #include "scene/words.h"
 
 namespace mortier {
+namespace {
+
+/// Where a mean over a line begins and ends.
+std::optional<QuantityDescription::Part> readPart(const TableReader& of) {
+  if (of.find("from") == nullptr && of.find("to") == nullptr) {
+    if (of.find("margin") != nullptr) of.reject("margin", "it only beside from and to");
+    return std::nullopt;
+  }
+  for (const char* key : {"from", "to"})
+    static_cast<void>(of.require(key, "[x, y], where the part of the line ends: from and to, or neither"));
+  return QuantityDescription::Part{of.point("from"), of.point("to"), of.number("margin", atLeast(0), 0)};
+}
+
+}  // namespace
 
 QuantityDescription readQuantity(const Node& node, const SceneDescription& scene) {
   using Kind = Quantity::Kind;
@@ -44,6 +58,7 @@ QuantityDescription readQuantity(const Node& node, const SceneDescription& scene
           std::pair(of.label("label").number, of.label("label").name);
       quantity.where = of.find("label")->where;
     }
+    if (kind == Kind::meanPressure) quantity.part = readPart(of);
   }
   if (given != 1)
     throw InputError(table.message(node.where, std::string(given == 0 ? "none" : "more than one") + " of " +

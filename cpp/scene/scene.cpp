@@ -49,26 +49,66 @@ void requireKnownTo(const SceneDescription& scene, const BodyDescription& body) 
   if (!body.temperature) return;
   if (scene.accuracy.bound)
     throw InputError(body.temperature->where + ": temperature, expected none beside accuracy.bound");
-  if (scene.accuracy.energy > 0 && !body.temperature->file.empty())
+  if (scene.accuracy.asked() > 0 && !body.temperature->file.empty())
     throw InputError(body.temperature->where +
                      ": temperature.file, expected a datum beside accuracy: vertices come and go");
 }
 
 void readAccuracy(const TableReader& accuracy, SceneDescription& scene) {
   scene.accuracy.bound = accuracy.boolean("bound", false);
-  scene.accuracy.energy = scene.accuracy.bound ? accuracy.number("energy", between(0, 1), 0)
-                                               : accuracy.number("energy", between(0, 1));
-  if (scene.accuracy.energy == 0) {
+  if (const Node* quantity = accuracy.find("quantity")) {
+    if (accuracy.find("energy") != nullptr) accuracy.reject("quantity", "either energy or quantity");
+    if (accuracy.find("bound") != nullptr && !scene.accuracy.bound)
+      accuracy.reject("bound", "true beside quantity, whose error is bounded");
+    scene.accuracy.bound = true;
+    scene.accuracy.quantity = accuracy.string("quantity");
+    scene.accuracy.where = quantity->where;
+    scene.accuracy.tolerance = accuracy.number("tolerance", between(0, 1));
+  } else {
+    if (accuracy.find("tolerance") != nullptr) accuracy.reject("tolerance", "it only beside quantity");
+    scene.accuracy.energy = scene.accuracy.bound ? accuracy.number("energy", between(0, 1), 0)
+                                                 : accuracy.number("energy", between(0, 1));
+  }
+  if (scene.accuracy.asked() == 0) {
     for (const char* key : {"max_unknowns", "max_seconds"})
-      if (accuracy.find(key) != nullptr) accuracy.reject(key, "it only beside energy");
+      if (accuracy.find(key) != nullptr) accuracy.reject(key, "it only beside energy or quantity");
     return;
   }
   scene.accuracy.maxUnknowns = accuracy.number("max_unknowns", above(0), scene.accuracy.maxUnknowns);
   scene.accuracy.maxSeconds = accuracy.number("max_seconds", above(0), scene.accuracy.maxSeconds);
+  if (!scene.accuracy.quantity.empty()) return;
   if (scene.time.scheme == Scheme::crankNicolson)
     accuracy.reject("energy", "it only beside time.scheme = sdirk2 or backward-euler, whose error is known");
   if (scene.solver.method != Method::newton)
     accuracy.reject("energy", "it only beside solver.method = newton, by whose tangent errors are estimated");
+}
+
+/// At what refinement may aim.
+void requireAim(const SceneDescription& scene) {
+  const AccuracyGoal& goal = scene.accuracy;
+  if (goal.quantity.empty()) return;
+  const auto refuse = [&](const std::string& expected) {
+    throw InputError(goal.where + ": accuracy: quantity = \"" + goal.quantity + "\", expected " + expected);
+  };
+  Keys names;
+  for (const QuantityDescription& quantity : scene.quantities) names.push_back(quantity.name);
+  const auto at = std::find(names.begin(), names.end(), goal.quantity);
+  if (at == names.end())
+    refuse(names.empty() ? "the name of a quantity, of which the scene has none" : "one of " + joined(names));
+  const QuantityDescription& quantity = scene.quantities[at - names.begin()];
+  const bool force = quantity.kind == Quantity::Kind::reaction && !quantity.point;
+  if (!force && quantity.kind != Quantity::Kind::contactForce &&
+      quantity.kind != Quantity::Kind::displacement && quantity.kind != Quantity::Kind::meanPressure)
+    refuse("a reaction of a label, a contact_force, a displacement or a mean_pressure");
+  if (scene.degree == 2)
+    refuse("degree = 1 beside it: errors of quantities are known of linear displacements");
+  for (const BodyDescription& body : scene.bodies) {
+    bool flows = body.material.flows();
+    for (const RegionDescription& region : body.regions)
+      flows = flows || (region.material && region.material->flows());
+    if (flows)
+      refuse("elastic bodies beside it: body " + body.name + " flows, and no error of a quantity is known");
+  }
 }
 
 /// What is not known of bodies that turn about an axis.
@@ -159,6 +199,7 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
     scene.quantities.push_back(readQuantity(*quantity, scene));
   }
   requireAboutAxis(root, scene);
+  requireAim(scene);
   return scene;
 }
 

@@ -133,15 +133,26 @@ struct QuantityDescription {
   std::optional<Point> point;  ///< in place of the label: of a displacement, or of a support [m]
   Quantity::Component component = Quantity::Component::x;
   Point about{0, 0};
-  std::string where;  ///< of the label or the point
+  struct Part {
+    Point from, to;     ///< [m]
+    double margin = 0;  ///< [m]
+  };
+  std::optional<Part> part;  ///< of the line of a mean pressure; none: all of it
+  std::string where;         ///< of the label or the point
 };
 
 /// An error that the run is to reach by itself (adapt/rounds.h).
 struct AccuracyGoal {
   double energy = 0;         ///< relative, in the energy norm, of meshes and steps together; 0: none is asked
+  std::string quantity;      ///< in place of it, of this quantity; empty: none
+  double tolerance = 0;      ///< of its error, relative
+  std::string where;         ///< of its name
   double maxUnknowns = 1e6;  ///< of a round
   double maxSeconds = INFINITY;  ///< wall time of all rounds [s]
   bool bound = false;            ///< whether the error at the end is to have a guaranteed bound
+
+  /// What is asked for, relative; 0: nothing is, and the meshes stay as they are.
+  [[nodiscard]] double asked() const { return quantity.empty() ? energy : tolerance; }
 };
 
 struct SceneDescription {

@@ -18,7 +18,7 @@ inline const Keys linearWords{"multifrontal", "suitesparse"};                   
 inline const Keys quantityKeys{"reaction",                                                  // Quantity::Kind
                                "contact_force",  "displacement",  "stored_energy", "dissipated_energy",
                                "work",           "external_work", "thermal_work",  "largest_pressure",
-                               "contact_length", "largest_mises", "friction_work"};
+                               "contact_length", "largest_mises", "friction_work", "mean_pressure"};
 inline const Keys componentWords{"x", "y", "moment"};  // Quantity::Component
 
 }  // namespace mortier

@@ -81,8 +81,10 @@ double storedEnergy(const Body& body, const Matrix& stress) {
 struct Largest {
   double value = 0;
   std::optional<Point> place = {};
-  void raise(double other, const Point& at) {
-    if (other > value) *this = {other, at};
+  size_t interface = 0;  ///< of a pressure, and the row of C
+  Eigen::Index row = 0;
+  void raise(double other, const Point& at, size_t ofInterface = 0, Eigen::Index ofRow = 0) {
+    if (other > value) *this = {other, at, ofInterface, ofRow};
   }
 };
 
@@ -94,7 +96,7 @@ Largest largestPressure(const Model& model, const State& state, const Quantity& 
     const std::vector<Point>& places = model.bodies[interface.pair().nonmortar.body].elementNodes().places;
     const Vector pressure = interface.contactPressure(state.contactForce[k]);
     for (Eigen::Index i = 0; i < pressure.size(); ++i)
-      largest.raise(pressure[i], places[interface.nonmortarNodes()[i]]);
+      largest.raise(pressure[i], places[interface.nonmortarNodes()[i]], k, i);
   }
   return largest;
 }
@@ -129,6 +131,12 @@ double frictionWork(const Model& model, const State& state, const Quantity& quan
   return work;
 }
 
+double meanPressure(const State& state, const Quantity& quantity) {
+  double mean = 0;
+  for (size_t k = 0; k < quantity.shares.size(); ++k) mean += quantity.shares[k].dot(state.contactForce[k]);
+  return mean;
+}
+
 }  // namespace
 
 std::string Quantity::unit(const Units& units) const {
@@ -137,6 +145,7 @@ std::string Quantity::unit(const Units& units) const {
     case Kind::contactLength:
       return units.length;
     case Kind::largestPressure:
+    case Kind::meanPressure:
     case Kind::largestMises:
       return units.stress;
     case Kind::reaction:
@@ -150,7 +159,8 @@ std::string Quantity::unit(const Units& units) const {
 bool ofLabel(Quantity::Kind kind) {
   using Kind = Quantity::Kind;
   return kind == Kind::reaction || kind == Kind::contactForce || kind == Kind::displacement ||
-         kind == Kind::largestPressure || kind == Kind::contactLength || kind == Kind::frictionWork;
+         kind == Kind::largestPressure || kind == Kind::contactLength || kind == Kind::frictionWork ||
+         kind == Kind::meanPressure;
 }
 
 bool hasComponent(Quantity::Kind kind) {
@@ -214,6 +224,8 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
         return largestMises(model, state, quantity).value;
       case Kind::frictionWork:
         return frictionWork(model, state, quantity);
+      case Kind::meanPressure:
+        return meanPressure(state, quantity);
       default:
         return reaction(quantity);
     }
@@ -228,6 +240,34 @@ std::optional<Point> placeOf(const Quantity& quantity, const Model& model, const
   if (quantity.kind == Quantity::Kind::largestPressure) return largestPressure(model, state, quantity).place;
   if (quantity.kind == Quantity::Kind::largestMises) return largestMises(model, state, quantity).place;
   return std::nullopt;
+}
+
+double largestPressureError(const Quantity& quantity, const Model& model, const State& state) {
+  const Largest largest = largestPressure(model, state, quantity);
+  if (!largest.place) return 0;
+  const ContactInterface& interface = model.interfaces[largest.interface];
+  const Eigen::Index row = largest.row;
+  const int b = interface.pair().nonmortar.body;
+  const Body& body = model.bodies[b];
+  const int node = interface.nonmortarNodes()[row];
+  const Point& n = interface.normals()[row];
+  const ElementNodes& nodes = body.elementNodes();
+  const size_t triangles = body.mesh().triangles.size();
+  const size_t points = body.points() / triangles;
+  double sum = 0;
+  double area = 0;
+  for (size_t t = 0; t < triangles; ++t) {
+    if (std::find(nodes.of(t), nodes.of(t) + nodes.perTriangle(), node) == nodes.of(t) + nodes.perTriangle())
+      continue;
+    for (size_t i = t * points; i < (t + 1) * points; ++i) {
+      const Eigen::Vector3d s =
+          toCartesian(state.bodies[b].stress.col(static_cast<Eigen::Index>(i)).head<3>());
+      sum += body.weights()[i] * (n.x() * n.x() * s[0] + n.y() * n.y() * s[1] + 2 * n.x() * n.y() * s[2]);
+      area += body.weights()[i];
+    }
+  }
+  const double spread = state.contactForce[largest.interface][row] / interface.lengths()[row];
+  return std::max(std::abs(largest.value - spread), std::abs(largest.value + sum / area));
 }
 
 std::vector<std::pair<int, double>> meanAt(const TriangleMesh& mesh, const Point& point) {

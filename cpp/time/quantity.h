@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/units.h"
+#include "mesh/line_part.h"
 #include "solver/model.h"
 #include "solver/state.h"
 
@@ -31,7 +32,8 @@ struct Quantity {
     largestPressure,   ///< of the contact pressure, 0 where there is none
     contactLength,     ///< of the part of Gamma_C where nodes press
     largestMises,
-    frictionWork  ///< dissipated along the label since the run began
+    frictionWork,  ///< dissipated along the label since the run began
+    meanPressure   ///< of the contact pressure over a part of a side
   };
   enum class Component { x, y, moment };
 
@@ -42,8 +44,10 @@ struct Quantity {
   Component component = Component::x;  ///< moment of forces only, counterclockwise
   Point about{0, 0};                   ///< of the moment [m]
   std::vector<std::pair<int, double>> mean =
-      {};                           ///< of a displacement: nodes and their weights, which sum to one
-  std::optional<Point> point = {};  ///< of a reaction: that of a held vertex, in place of the label [m]
+      {};                             ///< of a displacement: nodes and their weights, which sum to one
+  std::optional<Point> point = {};    ///< of a reaction: that of a held vertex, in place of the label [m]
+  std::optional<LinePart> part = {};  ///< of a mean pressure
+  std::vector<Vector> shares = {};    ///< of contact forces in it (time/mean_pressure.h)
 
   /// N/m, N (a moment per metre of depth), m, J/m or Pa, or what they are in other units.
   [[nodiscard]] std::string unit(const Units& units = {}) const;
@@ -63,6 +67,11 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
 
 /// Where a largest value is, as meshed [m]; none for other quantities, and where there is no contact.
 std::optional<Point> placeOf(const Quantity& quantity, const Model& model, const State& state);
+
+/// How far the largest pressure may be off, estimated: the largest difference of it, as the mass matrix of C
+/// has it, from the force of its node over the length of the row function, and from the normal stress that
+/// the triangles at the node have in the mean; 0 where there is no contact [Pa].
+double largestPressureError(const Quantity& quantity, const Model& model, const State& state);
 
 /// The displacement at a point of a mesh as a mean of those of nodes; empty where the point is outside.
 std::vector<std::pair<int, double>> meanAt(const TriangleMesh& mesh, const Point& point);

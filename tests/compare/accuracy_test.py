@@ -72,6 +72,59 @@ class Accuracy(InFolder):
         self.assertEqual([tuple(map(int, row)) for row in rows],
                          [(i + 1, each["triangles"], each["unknowns"]) for i, each in enumerate(rounds)])
 
+    def test_refinement_may_aim_at_a_quantity(self):
+        scene = PUNCH.replace("energy = 0.15", 'quantity = "middle"\ntolerance = 0.03') + """\
+[[quantity]]
+name = "middle"
+mean_pressure = { body = "block", label = 3, from = [-0.25, 0], to = [0.25, 0], margin = 0.1 }
+"""
+        done, summary = self.run_scene(scene)
+        accuracy, rounds = summary["accuracy"], summary["rounds"]
+        middle = summary["quantities"]["middle"]
+        self.assertTrue(accuracy["reached"])
+        self.assertEqual((accuracy["asked"], accuracy["quantity"]), (0.03, "middle"))
+        self.assertLessEqual(middle["bound"]["error"], 0.03 * middle["value"])
+        self.assertAlmostEqual(accuracy["mesh"], middle["bound"]["error"] / middle["value"], delta=1e-12)
+        self.assertGreater(rounds[-2]["mesh"], 0.03)
+        self.assertIn("(guaranteed)", done.stdout)
+        _, better = self.run_scene(scene.replace("0.03", "0.01"))
+        other = better["quantities"]["middle"]["bound"]
+        self.assertLessEqual(max(other["lower"], middle["bound"]["lower"]),
+                             min(other["upper"], middle["bound"]["upper"]))
+        done, limited = self.run_scene(scene, "--max-unknowns", str(rounds[-2]["unknowns"] + 1), code=1)
+        self.assertIn("accuracy 0.03 of middle not reached", done.stderr)
+        self.assertFalse(limited["accuracy"]["reached"])
+
+    def test_wrong_aims_are_refused(self):
+        scene = PUNCH.replace("energy = 0.15", 'quantity = "middle"\ntolerance = 0.03') + """\
+[[quantity]]
+name = "middle"
+mean_pressure = { body = "block", label = 3 }
+[[quantity]]
+name = "peak"
+largest_pressure = { body = "block", label = 3 }
+"""
+        self.write(scene)
+        for settings, message in (
+                (["accuracy.quantity=midle"],
+                 'accuracy: quantity = "midle", expected one of middle, peak'),
+                (["accuracy.quantity=peak"],
+                 "expected a reaction of a label, a contact_force, a displacement or a mean_pressure"),
+                (["accuracy.tolerance=2"], "tolerance = 2, expected 0 < tolerance < 1"),
+                (["accuracy.energy=0.1"], 'quantity = "middle", expected either energy or quantity'),
+                (["accuracy.bound=false"], "bound = false, expected true beside quantity"),
+                (["degree=2"], "expected degree = 1 beside it"),
+                (["body.block.material.viscosity=1", "body.block.material.yield_stress=1"],
+                 "expected elastic bodies beside it: body block flows")):
+            with self.subTest(settings):
+                errors = self.mortier("run", "scene.toml", "--out", "none", "--set", *settings, code=2).stderr
+                self.assertIn(message, errors)
+                self.assertEqual(len(errors.splitlines()), 1)
+                self.assertFalse((self.folder / "none").exists())
+        self.write(PUNCH.replace("energy = 0.15", "energy = 0.15\ntolerance = 0.1"))
+        self.assertIn("tolerance = 0.1, expected it only beside quantity",
+                      self.mortier("run", "scene.toml", code=2).stderr)
+
     def test_the_refined_meshes_give_the_same_result(self):
         _, summary = self.run_scene(PUNCH)
         self.write(PUNCH[:PUNCH.index("[accuracy]")], "plain.toml")

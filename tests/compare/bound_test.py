@@ -38,6 +38,35 @@ class Bound(OfTwoBlocks):
         ratio = other["bound"]["energy_error"] / accuracy["bound"]["energy_error"]
         self.assertAlmostEqual(ratio, 1, delta=1e-9)
 
+    def test_estimates_are_called_so(self):
+        self.write(ELASTIC + BOUND + HELD_AND_PRESSED + """\
+[[quantity]]
+name = "mean"
+mean_pressure = { body = "lower", label = 3 }
+[[quantity]]
+name = "peak"
+largest_pressure = { body = "lower", label = 3 }
+[[quantity]]
+name = "sinks"
+displacement = { body = "upper", point = [0.3, 0.8] }
+component = "y"
+""")
+        log = self.mortier("run", "scene.toml", "--out", "out", "--set",
+                           "contact.variant=interpolation").stdout
+        found = {name: each["bound"]
+                 for name, each in json.loads(self.read("out/summary.json"))["quantities"].items()}
+        self.assertRegex(log, r"mean \S+ Pa \+- \S+ \(guaranteed\), peak \S+ Pa at \S+ \S+ \+- \S+ "
+                              r"\(an estimate\), sinks \S+ m \+- \S+ \(an estimate\)\n")
+        self.assertLessEqual(found["mean"]["lower"], 10 * (1 + 1e-12))
+        self.assertGreaterEqual(found["mean"]["upper"], 10 * (1 - 1e-12))
+        for name in ("peak", "sinks"):
+            self.assertIsNone(found[name]["error"])
+            self.assertGreater(found[name]["estimate"], 0)
+        summary = json.loads(self.read("out/summary.json"))["quantities"]
+        self.assertLessEqual(abs(summary["peak"]["value"] - 10), 3 * found["peak"]["estimate"])
+        exact = -(1 + 0.8) * 10 / 3e11  # both blocks are pressed alike
+        self.assertLessEqual(abs(summary["sinks"]["value"] - exact), found["sinks"]["estimate"])
+
     def test_not_asked_for_is_not_told(self):
         self.write(ELASTIC + HELD_AND_PRESSED)
         log = self.mortier("run", "scene.toml", "--out", "out").stdout

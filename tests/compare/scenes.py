@@ -154,6 +154,9 @@ external_work = { body = "lower" }
 name = "hardest"
 largest_pressure = { body = "lower", label = 3 }
 [[quantity]]
+name = "pressed-in-part"
+mean_pressure = { body = "lower", label = 3, from = [0.2, 0], to = ["0.6 m", 0], margin = 0.1 }
+[[quantity]]
 name = "touching"
 contact_length = { body = "upper", label = 1 }
 [[quantity]]

@@ -10,8 +10,10 @@
 #include <utility>
 
 #include "bound/energy_bound.h"
+#include "mesh/boundary_line.h"
 #include "theory/random_scene.h"
 #include "theory/refined_model.h"
+#include "time/mean_pressure.h"
 #include "time/quantity.h"
 
 namespace mortier {
@@ -26,7 +28,8 @@ const Point across(1, 0);
 /// The value that a run reports.
 double valueOf(const Functional& f, const Model& model, const State& state) {
   Quantity quantity{"q",
-                    f.kind == Kind::reaction       ? Quantity::Kind::reaction
+                    f.kind == Kind::meanPressure   ? Quantity::Kind::meanPressure
+                    : f.kind == Kind::reaction     ? Quantity::Kind::reaction
                     : f.kind == Kind::contactForce ? Quantity::Kind::contactForce
                                                    : Quantity::Kind::displacement,
                     f.body,
@@ -37,7 +40,18 @@ double valueOf(const Functional& f, const Model& model, const State& state) {
                     f.about,
                     {}};
   if (f.kind == Kind::displacement) quantity.mean = meanOn(model.bodies[f.body].mesh(), f.label);
+  if (f.kind == Kind::meanPressure) quantity.shares = meanPressureShares(model, f.body, f.label, *f.part);
   return evaluate({quantity}, model, state)[0];
+}
+
+/// The mean pressure between two places of a level line.
+Functional pressureOf(const Model& model, int body, int label, const std::array<double, 2>& x,
+                      double margin) {
+  Functional result{Kind::meanPressure, body, label};
+  const BoundaryLine line = boundaryLine(model.bodies[body].mesh(), label);
+  const double y = line.points[0].y();
+  result.part = LinePart(line, {x[0], y}, {x[1], y}, margin);
+  return result;
 }
 
 // ---- the formula of R
@@ -66,8 +80,8 @@ TEST(QuantityBound, isZeroToRoundingWhereTheSolutionIsExact) {
       {Kind::contactForce, upperBody, bottom, up},        {Kind::contactForce, lowerBody, top, up},
       {Kind::contactForce, upperBody, bottom, {0, 0}, 1}, {Kind::reaction, lowerBody, bottom, up},
       {Kind::reaction, lowerBody, left, across},          {Kind::displacement, upperBody, top, up},
-      {Kind::displacement, lowerBody, top, across}};
-  const std::vector<double> exact{10, -10, 5, 10, 0, -20 / E, noteElasticity.poisson * 10 / E / 2};
+      {Kind::displacement, lowerBody, top, across},       pressureOf(model, lowerBody, top, {0, 1}, 0)};
+  const std::vector<double> exact{10, -10, 5, 10, 0, -20 / E, noteElasticity.poisson * 10 / E / 2, 10};
   const EnergyBound bound = energyBound(model, state, asked);
   ASSERT_EQ(bound.quantities.size(), asked.size());
   for (size_t i = 0; i < asked.size(); ++i) {
@@ -91,7 +105,8 @@ TEST(QuantityBound, holdsForInterpolation) {
   const EnergyBound bound = energyBound(model, state, asked);
   for (size_t i = 0; i < asked.size(); ++i) {
     ASSERT_EQ(bound.quantities[i].obstacle, "");
-    const auto& [obstacle, lower, upper] = bound.quantities[i];
+    const double lower = bound.quantities[i].lower;
+    const double upper = bound.quantities[i].upper;
     std::cout << lower * E << " .. " << upper * E << " around " << exact[i] * E << "\n";
     EXPECT_LE(lower, exact[i] + 1e-12 * 20 / E);
     EXPECT_GE(upper, exact[i] - 1e-12 * 20 / E);
@@ -116,18 +131,22 @@ TEST(QuantityBound, forceOfATiltedBlock) {
   const std::vector<Functional> asked{{Kind::contactForce, upperBody, bottom, up},
                                       {Kind::contactForce, upperBody, bottom, {0, 0}, 1},
                                       {Kind::displacement, upperBody, right, across}};
-  std::vector<double> lower(asked.size(), -INFINITY);
-  std::vector<double> upper(asked.size(), INFINITY);
+  constexpr size_t all = 5;
+  std::vector<double> lower(all, -INFINITY);
+  std::vector<double> upper(all, INFINITY);
   for (const auto& [coupling, cells] : std::vector<std::pair<CouplingKind, int>>{
            {CouplingKind::interpolation, 8}, {CouplingKind::mortar, 8}, {CouplingKind::mortar, 24}}) {
     const Model model = tiltedBlock(cells, coupling);
     const auto [state, report] = run(model, 1, 1);
     ASSERT_EQ(report.status, Status::converged);
-    const EnergyBound bound = energyBound(model, state, asked);
-    for (size_t i = 0; i < asked.size(); ++i) {
+    std::vector<Functional> these = asked;
+    these.push_back(pressureOf(model, lowerBody, top, {0.05, 0.33}, 0));
+    these.push_back(pressureOf(model, upperBody, bottom, {0.05, 0.33}, 0.1));
+    const EnergyBound bound = energyBound(model, state, these);
+    for (size_t i = 0; i < all; ++i) {
       const Enclosure& found = bound.quantities[i];
       ASSERT_EQ(found.obstacle, "");
-      const double value = valueOf(asked[i], model, state);
+      const double value = valueOf(these[i], model, state);
       std::cout << nameOf(coupling) << ", " << cells << " cells: " << value << ", in " << found.lower
                 << " .. " << found.upper << ", error at most " << 100 * found.error(value) / std::abs(value)
                 << " %\n";
@@ -163,10 +182,17 @@ TEST(QuantityBound, supportsThatGoOnHaveNoReactionOfTheirOwn) {
 TEST(QuantityBound, enclosesTheValuesOfRandomScenes) {
   const char* asked = std::getenv("MORTIER_RANDOM_QUANTITIES");
   const unsigned count = asked ? static_cast<unsigned>(std::atoi(asked)) : 10;
-  const std::vector<Functional> functionals{
-      {Kind::contactForce, upperBody, bottom, up}, {Kind::contactForce, lowerBody, top, {0, 0}, 1, {0.3, 0}},
-      {Kind::reaction, lowerBody, bottom, up},     {Kind::reaction, lowerBody, bottom, across},
-      {Kind::displacement, upperBody, top, up},    {Kind::displacement, lowerBody, top, up}};
+  const auto functionalsOf = [](const Model& model) -> std::vector<Functional> {
+    return {{Kind::contactForce, upperBody, bottom, up},
+            {Kind::contactForce, lowerBody, top, {0, 0}, 1, {0.3, 0}},
+            {Kind::reaction, lowerBody, bottom, up},
+            {Kind::reaction, lowerBody, bottom, across},
+            {Kind::displacement, upperBody, top, up},
+            {Kind::displacement, lowerBody, top, up},
+            pressureOf(model, upperBody, bottom, {0.21, 0.68}, 0),
+            pressureOf(model, lowerBody, top, {0.5, 1}, 0),
+            pressureOf(model, upperBody, bottom, {0.35, 0.6}, 0.2)};
+  };
   unsigned bounded = 0;
   std::vector<unsigned> seeds(count);
   std::iota(seeds.begin(), seeds.end(), 0);
@@ -176,12 +202,14 @@ TEST(QuantityBound, enclosesTheValuesOfRandomScenes) {
     const Model model = RandomScene(seed).model();
     const auto [state, report] = run(model, 1, 1);
     if (report.status != Status::converged) continue;
+    const std::vector<Functional> functionals = functionalsOf(model);
     const EnergyBound bound = energyBound(model, state, functionals);
     if (!bound.obstacle.empty()) continue;
     const Refined fine = refined(model, 2);
     const auto [fineState, fineReport] = run(fine.model, 1, 1);
     ASSERT_EQ(fineReport.status, Status::converged) << seed;
-    const EnergyBound fineBound = energyBound(fine.model, fineState, functionals);
+    const std::vector<Functional> fineFunctionals = functionalsOf(fine.model);
+    const EnergyBound fineBound = energyBound(fine.model, fineState, fineFunctionals);
     ASSERT_EQ(fineBound.obstacle, "") << seed;
     bool all = true;
     for (size_t i = 0; i < functionals.size(); ++i) {
@@ -193,7 +221,7 @@ TEST(QuantityBound, enclosesTheValuesOfRandomScenes) {
         all = false;
         continue;
       }
-      const double value = valueOf(functionals[i], fine.model, fineState);
+      const double value = valueOf(fineFunctionals[i], fine.model, fineState);
       const double off = finer.error(value);
       const double rounding = 1e-11;  // moduli, lengths and loads are about 1
       EXPECT_LE(coarse.lower, value + off + rounding) << "scene " << seed << ", " << i;

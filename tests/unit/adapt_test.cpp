@@ -260,6 +260,54 @@ TEST(Rounds, errorsThatAreNothingButRoundingEndAfterOneRefinement) {
   EXPECT_EQ(rounds.judge(resultOf(rounds, 0), 1), Rounds::Verdict::reached);
 }
 
+ResolvedScene aimedScene(double tolerance) {
+  ResolvedScene scene = sceneOf(0);
+  scene.description.accuracy.quantity = "q";
+  scene.description.accuracy.tolerance = tolerance;
+  return scene;
+}
+
+/// With all of the error in the first triangle.
+RoundResult aimedAt(const Rounds& rounds, double value, double error, bool proved) {
+  RoundResult result = resultOf(rounds, 0.5);
+  result.aim = AimedError{"", value, error, proved, {Vector::Zero(result.errors[0].size())}};
+  result.aim->parts[0][0] = 7;
+  return result;
+}
+
+TEST(Rounds, aProvedErrorOfAQuantityIsBelievedAtOnce) {
+  Rounds rounds(aimedScene(0.1));
+  EXPECT_EQ(rounds.judge(aimedAt(rounds, -2, 0.19, true), 1), Rounds::Verdict::reached);
+  EXPECT_NEAR(rounds.meshError(), 0.095, 1e-12);
+  Rounds other(aimedScene(0.1));
+  EXPECT_EQ(other.judge(aimedAt(other, 2, 0.05, false), 1), Rounds::Verdict::goOn);
+  EXPECT_EQ(other.judge(aimedAt(other, 2, 0.05, false), 1), Rounds::Verdict::reached);
+}
+
+TEST(Rounds, meshesAreRefinedWhereTheErrorOfAQuantityIs) {
+  Rounds rounds(aimedScene(0.1));
+  const TriangleMesh before = rounds.scene().meshes[0];
+  ASSERT_EQ(rounds.judge(aimedAt(rounds, 1, 0.4, true), 1), Rounds::Verdict::goOn);
+  const TriangleMesh after = rounds.scene().meshes[0];
+  EXPECT_GT(after.triangles.size(), before.triangles.size());
+  const auto& v = before.triangles[0];
+  const Point centre = (before.vertices[v[0]] + before.vertices[v[1]] + before.vertices[v[2]]) / 3;
+  const double size = std::sqrt(doubleArea(before, 0));
+  for (size_t i = before.vertices.size(); i < after.vertices.size(); ++i)
+    EXPECT_LE((after.vertices[i] - centre).norm(), 2 * size);
+}
+
+TEST(Rounds, whereNothingIsKnownOfAQuantityTheyEndAndSayWhy) {
+  Rounds rounds(aimedScene(0.1));
+  RoundResult result = aimedAt(rounds, 1, 0.4, false);
+  result.aim->obstacle = "a line is curved";
+  EXPECT_EQ(rounds.judge(result, 1), Rounds::Verdict::notReached);
+  EXPECT_EQ(rounds.reason(), "a line is curved");
+  Rounds zero(aimedScene(0.1));
+  EXPECT_EQ(zero.judge(aimedAt(zero, 0, 0.4, true), 1), Rounds::Verdict::notReached);
+  EXPECT_NE(zero.reason().find("the quantity is 0"), std::string::npos);
+}
+
 TEST(Rounds, reachesAreEqual) {
   // 0.6 over 0.75 of 0.1 is 8: log 8/log 4 = 1.5, two rounds that divide by 2.83 each; at degree 1 that is
   // eight times the triangles.

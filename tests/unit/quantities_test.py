@@ -92,6 +92,34 @@ class Quantities(OfTwoBlocks):
             self.assertRegex(run.stdout, r"\nquantities .* stress \S+ Pa at \(\S+, \S+\)\n"
                                          r"in the run .*press 0 \(t = 0 s\) to 10 \(t = 1 s\)")
 
+    def test_mean_pressures(self):
+        part = ', from = [0.2, 0], to = [0.6, 0]'
+        self.write(TWO_BLOCKS + "".join(
+            f"[[quantity]]\nname = \"{name}\"\nmean_pressure = {{ body = \"{body}\", label = {label}{of} }}\n"
+            for name, body, label, of in (("all", "upper", 1, ""), ("part", "upper", 1, part),
+                                          ("soft", "lower", 3, part + ", margin = 0.1"))))
+        run = self.mortier("run", "scene.toml", "--out", "out")
+        rows = list(csv.DictReader(self.read("out/history.csv").splitlines()))
+        for i, row in enumerate(rows):
+            for name in ("all", "part", "soft"):
+                self.assertAlmostEqual(float(row[name + "[Pa]"]), 10 * (i + 1) / 4, delta=1e-11)
+        self.assertRegex(run.stdout, r"\nquantities all 10 Pa, part 10 Pa, soft 10 Pa\n")
+        for of, message in (
+                (", from = [0.2, 0]", "to"), (", margin = 0.1", "expected it only beside from and to"),
+                (part + ", margin = -1", "margin = -1, expected"),
+                (", from = [0.2, 0], to = [0.2, 0]", "from and to are one point of the line"),
+                (", from = [0.2, 0.5], to = [0.6, 0]", "from is not on the line"),
+                (", from = [0.2, 0], to = [0.6, 9]", "to is not on the line")):
+            with self.subTest(of):
+                errors = self.mortier(
+                    "run", "scene.toml", "--quiet", "--out", "none", "--set",
+                    f"quantity=[{{name='a', mean_pressure={{body='upper', label=1{of}}}}}]", code=2).stderr
+                self.assertIn(message, errors)
+                self.assertFalse((self.folder / "none").exists())
+        errors = self.mortier("run", "scene.toml", "--quiet", "--set",
+                              "quantity=[{name='a', mean_pressure={body='upper', label=3}}]", code=2).stderr
+        self.assertIn("label 3 of body upper is no side of a contact", errors)
+
     def test_what_cannot_be_asked_for(self):
         self.write(TWO_BLOCKS + ASKED)
         for setting, message in (

@@ -1,0 +1,73 @@
+#include "time/mean_pressure.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "mesh/axis.h"
+#include "mesh/boundary_line.h"
+#include "time/nodal_forces.h"
+
+namespace mortier {
+namespace {
+
+/// Nodes of a line in their order, those in the middle of its elements included.
+std::vector<std::pair<int, Point>> nodesAlong(const BoundaryLine& line) {
+  std::vector<std::pair<int, Point>> nodes;
+  for (size_t i = 0; i < line.nodes.size(); ++i) {
+    nodes.emplace_back(line.nodes[i], line.points[i]);
+    if (i < line.middleNodes.size()) nodes.emplace_back(line.middleNodes[i], line.middlePoints[i]);
+  }
+  return nodes;
+}
+
+/// The row of a node along a normal; a corner has two. -1 where it has none.
+int rowOf(const ContactInterface& interface, int node, const Point& normal) {
+  int row = -1;
+  double best = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < interface.rows(); ++i)
+    if (interface.nonmortarNodes()[i] == node && interface.normals()[i].dot(normal) > best) {
+      best = interface.normals()[i].dot(normal);
+      row = i;
+    }
+  return row;
+}
+
+}  // namespace
+
+std::vector<Vector> meanPressureShares(const Model& model, int body, int label, const LinePart& part) {
+  std::vector<Vector> shares;
+  const bool ring = model.bodies[body].axisymmetric();
+  const double size = part.size(ring);
+  for (const ContactInterface& interface : model.interfaces) {
+    Vector of = Vector::Zero(interface.rows());
+    Vector all = of;
+    if (isSide(interface, body, label)) {
+      const ContactSide& side = interface.pair().nonmortar;
+      const Body& nonmortar = model.bodies[side.body];
+      const auto nodes = nodesAlong(boundaryLine(nonmortar.mesh(), nonmortar.elementNodes(), side.label));
+      for (size_t i = 0; i + 1 < nodes.size(); ++i) {
+        const Point& a = nodes[i].second;
+        const Point& b = nodes[i + 1].second;
+        const Point normal(b.y() - a.y(), a.x() - b.x());
+        const double length = normal.norm() * (ring ? circumference((a + b) / 2) : 1);
+        const std::array<double, 2> weighted = part.moments(part.along(a), part.along(b));
+        std::array<int, 2> rows{rowOf(interface, nodes[i].first, normal),
+                                rowOf(interface, nodes[i + 1].first, normal)};
+        // Where one of them has none its row function is the other one's.
+        for (int end = 0; end < 2; ++end)
+          if (rows[end] < 0) rows[end] = rows[1 - end];
+        for (int end = 0; end < 2 && rows[end] >= 0; ++end) {
+          of[rows[end]] += length * weighted[end];
+          all[rows[end]] += length / 2;
+        }
+      }
+      for (int row = 0; row < interface.rows(); ++row)
+        of[row] = all[row] > 0 && size > 0 ? of[row] / all[row] / size : 0;
+    }
+    shares.push_back(std::move(of));
+  }
+  return shares;
+}
+
+}  // namespace mortier
