@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/model.h"
 #include "time/quantity.h"
 
 namespace mortier {
@@ -36,6 +37,7 @@ struct RunFacts {
   int plannedSteps = 0;
   double tolerance = 0;  ///< of a step; 0: equal steps
   int threads = 1;
+  SolverOptions solver;
   double accuracy = 0;               ///< asked for, relative, in the energy norm; 0: none
   bool reached = false;              ///< that
   std::vector<RoundFacts> rounds;    ///< none where no accuracy is asked for

@@ -274,6 +274,7 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
   json["max_iterations_in_a_step"] = report.maxIterationsInAStep;
   json["factorisations"] = report.factorisations;
   json["rungs"] = report.rungs;
+  json["contact_matrices"] = solvesSparse(model, facts.solver) ? "sparse" : "dense";
   json["idle_conditions"] = report.special.idle;
   json["dependent_conditions"] = report.special.dependent;
   json["threads"] = facts.threads;

@@ -76,7 +76,7 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
     rough.push_back(interface.rough());
   }
   try {
-    requireMemory(meshes, pairs, scene.degree, rough);
+    requireMemory(meshes, pairs, scene.degree, rough, scene.solver);
     addInterface(model, pair, options);
     if (contact.friction.any()) requireStraight(model.interfaces.back(), model);
   } catch (const FaultError& error) {
