@@ -38,7 +38,7 @@ RunFacts factsOf(const SceneDescription& scene, const AttemptOptions& options) {
   facts.plannedSteps = scene.time.steps;
   facts.tolerance = scene.time.tolerance;
   facts.threads = options.threads;
-  facts.listsSolutions = scene.solver.listSolutions;
+  facts.solver = scene.solver;
   facts.versions = {{"mortier", version}, {"compiler", __VERSION__}};
   for (const auto& libraries : {linearLibraries(), sceneLibraries()})
     facts.versions.insert(facts.versions.end(), libraries.begin(), libraries.end());

@@ -103,7 +103,8 @@ int run(RunCommand command) {
   const double endTime = attempt->resolved.description.time.end;
   Log log(command.quiet, endTime);
   Log rows(command.quiet || rounds, endTime);
-  log.print("memory     " + aboutMemory(memoryNeed(*attempt->model)) + (rounds ? ", first meshes\n" : "\n"));
+  log.print("memory     " + aboutMemory(memoryNeed(*attempt->model, attempt->resolved.description.solver)) +
+            (rounds ? ", first meshes\n" : "\n"));
   log.print(logHeader(attempt->facts, *attempt->model));
   log.print(rounds ? logRoundsHeader() : logStepsHeader(attempt->facts.units));
   warnOf(doubts);

@@ -3,6 +3,7 @@
 #include <Eigen/SparseCholesky>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "mesh/axis.h"
 
@@ -155,6 +156,70 @@ Sparse projected(const Factor& mass, const Sparse& B) {
   return assembled(B.rows(), B.cols(), entries);
 }
 
+/// The rows that are no more than `steps` neighbours away from those that `columns` of B begin with. The
+/// farthest of them come last, from `edge` on; none where all rows are there.
+struct Neighbourhood {
+  std::vector<int> rows;
+  size_t edge = 0;
+};
+
+Neighbourhood around(const Sparse& Phi, const Sparse& B, int begin, int end, int steps,
+                     std::vector<int>& placeOf) {
+  Neighbourhood result;
+  const auto add = [&](int row) {
+    if (placeOf[row] >= 0) return;
+    placeOf[row] = static_cast<int>(result.rows.size());
+    result.rows.push_back(row);
+  };
+  for (int j = begin; j < end; ++j)
+    for (Sparse::InnerIterator b(B, j); b; ++b) add(static_cast<int>(b.row()));
+  for (int step = 0; step < steps; ++step) {
+    const size_t before = std::exchange(result.edge, result.rows.size());
+    for (size_t k = before; k < result.edge; ++k)
+      for (Sparse::InnerIterator m(Phi, result.rows[k]); m; ++m) add(static_cast<int>(m.row()));
+  }
+  return result;
+}
+
+/// The same for long lines. Columns of Phi^-1 fall off from node to node: some at a time are solved for on the
+/// rows around them, as many as are more than nothing.
+Sparse projected(const Sparse& Phi, const Sparse& B) {
+  constexpr int atOnce = 256;
+  constexpr int usual = 64;
+  Triplets entries;
+  std::vector<int> placeOf(Phi.rows(), -1);
+  for (int begin = 0; begin < B.outerSize(); begin += atOnce) {
+    const int end = std::min(begin + atOnce, static_cast<int>(B.outerSize()));
+    for (int steps = usual;; steps *= 2) {
+      const size_t entriesBefore = entries.size();
+      const Neighbourhood near = around(Phi, B, begin, end, steps, placeOf);
+      if (near.rows.empty()) break;
+      Triplets block;
+      for (size_t k = 0; k < near.rows.size(); ++k)
+        for (Sparse::InnerIterator m(Phi, near.rows[k]); m; ++m)
+          if (placeOf[m.row()] >= 0) block.emplace_back(placeOf[m.row()], static_cast<int>(k), m.value());
+      const auto n = static_cast<Eigen::Index>(near.rows.size());
+      const Factor factor(assembled(n, n, block));
+      bool all = true;
+      for (int j = begin; j < end && all; ++j) {
+        if (B.col(j).nonZeros() == 0) continue;
+        Vector column = Vector::Zero(n);
+        for (Sparse::InnerIterator b(B, j); b; ++b) column[placeOf[b.row()]] = b.value();
+        column = factor.solve(column).eval();
+        for (Eigen::Index i = 0; i < n; ++i) {
+          if (!(std::abs(column[i]) > nothing)) continue;
+          all = all && i < static_cast<Eigen::Index>(near.edge);
+          entries.emplace_back(near.rows[i], j, column[i]);
+        }
+      }
+      for (const int row : near.rows) placeOf[row] = -1;
+      if (all || n == Phi.rows()) break;
+      entries.resize(entriesBefore);
+    }
+  }
+  return assembled(B.rows(), B.cols(), entries);
+}
+
 }  // namespace
 
 Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
@@ -192,9 +257,13 @@ Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mor
     }
     result.C2 = matrix(mortar, seen);
   } else if (kind == CouplingKind::mortar) {
+    constexpr Eigen::Index longLine = 512;
     const Factor mass(result.mass);
-    result.C1 += projected(mass, matrix(part, integrals.D));
-    result.C2 = projected(mass, matrix(mortar, integrals.M));
+    const auto project = [&](const Sparse& B) {
+      return n > longLine ? projected(result.mass, B) : projected(mass, B);
+    };
+    result.C1 += project(matrix(part, integrals.D));
+    result.C2 = project(matrix(mortar, integrals.M));
     result.distance = mass.solve(integrals.distance);
   } else {
     const Vector w = result.mass * Vector::Ones(n);

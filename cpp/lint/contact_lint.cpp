@@ -257,8 +257,8 @@ void lintContacts(const LintInput& input, Faults& faults) {
     compareStiffness(input, contact, one, two, faults);
     const ContactPair pair{{0, contact.nonmortar.label}, {1, contact.mortar.label}, contact.variant};
     checkFriction(contact, faults);
-    if (memoryNeed({one.mesh, two.mesh}, {pair}, input.scene.degree, {contact.friction.any()}) >
-        availableMemory())
+    if (memoryNeed({one.mesh, two.mesh}, {pair}, input.scene.degree, {contact.friction.any()},
+                   input.scene.solver) > availableMemory())
       continue;  // buildModel tells
     try {
       const ContactInterface interface = interfaceOf(contact, one, two, false);

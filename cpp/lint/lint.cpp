@@ -64,7 +64,7 @@ double interferenceOf(const ContactDescription& contact, const LintInput& input)
     options.gap = [value = contact.gap->value](const Point& x) { return value(x.x(), x.y(), 0); };
   try {
     requireMemory({one, two}, {{{0, pair.nonmortar.label}, {1, pair.mortar.label}, pair.coupling}},
-                  input.scene.degree, {contact.friction.any()});
+                  input.scene.degree, {contact.friction.any()}, input.scene.solver);
     return std::max(0.0, -ContactInterface(pair, *one, *two, options).initialDistance().minCoeff());
   } catch (const InputError&) {
     return 0;  // named elsewhere

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <set>
 
 #include "base/counted.h"
@@ -141,8 +142,14 @@ class Planner {
   }
 
   void planMemory() {
-    add("scene", true, aboutMemory(memoryNeed(model_)) + " of memory",
-        "factors of the bodies, and dense matrices over the contact nodes");
+    SolverOptions dense = scene_.solver;
+    dense.denseEntries = std::numeric_limits<double>::infinity();
+    const bool sparse = solvesSparse(model_, scene_.solver);
+    add("scene", true, aboutMemory(memoryNeed(model_, scene_.solver)) + " of memory",
+        sparse
+            ? "contact in one sparse matrix with the bodies; dense ones over the contact nodes would take " +
+                  aboutMemory(memoryNeed(model_, dense)).substr(6)
+            : "factors of the bodies, and dense matrices over the contact nodes");
   }
 
   void planTime() {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/model.h"
 #include "time/quantity.h"
 
 namespace mortier {
@@ -36,7 +37,7 @@ struct RunFacts {
   int plannedSteps = 0;
   double tolerance = 0;  ///< of a step; 0: equal steps
   int threads = 1;
-  bool listsSolutions = false;       ///< solver.list_solutions
+  SolverOptions solver;
   double accuracy = 0;               ///< asked for, relative, in the energy norm; 0: none
   std::string aim;                   ///< the quantity of which it is asked for; empty: the stress
   bool reached = false;              ///< that

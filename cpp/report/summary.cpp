@@ -297,6 +297,7 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
   json["max_iterations_in_a_step"] = report.maxIterationsInAStep;
   json["factorisations"] = report.factorisations;
   json["rungs"] = report.rungs;
+  json["contact_matrices"] = solvesSparse(model, facts.solver) ? "sparse" : "dense";
   json["idle_conditions"] = report.special.idle;
   json["dependent_conditions"] = report.special.dependent;
   json["threads"] = facts.threads;
@@ -312,7 +313,7 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
   if (anyRough(model)) {
     json["verification"]["friction"] = report.worst.friction;
     json["ambiguous_steps"] = report.ambiguousSteps;
-    if (facts.listsSolutions) json["several_solutions"] = jsonOf(report.several);
+    if (facts.solver.listSolutions) json["several_solutions"] = jsonOf(report.several);
   }
   json["peaks"] = jsonOf(report.peaks);
   const std::vector<double> values = evaluate(facts.quantities, model, state);

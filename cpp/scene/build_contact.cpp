@@ -64,7 +64,7 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
     rough.push_back(interface.rough());
   }
   try {
-    requireMemory(meshes, pairs, scene.degree, rough);
+    requireMemory(meshes, pairs, scene.degree, rough, scene.solver);
     addInterface(model, pair, options);
   } catch (const FaultError& error) {
     throw FaultError(contact.where + ": contact: " + error.what(), error.id());

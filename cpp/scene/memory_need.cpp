@@ -42,13 +42,18 @@ double needOf(size_t nodes) {
 }  // namespace
 
 double memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs,
-                  int degree, const std::vector<bool>& rough) {
+                  int degree, const std::vector<bool>& rough, const SolverOptions& options) {
+  constexpr double ofALongLine = 3000;
   constexpr double program = 12 << 17;  // in 8 bytes: code and libraries, 12 MiB
   double need = program;
+  double equations = 0;
   // By Euler's formula a mesh has about as many edges as vertices and triangles together.
-  for (const TriangleMesh* mesh : meshes)
-    need +=
-        needOf(mesh->vertices.size() * (degree == 1 ? 1 : 2) + (degree == 1 ? 0 : mesh->triangles.size()));
+  for (const TriangleMesh* mesh : meshes) {
+    const size_t nodes =
+        mesh->vertices.size() * (degree == 1 ? 1 : 2) + (degree == 1 ? 0 : mesh->triangles.size());
+    need += needOf(nodes);
+    equations += 2 * static_cast<double>(nodes);
+  }
   std::vector<double> dofs(meshes.size(), 0);
   double conditions = 0;
   for (size_t k = 0; k < pairs.size(); ++k) {
@@ -60,6 +65,9 @@ double memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vec
     dofs[pair.nonmortar.body] += nonmortar.dofs;
     dofs[pair.mortar.body] += mortar.dofs;
   }
+  const bool friction = std::find(rough.begin(), rough.end(), true) != rough.end();
+  if (solvesSparse(conditions, equations, friction, options))
+    return sizeof(double) * (need + ofALongLine * conditions);
   double solving = conditions * conditions;
   double largest = 0;
   for (const double m : dofs) {
@@ -70,7 +78,7 @@ double memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vec
   return sizeof(double) * (need + solving);
 }
 
-double memoryNeed(const Model& model) {
+double memoryNeed(const Model& model, const SolverOptions& options) {
   std::vector<const TriangleMesh*> meshes;
   for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
   std::vector<ContactPair> pairs;
@@ -79,7 +87,7 @@ double memoryNeed(const Model& model) {
     pairs.push_back(interface.pair());
     rough.push_back(interface.rough());
   }
-  return memoryNeed(meshes, pairs, model.bodies.front().degree(), rough);
+  return memoryNeed(meshes, pairs, model.bodies.front().degree(), rough, options);
 }
 
 double availableMemory() {
@@ -106,13 +114,12 @@ std::string aboutMemory(double bytes) {
 }
 
 void requireMemory(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs,
-                   int degree, const std::vector<bool>& rough) {
-  const double need = memoryNeed(meshes, pairs, degree, rough);
+                   int degree, const std::vector<bool>& rough, const SolverOptions& options) {
+  const double need = memoryNeed(meshes, pairs, degree, rough, options);
   const double available = availableMemory();
   if (need <= available) return;
   throw FaultError("the run needs " + aboutMemory(need) + " of memory, expected at most the " +
-                       aboutMemory(available).substr(6) +
-                       " that are available: dense matrices over the contact nodes",
+                       aboutMemory(available).substr(6) + " that are available",
                    "memory");
 }
 

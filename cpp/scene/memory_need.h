@@ -1,7 +1,8 @@
 // How much memory a run takes, told before anything of that size is allocated: in 8 bytes,
 //   contact   2 n^2 for W and its factor (n conditions), m^2 in each body for the Schur complement on its m
 //             contact dofs, two in the one that is factorised last; or n (n + 2 m) while the rows are made,
-//             where that is more; with friction a node has two conditions and both its dofs take part
+//             where that is more; with friction a node has two conditions and both its dofs take part;
+//             for long lines (solver/sparse_contact.h) 3000 n, the rows of mortar contact and its fronts;
 //   bodies    about 16 log2(N) + 150 for each of N vertices: factors, tangent, mesh and states;
 // and 12 MiB for the program itself.
 #pragma once
@@ -18,16 +19,16 @@ namespace mortier {
 /// \param meshes  of all bodies; \param degree  of the displacements; \param rough  which pairs have
 /// friction, none where empty. \returns the peak [bytes]; within a factor of two of what runs take.
 double memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs,
-                  int degree, const std::vector<bool>& rough = {});
+                  int degree, const std::vector<bool>& rough = {}, const SolverOptions& options = {});
 
-double memoryNeed(const Model& model);
+double memoryNeed(const Model& model, const SolverOptions& options = {});
 
 /// What the machine and the limits of the process leave [bytes]; infinity where nothing tells.
 double availableMemory();
 
 /// \throws FaultError with both numbers where a run needs more than there is.
 void requireMemory(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs,
-                   int degree, const std::vector<bool>& rough = {});
+                   int degree, const std::vector<bool>& rough = {}, const SolverOptions& options = {});
 
 /// "about 130 MiB", "about 290 GiB".
 std::string aboutMemory(double bytes);

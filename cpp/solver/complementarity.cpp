@@ -1,58 +1,17 @@
 #include "solver/complementarity.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "base/interrupt.h"
-#include "solver/pivoting.h"
+#include "solver/proximal_contact.h"
 
 namespace mortier {
 namespace {
 
 /// How a proximal term is weakened from one repetition to the next.
 constexpr double softer = 1e-2;
-
-/// Conditions that no free motion can change: both sides are held there.
-std::vector<char> idleConditions(const Matrix& W) {
-  constexpr double negligible = 1e-24;  // W is quadratic in the rows of C
-  std::vector<char> idle(W.rows(), 0);
-  const double largest = W.rows() > 0 ? W.diagonal().cwiseAbs().maxCoeff() : 0;
-  for (Eigen::Index i = 0; i < W.rows(); ++i) idle[i] = std::abs(W(i, i)) <= negligible * largest ? 1 : 0;
-  return idle;
-}
-
-ContactSolution solveRegular(ProximalContact& contact, const ContactProblem& problem,
-                             const std::vector<char>& active) {
-  constexpr int repetitions = 12;
-  constexpr double balanced = 1e-14;
-  constexpr double slow = 1e-12;  // three repetitions leave no more than that, unless the term is too strong
-
-  ContactSolution solution;
-  solution.active = active;
-  solution.rigid = Vector::Zero(problem.G.cols());
-  Vector z0 = solution.rigid;
-  for (int repetition = 0; repetition < repetitions; ++repetition) {
-    contact.centre(z0);
-    if (!pivot(contact, solution)) {
-      if (contact.capped()) solution.outcome = ContactSolution::Outcome::capped;
-      return solution;
-    }
-    const double imbalance =
-        problem.G.cols() == 0 ? 0 : contact.imbalance(solution, Vector::Zero(solution.change.size()));
-    if (imbalance <= balanced) break;
-    z0 = solution.rigid;
-    if (repetition > 1 && imbalance > slow) contact.soften();
-  }
-  constexpr double hopeless = 1e-6;
-  if (problem.G.cols() > 0 && contact.imbalance(solution, contact.usualForces(solution)) > hopeless)
-    solution.outcome =
-        contact.leaves(solution) ? ContactSolution::Outcome::unbalanced : ContactSolution::Outcome::cycled;
-  else
-    solution.outcome = ContactSolution::Outcome::solved;
-  return solution;
-}
 
 /// Conditions that say the same twice leave the forces undetermined and W singular: a proximal term on dp
 /// makes it regular, repeated until it no longer acts.
@@ -80,7 +39,7 @@ ContactSolution solveRedundant(const ContactProblem& problem, const std::vector<
       weightOfFactor = weight;
     }
     contact->restart(slack - term.cwiseProduct(before));
-    solution = solveRegular(*contact, regular, solution.active);
+    solution = solveBalanced(*contact, solution.active);
     pivots += solution.pivots;
     solution.pivots = pivots;
     if (solution.outcome != ContactSolution::Outcome::solved) break;
@@ -98,7 +57,7 @@ ContactSolution solveRedundant(const ContactProblem& problem, const std::vector<
 
 int dependentConditions(const Matrix& W) {
   constexpr double singular = 1e-12;  // as in ActiveFactor
-  const std::vector<char> idle = idleConditions(W);
+  const std::vector<char> idle = idleConditions(W.diagonal());
   const auto idles = static_cast<Eigen::Index>(std::count(idle.begin(), idle.end(), 1));
   // Columns made orthogonal to the longest one that is left, until none is: in steps that can be interrupted.
   Matrix rest = W;
@@ -120,14 +79,8 @@ int dependentConditions(const Matrix& W) {
 
 ContactSolution solveContact(const ContactProblem& problem, const Vector& fullSlack, const Vector& p0,
                              const Vector& balance, std::vector<char> active) {
-  // A gap or an overlap that rigid motions take away is taken first: beside stiff bodies it is so many forces
-  // that those of the load would be lost in its rounding.
   Vector slack = fullSlack;
-  Vector moved = Vector::Zero(problem.G.cols());
-  if (moved.size() > 0 && slack.size() > 0) {
-    moved = problem.G.colPivHouseholderQr().solve(slack);
-    slack -= problem.G * moved;
-  }
+  const Vector moved = travelFirst(problem, slack);
   if (slack.size() == 0) {
     ContactSolution solution;
     solution.change = p0;
@@ -136,7 +89,7 @@ ContactSolution solveContact(const ContactProblem& problem, const Vector& fullSl
     return solution;
   }
   Work work(problem);
-  const std::vector<char> idle = idleConditions(problem.W);
+  const std::vector<char> idle = idleConditions(problem.W.diagonal());
   for (size_t i = 0; i < idle.size(); ++i)
     if (idle[i] != 0) active[i] = 0;
   const auto idles = static_cast<int>(std::count(idle.begin(), idle.end(), 1));
@@ -145,7 +98,7 @@ ContactSolution solveContact(const ContactProblem& problem, const Vector& fullSl
   bool dependent = false;
   if (idles == 0 || problem.G.cols() == 0) {
     ProximalContact contact(problem, idle, slack, p0, balance, work);
-    solution = solveRegular(contact, problem, active);
+    solution = solveBalanced(contact, active);
     dependent = contact.redundant();
     pivots = solution.pivots;
   }

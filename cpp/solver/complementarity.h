@@ -37,6 +37,7 @@ struct ContactSolution {
   int pivots = 0;                     ///< active sets that were solved on
   double work = 0;                    ///< operations, over those of a factorisation of W [-]
   int idle = 0;                       ///< conditions that no free motion changes: W_ii = 0
+  std::vector<Vector> motion;         ///< of the bodies (dofs), where they were not condensed
   bool dependent = false;             ///< conditions depend on each other: the forces are one choice of many
 };
 

@@ -13,16 +13,18 @@
 namespace mortier {
 
 CondensedBody::CondensedBody(const Model& model, int body, const std::vector<int>& firstRow,
-                             const SolverOptions& options, Threads& threads)
+                             const SolverOptions& options, Threads& threads, bool whole)
     : body_(model.bodies[body]),
       contact_(model, body, firstRow),
       engine_(options.linear),
       reduce_(options.reduce),
+      whole_(whole),
       threads_(threads) {
+  law_ = body_.material().room(body_.points());
+  if (whole_) return;
   solver_ = engine_ == LinearEngine::multifrontal ? multifrontalSolver(body_.pattern(), contact_.equations)
                                                   : suiteSparseSolver(body_.pattern(), contact_.equations);
   solver_->use(threads);
-  law_ = body_.material().room(body_.points());
 }
 
 double CondensedBody::linearise(const Matrix& stress0, const Matrix* shift, BodyIterate& iterate,
@@ -88,6 +90,10 @@ CondensedBody::Factors CondensedBody::factorise() {
   elasticFactors_ = elastic;
   schurFactor_.clear();
   body_.tangent(law_, values_, threads_);
+  if (whole_) {
+    factorised_ = true;
+    return result;
+  }
   factorised_ = solver_->factorise(values_);
   if (!factorised_ && engine_ == LinearEngine::multifrontal && !body_.pattern().symmetric) {
     // UMFPACK pivots in the whole matrix.
@@ -127,6 +133,7 @@ void CondensedBody::addCompliance(Matrix& W) const {
 void CondensedBody::useLibraries() {
   if (engine_ == LinearEngine::suitesparse) return;
   engine_ = LinearEngine::suitesparse;
+  if (whole_) return;
   solver_ = suiteSparseSolver(body_.pattern(), contact_.equations);
   factorised_ = false;
 }

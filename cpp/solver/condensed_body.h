@@ -25,9 +25,10 @@ struct BodyLaw {
 
 class CondensedBody {
  public:
-  /// The threads must outlive it.
+  /// The threads must outlive it. \param whole  the body is not condensed: its tangent is made, and nothing of
+  /// what follows it.
   CondensedBody(const Model& model, int body, const std::vector<int>& firstRow, const SolverOptions& options,
-                Threads& threads);
+                Threads& threads, bool whole = false);
 
   [[nodiscard]] const ContactDofs& contact() const { return contact_; }
 
@@ -49,6 +50,8 @@ class CondensedBody {
   /// Factorises the tangent of the last linearisation, unless that and the one factorised before are both of
   /// a body in which nothing flows.
   Factors factorise();
+  /// The tangent that was factorised last, as values of the body's pattern.
+  [[nodiscard]] const std::vector<double>& tangent() const { return values_; }
   /// Whether points began or ceased to flow in the linearisations since.
   [[nodiscard]] bool stale() const { return factorisedElastic_ != law_.elastic; }
   /// W += C S^-1 C'.
@@ -75,9 +78,10 @@ class CondensedBody {
   ContactDofs contact_;
   LinearEngine engine_;
   bool reduce_;
+  bool whole_;
   Threads& threads_;
-  std::unique_ptr<CondensingSolver> solver_;
-  std::vector<double> values_;  ///< of the tangent
+  std::unique_ptr<CondensingSolver> solver_;  ///< none where the body is whole
+  std::vector<double> values_;                ///< of the tangent
   bool factorised_ = false;
   int factorisedElastic_ = -1;  ///< elastic points of the tangent as factorised
   bool elasticFactors_ = false;

@@ -26,6 +26,19 @@ bool anyDistanceMoves(const Model& model) {
                      [](const ContactInterface& interface) { return interface.distanceMoves(); });
 }
 
+bool solvesSparse(const Model& model, const SolverOptions& options) {
+  double conditions = 0;
+  double equations = 0;
+  for (const ContactInterface& interface : model.interfaces) conditions += interface.rows();
+  for (const Body& body : model.bodies) equations += body.freeDofs();
+  return solvesSparse(conditions, equations, anyRough(model), options);
+}
+
+bool solvesSparse(double conditions, double equations, bool rough, const SolverOptions& options) {
+  return !rough && options.method == Method::newton &&
+         conditions * conditions > options.denseEntries * equations;
+}
+
 void addInterface(Model& model, const ContactPair& pair, InterfaceOptions options) {
   const Body& nonmortar = model.bodies[pair.nonmortar.body];
   const Body& mortar = model.bodies[pair.mortar.body];

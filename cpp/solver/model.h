@@ -48,9 +48,16 @@ struct SolverOptions {
   bool reduce = true;
   /// With friction, look for all solutions of the contact problem of every step (friction_solutions.h).
   bool listSolutions = false;
+  /// Without friction, contact is solved without dense matrices (sparse_contact.h) where one over all its
+  /// conditions has more than so many entries for each equation of the bodies.
+  double denseEntries = 25;
   // Where two methods begin; their results do not depend on it.
   double proximalWeight = 1e-9;  ///< solver/complementarity.h [-]
   double firstOverstress = 100;  ///< of the interior point method, in yield stresses, far beyond any [-]
 };
+
+/// Whether contact is solved without dense matrices over its conditions.
+bool solvesSparse(const Model& model, const SolverOptions& options);
+bool solvesSparse(double conditions, double equations, bool rough, const SolverOptions& options);
 
 }  // namespace mortier

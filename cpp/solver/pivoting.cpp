@@ -10,12 +10,12 @@
 namespace mortier {
 namespace {
 
-using Signs = ProximalContact::Signs;
+using Signs = ContactSets::Signs;
 
 /// How deep a set overlaps, as the energy that closing each condition by itself would bring.
-double depthOf(const Signs& signs, const Matrix& W) {
+double depthOf(const Signs& signs, const Vector& diagonal) {
   double sum = 0;
-  for (const int i : signs.overlaps) sum += signs.slack[i] * signs.slack[i] / W(i, i);
+  for (const int i : signs.overlaps) sum += signs.slack[i] * signs.slack[i] / diagonal[i];
   return sum;
 }
 
@@ -30,8 +30,8 @@ bool isBetter(const Signs& next, const Signs& best, bool symmetric) {
 
 /// Of each run of neighbours that overlap the deepest: closing all would make most of them pull. At most
 /// `count`, the deepest ones.
-std::vector<int> deepest(const Signs& signs, const Matrix& W, size_t count) {
-  const Vector depth = signs.slack.cwiseQuotient(W.diagonal());
+std::vector<int> deepest(const Signs& signs, const Vector& diagonal, size_t count) {
+  const Vector depth = signs.slack.cwiseQuotient(diagonal);
   std::vector<int> result;
   for (size_t k = 0; k < signs.overlaps.size(); ++k) {
     const int i = signs.overlaps[k];
@@ -90,7 +90,7 @@ class Peeling {
 
 /// \returns the signs of a set on which no force pulls; where nothing overlaps either, with factors of the
 /// set itself. Nothing where the work ends.
-bool dropPulls(ProximalContact& contact, ContactSolution& solution, Signs& signs) {
+bool dropPulls(ContactSets& contact, ContactSolution& solution, Signs& signs) {
   Peeling peeling;
   while (!contact.redundant() && !contact.capped()) {
     stopIfInterrupted();
@@ -107,7 +107,7 @@ bool dropPulls(ProximalContact& contact, ContactSolution& solution, Signs& signs
 
 /// Closes an overlap of a set on which the forces p push; of those that would pull, the one that is reached
 /// first is dropped, and so on: the energy falls (Lawson and Hanson 1974).
-void descend(ProximalContact& contact, int chosen, Vector p, ContactSolution& solution) {
+void descend(ContactSets& contact, int chosen, Vector p, ContactSolution& solution) {
   solution.active[chosen] = 1;
   while (!contact.capped()) {
     stopIfInterrupted();
@@ -128,17 +128,17 @@ void descend(ProximalContact& contact, int chosen, Vector p, ContactSolution& so
 }
 
 /// Closes an overlap of a set whose forces all push; no sign that is right becomes wrong.
-void closeOne(ProximalContact& contact, int chosen, ContactSolution& solution) {
+void closeOne(ContactSets& contact, int chosen, ContactSolution& solution) {
   if (!contact.solveOn(solution)) return;
   Vector p = contact.p0() + solution.change;
   Vector s = contact.slack();
-  const Vector diagonal = contact.problem().W.diagonal();
-  ProximalContact::Growth rate;
+  const Vector& diagonal = contact.diagonal();
+  ContactSets::Growth rate;
   while (!contact.capped()) {
     stopIfInterrupted();
     if (!contact.grow(chosen, solution, rate)) return;
     const double least =
-        ProximalContact::rounding *
+        ContactSets::rounding *
         std::max(rate.force.cwiseAbs().maxCoeff(), rate.slack.cwiseQuotient(diagonal).cwiseAbs().maxCoeff());
     double length = rate.slack[chosen] > 0 ? -s[chosen] / rate.slack[chosen] : INFINITY;
     int next = chosen;
@@ -162,7 +162,7 @@ void closeOne(ProximalContact& contact, int chosen, ContactSolution& solution) {
 
 }  // namespace
 
-bool pivot(ProximalContact& contact, ContactSolution& solution) {
+bool pivot(ContactSets& contact, ContactSolution& solution) {
   constexpr size_t faster = 2;
   constexpr size_t slower = 4;
   constexpr double shallower = 0.9;
@@ -170,16 +170,16 @@ bool pivot(ProximalContact& contact, ContactSolution& solution) {
   Signs best;
   if (!dropPulls(contact, solution, best)) return false;
   size_t atOnce = solution.active.size();
-  double least = depthOf(best, problem.W);
+  double least = depthOf(best, contact.diagonal());
   bool pressed = 2 * best.overlaps.size() > solution.active.size();  // most of what closes may stay closed
   while (!best.overlaps.empty()) {
     const std::vector<char> before = solution.active;
-    const std::vector<int> chosen = pressed ? best.overlaps : deepest(best, problem.W, atOnce);
+    const std::vector<int> chosen = pressed ? best.overlaps : deepest(best, contact.diagonal(), atOnce);
     for (const int i : chosen) solution.active[i] = 1;
     Signs next;
     if (!dropPulls(contact, solution, next)) return false;
     // A set that overlaps less than any before is taken however its energy: that happens a few times only.
-    const double depth = depthOf(next, problem.W);
+    const double depth = depthOf(next, contact.diagonal());
     if (depth < shallower * least || isBetter(next, best, problem.symmetric)) {
       least = std::min(least, depth);
       best = std::move(next);

@@ -22,11 +22,7 @@ Work::Work(const ContactProblem& problem) {
 
 ProximalContact::ProximalContact(const ContactProblem& problem, const std::vector<char>& idle,
                                  const Vector& slack, const Vector& p0, const Vector& balance, Work& work)
-    : problem_(problem),
-      idle_(idle),
-      slack_(slack),
-      p0_(p0),
-      balance_(balance),
+    : ContactSets(problem, idle, problem.W.diagonal(), slack, p0, balance),
       work_(work),
       factor_(problem.W, problem.symmetric, work.done) {
   // The proximal weight against the stiffness that all nodes together give to rigid motions.
@@ -105,66 +101,9 @@ bool ProximalContact::refactor(const std::vector<char>& active) {
   return !redundant_;
 }
 
-ProximalContact::Signs ProximalContact::signsOf(const ContactSolution& solution) const {
-  Signs signs{open_, p0_ + solution.change, {}, {}};
-  Vector& s = signs.slack;
-  Vector& p = signs.force;
-  const double largest = sizeOf(solution);
-  const Vector depth = s.cwiseQuotient(problem_.W.diagonal());
-  const double noise = std::max(rounding * largest, 2 * residual(solution));
-  for (Eigen::Index i = 0; i < s.size(); ++i) {
-    if (idle_[i] != 0) continue;
-    if (solution.active[i] != 0 && !(p[i] >= -rounding * largest)) signs.pulls.push_back(static_cast<int>(i));
-    if (solution.active[i] == 0 && !(depth[i] >= -noise)) signs.overlaps.push_back(static_cast<int>(i));
-  }
-  for (Eigen::Index i = 0; i < s.size(); ++i) {
-    if (solution.active[i] != 0) s[i] = 0;
-    p[i] = std::max(p[i], 0.0);
-  }
-  return signs;
-}
-
-/// Largest slack of closed conditions, as a force.
-double ProximalContact::residual(const ContactSolution& solution) const {
-  double largest = 0;
-  for (Eigen::Index i = 0; i < open_.size(); ++i)
-    if (solution.active[i] != 0) largest = std::max(largest, std::abs(open_[i]) / problem_.W(i, i));
-  return largest;
-}
-
-/// Forces of the size that the problem has.
-double ProximalContact::sizeOf(const ContactSolution& solution) const {
-  double largest = 0;
-  for (Eigen::Index i = 0; i < slack_.size(); ++i)
-    if (idle_[i] == 0)
-      largest = std::max({largest, std::abs(p0_[i] + solution.change[i]), std::abs(p0_[i]),
-                          std::abs(slack_[i]) / problem_.W(i, i)});
-  return largest;
-}
-
-Vector ProximalContact::usualForces(const ContactSolution& solution) const {
-  constexpr double roundingOfGaps = 1e-8;  // an imbalance of 1e-6 of that is rounding
-  Vector usual = Vector::Constant(slack_.size(), problem_.force);
-  const double largest = slack_.cwiseAbs().maxCoeff();
-  for (Eigen::Index i = 0; i < usual.size(); ++i)
-    if (solution.active[i] != 0 && idle_[i] == 0)
-      usual[i] = std::max(usual[i], roundingOfGaps * largest / problem_.W(i, i));
-  return usual;
-}
-
-double ProximalContact::imbalance(const ContactSolution& solution, const Vector& usual) const {
-  const Vector rest = balance_ - problem_.G.transpose() * solution.change;
-  const Vector forces = p0_.cwiseAbs() + (p0_ + solution.change).cwiseAbs() + usual;
-  const double scale =
-      balance_.cwiseAbs().maxCoeff() + (problem_.G.cwiseAbs().transpose() * forces).maxCoeff();
-  return scale > 0 ? rest.cwiseAbs().maxCoeff() / scale : 0;
-}
-
-bool ProximalContact::leaves(const ContactSolution& solution) const {
-  constexpr double negligible = 1e-6;
-  const Vector closing = problem_.G * solution.rigid;
-  const double work = (balance_ + problem_.G.transpose() * p0_).dot(solution.rigid);
-  return closing.maxCoeff() <= negligible * closing.cwiseAbs().maxCoeff() && work > 0;
+ContactSets::Noise ProximalContact::noise(const ContactSolution& solution) const {
+  const double least = rounding * sizeOf(solution);
+  return {least, Vector::Constant(slack_.size(), std::max(least, 2 * residual(solution)))};
 }
 
 Vector ProximalContact::compliance(const Vector& p) {

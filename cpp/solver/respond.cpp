@@ -88,6 +88,7 @@ ContactSolution holdClosed(const ContactProblem& problem, const Vector& slack, c
 
 std::vector<Response> StepSystem::Factorised::respond(const std::vector<Matrix>& error, const Iterate& on,
                                                       const std::vector<Vector>& slip) const {
+  if (system_->sparse()) return system_->respondSparse(error, on);
   const Model& model = system_->model_;
   std::vector<CondensedBody>& bodies = system_->bodies_;
   std::vector<Response> responses(bodies.size());

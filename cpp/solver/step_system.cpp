@@ -42,14 +42,17 @@ StepSystem::StepSystem(const Model& model, const SolverOptions& options)
       options_(options),
       threads_(threadsFor(model, options.threads)),
       firstRow_(numberRows(model)) {
+  const bool sparse = solvesSparse(model, options);
   bodies_.reserve(model.bodies.size());
   for (size_t b = 0; b < model.bodies.size(); ++b) {
-    bodies_.emplace_back(model, static_cast<int>(b), firstRow_, options, threads_);
+    bodies_.emplace_back(model, static_cast<int>(b), firstRow_, options, threads_, sparse);
     firstMotion_.push_back(firstMotion_.back() + static_cast<int>(bodies_[b].contact().R.cols()));
     uniqueSolutions_ = uniqueSolutions_ && model.bodies[b].pattern().symmetric;
   }
   findFriction();
   requireHeld();
+  if (!sparse) return;
+  sparse_ = std::make_unique<SparseContact>(model, bodies_, firstRow_, options.linear, threads_);
 }
 
 Step StepSystem::step(const State& state0, const StepData& data) {
@@ -146,7 +149,7 @@ std::optional<StepSystem::Factorised> StepSystem::Linearised::factorise(StepOutc
   ContactProblem& contact = system_->contact_;
   std::vector<CondensedBody::Factors> factors(bodies.size());
   system_->forEachBody([&](int b) { factors[b] = bodies[b].factorise(); });
-  bool changed = contact.W.rows() != system_->conditions();
+  bool changed = !system_->sparse() && contact.W.rows() != system_->conditions();
   bool regular = true;
   for (const CondensedBody::Factors& body : factors) {
     if (!body.failure.empty()) regular = outcome.fail(Reason::singular, body.failure);
@@ -154,7 +157,10 @@ std::optional<StepSystem::Factorised> StepSystem::Linearised::factorise(StepOutc
     outcome.factorisations += body.changed ? 1 : 0;
   }
   if (!regular) return std::nullopt;
-  if (changed) {
+  if (changed && system_->sparse()) {
+    contact.symmetric = system_->uniqueSolutions();
+    system_->sparse_->take(bodies);
+  } else if (changed) {
     contact.W.setZero(system_->conditions(), system_->conditions());
     contact.symmetric = true;
     for (size_t b = 0; b < bodies.size(); ++b) {
@@ -197,27 +203,20 @@ StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const I
     result.p0 = system_->joined(iterate.contactForce);
   }
   std::vector<Vector> motion(bodies.size());
-  system_->forEachBody([&](int b) { motion[b] = bodies[b].condense(force[b]); });
+  if (!system_->sparse())
+    system_->forEachBody([&](int b) { motion[b] = bodies[b].condense(force[b]); });
+  else
+    result.force = std::move(force);
   result.balance.resize(system_->contact_.G.cols());
   for (size_t b = 0; b < bodies.size(); ++b) {
     const ContactDofs& dofs = bodies[b].contact();
     if (dofs.none()) continue;
-    result.slack -= dofs.C * motion[b];
+    if (!system_->sparse()) result.slack -= dofs.C * motion[b];
     result.balance.segment(system_->firstMotion_[b], dofs.R.cols()) = dofs.rigidForce(step.loads[b]);
   }
   result.balance -= system_->contact_.G.transpose() * result.p0;
   result.active = joinedSets(iterate.active);
   return result;
-}
-
-ContactSolution StepSystem::Condensed::solveContact() const {
-  if (system_->rough()) return solveFriction();
-  ContactSolution solution = mortier::solveContact(system_->contact_, slack, p0, balance, active);
-  SpecialConditions& special = system_->special_;
-  special.idle = std::max(special.idle, solution.idle);
-  if (solution.dependent && special.dependent == 0)
-    special.dependent = dependentConditions(system_->contact_.W);
-  return solution;
 }
 
 bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iterate,
@@ -238,7 +237,9 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
   system_->forEachBody([&](int b) {
     const Body& body = system_->model_.bodies[b];
     const Linearisation& law = system_->bodies_[b].law();
-    const Vector d = system_->bodies_[b].expand(contact.change, system_->motionOf(contact.rigid, b));
+    const Vector d = system_->sparse()
+                         ? contact.motion[b]
+                         : system_->bodies_[b].expand(contact.change, system_->motionOf(contact.rigid, b));
     Matrix& stress = iterate.bodies[b].stress;
     iterate.bodies[b].increment += d;
     stress.resizeLike(law.predictor);
@@ -277,6 +278,7 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
 
 void StepSystem::useLibraries() {
   for (CondensedBody& body : bodies_) body.useLibraries();
+  if (sparse()) sparse_->useLibraries();
 }
 
 SolverMemory StepSystem::memory() const {
@@ -290,7 +292,10 @@ SolverMemory StepSystem::memory() const {
 
 void StepSystem::resume(const SolverMemory& memory) {
   for (size_t b = 0; b < memory.libraries.size(); ++b) {
-    if (memory.libraries[b] != 0) bodies_[b].useLibraries();
+    if (memory.libraries[b] != 0) {
+      bodies_[b].useLibraries();
+      if (sparse()) sparse_->useLibraries();
+    }
     if (memory.elasticFactors[b] != 0) bodies_[b].elasticFactorsWereCounted();
   }
 }

@@ -32,6 +32,7 @@
 #include "solver/friction.h"
 #include "solver/iterate.h"
 #include "solver/outcome.h"
+#include "solver/sparse_contact.h"
 
 namespace mortier {
 
@@ -88,6 +89,8 @@ class StepSystem {
   [[nodiscard]] std::string looseMotion(const State& state0, const Iterate& solution) const;
   /// Whether there are bodies that contact alone holds.
   [[nodiscard]] bool contactHolds() const { return contact_.G.cols() > 0; }
+  /// Whether contact is solved without dense matrices over its conditions.
+  [[nodiscard]] bool sparse() const { return sparse_ != nullptr; }
   /// Whether any interface has friction.
   [[nodiscard]] bool rough() const { return !friction_.node.empty(); }
   /// Whether every tangent is symmetric: a step minimises a convex energy.
@@ -115,6 +118,10 @@ class StepSystem {
 
  private:
   void requireHeld();
+  /// By the equations of all bodies.
+  [[nodiscard]] Vector gathered(const std::vector<Vector>& nodal) const;
+  [[nodiscard]] std::vector<Vector> spread(const Vector& x) const;
+  [[nodiscard]] std::vector<Response> respondSparse(const std::vector<Matrix>& error, const Iterate& on);
   [[nodiscard]] std::string describeRigid(const Vector& z) const;
   /// Rows along the line that resist no motion: they slip, or nothing presses; and how one slips.
   [[nodiscard]] std::vector<int> freeAlong(const Iterate& solution) const;
@@ -135,7 +142,8 @@ class StepSystem {
       firstRow_;  ///< of each interface among all contact conditions, and their number at the end
   std::vector<CondensedBody> bodies_;
   std::vector<int> firstMotion_{0};  ///< of each body among all rigid motions, and their number at the end
-  ContactProblem contact_;           ///< its W is that of all conditions
+  ContactProblem contact_;           ///< its W is that of all conditions; none where contact is sparse
+  std::unique_ptr<SparseContact> sparse_;
   FrictionRows friction_;
   SpecialConditions special_;
   StepSolutions solutions_;
@@ -190,6 +198,8 @@ class StepSystem::Condensed {
   [[nodiscard]] ContactSolution solveContact() const;
   /// The same with friction (friction.h).
   [[nodiscard]] ContactSolution solveFriction() const;
+  /// The same without dense matrices.
+  [[nodiscard]] ContactSolution solveSparse() const;
   /// Moves the iterate (displacement, stress, contact) to the solution of the linear solve.
   /// \returns false where there is none; `outcome` then has the reason.
   bool expand(const ContactSolution& contact, Iterate& iterate, StepOutcome& outcome) &&;
@@ -199,6 +209,7 @@ class StepSystem::Condensed {
   Vector balance;            ///< of the forces that only contact can carry
   std::vector<char> active;  ///< to begin with
   std::vector<signed char> slipping;
+  std::vector<Vector> force;  ///< out of balance, per body (dofs), where contact is sparse
 
  private:
   StepSystem* system_;

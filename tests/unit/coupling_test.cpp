@@ -93,6 +93,27 @@ TEST(Coupling, reproducesConstantsAndLinearFunctions) {
   std::cout << "constants and linear functions on 1000 random pairs: error at most " << worst << "\n";
 }
 
+// Lines with more rows are projected a part at a time; what far nodes have of each other is nothing.
+TEST(Coupling, longLinesReproduceConstantsAndLinearFunctions) {
+  std::mt19937 random(7);
+  for (const double grading : {1.5, 3.0, 100.0}) {
+    const Trace nonmortar = randomTrace(random, 700, 0, 1, grading);
+    const Trace mortar = randomTrace(random, 900, 0, 1, grading);
+    const Scalar coupling = scalar(CouplingKind::mortar, nonmortar, mortar);
+    EXPECT_LE(rowSumError(coupling.A), reproduced);
+    EXPECT_LE((coupling.A * asVector(mortar) - asVector(nonmortar)).cwiseAbs().maxCoeff(), reproduced);
+    // The mass times the rows is of neighbours alone.
+    const Matrix D = coupling.mass * coupling.A;
+    double far = 0;
+    for (Eigen::Index i = 0; i < D.rows(); ++i)
+      for (Eigen::Index j = 0; j < D.cols(); ++j)
+        if (mortar[std::min<size_t>(j + 1, 900)] < nonmortar[std::max<Eigen::Index>(i - 1, 0)] ||
+            mortar[std::max<Eigen::Index>(j - 1, 0)] > nonmortar[std::min<size_t>(i + 1, 700)])
+          far = std::max(far, std::abs(D(i, j)));
+    EXPECT_LE(far, reproduced * D.maxCoeff());
+  }
+}
+
 // D A = M: the projection of a mortar function differs from it by something orthogonal to the nonmortar
 // functions.
 TEST(Coupling, mortarIsTheProjection) {

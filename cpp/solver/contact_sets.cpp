@@ -1,0 +1,130 @@
+#include "solver/contact_sets.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "solver/pivoting.h"
+
+namespace mortier {
+
+ContactSets::ContactSets(const ContactProblem& problem, const std::vector<char>& idle, Vector diagonal,
+                         Vector slack, const Vector& p0, const Vector& balance)
+    : problem_(problem),
+      idle_(idle),
+      diagonal_(std::move(diagonal)),
+      slack_(std::move(slack)),
+      p0_(p0),
+      balance_(balance) {}
+
+ContactSets::Signs ContactSets::signsOf(const ContactSolution& solution) const {
+  Signs signs{open_, p0_ + solution.change, {}, {}};
+  Vector& s = signs.slack;
+  Vector& p = signs.force;
+  const Vector depth = s.cwiseQuotient(diagonal_);
+  const Noise least = noise(solution);
+  for (Eigen::Index i = 0; i < s.size(); ++i) {
+    if (idle_[i] != 0) continue;
+    if (solution.active[i] != 0 && !(p[i] >= -least.force)) signs.pulls.push_back(static_cast<int>(i));
+    if (solution.active[i] == 0 && !(depth[i] >= -least.depth[i]))
+      signs.overlaps.push_back(static_cast<int>(i));
+  }
+  for (Eigen::Index i = 0; i < s.size(); ++i) {
+    if (solution.active[i] != 0) s[i] = 0;
+    p[i] = std::max(p[i], 0.0);
+  }
+  return signs;
+}
+
+double ContactSets::residual(const ContactSolution& solution) const {
+  double largest = 0;
+  for (Eigen::Index i = 0; i < open_.size(); ++i)
+    if (solution.active[i] != 0) largest = std::max(largest, std::abs(open_[i]) / diagonal_[i]);
+  return largest;
+}
+
+double ContactSets::sizeOf(const ContactSolution& solution) const {
+  double largest = 0;
+  for (Eigen::Index i = 0; i < slack_.size(); ++i)
+    if (idle_[i] == 0)
+      largest = std::max({largest, std::abs(p0_[i] + solution.change[i]), std::abs(p0_[i]),
+                          std::abs(slack_[i]) / diagonal_[i]});
+  return largest;
+}
+
+Vector ContactSets::usualForces(const ContactSolution& solution) const {
+  constexpr double roundingOfGaps = 1e-8;  // an imbalance of 1e-6 of that is rounding
+  Vector usual = Vector::Constant(slack_.size(), problem_.force);
+  const double largest = slack_.cwiseAbs().maxCoeff();
+  for (Eigen::Index i = 0; i < usual.size(); ++i)
+    if (solution.active[i] != 0 && idle_[i] == 0)
+      usual[i] = std::max(usual[i], roundingOfGaps * largest / diagonal_[i]);
+  return usual;
+}
+
+double ContactSets::imbalance(const ContactSolution& solution, const Vector& usual) const {
+  const Vector rest = balance_ - problem_.G.transpose() * solution.change;
+  const Vector forces = p0_.cwiseAbs() + (p0_ + solution.change).cwiseAbs() + usual;
+  const double scale =
+      balance_.cwiseAbs().maxCoeff() + (problem_.G.cwiseAbs().transpose() * forces).maxCoeff();
+  return scale > 0 ? rest.cwiseAbs().maxCoeff() / scale : 0;
+}
+
+bool ContactSets::leaves(const ContactSolution& solution) const {
+  constexpr double negligible = 1e-6;
+  const Vector closing = problem_.G * solution.rigid;
+  const double work = (balance_ + problem_.G.transpose() * p0_).dot(solution.rigid);
+  return closing.maxCoeff() <= negligible * closing.cwiseAbs().maxCoeff() && work > 0;
+}
+
+ContactSolution solveBalanced(ContactSets& contact, const std::vector<char>& active) {
+  constexpr int repetitions = 12;
+  constexpr double balanced = 1e-14;
+  constexpr double slow = 1e-12;  // three repetitions leave no more than that, unless the term is too strong
+
+  const Eigen::Index motions = contact.problem().G.cols();
+  ContactSolution solution;
+  solution.active = active;
+  solution.rigid = Vector::Zero(motions);
+  Vector z0 = solution.rigid;
+  for (int repetition = 0; repetition < repetitions; ++repetition) {
+    contact.centre(z0);
+    if (!pivot(contact, solution)) {
+      if (contact.capped()) solution.outcome = ContactSolution::Outcome::capped;
+      return solution;
+    }
+    const double imbalance =
+        motions == 0 ? 0 : contact.imbalance(solution, Vector::Zero(solution.change.size()));
+    if (imbalance <= balanced) break;
+    z0 = solution.rigid;
+    if (repetition > 1 && imbalance > slow) contact.soften();
+  }
+  constexpr double hopeless = 1e-6;
+  if (motions > 0 && contact.imbalance(solution, contact.usualForces(solution)) > hopeless)
+    solution.outcome =
+        contact.leaves(solution) ? ContactSolution::Outcome::unbalanced : ContactSolution::Outcome::cycled;
+  else
+    solution.outcome = ContactSolution::Outcome::solved;
+  return solution;
+}
+
+Vector travelFirst(const ContactProblem& problem, Vector& slack) {
+  Vector moved = Vector::Zero(problem.G.cols());
+  if (moved.size() > 0 && slack.size() > 0) {
+    moved = problem.G.colPivHouseholderQr().solve(slack);
+    slack -= problem.G * moved;
+  }
+  return moved;
+}
+
+std::vector<char> idleConditions(const Vector& diagonal) {
+  constexpr double negligible = 1e-24;  // W is quadratic in the rows of C
+  std::vector<char> idle(diagonal.size(), 0);
+  const double largest = diagonal.size() > 0 ? diagonal.cwiseAbs().maxCoeff() : 0;
+  for (Eigen::Index i = 0; i < diagonal.size(); ++i)
+    idle[i] = std::abs(diagonal[i]) <= negligible * largest ? 1 : 0;
+  return idle;
+}
+
+}  // namespace mortier

@@ -1,0 +1,317 @@
+#include "solver/sparse_contact.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/interrupt.h"
+
+namespace mortier {
+namespace {
+
+/// Penalties over the stiffness of the nodes that a condition acts on: a repetition leaves about one part in
+/// so many of an error, and rounding takes so many times more of what it takes from the stiffness alone.
+constexpr double penaltyRatio = 1e4;
+
+/// Entries of rows that are nothing but what rounding left of longer ones.
+constexpr double nothing = 1e-14;
+
+Eigen::SparseMatrix<double, Eigen::RowMajor> pruned(const Eigen::SparseMatrix<double, Eigen::RowMajor>& A) {
+  Eigen::SparseMatrix<double, Eigen::RowMajor> result(A.rows(), A.cols());
+  std::vector<Eigen::Triplet<double>> entries;
+  using Row = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
+  for (int i = 0; i < A.outerSize(); ++i) {
+    double largest = 0;
+    for (Row a(A, i); a; ++a) largest = std::max(largest, std::abs(a.value()));
+    for (Row a(A, i); a; ++a)
+      if (std::abs(a.value()) > nothing * largest)
+        entries.emplace_back(i, static_cast<int>(a.col()), a.value());
+  }
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+}  // namespace
+
+SparseContact::SparseContact(const Model& model, const std::vector<CondensedBody>& bodies,
+                             const std::vector<int>& firstRow, LinearEngine engine, Threads& threads)
+    : engine_(engine), threads_(threads) {
+  for (const Body& body : model.bodies) {
+    first_.push_back(first_.back() + body.freeDofs());
+    patterns_.push_back(&body.pattern());
+    pattern_.symmetric = pattern_.symmetric && body.pattern().symmetric;
+  }
+  findRows(model, bodies, firstRow);
+  findSprings(bodies);
+  findPattern(model);
+  analyse();
+}
+
+void SparseContact::findRows(const Model& model, const std::vector<CondensedBody>& bodies,
+                             const std::vector<int>& firstRow) {
+  const int conditions = firstRow.back();
+  std::vector<Eigen::Triplet<double>> entries;
+  for (size_t b = 0; b < bodies.size(); ++b) {
+    const ContactDofs& dofs = bodies[b].contact();
+    for (int j = 0; j < dofs.C.outerSize(); ++j)
+      for (Eigen::SparseMatrix<double>::InnerIterator c(dofs.C, j); c; ++c)
+        entries.emplace_back(static_cast<int>(c.row()), first_[b] + dofs.equations[j], c.value());
+  }
+  C_.resize(conditions, first_.back());
+  C_.setFromTriplets(entries.begin(), entries.end());
+  entries.clear();
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    const ContactInterface& interface = model.interfaces[k];
+    const bool local = interface.pair().coupling != CouplingKind::mortar;
+    const Vector length = interface.mass() * Vector::Ones(interface.rows());
+    for (int j = 0; j < interface.mass().outerSize(); ++j) {
+      if (local) entries.emplace_back(firstRow[k] + j, firstRow[k] + j, 1);
+      for (Eigen::SparseMatrix<double>::InnerIterator m(interface.mass(), j); m && !local; ++m)
+        entries.emplace_back(firstRow[k] + static_cast<int>(m.row()), firstRow[k] + j,
+                             m.value() / length[m.row()]);
+    }
+  }
+  T_.resize(conditions, conditions);
+  T_.setFromTriplets(entries.begin(), entries.end());
+  entries.clear();
+  const Rows B = pruned(T_ * C_);
+  const auto add = [&](const Rows& A, int offset, double sign) {
+    for (int i = 0; i < A.outerSize(); ++i)
+      for (Rows::InnerIterator a(A, i); a; ++a)
+        entries.emplace_back(i, offset + static_cast<int>(a.col()), sign * a.value());
+  };
+  add(B, 0, 1);
+  add(T_, first_.back(), -1);
+  E_.resize(conditions, first_.back() + conditions);
+  E_.setFromTriplets(entries.begin(), entries.end());
+}
+
+void SparseContact::findSprings(const std::vector<CondensedBody>& bodies) {
+  Eigen::Index motions = 0;
+  for (const CondensedBody& body : bodies) motions += body.contact().R.cols();
+  springMotions_ = Matrix::Zero(motions, motions);
+  Eigen::Index column = 0;
+  for (size_t b = 0; b < bodies.size(); ++b) {
+    const Matrix& R = bodies[b].contact().R;
+    if (R.cols() == 0) continue;
+    const Eigen::ColPivHouseholderQR<Matrix> independent(R.transpose());
+    for (Eigen::Index i = 0; i < R.cols(); ++i) {
+      const int dof = independent.colsPermutation().indices()[i];
+      springs_.push_back(first_[b] + bodies[b].contact().equations[dof]);
+      springMotions_.block(column + i, column, 1, R.cols()) = R.row(dof);
+    }
+    column += R.cols();
+  }
+}
+
+/// Calls visit(condition, row, column, product) for the products in E' E that H holds.
+template <class Visit>
+void SparseContact::forEachPair(Visit visit) const {
+  for (int i = 0; i < E_.outerSize(); ++i)
+    for (Rows::InnerIterator a(E_, i); a; ++a)
+      for (Rows::InnerIterator b(E_, i); b; ++b)
+        if (!pattern_.symmetric || a.col() >= b.col())
+          visit(i, static_cast<int>(a.col()), static_cast<int>(b.col()), a.value() * b.value());
+}
+
+void SparseContact::findPattern(const Model& model) {
+  const int size = first_.back() + static_cast<int>(C_.rows());
+  const auto forEachEntry = [&](auto visit) {
+    for (size_t b = 0; b < patterns_.size(); ++b) {
+      const SparsePattern& own = model.bodies[b].pattern();
+      for (int j = 0; j < own.size; ++j)
+        for (int k = own.columnStart[j]; k < own.columnStart[j + 1]; ++k) {
+          visit(first_[b] + own.rows[k], first_[b] + j);
+          if (own.symmetric && !pattern_.symmetric && own.rows[k] != j)
+            visit(first_[b] + j, first_[b] + own.rows[k]);
+        }
+    }
+    forEachPair([&](int, int row, int column, double) { visit(row, column); });
+  };
+  std::vector<int> start(size + 1, 0);
+  forEachEntry([&](int, int column) { ++start[column + 1]; });
+  for (int j = 0; j < size; ++j) start[j + 1] += start[j];
+  std::vector<int> rows(start.back());
+  std::vector<int> next(start.begin(), start.end() - 1);
+  forEachEntry([&](int row, int column) { rows[next[column]++] = row; });
+  pattern_.size = size;
+  pattern_.columnStart.assign(1, 0);
+  pattern_.rows.clear();
+  for (int j = 0; j < size; ++j) {
+    const auto begin = rows.begin() + start[j];
+    const auto end = rows.begin() + start[j + 1];
+    std::sort(begin, end);
+    pattern_.rows.insert(pattern_.rows.end(), begin, std::unique(begin, end));
+    pattern_.columnStart.push_back(pattern_.entries());
+  }
+  pattern_.rows.shrink_to_fit();
+  for (size_t b = 0; b < patterns_.size(); ++b) {
+    const SparsePattern& own = *patterns_[b];
+    std::vector<int>& places = entryOf_.emplace_back();
+    places.reserve(own.rows.size());
+    for (int j = 0; j < own.size; ++j)
+      for (int k = own.columnStart[j]; k < own.columnStart[j + 1]; ++k)
+        places.push_back(entry(first_[b] + own.rows[k], first_[b] + j));
+  }
+  forEachPair([&](int, int row, int column, double) { pairEntry_.push_back(entry(row, column)); });
+}
+
+int SparseContact::entry(int row, int column) const {
+  const auto begin = pattern_.rows.begin() + pattern_.columnStart[column];
+  const auto end = pattern_.rows.begin() + pattern_.columnStart[column + 1];
+  return static_cast<int>(std::lower_bound(begin, end, row) - pattern_.rows.begin());
+}
+
+void SparseContact::analyse() {
+  solver_ = engine_ == LinearEngine::multifrontal ? multifrontalSolver(pattern_, {})
+                                                  : suiteSparseSolver(pattern_, {});
+  solver_->use(threads_);
+}
+
+void SparseContact::useLibraries() {
+  if (engine_ == LinearEngine::suitesparse) return;
+  engine_ = LinearEngine::suitesparse;
+  active_.clear();
+  analyse();
+}
+
+void SparseContact::take(const std::vector<CondensedBody>& bodies) {
+  active_.clear();
+  K_.clear();
+  diagonal_.resize(first_.back());
+  for (size_t b = 0; b < bodies.size(); ++b) {
+    K_.push_back(&bodies[b].tangent());
+    const SparsePattern& own = *patterns_[b];
+    for (int j = 0; j < own.size; ++j)
+      for (int k = own.columnStart[j]; k < own.columnStart[j + 1]; ++k)
+        if (own.rows[k] == j) diagonal_[first_[b] + j] = std::abs((*K_[b])[k]);
+  }
+  const Rows squares = C_.cwiseProduct(C_);
+  compliance_ = squares * diagonal_.cwiseInverse();
+  penalty_ = Vector::Zero(E_.rows());
+  for (int i = 0; i < E_.outerSize(); ++i) {
+    double local = 0;
+    for (Rows::InnerIterator e(E_, i); e && e.col() < first_.back(); ++e)
+      local += e.value() * e.value() / diagonal_[e.col()];
+    if (local > 0) penalty_[i] = penaltyRatio / local;
+  }
+  const double largest = penalty_.size() > 0 ? penalty_.maxCoeff() : 0;
+  for (double& rho : penalty_)
+    if (rho == 0) rho = largest > 0 ? largest : 1;  // both sides are held there
+}
+
+void SparseContact::setSprings(double weight) {
+  if (weight == springWeight_) return;
+  springWeight_ = weight;
+  active_.clear();
+}
+
+double SparseContact::stiffnessAtSprings() const {
+  return springs_.empty() ? 0 : Vector(diagonal_(springs_)).minCoeff();
+}
+
+bool SparseContact::factorise(const std::vector<char>& active) {
+  if (active == active_ && !active_.empty()) return true;
+  stopIfInterrupted();
+  const int w = first_.back();
+  values_.assign(pattern_.rows.size(), 0);
+  for (size_t b = 0; b < patterns_.size(); ++b) {
+    const SparsePattern& own = *patterns_[b];
+    for (int j = 0; j < own.size; ++j)
+      for (int k = own.columnStart[j]; k < own.columnStart[j + 1]; ++k) {
+        values_[entryOf_[b][k]] += (*K_[b])[k];
+        if (own.symmetric && !pattern_.symmetric && own.rows[k] != j)
+          values_[entry(first_[b] + j, first_[b] + own.rows[k])] += (*K_[b])[k];
+      }
+  }
+  for (const int dof : springs_) values_[entry(dof, dof)] += springWeight_ * diagonal_[dof];
+  size_t pair = 0;
+  const auto fixed = [&](int column) { return column >= w && active[column - w] != 0; };
+  forEachPair([&](int i, int row, int column, double product) {
+    const int at = pairEntry_[pair++];
+    if (!fixed(row) && !fixed(column)) values_[at] += penalty_[i] * product;
+  });
+  for (size_t i = 0; i < active.size(); ++i)
+    if (active[i] != 0) values_[entry(w + static_cast<int>(i), w + static_cast<int>(i))] = penalty_[i];
+  ++factorisations_;
+  active_ = active;
+  if (solver_->factorise(values_)) return true;
+  if (!pattern_.symmetric && engine_ == LinearEngine::multifrontal) {
+    useLibraries();  // UMFPACK pivots in the whole matrix
+    active_ = active;
+    if (solver_->factorise(values_)) return true;
+  }
+  active_.clear();
+  return false;
+}
+
+Vector SparseContact::stiffnessTimes(const Vector& d) const {
+  Vector f = Vector::Zero(d.size());
+  threads_.forEach(static_cast<int>(patterns_.size()), [&](int b) {
+    const SparsePattern& own = *patterns_[b];
+    const double* x = &d[first_[b]];
+    double* y = &f[first_[b]];
+    const std::vector<double>& K = *K_[b];
+    for (int j = 0; j < own.size; ++j) {
+      double sum = 0;
+      for (int k = own.columnStart[j]; k < own.columnStart[j + 1]; ++k) {
+        const int i = own.rows[k];
+        y[i] += K[k] * x[j];
+        if (own.symmetric && i != j) sum += K[k] * x[i];
+      }
+      y[j] += sum;
+    }
+  });
+  for (const int dof : springs_) f[dof] += springWeight_ * diagonal_[dof] * d[dof];
+  return f;
+}
+
+SparseContact::Solution SparseContact::solve(const Vector& F, const Vector& slack, const Vector& anchors,
+                                             bool exact) const {
+  constexpr int repetitions = 40;
+  const double enough = exact ? 4 * std::numeric_limits<double>::epsilon() : 1e-6;
+  const Eigen::Index n = first_.back();
+  const Eigen::Index rows = E_.rows();
+  Vector right = F;
+  for (size_t k = 0; k < springs_.size(); ++k)
+    right[springs_[k]] += springWeight_ * diagonal_[springs_[k]] * anchors[static_cast<Eigen::Index>(k)];
+  Vector x = Vector::Zero(n + rows);
+  for (Eigen::Index i = 0; i < rows; ++i)
+    if (active_[i] != 0) x[n + i] = slack[i];
+  Vector q = Vector::Zero(rows);
+  Solution solution;
+  solution.force = Vector::Zero(rows);
+  const double given = slack.size() > 0 ? slack.cwiseAbs().maxCoeff() : 0;
+  double before = INFINITY;
+  for (int repetition = 0; repetition < repetitions; ++repetition) {
+    stopIfInterrupted();
+    const Vector off = -(E_ * x);
+    Vector step = E_.transpose() * Vector(penalty_.cwiseProduct(off) - q);
+    step.head(n) += right - stiffnessTimes(x.head(n));
+    for (Eigen::Index i = 0; i < rows; ++i)
+      if (active_[i] != 0) step[n + i] = 0;
+    solver_->condense(step);
+    solver_->expand(step);
+    const Vector dq = penalty_.cwiseProduct(E_ * step - off);
+    x += step;
+    q += dq;
+    Vector dp = T_.transpose() * dq;
+    for (Eigen::Index i = 0; i < rows; ++i)
+      if (active_[i] == 0) dp[i] = 0;
+    solution.force += dp;
+    const Vector moved = C_ * step.head(n);
+    const auto largest = [](const Vector& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0; };
+    solution.forceNoise = largest(dp);
+    solution.motionNoise = largest(moved);
+    const auto part = [](double a, double b) { return a == 0 ? 0 : a / b; };
+    const double change = part(solution.forceNoise, largest(solution.force)) +
+                          part(solution.motionNoise, given + largest(C_ * x.head(n)));
+    if (!(change > enough) || (repetition > 1 && !(change < before / 2))) break;
+    before = change;
+  }
+  solution.motion = x.head(n);
+  return solution;
+}
+
+}  // namespace mortier
