@@ -30,16 +30,14 @@ const char* nameOf(Rung rung) {
 
 namespace {
 
-/// Whether a body flows, and none at a corner at which Newton's method could turn in circles: by a law
-/// without a yield stress, or by one that is linearised where the strain leads. It may have a long way to
-/// come down from elasticity.
-bool flowsWithoutCorner(const Model& model) {
-  bool flows = false;
-  for (const Body& body : model.bodies) {
-    if (body.material().stressScale() > 0 && !body.material().returns()) return false;
-    flows = flows || !body.material().linear();
-  }
-  return flows;
+/// Whether a body flows by a law without a yield stress, or by one that is linearised where the strain leads:
+/// Newton's method may have a long way to come down from elasticity, and the walks, which begin anew, have
+/// none that is shorter. Elsewhere it has corners at which it could turn in circles.
+bool comesDownFromFar(const Model& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) {
+    const Material& material = body.material();
+    return !material.linear() && (material.stressScale() == 0 || material.returns());
+  });
 }
 
 }  // namespace
@@ -48,7 +46,7 @@ bool flowsWithoutCorner(const Model& model) {
 // tangent the interior point method leads to the one solution.
 StepOutcome solveStep(StepSystem& system, const State& state0, const StepData& data, Iterate& guess,
                       Effort effort) {
-  const int plainIterations = flowsWithoutCorner(system.model()) ? 25 : 7;
+  const int plainIterations = comesDownFromFar(system.model()) ? 25 : 7;
   constexpr int firstWalk = 60;
   constexpr int usualIterations = 300;
   constexpr int secondWalk = 100;

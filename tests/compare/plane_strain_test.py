@@ -63,6 +63,19 @@ class PlaneStrain(OfTwoBlocks):
             written.add((self.folder / "out/upper_000007.vtu").read_bytes())
         self.assertEqual(len(written), 1)
 
+    def test_bodies_of_two_laws_of_flow(self):
+        """One that comes down from elasticity by a power of the overstress, on one whose law has a corner."""
+        power = ('body.upper.material={young=3e11, poisson=0.3, law="viscoplastic", yield_stress=1, '
+                 'reference_stress=1, reference_rate=0.05, exponent=4, kinematic_hardening=20, '
+                 'isotropic_hardening=30}')
+        corner = "body.lower.material={young=3e11, poisson=0.3, viscosity=10, yield_stress=1}"
+        for scheme in ("backward-euler", "sdirk2", "crank-nicolson"):
+            with self.subTest(scheme):
+                self.mortier("run", "scene.toml", "--out", "out", "--set", "plane=strain", "time.steps=20",
+                             f"time.scheme={scheme}", power, corner)
+                summary = json.loads(self.read("out/summary.json"))
+                self.assertLess(summary["newton_iterations"], 300)
+
     def test_what_is_refused(self):
         self.reject("--set plane=plain: plane = \"plain\", expected one of stress, strain",
                     "run", "scene.toml", "--set", "plane=plain", "--out", "out")
