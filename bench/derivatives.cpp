@@ -1,10 +1,6 @@
-// What the rate of a law and its 4 x 4 derivatives by the stress cost a point: mortier's own numbers beside
-// the libraries of Debian that the compiler finds, and beside differences of muParser.
-// The law is Norton's. Nanoseconds a point, and the ratio to a type in C++.
-#include <Eigen/Core>
-// after it
-#include <unsupported/Eigen/AutoDiff>
-
+// What the rate of a law and its 4 x 4 derivatives by the stress cost a point: types in C++ and expressions,
+// by Eigen's AutoDiffScalar, beside the other libraries of Debian that the compiler finds and differences of
+// muParser.
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -31,7 +27,7 @@
 namespace {
 
 using mortier::Components;
-using mortier::Dual;
+using mortier::Differentiated;
 using mortier::Matrix;
 
 constexpr int points = 4096;
@@ -109,10 +105,10 @@ void formulas(const Matrix& stress, Matrix& slopes) {
     return made;
   }();
   Matrix rate(4, points);
-  std::vector<Dual<4>> work;
-  mortier::evaluateEach<false>(
-      [&]<int n>(const Dual<n>* in, Dual<n>* out) {
-        if constexpr (n == 4) law.evaluate(in, out, work);
+  std::vector<Differentiated<4>> work;
+  mortier::evaluateBlocks<false>(
+      [&]<class Number>(const Number* in, Number* out, int count) {
+        if constexpr (!std::is_same_v<Number, double>) law.evaluate(in, out, count, work);
       },
       stress, stress, rate, &slopes);
 }
@@ -128,7 +124,7 @@ int main() {
           [&](const Matrix& s, Matrix& slopes) { own->evaluate(s, s, rate, &slopes); });
   measure("mortier, expressions", stress, formulas);
   using Eigens = Eigen::AutoDiffScalar<Eigen::Vector4d>;
-  measure("Eigen, AutoDiffScalar", stress, [](const Matrix& s, Matrix& slopes) {
+  measure("Eigen, AutoDiffScalar, bare", stress, [](const Matrix& s, Matrix& slopes) {
     onePointAtATime<Eigens>(
         s, slopes, [](Eigens& x, double value, int k) { x = Eigens(value, 4, k); },
         [](const Eigens& x, int k) { return x.derivatives()[k]; });

@@ -109,6 +109,16 @@ GROWING = (OVERSTRESS + 'viscosity=1, kinematic_hardening=5, isotropic_hardening
 PLASTIC = (OVERSTRESS + 'viscosity=0, kinematic_hardening=5, isotropic_hardening=10}',)
 
 
+OWN = 'body.material={young=100, poisson=0.3, law="expression", '
+# Creep by a hyperbolic sine beyond a threshold.
+SINH = (OWN + 'rate11="f*(2*s11-s22)/3", rate22="f*(2*s22-s11)/3", rate12="f*s12", '
+        'parameters={mises="sqrt(s11^2-s11*s22+s22^2+3*s12^2)", limit=2, '
+        'f="mises > limit ? 0.1*sinh((mises - limit)/4)/mises : 0"}}',)
+# The volume creeps too, beside a spring: every component depends on every other.
+SPRUNG = (OWN + 'rate11="0.02*x_11*size", rate22="0.03*x_22*size + 0.004*s33", rate12="0.04*x_12*size", '
+          'rate33="0.02*s33*size - 0.003*s11", parameters={K=30, x_11="s11-K*e11", x_22="s22-K*e22", '
+          'x_12="s12-K*e12", size="1 + (x_11^2+x_22^2+2*x_12^2+s33^2)/50"}}', 'plane="strain"')
+
 # Pressed, pushed along, pulled back until some nodes slip, on a sloped line and on two level ones.
 THERE_AND_BACK = "{time=[0, 1, 2, 3], value=[0, 0, 1e-3, 4e-4]}"
 RUBBED = ("contact.friction=0.3", "time.end=3", "time.steps=12",
@@ -170,6 +180,8 @@ def scene_cases():
                    "body.upper.force.y=-3*sin(x)*t")),
         SceneCase("sloped", "interpolation", "Norton creep", (*NORTON, "time.steps=3")),
         SceneCase("turned", "mortar", "Norton creep, plane strain", (*NORTON, 'plane="strain"')),
+        SceneCase("sloped", "mortar", "a law of one's own", (*SINH, "time.steps=3")),
+        SceneCase("turned", "interpolation", "a law of one's own of the strain", (*SPRUNG, "time.steps=3")),
         SceneCase("sloped", "mortar", "held at points that carry nothing", FREE_BUT_FOR_POINTS),
         SceneCase("stack", "interpolation", "held at points that push", POINTS_THAT_PUSH),
         SceneCase("sloped", "interpolation", "standard linear solid", (*SOLID, "time.steps=3")),

@@ -18,6 +18,7 @@ struct SinhCreep {
   template <class Number>
   mortier::Components<Number> rateOf(const mortier::Components<Number>& s,
                                      const mortier::Components<Number>& /*strain*/) const {
+    using std::exp, std::sqrt;
     const Number mean = (s.c11 + s.c22 + s.c33) / 3;
     const Number a = s.c11 - mean;
     const Number b = s.c22 - mean;

@@ -213,8 +213,12 @@ std::string script(const SceneDescription& scene, const Model& model,
       << stepEnds(times)
       << "int steps = " << (times.empty() ? scene.time.steps : static_cast<int>(times.size()))
       << ";  // backward Euler, " << (times.empty() ? "equal steps" : "steps of their own lengths") << "\n\n";
-  for (const char* part : {"bodies", "strain", "supports", "lines", "coupling", "friction", "system", "law",
-                           "contact", "picture", "loop"}) {
+  const bool own = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const BodyDescription& body) {
+    return body.material.as<OwnLaw>() != nullptr;
+  });
+  for (const std::string part : {"bodies", "strain", "supports", "lines", "coupling", "friction", "system",
+                                 "own_law", "law", "contact", "picture", "loop"}) {
+    if (part == "own_law" && !own) continue;
     out << "include " << freefemString(method + '/' + part + ".idp", scene.path + ": the FreeFEM method")
         << '\n';
   }
@@ -247,7 +251,12 @@ void requireKnown(const SceneDescription& scene, bool stepsGiven) {
     if (stressed || !body.regions.empty()) {
       refuse(body.where + ": body " + body.name + ": regions or initial stress", "neither");
     }
-    if (const auto* own = body.material.as<OwnLaw>()) refuse(own->where, "a law of mortier's own");
+    if (const auto* own = body.material.as<OwnLaw>()) {
+      if (!own->texts) refuse(own->where, "a law of mortier's own or \"expression\"");
+      if (body.temperature) refuse(body.temperature->where + ": temperature", "none beside such a law");
+      if (scene.plane == Plane::axisymmetric)
+        refuse(own->where + " beside plane = \"axisymmetric\"", "\"stress\" or \"strain\"");
+    }
     const MaterialDescription& material = body.material;
     if (material.anisotropy && material.flows())
       refuse(material.anisotropy->where, "\"isotropic\" beside flow");

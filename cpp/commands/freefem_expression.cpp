@@ -15,9 +15,9 @@ namespace {
 const std::map<std::string, std::string>& freefemWords() {
   static const std::map<std::string, std::string> words = [] {
     std::map<std::string, std::string> same;
-    for (const char* word : {"x",    "y",     "t",    "pi",   "sin",  "cos",   "tan",   "asin",  "acos",
-                             "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "exp",
-                             "log",  "log10", "sqrt", "abs",  "min",  "max",   "sign",  "rint"}) {
+    for (const char* word :
+         {"pi",    "sin",   "cos", "tan", "asin",  "acos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh",
+          "acosh", "atanh", "exp", "log", "log10", "sqrt", "abs",  "min",   "max",  "sign", "rint"}) {
       same[word] = word;
     }
     same["ln"] = "log";
@@ -72,7 +72,27 @@ class Choices {
 }  // namespace
 
 std::string freefemExpression(const Expression& expression) {
-  const std::string& text = expression.text;
+  return freefemFormula(expression.text, expression.where, {{"x", "x"}, {"y", "y"}, {"t", "t"}});
+}
+
+std::vector<std::string> namesIn(const std::string& text) {
+  std::vector<std::string> names;
+  for (size_t i = 0; i < text.size();) {
+    const auto isPart = [&](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    const size_t begin = i;
+    // A number takes the letter of its exponent along.
+    const bool isName = std::isdigit(static_cast<unsigned char>(text[i])) == 0 && text[i] != '.';
+    while (i < text.size() && (isPart(text[i]) || (!isName && text[i] == '.'))) ++i;
+    if (i == begin)
+      ++i;
+    else if (isName && freefemWords().count(text.substr(begin, i - begin)) == 0)
+      names.push_back(text.substr(begin, i - begin));
+  }
+  return names;
+}
+
+std::string freefemFormula(const std::string& text, const std::string& where,
+                           const std::map<std::string, std::string>& names) {
   std::string result;
   Choices choices;
   for (size_t i = 0; i < text.size();) {
@@ -82,12 +102,12 @@ std::string freefemExpression(const Expression& expression) {
     const size_t begin = i;
     if (is(i, [](int c) { return std::isalpha(c) != 0 || c == '_' ? 1 : 0; })) {
       while (is(i, [](int c) { return std::isalnum(c) != 0 || c == '_' ? 1 : 0; })) ++i;
-      const auto word = freefemWords().find(text.substr(begin, i - begin));
-      if (word == freefemWords().end()) {
-        throw InputError(expression.where + ": " + text.substr(begin, i - begin) +
-                         " is not known to FreeFEM");
-      }
-      result += word->second;
+      const std::string name = text.substr(begin, i - begin);
+      const auto variable = names.find(name);
+      const auto word = freefemWords().find(name);
+      if (variable == names.end() && word == freefemWords().end())
+        throw InputError(where + ": " + name + " is not known to FreeFEM");
+      result += variable == names.end() ? word->second : variable->second;
     } else if (is(i, [](int c) { return std::isdigit(c) != 0 || c == '.' ? 1 : 0; })) {
       bool real = false;
       for (; is(i, [](int c) { return std::isalnum(c) != 0 || c == '.' ? 1 : 0; }) ||
@@ -100,7 +120,7 @@ std::string freefemExpression(const Expression& expression) {
     } else {
       const char c = std::isspace(static_cast<unsigned char>(text[i])) != 0 ? ' ' : text[i];
       if (std::string_view(" +-*/^(),?:<>=!&|").find(c) == std::string_view::npos)
-        throw InputError(expression.where + ": " + c + " is not known to FreeFEM");
+        throw InputError(where + ": " + c + " is not known to FreeFEM");
       ++i;
       if (c == ':') result.erase(result.find_last_not_of(' ') + 1);
       result += choices.translated(c);

@@ -1,5 +1,6 @@
 #include "commands/freefem_materials.h"
 
+#include <map>
 #include <variant>
 
 #include "commands/freefem_expression.h"
@@ -63,7 +64,7 @@ std::string overstresses(const SceneDescription& scene) {
              : "";
 }
 
-/// One macro for all bodies whose elasticity is not isotropic; none where there are none.
+/// One macro for all bodies whose moduli differ from point to point; none where there are none.
 std::string anisotropies(const SceneDescription& scene) {
   std::string text;
   for (size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -86,7 +87,65 @@ std::string anisotropies(const SceneDescription& scene) {
     text += with("stiffness(" + begin, {c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2), across(0),
                                         across(1), across(2), across(3)});
   }
-  return text.empty() ? text : "macro anisotropic " + text + "//  body, angle of axis 1, constants\n";
+  for (size_t b = 0; b < scene.bodies.size(); ++b)
+    if (scene.bodies[b].material.as<OwnLaw>() != nullptr) text += "ownLaw(" + std::to_string(b + 1) + ") ";
+  return text.empty() ? text
+                      : "macro anisotropic " + text +
+                            "//  body, angle of axis 1, constants; bodies with a rate of their own\n";
+}
+
+/// A function of all bodies: rates by stress and strain, written as the scene has them. Names of parameters
+/// become those of FreeFEM, which has no _ in names and words of its own.
+class OwnRates {
+ public:
+  explicit OwnRates(const OwnLaw& law) : law_(law) {
+    for (const char* name : {"s11", "s22", "s12", "s33", "e11", "e22", "e12", "e33"}) names_[name] = name;
+  }
+  std::string text() {
+    std::string rates;
+    for (size_t c = 0; c < law_.texts->rates.size(); ++c) {
+      declare(law_.texts->rates[c]);
+      rates += "    G(" + std::to_string(c) + ") = " + written(law_.texts->rates[c]) + ";\n";
+    }
+    return declared_ + rates;
+  }
+
+ private:
+  [[nodiscard]] std::string written(const std::string& text) const {
+    return freefemFormula(text, law_.where, names_);
+  }
+  /// What an expression needs, before it; the scene has been read: nothing holds itself.
+  void declare(const std::string& text) {
+    for (const std::string& name : namesIn(text)) {
+      const auto found = law_.texts->named.find(name);
+      if (found == law_.texts->named.end() || names_.count(name) > 0) continue;
+      declare(found->second);
+      names_[name] = "par" + std::to_string(names_.size() - 7);
+      declared_ += "    real " + names_[name] + " = " + written(found->second) + ";  // " + name + "\n";
+    }
+  }
+
+  const OwnLaw& law_;
+  std::map<std::string, std::string> names_;
+  std::string declared_;
+};
+
+std::string ownLaws(const SceneDescription& scene) {
+  std::string rates;
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    const auto* law = scene.bodies[b].material.as<OwnLaw>();
+    if (law == nullptr) continue;
+    const std::string n = std::to_string(b + 1);
+    rates += "  if (body == " + n + ") {\n" + OwnRates(*law).text() + "  }\n";
+  }
+  if (rates.empty()) return "";
+  return "macro ownLaws yes //  G11, G22, G12, G33 [1/" + scene.units.time +
+         "] of stress and strain\n"
+         "func int ownRate(int body, real[int] & s, real[int] & e, real[int] & G) {\n"
+         "  real s11 = s(0), s22 = s(1), s12 = s(2), s33 = s(3), e11 = e(0), e22 = e(1), e12 = e(2), "
+         "e33 = e(3);\n"
+         "  G = 0;\n" +
+         rates + "  return 0;\n}\n";
 }
 
 /// One macro for all bodies with a temperature; none where there are none.
@@ -106,7 +165,8 @@ std::string temperatures(const SceneDescription& scene) {
 }  // namespace
 
 std::string freefemMaterials(const SceneDescription& scene) {
-  return creeps(scene) + relaxes(scene) + overstresses(scene) + anisotropies(scene) + temperatures(scene);
+  return creeps(scene) + relaxes(scene) + overstresses(scene) + anisotropies(scene) + ownLaws(scene) +
+         temperatures(scene);
 }
 
 }  // namespace mortier

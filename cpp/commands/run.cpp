@@ -80,7 +80,7 @@ int run(RunCommand command) {
   const AttemptOptions options{command.settings, command.threads, identity.text};
   auto attempt = std::make_unique<Attempt>(std::move(resolved), options);
   lintModel(attempt->resolved.description, *attempt->model, doubts);
-  addMeshes(*attempt->model, identity);
+  addFiles(attempt->resolved.description, *attempt->model, identity);
   if (stopped) {
     requireSame(stopped->checkpoint.identity, identity, stopped->folder);
     requireFits(stopped->checkpoint, *attempt->model, stopped->folder, attempt->facts.quantities.size());

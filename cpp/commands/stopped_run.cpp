@@ -1,8 +1,11 @@
 #include "commands/stopped_run.h"
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
+#include "base/checksum.h"
 #include "base/error.h"
 #include "scene/document.h"
 
@@ -51,10 +54,18 @@ RunIdentity identityOf(const RunCommand& command) {
   return identity;
 }
 
-void addMeshes(const Model& model, RunIdentity& identity) {
+void addFiles(const SceneDescription& scene, const Model& model, RunIdentity& identity) {
   for (const Body& body : model.bodies) {
-    identity.meshes.push_back(body.mesh().name);
-    identity.meshHashes.push_back(hashOf(body.mesh()));
+    identity.files.push_back("the mesh " + body.mesh().name);
+    identity.fileHashes.push_back(hashOf(body.mesh()));
+  }
+  for (const BodyDescription& body : scene.bodies) {
+    if (!body.temperature || body.temperature->file.empty()) continue;
+    std::ifstream file(body.temperature->file, std::ios::binary);
+    Checksum checksum;
+    checksum.add(std::string(std::istreambuf_iterator<char>(file), {}));
+    identity.files.push_back("the file " + body.temperature->file);
+    identity.fileHashes.push_back(checksum.value);
   }
 }
 

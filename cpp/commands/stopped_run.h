@@ -7,6 +7,7 @@
 #include "commands/run.h"
 #include "report/checkpoint.h"
 #include "report/output_folder.h"
+#include "scene/scene.h"
 
 namespace mortier {
 
@@ -26,6 +27,7 @@ void askAgain(const RunIdentity& stored, RunCommand& command);
 
 /// \throws InputError
 RunIdentity identityOf(const RunCommand& command);
-void addMeshes(const Model& model, RunIdentity& identity);
+/// Meshes, and files of temperatures.
+void addFiles(const SceneDescription& scene, const Model& model, RunIdentity& identity);
 
 }  // namespace mortier

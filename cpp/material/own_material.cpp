@@ -5,28 +5,12 @@
 
 #include "base/error.h"
 #include "base/worst.h"
+#include "material/component_basis.h"
+#include "material/rate_law.h"
 #include "material/stress.h"
 
 namespace mortier {
 namespace {
-
-/// Components from p, q, r and, where n is 4, s33 (stress.h).
-template <int n>
-Eigen::Matrix<double, 4, n> componentsBy() {
-  constexpr double h = std::numbers::sqrt2 / 2;
-  Eigen::Matrix<double, 4, n> T = Eigen::Matrix<double, 4, n>::Zero();
-  T(0, 0) = T(0, 1) = T(1, 0) = T(2, 2) = h;
-  T(1, 1) = -h;
-  if constexpr (n == 4) T(3, 3) = 1;
-  return T;
-}
-/// The inverse.
-template <int n>
-Eigen::Matrix<double, n, 4> byComponents() {
-  Eigen::Matrix<double, n, 4> F = componentsBy<n>().transpose();
-  F(2, 2) = std::numbers::sqrt2;
-  return F;
-}
 
 template <int n>
 Eigen::Matrix<double, n, n> elasticityTensor(const Elasticity& elasticity) {
@@ -149,7 +133,9 @@ class OwnMaterial final : public Material {
     if (n == 3) strain.row(3).setConstant(std::numeric_limits<double>::quiet_NaN());
     Matrix rate(4, points);
     if (slopes != nullptr) slopes->resize(law_->slopeRows(), points);
-    law_->evaluate(componentsBy<n>() * at.stress, strain, rate, slopes);
+    const Matrix stress = componentsBy<n>() * at.stress;
+    law_->evaluate(stress, strain, rate, slopes);
+    if (slopes != nullptr) law_->takeSlopesBeside(stress, strain, E_.norm(), *slopes);
     if (n == 3) rate.row(3).setZero();
     at.rate = byComponents<n>() * rate;
   }

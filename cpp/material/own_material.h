@@ -6,11 +6,19 @@
 #pragma once
 
 #include <map>
+#include <optional>
 
 #include "material/plane_strain.h"
-#include "material/rate_law.h"
 
 namespace mortier {
+
+class RateLaw;
+
+/// The expressions of a law, as a scene has them.
+struct RateTexts {
+  std::vector<std::string> rates;            ///< of 11, 22, 12 and, where it is given, 33
+  std::map<std::string, std::string> named;  ///< parameters: numbers and expressions that may hold each other
+};
 
 /// A law as a scene has it.
 struct OwnLaw {
@@ -20,6 +28,7 @@ struct OwnLaw {
   bool isotropic = false;                    ///< whether it is said to be
   bool inPlaneStrain = true;                 ///< whether the rate of eps33 is given
   std::string where;                         ///< what a message about it begins with
+  std::optional<RateTexts> texts = {};       ///< none of a registered law
 };
 
 /// \throws InputError where an elastic constant is wrong, or the rate without stress and strain not a number.

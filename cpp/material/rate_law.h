@@ -8,16 +8,26 @@
 //     Components<Number> rateOf(const Components<Number>& s, const Components<Number>& eps) const;
 //   };
 //
-// whose Number counts derivatives along (dual.h): with operators and functions of it nothing else is needed.
-// scene/registered_laws.h makes it known to scenes.
+// whose Number is double, or Eigen's AutoDiffScalar, which counts derivatives along: operators and functions
+// (sqrt, exp, log, pow, max ...) are found for both. Name what is kept `const Number`, not auto: an operator
+// returns a formula of its operands. scene/registered_laws.h makes the law known to scenes.
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <memory>
+#include <type_traits>
+#include <unsupported/Eigen/AutoDiff>
+#include <vector>
 
 #include "base/types.h"
-#include "material/dual.h"
 
 namespace mortier {
+
+/// A number and its derivatives along n directions. Where a function has none, as sqrt at 0, they are no
+/// numbers.
+template <int n>
+using Differentiated = Eigen::AutoDiffScalar<Eigen::Matrix<double, n, 1>>;
 
 /// Of a stress, a strain (eps12, not 2 eps12) or a rate. In plane stress s33 = 0, and eps33, which is not
 /// known there, is NaN.
@@ -32,36 +42,54 @@ class RateLaw {
   [[nodiscard]] virtual bool ofStrain() const = 0;
   /// Columns are points; `stress` [Pa], `strain` [-], `rate` [1/s] have 4 rows, as Components. `slopes`, if
   /// any, has the 4 x 4 derivatives by the stress [1/(Pa s)], column major, and, where G depends on the
-  /// strain, those by it [1/s] after them. Several threads may call it.
+  /// strain, those by it [1/s] after them; no numbers where there are none. Several threads may call it.
   virtual void evaluate(const Matrix& stress, const Matrix& strain, Matrix& rate, Matrix* slopes) const = 0;
+  /// A rate may have no slopes where it is a number: sqrt(s11^2 + s22^2) has none without stress, where a law
+  /// has no flow and every run begins. There they become those beside the point.
+  /// \param modulus  what a strain of 1 is as a stress [Pa]
+  void takeSlopesBeside(const Matrix& stress, const Matrix& strain, double modulus, Matrix& slopes) const;
   /// Rows of `slopes`.
   [[nodiscard]] int slopeRows() const { return ofStrain() ? 32 : 16; }
 };
 
-/// Runs `rateOf(Dual<n> in[8], Dual<n> out[4])`, which is generic in n, at each point: in are the components
-/// of stress and strain.
+/// How many points are evaluated together.
+constexpr int pointsAtOnce = 32;
+
+/// Runs `rateOf(const Number* in, Number* out, int points)` on blocks of points, with double or, for slopes,
+/// Differentiated: in[k pointsAtOnce + i] is component k of stress and strain of a point, out of the rate.
 template <bool ofStrain, class RateOf>
-void evaluateEach(const RateOf& rateOf, const Matrix& stress, const Matrix& strain, Matrix& rate,
-                  Matrix* slopes) {
-  const auto run = [&]<int n>(std::array<Dual<n>, 8> in) {
-    std::array<Dual<n>, 4> out;
-    for (int k = 0; k < n; ++k) in[k].slope[k] = 1;
-    for (Eigen::Index i = 0; i < stress.cols(); ++i) {
-      for (int k = 0; k < 4; ++k) {
-        in[k].value = stress(k, i);
-        in[4 + k].value = strain(k, i);
-      }
-      rateOf(in.data(), out.data());
-      for (int c = 0; c < 4; ++c) {
-        rate(c, i) = out[c].value;
-        for (int k = 0; k < n; ++k) (*slopes)(4 * k + c, i) = out[c].slope[k];
-      }
+void evaluateBlocks(const RateOf& rateOf, const Matrix& stress, const Matrix& strain, Matrix& rate,
+                    Matrix* slopes) {
+  constexpr int directions = ofStrain ? 8 : 4;
+  const auto run = [&]<class Number>(std::vector<Number> in) {
+    std::vector<Number> out(4 * pointsAtOnce, Number(0));
+    for (Eigen::Index begin = 0; begin < stress.cols(); begin += pointsAtOnce) {
+      const int points = static_cast<int>(std::min<Eigen::Index>(pointsAtOnce, stress.cols() - begin));
+      for (int i = 0; i < points; ++i)
+        for (int k = 0; k < 8; ++k) {
+          const double value = k < 4 ? stress(k, begin + i) : strain(k - 4, begin + i);
+          if constexpr (std::is_same_v<Number, double>)
+            in[k * pointsAtOnce + i] = value;
+          else
+            in[k * pointsAtOnce + i] = k < directions ? Number(value, directions, k) : Number(value);
+        }
+      rateOf(in.data(), out.data(), points);
+      for (int i = 0; i < points; ++i)
+        for (int c = 0; c < 4; ++c) {
+          const Number& result = out[c * pointsAtOnce + i];
+          if constexpr (std::is_same_v<Number, double>) {
+            rate(c, begin + i) = result;
+          } else {
+            rate(c, begin + i) = result.value();
+            for (int k = 0; k < directions; ++k) (*slopes)(4 * k + c, begin + i) = result.derivatives()[k];
+          }
+        }
     }
   };
   if (slopes == nullptr)
-    run(std::array<Dual<0>, 8>{});
+    run(std::vector<double>(8 * pointsAtOnce));
   else
-    run(std::array<Dual<ofStrain ? 8 : 4>, 8>{});
+    run(std::vector<Differentiated<directions>>(8 * pointsAtOnce, 0.0));
 }
 
 /// The rate law of a type as above.
@@ -71,14 +99,18 @@ class TypedRateLaw final : public RateLaw {
   explicit TypedRateLaw(Law law) : law_(std::move(law)) {}
   [[nodiscard]] bool ofStrain() const override { return Law::ofStrain; }
   void evaluate(const Matrix& stress, const Matrix& strain, Matrix& rate, Matrix* slopes) const override {
-    evaluateEach<Law::ofStrain>(
-        [this]<int n>(const Dual<n>* in, Dual<n>* out) {
-          const Components<Dual<n>> all = law_.rateOf(Components<Dual<n>>{in[0], in[1], in[2], in[3]},
-                                                      Components<Dual<n>>{in[4], in[5], in[6], in[7]});
-          out[0] = all.c11;
-          out[1] = all.c22;
-          out[2] = all.c12;
-          out[3] = all.c33;
+    evaluateBlocks<Law::ofStrain>(
+        [this]<class Number>(const Number* in, Number* out, int points) {
+          const auto at = [&](int k, int i) { return in[k * pointsAtOnce + i]; };
+          for (int i = 0; i < points; ++i) {
+            const Components<Number> all =
+                law_.rateOf(Components<Number>{at(0, i), at(1, i), at(2, i), at(3, i)},
+                            Components<Number>{at(4, i), at(5, i), at(6, i), at(7, i)});
+            out[i] = all.c11;
+            out[pointsAtOnce + i] = all.c22;
+            out[2 * pointsAtOnce + i] = all.c12;
+            out[3 * pointsAtOnce + i] = all.c33;
+          }
         },
         stress, strain, rate, slopes);
   }

@@ -126,9 +126,9 @@ void requireSame(const RunIdentity& stored, const RunIdentity& given, const std:
   }
   if (stored.settings != given.settings)
     reject("--set" + listed(given.settings) + " (was" + listed(stored.settings) + ")");
-  for (size_t b = 0; b < given.meshHashes.size(); ++b)
-    if (b >= stored.meshHashes.size() || stored.meshHashes[b] != given.meshHashes[b])
-      reject("the mesh " + given.meshes[b] + " has changed");
+  for (size_t i = 0; i < given.fileHashes.size(); ++i)
+    if (i >= stored.fileHashes.size() || stored.fileHashes[i] != given.fileHashes[i])
+      reject(given.files[i] + " has changed");
 }
 
 }  // namespace mortier

@@ -13,14 +13,14 @@
 
 namespace mortier {
 
-/// What the run was asked for. It resumes only with the same scene, settings and meshes.
+/// What the run was asked for. It resumes only with the same scene, settings and files.
 struct RunIdentity {
   std::string workingFolder;          ///< in which paths were meant
   std::string scene;                  ///< path, as given
   std::string text;                   ///< of the scene
   std::vector<std::string> settings;  ///< --set, as given
-  std::vector<std::string> meshes;    ///< paths, one a body
-  std::vector<uint64_t> meshHashes;
+  std::vector<std::string> files;     ///< meshes and nodal temperatures: "the mesh PATH"
+  std::vector<uint64_t> fileHashes;
 };
 
 struct Checkpoint {

@@ -13,7 +13,7 @@ namespace mortier {
     archive(__VA_ARGS__);                            \
   }
 
-MORTIER_MEMBERS(RunIdentity, workingFolder, scene, text, settings, meshes, meshHashes)
+MORTIER_MEMBERS(RunIdentity, workingFolder, scene, text, settings, files, fileHashes)
 MORTIER_MEMBERS(FileRecord, bytes, checksum)
 MORTIER_MEMBERS(KeptFields, step, time, files)
 MORTIER_MEMBERS(FilesSoFar, history, contact, fields)

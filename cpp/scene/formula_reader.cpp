@@ -1,6 +1,7 @@
 // The grammar of formulas, that of muParser, which reads all other expressions (formulas_test.cpp compares).
 #include <cctype>
 #include <charconv>
+#include <map>
 #include <numbers>
 
 #include "base/error.h"
@@ -12,15 +13,15 @@ namespace {
 
 using Op = Formulas::Op;
 
-struct Function {
+struct Callable {
   Op op;
   int least;  ///< how many numbers it takes
   int most;
 };
 
-const std::map<std::string, Function>& functions() {
+const std::map<std::string, Callable>& functions() {
   constexpr int any = 1000;
-  static const std::map<std::string, Function> all{
+  static const std::map<std::string, Callable> all{
       {"sin", {Op::sin, 1, 1}},     {"cos", {Op::cos, 1, 1}},     {"tan", {Op::tan, 1, 1}},
       {"asin", {Op::asin, 1, 1}},   {"acos", {Op::acos, 1, 1}},   {"atan", {Op::atan, 1, 1}},
       {"sinh", {Op::sinh, 1, 1}},   {"cosh", {Op::cosh, 1, 1}},   {"tanh", {Op::tanh, 1, 1}},
@@ -197,7 +198,7 @@ class FormulaReader {
     at_ = begin;
     reject("unknown name " + name);
   }
-  int call(const std::string& name, const Function& function) {
+  int call(const std::string& name, const Callable& function) {
     std::vector<int> of{choice()};
     while (takes(",")) of.push_back(choice());
     if (!takes(")")) reject("expected a ) to " + name);

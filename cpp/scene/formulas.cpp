@@ -8,142 +8,175 @@ namespace {
 
 using Op = Formulas::Op;
 
-/// A function of one number and its derivative.
-template <int n, class Function, class Derivative>
-Dual<n> applied(const Dual<n>& x, Function function, Derivative derivative) {
-  if constexpr (n == 0) return function(x.value);
-  return along(function(x.value), x, derivative(x.value));
+double valueOf(double x) {
+  return x;
+}
+template <class Slopes>
+double valueOf(const Eigen::AutoDiffScalar<Slopes>& x) {
+  return x.value();
 }
 
-/// Functions of one number by their C++ names, and their derivatives.
-template <int n>
-Dual<n> ofOne(Op op, const Dual<n>& x) {
-  const auto is = [&](double (*function)(double), double (*derivative)(double)) {
-    return applied(x, function, derivative);
+/// The chain rule for functions that Eigen's numbers have not: f(x) and f'(x) given.
+template <class Number>
+Number chained(const Number& x, double value, [[maybe_unused]] double slope) {
+  if constexpr (std::is_same_v<Number, double>)
+    return value;
+  else
+    return Number(value, x.derivatives() * slope);
+}
+
+template <class Number>
+Number powerOf(const Number& x, const Number& y) {
+  const double value = std::pow(valueOf(x), valueOf(y));
+  if constexpr (std::is_same_v<Number, double>)
+    return value;
+  else
+    return Number(value, x.derivatives() * (y.value() * std::pow(x.value(), y.value() - 1)) +
+                             y.derivatives() * (std::log(x.value()) * value));
+}
+
+/// One operation at some points; a, b, c: the numbers that it takes.
+template <class Number>
+void apply(const Formulas::Operation& operation, const Number* a, const Number* b, const Number* c,
+           Number* out, int points) {
+  using std::abs, std::acos, std::asin, std::atan2, std::cos, std::cosh, std::exp, std::log, std::pow,
+      std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
+  const auto ofOne = [&](auto function) {
+    for (int i = 0; i < points; ++i) out[i] = function(a[i]);
   };
-  switch (op) {
+  const auto ofTwo = [&](auto function) {
+    for (int i = 0; i < points; ++i) out[i] = function(a[i], b[i]);
+  };
+  const auto ofValues = [&](auto function) {
+    for (int i = 0; i < points; ++i) out[i] = Number(function(valueOf(a[i]), valueOf(b[i])) ? 1.0 : 0.0);
+  };
+  const auto byChainRule = [&](auto function, auto slope) {
+    for (int i = 0; i < points; ++i) out[i] = chained(a[i], function(valueOf(a[i])), slope(valueOf(a[i])));
+  };
+  switch (operation.op) {
+    case Op::number:
+      return std::fill_n(out, points, Number(operation.number)), void();
+    case Op::variable:
+      return std::copy_n(a, points, out), void();
+    case Op::negate:
+      return ofOne([](const Number& x) -> Number { return -x; });
+    case Op::add:
+      return ofTwo([](const Number& x, const Number& y) -> Number { return x + y; });
+    case Op::subtract:
+      return ofTwo([](const Number& x, const Number& y) -> Number { return x - y; });
+    case Op::multiply:
+      return ofTwo([](const Number& x, const Number& y) -> Number { return x * y; });
+    case Op::divide:
+      return ofTwo([](const Number& x, const Number& y) -> Number { return x / y; });
+    case Op::power:
+      if (operation.number == 0) return ofTwo([](const Number& x, const Number& y) { return powerOf(x, y); });
+      return ofOne([n = operation.number](const Number& x) -> Number { return pow(x, n); });
+    case Op::less:
+      return ofValues([](double x, double y) { return x < y; });
+    case Op::lessOrEqual:
+      return ofValues([](double x, double y) { return x <= y; });
+    case Op::equal:
+      return ofValues([](double x, double y) { return x == y; });
+    case Op::notEqual:
+      return ofValues([](double x, double y) { return x != y; });
+    case Op::both:
+      return ofValues([](double x, double y) { return x != 0 && y != 0; });
+    case Op::either:
+      return ofValues([](double x, double y) { return x != 0 || y != 0; });
+    case Op::choose:
+      for (int i = 0; i < points; ++i) out[i] = valueOf(a[i]) != 0 ? b[i] : c[i];
+      return;
+    case Op::min:
+      return ofTwo([](const Number& x, const Number& y) { return valueOf(x) < valueOf(y) ? x : y; });
+    case Op::max:
+      return ofTwo([](const Number& x, const Number& y) { return valueOf(y) < valueOf(x) ? x : y; });
+    case Op::atan2:
+      return ofTwo([](const Number& y, const Number& x) -> Number { return atan2(y, x); });
     case Op::sin:
-      return is([](double a) { return std::sin(a); }, [](double a) { return std::cos(a); });
+      return ofOne([](const Number& x) -> Number { return sin(x); });
     case Op::cos:
-      return is([](double a) { return std::cos(a); }, [](double a) { return -std::sin(a); });
+      return ofOne([](const Number& x) -> Number { return cos(x); });
     case Op::tan:
-      return is([](double a) { return std::tan(a); }, [](double a) { return 1 + std::tan(a) * std::tan(a); });
+      return ofOne([](const Number& x) -> Number { return tan(x); });
     case Op::asin:
-      return is([](double a) { return std::asin(a); }, [](double a) { return 1 / std::sqrt(1 - a * a); });
+      return ofOne([](const Number& x) -> Number { return asin(x); });
     case Op::acos:
-      return is([](double a) { return std::acos(a); }, [](double a) { return -1 / std::sqrt(1 - a * a); });
+      return ofOne([](const Number& x) -> Number { return acos(x); });
     case Op::atan:
-      return is([](double a) { return std::atan(a); }, [](double a) { return 1 / (1 + a * a); });
+      return byChainRule([](double x) { return std::atan(x); }, [](double x) { return 1 / (1 + x * x); });
     case Op::sinh:
-      return is([](double a) { return std::sinh(a); }, [](double a) { return std::cosh(a); });
+      return ofOne([](const Number& x) -> Number { return sinh(x); });
     case Op::cosh:
-      return is([](double a) { return std::cosh(a); }, [](double a) { return std::sinh(a); });
+      return ofOne([](const Number& x) -> Number { return cosh(x); });
     case Op::tanh:
-      return is([](double a) { return std::tanh(a); },
-                [](double a) { return 1 / (std::cosh(a) * std::cosh(a)); });
+      return ofOne([](const Number& x) -> Number { return tanh(x); });
     case Op::asinh:
-      return is([](double a) { return std::asinh(a); }, [](double a) { return 1 / std::sqrt(1 + a * a); });
+      return byChainRule([](double x) { return std::asinh(x); },
+                         [](double x) { return 1 / std::sqrt(1 + x * x); });
     case Op::acosh:
-      return is([](double a) { return std::acosh(a); }, [](double a) { return 1 / std::sqrt(a * a - 1); });
+      return byChainRule([](double x) { return std::acosh(x); },
+                         [](double x) { return 1 / std::sqrt(x * x - 1); });
     case Op::atanh:
-      return is([](double a) { return std::atanh(a); }, [](double a) { return 1 / (1 - a * a); });
-    case Op::log10:
-      return log(x) / std::numbers::ln10;
-    case Op::log2:
-      return log(x) / std::numbers::ln2;
-    case Op::log:
-      return log(x);
+      return byChainRule([](double x) { return std::atanh(x); }, [](double x) { return 1 / (1 - x * x); });
     case Op::exp:
-      return exp(x);
+      return ofOne([](const Number& x) -> Number { return exp(x); });
+    case Op::log:
+      return ofOne([](const Number& x) -> Number { return log(x); });
+    case Op::log10:
+      return ofOne([](const Number& x) -> Number { return log(x) / std::numbers::ln10; });
+    case Op::log2:
+      return ofOne([](const Number& x) -> Number { return log(x) / std::numbers::ln2; });
     case Op::sqrt:
-      return sqrt(x);
+      return ofOne([](const Number& x) -> Number { return sqrt(x); });
     case Op::abs:
-      return abs(x);
+      return ofOne([](const Number& x) -> Number { return abs(x); });
     case Op::sign:
-      return x.value > 0 ? 1.0 : x.value < 0 ? -1.0 : 0.0;
-    default:
-      return is([](double a) { return std::floor(a + 0.5); }, [](double) { return 0.0; });
+      return ofOne([](const Number& x) { return Number((valueOf(x) > 0) - (valueOf(x) < 0)); });
+    case Op::rint:
+      return ofOne([](const Number& x) { return Number(std::floor(valueOf(x) + 0.5)); });
   }
-}
-
-template <int n>
-Dual<n> arcOf(const Dual<n>& y, const Dual<n>& x) {
-  const double square = x.value * x.value + y.value * y.value;
-  return along(std::atan2(y.value, x.value), y, x.value / square, x, -y.value / square);
 }
 
 }  // namespace
 
-template <int n>
-Dual<n> Formulas::apply(const Operation& operation, const Dual<n>* done) {
-  const Dual<n>& a = done[std::max(operation.a, 0)];
-  const Dual<n>& b = done[std::max(operation.b, 0)];
-  switch (operation.op) {
-    case Op::number:
-      return operation.number;
-    case Op::negate:
-      return -a;
-    case Op::add:
-      return a + b;
-    case Op::subtract:
-      return a - b;
-    case Op::multiply:
-      return a * b;
-    case Op::divide:
-      return a / b;
-    case Op::power:
-      return operation.number != 0 ? pow(a, operation.number) : pow(a, b);
-    case Op::less:
-      return a.value < b.value ? 1.0 : 0.0;
-    case Op::lessOrEqual:
-      return a.value <= b.value ? 1.0 : 0.0;
-    case Op::equal:
-      return a.value == b.value ? 1.0 : 0.0;
-    case Op::notEqual:
-      return a.value != b.value ? 1.0 : 0.0;
-    case Op::both:
-      return (a.value != 0 && b.value != 0) ? 1.0 : 0.0;
-    case Op::either:
-      return (a.value != 0 || b.value != 0) ? 1.0 : 0.0;
-    case Op::choose:
-      return a.value != 0 ? b : done[operation.c];
-    case Op::min:
-      return min(a, b);
-    case Op::max:
-      return max(a, b);
-    case Op::atan2:
-      return arcOf(a, b);
-    default:
-      return ofOne(operation.op, a);
-  }
-}
-
-template <int n>
-void Formulas::evaluate(const Dual<n>* values, Dual<n>* results, std::vector<Dual<n>>& work) const {
-  work.resize(operations_.size());
+template <class Number>
+void Formulas::evaluate(const Number* values, Number* results, int points, std::vector<Number>& work) const {
+  work.resize(operations_.size() * pointsAtOnce, Number(0));
   for (size_t i = 0; i < operations_.size(); ++i) {
     const Operation& operation = operations_[i];
-    work[i] = operation.op == Op::variable ? values[operation.a] : apply(operation, work.data());
+    const auto done = [&](int k) { return work.data() + pointsAtOnce * std::max(k, 0); };
+    const Number* a = operation.op == Op::variable ? values + pointsAtOnce * operation.a : done(operation.a);
+    apply(operation, a, done(operation.b), done(operation.c), done(static_cast<int>(i)), points);
   }
-  for (size_t i = 0; i < results_.size(); ++i) results[i] = work[results_[i]];
+  for (size_t i = 0; i < results_.size(); ++i)
+    std::copy_n(&work[pointsAtOnce * static_cast<size_t>(results_[i])], points, results + pointsAtOnce * i);
 }
 
-template void Formulas::evaluate(const Dual<0>*, Dual<0>*, std::vector<Dual<0>>&) const;
-template void Formulas::evaluate(const Dual<4>*, Dual<4>*, std::vector<Dual<4>>&) const;
-template void Formulas::evaluate(const Dual<8>*, Dual<8>*, std::vector<Dual<8>>&) const;
+template void Formulas::evaluate(const double*, double*, int, std::vector<double>&) const;
+template void Formulas::evaluate(const Differentiated<4>*, Differentiated<4>*, int,
+                                 std::vector<Differentiated<4>>&) const;
+template void Formulas::evaluate(const Differentiated<8>*, Differentiated<8>*, int,
+                                 std::vector<Differentiated<8>>&) const;
 
 int Formulas::append(const Operation& operation) {
   Operation own = operation;
   const auto isNumber = [&](int i) { return i < 0 || operations_[i].op == Op::number; };
   if (own.op != Op::number && own.op != Op::variable && isNumber(own.a) && isNumber(own.b) &&
       isNumber(own.c)) {
-    std::vector<Dual<0>> done(operations_.size());
-    for (const int i : {own.a, own.b, own.c})
-      if (i >= 0) done[i] = operations_[i].number;
-    own = {Op::number, -1, -1, -1, apply(own, done.data()).value};
+    const auto numberOf = [&](int i) { return i < 0 ? 0 : operations_[i].number; };
+    const double a = numberOf(own.a);
+    const double b = numberOf(own.b);
+    const double c = numberOf(own.c);
+    double result = 0;
+    apply(own, &a, &b, &c, &result, 1);
+    own = {Op::number, -1, -1, -1, result};
   }
-  if (own.op == Op::power && isNumber(own.b)) own.number = operations_[own.b].number;
-  if (own.op == Op::power && isNumber(own.b) && own.number == 0) own = {Op::number, -1, -1, -1, 1};
+  if (own.op == Op::power && isNumber(own.b)) {
+    constexpr double most = 16;
+    own.number = operations_[own.b].number;
+    if (own.number == std::rint(own.number) && std::abs(own.number) <= most)
+      return appendWholePower(own.a, static_cast<int>(own.number));
+  }
   const bool ordinary = !std::isnan(own.number);  // NaN is never found again
   const auto key = std::make_tuple(own.op, own.a, own.b, own.c, ordinary ? own.number : 0);
   if (ordinary)
@@ -152,6 +185,18 @@ int Formulas::append(const Operation& operation) {
   const int number = static_cast<int>(operations_.size()) - 1;
   if (ordinary) known_[key] = number;
   return number;
+}
+
+int Formulas::appendWholePower(int x, int n) {
+  int result = -1;
+  int square = x;
+  for (int left = std::abs(n); left > 0; left /= 2) {
+    if (left % 2 == 1) result = result < 0 ? square : append({Op::multiply, result, square});
+    if (left > 1) square = append({Op::multiply, square, square});
+  }
+  if (n > 0) return result;
+  const int one = append({Op::number, -1, -1, -1, 1});
+  return n < 0 ? append({Op::divide, one, result}) : one;
 }
 
 bool Formulas::dependsOn(int variable) const {

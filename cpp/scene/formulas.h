@@ -1,6 +1,6 @@
 // Expressions of several variables, in the language of scene/expression.h, that are evaluated with their
-// derivatives: their text is read once into a list of operations, none twice, which then runs on numbers of
-// any kind (material/dual.h).
+// derivatives: their text is read once into a list of operations, none twice, each of which then runs on a
+// block of points, in numbers of any kind (material/rate_law.h).
 #pragma once
 
 #include <map>
@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "material/dual.h"
+#include "material/rate_law.h"
 
 namespace mortier {
 
@@ -30,9 +30,10 @@ class Formulas {
   /// Whether a result depends on the variable.
   [[nodiscard]] bool dependsOn(int variable) const;
 
-  /// \param values  of the variables  \param results  as many as were added  \param work  kept between calls
-  template <int n>
-  void evaluate(const Dual<n>* values, Dual<n>* results, std::vector<Dual<n>>& work) const;
+  /// \param values  of the variables, values[k pointsAtOnce + i] at point i  \param results  as many as were
+  /// added, likewise  \param work  kept between calls
+  template <class Number>
+  void evaluate(const Number* values, Number* results, int points, std::vector<Number>& work) const;
 
   enum class Op {
     number,
@@ -77,15 +78,15 @@ class Formulas {
   struct Operation {
     Op op;
     int a = -1, b = -1, c = -1;  ///< operations before it that it takes; a: the number of a variable
-    double number = 0;           ///< of a constant
+    double number = 0;           ///< of a constant; of a power whose exponent is one
   };
 
  private:
   friend class FormulaReader;
   /// The number of this operation, or of the same one before, or of the constant that it is.
   int append(const Operation& operation);
-  template <int n>
-  static Dual<n> apply(const Operation& operation, const Dual<n>* done);
+  /// x^n as products.
+  int appendWholePower(int x, int n);
 
   std::vector<std::string> variables_;
   std::map<std::string, Text> named_;
@@ -95,8 +96,10 @@ class Formulas {
   std::vector<int> results_;
 };
 
-extern template void Formulas::evaluate(const Dual<0>*, Dual<0>*, std::vector<Dual<0>>&) const;
-extern template void Formulas::evaluate(const Dual<4>*, Dual<4>*, std::vector<Dual<4>>&) const;
-extern template void Formulas::evaluate(const Dual<8>*, Dual<8>*, std::vector<Dual<8>>&) const;
+extern template void Formulas::evaluate(const double*, double*, int, std::vector<double>&) const;
+extern template void Formulas::evaluate(const Differentiated<4>*, Differentiated<4>*, int,
+                                        std::vector<Differentiated<4>>&) const;
+extern template void Formulas::evaluate(const Differentiated<8>*, Differentiated<8>*, int,
+                                        std::vector<Differentiated<8>>&) const;
 
 }  // namespace mortier

@@ -1,6 +1,7 @@
 #include "scene/measures.h"
 
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -55,6 +56,17 @@ const Dimension* dimensionOf(const std::string& path) {
   return found == keys.end() ? nullptr : &found->second;
 }
 
+/// A difference of temperatures in K; its inverse. None of other units.
+std::optional<double> kelvins(const std::string& unit) {
+  if (unit == "K" || unit == "degC" || unit == "\u00b0C") return 1;
+  if (unit == "degF" || unit == "\u00b0F") return 5.0 / 9;
+  return std::nullopt;
+}
+std::optional<double> perKelvin(const std::string& unit) {
+  const auto one = unit.rfind("1/", 0) == 0 ? kelvins(unit.substr(2)) : std::nullopt;
+  return one ? std::optional(1 / *one) : std::nullopt;
+}
+
 class Converter {
  public:
   explicit Converter(const Units& units) : units_(units), ofTheClock_(units) {
@@ -65,7 +77,11 @@ class Converter {
   void convertTable(Node& table, const std::string& path) const {
     for (Node& member : table.members) {
       const std::string at = path + (path.empty() ? "" : ".") + member.key;
-      if (const Dimension* dimension = dimensionOf(at)) {
+      if (at == "body.temperature" && member.find("file") == nullptr) {
+        convertHeat(member, member.key, "K", kelvins);
+      } else if (at == "body.material.expansion" || at == "body.region.material.expansion") {
+        convertHeat(member, member.key, "1/K", perKelvin);
+      } else if (const Dimension* dimension = dimensionOf(at)) {
         convert(member, member.key, *dimension, at == "accuracy.max_seconds" ? ofTheClock_ : units_);
       } else {
         convertTable(member, at);
@@ -75,26 +91,53 @@ class Converter {
   }
 
  private:
+  [[noreturn]] static void reject(const Node& node, const std::string& key, const std::string& expected) {
+    throw InputError(node.where + ": " + key + " = " + node.quoted() + ", expected " + expected);
+  }
+  /// The number and the unit of a text that has both.
+  static std::optional<NumberAndUnit> measureIn(const Node& node, const std::string& key,
+                                                const Units& units) {
+    const auto read = node.isString() ? numberAndUnit(node.text) : std::nullopt;
+    if (read && !units.given)
+      reject(node, key,
+             "a number, or units = \"m, N, Pa\" at the top of the scene: without them no number has a unit");
+    return read;
+  }
+  static void set(Node& node, double value) {
+    node.kind = Node::Kind::number;
+    node.value = value;
+    node.text.clear();
+  }
+
   /// A value, a list of them, or a table in time.
   static void convert(Node& node, const std::string& key, const Dimension& dimension, const Units& units) {
     for (Node& element : node.elements) convert(element, key, dimension, units);
     for (Node& member : node.members)
       convert(member, member.key, member.key == "time" ? dimensions::time : dimension, units);
-    if (!node.isString()) return;
-    const auto read = numberAndUnit(node.text);
+    const auto read = measureIn(node, key, units);
     if (!read) return;
-    const auto reject = [&](const std::string& expected) {
-      throw InputError(node.where + ": " + key + " = " + node.quoted() + ", expected " + expected);
-    };
-    if (!units.given)
-      reject("a number, or units = \"m, N, Pa\" at the top of the scene: without them no number has a unit");
     const auto unit = unitOf(read->unit);
     if (!unit || !(unit->dimension == dimension))
-      reject("a number in " + units.nameOf(dimension) + " or what can be converted to it" +
-             (unit ? "" : "; " + read->unit + " is no unit that is known"));
-    node.kind = Node::Kind::number;
-    node.value = units.in({read->number * unit->factor, unit->decades, unit->dimension});
-    node.text.clear();
+      reject(node, key,
+             "a number in " + units.nameOf(dimension) + " or what can be converted to it" +
+                 (unit ? "" : "; " + read->unit + " is no unit that is known"));
+    set(node, units.in({read->number * unit->factor, unit->decades, unit->dimension}));
+  }
+  /// The same of what `units` say nothing of; factorOf(unit) in K or 1/K.
+  template <class FactorOf>
+  void convertHeat(Node& node, const std::string& key, const std::string& name, FactorOf factorOf) const {
+    for (Node& element : node.elements) convertHeat(element, key, name, factorOf);
+    for (Node& member : node.members) {
+      if (member.key == "time")
+        convert(member, member.key, dimensions::time, units_);
+      else
+        convertHeat(member, member.key, name, factorOf);
+    }
+    const auto read = measureIn(node, key, units_);
+    if (!read) return;
+    const auto factor = factorOf(read->unit);
+    if (!factor) reject(node, key, "a number in " + name + " or of degC or degF in its place");
+    set(node, read->number * *factor);
   }
 
   const Units& units_;

@@ -20,14 +20,14 @@ class ExpressionLaw final : public RateLaw {
   }
   [[nodiscard]] bool ofStrain() const override { return ofStrain_; }
   void evaluate(const Matrix& stress, const Matrix& strain, Matrix& rate, Matrix* slopes) const override {
-    std::tuple<std::vector<Dual<0>>, std::vector<Dual<4>>, std::vector<Dual<8>>> work;
-    const auto rateOf = [&]<int n>(const Dual<n>* in, Dual<n>* out) {
-      rates_.evaluate(in, out, std::get<std::vector<Dual<n>>>(work));
+    const auto rateOf = [&]<class Number>(const Number* in, Number* out, int points) {
+      thread_local std::vector<Number> work;
+      rates_.evaluate(in, out, points, work);
     };
     if (ofStrain_)
-      evaluateEach<true>(rateOf, stress, strain, rate, slopes);
+      evaluateBlocks<true>(rateOf, stress, strain, rate, slopes);
     else
-      evaluateEach<false>(rateOf, stress, strain, rate, slopes);
+      evaluateBlocks<false>(rateOf, stress, strain, rate, slopes);
   }
 
  private:
@@ -79,6 +79,7 @@ Keys withRegistered(Keys words) {
 OwnLaw readExpressionLaw(const TableReader& table) {
   OwnLaw own;
   own.name = "expression";
+  own.texts.emplace();
   std::map<std::string, Formulas::Text> named;
   for (const auto& [name, node] : parametersOf(table)) {
     for (const std::string& component : components)
@@ -87,15 +88,20 @@ OwnLaw readExpressionLaw(const TableReader& table) {
             node->where,
             "parameters." + name + ", expected another name than those of components and functions"));
     named[name] = textOf(table, "parameters." + name, *node);
+    own.texts->named[name] = named[name].text;
     if (node->isNumeric()) own.parameters[name] = node->value;
   }
   Formulas rates(components, named);
   for (const char* key : {"rate11", "rate22", "rate12", "rate33"}) {
     own.inPlaneStrain = table.find(key) != nullptr;  // of the last one
-    if (own.inPlaneStrain || std::string(key) != "rate33")
-      rates.add(textOf(table, key, table.require(key, "an expression of the stress, [1/s]")));
-    else
+    if (own.inPlaneStrain || std::string(key) != "rate33") {
+      const Formulas::Text text =
+          textOf(table, key, table.require(key, "an expression of the stress, [1/s]"));
+      own.texts->rates.push_back(text.text);
+      rates.add(text);
+    } else {
       rates.add({"0", ""});
+    }
   }
   // One that is not used is read too: what is wrong in it is wrong.
   Formulas all = rates;

@@ -130,6 +130,10 @@ FAULTS = [
      "mortar friction", ""),
     ("slip that goes on against t", "friction", "side*gd(i) < -tinySlip", "false", "sloped",
      "mortar friction", ""),
+    ("a law of one's own of no strain", "own_law", "ownR(i, j) = k*(G(i) - H(i))", "ownR(i, j) = 0", "turned",
+     "own of the strain", ""),
+    ("strain of the step for that of all", "own_law", "strainP(q) + sp0(q)*compP(q) + vp0(q)", "strainP(q)",
+     "turned", "own of the strain", "displacement"),
     ("third body as the second", "bodies", "eP[b] = young[b]", "eP[b] = young[min(b, 1)]", "stack",
      "as it stands", "displacement"),
 ]

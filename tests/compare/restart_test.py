@@ -27,6 +27,12 @@ HARDENING = ('body.upper.material={young=3e11, poisson=0.3, law="viscoplastic", 
              'reference_stress=5, reference_rate=0.05, exponent=4, kinematic_hardening=20, '
              'isotropic_hardening=30}')
 
+# A standard linear solid as a law of one's own: its state is in the strain.
+OWN = ('body.upper.material={young=3e11, poisson=0.3, law="expression", ' +
+       "".join(f'rate{c}="(1.3*(s{c}{m})/3e11 - 0.3*(e{c}{d}))/0.3", '
+               for c, m, d in (("11", "-m", "-d"), ("22", "-m", "-d"), ("12", "", ""), ("33", "-m", "-d"))) +
+       'parameters={m="(s11+s22+s33)/3", d="(e11+e22)/3"}}')
+
 # Settings and threads of the runs that are killed. The upper body is Perzyna in all of them but those with
 # NORTON.
 CASES = [
@@ -51,6 +57,8 @@ CASES = [
       "body.upper.boundary=[{label=3, uy='-0.1*t', ux='0.1*sin(9*t)'}]"], 2),
     ([NORTON, "plane=strain", "contact.variant=mortar", "time.scheme=crank-nicolson"], 1),
     ([HARDENING, "contact.variant=interpolation", "time.scheme=sdirk2"], 1),
+    ([OWN, "plane=strain", "contact.variant=mortar", "time.scheme=sdirk2", "time.tolerance=1e-4"], 2),
+    ([OWN, "plane=strain", "contact.variant=interpolation", "time.scheme=crank-nicolson"], 1),
 ]
 KILLS = 20
 MEASURED = {"summary.json": [["solve_time_s"], ["wall_time_s"], ["peak_memory_mib"], ["threads"]],
@@ -265,6 +273,18 @@ class Restart(InFolder):
         (self.folder / "upper.mesh").write_text(mesh.replace("\n1 1 0\n", "\n1 1.0000000000000002 0\n", 1))
         self.assertNotEqual((self.folder / "upper.mesh").read_text(), mesh)
         self.assertIn("upper.mesh has changed", self.run_mortier("--restart", "out/killed", code=2))
+
+    def test_another_temperature(self):
+        mesh = "body.upper.mesh={shape='rectangle', cells=4, lower=[0, 0], upper=[1, 1]}"
+        heat = ["body.upper.material={young=3e11, poisson=0.3, expansion=1e-12}",
+                "body.upper.temperature={file='heat.txt', factor='t'}"]
+        self.write("1\n"*41, "heat.txt")
+        self.stop(SCENE, *self.settings(mesh, *heat), "--out", "out/killed", after=5)
+        self.write("1\n"*40 + "2\n", "heat.txt")
+        self.assertIn("the file heat.txt has changed, expected",
+                      self.run_mortier("--restart", "out/killed", code=2))
+        self.write("1\n"*41, "heat.txt")
+        self.run_mortier("--restart", "out/killed")
         (self.folder / "upper.mesh").write_text(mesh)
         self.assertTrue(left.exists())
         self.run_mortier("--restart", "out/killed")

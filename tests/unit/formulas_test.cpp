@@ -10,17 +10,25 @@
 namespace mortier {
 namespace {
 
+using Slopes = Differentiated<4>;
+
 /// Of x, y and t.
-template <int n>
-Dual<n> valueOf(const std::string& text, double x, double y, double t) {
+template <class Number>
+Number valueAt(const std::string& text, const std::array<Number, 3>& at) {
   Formulas formulas({"x", "y", "t"}, {});
   formulas.add({text, text});
-  std::array<Dual<n>, 3> values{x, y, t};
-  for (int k = 0; k < std::min(n, 3); ++k) values[k].slope[k] = 1;
-  Dual<n> result;
-  std::vector<Dual<n>> work;
-  formulas.evaluate(values.data(), &result, work);
-  return result;
+  std::vector<Number> values(3 * pointsAtOnce, Number(0));
+  for (int k = 0; k < 3; ++k) values[k * pointsAtOnce] = at[k];
+  std::vector<Number> result(pointsAtOnce, Number(0));
+  std::vector<Number> work;
+  formulas.evaluate(values.data(), result.data(), 1, work);
+  return result[0];
+}
+double valueOf(const std::string& text, double x, double y, double t) {
+  return valueAt<double>(text, {x, y, t});
+}
+Slopes slopesOf(const std::string& text, double x, double y, double t) {
+  return valueAt<Slopes>(text, {Slopes(x, 4, 0), Slopes(y, 4, 1), Slopes(t, 4, 2)});
 }
 
 const char* const texts[] = {"-x^2",
@@ -61,34 +69,52 @@ TEST(Formulas, agreeWithMuParser) {
   for (const std::string text : texts)
     for (const auto& [x, y, t] : {std::array{0.7, 1.3, 2.1}, {1.9, 0.4, 0.8}, {1.0, 1.0, 1.0}}) {
       const double expected = parseExpression(text, "").value(x, y, t);
-      EXPECT_NEAR(valueOf<0>(text, x, y, t).value, expected, 1e-12 * (1 + std::abs(expected))) << text;
+      EXPECT_NEAR(valueOf(text, x, y, t), expected, 1e-12 * (1 + std::abs(expected))) << text;
+      EXPECT_NEAR(slopesOf(text, x, y, t).value(), expected, 1e-12 * (1 + std::abs(expected))) << text;
     }
 }
 
 TEST(Formulas, slopesAreThoseOfDifferences) {
   for (const std::string text : texts)
     for (const auto& point : {std::array{0.71, 1.3, 2.1}, {1.9, 0.43, 0.8}}) {
-      const Dual<4> result = valueOf<4>(text, point[0], point[1], point[2]);
+      const Slopes result = slopesOf(text, point[0], point[1], point[2]);
       for (int k = 0; k < 3; ++k) {
         constexpr double h = 1e-5;
         std::array<double, 3> above = point;
         std::array<double, 3> below = point;
         above[k] += h;
         below[k] -= h;
-        const auto at = [&](const auto& p) { return valueOf<0>(text, p[0], p[1], p[2]).value; };
+        const auto at = [&](const auto& p) { return valueOf(text, p[0], p[1], p[2]); };
         const double slope = (at(above) - at(below)) / (2 * h);
-        EXPECT_NEAR(result.slope[k], slope, 1e-7 * (1 + std::abs(slope))) << text << ", " << k;
+        EXPECT_NEAR(result.derivatives()[k], slope, 1e-7 * (1 + std::abs(slope))) << text << ", " << k;
       }
     }
 }
 
-TEST(Formulas, haveNoSlopeWhereTheirArgumentHasNone) {
-  const Dual<4> mises = valueOf<4>("sqrt(x^2 + y^2)", 0, 0, 0);
-  EXPECT_EQ(mises.value, 0);
-  for (int k = 0; k < 3; ++k) EXPECT_EQ(mises.slope[k], 0);
-  const Dual<4> flow = valueOf<4>("max(0, 1 - 2/sqrt(x^2 + y^2))*x", 0, 0, 0);
-  EXPECT_EQ(flow.value, 0);
-  for (int k = 0; k < 3; ++k) EXPECT_EQ(flow.slope[k], 0);
+// A block of points: each has its own answer, whatever the block holds beside it.
+TEST(Formulas, pointsOfABlockAreIndependent) {
+  Formulas formulas({"x", "y"}, {{"r", {"sqrt(x^2 + y^4)", ""}}});
+  formulas.add({"r^2.5*x + (x > y ? exp(x) : y^-3)", ""});
+  formulas.add({"atan2(x, r)", ""});
+  std::vector<Slopes> values(2 * pointsAtOnce, Slopes(0));
+  for (int i = 0; i < pointsAtOnce; ++i) {
+    values[i] = Slopes(0.1 * (i - 5), 4, 0);
+    values[pointsAtOnce + i] = Slopes(1 + 0.03 * i, 4, 1);
+  }
+  std::vector<Slopes> together(2 * pointsAtOnce, Slopes(0));
+  std::vector<Slopes> work;
+  formulas.evaluate(values.data(), together.data(), pointsAtOnce, work);
+  for (int i = 0; i < pointsAtOnce; ++i) {
+    std::vector<Slopes> own(2 * pointsAtOnce, Slopes(0));
+    own[0] = values[i];
+    own[pointsAtOnce] = values[pointsAtOnce + i];
+    std::vector<Slopes> alone(2 * pointsAtOnce, Slopes(0));
+    formulas.evaluate(own.data(), alone.data(), 1, work);
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_EQ(together[k * pointsAtOnce + i].value(), alone[k * pointsAtOnce].value()) << i;
+      EXPECT_EQ(together[k * pointsAtOnce + i].derivatives(), alone[k * pointsAtOnce].derivatives()) << i;
+    }
+  }
 }
 
 TEST(Formulas, namedOnesMayHoldEachOther) {
@@ -97,12 +123,12 @@ TEST(Formulas, namedOnesMayHoldEachOther) {
   formulas.add({"a*b", ""});
   formulas.add({"c", ""});
   EXPECT_TRUE(formulas.dependsOn(0));
-  std::array<Dual<0>, 2> results;
-  std::vector<Dual<0>> work;
-  const Dual<0> x = 2.0;
-  formulas.evaluate(&x, results.data(), work);
-  EXPECT_EQ(results[0].value, 50);
-  EXPECT_EQ(results[1].value, 3);
+  std::array<double, 2 * pointsAtOnce> results{};
+  std::vector<double> work;
+  const double x = 2.0;
+  formulas.evaluate(&x, results.data(), 1, work);
+  EXPECT_EQ(results[0], 50);
+  EXPECT_EQ(results[pointsAtOnce], 3);
 }
 
 TEST(Formulas, rejectsInOneLine) {

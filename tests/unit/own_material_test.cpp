@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "material/interior_path.h"
 #include "material/norton.h"
+#include "material/rate_law.h"
 #include "material/viscoelastic.h"
 
 namespace mortier {
@@ -15,6 +16,7 @@ namespace {
 
 template <class Number>
 Number mises(const Components<Number>& s) {
+  using std::sqrt;
   return sqrt(s.c11 * s.c11 + s.c22 * s.c22 + s.c33 * s.c33 - s.c11 * s.c22 - s.c22 * s.c33 - s.c33 * s.c11 +
               3 * (s.c12 * s.c12));
 }
@@ -31,9 +33,10 @@ struct OwnNorton {
   NortonCreep creep;
   template <class Number>
   Components<Number> rateOf(const Components<Number>& s, const Components<Number>&) const {
+    using std::pow;
     const Number relative = mises(s) / creep.referenceStress;
     return alongDeviator(
-        s, pow(relative, creep.exponent - 1) * (1.5 * creep.referenceRate / creep.referenceStress));
+        s, Number(pow(relative, creep.exponent - 1) * (1.5 * creep.referenceRate / creep.referenceStress)));
   }
 };
 
@@ -42,7 +45,9 @@ struct OwnPerzyna {
   Viscoplasticity law;
   template <class Number>
   Components<Number> rateOf(const Components<Number>& s, const Components<Number>&) const {
-    return alongDeviator(s, max(0, 1 - law.yieldStress / mises(s)) / (2 * law.viscosity));
+    using std::max;
+    return alongDeviator(
+        s, Number(max(Number(1 - law.yieldStress / mises(s)), Number(0)) / (2 * law.viscosity)));
   }
 };
 
@@ -193,6 +198,29 @@ TEST(OwnMaterial, regularisedLawIsMet) {
     own->elasticStrain(stress - ours.predictor, back);
     EXPECT_LE((elastic + 2 * rate - strain - back).norm(), 1e-10 * (strain.norm() + rate.norm())) << name;
   }
+}
+
+// Without stress von Mises' has no slope, nor the creep: the law is met there as anywhere.
+TEST(OwnMaterial, aRateWithoutSlopesAtRestIsSolvedFromThere) {
+  for (const Plane plane : {Plane::stress, Plane::strain})
+    for (const double exponent : {1.5, 4.0, 7.3}) {
+      const NortonCreep creep{1.5, 0.2, exponent};
+      const auto material = ownMaterial(elasticity, named(rateLaw(OwnNorton{creep})), plane);
+      const int n = material->components();
+      const Matrix zero = Matrix::Zero(n, 1);
+      const MaterialStep atRest{2, zero, zero, false};
+      Linearisation law = material->room(1);
+      EXPECT_EQ(material->linearise(atRest, zero, law, 0, 1).change, 0);
+      EXPECT_EQ(law.predictor.norm(), 0);
+      Matrix moduli(n, 3);
+      for (int k = 0; k < 3; ++k) moduli.col(k) = stressOf(law, Vector::Unit(n, k), 0);
+      const auto elastic = nortonMaterial(elasticity, creep, plane);
+      Linearisation expected = elastic->room(1);
+      elastic->linearise(atRest, zero, expected, 0, 1);
+      for (int k = 0; k < 3; ++k)
+        EXPECT_LE((moduli.col(k) - stressOf(expected, Vector::Unit(n, k), 0)).norm(), 1e-6 * moduli.norm())
+            << exponent;
+    }
 }
 
 // A point's answer does not depend on its neighbours, nor does anything but NaN follow from NaN.

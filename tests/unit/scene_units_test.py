@@ -37,6 +37,9 @@ largest_mises = { body = "lower" }
 """
 
 
+SI = 'units = "m, N, Pa"\n'
+
+
 class SceneUnits(OfTwoBlocks):
     def run_of(self, name, text, *settings):
         (self.folder / f"{name}.toml").write_text(text)
@@ -68,6 +71,31 @@ class SceneUnits(OfTwoBlocks):
         self.assertEqual(Result(self.folder / "hours").time_unit, "h")
         self.mortier("freefem", "hours.toml", "hours.edp")
         self.assertIn("// viscosity [Pa h]", self.read("hours.edp"))
+
+    def test_temperatures_have_units(self):
+        """Differences: a degree Celsius is a kelvin, one of Fahrenheit five ninths of it."""
+        def top(expansion, temperature, units=SI):
+            blocks = TWO_BLOCKS.replace("young = 3e11", f"young = 3e11, expansion = {expansion}")
+            blocks = blocks.replace('name = "upper"\n', f'name = "upper"\ntemperature = {temperature}\n')
+            asked = ASKED[len(HELD_AND_PRESSED):].replace('"500 um"', "0.5")
+            _, rows = self.run_of("hot", units + blocks + asked)
+            return float(rows[-1][next(i for i, name in enumerate(rows[0]) if name.startswith("top["))])
+
+        plain = top("1.2e-11", "3")
+        for expansion, temperature in (('"1.2e-11 1/K"', '"3 K"'), ('"1.2e-11 1/degC"', '"3 \u00b0C"'),
+                                       ('"1.2e-11 1/K"', '"5.4 degF"'),
+                                       ('1.2e-11', '{ time = [0, "1 s"], value = ["3 degC", "3 K"] }')):
+            with self.subTest(expansion=expansion, temperature=temperature):
+                self.assertAlmostEqual(top(expansion, temperature)/plain, 1, delta=1e-12)
+        for units, key, value, expected in (
+                (SI, "expansion", "1.2e-11 K", "a number in 1/K or of degC or degF"),
+                (SI, "expansion", "1.2e-11 1/MPa", "a number in 1/K or of degC or degF"),
+                ("", "expansion", "1.2e-11 1/K", "without them no number has a unit")):
+            with self.subTest(key=key, value=value, units=units):
+                (self.folder / "wrong.toml").write_text(
+                    units + TWO_BLOCKS.replace("young = 3e11", f'young = 3e11, {key} = "{value}"'))
+                told = self.mortier("run", "wrong.toml", code=2).stderr
+                self.assertIn(f'{key} = "{value}", expected {expected}' if units else expected, told)
 
     def test_every_material_has_units(self):
         flow = 'viscosity = 10, yield_stress = 1, projection = "elasticity"'
