@@ -140,8 +140,8 @@ RING = 'plane="axisymmetric"'
 NARROWED = ("body.upper.boundary.2.tx=-5*t", "body.lower.boundary.2.tx=-5*t")
 CONES = (RING, "time.end=3", "time.steps=12", "body.lower.boundary=[{label=1, ux=0, uy=0}]",
          'body.upper.boundary=[{label=3, uy={time=[0, 1, 2, 3], value=[0, -1e-3, -4e-4, -1e-3]}}]')
-DISCS_RUBBED = (RING, "contact.friction=0.2", "contact.1.friction=0", "contact.1.shear_limit=20", "time.end=3",
-                "time.steps=12", "body.bottom.boundary=[{label=1, ux=0, uy=0}]",
+DISCS_RUBBED = (RING, "contact.friction=0.2", "contact.1.friction=0", "contact.1.shear_limit=20",
+                "time.end=3", "time.steps=12", "body.bottom.boundary=[{label=1, ux=0, uy=0}]",
                 'body.middle.boundary=[{label=2, tx={time=[0, 1, 2, 3], value=[0, 0, 60, -20]}}]',
                 'body.top.boundary=[{label=3, uy="-1e-3*min(t, 1)"}]')
 # Blocks that flow, pressed, pushed along and pulled back.

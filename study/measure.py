@@ -153,8 +153,8 @@ def same_mesh(a, b):
 def field_error(quantity, run, truth, materials, ring=False):
     """Energy norm of the stress error or L2 norm of the displacement error, relative.
 
-    truth: Exact, or a run; integrals are taken on the finer of both meshes, of bodies of revolution (ring) over
-    the whole ring.
+    truth: Exact, or a run; integrals are taken on the finer of both meshes, of bodies of revolution (ring)
+    over the whole ring.
     """
     difference = size = 0.0
     for name, body in run.bodies.items():

@@ -78,10 +78,12 @@ def part(name, low, high, cells, conditions, inner):
 
 class RubbedRings(OfScene):
     def rows(self):
-        return [row for row in csv.DictReader(self.read("out/contact.csv").splitlines()) if row["step"] != "0"]
+        rows = csv.DictReader(self.read("out/contact.csv").splitlines())
+        return [row for row in rows if row["step"] != "0"]
 
     def test_cones_that_stick_have_a_uniform_stress(self):
-        """Shear over pressure is the slope: with more friction meshes that do not match pass the patch test."""
+        """Shear over pressure is the slope: with more friction meshes that do not match pass the patch
+        test."""
         normal, shear = 1 / (1 + SLOPE**2), SLOPE / (1 + SLOPE**2)
         for variant in ("mortar", "weighted"):
             for swap in ("false", "true"):
@@ -121,7 +123,8 @@ class RubbedRings(OfScene):
                     self.assertGreater(summary["final"]["friction_work"], 0)
                     # What friction takes of the axial force the pressure gives: both sum to the load.
                     c = 1 / math.hypot(1, SLOPE)
-                    along = sum(float(row["force"]) * c + abs(float(row["friction"])) * SLOPE * c for row in rows)
+                    along = sum(float(row["force"]) * c + abs(float(row["friction"])) * SLOPE * c
+                                for row in rows)
                     self.assertAlmostEqual(along, 4 * math.pi, delta=1e-10)
 
     def test_a_sleeve_slips_under_friction_times_pressure_times_area(self):

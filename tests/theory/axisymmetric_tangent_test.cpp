@@ -89,7 +89,7 @@ TEST(AxisymmetricTangent, isThatOfDifferences) {
       }
     }
   std::cout << "tangent around an axis: off differences by " << worst << "\n";
-  EXPECT_LE(worst, 1e-5);
+  EXPECT_LE(worst, 1e-7);
 }
 
 }  // namespace
