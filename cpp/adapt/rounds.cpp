@@ -38,7 +38,7 @@ Rounds::Rounds(ResolvedScene scene)
 }
 
 double Rounds::timeShare() const {
-  return canFlow(description_) ? stepTolerance(description_) : 0;
+  return stepsMatter(description_) ? stepTolerance(description_) : 0;
 }
 
 ResolvedScene Rounds::scene() const {
@@ -86,7 +86,8 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
   double cost = result.seconds;
   if (timeTolerance_ > 0) {
     constexpr double part = 0.4;
-    const double order = description_.time.scheme == Scheme::backwardEuler ? 1 : 2;
+    const double order =
+        description_.time.scheme == Scheme::backwardEuler || hasFriction(description_) ? 1 : 2;
     const double steps = timeTolerance_;
     timeTolerance_ =
         toCome > 1 ? std::max(timeShare(), std::min(timeTolerance_, part * meshError_)) : timeShare();

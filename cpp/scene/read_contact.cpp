@@ -63,7 +63,7 @@ Friction readFriction(const TableReader& table, const SceneDescription& scene) {
     if (found) table.reject(key, "none: friction is not yet for " + what);
   };
   refuse(scene.solver.method != Method::newton, "solver.method = penalty-duality");
-  refuse(scene.accuracy.energy > 0 || scene.accuracy.bound, "[accuracy]");
+  refuse(scene.accuracy.bound, "accuracy.bound");
   return friction;
 }
 
