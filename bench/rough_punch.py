@@ -151,9 +151,10 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         triangles = write_mesh(folder / "half-plane.mesh", arguments.cells, arguments.width)
-        print(f"{triangles} triangles, mu {arguments.friction}, beta {beta:.4f}; the shear stress leaving the "
-              f"pressure alone: c/a {uncoupled(arguments.friction / beta):.4f}")
-        for steps in [f"tolerance = {arguments.tolerance}", *(f"steps = {n}" for n in arguments.equal)]:
+        print(f"{triangles} triangles, mu {arguments.friction}, beta {beta:.4f}; with a pressure that the "
+              f"shear stress leaves alone c/a {uncoupled(arguments.friction / beta):.4f}")
+        equal = [f"steps = {n}" for n in arguments.equal]
+        for steps in [f"tolerance = {arguments.tolerance}", *equal]:
             c, work, count = solve(folder, arguments, steps)
             print(f"{steps:<16} {count:4d} steps: c/a {c:.4f}, dissipated {work:.5g}", flush=True)
 

@@ -63,10 +63,10 @@ class FrictionScene(OfTwoBlocks):
         self.write(FRICTION_KEYS)
         summary = self.run_it("accuracy.energy=0.15", "contact.1.friction=0.2", "contact.1.shear_limit=0")[1]
         self.assertEqual(summary["status"], "converged")
-        self.assertGreater(len(summary["accuracy"]["rounds"]), 1)
+        self.assertGreater(summary["accuracy"]["round"], 1)
         self.assertLessEqual(summary["accuracy"]["energy_error"] + summary["accuracy"]["time"], 0.15)
         self.assertLessEqual(summary["accuracy"]["time"], 0.2*0.15)
-        self.assertGreater(summary["steps"], 8)
+        self.assertGreater(summary["accuracy"]["time"], 0)
 
     def test_freefem_takes_the_steps_of_a_run(self):
         self.write(FRICTION_KEYS)
