@@ -235,6 +235,7 @@ def scene_cases():
         SceneCase("sloped", "interpolation", "friction, rubbed, sides swapped",
                   (*RUBBED, "contact.swap=true")),
         SceneCase("sloped", "weighted", "friction, rubbed, plane strain", (*RUBBED, 'plane="strain"')),
+        SceneCase("sloped", "mortar", "friction, rubbed, quadratic", (*RUBBED, "degree=2")),
         SceneCase("stack", "mortar", "friction of two laws", STACK_RUBBED),
         SceneCase("stack", "interpolation", "friction of two laws", STACK_RUBBED),
         SceneCase("compression", "mortar", "friction, flowing", FLOWING),

@@ -39,7 +39,7 @@ Rounds::Rounds(ResolvedScene scene)
 }
 
 double Rounds::timeShare() const {
-  return canFlow(description_) ? stepTolerance(description_) : 0;
+  return stepsMatter(description_) ? stepTolerance(description_) : 0;
 }
 
 ResolvedScene Rounds::scene() const {
@@ -112,7 +112,8 @@ Rounds::Verdict Rounds::goOn(const RoundResult& result, double before, double of
   double cost = result.seconds;
   if (timeTolerance_ > 0) {
     constexpr double part = 0.4;
-    const double order = description_.time.scheme == Scheme::backwardEuler ? 1 : 2;
+    const double order =
+        description_.time.scheme == Scheme::backwardEuler || hasFriction(description_) ? 1 : 2;
     const double steps = timeTolerance_;
     timeTolerance_ =
         toCome > 1 ? std::max(timeShare(), std::min(timeTolerance_, part * meshError_)) : timeShare();

@@ -6,7 +6,13 @@
 
 namespace mortier {
 
-bool canFlow(const SceneDescription& scene) {
+bool hasFriction(const SceneDescription& scene) {
+  return std::any_of(scene.contacts.begin(), scene.contacts.end(),
+                     [](const ContactDescription& contact) { return contact.friction.any(); });
+}
+
+bool stepsMatter(const SceneDescription& scene) {
+  if (hasFriction(scene)) return true;
   return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const BodyDescription& body) {
     const auto materials = materialsOf(body);
     return std::any_of(materials.begin(), materials.end(),
@@ -15,7 +21,7 @@ bool canFlow(const SceneDescription& scene) {
 }
 
 double stepTolerance(const SceneDescription& scene) {
-  if (!(scene.accuracy.energy > 0) || !canFlow(scene)) return scene.time.tolerance;
+  if (!(scene.accuracy.energy > 0) || !stepsMatter(scene)) return scene.time.tolerance;
   const double share = (scene.degree == 1 ? 0.2 : 0.3) * scene.accuracy.energy;
   return scene.time.controlled() ? std::min(share, scene.time.tolerance) : share;
 }

@@ -63,7 +63,8 @@ Friction readFriction(const TableReader& table, const SceneDescription& scene) {
     if (found) table.reject(key, "none: friction is not yet for " + what);
   };
   refuse(scene.solver.method != Method::newton, "solver.method = penalty-duality");
-  refuse(scene.accuracy.asked() > 0 || scene.accuracy.bound, "[accuracy]");
+  refuse(scene.accuracy.bound, "accuracy.bound");
+  refuse(!scene.accuracy.quantity.empty(), "accuracy.quantity");
   return friction;
 }
 

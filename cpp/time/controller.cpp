@@ -245,8 +245,8 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     if (memory_.run.steps + memory_.run.rejected + report.rejections >= plan_.maxSteps)
       return giveUp(Status::failed, end,
                     "all of max_steps = " + std::to_string(plan_.maxSteps) + " are used");
-    Attempt step = attemptOfPair(taker, state.time, end,
-                                 flowing >= allFlow && failures < easy ? Effort::little : Effort::usual,
+    const bool hurried = flowing >= allFlow && failures < easy && !rough_;
+    Attempt step = attemptOfPair(taker, state.time, end, hurried ? Effort::little : Effort::usual,
                                  flowing == 0 ? mostOnsets - report.rejections : 0);
     const StepOutcome& outcome = step.outcome;
     const Judgement& judgement = step.judgement;

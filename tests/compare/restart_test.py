@@ -54,6 +54,7 @@ CASES = [
     (["contact.friction=0.3", "body.lower.boundary=[{label=1, ux=0, uy=0}]",
       "body.upper.boundary=[{label=3, uy='-0.1*t', ux='0.1*sin(9*t)'}]"], 2),
     (["contact.friction=0.3", "body.lower.boundary=[{label=1, ux=0, uy=0}]", "time.tolerance=0.1",
+      "body.material={young=100, poisson=0.3}",
       "body.upper.boundary=[{label=3, uy='-0.1*t', ux='0.1*sin(9*t)'}]"], 2),
     ([NORTON, "plane=strain", "contact.variant=mortar", "time.scheme=crank-nicolson"], 1),
     ([HARDENING, "contact.variant=interpolation", "time.scheme=sdirk2"], 1),

@@ -25,7 +25,7 @@ Model roughModel(Body upper, Body lower, CouplingKind coupling, int nonmortarBod
 /// Blocks of different meshes and stiffnesses (nu = 0) under the pressure p and the shear stress s: the plate
 /// on the top moves by what the strain makes of both, and by `slip`.
 Model uniformBlocks(CouplingKind coupling, int nonmortarBody, const Friction& friction, double p, double s,
-                    double slip, double unit = 1) {
+                    double slip, double unit = 1, int degree = 1) {
   const double soft = 100 * unit;
   const double hard = 300 * unit;
   const double down = -p * (1 / soft + 1 / hard);
@@ -35,9 +35,9 @@ Model uniformBlocks(CouplingKind coupling, int nonmortarBody, const Friction& fr
   };
   const auto sides = [&](double sign) { return Traction{sign > 0 ? right : left, 1, at(sign * s)}; };
   Body upper("upper", square(0, 5), elasticMaterial({soft, 0}),
-             {{{top, 0, at(along)}, {top, 1, at(down)}}, {sides(1), sides(-1)}, {}});
+             {{{top, 0, at(along)}, {top, 1, at(down)}}, {sides(1), sides(-1)}, {}}, degree);
   Body lower("lower", square(-1, 7), elasticMaterial({hard, 0}),
-             {{{bottom, 0, constant(0)}, {bottom, 1, constant(0)}}, {sides(1), sides(-1)}, {}});
+             {{{bottom, 0, constant(0)}, {bottom, 1, constant(0)}}, {sides(1), sides(-1)}, {}}, degree);
   return roughModel(std::move(upper), std::move(lower), coupling, nonmortarBody, friction);
 }
 
@@ -54,9 +54,10 @@ TEST(Sliding, isUniform) {
     for (const int nonmortar : {upperBody, lowerBody})
       for (const Friction& friction : {Friction{mu, 0}, Friction{0, mu * p}})
         for (const double direction : {1.0, -1.0})
-          for (const int steps : {1, 3}) {
+          for (const auto& [steps, degree] : {std::pair(1, 1), {3, 1}, {1, 2}, {3, 2}}) {
             const double slip = direction * 0.05;
-            const Model model = uniformBlocks(coupling, nonmortar, friction, p, direction * mu * p, slip);
+            const Model model =
+                uniformBlocks(coupling, nonmortar, friction, p, direction * mu * p, slip, 1, degree);
             // Tresca's bound is there from the beginning: one step alone is uniform.
             if (friction.limit > 0 && steps > 1) continue;
             const Result result = run(model, 1, steps);
@@ -79,8 +80,11 @@ TEST(Sliding, isUniform) {
 
 // Below mu p nothing slips, and the stress is that of one body.
 TEST(Sliding, stickingBlocksAreOneBody) {
-  for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::weighted}) {
-    const Model model = uniformBlocks(coupling, upperBody, {mu, 0}, 2, 0.9 * mu * 2, 0);
+  for (const auto& [coupling, degree] : {std::pair(CouplingKind::mortar, 1),
+                                         {CouplingKind::weighted, 1},
+                                         {CouplingKind::mortar, 2},
+                                         {CouplingKind::weighted, 2}}) {
+    const Model model = uniformBlocks(coupling, upperBody, {mu, 0}, 2, 0.9 * mu * 2, 0, 1, degree);
     const Result result = run(model, 1, 2);
     ASSERT_EQ(result.report.status, Status::converged) << result.report.reason;
     EXPECT_LE((shear(model, result.state).array() - 0.9 * mu * 2).abs().maxCoeff(), 1e-11);

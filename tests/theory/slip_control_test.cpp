@@ -6,6 +6,7 @@
 
 #include "theory/controlled_runs.h"
 #include "theory/scenes.h"
+#include "time/quantity.h"
 
 namespace mortier {
 namespace {
@@ -70,6 +71,86 @@ TEST(SlipControl, findsTheStepsOfARoughPunch) {
       }
     }
   }
+}
+
+/// Pressed, sheared, let go.
+double down(double t) {
+  return -0.05 * (t <= 1 ? t : t <= 2 ? 1 : 3 - t);
+}
+double along(double t) {
+  return 0.04 * (t <= 1 ? 0 : t <= 2 ? t - 1 : 1);
+}
+
+double inner(const Body& body, const Matrix& stress, const Matrix& strain) {
+  double sum = 0;
+  for (int i = 0; i < body.points(); ++i) sum += body.weights()[i] * stress.col(i).dot(strain.col(i));
+  return sum;
+}
+
+// Whatever the lengths of the steps: the plate's work is the change of the elastic energy and that of the
+// step itself, what flow and friction dissipate, and what closing gaps take (backward Euler).
+TEST(SlipControl, keepsTheEnergy) {
+  Body upper("upper", square(0, 5), perzynaMaterial({100, 0.3}, {1, 1, Projection::frobenius}),
+             {{{top, 0, [](double, double, double t) { return along(t); }},
+               {top, 1, [](double, double, double t) { return down(t); }}},
+              {},
+              {}});
+  Body lower("lower", crissCrossMesh({.lower = {-0.3, -1}, .upper = {1.3, 0}, .cellsX = 9, .cellsY = 5}),
+             elasticMaterial({40, 0.2}), {{{bottom, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}});
+  InterfaceOptions options;
+  options.friction = {0.3, 0};
+  const Model model =
+      contactModel(std::move(upper), std::move(lower), CouplingKind::mortar, upperBody, options);
+  std::vector<Quantity> reactions(2);
+  for (int c = 0; c < 2; ++c) {
+    reactions[c].kind = Quantity::Kind::reaction;
+    reactions[c].body = upperBody;
+    reactions[c].label = top;
+    reactions[c].component = c == 0 ? Quantity::Component::x : Quantity::Component::y;
+  }
+  State before = initialState(model);
+  State state = before;
+  double worst = 0;
+  double largest = 0;
+  double flowed = 0;
+  TimePlan plan = controlled(3, 0.05, Scheme::backwardEuler);
+  plan.breaks = {1, 2};
+  const RunReport report = runWith(model, state, plan, [&](const State& now, const StepReport& step) {
+    if (step.step == 0) {
+      before = now;
+      return;
+    }
+    const std::vector<double> force = evaluate(reactions, model, now);
+    double left = force[0] * (along(now.time) - along(before.time)) +
+                  force[1] * (down(now.time) - down(before.time)) - (now.frictionWork - before.frictionWork) +
+                  now.contactForce[0].dot(before.gap[0]);
+    double energy = 0;
+    for (size_t b = 0; b < now.bodies.size(); ++b) {
+      const Body& body = model.bodies[b];
+      Matrix elastic;
+      body.material().elasticStrain(now.bodies[b].stress - before.bodies[b].stress, elastic);
+      left -= inner(body, now.bodies[b].stress, elastic);
+      if (!body.material().linear()) {
+        const double flow = inner(body, now.bodies[b].stress,
+                                  now.bodies[b].viscoplasticStrain - before.bodies[b].viscoplasticStrain);
+        left -= flow;
+        flowed += flow;
+      }
+      body.material().elasticStrain(now.bodies[b].stress, elastic);
+      energy += inner(body, now.bodies[b].stress, elastic) / 2;
+    }
+    largest = std::max(largest, energy);
+    worst = std::max(worst, std::abs(left));
+    before = now;
+  });
+  ASSERT_EQ(report.status, Status::converged) << report.reason;
+  print("pressed, sheared, let go", report);
+  std::cout << ", balance off by " << worst / largest << ", friction " << state.frictionWork / largest
+            << " of the largest energy\n";
+  EXPECT_LE(worst, 1e-11 * largest);
+  EXPECT_LE(report.timeError, 0.05);
+  EXPECT_GT(state.frictionWork, 0.01 * largest);
+  EXPECT_GT(flowed, 0.01 * largest);
 }
 
 }  // namespace

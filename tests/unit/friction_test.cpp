@@ -9,6 +9,7 @@
 #include "solver/friction_path.h"
 #include "solver/friction_solutions.h"
 #include "unit/enumerated_friction.h"
+#include "unit/half_plane_friction.h"
 #include "unit/load_patterns.h"
 
 namespace mortier {
@@ -93,30 +94,6 @@ TEST(Friction, agreesWithEnumerationOfAllSets) {
   }
 }
 
-/// Half a plane: the compliance log|x - y| against p and against t, coupled by beta as Dundurs has it.
-FrictionCase halfPlane(int n, double mu, double beta, double push, double pull) {
-  Matrix W = Matrix::Zero(2 * n, 2 * n);
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      double mean = 0;  // of -log over an element
-      for (const int end : {-1, 1}) {
-        const double x = i - j + 0.5 * end;
-        mean -= end * x * (std::log(std::abs(x)) - 1);
-      }
-      W(i, j) = W(n + i, n + j) = mean + std::log(4.0 * n);
-      const double side = i == j ? 0 : (i > j ? 1 : -1);
-      W(i, n + j) = beta * M_PI / 2 * side;
-      W(n + j, i) = beta * M_PI / 2 * side;
-    }
-  Vector q(2 * n);
-  for (int i = 0; i < n; ++i) {
-    const double x = (2.0 * i - n + 1) / n;
-    q[i] = n * (4 * x * x - push);
-    q[n + i] = n * pull;
-  }
-  return frictionCase(W, mu, q);
-}
-
 // Steps of a history: pushed, pulled along, pulled back, let go. Each begins with the sets of the one before;
 // what slip there was is taken off q.
 TEST(Friction, historiesNeedFewSolves) {
@@ -129,16 +106,7 @@ TEST(Friction, historiesNeedFewSolves) {
   int stuck = 0;
   int slipping = 0;
   for (int step = 1; step <= 4 * steps; ++step) {
-    const int phase = (step - 1) / steps;
-    const double part = (step - phase * steps) / static_cast<double>(steps);
-    const double push = 9 * (phase == 0   ? part
-                             : phase == 3 ? 1 - 1.5 * part
-                                          : 1);  // pressed on 80 % of the line
-    const double pull = 2.5 * (phase == 1 ? part : phase == 2 ? 1 - 2 * part : phase == 3 ? -1 : 0);
-    FrictionCase c = halfPlane(n, 0.4, 0.3, push, pull);
-    const double change = pull - slip;
-    c.q.tail(n).setConstant(n * change);
-    slip = pull;
+    const FrictionCase c = stepOfHistory(n, step, steps, slip);
     const FrictionSolution solution = solveFriction(c.problem(), c.q, sets);
     ASSERT_TRUE(solution.solved) << "step " << step;
     EXPECT_LE(solution.residual, 1e-12);
@@ -160,39 +128,19 @@ TEST(Friction, historiesNeedFewSolves) {
 // P)) of the width.
 TEST(Friction, isThatOfCattaneoAndMindlin) {
   constexpr double mu = 0.4;
-  constexpr double half = 1.25;  // of the line, the contact being about 2 wide
   for (const auto& [n, tolerance] : {std::pair(60, 5e-3), {240, 5e-4}}) {
-    const double h = 2 * half / n;
-    FrictionCase c = halfPlane(n, mu, 0, 0, 0);
-    const auto place = [&](int i) { return (i + 0.5) * h - half; };
-    // How far Hertz's pressure on [-r, r] moves the middle: forces on elements, the kernel of halfPlane.
-    const auto depth = [&](double r) {
-      return r * r / 2 * (std::log(4 * n * h) - std::log(r) + 0.5 + std::log(2.0));
-    };
-    for (int i = 0; i < n; ++i) {
-      c.q[i] = place(i) * place(i) / 2 - depth(1);
-      c.q[n + i] = -mu * (depth(1) - depth(std::sqrt(0.2)));
-    }
+    const FrictionCase c = mindlinCase(n, mu);
     const FrictionSolution solution = solveFriction(c.problem(), c.q, open(n));
     ASSERT_TRUE(solution.solved);
     const double P = solution.force.head(n).sum();
     const double Q = solution.force.tail(n).sum();
     const double a = std::sqrt(2 * P);
     const double middle = a * std::sqrt(1 - Q / (mu * P));
+    const double h = 2 * halfOfMindlinsLine / n;
     double stick = 0;
-    double wrong = 0;
-    for (int i = 0; i < n; ++i) {
-      // The integral of 2P/(pi a) sqrt(1 - x^2/a^2) over the element.
-      const auto hertz = [&](double radius) {
-        const auto upTo = [&](double x) {
-          const double s = std::clamp(x / radius, -1.0, 1.0);
-          return radius * radius / (2 * M_PI) * (s * std::sqrt(1 - s * s) + std::asin(s));
-        };
-        return upTo(place(i) + h / 2) - upTo(place(i) - h / 2);
-      };
-      wrong += std::abs(solution.force[n + i] - mu * (hertz(a) - hertz(middle)));
-      if (solution.sets.closed[i] != 0 && solution.sets.slip[i] == 0) stick = place(i) + h / 2;
-    }
+    for (int i = 0; i < n; ++i)
+      if (solution.sets.closed[i] != 0 && solution.sets.slip[i] == 0) stick = placeOfMindlin(n, i) + h / 2;
+    const double wrong = (solution.force.tail(n) - mindlinTraction(n, mu, P, Q)).lpNorm<1>();
     std::cout << n << " elements: Q/(mu P) " << Q / (mu * P) << ", a " << a << ", stick " << stick / a
               << " (exact " << middle / a << "), traction off by " << wrong / Q << '\n';
     EXPECT_LE(std::abs(stick - middle), h);
