@@ -151,6 +151,10 @@ FLOWING = (SOFT, "contact.friction=0.3", "time.end=3", "time.steps=12",
            "body.lower.boundary=[{label=1, ux=0, uy=0}]",
            'body.upper.boundary=[{label=3, uy="-0.04*min(t, 1)", '
            'ux={time=[0, 1, 2, 3], value=[0, 0, 0.03, 0.01]}}]')
+# A cylinder pressed on a block, pushed along and pulled back.
+ROLLED = ("contact.friction=0.15", "time.end=3", "time.steps=9",
+          'body.cylinder.boundary=[{label=2, uy="-1.22*min(t, 1)", '
+          'ux={time=[0, 1, 2, 3], value=[0, 0, 0.2, 0.05]}}]')
 WOOD = ('body.material={elasticity="orthotropic", young1=100, young2=30, young3=20, poisson12=0.3, '
         'poisson13=0.2, poisson23=0.25, shear12=15, angle="0.3 + x*y"}',)
 GENERAL = ('body.material={elasticity="general", angle=0.4, '
@@ -254,6 +258,8 @@ def scene_cases():
                   (*ON_A_SLOPE, "contact.friction=0.55", "contact.swap=true")),
         SceneCase("stack", "mortar", "friction, free bodies", STACK_OF_FREE_BODIES),
         SceneCase("stack", "weighted", "friction, free bodies", STACK_OF_FREE_BODIES),
+        SceneCase("hertz", "mortar", "friction along an arc", ROLLED),
+        SceneCase("hertz", "weighted", "friction along an arc, sides swapped", (*ROLLED, "contact.swap=true")),
         # Quadratic displacements
         SceneCase("compression", "interpolation", "quadratic", ("degree=2", "time.steps=4")),
         SceneCase("compression", "weighted", "quadratic", ("degree=2", "time.steps=4", "contact.swap=true")),

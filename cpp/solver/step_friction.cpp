@@ -1,4 +1,5 @@
 // Friction in the contact problem of a linearised step.
+#include <cmath>
 #include <utility>
 
 #include "solver/friction_motions.h"
@@ -6,6 +7,20 @@
 #include "solver/step_system.h"
 
 namespace mortier {
+namespace {
+
+/// Whether a node that slips alone has det A = W_nn -+ mu W_nt < 0: pushed along, it would be jammed.
+bool jamsAlone(const Matrix& W, const FrictionRows& rows) {
+  const Eigen::Index n = W.rows() - static_cast<Eigen::Index>(rows.node.size());
+  for (size_t k = 0; k < rows.node.size(); ++k) {
+    const int i = rows.node[k];
+    const auto row = static_cast<Eigen::Index>(k);
+    if (W(i, i) < rows.law.coefficient[row] * std::abs(W(i, n + row))) return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 void StepSystem::findFriction() {
   std::vector<Vector> limits;
@@ -62,7 +77,8 @@ ContactSolution StepSystem::Condensed::solveFriction() const {
       loose.all = solutionsOnPath({W, system_->friction_}, q, loose.solution);
   }
   StepSolutions& solutions = system_->solutions_;
-  solutions.ambiguous = solutions.ambiguous || loose.solution.ambiguous;
+  solutions.ambiguous = solutions.ambiguous || loose.solution.ambiguous || loose.all.size() > 1 ||
+                        (contact.G.cols() == 0 && jamsAlone(W, system_->friction_));
   solutions.listed.clear();
   for (const FrictionSolution& each : loose.all) solutions.listed.push_back(system_->listed(each));
   const FrictionSolution& found = loose.solution;
