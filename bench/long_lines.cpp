@@ -1,6 +1,6 @@
 // Contact of long thin strips without dense matrices over the contact conditions, and with them.
-//   long_lines NODES          a strip of two layers in waves of contact, about 4 triangles a node: time and
-//                                   peak memory of the whole process (dense with a second argument `dense`)
+//   long_lines NODES          a strip of two layers in waves of contact, about 4 triangles a node:
+//                              time and peak memory of the process (with dense matrices: `dense` after it)
 //   long_lines random COUNT   random lines (tests/theory/random_line.h) both ways, and how far apart
 //   long_lines threshold      both ways for growing strips and squares
 #include <sys/resource.h>
@@ -18,8 +18,7 @@ namespace {
 using namespace mortier;
 using namespace mortier::scenes;
 
-/// Two layers that meet in every cell of the upper one, the lower one glued to the ground below; waves of load
-/// that press and lift, so that about a third of the line opens.
+/// Two layers, the lower one on rollers, under waves of load that press and lift: most of the line opens.
 Model strip(int nodes, int layers, const std::shared_ptr<const Material>& material) {
   const double length = nodes - 1;
   const Function load = [](double x, double, double t) {

@@ -181,8 +181,8 @@ Neighbourhood around(const Sparse& Phi, const Sparse& B, int begin, int end, int
   return result;
 }
 
-/// The same for long lines. Columns of Phi^-1 fall off from node to node: some at a time are solved for on the
-/// rows around them, as many as are more than nothing.
+/// The same for long lines. Columns of Phi^-1 fall off from node to node: some at a time are solved for on
+/// the rows around them, as many as are more than nothing.
 Sparse projected(const Sparse& Phi, const Sparse& B) {
   constexpr int atOnce = 256;
   constexpr int usual = 64;

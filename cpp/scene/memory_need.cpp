@@ -43,7 +43,7 @@ double needOf(size_t nodes) {
 
 double memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs,
                   int degree, const std::vector<bool>& rough, const SolverOptions& options) {
-  constexpr double ofALongLine = 3000;
+  constexpr double ofALongLine = 400;
   constexpr double program = 12 << 17;  // in 8 bytes: code and libraries, 12 MiB
   double need = program;
   double equations = 0;

@@ -2,7 +2,7 @@
 //   contact   2 n^2 for W and its factor (n conditions), m^2 in each body for the Schur complement on its m
 //             contact dofs, two in the one that is factorised last; or n (n + 2 m) while the rows are made,
 //             where that is more; with friction a node has two conditions and both its dofs take part;
-//             for long lines (solver/sparse_contact.h) 3000 n, the rows of mortar contact and its fronts;
+//             for long lines (solver/sparse_contact.h) 400 n, the rows of mortar contact and its fronts;
 //   bodies    about 16 log2(N) + 150 for each of N vertices: factors, tangent, mesh and states;
 // and 12 MiB for the program itself.
 #pragma once

@@ -25,8 +25,8 @@ struct BodyLaw {
 
 class CondensedBody {
  public:
-  /// The threads must outlive it. \param whole  the body is not condensed: its tangent is made, and nothing of
-  /// what follows it.
+  /// The threads must outlive it. \param whole  the body is not condensed: its tangent is made, and nothing
+  /// of what follows it.
   CondensedBody(const Model& model, int body, const std::vector<int>& firstRow, const SolverOptions& options,
                 Threads& threads, bool whole = false);
 

@@ -19,17 +19,13 @@ ContactSolution StepSystem::Condensed::solveContact() const {
 
 ContactSolution StepSystem::Condensed::solveSparse() const {
   Vector motion;
-  Vector moved;
   SparseContact& matrix = *system_->sparse_;
   const Vector F = system_->gathered(force) + matrix.C().transpose() * p0;
   ContactSolution solution =
-      mortier::solveSparse(matrix, system_->contact_, F, slack, p0, balance, active, motion, moved);
+      mortier::solveSparse(matrix, system_->contact_, F, slack, p0, balance, active, motion);
   system_->special_.idle = std::max(system_->special_.idle, solution.idle);
   if (solution.outcome != ContactSolution::Outcome::solved) return solution;
-  solution.motion = system_->spread(motion);
-  for (size_t b = 0; b < solution.motion.size(); ++b)
-    if (const Matrix& motions = system_->bodies_[b].contact().motions; motions.cols() > 0)
-      solution.motion[b] += motions * system_->motionOf(moved, b);
+  solution.motion = system_->spread(motion, solution.rigid);
   return solution;
 }
 
@@ -41,11 +37,14 @@ Vector StepSystem::gathered(const std::vector<Vector>& nodal) const {
   return x;
 }
 
-std::vector<Vector> StepSystem::spread(const Vector& x) const {
+std::vector<Vector> StepSystem::spread(const Vector& x, const Vector& rigid) const {
   const std::vector<int>& first = sparse_->firstEquation();
   std::vector<Vector> nodal;
-  for (size_t b = 0; b < bodies_.size(); ++b)
+  for (size_t b = 0; b < bodies_.size(); ++b) {
     nodal.push_back(model_.bodies[b].spread(x.segment(first[b], first[b + 1] - first[b])));
+    if (const Matrix& motions = bodies_[b].contact().motions; motions.cols() > 0)
+      nodal.back() += motions * motionOf(rigid, b);
+  }
   return nodal;
 }
 
@@ -61,11 +60,10 @@ std::vector<Response> StepSystem::respondSparse(const std::vector<Matrix>& error
   std::vector<char> active;
   for (const std::vector<char>& part : on.active) active.insert(active.end(), part.begin(), part.end());
   sparse_->setSprings(contact_.proximal);
-  Vector motion = Vector::Zero(sparse_->firstEquation().back());
-  if (sparse_->factorise(active))
-    motion =
-        sparse_->solve(gathered(force), Vector::Zero(rows()), Vector::Zero(contact_.G.cols()), true).motion;
-  const std::vector<Vector> displacement = spread(motion);
+  const Vector none = Vector::Zero(contact_.G.cols());
+  SparseContact::Solution held{Vector::Zero(sparse_->firstEquation().back()), none, {}};
+  if (sparse_->factorise(active)) held = sparse_->solve(gathered(force), Vector::Zero(rows()), none, true);
+  const std::vector<Vector> displacement = spread(held.motion, held.rigid);
   forEachBody([&](int b) {
     Response& response = responses[b];
     response.displacement = displacement[b];

@@ -43,7 +43,7 @@ SparseContact::SparseContact(const Model& model, const std::vector<CondensedBody
     pattern_.symmetric = pattern_.symmetric && body.pattern().symmetric;
   }
   findRows(model, bodies, firstRow);
-  findSprings(bodies);
+  findSprings(model, bodies);
   findPattern(model);
   analyse();
 }
@@ -87,14 +87,18 @@ void SparseContact::findRows(const Model& model, const std::vector<CondensedBody
   E_.setFromTriplets(entries.begin(), entries.end());
 }
 
-void SparseContact::findSprings(const std::vector<CondensedBody>& bodies) {
+void SparseContact::findSprings(const Model& model, const std::vector<CondensedBody>& bodies) {
   Eigen::Index motions = 0;
   for (const CondensedBody& body : bodies) motions += body.contact().R.cols();
   springMotions_ = Matrix::Zero(motions, motions);
+  motions_ = Matrix::Zero(first_.back(), motions);
   Eigen::Index column = 0;
   for (size_t b = 0; b < bodies.size(); ++b) {
     const Matrix& R = bodies[b].contact().R;
     if (R.cols() == 0) continue;
+    for (Eigen::Index i = 0; i < R.cols(); ++i)
+      motions_.block(first_[b], column + i, first_[b + 1] - first_[b], 1) =
+          model.bodies[b].gather(bodies[b].contact().motions.col(i));
     const Eigen::ColPivHouseholderQR<Matrix> independent(R.transpose());
     for (Eigen::Index i = 0; i < R.cols(); ++i) {
       const int dof = independent.colsPermutation().indices()[i];
@@ -103,6 +107,8 @@ void SparseContact::findSprings(const std::vector<CondensedBody>& bodies) {
     }
     column += R.cols();
   }
+  toMotions_.compute(springMotions_);
+  motionsInRows_ = E_.leftCols(first_.back()) * motions_;
 }
 
 /// Calls visit(condition, row, column, product) for the products in E' E that H holds.
@@ -263,7 +269,6 @@ Vector SparseContact::stiffnessTimes(const Vector& d) const {
       y[j] += sum;
     }
   });
-  for (const int dof : springs_) f[dof] += springWeight_ * diagonal_[dof] * d[dof];
   return f;
 }
 
@@ -273,42 +278,53 @@ SparseContact::Solution SparseContact::solve(const Vector& F, const Vector& slac
   const double enough = exact ? 4 * std::numeric_limits<double>::epsilon() : 1e-6;
   const Eigen::Index n = first_.back();
   const Eigen::Index rows = E_.rows();
-  Vector right = F;
-  for (size_t k = 0; k < springs_.size(); ++k)
-    right[springs_[k]] += springWeight_ * diagonal_[springs_[k]] * anchors[static_cast<Eigen::Index>(k)];
   Vector x = Vector::Zero(n + rows);
   for (Eigen::Index i = 0; i < rows; ++i)
     if (active_[i] != 0) x[n + i] = slack[i];
   Vector q = Vector::Zero(rows);
   Solution solution;
   solution.force = Vector::Zero(rows);
+  solution.rigid = Vector::Zero(motions_.cols());
   const double given = slack.size() > 0 ? slack.cwiseAbs().maxCoeff() : 0;
+  const Matrix motionsAcross = C_ * motions_;
   double before = INFINITY;
+  int stalled = 0;  // rounding, or a correction that was made worse by the next
   for (int repetition = 0; repetition < repetitions; ++repetition) {
     stopIfInterrupted();
-    const Vector off = -(E_ * x);
+    const Vector off = -(E_ * x) - motionsInRows_ * solution.rigid;
     Vector step = E_.transpose() * Vector(penalty_.cwiseProduct(off) - q);
-    step.head(n) += right - stiffnessTimes(x.head(n));
+    step.head(n) += F - stiffnessTimes(x.head(n));
+    const Vector stretch = anchors - springMotions_ * solution.rigid;
+    for (size_t k = 0; k < springs_.size(); ++k)
+      step[springs_[k]] += springWeight_ * diagonal_[springs_[k]] * stretch[static_cast<Eigen::Index>(k)];
     for (Eigen::Index i = 0; i < rows; ++i)
       if (active_[i] != 0) step[n + i] = 0;
     solver_->condense(step);
     solver_->expand(step);
     const Vector dq = penalty_.cwiseProduct(E_ * step - off);
+    const Vector moved = C_ * step.head(n);
+    if (motions_.cols() > 0) {
+      const Vector dz = toMotions_.solve(Vector(step(springs_)));
+      step.head(n) -= motions_ * dz;
+      step(springs_).setZero();
+      solution.rigid += dz;
+    }
     x += step;
     q += dq;
     Vector dp = T_.transpose() * dq;
     for (Eigen::Index i = 0; i < rows; ++i)
       if (active_[i] == 0) dp[i] = 0;
     solution.force += dp;
-    const Vector moved = C_ * step.head(n);
     const auto largest = [](const Vector& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0; };
     solution.forceNoise = largest(dp);
     solution.motionNoise = largest(moved);
     const auto part = [](double a, double b) { return a == 0 ? 0 : a / b; };
-    const double change = part(solution.forceNoise, largest(solution.force)) +
-                          part(solution.motionNoise, given + largest(C_ * x.head(n)));
-    if (!(change > enough) || (repetition > 1 && !(change < before / 2))) break;
-    before = change;
+    const double change =
+        part(solution.forceNoise, largest(solution.force)) +
+        part(solution.motionNoise, given + largest(C_ * x.head(n) + motionsAcross * solution.rigid));
+    if (!(change < before / 2)) ++stalled;
+    if (!(change > enough) || stalled > 2) break;
+    before = std::min(before, change);
   }
   solution.motion = x.head(n);
   return solution;

@@ -10,6 +10,7 @@
 // (Hestenes and Powell 1969), and by the residuals of the true equations also what rounding leaves in d.
 #pragma once
 
+#include <Eigen/LU>
 #include <Eigen/SparseCore>
 #include <memory>
 #include <vector>
@@ -34,7 +35,8 @@ class SparseContact {
   void useLibraries();
 
   struct Solution {
-    Vector motion;           ///< d, by the equations of all bodies
+    Vector motion;           ///< d without the rigid motions that the springs see, by equations
+    Vector rigid;            ///< these
     Vector force;            ///< p
     double forceNoise = 0;   ///< the last correction of p
     double motionNoise = 0;  ///< and of C d
@@ -55,7 +57,6 @@ class SparseContact {
 
   /// Motion of the springs under the rigid motions z of the bodies: springs x rigid motions, invertible.
   [[nodiscard]] const Matrix& springMotions() const { return springMotions_; }
-  [[nodiscard]] Vector springsOf(const Vector& motion) const { return motion(springs_); }
   /// Their stiffness over that of the dofs they are on [-].
   void setSprings(double weight);
   /// The softest dof that carries a spring, as a stiffness.
@@ -68,7 +69,7 @@ class SparseContact {
   using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   void findRows(const Model& model, const std::vector<CondensedBody>& bodies,
                 const std::vector<int>& firstRow);
-  void findSprings(const std::vector<CondensedBody>& bodies);
+  void findSprings(const Model& model, const std::vector<CondensedBody>& bodies);
   void findPattern(const Model& model);
   [[nodiscard]] int entry(int row, int column) const;
   template <class Visit>
@@ -85,6 +86,9 @@ class SparseContact {
   Rows E_;  ///< conditions x (equations, then w)
   std::vector<int> springs_;
   Matrix springMotions_;
+  Matrix motions_;        ///< rigid motions by the equations of all bodies: their rounding is kept out of K d
+  Matrix motionsInRows_;  ///< B times them
+  Eigen::PartialPivLU<Matrix> toMotions_;
   SparsePattern pattern_;                      ///< of H
   std::vector<std::vector<int>> entryOf_;      ///< per body, of its entries in H
   std::vector<int> pairEntry_;                 ///< of the products in E' E, in the order of forEachPair

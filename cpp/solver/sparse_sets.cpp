@@ -20,7 +20,6 @@ class SparseSets final : public ContactSets {
       : ContactSets(problem, idle, matrix.compliance(), slack, p0, balance),
         matrix_(matrix),
         F_(F),
-        toMotions_(matrix.springMotions()),
         anchors_(Vector::Zero(balance.size())) {
     if (balance.size() == 0) return;
     weight_ = problem.proximal;
@@ -47,8 +46,9 @@ class SparseSets final : public ContactSets {
     exact_ = solution.active == last_;
     solved_ = matrix_.solve(F_, slack_, anchors_, exact_);
     solution.change = solved_.force - p0_;
-    solution.rigid = rigid(solved_.motion);
+    solution.rigid = solved_.rigid;
     open_ = slack_ - matrix_.C() * solved_.motion;
+    if (anchors_.size() > 0) open_ -= problem_.G * solved_.rigid;
     return true;
   }
   // Most sets are left again: only one that seems to be the last is solved on to rounding.
@@ -68,6 +68,7 @@ class SparseSets final : public ContactSets {
     growth.force = rate.force;
     growth.force[condition] = 1;
     growth.slack = -(matrix_.C() * rate.motion);
+    if (anchors_.size() > 0) growth.slack -= problem_.G * rate.rigid;
     return true;
   }
   [[nodiscard]] bool capped() const override { return pivotsLeft_ <= 0; }
@@ -79,10 +80,6 @@ class SparseSets final : public ContactSets {
     matrix_.setSprings(weight_);
     redundant_ = redundant_ || !matrix_.factorise(active);
     return !redundant_;
-  }
-  [[nodiscard]] Vector rigid(const Vector& motion) const {
-    if (anchors_.size() == 0) return Vector(0);
-    return toMotions_.solve(matrix_.springsOf(motion));
   }
   [[nodiscard]] Noise noise(const ContactSolution& solution) const override {
     // Forces beside those that are there; slacks beside the motions whose differences they are.
@@ -98,7 +95,6 @@ class SparseSets final : public ContactSets {
 
   SparseContact& matrix_;
   const Vector& F_;
-  Eigen::PartialPivLU<Matrix> toMotions_;
   Vector anchors_;
   double weight_ = 0;
   std::vector<char> last_;  ///< to be solved on to rounding
@@ -107,9 +103,9 @@ class SparseSets final : public ContactSets {
   SparseContact::Solution solved_;
 };
 
-/// Semismooth Newton steps: forces that pull are dropped and what overlaps is closed, all at once. That takes a
-/// few sets where bodies are thick, and may go round where they are thin. \returns the set with the fewest wrong
-/// signs, for principal pivoting to go on from.
+/// Semismooth Newton steps: forces that pull are dropped and what overlaps is closed, all at once. That takes
+/// a few sets where bodies are thick, and may go round where they are thin. \returns the set with the fewest
+/// wrong signs, for principal pivoting to go on from.
 std::vector<char> startingSet(SparseSets& contact, const std::vector<char>& active) {
   constexpr int most = 20;
   constexpr int patience = 3;
@@ -138,9 +134,9 @@ std::vector<char> startingSet(SparseSets& contact, const std::vector<char>& acti
 
 ContactSolution solveSparse(SparseContact& matrix, const ContactProblem& problem, const Vector& F,
                             const Vector& fullSlack, const Vector& p0, const Vector& balance,
-                            std::vector<char> active, Vector& motion, Vector& moved) {
+                            std::vector<char> active, Vector& motion) {
   Vector slack = fullSlack;
-  moved = travelFirst(problem, slack);
+  const Vector moved = travelFirst(problem, slack);
   const std::vector<char> idle = idleConditions(matrix.compliance());
   for (size_t i = 0; i < idle.size(); ++i)
     if (idle[i] != 0) active[i] = 0;
@@ -150,7 +146,7 @@ ContactSolution solveSparse(SparseContact& matrix, const ContactProblem& problem
   solution.idle = static_cast<int>(std::count(idle.begin(), idle.end(), 1));
   solution.work = matrix.factorisations() - before;
   motion = contact.motion();
-  // The motion along which bodies leave is told without it.
+  // The motion along which bodies leave is told without what was taken first.
   if (solution.outcome != ContactSolution::Outcome::unbalanced) solution.rigid += moved;
   return solution;
 }

@@ -9,9 +9,9 @@ namespace mortier {
 /// What a body is left with when contact is condensed away: nothing is. F is by the equations of all bodies,
 ///   K d + C' p = F,   s = slack - C d >= 0,   p = p0 + dp >= 0,   p s = 0.
 /// \param problem  its W is not used. Ends like solveContact (complementarity.h), by the same pivoting.
-/// \param motion  becomes d without the rigid motions `moved`, which come to it.
+/// \param motion  becomes d without the rigid motions of the solution.
 ContactSolution solveSparse(SparseContact& matrix, const ContactProblem& problem, const Vector& F,
                             const Vector& slack, const Vector& p0, const Vector& balance,
-                            std::vector<char> active, Vector& motion, Vector& moved);
+                            std::vector<char> active, Vector& motion);
 
 }  // namespace mortier

@@ -120,7 +120,7 @@ class StepSystem {
   void requireHeld();
   /// By the equations of all bodies.
   [[nodiscard]] Vector gathered(const std::vector<Vector>& nodal) const;
-  [[nodiscard]] std::vector<Vector> spread(const Vector& x) const;
+  [[nodiscard]] std::vector<Vector> spread(const Vector& x, const Vector& rigid) const;
   [[nodiscard]] std::vector<Response> respondSparse(const std::vector<Matrix>& error, const Iterate& on);
   [[nodiscard]] std::string describeRigid(const Vector& z) const;
   /// Rows along the line that resist no motion: they slip, or nothing presses; and how one slips.

@@ -34,7 +34,7 @@ inline RandomLine randomLine(unsigned seed, int most) {
   const int lowerCells = random.below(4) == 0 ? upperCells : std::max(3, upperCells + random.below(9) - 4);
   const double length = upperCells;
   const auto rows = [&] { return 1 + random.below(3); };
-  const auto height = [&] { return std::exp(1.5 * random.normal()); };
+  const auto height = [&] { return std::exp(0.5 * random.normal()); };
   const int law = random.below(5);
   const auto material = [&](double E) {
     const Elasticity elasticity{E, 0.1 * random.below(5)};

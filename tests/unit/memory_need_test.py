@@ -1,5 +1,5 @@
-"""Contact keeps dense matrices over its nodes: what a run needs is told before it,
-and refused where there is not so much."""
+"""Contact keeps dense matrices over its nodes, but for long lines without friction: what a run needs is told
+before it, and refused where there is not so much."""
 import json
 import re
 import resource
@@ -32,12 +32,12 @@ steps = 1
 
 
 class MemoryNeed(InFolder):
-    def strips(self, cells):
+    def strips(self, cells, friction=""):
         self.mortier("mesh", "rectangle", "--cells", f"{cells},2", "--lower=0,0", "--upper", f"{cells},2",
                      "upper.mesh")
         self.mortier("mesh", "rectangle", "--cells", f"{cells * 9 // 10},2", "--lower=0,-2", "--upper",
                      f"{cells},0", "lower.mesh")
-        self.write(SCENE)
+        self.write(SCENE.replace("[contact]\n", "[contact]\n" + friction))
 
     def test_a_thousand_contact_nodes(self):
         self.strips(1000)
@@ -47,11 +47,23 @@ class MemoryNeed(InFolder):
         print(f"1,000 contact nodes: told {need:.0f} MiB, took {peak:.0f} MiB")
         self.assertLess(peak, 60)
         self.assertLess(abs(need - peak), peak / 2)
+        self.assertEqual(json.loads(self.read("out/summary.json"))["contact_matrices"], "sparse")
+
+    def test_two_thousand_contact_nodes(self):
+        self.strips(2000)
+        told = self.mortier("run", "scene.toml", "--out", "out").stdout
+        peak = json.loads(self.read("out/summary.json"))["peak_memory_mib"]
+        need = float(re.search(r"^memory +about (\d+) MiB", told, re.M).group(1))
+        print(f"2,000 contact nodes: told {need:.0f} MiB, took {peak:.0f} MiB")
+        self.assertLess(peak, 100)
+        self.assertLess(abs(need - peak), peak / 2)
+        check = self.mortier("check", "scene.toml").stdout
+        self.assertIn("dense ones over the contact nodes would take", check)
 
     def test_two_dofs_a_node(self):
         # On a ring no line is parallel to an axis: both components of its nodes take part.
-        self.mortier("mesh", "annulus", "--cells", "700,2", "--inner", "1", "--outer", "1.01", "upper.mesh")
-        self.mortier("mesh", "annulus", "--cells", "630,2", "--inner", "0.99", "--outer", "1", "lower.mesh")
+        self.mortier("mesh", "annulus", "--cells", "700,8", "--inner", "1", "--outer", "1.01", "upper.mesh")
+        self.mortier("mesh", "annulus", "--cells", "630,8", "--inner", "0.99", "--outer", "1", "lower.mesh")
         loads = re.compile(r"(?<=young = 1e3, poisson = 0.3 }\n)boundary = .*label = 3.*")
         scene = loads.sub('boundary = [ { label = 2, pressure = "t", ut = 0 } ]', SCENE, 1)
         self.write(scene.replace("label = 3", "label = 2"))
@@ -62,18 +74,18 @@ class MemoryNeed(InFolder):
         self.assertLess(abs(need - peak), peak / 4)
 
     def test_what_cannot_fit_is_refused_with_the_number(self):
-        self.strips(20_000)
+        self.strips(20_000, "friction = 0.3\n")
         def limit():
             resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))
 
-        expected = (r"scene.toml:12: contact: the run needs about 11.7 GiB of memory, "
+        expected = (r"scene.toml:12: contact: the run needs about 45.8 GiB of memory, "
                     r"expected at most the \S+ GiB that are available")
         self.assertRegex(self.mortier("run", "scene.toml", "--out", "out", code=2, preexec_fn=limit).stderr,
                          expected)
         self.assertFalse((self.folder / "out").exists())
         check = mortier("check", "scene.toml", cwd=self.folder, preexec_fn=limit)
         self.assertEqual(check.returncode, 2, check.stderr)
-        self.assertIn("needs about 11.7 GiB", check.stdout)
+        self.assertIn("needs about 45.8 GiB", check.stdout)
 
 
 if __name__ == "__main__":
