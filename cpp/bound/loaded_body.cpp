@@ -6,6 +6,7 @@
 
 #include "base/interrupt.h"
 #include "bound/relaxation.h"
+#include "bound/strip_balance.h"
 #include "fem/rigid_modes.h"
 #include "linear/condensing_solver.h"
 #include "material/stress.h"
@@ -15,6 +16,11 @@ namespace {
 
 /// Directions that make a smaller angle are one [rad].
 constexpr double same = 1e-9;
+
+/// The bodies of a model with fewer triangles are solved as a whole for what is out of balance.
+constexpr size_t many = 10000;
+/// In others more iterations are not worthwhile where two of them take no more than this part of the energy.
+constexpr double worthwhile = 0.03;
 
 /// (p, q, r) of (s11, s22, s12), and the same for strains.
 Eigen::Matrix3d toBasis() {
@@ -55,7 +61,14 @@ LoadedBody::LoadedBody(const Model& model, const State& state, const CutMesh& cu
       load_(body_.load(state.time)),
       modes_(rigidModes(body_)) {
   const Linearisation law = linearisedLaw(model.bodies[index], state.bodies[index].stress, weight);
+  size_t triangles = 0;
+  for (const Body& body : model.bodies) triangles += body.mesh().triangles.size();
+  coarse_ = triangles < many;
   const Eigen::Matrix3d B = toBasis();
+  moduli_.reserve(cut_.parents.size());
+  compliances_.reserve(cut_.parents.size());
+  stress_.reserve(cut_.parents.size());
+  forces_.reserve(cut_.parents.size());
   for (size_t t = 0; t < cut_.parents.size(); ++t) {
     const int parent = cut_.parents[t];
     moduli_.emplace_back(Eigen::Map<const Eigen::Matrix3d>(moduliAt(law.moduli, parent).data()));
@@ -86,7 +99,10 @@ bool LoadedBody::balance() {
   if (!equilibrate(stress)) return false;
   moments_ = balancedMoments(mesh(), sides_, stress, forces_, known_);
   Relaxation relaxation(mesh(), sides_, compliances_, stress_, forces_, known_, moments_);
-  relaxation.relax();
+  if (coarse_)
+    relaxation.relax();
+  else
+    relaxation.iterate(worthwhile);
   energies_ = relaxation.energies();
   return true;
 }
@@ -255,6 +271,10 @@ std::vector<double> LoadedBody::tangent() const {
 bool LoadedBody::equilibrate(std::vector<Stress>& stress) const {
   constexpr int most = 4;
   constexpr double enough = 1e-10;  // of the largest force
+  Vector left = leftOver(load_, stress);
+  const double size =
+      std::max(body_.gather(left).lpNorm<Eigen::Infinity>(), body_.gather(load_).lpNorm<Eigen::Infinity>());
+  if (!coarse_ && balanceStrip(body_, sides_, moduli_, size, left, stress)) return true;
   std::vector<double> values = tangent();
   pin(values);
   auto solver = multifrontalSolver(body_.pattern(), {});
@@ -262,8 +282,7 @@ bool LoadedBody::equilibrate(std::vector<Stress>& stress) const {
     solver = suiteSparseSolver(body_.pattern(), {});
     if (!solver->factorise(values)) return false;
   }
-  Vector x = body_.gather(leftOver(load_, stress));
-  const double size = std::max(x.lpNorm<Eigen::Infinity>(), body_.gather(load_).lpNorm<Eigen::Infinity>());
+  Vector x = body_.gather(left);
   for (int i = 0; i < most; ++i) {
     solver->condense(x);
     solver->expand(x);
