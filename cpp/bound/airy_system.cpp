@@ -3,10 +3,31 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/interrupt.h"
 
 namespace mortier {
+namespace {
+
+/// Of the block's diagonal.
+constexpr double regularised = 1e-12;
+
+/// What iterations still take that gain like those before: with g the gains, the last one times the largest
+/// of (g_(j+1) + ... + g_k)/g_j (Meurant, Papez, Tichy, Numer. Algorithms 88 (2021)).
+double toCome(const std::vector<double>& gains) {
+  constexpr size_t fewest = 3;
+  if (gains.size() < fewest) return std::numeric_limits<double>::infinity();
+  double sum = gains.back();
+  double ratio = 0;
+  for (size_t j = gains.size() - 1; j-- > 0;) {
+    ratio = std::max(ratio, sum / gains[j]);
+    sum += gains[j];
+  }
+  return ratio * gains.back();
+}
+
+}  // namespace
 
 AirySystem::AirySystem(const Sides& sides, size_t vertices)
     : vertices_(static_cast<int>(vertices)),
@@ -75,6 +96,80 @@ void AirySystem::invertDiagonal() {
     if (side.own == 0) side.own = 1;
 }
 
+bool AirySystem::join(const TriangleMesh& mesh, const Sides& sides, const std::vector<int>& triangles) {
+  invertDiagonal();
+  if (triangles.empty()) return true;
+  number_.assign(b_.size(), -1);
+  const auto put = [&](int mode) {
+    if (number_[mode] >= 0) return;
+    number_[mode] = static_cast<int>(inBlock_.size());
+    inBlock_.push_back(mode);
+  };
+  for (const int t : triangles)
+    for (int k = 0; k < 3; ++k) {
+      for (int c = 0; c < 3; ++c) put(3 * mesh.triangles[t][k] + c);
+      put(firstSide_ + sides.of(t, k));
+    }
+  std::vector<Entry> own;
+  // Takes a coupling out of the sweeps where one of its modes is in the block.
+  const auto take = [&](int i, int j, double& value) {
+    const int a = number_[i];
+    const int b = number_[j];
+    if (value == 0 || (a < 0 && b < 0)) return;
+    if (a >= 0 && b >= 0)
+      own.push_back({std::min(a, b), std::max(a, b), value});
+    else
+      toBlock_.push_back({a < 0 ? i : j, a < 0 ? j : i, value});
+    value = 0;
+  };
+  for (int v = 0; v < vertices_; ++v) {
+    if (number_[3 * v] < 0) continue;
+    for (int c = 0; c < 3; ++c)
+      for (int r = c; r < 3; ++r) take(3 * v + r, 3 * v + c, diagonal_[v](r, c));
+    diagonal_[v].setIdentity();
+    inverse_[v].setIdentity();
+  }
+  for (size_t e = 0; e < sides_.size(); ++e) {
+    Coupling& side = sides_[e];
+    const int mode = firstSide_ + static_cast<int>(e);
+    const auto joined = [&](int other) { return number_[other] >= 0; };
+    if (!joined(mode) &&
+        std::none_of(side.vertices.begin(), side.vertices.end(), [&](int v) { return joined(3 * v); }) &&
+        std::none_of(side.others.begin(), side.others.end(), [&](int o) { return joined(firstSide_ + o); }))
+      continue;
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) take(3 * side.vertices[0] + r, 3 * side.vertices[1] + c, side.ends(r, c));
+    for (int i = 0; i < 4; ++i) {
+      for (int c = 0; c < 3; ++c) take(mode, 3 * side.vertices[i] + c, side.withVertices[i][c]);
+      take(mode, firstSide_ + side.others[i], side.withOthers[i]);
+    }
+    if (number_[mode] < 0) continue;
+    take(mode, mode, side.own);
+    side.own = 1;
+  }
+  std::sort(own.begin(), own.end(), [](const Entry& a, const Entry& b) {
+    return a.column != b.column ? a.column < b.column : a.row < b.row;
+  });
+  block_.size = static_cast<int>(inBlock_.size());
+  block_.columnStart.assign(block_.size + 1, 0);
+  for (const Entry& entry : own) {
+    block_.rows.push_back(entry.row);
+    // A linear function is no stress.
+    blockValues_.push_back(entry.value * (entry.row == entry.column ? 1 + regularised : 1));
+    ++block_.columnStart[entry.column + 1];
+  }
+  for (int c = 0; c < block_.size; ++c) block_.columnStart[c + 1] += block_.columnStart[c];
+  blockSolver_ = multifrontalSolver(block_, {});
+  return blockSolver_->factorise(blockValues_);
+}
+
+void AirySystem::solveBlock(Vector& f) const {
+  Vector x = f(inBlock_);
+  blockSolver_->condense(x);
+  blockSolver_->expand(x);
+  f(inBlock_) = x;
+}
+
 void AirySystem::forward(Vector& f) const {
   for (int v = 0; v < vertices_; ++v) {
     const Eigen::Vector3d x = inverse_[v] * f.segment<3>(3 * v);
@@ -91,9 +186,16 @@ void AirySystem::forward(Vector& f) const {
     ofSides[e] = left;
     for (int i = 0; i < 4; ++i) ofSides[side.others[i]] -= side.withOthers[i] * left;
   }
+  if (inBlock_.empty()) return;
+  for (const auto& [column, row, value] : toBlock_) f[row] -= value * f[column];
+  solveBlock(f);
 }
 
 void AirySystem::backward(Vector& f) const {
+  if (!inBlock_.empty()) {
+    solveBlock(f);
+    for (const auto& [column, row, value] : toBlock_) f[column] -= value * f[row];
+  }
   double* const ofSides = f.data() + firstSide_;
   for (size_t e = sides_.size(); e-- > 0;) {
     const Coupling& side = sides_[e];
@@ -114,10 +216,16 @@ void AirySystem::backward(Vector& f) const {
 void AirySystem::multiplyDiagonal(const Vector& f, Vector& result) const {
   for (int v = 0; v < vertices_; ++v) result.segment<3>(3 * v) = diagonal_[v] * f.segment<3>(3 * v);
   for (size_t e = 0; e < sides_.size(); ++e) result[firstSide_ + e] = sides_[e].own * f[firstSide_ + e];
+  for (const int mode : inBlock_) result[mode] = 0;
+  for (int c = 0; c < block_.size; ++c)
+    for (int k = block_.columnStart[c]; k < block_.columnStart[c + 1]; ++k) {
+      const int r = block_.rows[k];
+      result[inBlock_[r]] += blockValues_[k] * f[inBlock_[c]];
+      if (r != c) result[inBlock_[c]] += blockValues_[k] * f[inBlock_[r]];
+    }
 }
 
-void AirySystem::solve(double worthwhile, int most) {
-  invertDiagonal();
+bool AirySystem::solve(double part, int most) {
   x_.setZero(b_.size());
   Vector& r = b_;
   forward(r);
@@ -126,8 +234,9 @@ void AirySystem::solve(double worthwhile, int most) {
   Vector p = z;
   Vector q(r.size());
   double rho = r.dot(z);
-  double before = energy_;
-  for (iterations_ = 0; iterations_ < most && rho > 0; ++iterations_) {
+  std::vector<double> gains;
+  for (iterations_ = 0; iterations_ < most; ++iterations_) {
+    if (!(energy_ > 0) || !(rho > 0)) return true;
     stopIfInterrupted();
     Vector& t = z;
     t = p;
@@ -138,19 +247,18 @@ void AirySystem::solve(double worthwhile, int most) {
     q += t;
     const double curvature = p.dot(q);
     const double step = rho / curvature;
-    if (!(curvature > 0) || !std::isfinite(step)) break;
+    if (!(curvature > 0) || !std::isfinite(step)) return false;
     x_ += step * t;
     r -= step * q;
-    const double gain = step * rho;
-    energy_ -= gain;
-    const bool done = before - energy_ <= worthwhile * energy_ && iterations_ > 1;
-    before = energy_ + gain;
-    if (done || !(energy_ > 0)) break;
+    gains.push_back(step * rho);
+    energy_ -= gains.back();
+    if (toCome(gains) <= part * energy_) return true;
     multiplyDiagonal(r, z);
     const double next = r.dot(z);
     p = z + (next / rho) * p;
     rho = next;
   }
+  return false;
 }
 
 }  // namespace mortier

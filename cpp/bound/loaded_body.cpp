@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "base/interrupt.h"
 #include "bound/relaxation.h"
@@ -19,8 +20,9 @@ constexpr double same = 1e-9;
 
 /// The bodies of a model with fewer triangles are solved as a whole for what is out of balance.
 constexpr size_t many = 10000;
-/// In others more iterations are not worthwhile where two of them take no more than this part of the energy.
-constexpr double worthwhile = 0.03;
+/// What stresses next to contact lines may have far from them, over the energy in the end: where it is more,
+/// forces that balance each other over lengths went the long way along the line.
+constexpr double little = 0.05;
 
 /// (p, q, r) of (s11, s22, s12), and the same for strains.
 Eigen::Matrix3d toBasis() {
@@ -38,6 +40,11 @@ void hold(KnownTraction& known, const Point& direction) {
     known = {1, {Point(-direction.y(), direction.x()), Point(0, 0)}, known.moments};
   else if (known.count == 1 && std::abs(known.known[0].dot(direction)) > 1e-9)
     known.count = 0;
+}
+
+/// What forces that are out of balance are measured against [N/m].
+double sizeOf(const Body& body, const Vector& load, const Vector& left) {
+  return std::max(body.gather(left).lpNorm<Eigen::Infinity>(), body.gather(load).lpNorm<Eigen::Infinity>());
 }
 
 }  // namespace
@@ -95,15 +102,24 @@ int LoadedBody::sideBetween(const std::array<int, 2>& vertices) const {
 }
 
 bool LoadedBody::balance() {
-  std::vector<Stress> stress = stress_;
-  if (!equilibrate(stress)) return false;
-  moments_ = balancedMoments(mesh(), sides_, stress, forces_, known_);
-  Relaxation relaxation(mesh(), sides_, compliances_, stress_, forces_, known_, moments_);
-  if (coarse_)
+  const auto relaxed = [&](const std::vector<Stress>& stress) {
+    moments_ = balancedMoments(mesh(), sides_, stress, forces_, known_);
+    Relaxation relaxation(mesh(), sides_, compliances_, stress_, forces_, known_, moments_);
     relaxation.relax();
-  else
-    relaxation.iterate(worthwhile);
-  energies_ = relaxation.energies();
+    energies_ = relaxation.energies();
+  };
+  std::vector<Stress> stress = stress_;
+  if (!coarse_) {
+    Vector left = leftOver(load_, stress);
+    const double size = sizeOf(body_, load_, left);
+    if (const std::optional<double> far = balanceStrip(body_, sides_, moduli_, size, left, stress)) {
+      relaxed(stress);
+      if (*far <= little * energies_.sum()) return true;
+      stress = stress_;
+    }
+  }
+  if (!equilibrate(stress)) return false;
+  relaxed(stress);
   return true;
 }
 double LoadedBody::norm() const {
@@ -271,10 +287,8 @@ std::vector<double> LoadedBody::tangent() const {
 bool LoadedBody::equilibrate(std::vector<Stress>& stress) const {
   constexpr int most = 4;
   constexpr double enough = 1e-10;  // of the largest force
-  Vector left = leftOver(load_, stress);
-  const double size =
-      std::max(body_.gather(left).lpNorm<Eigen::Infinity>(), body_.gather(load_).lpNorm<Eigen::Infinity>());
-  if (!coarse_ && balanceStrip(body_, sides_, moduli_, size, left, stress)) return true;
+  const Vector left = leftOver(load_, stress);
+  const double size = sizeOf(body_, load_, left);
   std::vector<double> values = tangent();
   pin(values);
   auto solver = multifrontalSolver(body_.pattern(), {});

@@ -30,8 +30,9 @@ class Relaxation {
 
   /// Lowers the energy, by conjugate gradients or, where it costs little, to the least. \throws Interrupted
   void relax();
-  /// By conjugate gradients, until two iterations take no more than this part of it. \returns how many
-  int iterate(double worthwhile);
+  /// By conjugate gradients, until more iterations would take no more than a part of it. \returns whether
+  /// this is so after `most` of them
+  bool iterate(double part, int most);
   /// The least energy, by a direct solution for all modes at once. \returns whether it could be found
   bool minimise();
   /// Integral of (s^ - s) : E^-1 (s^ - s) by triangles, s^ the stress of the moments [J/m].

@@ -1,5 +1,6 @@
 #include "bound/strip_balance.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,7 +11,9 @@
 namespace mortier {
 namespace {
 
-constexpr int rings = 3;
+constexpr int rings = 8;
+/// Those from here on are far.
+constexpr int farRings = 5;
 /// Forces that are no more than this part of all are balanced.
 constexpr double balanced = 1e-13;
 /// Stiffness of springs, over that of the equations, for strips that nothing else holds.
@@ -38,6 +41,7 @@ class Strip {
         for (const int t : sides_.trianglesAt(v)) {
           if (std::exchange(known[t], 1) != 0) continue;
           triangles_.push_back(t);
+          if (i >= farRings) far_.push_back(t);
           for (const int other : mesh.triangles[t])
             if (std::exchange(reached[other], 1) == 0) next.push_back(other);
         }
@@ -52,6 +56,17 @@ class Strip {
             number_[equation] = static_cast<int>(equations_.size());
             equations_.push_back(equation);
           }
+  }
+
+  /// Energy of a stress less another in the far rings; none where all of the body is in the strip [J/m].
+  [[nodiscard]] double farEnergy(const std::vector<Stress>& stress, const std::vector<Stress>& other) const {
+    if (triangles_.size() == stress.size()) return 0;
+    double energy = 0;
+    for (const int t : far_) {
+      const Eigen::Vector3d s = fromCartesian(Stress(stress[t] - other[t]));
+      energy += body_.weights()[t] * s.dot(moduli_[t].inverse() * s);
+    }
+    return energy;
   }
 
   bool factorise() {
@@ -149,34 +164,36 @@ class Strip {
   const Body& body_;
   const Sides& sides_;
   const std::vector<Eigen::Matrix3d>& moduli_;
-  std::vector<int> triangles_, equations_;
+  std::vector<int> triangles_, far_, equations_;
   std::vector<int> number_;  ///< of an equation of the body in the strip; -1 outside
   std::unique_ptr<CondensingSolver> solver_;
 };
 
 }  // namespace
 
-bool balanceStrip(const Body& body, const Sides& sides, const std::vector<Eigen::Matrix3d>& moduli,
-                  double size, Vector& left, std::vector<Stress>& stress) {
+std::optional<double> balanceStrip(const Body& body, const Sides& sides,
+                                   const std::vector<Eigen::Matrix3d>& moduli, double size, Vector& left,
+                                   std::vector<Stress>& stress) {
   constexpr int most = 6;
   const auto isBalanced = [&](const Vector& forces) {
     return body.gather(forces).lpNorm<Eigen::Infinity>() <= balanced * size;
   };
-  if (isBalanced(left)) return true;
-  if (!body.material().symmetricTangent()) return false;
+  if (isBalanced(left)) return 0;
+  if (!body.material().symmetricTangent()) return std::nullopt;
   Strip strip(body, sides, moduli);
   strip.choose(body.spread(body.gather(left)), balanced * size);
-  if (!strip.factorise()) return false;
+  if (!strip.factorise()) return std::nullopt;
   std::vector<Stress> found = stress;
   Vector forces = left;
   for (int i = 0; i < most; ++i) {
     strip.solve(forces, found);
     if (!isBalanced(forces)) continue;
+    const double far = strip.farEnergy(found, stress);
     left = std::move(forces);
     stress = std::move(found);
-    return true;
+    return far;
   }
-  return false;
+  return std::nullopt;
 }
 
 }  // namespace mortier

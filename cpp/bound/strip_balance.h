@@ -4,6 +4,7 @@
 // forces (pressures.h).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "bound/side_tractions.h"
@@ -14,8 +15,10 @@ namespace mortier {
 /// \param left  nodal forces less those of the stresses (dofs) [N/m]
 /// \param size  what forces are measured against [N/m]
 /// \param stress  by triangles, to be balanced [Pa]
-/// \returns whether it is; otherwise neither is changed
-bool balanceStrip(const Body& body, const Sides& sides, const std::vector<Eigen::Matrix3d>& moduli,
-                  double size, Vector& left, std::vector<Stress>& stress);
+/// \returns the energy of what it adds in the rings that are far from these forces [J/m]; none where stresses
+/// could not be balanced: neither is changed then
+std::optional<double> balanceStrip(const Body& body, const Sides& sides,
+                                   const std::vector<Eigen::Matrix3d>& moduli, double size, Vector& left,
+                                   std::vector<Stress>& stress);
 
 }  // namespace mortier
