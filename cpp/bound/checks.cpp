@@ -34,8 +34,9 @@ Imbalance imbalanceOf(const TriangleMesh& mesh, const Sides& sides, const SideMo
         size = std::max(size, arm.norm());
       }
     const CompositeTriangle element(x, Eigen::Matrix3d::Identity());
+    const bool loaded = forces[t] != Point(0, 0);
     result.worst = std::max({result.worst, force.norm(), std::abs(couple) / size,
-                             element.defect(m - element.momentsOfLoad(forces[t]))});
+                             element.defect(loaded ? Moments(m - element.momentsOfLoad(forces[t])) : m)});
     result.largest = std::max(result.largest, m.cwiseAbs().maxCoeff());
   }
   for (int e = 0; e < sides.count(); ++e)

@@ -20,6 +20,9 @@ using Moments = Eigen::Matrix<double, 12, 1>;
 using MomentMatrix = Eigen::Matrix<double, 12, 12>;
 /// (s11, s22, s12)
 using Stress = Eigen::Vector3d;
+/// Of an Airy function: value and gradient at each corner, the mean derivatives along the outward normals of
+/// the sides (Clough and Tocher's element).
+using AiryModes = Eigen::Matrix<double, 12, 1>;
 
 class CompositeTriangle {
  public:
@@ -27,14 +30,21 @@ class CompositeTriangle {
   CompositeTriangle(const std::array<Point, 3>& corners, const Eigen::Matrix3d& compliance);
 
   /// A with m'A m = integral of s : E^-1 s, s the stress with moments m in equilibrium [1/Pa].
-  [[nodiscard]] const MomentMatrix& energy() const { return energy_; }
+  [[nodiscard]] MomentMatrix energy() const;
+  /// The same by the Airy function of s.
+  [[nodiscard]] MomentMatrix airyEnergy() const;
+  /// An Airy function of moments in equilibrium that is 0 at the first corner, with its gradient.
+  [[nodiscard]] AiryModes airyOf(const Moments& m) const;
+  /// The energy of the stress of moments in equilibrium and of a load as below [J/m].
+  [[nodiscard]] double energyOf(const Moments& m, const Point& f) const;
   /// The moments of a constant stress.
   [[nodiscard]] Moments momentsOf(const Stress& stress) const;
   /// Of a linear stress without shear whose divergence is -f and whose value at the centroid is 0:
   /// its moments,
   [[nodiscard]] Moments momentsOfLoad(const Point& f) const;
-  /// its energy product with the stresses of moments in equilibrium,
+  /// its energy product with the stresses of moments in equilibrium, and of Airy functions,
   [[nodiscard]] Moments loadProduct(const Point& f) const;
+  [[nodiscard]] AiryModes airyLoadProduct(const Point& f) const;
   /// and its energy [J/m].
   [[nodiscard]] double loadEnergy(const Point& f) const;
 
@@ -49,13 +59,17 @@ class CompositeTriangle {
  private:
   [[nodiscard]] Eigen::Matrix<double, 9, 3> loadValues(const Point& f) const;
   [[nodiscard]] Moments momentsInReference(const Moments& m) const;
+  [[nodiscard]] Point sideOf(int k) const { return x_[(k + 1) % 3] - x_[k]; }
 
   std::array<Point, 3> x_;
+  Eigen::Matrix2d F_;
   Eigen::Matrix2d inverse_;  ///< of F
   double J_;
-  Eigen::Matrix3d reference_;    ///< J P'S P, P taking (S11, S22, S12) to (s11, s22, s12)
-  Eigen::Matrix3d toReference_;  ///< P^-1
-  MomentMatrix energy_;
+  Eigen::Matrix3d reference_;      ///< J P'S P, P taking (S11, S22, S12) to (s11, s22, s12)
+  Eigen::Matrix3d fromReference_;  ///< P
 };
+
+/// What units of the Airy modes of a triangle do to its moments.
+MomentMatrix momentsOfAiry(const std::array<Point, 3>& corners);
 
 }  // namespace mortier

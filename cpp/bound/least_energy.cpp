@@ -58,9 +58,10 @@ bool Relaxation::minimise() {
   for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t) {
     const auto [effects, numbers] = modesOf(t, sideNumbers, vertexNumbers, vertexModes);
     const CompositeTriangle element = elementOf(t);
-    const Matrix energy = scale_ * effects.transpose() * element.energy() * effects;
-    Moments gradient = scale_ * (element.energy() * differenceOf(t, element));
-    if (forces_[t] != Point(0, 0)) gradient += scale_ * element.loadProduct(forces_[t]);
+    const MomentMatrix ofMoments = element.energy();
+    const Matrix energy = effects.transpose() * ofMoments * effects;
+    Moments gradient = ofMoments * differenceOf(t, element);
+    if (forces_[t] != Point(0, 0)) gradient += element.loadProduct(forces_[t]);
     const Vector by = effects.transpose() * gradient;
     for (size_t i = 0; i < numbers.size(); ++i) {
       slope[numbers[i]] += by[static_cast<Eigen::Index>(i)];

@@ -54,8 +54,8 @@ class Lifting {
       if (done && i > 2) break;
     }
     for (size_t b = 0; b < bodies_.size(); ++b) {
-      Vector energies(static_cast<Eigen::Index>(strains_[b].size()));
-      for (size_t t = 0; t < strains_[b].size(); ++t)
+      Vector energies = Vector::Zero(static_cast<Eigen::Index>(strains_[b].size()));
+      for (const size_t t : strained_[b])
         energies[static_cast<Eigen::Index>(t)] =
             area(b, t) * strains_[b][t].dot(bodies_[b].moduli[t] * strains_[b][t]);
       lift.energies.push_back(std::move(energies));
@@ -117,6 +117,11 @@ class Lifting {
               for (const int other : triangle) near_[b][other] = std::max(near_[b][other], ring);
       for (int v = 0; v < bodies_[b].body.nodes(); ++v)
         if (near_[b][v] > 0) moving_.push_back({static_cast<int>(b), v});
+      strained_.emplace_back();
+      for (size_t t = 0; t < mesh.triangles.size(); ++t)
+        if (std::any_of(mesh.triangles[t].begin(), mesh.triangles[t].end(),
+                        [&](int v) { return near_[b][v] > 0; }))
+          strained_[b].push_back(t);
     }
   }
 
@@ -243,7 +248,7 @@ class Lifting {
   [[nodiscard]] double value() const {
     double sum = 0;
     for (size_t b = 0; b < bodies_.size(); ++b)
-      for (size_t t = 0; t < strains_[b].size(); ++t)
+      for (const size_t t : strained_[b])
         sum += area(b, t) * strains_[b][t].dot(bodies_[b].moduli[t] * strains_[b][t]);
     for (const Facing& each : facing_) sum += 2 * each.weight * each.gap;
     return sum;
@@ -251,6 +256,7 @@ class Lifting {
 
   const std::vector<LiftedBody>& bodies_;
   std::vector<std::vector<Eigen::Vector3d>> strains_;  ///< of w, by bodies and triangles
+  std::vector<std::vector<size_t>> strained_;          ///< triangles that may be, by bodies
   std::vector<std::vector<int>> near_;
   std::vector<std::vector<int>> supportOf_;
   std::vector<std::vector<std::vector<int>>> facingAt_;  ///< by bodies and vertices

@@ -3,9 +3,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "base/interrupt.h"
 #include "bound/relaxation.h"
+#include "bound/strip_balance.h"
 #include "fem/rigid_modes.h"
 #include "linear/condensing_solver.h"
 #include "material/stress.h"
@@ -15,6 +17,12 @@ namespace {
 
 /// Directions that make a smaller angle are one [rad].
 constexpr double same = 1e-9;
+
+/// The bodies of a model with fewer triangles are solved as a whole for what is out of balance.
+constexpr size_t many = 10000;
+/// What stresses next to contact lines may have far from them, over the energy in the end: where it is more,
+/// forces that balance each other over lengths went the long way along the line.
+constexpr double little = 0.05;
 
 /// (p, q, r) of (s11, s22, s12), and the same for strains.
 Eigen::Matrix3d toBasis() {
@@ -32,6 +40,11 @@ void hold(KnownTraction& known, const Point& direction) {
     known = {1, {Point(-direction.y(), direction.x()), Point(0, 0)}, known.moments};
   else if (known.count == 1 && std::abs(known.known[0].dot(direction)) > 1e-9)
     known.count = 0;
+}
+
+/// What forces that are out of balance are measured against [N/m].
+double sizeOf(const Body& body, const Vector& load, const Vector& left) {
+  return std::max(body.gather(left).lpNorm<Eigen::Infinity>(), body.gather(load).lpNorm<Eigen::Infinity>());
 }
 
 }  // namespace
@@ -55,7 +68,14 @@ LoadedBody::LoadedBody(const Model& model, const State& state, const CutMesh& cu
       load_(body_.load(state.time)),
       modes_(rigidModes(body_)) {
   const Linearisation law = linearisedLaw(model.bodies[index], state.bodies[index].stress, weight);
+  size_t triangles = 0;
+  for (const Body& body : model.bodies) triangles += body.mesh().triangles.size();
+  coarse_ = triangles < many;
   const Eigen::Matrix3d B = toBasis();
+  moduli_.reserve(cut_.parents.size());
+  compliances_.reserve(cut_.parents.size());
+  stress_.reserve(cut_.parents.size());
+  forces_.reserve(cut_.parents.size());
   for (size_t t = 0; t < cut_.parents.size(); ++t) {
     const int parent = cut_.parents[t];
     moduli_.emplace_back(Eigen::Map<const Eigen::Matrix3d>(moduliAt(law.moduli, parent).data()));
@@ -82,12 +102,24 @@ int LoadedBody::sideBetween(const std::array<int, 2>& vertices) const {
 }
 
 bool LoadedBody::balance() {
+  const auto relaxed = [&](const std::vector<Stress>& stress) {
+    moments_ = balancedMoments(mesh(), sides_, stress, forces_, known_);
+    Relaxation relaxation(mesh(), sides_, compliances_, stress_, forces_, known_, moments_);
+    relaxation.relax();
+    energies_ = relaxation.energies();
+  };
   std::vector<Stress> stress = stress_;
+  if (!coarse_) {
+    Vector left = leftOver(load_, stress);
+    const double size = sizeOf(body_, load_, left);
+    if (const std::optional<double> far = balanceStrip(body_, sides_, moduli_, size, left, stress)) {
+      relaxed(stress);
+      if (*far <= little * energies_.sum()) return true;
+      stress = stress_;
+    }
+  }
   if (!equilibrate(stress)) return false;
-  moments_ = balancedMoments(mesh(), sides_, stress, forces_, known_);
-  Relaxation relaxation(mesh(), sides_, compliances_, stress_, forces_, known_, moments_);
-  relaxation.relax();
-  energies_ = relaxation.energies();
+  relaxed(stress);
   return true;
 }
 double LoadedBody::norm() const {
@@ -261,6 +293,8 @@ std::vector<double> LoadedBody::tangent() const {
 bool LoadedBody::equilibrate(std::vector<Stress>& stress) const {
   constexpr int most = 4;
   constexpr double enough = 1e-10;  // of the largest force
+  const Vector left = leftOver(load_, stress);
+  const double size = sizeOf(body_, load_, left);
   std::vector<double> values = tangent();
   pin(values);
   auto solver = multifrontalSolver(body_.pattern(), {});
@@ -268,8 +302,7 @@ bool LoadedBody::equilibrate(std::vector<Stress>& stress) const {
     solver = suiteSparseSolver(body_.pattern(), {});
     if (!solver->factorise(values)) return false;
   }
-  Vector x = body_.gather(leftOver(load_, stress));
-  const double size = std::max(x.lpNorm<Eigen::Infinity>(), body_.gather(load_).lpNorm<Eigen::Infinity>());
+  Vector x = body_.gather(left);
   for (int i = 0; i < most; ++i) {
     solver->condense(x);
     solver->expand(x);

@@ -134,6 +134,7 @@ class LoadedBody {
   std::vector<KnownTraction> known_;
   DataOscillation oscillation_;
   bool curvedSupport_ = false;
+  bool coarse_ = false;  ///< the model is: solutions of whole bodies cost little
   SideMoments moments_;
   Vector energies_;
 };

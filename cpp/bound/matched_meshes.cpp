@@ -65,11 +65,16 @@ class Cutter {
   static Edge sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
   void findTriangles(const Cuts& cuts) {
+    std::vector<char> at(result_.mesh.vertices.size(), 0);
+    for (const auto& [edge, parts] : cuts.all())
+      for (const int vertex : edge) at[vertex] = 1;
     for (size_t t = 0; t < result_.mesh.triangles.size(); ++t) {
       const auto& v = result_.mesh.triangles[t];
-      for (int k = 0; k < 3; ++k)
-        if (const Edge edge = sorted(v[k], v[(k + 1) % 3]); cuts.all().contains(edge))
-          triangleOf_[edge] = static_cast<int>(t);
+      for (int k = 0; k < 3; ++k) {
+        if (at[v[k]] == 0 || at[v[(k + 1) % 3]] == 0) continue;
+        const Edge edge = sorted(v[k], v[(k + 1) % 3]);
+        if (cuts.all().contains(edge)) triangleOf_[edge] = static_cast<int>(t);
+      }
     }
   }
 

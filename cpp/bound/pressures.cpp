@@ -7,10 +7,65 @@
 
 namespace mortier {
 
+namespace {
+
+/// Force and couple of a force along a normal.
+Eigen::Vector3d resultant(const Point& x, const Point& force) {
+  return {force.x(), force.y(), x.x() * force.y() - x.y() * force.x()};
+}
+
+/// Gives the pressures of an interface the force and the couple of its nodal forces, by factors 1 + a + b x,
+/// where that can be.
+void matchResultants(const ContactInterface& interface, const TriangleMesh& mesh, const Vector& forces,
+                     const std::vector<const MatchedPiece*>& pieces, const CutMesh& cut, Vector& spread) {
+  const double scale = extent(mesh);
+  const auto placeOf = [&](int node) -> Point {
+    return (mesh.vertices[node] - mesh.vertices[interface.nonmortarNodes().front()]) / scale;
+  };
+  Eigen::Vector3d left = Eigen::Vector3d::Zero();
+  for (int row = 0; row < interface.rows(); ++row)
+    left += resultant(placeOf(interface.nonmortarNodes()[row]), forces[row] * interface.normals()[row]);
+  const double size = left.norm();
+  Eigen::Matrix<double, 3, 2> M = Eigen::Matrix<double, 3, 2>::Zero();
+  for (const MatchedPiece* piece : pieces)
+    for (int k = 0; k < 2 && piece->rows[k] >= 0; ++k) {
+      const int row = piece->rows[k];
+      const auto m = momentsOfLinear(piece->values[k], piece->length);
+      for (int end = 0; end < 2; ++end) {
+        const Point x =
+            (cut.mesh.vertices[piece->vertices[0][end]] - mesh.vertices[interface.nonmortarNodes().front()]) /
+            scale;
+        const Eigen::Vector3d part = resultant(x, spread[row] * m[end] * piece->normal);
+        left -= part;
+        M.col(0) += part;
+        M.col(1) += placeOf(interface.nonmortarNodes()[row]).norm() * part;
+      }
+    }
+  const Eigen::Vector2d factors = Matrix(M).completeOrthogonalDecomposition().solve(Vector(left));
+  if (!factors.allFinite() || !((M * factors - left).norm() <= 1e-12 * size)) return;
+  Vector matched = spread;
+  for (int row = 0; row < interface.rows(); ++row)
+    matched[row] *= 1 + factors[0] + factors[1] * placeOf(interface.nonmortarNodes()[row]).norm();
+  if (matched.minCoeff() >= 0) spread = matched;
+}
+
+}  // namespace
+
 std::vector<Vector> spreadPressures(const Model& model, const State& state, const MatchedMeshes& meshes) {
   std::vector<Vector> forces;
   for (const Vector& p : state.contactForce) forces.emplace_back(p.cwiseMax(0));
-  return spreadForces(model, forces, meshes);
+  std::vector<Vector> spread = spreadForces(model, forces, meshes);
+  for (size_t i = 0; i < spread.size(); ++i) {
+    const ContactInterface& interface = model.interfaces[i];
+    const int body = interface.pair().nonmortar.body;
+    std::vector<const MatchedPiece*> pieces;
+    for (const MatchedPiece& piece : meshes.pieces)
+      if (piece.interface == static_cast<int>(i)) pieces.push_back(&piece);
+    if (!pieces.empty())
+      matchResultants(interface, model.bodies[body].mesh(), forces[i], pieces, meshes.bodies[body],
+                      spread[i]);
+  }
+  return spread;
 }
 
 std::vector<Vector> spreadForces(const Model& model, const std::vector<Vector>& forces,

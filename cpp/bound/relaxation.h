@@ -9,9 +9,8 @@
 //   b_P = J (mean - grad Phi(P)),   b_Q = J (grad Phi(Q) - mean),
 //   mean = ((Phi(Q) - Phi(P))/L) tau + (mean normal derivative) n.
 //
-// Gauss-Seidel sweeps over sides and vertices in their order lower the energy of the difference; every
-// iterate is in equilibrium, so the sweeps may stop at any time. Energy matrices only say where to go, and
-// are held in single precision.
+// Conjugate gradients lower the energy of the difference (airy_system.h); every iterate is in equilibrium, so
+// they may stop at any time.
 #pragma once
 
 #include <vector>
@@ -24,18 +23,17 @@ class Relaxation {
  public:
   /// \param compliances  by triangles (composite_triangle.h)  \param stress  to which the result shall be
   /// near
-  /// \param moments  in equilibrium; changed by the sweeps
+  /// \param moments  in equilibrium; changed
   Relaxation(const TriangleMesh& mesh, const Sides& sides, const std::vector<Eigen::Matrix3d>& compliances,
              const std::vector<Stress>& stress, const std::vector<Point>& forces,
              const std::vector<KnownTraction>& known, SideMoments& moments);
 
-  /// Sweeps, and a direct solution where these are slow, or it costs little. \throws Interrupted
+  /// Lowers the energy, by conjugate gradients or, where it costs little, to the least. \throws Interrupted
   void relax();
-  /// \returns what it took from the energy [J/m]
-  double sweep();
-  /// The least energy, by a direct solution for all modes at once, after which no sweep follows: a few times
-  /// a factorisation of the body, for where sweeps are slow, on triangles that are thin or of many sizes.
-  /// \returns whether it could be found
+  /// By conjugate gradients, until more iterations would take no more than a part of it. \returns whether
+  /// this is so after `most` of them
+  bool iterate(double part, int most);
+  /// The least energy, by a direct solution for all modes at once. \returns whether it could be found
   bool minimise();
   /// Integral of (s^ - s) : E^-1 (s^ - s) by triangles, s^ the stress of the moments [J/m].
   [[nodiscard]] Vector energies() const;
@@ -44,12 +42,6 @@ class Relaxation {
   /// What units of Phi (over a length), dPhi/dx and dPhi/dy at a vertex do to a side: to the moments of its
   /// first and of its second end.
   using Modes = Eigen::Matrix<double, 4, 3>;
-  /// The same to the two sides of a triangle at the vertex, as it sees them; places are those of its moments.
-  struct Effect {
-    int triangle = 0;
-    std::array<int, 2> places{};
-    std::array<Modes, 2> modes;
-  };
   /// What the modes of a triangle's sides and vertices do to its moments, and their numbers.
   struct TriangleModes {
     Eigen::Matrix<double, 12, Eigen::Dynamic, 0, 12, 12> effects;
@@ -66,11 +58,6 @@ class Relaxation {
   [[nodiscard]] CompositeTriangle elementOf(int triangle) const;
   /// Moments less those of the stress and of the load.
   [[nodiscard]] Moments differenceOf(int triangle, const CompositeTriangle& element) const;
-  template <int columns>
-  void change(int triangle, int place, const Eigen::Matrix<double, columns, 1>& by);
-  /// Both return what they took from the energy, times scale_.
-  double relaxSide(int side);
-  double relaxVertex(int vertex);
   [[nodiscard]] Point alongOf(int side) const;
   [[nodiscard]] Modes modesOf(int side, int vertex, double length) const;
   /// Columns are the combinations that leave what is known of tractions as it is.
@@ -83,10 +70,6 @@ class Relaxation {
   const std::vector<Point>& forces_;
   const std::vector<KnownTraction>& known_;
   SideMoments& moments_;
-  double scale_ = 1;  ///< of the energies [Pa]
-  std::vector<Eigen::Matrix<float, 12, 12>> energies_;
-  std::vector<Moments> gradient_;  ///< of half the energy by the moments
-  std::vector<Effect> effects_;    ///< of the vertex at hand
 };
 
 }  // namespace mortier

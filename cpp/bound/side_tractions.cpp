@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <numeric>
 
 namespace mortier {
 namespace {
@@ -151,19 +152,28 @@ Sides::Sides(const TriangleMesh& mesh) : ofTriangle_(3 * mesh.triangles.size()) 
     std::array<int, 2> edge;
     int place;  ///< 3 triangle + side
   };
-  std::vector<Half> halves;
-  halves.reserve(ofTriangle_.size());
+  // In the order of their edges, and of their places.
+  std::vector<int> next(mesh.vertices.size() + 1, 0);
+  for (const auto& v : mesh.triangles)
+    for (int k = 0; k < 3; ++k) ++next[std::min(v[k], v[(k + 1) % 3]) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<Half> halves(ofTriangle_.size());
   for (size_t t = 0; t < mesh.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
       const auto [a, b] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
-      halves.push_back({{a, b}, static_cast<int>(3 * t) + k});
+      halves[next[a]++] = {{a, b}, static_cast<int>(3 * t) + k};
     }
-  std::sort(halves.begin(), halves.end(), [](const Half& a, const Half& b) {
-    return a.edge != b.edge ? a.edge < b.edge : a.place < b.place;
-  });
+  for (size_t begin = 0, end = 0; begin < halves.size(); begin = end) {
+    while (end < halves.size() && halves[end].edge[0] == halves[begin].edge[0]) ++end;
+    std::sort(halves.data() + begin, halves.data() + end, [](const Half& a, const Half& b) {
+      return a.edge[1] != b.edge[1] ? a.edge[1] < b.edge[1] : a.place < b.place;
+    });
+  }
+  sides_.reserve(halves.size() / 2 + mesh.boundaryEdges.size());
   std::vector<std::array<int, 2>> atVertices;
   for (size_t i = 0; i < halves.size(); ++i) {
-    const bool second = i > 0 && halves[i].edge == halves[i - 1].edge;
+    const bool second =
+        i > 0 && halves[i].edge[0] == halves[i - 1].edge[0] && halves[i].edge[1] == halves[i - 1].edge[1];
     const int triangle = halves[i].place / 3;
     const int k = halves[i].place % 3;
     if (!second) {

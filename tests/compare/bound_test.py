@@ -67,6 +67,17 @@ component = "y"
         exact = -(1 + 0.8) * 10 / 3e11  # both blocks are pressed alike
         self.assertLessEqual(abs(summary["sinks"]["value"] - exact), found["sinks"]["estimate"])
 
+    def test_memory_grows_by_at_most_half(self):
+        for body, y in (("upper", 0), ("lower", -1)):
+            self.mortier("mesh", "crisscross", "--cells", "35" if y == 0 else "34", "--lower", f"0,{y}",
+                         "--upper", f"1,{y + 1}", f"{body}.mesh")
+        peaks = []
+        for bound in ("", BOUND):
+            self.write(ELASTIC + bound)
+            self.mortier("run", "scene.toml", "--out", "out", "--set", "contact.variant=interpolation")
+            peaks.append(json.loads(self.read("out/summary.json"))["peak_memory_mib"])
+        self.assertLessEqual(peaks[1], 1.5 * peaks[0])
+
     def test_not_asked_for_is_not_told(self):
         self.write(ELASTIC + HELD_AND_PRESSED)
         log = self.mortier("run", "scene.toml", "--out", "out").stdout

@@ -1,0 +1,81 @@
+// The energy of what Airy functions add to a stress,
+//
+//   E(x) = E(0) - 2 b'x + x'K x,
+//
+// x their modes: value and gradient at each vertex, the mean normal derivative at each side. With
+// K = D + L + L', D the blocks of vertices and the diagonal of sides, vertices before sides, conjugate
+// gradients preconditioned by symmetric Gauss-Seidel, (D + L) D^-1 (D + L'), work with
+//
+//   (D + L)^-1 K (D + L')^-1 p = t + (D + L)^-1 (p - D t),      t = (D + L')^-1 p,
+//
+// which reads K once an iteration (Eisenstat, SIAM J. Sci. Stat. Comput. 2 (1981)). E falls in each. Modes of
+// thin triangles hang together so stiffly that sweeps over them one by one are slow: they are one block of D,
+// the last, which is factorised.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "bound/side_tractions.h"
+#include "linear/condensing_solver.h"
+
+namespace mortier {
+
+class AirySystem {
+ public:
+  explicit AirySystem(const Sides& sides, size_t vertices);
+
+  /// Adds a triangle: \param K, b  by its modes, those of sides with the normals of `sides`; rows and columns
+  /// of modes that are not allowed are 0. \param energy  of E(0)
+  void add(const std::array<int, 3>& triangle, const std::array<int, 3>& sidesOf, const MomentMatrix& K,
+           const AiryModes& b, double energy);
+
+  /// Makes the modes of these triangles one block. \pre all triangles have been added
+  /// \returns whether it could be factorised
+  bool join(const TriangleMesh& mesh, const Sides& sides, const std::vector<int>& triangles);
+  /// Lowers E until what more iterations could take, as their gains fade, is no more than a part of it.
+  /// \returns whether it is after `most` of them \throws Interrupted
+  bool solve(double part, int most);
+  [[nodiscard]] double energy() const { return energy_; }  ///< E(x)
+  [[nodiscard]] int iterations() const { return iterations_; }
+  [[nodiscard]] Eigen::Vector3d atVertex(int vertex) const { return x_.segment<3>(3 * vertex); }
+  [[nodiscard]] double atSide(int side) const { return x_[firstSide_ + side]; }
+
+ private:
+  /// The coupling of a side: with its two ends, the lower number first, and the vertices opposite; of these
+  /// ends with each other; with sides of greater number.
+  struct Coupling {
+    std::array<int, 4> vertices;
+    std::array<int, 4> others;
+    Eigen::Matrix3d ends;
+    std::array<Eigen::Vector3d, 4> withVertices;
+    std::array<double, 4> withOthers;
+    double own;
+  };
+  struct Entry {
+    int column, row;
+    double value;
+  };
+  void solveBlock(Vector& f) const;
+  void forward(Vector& f) const;   ///< f becomes (D + L)^-1 f
+  void backward(Vector& f) const;  ///< f becomes (D + L')^-1 f
+  void multiplyDiagonal(const Vector& f, Vector& result) const;
+  void invertDiagonal();
+
+  int vertices_, firstSide_;
+  std::vector<Coupling> sides_;
+  std::vector<int> sidesFrom_;  ///< the sides of which a vertex is the lower end: those from here on
+  std::vector<Eigen::Matrix3d> diagonal_, inverse_;
+  std::vector<int> number_;  ///< of modes in the block, -1 for others; empty where there is none
+  std::vector<int> inBlock_;
+  std::vector<Entry> toBlock_;  ///< rows are those of the block, columns other modes
+  SparsePattern block_;
+  std::vector<double> blockValues_;
+  std::unique_ptr<CondensingSolver> blockSolver_;
+  Vector b_, x_;
+  double energy_ = 0;
+  int iterations_ = 0;
+};
+
+}  // namespace mortier
