@@ -74,7 +74,8 @@ class Ranks(InFolder):
     def test_the_first_one_tells(self):
         (self.folder / "wrong.toml").write_text("title = 3\n")
         for scene, settings, code in (("wrong.toml", [], 2),
-                                      (TWO_BLOCKS, ["solver.max_iterations=1"], 1),
+                                      (TWO_BLOCKS, ["time.steps=2", "solver.max_iterations=1",
+                                                    "contact.variant=interpolation"], 1),
                                       (TWO_BLOCKS, ["body.lower.boundary=[]"], 3)):
             with self.subTest(scene=scene, settings=settings):
                 alone = self.mortier("run", scene, "--quiet", "--out", "alone", *self.set(settings),

@@ -91,8 +91,8 @@ void expectSameSolution(const CondensingSolverFactory& engine, bool symmetric, i
     const std::vector<int> own = cells.equationsOf(all.rank());
     const auto solver = sharedSolver(cells.pattern, last, own, engine, all);
     ASSERT_TRUE(solver->join(solver->factorise(cells.values(all.rank()))));
-    if (kept > 0)
-      EXPECT_LE((solver->schurComplement() - alone->schurComplement()).cwiseAbs().maxCoeff(), rounding);
+    const Matrix error = solver->schurComplement() - alone->schurComplement();
+    EXPECT_LE(error.size() > 0 ? error.cwiseAbs().maxCoeff() : 0, rounding);
     // A load at an equation of several is given by one of them.
     Vector f = Vector::Zero(load.size());
     for (const int i : own) {
