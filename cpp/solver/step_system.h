@@ -73,7 +73,8 @@ class StepSystem {
   class Condensed;
 
   /// The residuals of an iterate, with the law as it was linearised last.
-  [[nodiscard]] Certificate certify(const Step& step, const Iterate& iterate, double materialResidual);
+  /// Collective.
+  [[nodiscard]] Certificate certify(const Step& step, const Iterate& iterate, double materialResidual) const;
 
   /// Where an iterate is further off the law than a converged step may be; none where it is so nowhere.
   std::optional<StuckPlace> furthest(const Step& step, Iterate& iterate, double weight);

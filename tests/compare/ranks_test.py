@@ -16,6 +16,8 @@ MPIRUN = ["mpirun", "--oversubscribe", "--quiet", "-n"]
 ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                "OMPI_MCA_rmaps_base_oversubscribe": "1", "OPENBLAS_NUM_THREADS": "1"}
 SAME = 1e-10  # of the largest value of its kind
+FRICTION = ["contact.friction=0.3", "body.lower.boundary=[{label=1, ux=0, uy=0}]",
+            "body.upper.boundary=[{label=3, uy='-0.1*t', ux='0.1*sin(9*t)'}]"]
 TWO_BLOCKS = str(ROOT / "scenes/compression.toml")
 
 
@@ -66,10 +68,12 @@ class Ranks(InFolder):
 
     def test_methods_are_those_of_one_process(self):
         for settings in (["contact.variant=interpolation"], ["solver.linear=suitesparse"], ["degree=2"],
-                         ["solver.method=penalty-duality"], ["plane=strain"],
-                         ["time.scheme=sdirk2", "time.tolerance=1e-3"]):
+                         ["solver.method=penalty-duality"], ["plane=strain", "accuracy.bound=true"],
+                         ["time.scheme=sdirk2", "time.tolerance=1e-3"], FRICTION,
+                         ["body.material.expansion=1e-5", "body.upper.temperature='10*t'"],
+                         ["body.material.yield_stress=1000", "accuracy.energy=0.05"]):
             with self.subTest(settings=settings):
-                self.expect_same([3], TWO_BLOCKS, "time.steps=10", *settings)
+                self.expect_same([3], TWO_BLOCKS, "time.steps=5", *settings)
 
     def test_the_first_one_tells(self):
         (self.folder / "wrong.toml").write_text("title = 3\n")
