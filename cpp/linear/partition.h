@@ -1,4 +1,4 @@
-// A graph cut into parts of given sizes with few edges between them (Karypis and Kumar 1998).
+// A graph cut into parts of given sizes.
 #pragma once
 
 #include <vector>
@@ -12,8 +12,11 @@ struct Graph {
   [[nodiscard]] int size() const { return static_cast<int>(start.size()) - 1; }
 };
 
+using Partitioner = std::vector<int> (*)(const Graph& graph, const std::vector<double>& shares);
+
 /// \param shares  of the vertices that each part is to have, sum 1, none 0
-/// \returns the part of every vertex: by METIS, or ranges of vertices where it was not there to build with
+/// \returns the part of every vertex: ranges of vertices, unless another way is to be used
 std::vector<int> partition(const Graph& graph, const std::vector<double>& shares);
+void partitionBy(Partitioner way);
 
 }  // namespace mortier

@@ -13,6 +13,7 @@
 
 #include "base/interrupt.h"
 #include "base/ranks.h"
+#include "ranks/metis_partition.h"
 
 namespace mortier {
 namespace {
@@ -158,6 +159,7 @@ class MpiRanks final : public Ranks {
 void startRanks(int& argc, char**& argv) {
   static MpiRanks ranks(argc, argv);
   Ranks::use(ranks);
+  partitionBy(partitionByMetis);
 }
 
 }  // namespace mortier

@@ -21,14 +21,14 @@ SEES["lint"] = {*SEES["plan"], "plan"}
 SEES["adapt"] = {*SEES["plan"], "plan"}
 SEES["report"] = {*SEES["time"], "time", "bound"}
 SEES["commands"] = {*SEES["lint"], "lint", "adapt", "bound", "report"}
-SEES["ranks"] = {"base"}  # beside all others: linked with mortier-mpi only
+SEES["ranks"] = {"base", "linear"}  # beside all others: linked with mortier-mpi only
 
 # Headers of libraries, and the only files that include them.
-LIBRARIES = {r"cholmod|umfpack|cblas|amd\.h|colamd|metis|lapack": r"linear/\w+\.cpp|linear/cholmod_common\.h",
+LIBRARIES = {r"cholmod|umfpack|cblas|amd\.h|colamd|lapack": r"linear/\w+\.cpp|linear/cholmod_common\.h",
              r"Eigen/.*(Sparse\w*(LU|QR|Cholesky)|Iterative|\w*Support)": r"(linear|contact)/\w+\.cpp",
              r"gmsh": r"mesh/\w+\.cpp", r"muParser|toml\+\+": r"scene/\w+\.cpp",
              r"nlohmann": r"(report|commands)/\w+\.cpp", r"CLI/": r"commands/\w+\.cpp|main\.cpp",
-             r"pybind11|Python\.h": r"python/\w+\.(cpp|h)", r"mpi\.h": r"ranks/\w+\.cpp"}
+             r"pybind11|Python\.h": r"python/\w+\.(cpp|h)", r"mpi\.h|metis": r"ranks/\w+\.cpp"}
 
 
 def includes(path):
