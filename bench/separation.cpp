@@ -131,14 +131,14 @@ Pivots contactPivots(const Model& model) {
     CondensedBody system(model, b, firstRow, SolverOptions{}, Threads::none());
     BodyIterate iterate{Vector::Zero(body.dofs()), Vector::Zero(body.dofs()), state.bodies[b].stress,
                         Matrix::Zero(3, body.points())};
-    system.linearise(state.bodies[b].stress, nullptr, iterate,
-                     {[&](const BodyIterate& at, Linearisation& law, int begin, int end) {
+    system.linearise(nullptr, iterate, {[&](const BodyIterate& at, Linearisation& law, int begin, int end) {
                        return body.material().linearise({0, state.bodies[b].stress, at.strain}, at.stress,
                                                         law, begin, end);
                      }});
     const ContactDofs& dofs = system.contact();
     result.factorisation += secondsOf([&] { system.factorise(); });
-    slack -= dofs.C * system.condense(body.load(1));
+    system.condense(body.load(1));
+    slack -= dofs.C * system.joinCondensed();
     system.addCompliance(problem.W);
     normalMotions.emplace_back(dofs.C * dofs.R);
     rigidForces.push_back(dofs.rigidForce(body.load(1)));

@@ -9,6 +9,7 @@
 #include <new>
 
 #include "base/error.h"
+#include "base/ranks.h"
 #include "commands/check.h"
 #include "commands/complain.h"
 #include "commands/exit_code.h"
@@ -232,8 +233,8 @@ int dispatch(int argc, char** argv) {
   return exitWrongInput;
 }
 
-int complainOf(const std::exception& error, int code) {
-  complain(error.what());
+int complainOf(const std::string& text, int code) {
+  if (Ranks::all().end(code)) complain(text);
   return code;
 }
 }  // namespace
@@ -244,17 +245,20 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   dense::endThreadsOfBlas();
   try {
+    startRanks(argc, argv);
     const int code = dispatch(argc, argv);
     finishStandardOutput();
+    static_cast<void>(Ranks::all().end(code));  // it has told why
     return code;
   } catch (const InputError& error) {
-    return complainOf(error, exitWrongInput);
+    return complainOf(error.what(), exitWrongInput);
   } catch (const UnheldBodyError& error) {
-    return complainOf(error, exitUnheld);
+    return complainOf(error.what(), exitUnheld);
+  } catch (const PeerEnded& error) {
+    return complainOf(error.what(), error.code());
   } catch (const std::bad_alloc&) {
-    complain("out of memory");
-    return exitFailed;
+    return complainOf("out of memory", exitFailed);
   } catch (const std::exception& error) {
-    return complainOf(error, exitFailed);
+    return complainOf(error.what(), exitFailed);
   }
 }

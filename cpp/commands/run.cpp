@@ -11,6 +11,7 @@
 #include "adapt/rounds.h"
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/ranks.h"
 #include "commands/attempt.h"
 #include "commands/complain.h"
 #include "commands/ending.h"
@@ -32,7 +33,7 @@ void onInterrupt(int signal) {
     static_cast<void>(!write(STDERR_FILENO, text, sizeof text - 1));
     _exit(exitFailed);
   }
-  requestInterrupt();
+  if (!Ranks::all().interrupt()) requestInterrupt();
   std::signal(signal, SIG_DFL);
 }
 
@@ -63,9 +64,12 @@ void tell(Log& log, const RunFacts& facts, const Model& model, const Solved& sol
 
 int run(RunCommand command) {
   // 1. The scene, and the model it describes.
+  Ranks& ranks = Ranks::all();
   std::optional<StoppedRun> stopped;
   if (!command.restart.empty()) {
-    stopped = findStoppedRun(command.restart);
+    if (ranks.first()) stopped = findStoppedRun(command.restart);
+    const std::string left = textOfFirst(ranks, stopped ? stopped->folder : "");
+    if (!ranks.first() && !left.empty()) stopped = StoppedRun{left, {}, readCheckpoint(left)};
     if (!stopped) {
       warn(command.restart + ": the run was complete, its result is now in place");
       return exitDone;
@@ -95,11 +99,12 @@ int run(RunCommand command) {
     lintSettling(scene, findInitialEquilibrium(scene, *attempt->model, attempt->state), doubts);
   }
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, onInterrupt);
-  if (stopped)
+  if (stopped && ranks.first())
     folder.emplace(path, stopped->folder, std::move(stopped->lock));
-  else
+  else if (ranks.first())
     folder.emplace(path);
-  Checkpoints checkpoints(folder->temporary(), command.checkpoint, identity);
+  const std::string temporary = folder ? folder->temporary() : "";
+  Checkpoints checkpoints(temporary, command.checkpoint, identity);
   const double endTime = attempt->resolved.description.time.end;
   Log log(command.quiet, endTime);
   Log rows(command.quiet || rounds, endTime);
@@ -116,7 +121,7 @@ int run(RunCommand command) {
                     *now.model,
                     *now.error,
                     now.facts,
-                    folder->temporary(),
+                    temporary,
                     rows,
                     now.state,
                     {},
@@ -130,9 +135,11 @@ int run(RunCommand command) {
   };
   std::string shortfall;  // why the accuracy is not reached
   if (rounds)
-    shortfall = solveRounds(*rounds, attempt, options, folder->temporary(), log, solveIt);
+    shortfall = solveRounds(*rounds, attempt, options, temporary, log, solveIt);
   else
     solveIt(*attempt, {});
+
+  if (!ranks.first()) return endingOf(*attempt, shortfall, "").code;
 
   // 4. The result, in place of an older one only when the run is complete.
   addVerdict(*attempt, rounds ? &*rounds : nullptr, shortfall);

@@ -5,6 +5,7 @@
 #include "base/checksum.h"
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/ranks.h"
 #include "report/checkpoint_files.h"
 #include "report/clock.h"
 
@@ -38,20 +39,21 @@ Solved solve(Solving solving) {
   Solved solved;
   StepReport& last = solved.last;
   State& state = solved.state;
-  std::optional<ResultFiles> files;
+  const bool writes = Ranks::all().first();
+  std::optional<ResultFiles> files;  // where this rank writes
   FilesSoFar empty;
   MarchMemory memory;
   AccuracyMemory accuracySoFar;
   if (solving.stopped) {
     Checkpoint& stopped = *solving.stopped;
-    files.emplace(folder, model, solving.error, scene.every, stopped.files);
+    if (writes) files.emplace(folder, model, solving.error, scene.every, stopped.files);
     empty = stopped.empty;
     last = stopped.last;
     state = std::move(stopped.state);
     memory = std::move(stopped.memory);
     accuracySoFar = stopped.accuracy;
   } else {
-    files.emplace(folder, model, solving.error, facts.quantities, facts.units, scene.every);
+    if (writes) files.emplace(folder, model, solving.error, facts.quantities, facts.units, scene.every);
     state = std::move(solving.state);
   }
   solving.error.moveTo(state);
@@ -68,7 +70,7 @@ Solved solve(Solving solving) {
   State keptState = state;
   MarchMemory keptMemory = memory;
   const auto save = [&](const FilesSoFar& written, const State& at, const MarchMemory& with) {
-    solving.checkpoints.write(empty, written, last, at, with, accuracySoFar);
+    if (writes) solving.checkpoints.write(empty, written, last, at, with, accuracySoFar);
   };
   const Observer observe = [&](const State&, const StepReport& report) {
     if (total) total->look(state, report.step);  // what may be interrupted comes first
@@ -79,14 +81,14 @@ Solved solve(Solving solving) {
       log.print(logTrial(keptMemory.run.timeError, scene.time.tolerance));
       last = report;
       accuracySoFar = {};
-      const FilesSoFar written = files->sync();
+      const FilesSoFar written = files ? files->sync() : empty;
       if (!solving.onlyTheStart) save(empty, state, memory);
       files.reset();
       removeFields(folder, written, empty);
-      files.emplace(folder, model, solving.error, scene.every, empty);
+      if (writes) files.emplace(folder, model, solving.error, scene.every, empty);
     } else {
-      files->add(state, report);
-      if (report.step == 0) empty = files->sync();
+      if (files) files->add(state, report);
+      if (files && report.step == 0) empty = files->sync();
       if (report.step == 0 && solving.onlyTheStart && facts.rounds.empty()) {
         const FileRecord nothing{0, Checksum().value};  // whatever later rounds write
         save({nothing, nothing, {}}, state, memory);
@@ -100,12 +102,18 @@ Solved solve(Solving solving) {
       flow->add(state, report);
       total->add(accuracySoFar.flow.obstacle);
     }
-    if (!solving.onlyTheStart && report.step > 0 && state.time < scene.time.end && solving.checkpoints.due())
+    if (files && !solving.onlyTheStart && report.step > 0 && state.time < scene.time.end &&
+        solving.checkpoints.due())
       save(files->sync(), state, memory);
     keptState = state;
     keptMemory = memory;
   };
   RunReport& report = solved.report;
+  const auto saveLast = [&] {
+    log.finish();
+    const bool begun = last.step > 0 || keptMemory.controller.trial > 1;
+    if (files && begun && !solving.onlyTheStart) save(files->sync(), keptState, keptMemory);
+  };
   try {
     report = march(model, state, memory, scene.time, scene.solver, observe);
   } catch (const OutputError& error) {
@@ -117,15 +125,16 @@ Solved solve(Solving solving) {
     report.status = Status::failed;
     report.reason = timeIsUp;
     state = keptState;
+  } catch (const PeerEnded&) {
+    saveLast();
+    throw;
   } catch (const Interrupted&) {
-    log.finish();
-    const bool begun = last.step > 0 || keptMemory.controller.trial > 1;
-    if (begun && !solving.onlyTheStart) save(files->sync(), keptState, keptMemory);
+    saveLast();
     throw InterruptedError(scene.path + ": interrupted after step " + std::to_string(last.step) +
                            (hasCheckpoint(folder) ? solving.again : "; nothing was written"));
   }
   log.finish();
-  solved.files = files->close(state, last.step);
+  if (files) solved.files = files->close(state, last.step);
   solved.accuracy = accuracies.atEnd(report.peaks);
   if (flow) {
     solved.accuracy.flow = flow->atEnd(state);

@@ -1,6 +1,7 @@
 #include "commands/solve_rounds.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <new>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "adapt/error_history.h"
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/ranks.h"
 #include "commands/bound_of.h"
 #include "report/clock.h"
 #include "scene/initial_equilibrium.h"
@@ -64,7 +66,9 @@ std::optional<Rounds> beginRounds(ResolvedScene& resolved) {
 
 std::string solveRounds(Rounds& rounds, std::unique_ptr<Attempt>& attempt, const AttemptOptions& options,
                         const std::string& folder, Log& log, const SolveAttempt& solve) {
-  const TimeLimit limit(attempt->scene().accuracy.maxSeconds - processSeconds());
+  // Several ranks stop together: between rounds.
+  const double most = Ranks::all().shared() ? INFINITY : attempt->scene().accuracy.maxSeconds;
+  const TimeLimit limit(most - processSeconds());
   std::vector<RoundFacts> done;
   Rounds::Verdict verdict = Rounds::Verdict::goOn;
   double begin = 0;
@@ -73,7 +77,7 @@ std::string solveRounds(Rounds& rounds, std::unique_ptr<Attempt>& attempt, const
     round.facts.rounds = done;
     solve(round, [&](const State&, const StepReport& report) { errors.add(report); });
     if (round.solved.report.status != Status::converged) return;
-    const double end = processSeconds();
+    const double end = numberOfFirst(Ranks::all(), processSeconds());
     const double time = round.solved.report.timeError;
     RoundResult result{errors.errors(), errors.energy(), time, end - begin};
     if (!round.facts.aim.empty()) {

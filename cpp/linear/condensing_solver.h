@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/ranks.h"
 #include "base/types.h"
 #include "linear/sparse_pattern.h"
 
@@ -31,6 +32,16 @@ class CondensingSolver {
   virtual void condense(Vector& f) const = 0;
   /// f from condense() with the solution x_k in its kept part: becomes the solution x.
   virtual void expand(Vector& f) const = 0;
+
+  // Where ranks share the interior, each function above does the part of its own rank, and the one here that
+  // follows it puts together what all did. Collective.
+
+  /// After factorise(). \returns whether all of it is regular
+  virtual bool join(bool regular) { return regular; }
+  /// After condense().
+  virtual void joinCondensed(Vector& /*f*/) const {}
+  /// After expand(): f becomes the whole solution.
+  virtual void joinExpanded(Vector& /*f*/) const {}
 
   /// Works on these threads from now on; they must outlive the solver.
   void use(Threads& threads) { threads_ = &threads; }
@@ -54,5 +65,14 @@ std::unique_ptr<CondensingSolver> multifrontalSolver(const SparsePattern& patter
 /// CHOLMOD (symmetric patterns) or UMFPACK on the interior, one right-hand side per kept equation.
 std::unique_ptr<CondensingSolver> suiteSparseSolver(const SparsePattern& pattern,
                                                     const std::vector<int>& kept);
+
+/// The interior shared by ranks: the matrix is the sum of those of all of them, each with entries in the rows
+/// and columns of its own equations alone. Equations that several ranks have, the skeleton, are kept in every
+/// part and eliminated from the sum of what the parts leave there.
+/// \param own  equations of this rank, ascending
+/// \param engine  of the parts and of the skeleton. Collective.
+std::unique_ptr<CondensingSolver> sharedSolver(const SparsePattern& pattern, const std::vector<int>& kept,
+                                               const std::vector<int>& own,
+                                               const CondensingSolverFactory& engine, Ranks& ranks);
 
 }  // namespace mortier

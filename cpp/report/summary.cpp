@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/ranks.h"
 #include "report/clock.h"
 #include "report/fields.h"
 #include "report/laws.h"
@@ -339,6 +340,8 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
     json["rounds"] = rounds(facts);
   }
   json["peak_memory_mib"] = peakMemory();
+  if (const Ranks& ranks = Ranks::all(); ranks.shared())
+    json["ranks"] = {{"count", ranks.count()}, {"messages_of_first_bytes", ranks.traffic()}};
   json["wall_time_s"] = processSeconds();
   json["versions"] = Json::object();
   for (const auto& [name, version] : facts.versions) json["versions"][name] = version;

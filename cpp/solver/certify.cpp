@@ -34,13 +34,18 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
     force.add(step.loads[b]);
     // Of what expands freely rounding is left of the stress that it would have.
     if (body.heated() && !step.data.thermal.empty()) {
-      Matrix held = step.state0.bodies[b].thermalStrain + step.data.thermal[b];
-      for (int i = 0; i < body.points(); ++i) held.col(i) = stressOf(bodies_[b].law(), held.col(i), i).eval();
-      force.add(body.largestForce(held));
+      const Matrix strain = step.state0.bodies[b].thermalStrain + step.data.thermal[b];
+      Matrix held = Matrix::Zero(strain.rows(), strain.cols());
+      bodies_[b].forEachOwnBlock([&](int begin, int end) {
+        for (int i = begin; i < end; ++i) held.col(i) = stressOf(bodies_[b].law(), strain.col(i), i);
+      });
+      double largest = body.largestForce(held);
+      Ranks::all().largest(&largest, 1);
+      force.add(largest);
     }
     // A body that moves without any load and does not flow has forces that are nothing but rounding.
     if (bodies_[b].law().elastic == body.points())
-      force.add(roundingOfMotion * bodies_[b].law().moduli.lpNorm<Eigen::Infinity>() *
+      force.add(roundingOfMotion * bodies_[b].largestModulus() *
                 unknowns.increment.high.lpNorm<Eigen::Infinity>() * depthOf(body));
     length.add(extent(body.mesh()));
     length.add(u[b]);

@@ -4,10 +4,13 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
+#include "base/blocks.h"
 #include "linear/condensing_solver.h"
+#include "solver/body_share.h"
 #include "solver/contact_dofs.h"
 #include "solver/dense_factor.h"
 #include "solver/iterate.h"
@@ -32,9 +35,25 @@ class CondensedBody {
 
   [[nodiscard]] const ContactDofs& contact() const { return contact_; }
 
-  /// The strain of the iterate, and the law there. \returns the residual, scaled [-].
-  double linearise(const Matrix& stress0, const Matrix* shift, BodyIterate& iterate, const BodyLaw& law);
+  /// The strain of the iterate, and the law there: at the points of this rank where ranks share the body.
+  void linearise(const Matrix* shift, BodyIterate& iterate, const BodyLaw& law);
+  /// What the law asked for at its points; where ranks share the body it is to become that of all of them.
+  struct LawFacts {
+    double change = 0;     ///< of stress, the largest; infinite for NaN [Pa]
+    double predictor = 0;  ///< the largest component, only where stresses are measured against it [Pa]
+    double modulus = 0;    ///< the largest [Pa]
+    int elastic = 0;       ///< points that are
+  };
+  [[nodiscard]] const LawFacts& lawFacts() const { return facts_; }
+  void take(const LawFacts& facts);
+  /// The residual of what was linearised, scaled [-].
+  [[nodiscard]] double residual(const Matrix& stress0, const BodyIterate& iterate) const;
   [[nodiscard]] const Linearisation& law() const { return law_; }  ///< as last linearised
+  /// Makes it known at all points, until it is linearised or factorised again. Collective.
+  void completeLaw();
+  /// Of the share of this rank; null where there is one rank.
+  [[nodiscard]] const BodyShare* share() const { return share_ ? &*share_ : nullptr; }
+  [[nodiscard]] double largestModulus() const;
   /// The point whose stress is furthest off the law as last linearised, and by how much [-]; -1 for none.
   [[nodiscard]] std::pair<int, double> furthest(const Matrix& stress0, const BodyIterate& iterate) const;
   /// What the rounding of the mesh and of its displacements makes of stresses, by the moduli of the last
@@ -46,20 +65,34 @@ class CondensedBody {
   struct Factors {
     std::string failure;   ///< why there are none
     bool changed = false;  ///< whether it was any work that counts
+    bool begun = false;    ///< whether there is anything to join
   };
   /// Factorises the tangent of the last linearisation, unless that and the one factorised before are both of
-  /// a body in which nothing flows.
+  /// a body in which nothing flows. Where ranks share the body it begins with that, each with its part.
   Factors factorise();
   /// The tangent that was factorised last, as values of the body's pattern.
   [[nodiscard]] const std::vector<double>& tangent() const { return values_; }
+  /// What is left to do where ranks share the body. Collective.
+  void join(Factors& factors);
   /// Whether points began or ceased to flow in the linearisations since.
   [[nodiscard]] bool stale() const { return factorisedElastic_ != law_.elastic; }
   /// W += C S^-1 C'.
   void addCompliance(Matrix& W) const;
-  /// Takes nodal forces (dofs) that are left over. \returns S^-1 times what they are on the contact dofs.
-  Vector condense(const Vector& force);
-  /// Displacement (dofs) under these and a change of the contact forces, with rigid motions `z` of this body.
-  Vector expand(const Vector& forceChange, const Vector& z);
+  /// A load (dofs) less the forces of a stress. Where ranks share the body the stress is 0 at the points of
+  /// others, each keeps these forces for condense(), and the load is returned as it is.
+  [[nodiscard]] Vector leftOver(const Vector& load, const Matrix& stress);
+  /// Takes nodal forces (dofs): those of leftOver(), and what has been added.
+  void condense(const Vector& force);
+  /// \returns S^-1 times what they are on the contact dofs. Collective.
+  Vector joinCondensed();
+  /// Finds the displacement under these and a change of the contact forces, with rigid motions `z` of this
+  /// body.
+  void expand(const Vector& forceChange, const Vector& z);
+  /// \returns it (dofs). Collective.
+  Vector joinExpanded();
+  /// Calls work(begin, end) for all points, or those of this rank.
+  template <class Work>
+  void forEachOwnBlock(const Work& work) const;
 
   /// From now on CHOLMOD or UMFPACK.
   void useLibraries();
@@ -73,6 +106,9 @@ class CondensedBody {
   /// What stresses are measured against.
   [[nodiscard]] double residualScale(const Matrix& stress0, const BodyIterate& iterate) const;
   [[nodiscard]] Vector solveSchur(const Vector& f) const;
+  [[nodiscard]] std::unique_ptr<CondensingSolver> newSolver() const;
+  void clearLawOfOthers();
+  void useSchurComplement(Factors& factors);
 
   const Body& body_;
   ContactDofs contact_;
@@ -80,6 +116,7 @@ class CondensedBody {
   bool reduce_;
   bool whole_;
   Threads& threads_;
+  std::optional<BodyShare> share_;            ///< where ranks share the body
   std::unique_ptr<CondensingSolver> solver_;  ///< none where the body is whole
   std::vector<double> values_;                ///< of the tangent
   bool factorised_ = false;
@@ -87,9 +124,19 @@ class CondensedBody {
   bool elasticFactors_ = false;
   bool counted_ = false;
   Linearisation law_;
-  DenseFactor schurFactor_;  ///< of S
-  Vector residual_;          ///< right-hand side over equations, condensed in place
-  Vector contactForce_;      ///< its part on the contact dofs
+  LawFacts facts_;
+  bool lawComplete_ = false;  ///< whether it is known at all points, or is 0 at those of other ranks
+  DenseFactor schurFactor_;   ///< of S
+  Vector ownForce_;           ///< of the triangles of this rank (dofs)
+  Vector residual_;           ///< right-hand side over equations, condensed in place
+  Vector contactForce_;       ///< its part on the contact dofs
 };
+
+template <class Work>
+void CondensedBody::forEachOwnBlock(const Work& work) const {
+  if (!share_) return forEachBlock(body_.points(), threads_, work);
+  const std::vector<BodyShare::Run>& runs = share_->runs();
+  threads_.forEach(static_cast<int>(runs.size()), [&](int i) { work(runs[i].first, runs[i].second); });
+}
 
 }  // namespace mortier

@@ -92,13 +92,16 @@ std::vector<Response> StepSystem::Factorised::respond(const std::vector<Matrix>&
   const Model& model = system_->model_;
   std::vector<CondensedBody>& bodies = system_->bodies_;
   std::vector<Response> responses(bodies.size());
-  std::vector<Vector> motion(bodies.size());
+  std::vector<Vector> force(bodies.size());
   system_->forEachBody([&](int b) {
     Matrix& stress = responses[b].stress;
-    stress.resizeLike(error[b]);
-    for (int i = 0; i < stress.cols(); ++i) stress.col(i) = -stressOf(bodies[b].law(), error[b].col(i), i);
-    motion[b] = bodies[b].condense(-model.bodies[b].internalForce(stress));
+    stress.setZero(error[b].rows(), error[b].cols());
+    bodies[b].forEachOwnBlock([&](int begin, int end) {
+      for (int i = begin; i < end; ++i) stress.col(i) = -stressOf(bodies[b].law(), error[b].col(i), i);
+    });
+    force[b] = bodies[b].leftOver(Vector::Zero(model.bodies[b].dofs()), stress);
   });
+  const std::vector<Vector> motion = system_->condenseBodies(force);
   Vector slack = Vector::Zero(system_->conditions());
   for (size_t b = 0; b < bodies.size(); ++b)
     if (!bodies[b].contact().none()) slack -= bodies[b].contact().C * motion[b];
@@ -109,11 +112,12 @@ std::vector<Response> StepSystem::Factorised::respond(const std::vector<Matrix>&
   }
   const ContactSolution contact =
       holdClosed(system_->contact_, slack, heldConditions(on, system_->friction_));
-  system_->forEachBody([&](int b) {
-    Response& response = responses[b];
-    response.displacement = bodies[b].expand(contact.change, system_->motionOf(contact.rigid, b));
-    model.bodies[b].addStressOf(response.displacement, bodies[b].law(), response.stress, 0,
-                                model.bodies[b].points());
+  system_->expandBodies(contact, [&](int b, const Vector& displacement) -> Matrix& {
+    responses[b].displacement = displacement;
+    bodies[b].forEachOwnBlock([&](int begin, int end) {
+      model.bodies[b].addStressOf(displacement, bodies[b].law(), responses[b].stress, begin, end);
+    });
+    return responses[b].stress;
   });
   return responses;
 }

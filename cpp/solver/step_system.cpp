@@ -107,10 +107,10 @@ std::vector<Vector> StepSystem::parted(const Vector& all) const {
 
 StepSystem::Linearised StepSystem::linearise(const Step& step, Iterate& iterate, const LawOf& lawOf) {
   std::vector<double> residual(bodies_.size());
-  forEachBody([&](int b) {
-    residual[b] =
-        bodies_[b].linearise(step.state0.bodies[b].stress, step.shift(b), iterate.bodies[b], lawOf(b));
-  });
+  forEachBody([&](int b) { bodies_[b].linearise(step.shift(b), iterate.bodies[b], lawOf(b)); });
+  if (shared()) agreeOnLaws();
+  forEachBody(
+      [&](int b) { residual[b] = bodies_[b].residual(step.state0.bodies[b].stress, iterate.bodies[b]); });
   Worst worst;
   for (const double value : residual) worst.add(value);
   return {*this, worst.value(), Key{}};
@@ -133,6 +133,7 @@ StepSystem::Linearised StepSystem::linearise(const Step& step, Iterate& iterate,
 
 std::optional<StuckPlace> StepSystem::furthest(const Step& step, Iterate& iterate, double weight) {
   linearise(step, iterate, weight, false);
+  for (CondensedBody& body : bodies_) body.completeLaw();
   std::optional<StuckPlace> place;
   for (size_t b = 0; b < bodies_.size(); ++b) {
     const auto [point, residual] = bodies_[b].furthest(step.state0.bodies[b].stress, iterate.bodies[b]);
@@ -149,6 +150,7 @@ std::optional<StepSystem::Factorised> StepSystem::Linearised::factorise(StepOutc
   ContactProblem& contact = system_->contact_;
   std::vector<CondensedBody::Factors> factors(bodies.size());
   system_->forEachBody([&](int b) { factors[b] = bodies[b].factorise(); });
+  for (size_t b = 0; b < bodies.size() && system_->shared(); ++b) bodies[b].join(factors[b]);
   bool changed = !system_->sparse() && contact.W.rows() != system_->conditions();
   bool regular = true;
   for (const CondensedBody::Factors& body : factors) {
@@ -181,7 +183,7 @@ StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const I
   std::vector<CondensedBody>& bodies = system_->bodies_;
   std::vector<Vector> force(bodies.size());
   system_->forEachBody(
-      [&](int b) { force[b] = step.loads[b] - model.bodies[b].internalForce(bodies[b].law().predictor); });
+      [&](int b) { force[b] = bodies[b].leftOver(step.loads[b], bodies[b].law().predictor); });
   system_->contact_.force = 0;
   for (const Vector& before : step.state0.contactForce)
     if (before.size() > 0) system_->contact_.force = std::max(system_->contact_.force, before.maxCoeff());
@@ -202,9 +204,9 @@ StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const I
     result.slack = -system_->joined(gaps(model, step.state0, iterate));
     result.p0 = system_->joined(iterate.contactForce);
   }
-  std::vector<Vector> motion(bodies.size());
+  std::vector<Vector> motion;
   if (!system_->sparse())
-    system_->forEachBody([&](int b) { motion[b] = bodies[b].condense(force[b]); });
+    motion = system_->condenseBodies(force);
   else
     result.force = std::move(force);
   result.balance.resize(system_->contact_.G.cols());
@@ -234,19 +236,17 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
     return outcome.fail(Reason::unheld, (system_->rough() ? "contact and its friction cannot hold "
                                                           : "contact cannot hold ") +
                                             system_->describeRigid(contact.rigid));
-  system_->forEachBody([&](int b) {
+  system_->expandBodies(contact, [&](int b, const Vector& d) -> Matrix& {
     const Body& body = system_->model_.bodies[b];
     const Linearisation& law = system_->bodies_[b].law();
-    const Vector d = system_->sparse()
-                         ? contact.motion[b]
-                         : system_->bodies_[b].expand(contact.change, system_->motionOf(contact.rigid, b));
     Matrix& stress = iterate.bodies[b].stress;
     iterate.bodies[b].increment += d;
     stress.resizeLike(law.predictor);
-    forEachBlock(body.points(), system_->threads_, [&](int begin, int end) {
+    system_->bodies_[b].forEachOwnBlock([&](int begin, int end) {
       stress.middleCols(begin, end - begin) = law.predictor.middleCols(begin, end - begin);
       body.addStressOf(d, law, stress, begin, end);
     });
+    return stress;
   });
   iterate.contactForce = system_->parted(p0 + contact.change);
   iterate.wrongForce = 0;

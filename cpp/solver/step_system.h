@@ -74,6 +74,7 @@ class StepSystem {
   class Condensed;
 
   /// The residuals of an iterate, with the law as it was linearised last.
+  /// Collective.
   [[nodiscard]] Certificate certify(const Step& step, const Iterate& iterate, double materialResidual) const;
 
   /// Where an iterate is further off the law than a converged step may be; none where it is so nowhere.
@@ -134,6 +135,15 @@ class StepSystem {
   [[nodiscard]] int conditions() const { return rows() + static_cast<int>(friction_.node.size()); }
   void findFriction();
   [[nodiscard]] ListedSolution listed(const FrictionSolution& solution) const;
+  /// Whether ranks share the bodies.
+  [[nodiscard]] bool shared() const { return Ranks::all().shared() && !sparse(); }
+  /// What the law asks for at the points of all ranks. Collective.
+  void agreeOnLaws();
+  /// CondensedBody::condense, expand and what joins them. `stressOf(body, displacement)` fills a stress at
+  /// the points of this rank, which becomes known everywhere.
+  std::vector<Vector> condenseBodies(const std::vector<Vector>& force);
+  void expandBodies(const ContactSolution& contact,
+                    const std::function<Matrix&(int, const Vector&)>& stressOf);
 
   const Model& model_;
   SolverOptions options_;
@@ -162,7 +172,11 @@ class StepSystem::Linearised {
   Linearised(StepSystem& system, double residual, Key /*key*/) : system_(&system), residual_(residual) {}
   /// The material residual, scaled; NaN where any stress is NaN.
   [[nodiscard]] double residual() const { return residual_; }
-  [[nodiscard]] const Linearisation& law(int body) const { return system_->bodies_[body].law(); }
+  /// Collective.
+  [[nodiscard]] const Linearisation& law(int body) const {
+    system_->bodies_[body].completeLaw();
+    return system_->bodies_[body].law();
+  }
   /// Empty where a tangent is singular; `outcome` then has the reason.
   [[nodiscard]] std::optional<Factorised> factorise(StepOutcome& outcome) const;
   /// Takes the factors of the linearisation before, which had the same tangent.
