@@ -1,5 +1,5 @@
-// What threads would do: `Threads` (base/parallel.h) written anew to run all work on the caller's thread, take
-// its processor time and keep which piece waits for which. A program that links it has no other threads.
+// What threads would do: `Threads` (base/parallel.h) written anew to run all work on the thread of the caller,
+// take its processor time and keep which piece waits for which. A program that links it has no other threads.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// What a step gains from more cores: the graph of its pieces of work, taken on one thread in processor time, and
-// played on 2 to 64 (docs/scaling.md). Memory that cores share is not in it.
+// What a step gains from more cores: the graph of its pieces of work, taken on one thread in processor time,
+// and played on 2 to 64 (docs/scaling.md). Memory that cores share is not in it.
 //   task_graph [TRIANGLES ...]        default: 1e5 1e6
 #include <algorithm>
 #include <cmath>

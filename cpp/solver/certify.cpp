@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/worst.h"
@@ -22,15 +23,36 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
   Worst force;
   Worst length;  // gaps are differences of displacements
   Worst rounding;
-  std::vector<Vector> residual;
   const std::vector<Vector> u = displacements(step.state0, iterate);
-  for (size_t b = 0; b < bodies_.size(); ++b) {
+  std::vector<Vector> residual(bodies_.size());
+  std::vector<std::array<double, 3>> largest(bodies_.size());
+  constexpr int tasks = 4;
+  threads_.forEach(tasks * static_cast<int>(bodies_.size()), [&](int i) {
+    const size_t b = i / tasks;
     const Body& body = model_.bodies[b];
     const Matrix& stress0 = step.state0.bodies[b].stress;
     const BodyIterate& unknowns = iterate.bodies[b];
-    residual.push_back(step.loads[b] - body.internalForce(unknowns.stress));
-    force.add(body.largestForce(unknowns.stress));
-    force.add(body.largestForce(stress0));  // of which rounding is left
+    auto& [now, before, rounded] = largest[b];
+    switch (i % tasks) {
+      case 0:
+        residual[b] = step.loads[b] - body.internalForce(unknowns.stress);
+        break;
+      case 1:
+        now = body.largestForce(unknowns.stress);
+        break;
+      case 2:
+        before = body.largestForce(stress0);
+        break;
+      default:
+        rounded = bodies_[b].rounding(stress0, unknowns, u[b]);
+    }
+  });
+  for (size_t b = 0; b < bodies_.size(); ++b) {
+    const Body& body = model_.bodies[b];
+    const BodyIterate& unknowns = iterate.bodies[b];
+    const auto& [now, before, rounded] = largest[b];
+    force.add(now);
+    force.add(before);  // of which rounding is left
     force.add(step.loads[b]);
     // Of what expands freely rounding is left of the stress that it would have.
     if (body.heated() && !step.data.thermal.empty()) {
@@ -39,9 +61,9 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
       bodies_[b].forEachOwnBlock([&](int begin, int end) {
         for (int i = begin; i < end; ++i) held.col(i) = stressOf(bodies_[b].law(), strain.col(i), i);
       });
-      double largest = body.largestForce(held);
-      Ranks::all().largest(&largest, 1);
-      force.add(largest);
+      double loose = body.largestForce(held);
+      Ranks::all().largest(&loose, 1);
+      force.add(loose);
     }
     // A body that moves without any load and does not flow has forces that are nothing but rounding.
     if (bodies_[b].law().elastic == body.points())
@@ -49,7 +71,7 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
                 unknowns.increment.high.lpNorm<Eigen::Infinity>() * depthOf(body));
     length.add(extent(body.mesh()));
     length.add(u[b]);
-    rounding.add(bodies_[b].rounding(stress0, unknowns, u[b]));
+    rounding.add(rounded);
   }
   Worst beyondBound;
   Worst wrongSlip;

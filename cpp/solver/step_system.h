@@ -109,7 +109,7 @@ class StepSystem {
   /// The same with those along the line of interfaces with friction, which come after all others.
   [[nodiscard]] Vector joined(const std::vector<Vector>& across, const std::vector<Vector>& along) const;
 
-  [[nodiscard]] Threads& threads() { return threads_; }
+  [[nodiscard]] Threads& threads() const { return threads_; }
   void forEachBody(const Threads::Work& work) { threads_.forEach(static_cast<int>(bodies_.size()), work); }
   /// Uses CHOLMOD or UMFPACK from now on.
   void useLibraries();
@@ -147,7 +147,7 @@ class StepSystem {
 
   const Model& model_;
   SolverOptions options_;
-  Threads threads_;
+  mutable Threads threads_;  ///< no part of what the system is
   std::vector<int>
       firstRow_;  ///< of each interface among all contact conditions, and their number at the end
   std::vector<CondensedBody> bodies_;
