@@ -30,7 +30,7 @@ FONT = Path("/usr/share/fonts/truetype/dejavu/DejaVuMathTeXGyre.ttf")
 NAVIGATION = {
     "Begin": ["README.md", "docs/tutorial.md", "docs/gallery.md"],
     "Use": ["docs/scene.md", "docs/check.md", "docs/pictures.md", "docs/study.md", "docs/compare.md",
-            "docs/python.md"],
+            "docs/python.md", "docs/scaling.md"],
     "Understand": ["docs/theory.md", "docs/bounds.md", "docs/glossary.md", "docs/benchmarks.md"],
     "Take part": ["CONTRIBUTING.md", "freefem/README.md", "shared-meshes/README.md", "CHANGELOG.md"],
 }

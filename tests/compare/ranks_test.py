@@ -1,6 +1,7 @@
 """Runs of several processes: equal to that of one, refused alike, and gone on with by any number of them."""
 import json
 import os
+import shutil
 import signal
 import subprocess
 import time
@@ -104,6 +105,14 @@ class Ranks(InFolder):
         done = on_ranks(2, "--restart", "run", cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertLessEqual(difference(alone, results.read_mortier(self.folder / "run")), SAME)
+
+    def test_without_its_second_program_it_says_so(self):
+        alone = shutil.copy(PROGRAM, self.folder / "mortier")
+        done = subprocess.run([alone, "run", TWO_BLOCKS], cwd=self.folder, capture_output=True, text=True,
+                              env={**ENVIRONMENT, "OMPI_COMM_WORLD_SIZE": "2"})
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, r"\Amortier: mpirun: several processes, but no .*mortier-mpi, .*\n\Z")
+        self.assertEqual(self.names(), ["mortier"])
 
     def test_one_folder_one_writer(self):
         self.together(2, TWO_BLOCKS, "time.steps=3")
