@@ -8,6 +8,13 @@
 namespace mortier {
 namespace {
 
+bool fits(const EarlierContact& earlier, const MatchedMeshes& meshes, const std::vector<Vector>& spread) {
+  const bool gaps = earlier.gaps.empty() || earlier.gaps.size() == meshes.pieces.size();
+  return gaps && (earlier.pressures.empty() ||
+                  std::equal(earlier.pressures.begin(), earlier.pressures.end(), spread.begin(), spread.end(),
+                             [](const Vector& a, const Vector& b) { return a.size() == b.size(); }));
+}
+
 /// Rows that had no pressure give their force to the nearest that had. \returns whether there is one
 bool pressWhereItDid(const std::vector<Vector>& before, const MatchedMeshes& meshes,
                      std::vector<Vector>& spread) {
@@ -54,6 +61,7 @@ std::string Admissible::construct(const Model& model, const State& state, double
     if (bodies[b].hasCurvedSupport()) return model.bodies[b].name() + " is held along a curve";
 
   spread = spreadPressures(model, state, meshes);
+  if (!fits(earlier, meshes, spread)) return "contact of the step before is of other meshes";
   if (!earlier.pressures.empty() && !pressWhereItDid(earlier.pressures, meshes, spread))
     return "contact presses where nothing of the line did";
   if (!balancePressures(model, meshes, bodies, spread))

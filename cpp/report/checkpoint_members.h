@@ -33,8 +33,8 @@ MORTIER_MEMBERS(Peaks, vonMises, pressure, contactForce, displacement, motion, e
 MORTIER_MEMBERS(FlowBoundMemory, obstacle, moved, begin, misfit, opening, growth, load, loadOff, motion,
                 motionOff)
 MORTIER_MEMBERS(ErrorCourse, growth, misfit, drift, lengths, sums)
-MORTIER_MEMBERS(TotalBoundMemory, obstacle, moved, closes, oscillation, fixed, any, contact, stress, earlier)
 MORTIER_MEMBERS(EarlierContact, gaps, pressures)
+MORTIER_MEMBERS(TotalBoundMemory, obstacle, moved, closes, oscillation, fixed, any, contact, stress, earlier)
 MORTIER_MEMBERS(AccuracyMemory, energy, error, time, flow, total)
 MORTIER_MEMBERS(WorkDone, external, contact, dissipated, thermal)
 MORTIER_MEMBERS(BodyState, displacement, stress, viscoplasticStrain, work, thermalStrain)
