@@ -78,7 +78,8 @@ class Script(support.OfTwoBlocks):
     def test_what_is_not_known(self):
         for setting, message in (
                 ("time.scheme=sdirk2", "scene.toml: scheme = sdirk2, expected backward-euler"),
-                ("time.tolerance=1e-3", "scene.toml: tolerance = 0.001, expected equal steps"),
+                ("time.tolerance=1e-3", "scene.toml: tolerance = 0.001, expected equal steps, or those of "
+                                        "a run (--steps-of)"),
                 ("body.upper.initial_stress.s11=1", "scene.toml:3: body upper: regions or initial stress, "
                                                     "expected neither")):
             with self.subTest(setting):
