@@ -259,7 +259,8 @@ def scene_cases():
         SceneCase("stack", "mortar", "friction, free bodies", STACK_OF_FREE_BODIES),
         SceneCase("stack", "weighted", "friction, free bodies", STACK_OF_FREE_BODIES),
         SceneCase("hertz", "mortar", "friction along an arc", ROLLED),
-        SceneCase("hertz", "weighted", "friction along an arc, sides swapped", (*ROLLED, "contact.swap=true")),
+        SceneCase("hertz", "weighted", "friction along an arc, sides swapped",
+                  (*ROLLED, "contact.swap=true")),
         # Quadratic displacements
         SceneCase("compression", "interpolation", "quadratic", ("degree=2", "time.steps=4")),
         SceneCase("compression", "weighted", "quadratic", ("degree=2", "time.steps=4", "contact.swap=true")),

@@ -34,7 +34,7 @@ class Path {
     }
   }
 
-  /// \param beyond  how far below 0 tau goes, over where it begins
+  /// \param beyond  how far below 0 tau goes, over the largest |q|/d
   /// \returns the sets on the passages through tau = 0: the first one, or all where it goes beyond
   std::vector<FrictionSets> follow(double beyond, int& events) {
     const Eigen::Index most = 200 + 40 * W_.rows();

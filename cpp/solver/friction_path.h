@@ -20,7 +20,7 @@ namespace mortier {
 /// rounding.
 std::optional<FrictionSets> followPath(const FrictionSystem& system, FrictionSets first, int& events);
 
-/// The same, on beyond tau = 0 down to -3 times where something first happens: the sets on all passages
+/// The same, on beyond tau = 0 down to -3 times the largest |q|/d: the sets on all passages
 /// through tau = 0, downwards (det A > 0) and upwards, in their order. A path that is lost has those so far.
 std::vector<FrictionSets> followPathBeyond(const FrictionSystem& system, FrictionSets first, int& events);
 

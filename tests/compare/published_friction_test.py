@@ -137,7 +137,8 @@ boundary = [ {boundary} ]
         scene += contact(("punch", 1), ("base", 3), 0.05, "gap = 5e-5")
         for name, nodes in (("punch", PUNCH), ("base", BASE)):
             for i, (x, _, _) in enumerate(nodes):
-                scene += motion(f"{name}{i}x", name, (x, 0.075)) + motion(f"{name}{i}y", name, (x, 0.075), "y")
+                scene += motion(f"{name}{i}x", name, (x, 0.075))
+                scene += motion(f"{name}{i}y", name, (x, 0.075), "y")
         last = self.values(scene + steps(1, 4))[-1]
         largest = max(abs(y) for _, _, y in PUNCH)
         worst = 0
@@ -153,8 +154,8 @@ boundary = [ {boundary} ]
 
     def test_kratos_dragged_block(self):
         """A block pressed on a stiff layer, dragged along at its lower side from t = 1 on: it sticks until
-        t = 2, then it slides and is stretched, one corner being held. Cells as large as theirs, two across the
-        block, which bends: much depends on them."""
+        t = 2, then it slides and is stretched, one corner being held. Cells as large as theirs, two across
+        the block, which bends: much depends on them."""
         scene = 'plane = "strain"\n' + body(
             "block", [0, 0], [1, 0.2], [10, 2], "young = 1e3, poisson = 0",
             '{ label = 3, ty = "-min(t, 1)" }, { label = 1, tx = "t < 1 ? 0 : t - 1" }') + \

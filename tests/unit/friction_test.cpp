@@ -326,8 +326,8 @@ TEST(Friction, idleConditionsFollowTheirSupports) {
   EXPECT_EQ(solution.force, (Vector{{1, 0, -0.5, 0}}));
 }
 
-// Conditions that come twice, and the four of a node in a rigid corner of any angle: the forces are one choice
-// of many, which share the load.
+// Conditions that come twice, and the four of a node in a rigid corner of any angle: the forces are one
+// choice of many, which share the load.
 TEST(Friction, dependentConditionsShareTheLoad) {
   const Matrix B{{1, 0}, {1, 0}, {0, 1}, {0, 1}};
   const FrictionCase twice = frictionCase(B * B.transpose(), 0.5, Vector{{-1, -1, 0.1, 0.1}});
