@@ -73,8 +73,9 @@ double ContactSets::imbalance(const ContactSolution& solution, const Vector& usu
 
 bool ContactSets::leaves(const ContactSolution& solution) const {
   constexpr double negligible = 1e-6;
-  const Vector closing = problem_.G * solution.rigid;
-  const double work = (balance_ + problem_.G.transpose() * p0_).dot(solution.rigid);
+  const Vector z = rigid(solution);
+  const Vector closing = problem_.G * z;
+  const double work = (balance_ + problem_.G.transpose() * p0_).dot(z);
   return closing.maxCoeff() <= negligible * closing.cwiseAbs().maxCoeff() && work > 0;
 }
 

@@ -65,6 +65,8 @@ class ContactSets {
   [[nodiscard]] Vector usualForces(const ContactSolution& solution) const;
   /// Whether the load drives the bodies along a motion that opens contact or slides along it.
   [[nodiscard]] bool leaves(const ContactSolution& solution) const;
+  /// The rigid motions of a solution, without what is none.
+  [[nodiscard]] virtual Vector rigid(const ContactSolution& solution) const { return solution.rigid; }
 
  protected:
   /// \param idle  conditions that stay inactive. All that is given by reference must outlive this.

@@ -319,9 +319,9 @@ SparseContact::Solution SparseContact::solve(const Vector& F, const Vector& slac
     solution.forceNoise = largest(dp);
     solution.motionNoise = largest(moved);
     const auto part = [](double a, double b) { return a == 0 ? 0 : a / b; };
+    const double length = given + largest(x.head(n)) + largest(motionsAcross * solution.rigid);
     const double change =
-        part(solution.forceNoise, largest(solution.force)) +
-        part(solution.motionNoise, given + largest(C_ * x.head(n) + motionsAcross * solution.rigid));
+        part(solution.forceNoise, largest(solution.force)) + part(solution.motionNoise, length);
     if (!(change < before / 2)) ++stalled;
     if (!(change > enough) || stalled > 2) break;
     before = std::min(before, change);

@@ -1,5 +1,6 @@
 #include "solver/sparse_sets.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -37,7 +38,7 @@ class SparseSets final : public ContactSets {
     anchors_ = matrix_.springMotions() * z0;
     pivotsLeft_ = 20 * static_cast<int>(slack_.size()) + 100;
   }
-  void soften() override { weight_ = std::max(softer * weight_, std::min(weight_, softest)); }
+  void soften() override { weight_ = std::max(softer * weight_, std::min(weight_, weakest_)); }
 
   bool solveOn(ContactSolution& solution) override {
     ++solution.pivots;
@@ -71,15 +72,34 @@ class SparseSets final : public ContactSets {
     if (anchors_.size() > 0) growth.slack -= problem_.G * rate.rigid;
     return true;
   }
+  /// What closed conditions resist is no rigid motion, but what springs see of the strain.
+  [[nodiscard]] Vector rigid(const ContactSolution& solution) const override {
+    constexpr double heldFraction = 1e-14;
+    Matrix closed = problem_.G;
+    for (Eigen::Index i = 0; i < closed.rows(); ++i)
+      if (solution.active[i] == 0) closed.row(i).setZero();
+    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(closed.transpose() * closed);
+    const auto loose = (eigen.eigenvalues().array() <= heldFraction * problem_.G.squaredNorm()).count();
+    const Matrix free = eigen.eigenvectors().leftCols(loose);
+    return free * (free.transpose() * solution.rigid);
+  }
   [[nodiscard]] bool capped() const override { return pivotsLeft_ <= 0; }
 
   [[nodiscard]] const Vector& motion() const { return solved_.motion; }
 
  private:
   bool take(const std::vector<char>& active) {
+    constexpr double strongest = 1e-6;
     matrix_.setSprings(weight_);
-    redundant_ = redundant_ || !matrix_.factorise(active);
-    return !redundant_;
+    while (!matrix_.factorise(active)) {
+      if (weight_ == 0 || weight_ >= strongest) {
+        redundant_ = true;
+        return false;
+      }
+      weakest_ = weight_ = weight_ / softer;  // lost in the rounding of the stiffness
+      matrix_.setSprings(weight_);
+    }
+    return true;
   }
   [[nodiscard]] Noise noise(const ContactSolution& solution) const override {
     // Forces beside those that are there; slacks beside the motions whose differences they are.
@@ -97,6 +117,7 @@ class SparseSets final : public ContactSets {
   const Vector& F_;
   Vector anchors_;
   double weight_ = 0;
+  double weakest_ = softest;
   std::vector<char> last_;  ///< to be solved on to rounding
   bool exact_ = false;
   int pivotsLeft_ = 0;
@@ -147,7 +168,10 @@ ContactSolution solveSparse(SparseContact& matrix, const ContactProblem& problem
   solution.work = matrix.factorisations() - before;
   motion = contact.motion();
   // The motion along which bodies leave is told without what was taken first.
-  if (solution.outcome != ContactSolution::Outcome::unbalanced) solution.rigid += moved;
+  if (solution.outcome == ContactSolution::Outcome::unbalanced)
+    solution.rigid = contact.rigid(solution);
+  else
+    solution.rigid += moved;
   return solution;
 }
 

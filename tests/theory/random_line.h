@@ -17,6 +17,7 @@ namespace mortier::scenes {
 struct RandomLine {
   Model model;
   int steps = 1;
+  bool elastic = true;
   std::string words;
 };
 
@@ -80,7 +81,7 @@ inline RandomLine randomLine(unsigned seed, int most) {
   const CouplingKind coupling = couplings[random.below(2)];
   const int nonmortar = random.below(2);
   RandomLine line{contactModel(std::move(upper), std::move(lower), coupling, nonmortar, options),
-                  law < 2 ? 1 + random.below(2) : 1 + random.below(3), ""};
+                  law < 2 ? 1 + random.below(2) : 1 + random.below(3), law < 2, ""};
   line.words = std::string(nameOf(coupling)) + ", " + std::to_string(line.model.interfaces[0].rows()) +
                " conditions, law " + std::to_string(law) + ", held " + std::to_string(held);
   return line;
