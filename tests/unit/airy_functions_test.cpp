@@ -122,7 +122,7 @@ TEST(Relaxation, keepsEquilibriumAndLowersTheEnergyToThatOfAnExactStress) {
       least[directly ? 1 : 0] = relaxation.energies().sum();
       EXPECT_LE(least[directly ? 1 : 0], found.best);
     }
-    EXPECT_NEAR(least[0], least[1], 1e-9 * least[1]);
+    EXPECT_NEAR(least[0], least[1], 1e-6 * least[1]);
   }
 }
 
@@ -130,7 +130,7 @@ TEST(Relaxation, iterationsEndWhereTheySayTheyDo) {
   for (const TriangleMesh& mesh : {square(0, 16), gradedSquare(16)}) {
     LinearStress found(mesh);
     Relaxation relaxation = found.relaxation();
-    ASSERT_TRUE(relaxation.iterate(0.01, 80));
+    ASSERT_TRUE(relaxation.iterate(0.003, 80));
     const double energy = relaxation.energies().sum();
     EXPECT_FALSE(relaxation.iterate(1e-9, 3));
     ASSERT_TRUE(relaxation.minimise());
