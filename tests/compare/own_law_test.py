@@ -193,8 +193,13 @@ class Hostile(InFolder):
         self.refuse("8: body upper: law = \"own\", expected one of elastic, perzyna", 'law = "own"')
 
     def test_freefem_refuses(self):
-        self.write(SCENE.replace("PLANE", "strain").format(law=NORTON))
-        self.reject("scene.toml:10: body upper: law = \"expression\", expected a law of mortier's own",
+        scene = SCENE.replace("PLANE", "strain")
+        self.write(scene.format(law=NORTON.replace("s0 = 1e7", 's0 = "1e7 + 0*log2(2)"')))
+        self.reject("scene.toml:10: body upper: law = \"expression\": log2 is not known to FreeFEM",
+                    "freefem", "scene.toml", "out.edp")
+        hot = scene.replace('name = "upper"', 'name = "upper"\ntemperature = 3')
+        self.write(hot.format(law="expansion = 1e-6\n" + NORTON))
+        self.reject("scene.toml:4: body upper: temperature, expected none beside such a law",
                     "freefem", "scene.toml", "out.edp")
 
     def test_steps_that_cannot_be_solved_are_one_line(self):

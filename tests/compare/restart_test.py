@@ -274,20 +274,20 @@ class Restart(InFolder):
         (self.folder / "upper.mesh").write_text(mesh.replace("\n1 1 0\n", "\n1 1.0000000000000002 0\n", 1))
         self.assertNotEqual((self.folder / "upper.mesh").read_text(), mesh)
         self.assertIn("upper.mesh has changed", self.run_mortier("--restart", "out/killed", code=2))
+        (self.folder / "upper.mesh").write_text(mesh)
+        self.assertTrue(left.exists())
+        self.run_mortier("--restart", "out/killed")
 
     def test_another_temperature(self):
         mesh = "body.upper.mesh={shape='rectangle', cells=4, lower=[0, 0], upper=[1, 1]}"
         heat = ["body.upper.material={young=3e11, poisson=0.3, expansion=1e-12}",
                 "body.upper.temperature={file='heat.txt', factor='t'}"]
-        self.write("1\n"*41, "heat.txt")
+        self.write("1\n"*25, "heat.txt")
         self.stop(SCENE, *self.settings(mesh, *heat), "--out", "out/killed", after=5)
-        self.write("1\n"*40 + "2\n", "heat.txt")
+        self.write("1\n"*24 + "2\n", "heat.txt")
         self.assertIn("the file heat.txt has changed, expected",
                       self.run_mortier("--restart", "out/killed", code=2))
-        self.write("1\n"*41, "heat.txt")
-        self.run_mortier("--restart", "out/killed")
-        (self.folder / "upper.mesh").write_text(mesh)
-        self.assertTrue(left.exists())
+        self.write("1\n"*25, "heat.txt")
         self.run_mortier("--restart", "out/killed")
 
     def test_nothing_to_go_on_with(self):
