@@ -15,8 +15,7 @@ OF_EQUAL_STEPS = {"few-steps-across-yield", "yields-at-once", "viscosity-small",
                   "load-between-steps", "output-every", "output-large"}
 # Not with quadratic displacements: no triangle is locked, and an edge between held ones has a free middle.
 OF_LINEAR_TRIANGLES = {"locked-triangle", "load-on-support"}
-# The scene says instead that these are refused: beside quadratic displacements, and beside an accuracy.
-NOT_QUADRATIC = {"friction-large"}
+# The scene says instead that these are refused beside an accuracy.
 REFUSED = {"interpolation-unmatched", "contact-meets-support", "lands-on-yield", "scheme-rings"}
 
 
@@ -32,9 +31,8 @@ class CheckQuadratic(InFolder):
                 self.assertEqual(self.named(Case(scene), settings), set())
 
     def test_seeded_faults_are_named_where_they_are_faults(self):
-        for settings, gone in ((DEGREE, OF_LINEAR_TRIANGLES | NOT_QUADRATIC),
-                               (ACCURACY, OF_LINEAR_TRIANGLES | OF_FIRST_MESHES | OF_EQUAL_STEPS | REFUSED
-                                | NOT_QUADRATIC)):
+        for settings, gone in ((DEGREE, OF_LINEAR_TRIANGLES),
+                               (ACCURACY, OF_LINEAR_TRIANGLES | OF_FIRST_MESHES | OF_EQUAL_STEPS | REFUSED)):
             for identifier, _, scene, seed in FAULTS:
                 if identifier == "memory":  # seconds, and the same for both
                     continue
