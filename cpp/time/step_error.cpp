@@ -1,6 +1,7 @@
 // The error of a step, by what its stages miss of the flow in between.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "solver/total_strain.h"
 #include "time/step_taker.h"
@@ -180,7 +181,8 @@ std::vector<Response> StepTaker::responseTo(const std::vector<Vector>& slip) {
 }
 
 SlipAndWork StepTaker::slip() const {
-  return {slips(model_, solutions_.back()), frictionWork(model_, solutions_.back())};
+  const std::vector<double> work = frictionWork(model_, solutions_.back());
+  return {slips(model_, solutions_.back()), std::accumulate(work.begin(), work.end(), 0.0)};
 }
 
 std::vector<Vector> StepTaker::slipOf(const std::vector<Response>& response) const {
