@@ -38,19 +38,19 @@ struct Output {
   std::string again;
 
   Output(const Scene& scene, const RunOptions& options, const Attempt& first)
-      : identity(identityOf(scene, *first.model)),
+      : identity(identityOf(scene, first)),
         folder(options.out),
         checkpoints(folder.temporary(), options.checkpoint, identity),
         quiet(true, first.scene().time.end),
         again("; mortier run --restart " + options.out +
               (first.scene().accuracy.energy > 0 ? " begins the rounds again" : " goes on")) {}
 
-  static RunIdentity identityOf(const Scene& scene, const Model& model) {
+  static RunIdentity identityOf(const Scene& scene, const Attempt& first) {
     RunCommand command;
     command.scene = scene.path;
     command.settings = scene.settings;
     RunIdentity identity = mortier::identityOf(command);
-    addMeshes(model, identity);
+    addFiles(first.scene(), *first.model, identity);
     return identity;
   }
 

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Names the layout (checkpoint_members.h); it changes with any member.
-constexpr std::string_view magic = "mortier checkpoint 10\n";
+constexpr std::string_view magic = "mortier checkpoint 11\n";
 
 uint64_t sumOf(std::string_view bytes) {
   Checksum sum;
