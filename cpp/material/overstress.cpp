@@ -78,13 +78,17 @@ OverstressFlow::Return OverstressFlow::radialReturn(const LaneVector& x, const L
   return point;
 }
 
-LaneVector OverstressFlow::backStress(const Point& point) const {
-  LaneVector back{};
-  if (law_.kinematicHardening > 0)
-    for (int k = 0; k < 3; ++k)
-      back[k] =
-          law_.kinematicHardening / a_[k] * (point.total[k] - point.strain[k] - point.stress0[k] / e_[k]);
+LaneVector OverstressFlow::backStress(const LaneVector& viscoplasticStrain) const {
+  LaneVector back;
+  for (int k = 0; k < 3; ++k) back[k] = law_.kinematicHardening / a_[k] * viscoplasticStrain[k];
   return back;
+}
+
+LaneVector OverstressFlow::backStress(const Point& point) const {
+  if (!(law_.kinematicHardening > 0)) return {};
+  LaneVector flowed;
+  for (int k = 0; k < 3; ++k) flowed[k] = point.total[k] - point.strain[k] - point.stress0[k] / e_[k];
+  return backStress(flowed);
 }
 
 // With v = strain - E^-1 (s - s0) the law is v = dp u. It is linearised at the point (s~, v~) of it for which

@@ -65,6 +65,8 @@ class OverstressFlow {
                                                   const Lanes& rho) const;
   [[nodiscard]] bool flows(const std::array<double, 3>& stress, const std::array<double, 3>& total,
                            double rho) const;
+  /// H/a times the viscoplastic strain.
+  [[nodiscard]] LaneVector backStress(const LaneVector& viscoplasticStrain) const;
   [[nodiscard]] double stiffness(double weight) const;
   [[nodiscard]] double elasticModulus(int k) const { return e_[k]; }
   [[nodiscard]] const Overstress& law() const { return law_; }

@@ -35,6 +35,9 @@ class OverstressLaw {
   [[nodiscard]] bool flows(const Numbers& stress, const Numbers& total) const requires kinematic {
     return flow_.flows(parts(stress).deviator, parts(total).deviator, rhoOf(stress));
   }
+  [[nodiscard]] Stress backStress(const Stress& viscoplasticStrain) const requires kinematic {
+    return whole({flow_.backStress(parts(viscoplasticStrain).deviator), 0}, 0);
+  }
   [[nodiscard]] Stress rate(const Stress& stress, const Stress& total) const {
     const auto [rate, p] = flow_.rate(parts(stress).deviator, parts(total).deviator, rhoOf(stress));
     return whole(Split<Lanes>{rate, 0}, p);

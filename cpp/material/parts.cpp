@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/worst.h"
+#include "material/back_stress.h"
 #include "material/interior_path.h"
 
 namespace mortier {
@@ -49,7 +50,7 @@ class PartsPath final : public InteriorPath {
   Paths paths_;
 };
 
-class Parts final : public Material {
+class Parts final : public Material, public BackStress {
  public:
   Parts(std::vector<std::shared_ptr<const Material>> materials, std::vector<int> materialOf)
       : materials_(std::move(materials)), materialOf_(std::move(materialOf)) {
@@ -83,6 +84,9 @@ class Parts final : public Material {
   }
   [[nodiscard]] bool flows(const Matrix& stress, int point, const Matrix* strain) const override {
     return at(point).flows(stress, point, strain);
+  }
+  [[nodiscard]] PointVector backStress(const Matrix& viscoplasticStrain, int point) const override {
+    return backStressOf(at(point), viscoplasticStrain, point);
   }
   [[nodiscard]] bool returns() const override {
     return std::any_of(materials_.begin(), materials_.end(), [](const auto& m) { return m->returns(); });

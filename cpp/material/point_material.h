@@ -17,6 +17,7 @@
 //   ConeLaw cone(double weight) const;            where its interior path is known (interior_path.h)
 //   static constexpr int remembered;              how many components, the last, are none of the tensor
 //   static constexpr bool returns;                as in material.h
+//   stress backStress(viscoplastic strain) const; where it hardens kinematically
 //
 // E is any symmetric elliptic tensor and G any function: nothing else is assumed of them. Stresses and
 // strains are arrays of components, each for eight points (base/lanes.h); this class runs the law over a
@@ -25,6 +26,7 @@
 
 #include <utility>
 
+#include "material/back_stress.h"
 #include "material/interior_path.h"
 #include "material/law_lanes.h"
 #include "material/material.h"
@@ -51,7 +53,7 @@ struct PointAnswer {
 };
 
 template <class Law>
-class PointMaterial final : public Material {
+class PointMaterial final : public Material, public BackStress {
  public:
   PointMaterial(Law law, LawDescription description)
       : law_(std::move(law)), description_(std::move(description)) {}
@@ -74,6 +76,16 @@ class PointMaterial final : public Material {
       return strain == nullptr || law_.flows(s, at(*strain, point));
     else
       return law_.flows(s);
+  }
+  [[nodiscard]] PointVector backStress(const Matrix& viscoplasticStrain, int point) const override {
+    PointVector back = PointVector::Zero(n);
+    if constexpr (requires(std::array<Lanes, n> strain) { law_.backStress(strain); }) {
+      std::array<Lanes, n> strain;
+      for (size_t k = 0; k < n; ++k) strain[k] = viscoplasticStrain(static_cast<Eigen::Index>(k), point);
+      const std::array<Lanes, n> all = law_.backStress(strain);
+      for (size_t k = 0; k < n; ++k) back[static_cast<Eigen::Index>(k)] = all[k][0];
+    }
+    return back;
   }
   [[nodiscard]] bool returns() const override {
     if constexpr (requires { Law::returns; }) return Law::returns;

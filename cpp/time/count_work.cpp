@@ -6,9 +6,10 @@
 // so the work of all forces on a body is taken as that of their means (trapezoidal rule, which is exact for
 // forces that are linear in the displacement), and in elastic bodies it is what is stored, to rounding. The
 // dissipation takes the weights of the scheme, by which it is never negative:
-//   D1 - D0 = sum |T| k sum b_i s_i : G_i.
+//   D1 - D0 = sum |T| k sum b_i (s_i - X_i) : G_i,   X the back stress of hardening: X : eps_v / 2 is stored.
 // Thermal strain that changes by a adds 1/2 sum |T| (s0 + s1) : a on the right: less that is its work.
 // docs/theory.md says what is left between both where bodies flow.
+#include "material/back_stress.h"
 #include "time/nodal_forces.h"
 #include "time/step_taker.h"
 
@@ -27,30 +28,46 @@ double workOfSupports(const Body& body, const Vector& forces, const Vector& du) 
   return work;
 }
 
-/// sum |T| s : e, of the points that flow: elsewhere e is rounding.
-double product(const Body& body, const Matrix& stress, const Matrix& strain) {
+/// sum |T| (s - X) : e, of the points that flow: elsewhere e is rounding.
+double product(const Body& body, const Matrix& stress, const Matrix& flowed, const Matrix& strain) {
   double sum = 0;
   for (int i = 0; i < body.points(); ++i)
-    if (body.material().flows(stress, i)) sum += body.weights()[i] * stress.col(i).dot(strain.col(i));
+    if (body.material().flows(stress, i))
+      sum +=
+          body.weights()[i] * (stress.col(i) - backStressOf(body.material(), flowed, i)).dot(strain.col(i));
   return sum;
 }
 
 }  // namespace
 
-/// sum b_i k s_i : G_i of the attempt.
+/// sum b_i k (s_i - X_i) : G_i of the attempt.
 double StepTaker::dissipated(size_t b) const {
   const Body& body = model_.bodies[b];
   if (body.material().linear()) return 0;
-  const BodyIterate& end = solutions_.back().bodies[b];
-  Matrix elastic;
-  body.material().elasticStrain(end.stress - state_.bodies[b].stress, elastic);
-  double sum = product(body, end.stress, end.strain - elastic);  // of the last stage: a_ss k G_s
+  const BodyState& start = state_.bodies[b];
+  const double k = t1_ - state_.time;
+  // a_ss k G_s of a stage, and the viscoplastic strain there.
+  const auto flowOf = [&](size_t stage) {
+    const BodyIterate& there = solutions_[stage].bodies[b];
+    Matrix elastic;
+    body.material().elasticStrain(there.stress - start.stress, elastic);
+    return Matrix(there.strain - elastic);
+  };
+  const auto flowedAt = [&](size_t stage) {
+    Matrix flowed = start.viscoplasticStrain + flowOf(stage);
+    const std::vector<double>& before = tableau_.stages[stage].before;
+    for (size_t j = 0; j < before.size(); ++j) flowed += before[j] * k * rates_[j][b];
+    return flowed;
+  };
+  const size_t end = solutions_.size() - 1;
+  double sum = product(body, solutions_[end].bodies[b].stress, flowedAt(end), flowOf(end));
   const Stage& last = tableau_.stages.back();
   for (size_t j = 0; j < last.before.size(); ++j) {
     const bool atStart = tableau_.explicitFirst && j == 0;
     const size_t stage = tableau_.explicitFirst ? j - 1 : j;
-    const Matrix& stress = atStart ? state_.bodies[b].stress : solutions_[stage].bodies[b].stress;
-    sum += last.before[j] * (t1_ - state_.time) * product(body, stress, rates_[j][b]);
+    const Matrix& stress = atStart ? start.stress : solutions_[stage].bodies[b].stress;
+    const Matrix flowed = atStart ? start.viscoplasticStrain : flowedAt(stage);
+    sum += last.before[j] * k * product(body, stress, flowed, rates_[j][b]);
   }
   return sum;
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "material/back_stress.h"
 #include "material/stress.h"
 #include "mesh/boundary_line.h"
 #include "time/nodal_forces.h"
@@ -69,11 +70,16 @@ double componentOf(const Wrench& wrench, const Quantity& quantity) {
   return wrench.force[quantity.component == Component::x ? 0 : 1];
 }
 
-double storedEnergy(const Body& body, const Matrix& stress) {
+/// Of elasticity and of what hardens.
+double storedEnergy(const Body& body, const BodyState& state) {
   Matrix strain;
-  body.material().elasticStrain(stress, strain);
+  body.material().elasticStrain(state.stress, strain);
   double energy = 0;
-  for (int i = 0; i < body.points(); ++i) energy += body.weights()[i] / 2 * stress.col(i).dot(strain.col(i));
+  for (int i = 0; i < body.points(); ++i) {
+    const PointVector back = backStressOf(body.material(), state.viscoplasticStrain, i);
+    energy += body.weights()[i] / 2 *
+              (state.stress.col(i).dot(strain.col(i)) + back.dot(state.viscoplasticStrain.col(i)));
+  }
   return energy;
 }
 
@@ -207,7 +213,7 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
       case Kind::contactForce:
         return componentOf(contactOn(model, state, quantity.body, quantity.label), quantity);
       case Kind::storedEnergy:
-        return storedEnergy(model.bodies[quantity.body], body.stress);
+        return storedEnergy(model.bodies[quantity.body], body);
       case Kind::dissipatedEnergy:
         return body.work.dissipated;
       case Kind::work:

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <string>
 
+#include "material/overstress.h"
+#include "material/parts.h"
 #include "theory/compression.h"
 #include "theory/controlled_runs.h"
 #include "theory/pressed_blocks.h"
@@ -243,6 +245,68 @@ TEST(EnergyBalance, relaxationTurnsWhatWasStoredIntoHeat) {
       defects.push_back(std::abs(whole.dissipated + whole.stored));
     }
     EXPECT_NEAR(fittedOrder(k, defects), scheme == Scheme::backwardEuler ? 1 : 2, 0.1);
+  }
+}
+
+// Plasticity with kinematic hardening, pulled, unloaded and pushed back by steps that end where it yields and
+// where the course turns: what is not in one of the two springs is sigma_Y times the plastic strain so far.
+TEST(EnergyBalance, ofKinematicHardeningIsExactOnStraightPaths) {
+  constexpr double E = 100;
+  constexpr double H = 20;
+  Overstress law{1};
+  law.kinematicHardening = H;
+  constexpr double strains[] = {0, 0.01, 0.03, 0.01, -0.01};
+  const Function course = [&](double, double, double t) {
+    const int i = std::min(3, static_cast<int>(t));
+    return strains[i] + (t - i) * (strains[i + 1] - strains[i]);
+  };
+  Conditions pulled{
+      {{left, alongX, constant(0)}, {bottom, alongY, constant(0)}, {top, alongY, course}}, {}, {}};
+  for (const bool regions : {false, true}) {
+    const auto material = overstressMaterial({E, 0.3}, law, Plane::stress);
+    Model model;
+    model.bodies.emplace_back("bar", square(0, 1),
+                              regions ? materialOfParts({material, material}, {0, 1, 0, 1}) : material,
+                              pulled);
+    const States states = marched(model, initialState(model), plan(4, Scheme::backwardEuler, 4));
+    const double rate = 1 / (1 + H / E);  // of the plastic strain where it flows
+    const double flowed[] = {0, 0, 0.02 * rate, 0.02 * rate, 0};
+    const double all[] = {0, 0, 0.02 * rate, 0.02 * rate, 0.04 * rate};
+    for (size_t i = 1; i < states.all.size(); ++i) {
+      const Balance balance = balanceOf(model, 0, states.all.front(), states.all[i]);
+      const double s = E * (strains[i] - flowed[i]);
+      EXPECT_NEAR(balance.stored, s * s / (2 * E) + H * flowed[i] * flowed[i] / 2, 1e-11 * states.stored)
+          << i;
+      EXPECT_NEAR(balance.dissipated, law.yieldStress * all[i], 1e-11 * states.stored) << i;
+      EXPECT_NEAR(balance.defect(), 0, 1e-11 * states.stored) << i;
+    }
+  }
+}
+
+// With a power of the overstress too it is of the order of the scheme, and nothing cools.
+TEST(EnergyBalance, ofViscoplasticHardeningIsOfTheOrderOfTheScheme) {
+  Overstress law{1, 0.5, 0.01, 3, 15, 20};
+  Conditions pulled{{{left, alongX, constant(0)},
+                     {bottom, alongY, constant(0)},
+                     {top, alongY, [](double, double, double t) { return 0.01 * t * (1 + t); }}},
+                    {},
+                    {}};
+  pulled.initialStresses = {{1, std::nullopt, constant(2)}};
+  Model model;
+  model.bodies.emplace_back("bar", square(0, 1), overstressMaterial({100, 0.3}, law, Plane::stress), pulled);
+  for (const Scheme scheme : schemes) {
+    std::vector<double> k;
+    std::vector<double> defects;
+    for (const int steps : {160, 320, 640, 1280}) {
+      const States states = marched(model, initialState(model), plan(steps, scheme));
+      for (size_t i = 1; i < states.all.size(); ++i)
+        EXPECT_GE(balanceOf(model, 0, states.all[i - 1], states.all[i]).dissipated, 0);
+      k.push_back(1.0 / steps);
+      defects.push_back(std::abs(balanceOf(model, 0, states.all.front(), states.all.back()).defect()));
+    }
+    std::cout << "order " << fittedOrder(k, defects) << ", defects " << defects.front() << " ... "
+              << defects.back() << "\n";
+    EXPECT_NEAR(fittedOrder(k, defects), scheme == Scheme::backwardEuler ? 1 : 2, 0.15);
   }
 }
 
