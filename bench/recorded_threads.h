@@ -1,4 +1,4 @@
-// What threads would do: `Threads` (base/parallel.h) written anew to run all work on the thread of the caller,
+// What threads would do: `Threads` (base/parallel.h) written anew to run all work on the caller's thread,
 // take its processor time and keep which piece waits for which. A program that links it has no other threads.
 #pragma once
 

@@ -11,8 +11,8 @@ namespace {
 
 using namespace scenes;
 
-/// Of an elastic step, which is one linear solve; others are solved to SolverOptions::tolerance of the stress,
-/// and contact forces of thin layers make more of that.
+/// Of an elastic step, which is one linear solve; others are solved to SolverOptions::tolerance of the
+/// stress, and contact forces of thin layers make more of that.
 constexpr double tolerance = 1e-10;
 constexpr double toleranceOfLaws = 1e-6;
 
