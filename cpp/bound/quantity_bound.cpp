@@ -167,16 +167,17 @@ class Enclosing {
     }
     return result;
   }
-  /// What triangles add to R: products of both misfits in them, which sum to `remainder`.
+  /// Shares of triangles in `remainder`, about |E eps u^ - s^| |E eps z - t|: half of their share in the
+  /// square of either norm.
   [[nodiscard]] std::vector<Vector> partsOf(const Trial& trial, double remainder) const {
-    std::vector<Vector> products = none();
-    double sum = 0;
-    for (size_t b = 0; b < products.size(); ++b) {
-      products[b] = (misfits_[b].array().max(0) * trial.misfits[b].array().max(0)).sqrt();
-      sum += products[b].sum();
+    std::vector<Vector> parts = none();
+    for (const std::vector<Vector>* squares : {&misfits_, &trial.misfits}) {
+      double sum = 0;
+      for (const Vector& each : *squares) sum += each.cwiseMax(0).sum();
+      for (size_t b = 0; b < parts.size() && sum > 0; ++b)
+        parts[b] += remainder / (2 * sum) * (*squares)[b].cwiseMax(0);
     }
-    for (Vector& product : products) product *= sum > 0 ? remainder / sum : 0;
-    return onOwnMeshes(products);
+    return onOwnMeshes(parts);
   }
 
   [[nodiscard]] std::optional<Trial> attempt(const Functional& functional, const Goal& goal, double c) const {

@@ -15,7 +15,9 @@ const std::vector<FaultKind>& faultKinds() {
       {"data", error, "data that are not finite, or contradict each other where two labels meet",
        "correct the expression, or prescribe the component on one of the labels"},
       {"memory", error, "the run needs more memory than there is",
-       "coarsen the contact lines, on which dense matrices are kept, or take a machine with more memory"},
+       "coarsen the contact lines, on which dense matrices are kept, or the meshes, or take a machine with "
+       "more "
+       "memory"},
       // Meshes that cannot be used.
       {"mesh-file", error, "a mesh cannot be read", "write it again as Medit .mesh, ASCII, two-dimensional"},
       {"clockwise-triangle", error, "a triangle runs clockwise", "exchange two of its vertices"},

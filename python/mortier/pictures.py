@@ -93,7 +93,7 @@ def seen(run: Run, step: _core.Step) -> tuple[Any, Any]:
     sides = step.contact
     contact = results.contact_of([])
     if sides:
-        def of_all(*names):
+        def of_all(*names: str) -> list[Any]:
             return [np.concatenate([getattr(side, name) for side in sides]) for name in names]
         rough = "friction" in run.summary["verification"]
         contact = results.Contact(*of_all("vertex", "position", "gap", "force", "pressure"),

@@ -66,7 +66,8 @@ class Page(InFolder):
             names = [name for cell in cells for name in re.findall(r"`(\w+)[`(]", cell)]
             self.assertGreater(len(names), 8)
             for name in names:
-                if name not in ("contact", "vertex", "gap", "force", "pressure", "position"):
+                if name not in ("contact", "vertex", "gap", "force", "pressure", "position", "friction",
+                                "shear", "slip", "slipping"):
                     self.assertTrue(hasattr(of, name), name)
 
 

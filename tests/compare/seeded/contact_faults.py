@@ -114,4 +114,5 @@ def _(case):
 def _(case):
     case.upper = Mesh(0, 0, 14000, 1, 14000, 1)
     case.lower = Mesh(0, -1, 14000, 0, 14000, 1)
+    case.replace("label = 3 }\n", "label = 3 }\nfriction = 0.3\n")
     case.limit = 4 << 30
