@@ -28,7 +28,7 @@ class Record {
 
   std::vector<Piece> take() {
     stop();
-    return std::move(pieces_);
+    return std::exchange(pieces_, std::vector<Piece>(1));
   }
 
   /// The items of a call; waitsFor[i]: items before i that it waits for.

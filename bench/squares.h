@@ -77,6 +77,7 @@ inline State flowing(const Model& model) {
   for (const ContactInterface& interface : model.interfaces) {
     state.contactForce.emplace_back(interface.mass() * Vector::Constant(interface.rows(), pressure));
     state.gap.push_back(Vector::Zero(interface.rows()));
+    state.frictionWorkOf.push_back(0);
   }
   return state;
 }
