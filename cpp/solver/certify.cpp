@@ -26,6 +26,7 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
   const std::vector<Vector> u = displacements(step.state0, iterate);
   std::vector<Vector> residual(bodies_.size());
   std::vector<std::array<double, 3>> largest(bodies_.size());
+  const double motion = largestMotion(iterate);
   constexpr int tasks = 4;
   threads_.forEach(tasks * static_cast<int>(bodies_.size()), [&](int i) {
     const size_t b = i / tasks;
@@ -44,7 +45,7 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
         before = body.largestForce(stress0);
         break;
       default:
-        rounded = bodies_[b].rounding(stress0, unknowns, u[b]);
+        rounded = bodies_[b].rounding(stress0, unknowns, motion, u[b]);
     }
   });
   for (size_t b = 0; b < bodies_.size(); ++b) {
@@ -65,8 +66,8 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
       Ranks::all().largest(&loose, 1);
       force.add(loose);
     }
-    // A body that moves without any load and does not flow has forces that are nothing but rounding.
-    if (bodies_[b].law().elastic == body.points())
+    // A body that moves without any load has forces that are nothing but rounding, unless it is beyond yield.
+    if (bodies_[b].law().elastic == body.points() || body.material().stressScale() <= 0)
       force.add(roundingOfMotion * bodies_[b].largestModulus() *
                 unknowns.increment.high.lpNorm<Eigen::Infinity>() * depthOf(body));
     length.add(extent(body.mesh()));

@@ -84,8 +84,8 @@ void CondensedBody::take(const LawFacts& facts) {
   law_.elastic = facts.elastic;
 }
 
-double CondensedBody::residual(const Matrix& stress0, const BodyIterate& iterate) const {
-  return facts_.change == 0 ? 0 : facts_.change / residualScale(stress0, iterate);
+double CondensedBody::residual(const Matrix& stress0, const BodyIterate& iterate, double motion) const {
+  return facts_.change == 0 ? 0 : facts_.change / residualScale(stress0, iterate, motion);
 }
 
 void CondensedBody::completeLaw() {
@@ -96,7 +96,7 @@ void CondensedBody::completeLaw() {
   lawComplete_ = true;
 }
 
-double CondensedBody::residualScale(const Matrix& stress0, const BodyIterate& iterate) const {
+double CondensedBody::residualScale(const Matrix& stress0, const BodyIterate& iterate, double motion) const {
   // The rounding of the law is a part of the stresses that are there, which may be far beyond yield.
   const double before = stress0.cwiseAbs().maxCoeff();
   if (const double scale = body_.material().stressScale(); scale > 0)
@@ -104,12 +104,13 @@ double CondensedBody::residualScale(const Matrix& stress0, const BodyIterate& it
   // What rounding of the displacement makes of a rigid motion: tolerances of 1e-10 times this part are 1e-14
   // of E |du|/L.
   constexpr double rigidPart = 1e-4;
-  const double rigid = largestModulus() * iterate.increment.high.cwiseAbs().maxCoeff() / extent(body_.mesh());
+  const double rigid = largestModulus() * motion / extent(body_.mesh());
   const double predictor = share_ ? facts_.predictor : law_.predictor.cwiseAbs().maxCoeff();
   return std::max({before, predictor, rigidPart * rigid});
 }
 
-std::pair<int, double> CondensedBody::furthest(const Matrix& stress0, const BodyIterate& iterate) const {
+std::pair<int, double> CondensedBody::furthest(const Matrix& stress0, const BodyIterate& iterate,
+                                               double motion) const {
   int point = -1;
   double largest = 0;
   for (int i = 0; i < body_.points(); ++i) {
@@ -118,17 +119,19 @@ std::pair<int, double> CondensedBody::furthest(const Matrix& stress0, const Body
     largest = change;
     point = i;
   }
-  const double relative = largest / residualScale(stress0, iterate);
+  const double relative = largest / residualScale(stress0, iterate, motion);
   return {point, std::isfinite(relative) ? relative : std::numeric_limits<double>::max()};
 }
 
-double CondensedBody::rounding(const Matrix& stress0, const BodyIterate& iterate,
+double CondensedBody::rounding(const Matrix& stress0, const BodyIterate& iterate, double motion,
                                const Vector& displacement) const {
-  const double strain = std::numeric_limits<double>::epsilon() * body_.largestGradient() *
-                        displacement.lpNorm<Eigen::Infinity>();
-  const double scale = residualScale(stress0, iterate);
+  constexpr double nothing = 1e-14;
+  const double moved = displacement.lpNorm<Eigen::Infinity>();
+  const double strain = std::numeric_limits<double>::epsilon() * body_.largestGradient() * moved;
+  const double scale = residualScale(stress0, iterate, motion);
   // A body that was moved before the step and is free of stress has none that could be wrong.
-  return strain == 0 || scale == 0 ? 0 : strain * largestModulus() / scale;
+  if (scale <= nothing * largestModulus() * moved / extent(body_.mesh())) return 0;
+  return strain * largestModulus() / scale;
 }
 
 CondensedBody::Factors CondensedBody::factorise() {

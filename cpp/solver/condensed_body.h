@@ -47,7 +47,8 @@ class CondensedBody {
   [[nodiscard]] const LawFacts& lawFacts() const { return facts_; }
   void take(const LawFacts& facts);
   /// The residual of what was linearised, scaled [-].
-  [[nodiscard]] double residual(const Matrix& stress0, const BodyIterate& iterate) const;
+  /// \param motion  the largest of any body: contact hands on what its rounding strains [m]
+  [[nodiscard]] double residual(const Matrix& stress0, const BodyIterate& iterate, double motion) const;
   [[nodiscard]] const Linearisation& law() const { return law_; }  ///< as last linearised
   /// Makes it known at all points, until it is linearised or factorised again. Collective.
   void completeLaw();
@@ -55,10 +56,11 @@ class CondensedBody {
   [[nodiscard]] const BodyShare* share() const { return share_ ? &*share_ : nullptr; }
   [[nodiscard]] double largestModulus() const;
   /// The point whose stress is furthest off the law as last linearised, and by how much [-]; -1 for none.
-  [[nodiscard]] std::pair<int, double> furthest(const Matrix& stress0, const BodyIterate& iterate) const;
+  [[nodiscard]] std::pair<int, double> furthest(const Matrix& stress0, const BodyIterate& iterate,
+                                                double motion) const;
   /// What the rounding of the mesh and of its displacements makes of stresses, by the moduli of the last
   /// linearisation, over what residuals are measured against [-].
-  [[nodiscard]] double rounding(const Matrix& stress0, const BodyIterate& iterate,
+  [[nodiscard]] double rounding(const Matrix& stress0, const BodyIterate& iterate, double motion,
                                 const Vector& displacement) const;
 
   /// What factorise() did.
@@ -104,7 +106,8 @@ class CondensedBody {
 
  private:
   /// What stresses are measured against.
-  [[nodiscard]] double residualScale(const Matrix& stress0, const BodyIterate& iterate) const;
+  [[nodiscard]] double residualScale(const Matrix& stress0, const BodyIterate& iterate,
+                                     double motion) const;
   [[nodiscard]] Vector solveSchur(const Vector& f) const;
   [[nodiscard]] std::unique_ptr<CondensingSolver> newSolver() const;
   void clearLawOfOthers();

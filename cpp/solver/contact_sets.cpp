@@ -110,12 +110,15 @@ ContactSolution solveBalanced(ContactSets& contact, const std::vector<char>& act
   return solution;
 }
 
-Vector travelFirst(const ContactProblem& problem, Vector& slack) {
-  Vector moved = Vector::Zero(problem.G.cols());
-  if (moved.size() > 0 && slack.size() > 0) {
-    moved = problem.G.colPivHouseholderQr().solve(slack);
-    slack -= problem.G * moved;
-  }
+Vector travelFirst(const Matrix& G, const std::vector<char>& active, Vector& slack) {
+  if (G.cols() == 0 || slack.size() == 0) return Vector::Zero(G.cols());
+  std::vector<Eigen::Index> closed;
+  for (Eigen::Index i = 0; i < slack.size(); ++i)
+    if (active[i] != 0) closed.push_back(i);
+  const bool none = closed.empty();
+  const Matrix motions = none ? G : Matrix(G(closed, Eigen::all));
+  const Vector moved = motions.completeOrthogonalDecomposition().solve(none ? slack : Vector(slack(closed)));
+  slack -= G * moved;
   return moved;
 }
 

@@ -1,9 +1,9 @@
 #include "solver/friction_motions.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <utility>
 
+#include "solver/contact_sets.h"
 #include "solver/friction_solutions.h"
 
 namespace mortier {
@@ -18,10 +18,13 @@ LooseFriction solveLooseFriction(const Matrix& W, const FrictionRows& rows, cons
   constexpr double softest = 1e-4;  // of the springs to begin with
   constexpr double farther = 10;
   constexpr double hopeless = 1e-9;
+  constexpr double roundingOfGaps = 1e-5;  // an imbalance of 1e-9 of that is rounding
 
   // What rigid motions take away is taken first, as in solveContact.
-  const Vector moved = G.colPivHouseholderQr().solve(q);
-  q -= G * moved;
+  std::vector<char> closed = first.closed;
+  for (size_t k = 0; k < rows.node.size(); ++k)
+    closed.push_back(first.slip[k] == 0 && first.closed[rows.node[k]] != 0 ? 1 : 0);
+  const Vector moved = travelFirst(G, closed, q);
   FreeMotions motions{G, load, Vector::Zero(G.cols())};
   motions.stiffness = G.squaredNorm() / W.diagonal().maxCoeff();
   motions.spring = weight * motions.stiffness;
@@ -54,6 +57,7 @@ LooseFriction solveLooseFriction(const Matrix& W, const FrictionRows& rows, cons
     if (repetition > 1 && imbalance > slow * beside)
       motions.spring = std::max(softer * motions.spring, least);
   }
+  usual += roundingOfGaps * q.lpNorm<Eigen::Infinity>() / W.diagonal().maxCoeff();
   const double all = beside + usual * G.cwiseAbs().colwise().sum().maxCoeff();
   result.solution.solves = solves;
   result.solution.events = events;

@@ -62,6 +62,13 @@ void updateStrain(const Model& model, const Step& step, size_t body, Iterate& it
                             model.bodies[body].points());
 }
 
+double largestMotion(const Iterate& iterate) {
+  double motion = 0;
+  for (const BodyIterate& body : iterate.bodies)
+    motion = std::max(motion, body.increment.high.lpNorm<Eigen::Infinity>());
+  return motion;
+}
+
 std::vector<Vector> displacements(const State& state0, const Iterate& iterate) {
   std::vector<Vector> u;
   for (size_t b = 0; b < state0.bodies.size(); ++b)

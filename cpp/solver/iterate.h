@@ -75,6 +75,9 @@ void prescribe(const Model& model, const Step& step, Iterate& iterate);
 /// iterate.bodies[body].strain becomes B du - shift.
 void updateStrain(const Model& model, const Step& step, size_t body, Iterate& iterate);
 
+/// The largest |du| of any body [m].
+double largestMotion(const Iterate& iterate);
+
 /// u0 + du per body.
 std::vector<Vector> displacements(const State& state0, const Iterate& iterate);
 

@@ -40,6 +40,11 @@ bool comesDownFromFar(const Model& model) {
   });
 }
 
+bool returnsAnywhere(const Model& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(),
+                     [](const Body& body) { return body.material().returns(); });
+}
+
 }  // namespace
 
 // What takes many linear solves comes last, and is for projections that are not associated: with a symmetric
@@ -64,6 +69,9 @@ StepOutcome solveStep(StepSystem& system, const State& state0, const StepData& d
 
   NewtonLimits plain{std::min(plainIterations, options.maxIterations), options.tolerance};
   plain.turning = true;
+  // Before the first solve the strain is that of supports which move alone: a law that is linearised there
+  // would flow beside them.
+  plain.elasticFirst = returnsAnywhere(system.model()) && !flows(system.model(), state0);
   StepOutcome total = newton(system, step, data.weight, plain, guess);
   const auto climb = [&](Rung rung, StepOutcome next) {
     total.follow(std::move(next));

@@ -109,8 +109,10 @@ StepSystem::Linearised StepSystem::linearise(const Step& step, Iterate& iterate,
   std::vector<double> residual(bodies_.size());
   forEachBody([&](int b) { bodies_[b].linearise(step.shift(b), iterate.bodies[b], lawOf(b)); });
   if (shared()) agreeOnLaws();
-  forEachBody(
-      [&](int b) { residual[b] = bodies_[b].residual(step.state0.bodies[b].stress, iterate.bodies[b]); });
+  const double motion = largestMotion(iterate);
+  forEachBody([&](int b) {
+    residual[b] = bodies_[b].residual(step.state0.bodies[b].stress, iterate.bodies[b], motion);
+  });
   Worst worst;
   for (const double value : residual) worst.add(value);
   return {*this, worst.value(), Key{}};
@@ -135,8 +137,9 @@ std::optional<StuckPlace> StepSystem::furthest(const Step& step, Iterate& iterat
   linearise(step, iterate, weight, false);
   for (CondensedBody& body : bodies_) body.completeLaw();
   std::optional<StuckPlace> place;
+  const double motion = largestMotion(iterate);
   for (size_t b = 0; b < bodies_.size(); ++b) {
-    const auto [point, residual] = bodies_[b].furthest(step.state0.bodies[b].stress, iterate.bodies[b]);
+    const auto [point, residual] = bodies_[b].furthest(step.state0.bodies[b].stress, iterate.bodies[b], motion);
     if (point < 0 || residual <= (place ? place->residual : options_.tolerance)) continue;
     const Body& body = model_.bodies[b];
     const int ofATriangle = body.points() / static_cast<int>(body.mesh().triangles.size());

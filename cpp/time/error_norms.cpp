@@ -57,16 +57,20 @@ double ErrorMeasure::meanSquare(const Vector& displacement, size_t body) const {
 }
 
 ErrorNorms ErrorMeasure::sizeOf(const State& state) const {
+  constexpr double little = 1e-6;
+  constexpr double roundedMotion = 1e-10;  // over the extent, the strain that is nothing beside it
   double stress = 0;
   double displacement = 0;
   double strain = 0;
+  double stiffness = 0;
   for (size_t b = 0; b < state.bodies.size(); ++b) {
     const StressNorms norms = normsOf(state.bodies[b].stress, b);
     stress += norms.energy;
     strain += norms.strain;
+    if (norms.strain > 0) stiffness += norms.energy / norms.strain;
     displacement += meanSquare(state.bodies[b].displacement, b);
   }
-  constexpr double little = 1e-6;
+  stress = std::max(stress, stiffness * displacement * std::pow(roundedMotion / extent_, 2));
   return {std::sqrt(stress), std::max(std::sqrt(displacement), extent_ * std::sqrt(strain)),
           rough_ ? std::max(state.frictionWork, little * stress) : 0};
 }
