@@ -106,8 +106,7 @@ class CondensedBody {
 
  private:
   /// What stresses are measured against.
-  [[nodiscard]] double residualScale(const Matrix& stress0, const BodyIterate& iterate,
-                                     double motion) const;
+  [[nodiscard]] double residualScale(const Matrix& stress0, const BodyIterate& iterate, double motion) const;
   [[nodiscard]] Vector solveSchur(const Vector& f) const;
   [[nodiscard]] std::unique_ptr<CondensingSolver> newSolver() const;
   void clearLawOfOthers();

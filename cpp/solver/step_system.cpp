@@ -139,7 +139,8 @@ std::optional<StuckPlace> StepSystem::furthest(const Step& step, Iterate& iterat
   std::optional<StuckPlace> place;
   const double motion = largestMotion(iterate);
   for (size_t b = 0; b < bodies_.size(); ++b) {
-    const auto [point, residual] = bodies_[b].furthest(step.state0.bodies[b].stress, iterate.bodies[b], motion);
+    const auto [point, residual] =
+        bodies_[b].furthest(step.state0.bodies[b].stress, iterate.bodies[b], motion);
     if (point < 0 || residual <= (place ? place->residual : options_.tolerance)) continue;
     const Body& body = model_.bodies[b];
     const int ofATriangle = body.points() / static_cast<int>(body.mesh().triangles.size());
