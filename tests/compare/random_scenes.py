@@ -11,12 +11,13 @@ Exit code 0 is asked for. 3 is right where contact alone holds a body and the lo
 rare, with a reason; a run that takes longer than the patience counts as a fault whatever it would have ended
 with.
 
-Usage: random_scenes.py [--count 100] [--seed 0] [--patience 20] [--jobs 1] [--mortier build/mortier]
+Usage: random_scenes.py [--choices] [--count 100] [--seed 0] [--patience 20] [--jobs 1] [--mortier build/mortier]
 Scene N is the same on every machine: random_scenes.py --seed N --count 1 --keep FOLDER shows it.
 """
 import argparse
 import collections
 import concurrent.futures
+import importlib
 import json
 import os
 import random
@@ -27,11 +28,6 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
-
-CLASSES = ("yield stress over load", "scheme", "projection", "stiffness ratio", "viscosity",
-           "Poisson's ratio",
-           "held by contact alone", "overlap", "gap", "load in time", "plane", "variant", "bodies")
-
 
 def decades(rng, least, most):
     return 10 ** rng.uniform(least, most)
@@ -47,6 +43,10 @@ def decade_class(ratio, limits):
 
 class Scene:
     """Scene number `seed`: its text, its meshes (as arguments of `mortier mesh`) and its classes."""
+
+    KINDS = ("yield stress over load", "scheme", "projection", "stiffness ratio", "viscosity",
+             "Poisson's ratio", "held by contact alone", "overlap", "gap", "load in time", "plane", "variant",
+             "bodies")
 
     def __init__(self, seed):
         self.rng = rng = random.Random(seed)
@@ -201,10 +201,10 @@ class Scene:
             self.text.append(f"steps = {rng.choice([1, 2, 5, 10, 20])}")
 
 
-def try_scene(seed, program, patience, keep):
-    """Runs scene `seed`: its classes, how it ended, what was said,
+def try_scene(kind, seed, program, patience, keep):
+    """Runs scene `seed` of a kind: its classes, how it ended, what was said,
     seconds of processor time and linear solves."""
-    scene = Scene(seed)
+    scene = kind(seed)
     with tempfile.TemporaryDirectory(prefix=f"random-{seed}-") as name:
         folder = Path(name)
         (folder / "scene.toml").write_text("\n".join(scene.text) + "\n")
@@ -230,7 +230,7 @@ def try_scene(seed, program, patience, keep):
             "solves": facts.get("newton_iterations", 0), "classes": scene.classes}
 
 
-def tabulate(results, out=sys.stdout):
+def tabulate(results, kinds, out=sys.stdout):
     """Exit codes by class."""
     codes = sorted({result["code"] for result in results}, key=str)
     print(f"{'':44}{'scenes':>8}" + "".join(f"{code!s:>7}" for code in codes) + "   share of 1, long",
@@ -244,16 +244,16 @@ def tabulate(results, out=sys.stdout):
               file=out)
 
     row("all", results)
-    for kind in CLASSES:
+    for kind in kinds:
         for value in sorted({result["classes"][kind] for result in results}):
             row(f"{kind}: {value}", [result for result in results if result["classes"][kind] == value])
 
 
-def explore(program, seed, count, patience=20, jobs=1, keep=None, watch=lambda result: None):
+def explore(program, seed, count, patience=20, jobs=1, keep=None, watch=lambda result: None, kind=Scene):
     """Tries scenes; returns what try_scene() does of each."""
     program, results = str(Path(program).resolve()), []
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for result in pool.map(lambda number: try_scene(number, program, patience, keep),
+        for result in pool.map(lambda number: try_scene(kind, number, program, patience, keep),
                                range(seed, seed + count)):
             watch(result)
             results.append(result)
@@ -271,7 +271,9 @@ def main():
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--keep", help="folder to copy the scenes and results to")
     parser.add_argument("--json", help="file for the results, one a line")
+    parser.add_argument("--choices", action="store_true", help="scenes of random_choices.py")
     options = parser.parse_args()
+    kind = importlib.import_module("random_choices").WideScene if options.choices else Scene
 
     def watch(result):
         if result["code"] != 0:
@@ -282,8 +284,8 @@ def main():
                 file.write(json.dumps(result) + "\n")
 
     results = explore(options.mortier, options.seed, options.count, options.patience, options.jobs,
-                      options.keep, watch)
-    tabulate(results)
+                      options.keep, watch, kind)
+    tabulate(results, kind.KINDS)
     print(f"slowest: {max(result['seconds'] for result in results):.1f} s")
     return 1 if any(result["code"] not in (0, 3) for result in results) else 0
 

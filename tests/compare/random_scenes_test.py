@@ -1,10 +1,12 @@
 """A part of the random scenes: every one ends soon, with a result or with the motion that nothing holds."""
 import unittest
 
+from random_choices import WideScene
 from random_scenes import Scene, explore
 from support import PROGRAM
 
 FIRST, COUNT = 176, 58
+CHOICES = 80
 # A body that was moved before the first step and is free of stress.
 MOVED = 30
 # Crank-Nicolson rings at 1e4 yield stresses: the interior point method must begin beyond them.
@@ -37,6 +39,19 @@ class RandomScenes(unittest.TestCase):
                     self.assertEqual(result["classes"]["held by contact alone"], "yes")
                     self.assertRegex(result["told"], "contact cannot hold|nothing holds")
         self.assertGreater(sum(result["code"] == 0 for result in results), COUNT * 3 // 4)
+
+    def test_every_choice_of_laws_bodies_and_contact_ends_too(self):
+        results = explore(PROGRAM, 0, CHOICES, SECONDS, kind=WideScene)
+        for result in results:
+            with self.subTest(seed=result["seed"]):
+                if result["code"] == 1:
+                    self.assertRegex(result["told"], "accuracy .* not reached")
+                else:
+                    self.assertIn(result["code"], (0, 3), result["told"])
+                if result["code"] == 3:
+                    self.assertEqual(result["classes"]["held by contact alone"], "yes")
+                    self.assertRegex(result["told"], "(hold|holds) (body|its) .*(translation|rotation)")
+        self.assertGreater(sum(result["code"] == 0 for result in results), CHOICES * 3 // 4)
 
     def test_what_is_not_solved_has_its_own_reason_soon(self):
         reasons = {CRAWLING: "at the pace of the steps that can be solved max_steps = 100000",
