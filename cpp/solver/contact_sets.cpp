@@ -49,7 +49,7 @@ double ContactSets::sizeOf(const ContactSolution& solution) const {
   for (Eigen::Index i = 0; i < slack_.size(); ++i)
     if (idle_[i] == 0)
       largest = std::max({largest, std::abs(p0_[i] + solution.change[i]), std::abs(p0_[i]),
-                          std::abs(slack_[i]) / diagonal_[i]});
+                          solution.active[i] != 0 ? std::abs(slack_[i]) / diagonal_[i] : 0});
   return largest;
 }
 

@@ -81,7 +81,7 @@ class ContactSets {
   [[nodiscard]] virtual Noise noise(const ContactSolution& solution) const = 0;
   /// Largest slack of closed conditions, as a force.
   [[nodiscard]] double residual(const ContactSolution& solution) const;
-  /// Forces of the size that the problem has.
+  /// The size of forces, those there are and those that gaps of the closed conditions make.
   [[nodiscard]] double sizeOf(const ContactSolution& solution) const;
 
   const ContactProblem& problem_;

@@ -103,7 +103,8 @@ bool ProximalContact::refactor(const std::vector<char>& active) {
 
 ContactSets::Noise ProximalContact::noise(const ContactSolution& solution) const {
   const double least = rounding * sizeOf(solution);
-  return {least, Vector::Constant(slack_.size(), std::max(least, 2 * residual(solution)))};
+  Vector depth = rounding * slack_.cwiseAbs().cwiseQuotient(diagonal_);
+  return {least, depth.cwiseMax(std::max(least, 2 * residual(solution)))};
 }
 
 Vector ProximalContact::compliance(const Vector& p) {
