@@ -50,10 +50,11 @@ std::shared_ptr<const Material> materialOf(const Case& each, int points) {
   const Viscoplasticity flow{10, 0.05, Projection::elasticity};
   if (each.plane != Plane::stress) return planeStrainPerzynaMaterial(elasticity, flow);
   if (each.turned) {
+    const Viscoplasticity frobenius{10, 0.05, Projection::frobenius};
     std::vector<double> angles;
     for (int i = 0; i < points; ++i) angles.push_back(0.1 * i);
     return turnedMaterial(
-        anisotropicMaterial(anisotropyOf(Orthotropy{{100, 50, 80}, {0.2, 0.2, 0.1}, 30}, Plane::stress), flow, Plane::stress), angles);
+        anisotropicMaterial(anisotropyOf(Orthotropy{{100, 50, 80}, {0.2, 0.2, 0.1}, 30}, Plane::stress), frobenius, Plane::stress), angles);
   }
   if (!each.regions) return perzynaMaterial(elasticity, flow);
   std::vector<int> materialOf;
