@@ -1,6 +1,6 @@
 // Processes that work on one run. All of them go through the same program in the same order and take the same
-// decisions: what these depend on is the same everywhere, bit for bit. The functions here are collective: every rank calls
-// them, in the same order. A run of one process has one rank, for which they do nothing.
+// decisions: what these depend on is the same everywhere, bit for bit. The functions here are collective:
+// every rank calls them, in the same order. A run of one process has one rank, for which they do nothing.
 #pragma once
 
 #include <cstddef>

@@ -21,9 +21,9 @@ struct AttemptOptions {
 /// Its members refer to each other.
 struct Attempt {
   ResolvedScene resolved;
-  std::unique_ptr<Model> model;  ///< of ranks that share it but the first, in parts
-  std::unique_ptr<Model> parts;  ///< of the first of such ranks
-  std::string alone;             ///< why ranks cannot share it; empty where they do
+  std::unique_ptr<Model> model;              ///< of ranks that share it but the first, in parts
+  std::unique_ptr<Model> parts;              ///< of the first of such ranks
+  std::string alone;                         ///< why ranks cannot share it; empty where they do
   std::unique_ptr<CurrentSpaceError> error;  ///< of the meshes, in the state that the run is at
   RunFacts facts;
   State state;  ///< the first one

@@ -194,8 +194,8 @@ class Body {
   double largestGradient_ = 0;
   double extent_ = 0;
   int freeDofs_ = 0;
-  int tangentSize_ = 0;            ///< equations of nodes that have triangles
-  std::vector<char> ownEdges_;     ///< by labelled edges, whether they are sides of triangles; all where empty
+  int tangentSize_ = 0;         ///< equations of nodes that have triangles
+  std::vector<char> ownEdges_;  ///< by labelled edges, whether they are sides of triangles; all where empty
   mutable std::optional<TangentAssembly> assembly_;
 };
 

@@ -30,8 +30,8 @@ std::vector<int> numbersOf(const std::vector<int>& nodes, int count) {
 TriangleMesh restrictedMesh(const TriangleMesh& whole, const BodyCut& cut, const std::vector<int>& number) {
   TriangleMesh mesh;
   mesh.name = whole.name;
-  const auto vertices = std::lower_bound(cut.nodes.begin(), cut.nodes.end(),
-                                         static_cast<int>(whole.vertices.size()));
+  const auto vertices =
+      std::lower_bound(cut.nodes.begin(), cut.nodes.end(), static_cast<int>(whole.vertices.size()));
   mesh.vertices = taken(whole.vertices, {cut.nodes.begin(), vertices});
   mesh.triangles = taken(whole.triangles, cut.triangles);
   for (auto& triangle : mesh.triangles)
@@ -106,8 +106,7 @@ Body::Body(const Body& whole, const BodyCut& cut)
   {
     const std::vector<int> points = pointsOf(cut.triangles, static_cast<int>(each));
     material_ = materialAt(whole.material_, points);
-    if (heated())
-      conditions_.expansion = Matrix(whole.conditions_.expansion(Eigen::all, points));
+    if (heated()) conditions_.expansion = Matrix(whole.conditions_.expansion(Eigen::all, points));
   }
   weights_ = taken(whole.weights_, cut.triangles, each);
   gradients_ = taken(whole.gradients_, cut.triangles, 2 * (n - 1) * each);

@@ -73,10 +73,10 @@ struct SharedEquations {
 
 /// The interior shared by ranks: the matrix is the sum of those of all of them, each with a pattern over the
 /// equations of its own part. Equations that several ranks have, the skeleton, are kept in every part and
-/// eliminated from the sum of what the parts leave there. Right-hand sides are the sums of those of all ranks,
-/// solutions known where a rank has the equation, and where it is kept.
-/// \param kept  the same of all ranks in the same order, by the numbers of this one: those that are beyond its
-/// part are none of it
+/// eliminated from the sum of what the parts leave there. Right-hand sides are the sums of those of all
+/// ranks, solutions known where a rank has the equation, and where it is kept.
+/// \param kept  the same of all ranks in the same order, by the numbers of this one: those that are beyond
+/// its part are none of it
 /// \param engine  of the parts and of the skeleton. Collective.
 std::unique_ptr<CondensingSolver> sharedSolver(const SparsePattern& part, const std::vector<int>& kept,
                                                const SharedEquations& shared,

@@ -206,8 +206,9 @@ Matrix gatheredPoints(const BodyPart& part, Ranks& ranks, const Matrix& columns)
   const Eigen::Index each = columns.rows() * part.pointsOfTriangle;
   const std::vector<double> whole =
       gathered(ranks, {columns.data(), columns.data() + each * triangles}, each, part.trianglesOf);
-  return Eigen::Map<const Matrix>(whole.data(), columns.rows(),
-                                  columns.rows() > 0 ? static_cast<Eigen::Index>(whole.size()) / columns.rows() : 0);
+  return Eigen::Map<const Matrix>(
+      whole.data(), columns.rows(),
+      columns.rows() > 0 ? static_cast<Eigen::Index>(whole.size()) / columns.rows() : 0);
 }
 
 Vector nodesOfPart(const BodyPart& part, const Vector& nodal) {
@@ -221,7 +222,8 @@ Matrix pointsOfPart(const BodyPart& part, const Matrix& columns) {
   const Eigen::Index each = part.pointsOfTriangle;
   Matrix own(columns.rows(), each * static_cast<Eigen::Index>(part.cut.triangles.size()));
   for (size_t i = 0; i < part.cut.triangles.size(); ++i)
-    own.middleCols(each * static_cast<Eigen::Index>(i), each) = columns.middleCols(each * part.cut.triangles[i], each);
+    own.middleCols(each * static_cast<Eigen::Index>(i), each) =
+        columns.middleCols(each * part.cut.triangles[i], each);
   return own;
 }
 

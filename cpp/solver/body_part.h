@@ -1,6 +1,6 @@
-// The parts of a run that several ranks share: every triangle is of one rank, whose model has the part of each
-// body that its triangles make (fem/body.h), with numbers of its own. Nodes that several ranks have are told
-// apart by numbers that all of them know.
+// The parts of a run that several ranks share: every triangle is of one rank, whose model has the part of
+// each body that its triangles make (fem/body.h), with numbers of its own. Nodes that several ranks have are
+// told apart by numbers that all of them know.
 #pragma once
 
 #include <string>
@@ -16,8 +16,9 @@ struct BodyPart {
   BodyCut cut;
   int wholePoints = 0;
   int pointsOfTriangle = 1;
-  std::vector<char> own;          ///< by nodes, whether a triangle of this rank has it
-  std::vector<char> responsible;  ///< by nodes, whether this rank adds what all know of it: one of those that own it
+  std::vector<char> own;  ///< by nodes, whether a triangle of this rank has it
+  std::vector<char>
+      responsible;  ///< by nodes, whether this rank adds what all know of it: one of those that own it
   /// Nodes that several ranks have, ascending, and the place of each among those of all ranks: those of
   /// triangles of several, the labelled boundary, and supports.
   std::vector<int> shared;
@@ -28,7 +29,7 @@ struct BodyPart {
   // On the first rank alone.
 
   const Body* whole = nullptr;
-  /// By ranks: the triangles, and the nodes that they are responsible for, by their numbers in the whole body.
+  /// By ranks: the triangles, and the nodes that they are responsible for; numbers in the whole body.
   std::vector<std::vector<int>> trianglesOf = {};
   std::vector<std::vector<int>> nodesOf = {};
 };

@@ -38,9 +38,8 @@ std::unique_ptr<CondensingSolver> CondensedBody::newSolver() const {
       shared.numbers.push_back(2 * part_->places[i] + c);
     }
   if (part_ != nullptr) shared.count = 2 * part_->placesOfAll;
-  auto solver = part_ != nullptr
-                    ? sharedSolver(body_.pattern(), contact_.equations, shared, engine, *ranks_)
-                    : engine(body_.pattern(), contact_.equations);
+  auto solver = part_ != nullptr ? sharedSolver(body_.pattern(), contact_.equations, shared, engine, *ranks_)
+                                 : engine(body_.pattern(), contact_.equations);
   solver->use(threads_);
   return solver;
 }

@@ -123,10 +123,10 @@ class CondensedBody {
   bool counted_ = false;
   Linearisation law_;
   LawFacts facts_;
-  DenseFactor schurFactor_;   ///< of S
-  Vector ownForce_;           ///< of the triangles of a part (dofs)
-  Vector residual_;           ///< right-hand side over equations, condensed in place
-  Vector contactForce_;       ///< its part on the contact dofs
+  DenseFactor schurFactor_;  ///< of S
+  Vector ownForce_;          ///< of the triangles of a part (dofs)
+  Vector residual_;          ///< right-hand side over equations, condensed in place
+  Vector contactForce_;      ///< its part on the contact dofs
 };
 
 }  // namespace mortier

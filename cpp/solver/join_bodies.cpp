@@ -39,9 +39,7 @@ void StepSystem::expandBodies(const ContactSolution& contact,
     forEachBody([&](int b) { take(b, contact.motion[b]); });
     return;
   }
-  const auto expand = [&](int b) {
-    return bodies_[b].expand(contact.change, motionOf(contact.rigid, b));
-  };
+  const auto expand = [&](int b) { return bodies_[b].expand(contact.change, motionOf(contact.rigid, b)); };
   if (!model_.inParts()) {
     forEachBody([&](int b) { take(b, expand(b)); });
     return;

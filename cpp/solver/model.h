@@ -12,8 +12,8 @@
 namespace mortier {
 
 /// Of the bodies, all of it or the parts of one rank; interfaces are whole, in the numbers of these bodies.
-/// A rank knows the displacements of all its nodes, and so gaps, slips and contact forces; what is summed over
-/// triangles or the largest of them is that of its own.
+/// A rank knows the displacements of all its nodes, and so gaps, slips and contact forces; what is summed
+/// over triangles or the largest of them is that of its own.
 struct Model {
   std::vector<Body> bodies;
   std::vector<ContactInterface> interfaces;

@@ -227,7 +227,7 @@ StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const I
     const ContactDofs& dofs = bodies[b].contact();
     if (dofs.none()) continue;
     if (!system_->sparse()) result.slack -= dofs.C * motion[b];
-    result.balance.segment(system_->firstMotion_[b], dofs.R.cols()) = 
+    result.balance.segment(system_->firstMotion_[b], dofs.R.cols()) =
         dofs.rigidForce(model, static_cast<int>(b), step.loads[b]);
   }
   result.balance -= system_->contact_.G.transpose() * result.p0;

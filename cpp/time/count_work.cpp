@@ -81,7 +81,8 @@ void StepTaker::countWork() {
     const Body& body = model_.bodies[b];
     const int index = static_cast<int>(b);
     // Nodes of which this rank adds what all ranks know.
-    const std::vector<char> responsible = model_.inParts() ? model_.parts[b].responsible : std::vector<char>();
+    const std::vector<char> responsible =
+        model_.inParts() ? model_.parts[b].responsible : std::vector<char>();
     const auto counted = [&](Vector nodal) {
       for (size_t node = 0; node < responsible.size(); ++node)
         if (responsible[node] == 0) nodal.segment<2>(2 * static_cast<Eigen::Index>(node)).setZero();
@@ -105,8 +106,7 @@ void StepTaker::countWork() {
     if (body.heated()) {
       const Matrix change = body.thermalStrain(t1_) - state_.bodies[b].thermalStrain;
       const Matrix mean = (state_.bodies[b].stress + end.bodies[b].stress) / 2;
-      for (int i = 0; i < body.points(); ++i)
-        thermal += body.weights()[i] * mean.col(i).dot(change.col(i));
+      for (int i = 0; i < body.points(); ++i) thermal += body.weights()[i] * mean.col(i).dot(change.col(i));
     }
     model_.sum(sums.data(), sums.size());
     WorkDone& work = state_.bodies[b].work;

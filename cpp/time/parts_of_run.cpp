@@ -33,8 +33,11 @@ State taken(const Way& way, const State& from) {
   state.time = from.time;
   for (size_t b = 0; b < from.bodies.size(); ++b) {
     const BodyState& body = from.bodies[b];
-    state.bodies.push_back({way.nodes(b, body.displacement), way.points(b, body.stress),
-                            way.points(b, body.viscoplasticStrain), body.work, {}});
+    state.bodies.push_back({way.nodes(b, body.displacement),
+                            way.points(b, body.stress),
+                            way.points(b, body.viscoplasticStrain),
+                            body.work,
+                            {}});
     if (body.thermalStrain.rows() > 0) state.bodies[b].thermalStrain = way.points(b, body.thermalStrain);
   }
   state.contactForce = from.contactForce;
@@ -57,12 +60,17 @@ MarchMemory taken(const Way& way, const MarchMemory& from) {
   for (const std::vector<BodyIncrement>& stage : from.increments) {
     std::vector<BodyIncrement>& increments = memory.increments.emplace_back();
     for (size_t b = 0; b < stage.size(); ++b)
-      increments.push_back({{way.nodes(b, stage[b].displacement.high), way.nodes(b, stage[b].displacement.low)},
-                            way.points(b, stage[b].stress)});
+      increments.push_back(
+          {{way.nodes(b, stage[b].displacement.high), way.nodes(b, stage[b].displacement.low)},
+           way.points(b, stage[b].stress)});
   }
   const ControllerMemory& own = from.controller;
-  memory.controller = {own.trial, taken(way, own.start), own.timeStep, own.scale, own.largest, own.local,
-                       {},        own.error,             own.worst,    own.slip,  own.missed,  own.pairEnd};
+  memory.controller = {own.trial,    taken(way, own.start),
+                       own.timeStep, own.scale,
+                       own.largest,  own.local,
+                       {},           own.error,
+                       own.worst,    own.slip,
+                       own.missed,   own.pairEnd};
   for (size_t b = 0; b < own.strain.size(); ++b)
     memory.controller.strain.push_back(way.points(b, own.strain[b]));
   return memory;

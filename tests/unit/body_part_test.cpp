@@ -54,7 +54,9 @@ std::shared_ptr<const Material> materialOf(const Case& each, int points) {
     std::vector<double> angles;
     for (int i = 0; i < points; ++i) angles.push_back(0.1 * i);
     return turnedMaterial(
-        anisotropicMaterial(anisotropyOf(Orthotropy{{100, 50, 80}, {0.2, 0.2, 0.1}, 30}, Plane::stress), frobenius, Plane::stress), angles);
+        anisotropicMaterial(anisotropyOf(Orthotropy{{100, 50, 80}, {0.2, 0.2, 0.1}, 30}, Plane::stress),
+                            frobenius, Plane::stress),
+        angles);
   }
   if (!each.regions) return perzynaMaterial(elasticity, flow);
   std::vector<int> materialOf;
@@ -65,19 +67,20 @@ std::shared_ptr<const Material> materialOf(const Case& each, int points) {
 Body bodyOf(const Case& each) {
   const TriangleMesh mesh = crissCrossMesh({{0, 0}, {1, 1}, 5, 4});
   const int points = static_cast<int>(mesh.triangles.size()) * (each.degree == 1 ? 1 : 3);
-  Conditions conditions{
-      {{1, each.support, constant(0)}, {3, each.support, constant(0)}},
-      {{2, alongY, [](double x, double y, double t) { return t * (x - 3 * y); }}},
-      {{1, [](double x, double y, double t) { return t * x * (1 - y); }}}};
+  Conditions conditions{{{1, each.support, constant(0)}, {3, each.support, constant(0)}},
+                        {{2, alongY, [](double x, double y, double t) { return t * (x - 3 * y); }}},
+                        {{1, [](double x, double y, double t) { return t * x * (1 - y); }}}};
   conditions.temperature = [](double x, double, double t) { return t * x; };
   conditions.expansion.setConstant(each.plane == Plane::stress ? 3 : 4, points, 1e-3);
-  return {"plate", mesh, materialOf(each, points), conditions, each.degree, each.plane == Plane::axisymmetric};
+  return {"plate",    mesh,        materialOf(each, points),
+          conditions, each.degree, each.plane == Plane::axisymmetric};
 }
 
 /// Cells in a pattern that no order of the mesh has.
 std::vector<int> scattered(const Body& body, int ranks) {
   std::vector<int> owner;
-  for (size_t t = 0; t < body.mesh().triangles.size(); ++t) owner.push_back(static_cast<int>(t * t / 5 + t) % ranks);
+  for (size_t t = 0; t < body.mesh().triangles.size(); ++t)
+    owner.push_back(static_cast<int>(t * t / 5 + t) % ranks);
   return owner;
 }
 
@@ -164,13 +167,14 @@ Model pressed(const Case& each, double friction) {
   Model model;
   const auto load = [](double x, double, double t) { return t * (3 - 8 * x); };
   for (const int b : {0, 1}) {
-    const TriangleMesh mesh = b == 0 ? crissCrossMesh({{0, 0}, {1, 1}, 5, 4}) : crissCrossMesh({{0, -1}, {1, 0}, 6, 5});
+    const TriangleMesh mesh =
+        b == 0 ? crissCrossMesh({{0, 0}, {1, 1}, 5, 4}) : crissCrossMesh({{0, -1}, {1, 0}, 6, 5});
     const int points = static_cast<int>(mesh.triangles.size()) * (each.degree == 1 ? 1 : 3);
     Conditions conditions{{{4, alongX, constant(0)}}, {}, {}};
     if (b == 0) conditions.tractions.push_back({3, alongY, load});
     if (b == 1) conditions.displacements.push_back({1, alongY, constant(0)});
-    model.bodies.emplace_back(b == 0 ? "upper" : "lower", mesh, materialOf(each, points), conditions, each.degree,
-                              each.plane == Plane::axisymmetric);
+    model.bodies.emplace_back(b == 0 ? "upper" : "lower", mesh, materialOf(each, points), conditions,
+                              each.degree, each.plane == Plane::axisymmetric);
   }
   InterfaceOptions options;
   options.friction.coefficient = friction;
@@ -200,9 +204,12 @@ void expectSameMarch(const Case& each, int ranks, const TimePlan& plan, double f
     if (!all.first()) return;
     for (size_t b = 0; b < 2; ++b) {
       const Matrix difference = whole.bodies[b].stress - alone.bodies[b].stress;
-      EXPECT_LE(difference.cwiseAbs().maxCoeff(), same * alone.bodies[b].stress.cwiseAbs().maxCoeff()) << what;
+      EXPECT_LE(difference.cwiseAbs().maxCoeff(), same * alone.bodies[b].stress.cwiseAbs().maxCoeff())
+          << what;
       const Vector moved = whole.bodies[b].displacement - alone.bodies[b].displacement;
-      EXPECT_LE(moved.lpNorm<Eigen::Infinity>(), same * alone.bodies[b].displacement.lpNorm<Eigen::Infinity>()) << what;
+      EXPECT_LE(moved.lpNorm<Eigen::Infinity>(),
+                same * alone.bodies[b].displacement.lpNorm<Eigen::Infinity>())
+          << what;
     }
   });
 }
@@ -210,7 +217,8 @@ void expectSameMarch(const Case& each, int ranks, const TimePlan& plan, double f
 std::vector<Quantity> quantities() {
   using Kind = Quantity::Kind;
   std::vector<Quantity> all;
-  for (const Kind kind : {Kind::storedEnergy, Kind::dissipatedEnergy, Kind::work, Kind::externalWork, Kind::largestMises})
+  for (const Kind kind :
+       {Kind::storedEnergy, Kind::dissipatedEnergy, Kind::work, Kind::externalWork, Kind::largestMises})
     all.push_back({"energy", kind, 0});
   all.push_back({"reaction", Kind::reaction, 0, 4});
   all.push_back({"contact", Kind::contactForce, 1, 3, Quantity::Component::y});
