@@ -1,6 +1,7 @@
 // The ranks of `mortier-mpi`: the processes that mpirun started. Before every exchange all tell each other
 // whether they were interrupted or have ended, so that none waits for one that does not come.
 #include <fcntl.h>
+#include <malloc.h>
 #define OMPI_SKIP_MPICXX 1
 #include <mpi.h>
 #include <unistd.h>
@@ -179,6 +180,9 @@ class MpiRanks final : public Ranks {
 }  // namespace
 
 void startRanks(int& argc, char**& argv) {
+  // What is whole for a moment (meshes before they are cut, states that are gathered) is given back at once.
+  constexpr int large = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, large);
   static MpiRanks ranks(argc, argv);
   Ranks::use(ranks);
   partitionBy(partitionByMetis);
