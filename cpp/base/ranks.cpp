@@ -14,6 +14,31 @@ void Ranks::gather(const std::vector<double>& own, const std::vector<size_t>& /*
   std::copy(own.begin(), own.end(), all);
 }
 
+void Ranks::gatherToFirst(const std::vector<double>& own, const std::vector<size_t>& sizes, double* all) {
+  gather(own, sizes, all);
+}
+
+bool anyOf(Ranks& ranks, bool own) {
+  double any = own ? 1 : 0;
+  ranks.largest(&any, 1);
+  return any > 0;
+}
+
+std::string textOfAny(Ranks& ranks, const std::string& text) {
+  double first = text.empty() ? 0 : ranks.count() - ranks.rank();
+  const double own = first;
+  ranks.largest(&first, 1);
+  const bool tells = own > 0 && own == first;
+  auto size = static_cast<double>(tells ? text.size() : 0);
+  ranks.sum(&size, 1);
+  std::vector<double> letters(static_cast<size_t>(size));
+  if (tells) std::copy(text.begin(), text.end(), letters.begin());
+  ranks.sum(letters.data(), letters.size());
+  std::string result;
+  for (const double letter : letters) result += static_cast<char>(letter);
+  return result;
+}
+
 double numberOfFirst(Ranks& ranks, double number) {
   if (!ranks.first()) number = 0;
   ranks.sum(&number, 1);
@@ -21,12 +46,7 @@ double numberOfFirst(Ranks& ranks, double number) {
 }
 
 std::string textOfFirst(Ranks& ranks, const std::string& text) {
-  std::vector<double> letters(static_cast<size_t>(numberOfFirst(ranks, static_cast<double>(text.size()))));
-  if (ranks.first()) std::copy(text.begin(), text.end(), letters.begin());
-  ranks.sum(letters.data(), letters.size());
-  std::string result;
-  for (const double letter : letters) result += static_cast<char>(letter);
-  return result;
+  return textOfAny(ranks, ranks.first() ? text : "");
 }
 
 }  // namespace mortier

@@ -1,14 +1,18 @@
-// Processes that work on one run. All of them go through the same program in the same order and hold the same
-// data, bit for bit, but for what they have shared out. The functions here are collective: every rank calls
-// them, in the same order. A run of one process has one rank, for which they do nothing.
+// Processes that work on one run. All of them go through the same program in the same order and take the same
+// decisions: what these depend on is the same everywhere, bit for bit. The functions here are collective:
+// every rank calls them, in the same order. A run of one process has one rank, for which they do nothing.
 #pragma once
 
 #include <cstddef>
+#include <exception>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace mortier {
+
+/// Thrown where another rank has told of a fault of its data (Ranks::tellFault).
+class PeerFault : public std::exception {};
 
 /// Thrown where another rank has ended: it has told why.
 class PeerEnded : public std::runtime_error {
@@ -43,11 +47,19 @@ class Ranks {
   /// `all` becomes the parts of all ranks one after the other, part r of sizes[r] values.
   virtual void gather(const std::vector<double>& own, const std::vector<size_t>& sizes, double* all);
 
+  /// The same, but `all` is filled on the first rank alone; `sizes` need be known there only.
+  virtual void gatherToFirst(const std::vector<double>& own, const std::vector<size_t>& sizes, double* all);
+  /// Where the data of this rank have a fault: the others throw PeerFault in the function that they have come
+  /// to.
+  virtual void tellFault() {}
+
   /// To be called once, with the exit code, when the work is over. \returns whether this rank is to tell why.
   [[nodiscard]] virtual bool end(int /*code*/) { return true; }
   /// Lets all ranks throw Interrupted when they next meet; for signal handlers. \returns false where there is
   /// one rank, which stops by itself (base/interrupt.h).
   virtual bool interrupt() noexcept { return false; }
+  /// After Interrupted was thrown: whether all ranks still answer. They no longer hear of interruptions then.
+  virtual bool answer() noexcept { return true; }
   /// Values that were sent and received so far [bytes].
   [[nodiscard]] virtual double traffic() const { return 0; }
 
@@ -55,9 +67,26 @@ class Ranks {
   static Ranks* all_;
 };
 
+/// The first rank goes on alone while it lives; the others wait for the end.
+class Alone {
+ public:
+  Alone() : others_(Ranks::all()) { Ranks::use(one_); }
+  Alone(const Alone&) = delete;
+  Alone& operator=(const Alone&) = delete;
+  ~Alone() { Ranks::use(others_); }
+
+ private:
+  Ranks& others_;
+  Ranks one_;
+};
+
 /// Makes the processes that the program was started in (main.cpp) the ranks of it: one, or those of MPI.
 void startRanks(int& argc, char**& argv);
 
+/// Whether any rank says so. Collective.
+bool anyOf(Ranks& ranks, bool own);
+/// The text of the first rank that has one. Collective.
+std::string textOfAny(Ranks& ranks, const std::string& text);
 /// The text of the first rank.
 std::string textOfFirst(Ranks& ranks, const std::string& text);
 /// The number of the first rank.

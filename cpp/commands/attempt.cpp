@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/ranks.h"
 #include "commands/version.h"
 #include "linear/versions.h"
 #include "plan/loads.h"
@@ -67,6 +68,14 @@ void lookAhead(SceneDescription& scene, const Model& model) {
   scene.time.data = std::move(loads.data);
 }
 
+/// What needs whole bodies.
+std::string whyAlone(const SceneDescription& scene, const Model& model) {
+  if (scene.accuracy.asked() > 0) return "rounds of [accuracy] refine whole meshes";
+  if (scene.accuracy.bound) return "bounds are found of whole bodies";
+  if (solvesSparse(model, scene.solver)) return "the contact matrices of a line this long are sparse";
+  return "";
+}
+
 }  // namespace
 
 Attempt::Attempt(ResolvedScene scene, const AttemptOptions& options) : resolved(std::move(scene)) {
@@ -77,7 +86,18 @@ Attempt::Attempt(ResolvedScene scene, const AttemptOptions& options) : resolved(
   facts = factsOf(description, options);
   description.time.quantities = facts.quantities = buildQuantities(description, *model);
   lookAhead(description, *model);
-  state = initialState(*model);
+  if (options.share) alone = whyAlone(description, *model);
+  if (options.share && alone.empty()) share();
+  state = initialState(solvedModel());
+}
+
+void Attempt::share() {
+  Ranks& ranks = Ranks::all();
+  parts = std::make_unique<Model>(inParts(*model, ranks));
+  for (Quantity& quantity : resolved.description.time.quantities) quantity = ofParts(quantity, *parts);
+  if (ranks.first()) return;
+  model = std::move(parts);
+  error = std::make_unique<CurrentSpaceError>(*model);
 }
 
 int Attempt::unknowns() const {

@@ -15,12 +15,15 @@ struct AttemptOptions {
   std::vector<std::string> settings;  ///< key=value
   int threads = 1;
   std::string sceneText;
+  bool share = false;  ///< whether ranks may share it
 };
 
 /// Its members refer to each other.
 struct Attempt {
   ResolvedScene resolved;
-  std::unique_ptr<Model> model;
+  std::unique_ptr<Model> model;              ///< of ranks that share it but the first, in parts
+  std::unique_ptr<Model> parts;              ///< of the first of such ranks
+  std::string alone;                         ///< why ranks cannot share it; empty where they do
   std::unique_ptr<CurrentSpaceError> error;  ///< of the meshes, in the state that the run is at
   RunFacts facts;
   State state;  ///< the first one
@@ -31,10 +34,15 @@ struct Attempt {
   Attempt(const Attempt&) = delete;
   Attempt& operator=(const Attempt&) = delete;
 
+  /// The model that is solved: the one of this rank.
+  [[nodiscard]] const Model& solvedModel() const { return parts ? *parts : *model; }
   [[nodiscard]] const SceneDescription& scene() const { return resolved.description; }
   /// Of all bodies.
   [[nodiscard]] int unknowns() const;
   [[nodiscard]] size_t triangles() const;
+
+ private:
+  void share();
 };
 
 }  // namespace mortier

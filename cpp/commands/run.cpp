@@ -81,11 +81,18 @@ int run(RunCommand command) {
   ResolvedScene resolved = resolveScene(readScene(command.scene, command.settings));
   Faults doubts = lintResolved(resolved, command.settings);
   std::optional<Rounds> rounds = beginRounds(resolved);
-  const AttemptOptions options{command.settings, command.threads, identity.text};
+  const AttemptOptions options{command.settings, command.threads, identity.text, ranks.shared()};
   auto attempt = std::make_unique<Attempt>(std::move(resolved), options);
-  lintModel(attempt->resolved.description, *attempt->model, doubts);
-  addFiles(attempt->resolved.description, *attempt->model, identity);
-  if (stopped) {
+  std::optional<Alone> alone;
+  if (!attempt->alone.empty()) {
+    if (!ranks.first()) return exitDone;  // it waits for the first
+    alone.emplace();
+  }
+  if (ranks.first()) {
+    lintModel(attempt->resolved.description, *attempt->model, doubts);
+    addFiles(attempt->resolved.description, *attempt->model, identity);
+  }
+  if (stopped && ranks.first()) {
     requireSame(stopped->checkpoint.identity, identity, stopped->folder);
     requireFits(stopped->checkpoint, *attempt->model, stopped->folder, attempt->facts.quantities.size());
   }
@@ -96,7 +103,7 @@ int run(RunCommand command) {
   const bool goesOn = stopped && !rounds;
   if (!goesOn) {
     const SceneDescription& scene = attempt->resolved.description;
-    lintSettling(scene, findInitialEquilibrium(scene, *attempt->model, attempt->state), doubts);
+    lintSettling(scene, findInitialEquilibrium(scene, attempt->solvedModel(), attempt->state), doubts);
   }
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, onInterrupt);
   if (stopped && ranks.first())
@@ -110,6 +117,7 @@ int run(RunCommand command) {
   Log rows(command.quiet || rounds, endTime);
   log.print("memory     " + aboutMemory(memoryNeed(*attempt->model, attempt->resolved.description.solver)) +
             (rounds ? ", first meshes\n" : "\n"));
+  if (alone) log.print("ranks      the first one alone: " + attempt->alone + "\n");
   log.print(logHeader(attempt->facts, *attempt->model));
   log.print(rounds ? logRoundsHeader() : logStepsHeader(attempt->facts.units));
   warnOf(doubts);
@@ -119,6 +127,7 @@ int run(RunCommand command) {
   const auto solveIt = [&](Attempt& now, Observer alsoObserve) {
     Solving solving{now.resolved.description,
                     *now.model,
+                    now.solvedModel(),
                     *now.error,
                     now.facts,
                     temporary,

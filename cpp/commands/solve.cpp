@@ -8,6 +8,7 @@
 #include "base/ranks.h"
 #include "report/checkpoint_files.h"
 #include "report/clock.h"
+#include "time/parts_of_run.h"
 
 namespace mortier {
 
@@ -30,9 +31,37 @@ void Checkpoints::write(const FilesSoFar& empty, const FilesSoFar& files, const 
   cost_ = last_ - begin;
 }
 
+namespace {
+
+/// The state and the memory of whole bodies, from those of this rank. Gathered where they are in parts.
+class WholeRun {
+ public:
+  explicit WholeRun(const Model& model) : model_(model) {}
+  [[nodiscard]] const State& state(const State& own) {
+    if (!model_.inParts()) return own;
+    return state_.emplace(gathered(model_, own));
+  }
+  [[nodiscard]] const MarchMemory& memory(const MarchMemory& own) {
+    if (!model_.inParts()) return own;
+    return memory_.emplace(gathered(model_, own));
+  }
+  void forget() {
+    state_.reset();
+    memory_.reset();
+  }
+
+ private:
+  const Model& model_;
+  std::optional<State> state_;
+  std::optional<MarchMemory> memory_;
+};
+
+}  // namespace
+
 Solved solve(Solving solving) {
   const SceneDescription& scene = solving.scene;
   const Model& model = solving.model;
+  const bool inParts = solving.solvedModel.inParts();
   const RunFacts& facts = solving.facts;
   const std::string& folder = solving.folder;
   Log& log = solving.log;
@@ -49,14 +78,15 @@ Solved solve(Solving solving) {
     if (writes) files.emplace(folder, model, solving.error, scene.every, stopped.files);
     empty = stopped.empty;
     last = stopped.last;
-    state = std::move(stopped.state);
-    memory = std::move(stopped.memory);
+    state = inParts ? ofParts(solving.solvedModel, stopped.state) : std::move(stopped.state);
+    memory = inParts ? ofParts(solving.solvedModel, stopped.memory) : std::move(stopped.memory);
     accuracySoFar = stopped.accuracy;
+    solving.stopped.reset();
   } else {
     if (writes) files.emplace(folder, model, solving.error, facts.quantities, facts.units, scene.every);
     state = std::move(solving.state);
   }
-  solving.error.moveTo(state);
+  if (!inParts) solving.error.moveTo(state);
   AccuracyRecord accuracies(model, solving.error, accuracySoFar);
   std::optional<FlowBoundRecord> flow;
   std::optional<TotalBoundRecord> total;
@@ -69,13 +99,20 @@ Solved solve(Solving solving) {
   // A failure leaves the last good step in `state`, an interruption in what is kept here.
   State keptState = state;
   MarchMemory keptMemory = memory;
+  WholeRun whole(solving.solvedModel);
   const auto save = [&](const FilesSoFar& written, const State& at, const MarchMemory& with) {
-    if (writes) solving.checkpoints.write(empty, written, last, at, with, accuracySoFar);
+    const State& wholeState = whole.state(at);
+    const MarchMemory& wholeMemory = whole.memory(with);
+    if (writes) solving.checkpoints.write(empty, written, last, wholeState, wholeMemory, accuracySoFar);
+    whole.forget();
   };
   const Observer observe = [&](const State&, const StepReport& report) {
     if (total) total->look(state, report.step);  // what may be interrupted comes first
-    solving.error.moveTo(state);
     const bool again = report.step == 0 && memory.controller.trial > 1;
+    const bool kept = scene.every > 0 && report.step % scene.every == 0;
+    const bool mayBeSaved = !solving.onlyTheStart && report.step > 0 && state.time < scene.time.end;
+    // What the first rank asks of all of them.
+    const auto asked = [&](bool own) { return inParts ? numberOfFirst(Ranks::all(), own ? 1 : 0) > 0 : own; };
     if (again) {
       // A checkpoint before the files are cut: one that knows them as they were would be of no use.
       log.print(logTrial(keptMemory.run.timeError, scene.time.tolerance));
@@ -86,15 +123,24 @@ Solved solve(Solving solving) {
       files.reset();
       removeFields(folder, written, empty);
       if (writes) files.emplace(folder, model, solving.error, scene.every, empty);
+    }
+    if (asked(kept || accuracies.asks(report, kept))) {
+      const State& at = whole.state(state);
+      if (writes) solving.error.moveTo(at);
+      if (files && !again) files->add(at, report);
+      if (writes) accuracies.add(report, kept);
+      if (inParts) whole.forget();
     } else {
-      if (files) files->add(state, report);
+      solving.error.moveTo(state);
+      if (files && !again) files->add(state, report);
+    }
+    if (!again) {
       if (files && report.step == 0) empty = files->sync();
       if (report.step == 0 && solving.onlyTheStart && facts.rounds.empty()) {
         const FileRecord nothing{0, Checksum().value};  // whatever later rounds write
         save({nothing, nothing, {}}, state, memory);
       }
     }
-    accuracies.add(report, scene.every > 0 && report.step % scene.every == 0);
     if (solving.alsoObserve) solving.alsoObserve(state, report);
     if (report.step > 0) log.step(report);
     last = report;
@@ -102,9 +148,8 @@ Solved solve(Solving solving) {
       flow->add(state, report);
       total->add(accuracySoFar.flow.obstacle);
     }
-    if (files && !solving.onlyTheStart && report.step > 0 && state.time < scene.time.end &&
-        solving.checkpoints.due())
-      save(files->sync(), state, memory);
+    if (asked(mayBeSaved && files && solving.checkpoints.due()))
+      save(files ? files->sync() : empty, state, memory);
     keptState = state;
     keptMemory = memory;
   };
@@ -112,10 +157,11 @@ Solved solve(Solving solving) {
   const auto saveLast = [&] {
     log.finish();
     const bool begun = last.step > 0 || keptMemory.controller.trial > 1;
-    if (files && begun && !solving.onlyTheStart) save(files->sync(), keptState, keptMemory);
+    if (!begun || solving.onlyTheStart || (inParts && !Ranks::all().answer())) return;
+    save(files ? files->sync() : empty, keptState, keptMemory);
   };
   try {
-    report = march(model, state, memory, scene.time, scene.solver, observe);
+    report = march(solving.solvedModel, state, memory, scene.time, scene.solver, observe);
   } catch (const OutputError& error) {
     log.finish();
     if (!hasCheckpoint(folder)) throw;
@@ -126,15 +172,23 @@ Solved solve(Solving solving) {
     report.reason = timeIsUp;
     state = keptState;
   } catch (const PeerEnded&) {
-    saveLast();
+    if (!inParts) saveLast();
     throw;
   } catch (const Interrupted&) {
-    saveLast();
+    try {
+      saveLast();
+    } catch (const Interrupted&) {  // some no longer answer: the checkpoint before holds
+    }
     throw InterruptedError(scene.path + ": interrupted after step " + std::to_string(last.step) +
                            (hasCheckpoint(folder) ? solving.again : "; nothing was written"));
   }
   log.finish();
-  if (files) solved.files = files->close(state, last.step);
+  keptState = {};
+  keptMemory = {};
+  if (inParts) state = gathered(solving.solvedModel, state);
+  if (!writes) return solved;
+  solving.error.moveTo(state);
+  solved.files = files->close(state, last.step);
   solved.accuracy = accuracies.atEnd(report.peaks);
   if (flow) {
     solved.accuracy.flow = flow->atEnd(state);

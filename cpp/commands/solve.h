@@ -37,7 +37,8 @@ constexpr const char* timeIsUp = "max_seconds are over";
 
 struct Solving {
   const SceneDescription& scene;
-  const Model& model;
+  const Model& model;        ///< of whole bodies, on the first rank
+  const Model& solvedModel;  ///< that of this rank: the same, or in parts
   CurrentSpaceError& error;  ///< kept up to date
   const RunFacts& facts;
   const std::string& folder;  ///< to write into

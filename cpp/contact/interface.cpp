@@ -248,6 +248,32 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
   N_ = assembled(n, nonmortarMesh.nodes.count(), given);
 }
 
+ContactInterface ContactInterface::renumbered(const std::array<std::vector<int>, 2>& numbers,
+                                              const std::array<int, 2>& count) const {
+  const auto columns = [](ConstraintRows& rows, int perNode, const std::vector<int>& number, int nodes) {
+    Triplets entries;
+    for (int j = 0; j < rows.outerSize(); ++j)
+      for (ConstraintRows::InnerIterator entry(rows, j); entry; ++entry)
+        entries.emplace_back(static_cast<int>(entry.row()), perNode * number[j / perNode] + j % perNode,
+                             entry.value());
+    rows = assembled(rows.rows(), static_cast<Eigen::Index>(perNode) * nodes, entries);
+  };
+  ContactInterface result = *this;
+  const auto& [nonmortar, mortar] = numbers;
+  for (int& node : result.nonmortarNodes_) node = nonmortar[node];
+  for (int& node : result.mortarNodes_) node = mortar[node];
+  for (auto& [node, place] : result.gapNodes_) node = nonmortar[node];
+  columns(result.C1_, 2, nonmortar, count[0]);
+  columns(result.C2_, 2, mortar, count[1]);
+  if (rough()) {
+    columns(result.T1_, 2, nonmortar, count[0]);
+    columns(result.T2_, 2, mortar, count[1]);
+  }
+  if (distanceMoves()) columns(result.N_, 1, nonmortar, count[0]);
+  result.penetration_.renumber(nonmortar, mortar);
+  return result;
+}
+
 Vector ContactInterface::nodalGap(double t) const {
   if (!distanceMoves()) return {};
   Vector gap = Vector::Zero(N_.cols());

@@ -85,6 +85,11 @@ class ContactInterface {
   ContactInterface(const ContactPair& pair, const TriangleMesh& nonmortarMesh, const TriangleMesh& mortarMesh,
                    const InterfaceOptions& options = {});
 
+  /// The same with other numbers of the nodes of both meshes, in the same order; -1 for those that are not
+  /// on the lines. \param count  of the nodes of each mesh
+  [[nodiscard]] ContactInterface renumbered(const std::array<std::vector<int>, 2>& numbers,
+                                            const std::array<int, 2>& count) const;
+
   [[nodiscard]] const ContactPair& pair() const { return pair_; }
   /// Numbers of the nonmortar nodes that carry a condition, along the line; one row of C each. A node at a
   /// corner comes twice.

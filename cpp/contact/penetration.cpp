@@ -111,6 +111,13 @@ double PenetrationIntegral::Place::jump(const Vector& uNonmortar, const Vector& 
   return u.dot(normal) - given;
 }
 
+void PenetrationIntegral::renumber(const std::vector<int>& nonmortar, const std::vector<int>& mortar) {
+  for (Place& place : places_) {
+    for (int& node : place.nonmortar) node = nonmortar[node];
+    for (int& node : place.mortar) node = mortar[node];
+  }
+}
+
 double PenetrationIntegral::of(const Vector& uNonmortar, const Vector& uMortar, const Vector& gap) const {
   double integral = 0;
   for (const Stretch& stretch : stretches_) {

@@ -34,6 +34,8 @@ class PenetrationIntegral {
   /// Adds a part of the nonmortar line with what it faces, which may turn about the axis x = 0.
   void add(const SmoothPart& part, const FacingLine& mortar, const DistanceAt& distance,
            bool axisymmetric = false);
+  /// Gives the nodes of both meshes other numbers.
+  void renumber(const std::vector<int>& nonmortar, const std::vector<int>& mortar);
   /// Displacements by dofs of the two bodies [m]. \returns [m^2], in the plane of the mesh whatever turns
   /// \param gap  by node of the nonmortar mesh, in place of the distance that was added; or empty [m]
   [[nodiscard]] double of(const Vector& uNonmortar, const Vector& uMortar, const Vector& gap = {}) const;

@@ -47,7 +47,8 @@ Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> 
       material_(std::move(material)),
       conditions_(axisymmetric ? withAxisHeld(std::move(conditions)) : std::move(conditions)),
       supports_(mesh_, nodes_, conditions_.displacements),
-      axisymmetric_(axisymmetric) {
+      axisymmetric_(axisymmetric),
+      extent_(mortier::extent(mesh_)) {
   for (const auto& condition : conditions_.displacements)
     if (!condition.point && !condition.onAxis)
       requireLabel(mesh_, name_, condition.label);
@@ -82,7 +83,15 @@ Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> 
     }
   });
   numberEquations();
-  assembly_ = TangentAssembly(triangleData(), frameOf_, material_->symmetricTangent());
+}
+
+const TangentAssembly& Body::assembly() const {
+  if (!assembly_) assembly_.emplace(triangleData(), frameOf_, tangentSize_, material_->symmetricTangent());
+  return *assembly_;
+}
+
+int Body::pointsOfTriangle() const {
+  return withElement(degree(), [](auto element) { return decltype(element)::points; });
 }
 
 std::vector<Point> placesOfPoints(const TriangleMesh& mesh, const ElementNodes& nodes) {
@@ -97,7 +106,7 @@ std::vector<Point> placesOfPoints(const TriangleMesh& mesh, const ElementNodes& 
   return places;
 }
 
-void Body::numberEquations() {
+void Body::numberEquations(const std::vector<char>& own) {
   equations_.assign(dofs(), 0);
   for (const NodeSupport& support : supports_.nodes()) {
     const Point& d = support.directions[0];
@@ -109,9 +118,13 @@ void Body::numberEquations() {
     frameOf_[support.node] = static_cast<int>(frames_.size());
     frames_.push_back(Eigen::Matrix2d{{d.x(), d.y()}, {-d.y(), d.x()}});
   }
-  int next = 0;
-  for (int& equation : equations_)
-    if (equation == 0) equation = next++;
+  const auto number = [&](char which) {
+    for (int dof = 0; dof < dofs(); ++dof)
+      if (equations_[dof] >= 0 && (own.empty() ? 1 : own[dof / 2]) == which) equations_[dof] = freeDofs_++;
+  };
+  number(1);
+  tangentSize_ = freeDofs_;
+  number(0);
 }
 
 std::array<Body::Part, 2> Body::parts(int node, const Point& vector) const {
@@ -186,7 +199,7 @@ void Body::addTractions(double t, Vector& f) const {
     using Element = decltype(element);
     for (const auto& traction : conditions_.tractions)
       for (size_t e = 0; e < mesh_.boundaryEdges.size(); ++e) {
-        if (mesh_.boundaryLabels[e] != traction.label) continue;
+        if (mesh_.boundaryLabels[e] != traction.label || (!ownEdges_.empty() && ownEdges_[e] == 0)) continue;
         std::array<int, Element::edgeNodes> nodes;
         std::array<Point, Element::edgeNodes> x;
         for (int a = 0; a < Element::edgeNodes; ++a) {
@@ -248,7 +261,7 @@ Matrix Body::initialStress() const {
   std::vector<char> beyond(points(), 0);
   for (const auto& [component, region, value] : conditions_.initialStresses)
     for (int i = 0; i < points(); ++i) {
-      const size_t triangle = i / (weights_.size() / mesh_.triangles.size());
+      const size_t triangle = i / pointsOfTriangle();
       if (region && mesh_.regions[triangle] != *region) continue;
       given(component, i) = value(places[i].x(), places[i].y(), 0);
       if (component == 3) beyond[i] = 1;

@@ -53,6 +53,12 @@ struct Conditions {
 /// Places of the quadrature points of all triangles, one triangle after the other [m].
 std::vector<Point> placesOfPoints(const TriangleMesh& mesh, const ElementNodes& nodes);
 
+/// A part of a body. Numbers in the whole one, ascending.
+struct BodyCut {
+  std::vector<int> triangles;
+  std::vector<int> nodes;  ///< of these triangles, of the labelled boundary and of all supports
+};
+
 class Body {
  public:
   /// \param degree  of the displacements, 1 or 2
@@ -62,6 +68,11 @@ class Body {
   /// triangle with a curved side is turned inside out, or where the mesh lies beyond the axis.
   Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> material, Conditions conditions,
        int degree = 1, bool axisymmetric = false);
+  /// A part with numbers of its own, in the order of those of the whole body; it has the whole labelled
+  /// boundary and all supports. What it sums are the sums over its triangles and the sides that are theirs,
+  /// so those of all parts are that of the whole body. The equations of nodes without triangles of the part
+  /// come after all others, and are none of its tangent.
+  Body(const Body& whole, const BodyCut& cut);
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
@@ -79,13 +90,17 @@ class Body {
   /// What an area or a length at a place of the mesh stands for: times 1, or the circumference [m].
   [[nodiscard]] double depthAt(const Point& place) const { return axisymmetric_ ? circumference(place) : 1; }
 
+  [[nodiscard]] int pointsOfTriangle() const;
+  /// Largest extent of the bounding box; that of the whole body [m].
+  [[nodiscard]] double extent() const { return extent_; }
+
   /// Places of the points [m].
   [[nodiscard]] std::vector<Point> places() const { return placesOfPoints(mesh_, nodes_); }
 
   // Equations. A node has two, less those of its prescribed motions: along the axes, or along the normal and
   // the tangent of a turned support.
 
-  [[nodiscard]] int freeDofs() const { return pattern().size; }
+  [[nodiscard]] int freeDofs() const { return freeDofs_; }
   /// Equation 2 node + 0 or 1; -1 where that motion is prescribed.
   [[nodiscard]] const std::vector<int>& equations() const { return equations_; }
   /// A vector at a node by the equations of the node (-1 where prescribed).
@@ -109,13 +124,13 @@ class Body {
   /// Nodal forces (dofs) of tractions and body forces at time t [N/m].
   [[nodiscard]] Vector load(double t) const;
 
-  /// Of a shape function, the largest component in any triangle [1/m].
+  /// Of a shape function, the largest component in any triangle of the whole body [1/m].
   [[nodiscard]] double largestGradient() const { return largestGradient_; }
 
   /// Stress at t = 0 (components x points) [Pa].
   [[nodiscard]] Matrix initialStress() const;
   /// Whether the body has a temperature that strains it.
-  [[nodiscard]] bool heated() const { return conditions_.temperature && conditions_.expansion.size() > 0; }
+  [[nodiscard]] bool heated() const { return conditions_.temperature && conditions_.expansion.rows() > 0; }
   /// Thermal strain at time t (components x points) [-]. \pre heated()
   [[nodiscard]] Matrix thermalStrain(double t) const;
   [[nodiscard]] bool hasInitialStress() const { return !conditions_.initialStresses.empty(); }
@@ -132,8 +147,9 @@ class Body {
   /// stress += H^-1 B d in the columns [begin, end), d by dofs.
   void addStressOf(const Vector& d, const Linearisation& law, Matrix& stress, int begin, int end) const;
 
-  /// Pattern of the tangent over equations; symmetric where the material's tangent is.
-  [[nodiscard]] const SparsePattern& pattern() const { return assembly_.pattern(); }
+  /// Pattern of the tangent over equations; symmetric where the material's tangent is. It is found when the
+  /// tangent is first asked for: not to be called first by several threads at once.
+  [[nodiscard]] const SparsePattern& pattern() const { return assembly().pattern(); }
   /// K = sum |T| B' H^-1 B (moduli 9 or 6 x points) as values of pattern().
   void tangent(const Matrix& moduli, std::vector<double>& values, Threads& threads = Threads::none()) const {
     tangent(TangentModuli{moduli}, values, threads);
@@ -145,7 +161,9 @@ class Body {
   }
 
  private:
-  void numberEquations();
+  /// \param own  by nodes, whether they have triangles; all where empty
+  void numberEquations(const std::vector<char>& own = {});
+  [[nodiscard]] const TangentAssembly& assembly() const;
   /// By the directions of a support [m].
   [[nodiscard]] std::array<double, 2> prescribedAt(const NodeSupport& support, double t) const;
   [[nodiscard]] TriangleData triangleData() const {
@@ -174,7 +192,11 @@ class Body {
   bool axisymmetric_ = false;
   std::vector<double> hoops_;  ///< of all shape functions of a triangle their value over r, by points
   double largestGradient_ = 0;
-  TangentAssembly assembly_;
+  double extent_ = 0;
+  int freeDofs_ = 0;
+  int tangentSize_ = 0;         ///< equations of nodes that have triangles
+  std::vector<char> ownEdges_;  ///< by labelled edges, whether they are sides of triangles; all where empty
+  mutable std::optional<TangentAssembly> assembly_;
 };
 
 }  // namespace mortier

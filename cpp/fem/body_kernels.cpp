@@ -64,9 +64,9 @@ void Body::strain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, i
 
 void Body::hoopStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const {
   const int n = nodes_.perTriangle();
-  const int pointsOfTriangle = points() / static_cast<int>(mesh_.triangles.size());
+  const int ofTriangle = pointsOfTriangle();
   for (int i = begin; i < end; ++i) {
-    const int* triangle = nodes_.of(i / pointsOfTriangle);
+    const int* triangle = nodes_.of(i / ofTriangle);
     DoubleDouble sum{0, 0};
     for (int a = 0; a < n; ++a) {
       const double overRadius = hoops_[static_cast<size_t>(n) * i + a];
@@ -197,7 +197,7 @@ void Body::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress
 }
 
 void Body::tangent(const TangentModuli& moduli, std::vector<double>& values, Threads& threads) const {
-  assembly_.assemblePlain(triangleData(), moduli, values, threads);
+  assembly().assemblePlain(triangleData(), moduli, values, threads);
   addSupported(moduli, values);
 }
 
@@ -205,7 +205,7 @@ void Body::addSupported(const TangentModuli& moduli, std::vector<double>& values
   withElement(degree(), [&](auto element) {
     using Element = decltype(element);
     constexpr int dofs = 2 * Element::nodes;
-    for (const auto& [t, entries] : assembly_.supported()) {
+    for (const auto& [t, entries] : assembly().supported()) {
       Eigen::Matrix<double, dofs, dofs> K = Eigen::Matrix<double, dofs, dofs>::Zero();
       for (int i = Element::points * t; i < Element::points * (t + 1); ++i) {
         // B T: strains of the motions along the frames of the nodes.

@@ -48,10 +48,10 @@ void add(double* target, const Eigen::Vector2d& values) {
 
 }  // namespace
 
-TangentAssembly::TangentAssembly(const TriangleData& triangles, const std::vector<int>& frameOf,
+TangentAssembly::TangentAssembly(const TriangleData& triangles, const std::vector<int>& frameOf, int size,
                                  bool symmetric) {
   pattern_.symmetric = symmetric;
-  pattern_.size = 1 + *std::max_element(triangles.equations.begin(), triangles.equations.end());
+  pattern_.size = size;
   buildPattern(triangles);
   cutIntoParts(triangles.equations);
   placeBlocks(triangles, frameOf);
@@ -117,7 +117,7 @@ void TangentAssembly::cutIntoParts(const std::vector<int>& equations) {
   // Between nodes.
   for (size_t dof = 0; dof < equations.size(); dof += 2) {
     const int first = equations[dof] >= 0 ? equations[dof] : equations[dof + 1];
-    if (first < static_cast<int>(parts_.size()) * columnsOfAPart) continue;
+    if (first < static_cast<int>(parts_.size()) * columnsOfAPart || first >= pattern_.size) continue;
     if (!parts_.empty()) parts_.back().endColumn = first;
     parts_.push_back({first, pattern_.size, {}});
   }

@@ -52,7 +52,8 @@ class TangentAssembly {
  public:
   TangentAssembly() = default;
   /// \param frameOf  of each node, -1 where its equations are along the axes; may be empty
-  TangentAssembly(const TriangleData& triangles, const std::vector<int>& frameOf, bool symmetric);
+  /// \param size  equations of the nodes of the triangles, which come before all others
+  TangentAssembly(const TriangleData& triangles, const std::vector<int>& frameOf, int size, bool symmetric);
 
   [[nodiscard]] const SparsePattern& pattern() const { return pattern_; }
 

@@ -40,8 +40,6 @@ class CondensingSolver {
   virtual bool join(bool regular) { return regular; }
   /// After condense().
   virtual void joinCondensed(Vector& /*f*/) const {}
-  /// After expand(): f becomes the whole solution.
-  virtual void joinExpanded(Vector& /*f*/) const {}
 
   /// Works on these threads from now on; they must outlive the solver.
   void use(Threads& threads) { threads_ = &threads; }
@@ -66,13 +64,22 @@ std::unique_ptr<CondensingSolver> multifrontalSolver(const SparsePattern& patter
 std::unique_ptr<CondensingSolver> suiteSparseSolver(const SparsePattern& pattern,
                                                     const std::vector<int>& kept);
 
-/// The interior shared by ranks: the matrix is the sum of those of all of them, each with entries in the rows
-/// and columns of its own equations alone. Equations that several ranks have, the skeleton, are kept in every
-/// part and eliminated from the sum of what the parts leave there.
-/// \param own  equations of this rank, ascending
+/// Equations of a part that other ranks may have too, each with its number among those of all ranks.
+struct SharedEquations {
+  std::vector<int> equations;
+  std::vector<int> numbers;  ///< ascending
+  int count = 0;             ///< of all ranks
+};
+
+/// The interior shared by ranks: the matrix is the sum of those of all of them, each with a pattern over the
+/// equations of its own part. Equations that several ranks have, the skeleton, are kept in every part and
+/// eliminated from the sum of what the parts leave there. Right-hand sides are the sums of those of all
+/// ranks, solutions known where a rank has the equation, and where it is kept.
+/// \param kept  the same of all ranks in the same order, by the numbers of this one: those that are beyond
+/// its part are none of it
 /// \param engine  of the parts and of the skeleton. Collective.
-std::unique_ptr<CondensingSolver> sharedSolver(const SparsePattern& pattern, const std::vector<int>& kept,
-                                               const std::vector<int>& own,
+std::unique_ptr<CondensingSolver> sharedSolver(const SparsePattern& part, const std::vector<int>& kept,
+                                               const SharedEquations& shared,
                                                const CondensingSolverFactory& engine, Ranks& ranks);
 
 }  // namespace mortier

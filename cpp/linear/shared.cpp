@@ -50,60 +50,47 @@ std::vector<std::vector<int>> listsOfAll(const std::vector<int>& own, Ranks& ran
 
 class Shared final : public CondensingSolver {
  public:
-  Shared(const SparsePattern& pattern, const std::vector<int>& kept, const std::vector<int>& own,
+  Shared(const SparsePattern& part, const std::vector<int>& kept, const SharedEquations& shared,
          const CondensingSolverFactory& engine, Ranks& ranks)
-      : ranks_(ranks), own_(own) {
-    // 1. The equations of this rank, and those that several have.
-    Vector holders = Vector::Zero(pattern.size);
-    std::vector<int> number(pattern.size, -1);
-    for (size_t i = 0; i < own_.size(); ++i) {
-      number[own_[i]] = static_cast<int>(i);
-      holders[own_[i]] = 1;
-    }
+      : ranks_(ranks), kept_(kept), size_(part.size) {
+    // 1. The skeleton: equations that several ranks have, but for those that are kept.
+    std::vector<char> isKept(part.size, 0);
+    for (const int each : kept)
+      if (each < part.size) isKept[each] = 1;
+    Vector holders = Vector::Zero(shared.count);
+    for (size_t i = 0; i < shared.equations.size(); ++i)
+      if (isKept[shared.equations[i]] == 0) holders[shared.numbers[i]] = 1;
     ranks_.sum(holders.data(), holders.size());
-    std::vector<char> isKept(pattern.size, 0);
-    for (const int each : kept) isKept[each] = 1;
-    for (int j = 0; j < pattern.size; ++j)
-      if (holders[j] > 1 && isKept[j] == 0) together_.push_back(j);
-    const auto skeleton = static_cast<int>(together_.size());
-    together_.insert(together_.end(), kept.begin(), kept.end());
+    std::vector<int> place(shared.count, -1);
+    for (int number = 0; number < shared.count; ++number)
+      if (holders[number] > 1) place[number] = skeletonSize_++;
 
-    // 2. Its part.
-    SparsePattern part{static_cast<int>(own_.size()), pattern.symmetric, {0}, {}};
-    for (const int j : own_) {
-      for (int k = pattern.columnStart[j]; k < pattern.columnStart[j + 1]; ++k) {
-        if (number[pattern.rows[k]] < 0) continue;
-        part.rows.push_back(number[pattern.rows[k]]);
-        entries_.push_back(k);
-      }
-      part.columnStart.push_back(part.entries());
+    // 2. The part of this rank, with both kept.
+    for (size_t i = 0; i < shared.equations.size(); ++i) {
+      const int number = shared.numbers[i];
+      if (place[number] < 0 || isKept[shared.equations[i]] != 0) continue;
+      equations_.push_back(shared.equations[i]);
+      places_.push_back(place[number]);
     }
-    std::vector<int> keptInPart;
-    std::vector<char> inside(own_.size(), 1);
-    for (size_t i = 0; i < together_.size(); ++i) {
-      const int local = number[together_[i]];
-      if (local < 0) continue;
-      places_.push_back(static_cast<int>(i));
-      keptInPart.push_back(local);
-      inside[local] = 0;
+    for (size_t i = 0; i < kept.size(); ++i) {
+      if (kept[i] >= part.size) continue;
+      equations_.push_back(kept[i]);
+      places_.push_back(skeletonSize_ + static_cast<int>(i));
     }
-    for (size_t i = 0; i < own_.size(); ++i)
-      if (inside[i] != 0) interior_.push_back(own_[i]);
-    if (!own_.empty()) part_ = engine(part, keptInPart);
+    if (part.size > 0) part_ = engine(part, equations_);
 
     // 3. The skeleton.
-    top_ = patternOf(listsOfAll(places_, ranks_), static_cast<int>(together_.size()), pattern.symmetric);
+    const int together = skeletonSize_ + static_cast<int>(kept.size());
+    top_ = patternOf(listsOfAll(places_, ranks_), together, part.symmetric);
     std::vector<int> last;
-    for (int i = skeleton; i < top_.size; ++i) last.push_back(i);
+    for (int i = skeletonSize_; i < together; ++i) last.push_back(i);
     skeleton_ = engine(top_, last);
   }
 
   bool factorise(const std::vector<double>& values) override {
     if (!part_) return true;
     part_->use(threads());
-    std::vector<double> own(entries_.size());
-    for (size_t k = 0; k < entries_.size(); ++k) own[k] = values[entries_[k]];
-    return part_->factorise(own);
+    return part_->factorise(values);
   }
 
   bool join(bool regular) override {
@@ -131,54 +118,48 @@ class Shared final : public CondensingSolver {
 
   void condense(Vector& f) const override {
     if (!part_) return;
-    Vector own = f(own_);
+    Vector own = f.head(size_);
     part_->condense(own);
-    f(own_) = own;
+    f.head(size_) = own;
   }
 
   void joinCondensed(Vector& f) const override {
-    Vector shared = f(together_);
-    ranks_.sum(shared.data(), shared.size());
-    skeleton_->condense(shared);
-    f(together_) = shared;
+    shared_ = Vector::Zero(top_.size);
+    for (size_t i = 0; i < places_.size(); ++i) shared_[places_[i]] = f[equations_[i]];
+    ranks_.sum(shared_.data(), shared_.size());
+    skeleton_->condense(shared_);
+    f(kept_) = shared_.tail(static_cast<Eigen::Index>(kept_.size()));
   }
 
   void expand(Vector& f) const override {
-    Vector shared = f(together_);
-    skeleton_->expand(shared);
-    f(together_) = shared;
+    shared_.tail(static_cast<Eigen::Index>(kept_.size())) = f(kept_);
+    skeleton_->expand(shared_);
+    for (size_t i = 0; i < places_.size(); ++i) f[equations_[i]] = shared_[places_[i]];
     if (!part_) return;
-    Vector own = f(own_);
+    Vector own = f.head(size_);
     part_->expand(own);
-    f(own_) = own;
-  }
-
-  void joinExpanded(Vector& f) const override {
-    Vector all = Vector::Zero(f.size());
-    all(interior_) = f(interior_);
-    if (ranks_.first()) all(together_) = f(together_);
-    ranks_.sum(all.data(), all.size());
-    f = std::move(all);
+    f.head(size_) = own;
   }
 
  private:
   Ranks& ranks_;
-  std::vector<int> own_;       ///< equations of this rank
-  std::vector<int> entries_;   ///< of the pattern, of its part
-  std::vector<int> interior_;  ///< those of no other rank that are not kept
-  std::vector<int> together_;  ///< the skeleton, then the kept equations
-  std::vector<int> places_;    ///< of those that this rank has, ascending, the kept ones of part_
+  std::vector<int> kept_;
+  int size_ = 0;  ///< of the part
+  int skeletonSize_ = 0;
+  std::vector<int> equations_;  ///< of the part, of the skeleton and kept: the kept ones of part_
+  std::vector<int> places_;     ///< of these among the skeleton and the kept equations of all, ascending
   std::unique_ptr<CondensingSolver> part_;  ///< none where the rank has nothing of the matrix
-  SparsePattern top_;                       ///< over together_
+  SparsePattern top_;                       ///< of the skeleton, then the kept equations
   std::unique_ptr<CondensingSolver> skeleton_;
+  mutable Vector shared_;  ///< right-hand side over these, condensed
 };
 
 }  // namespace
 
-std::unique_ptr<CondensingSolver> sharedSolver(const SparsePattern& pattern, const std::vector<int>& kept,
-                                               const std::vector<int>& own,
+std::unique_ptr<CondensingSolver> sharedSolver(const SparsePattern& part, const std::vector<int>& kept,
+                                               const SharedEquations& shared,
                                                const CondensingSolverFactory& engine, Ranks& ranks) {
-  return std::make_unique<Shared>(pattern, kept, own, engine, ranks);
+  return std::make_unique<Shared>(part, kept, shared, engine, ranks);
 }
 
 }  // namespace mortier

@@ -2,11 +2,12 @@
 #include "base/error.h"
 #include "material/anisotropy.h"
 #include "material/interior_path.h"
+#include "material/pointwise.h"
 
 namespace mortier {
 namespace {
 
-class TurnedMaterial final : public Material {
+class TurnedMaterial final : public Material, public Pointwise {
  public:
   TurnedMaterial(std::shared_ptr<const Material> inner, const std::vector<double>& angles)
       : inner_(std::move(inner)) {
@@ -19,6 +20,11 @@ class TurnedMaterial final : public Material {
     Matrix own = stress;
     turn(own, point, into);
     return inner_->outOfPlane(own.col(0), 0);
+  }
+  [[nodiscard]] std::shared_ptr<const Material> restricted(const std::vector<int>& points) const override {
+    auto own = std::make_shared<TurnedMaterial>(inner_, std::vector<double>());
+    for (const int point : points) own->axes_.push_back(axes_[point]);
+    return own;
   }
   [[nodiscard]] bool symmetricTangent() const override { return inner_->symmetricTangent(); }
   [[nodiscard]] bool linear() const override { return inner_->linear(); }

@@ -1,6 +1,7 @@
 // The ranks of `mortier-mpi`: the processes that mpirun started. Before every exchange all tell each other
 // whether they were interrupted or have ended, so that none waits for one that does not come.
 #include <fcntl.h>
+#include <malloc.h>
 #define OMPI_SKIP_MPICXX 1
 #include <mpi.h>
 #include <unistd.h>
@@ -18,7 +19,7 @@
 namespace mortier {
 namespace {
 
-enum Standing { going = 0, interrupted = 1, ended = 2 };  // ended + its exit code
+enum Standing { going = 0, faulty = 1, interrupted = 2, ended = 3 };  // ended + its exit code
 
 class MpiRanks final : public Ranks {
  public:
@@ -51,6 +52,22 @@ class MpiRanks final : public Ranks {
     traffic_ += sizeof(double) * static_cast<double>(places.back() + counts.back() + own.size());
   }
 
+  // Messages to the first alone; it takes as much memory as what it asked for.
+  void gatherToFirst(const std::vector<double>& own, const std::vector<size_t>& sizes, double* all) override {
+    meet();
+    std::vector<int> counts(sizes.begin(), sizes.end());
+    std::vector<int> places(counts.size(), 0);
+    for (size_t r = 1; r < counts.size(); ++r) places[r] = places[r - 1] + counts[r - 1];
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Igatherv(own.data(), static_cast<int>(own.size()), MPI_DOUBLE, all, counts.data(), places.data(),
+                 MPI_DOUBLE, 0, MPI_COMM_WORLD, &request);
+    wait(request);
+    traffic_ += sizeof(double) * static_cast<double>(own.size());
+    if (first()) traffic_ += sizeof(double) * static_cast<double>(places.back() + counts.back());
+  }
+
+  void tellFault() override { meet(faulty); }
+
   // What ends all of them is told by the first, what ends one alone by that one.
   [[nodiscard]] bool end(int code) override {
     bool tells = first();
@@ -69,6 +86,10 @@ class MpiRanks final : public Ranks {
   bool interrupt() noexcept override {
     if (count_ > 1) interrupted_ = true;
     return count_ > 1;
+  }
+  bool answer() noexcept override {
+    deaf_ = true;
+    return !lost_ && !peerEnded_;
   }
   [[nodiscard]] double traffic() const override { return traffic_; }
 
@@ -112,19 +133,20 @@ class MpiRanks final : public Ranks {
     return standing;
   }
 
-  void meet() {
-    const std::vector<int> standing = exchange(interrupted_ ? interrupted : going);
+  void meet(int own = going) {
+    const std::vector<int> standing = exchange(interrupted_ && !deaf_ ? interrupted : own);
     const int worst = *std::max_element(standing.begin(), standing.end());
     if (worst >= ended) {
       peerEnded_ = true;
       throw PeerEnded(worst - ended);
     }
     if (worst == interrupted) throw Interrupted();
+    if (worst == faulty && own != faulty) throw PeerFault();
   }
 
   /// Where a rank died, mpirun interrupts the others and kills them a second later.
   void wait(MPI_Request request) {
-    constexpr std::chrono::milliseconds patience(200);
+    const std::chrono::milliseconds patience(deaf_ ? 5000 : 200);
     constexpr std::chrono::milliseconds soon(5);  // who waits longer waits for the work of others, in meet()
     constexpr std::chrono::microseconds pause(50);
     const auto begin = std::chrono::steady_clock::now();
@@ -149,6 +171,7 @@ class MpiRanks final : public Ranks {
   int rank_ = 0;
   int errors_ = -1;
   std::atomic<bool> interrupted_ = false;
+  bool deaf_ = false;  ///< to interruptions
   bool lost_ = false;  ///< whether a rank no longer answers
   bool peerEnded_ = false;
   double traffic_ = 0;
@@ -157,6 +180,9 @@ class MpiRanks final : public Ranks {
 }  // namespace
 
 void startRanks(int& argc, char**& argv) {
+  // What is whole for a moment (meshes before they are cut, states that are gathered) is given back at once.
+  constexpr int large = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, large);
   static MpiRanks ranks(argc, argv);
   Ranks::use(ranks);
   partitionBy(partitionByMetis);

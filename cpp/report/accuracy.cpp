@@ -11,10 +11,14 @@ constexpr double negligible = 1e-24;
 
 }  // namespace
 
-void AccuracyRecord::add(const StepReport& report, bool kept) {
+bool AccuracyRecord::asks(const StepReport& report, bool kept) const {
   constexpr double often = 2;
-  if (report.step == 0) return;  // a given state: what overlaps in it is pressed apart in the first step
-  if (!kept && !(report.energy > often * memory_.energy)) return;
+  // The first is a given state: what overlaps in it is pressed apart in the first step.
+  return report.step > 0 && (kept || report.energy > often * memory_.energy);
+}
+
+void AccuracyRecord::add(const StepReport& report, bool kept) {
+  if (!asks(report, kept)) return;
   memory_.energy = std::max(memory_.energy, report.energy);
   double error = 0;
   for (const ErrorEstimate& estimate : *error_.estimates()) error += estimate.error.sum();

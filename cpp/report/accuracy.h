@@ -47,6 +47,8 @@ class AccuracyRecord {
   /// \param error  of the states that are told of
   AccuracyRecord(const Model& model, CurrentSpaceError& error, AccuracyMemory& memory)
       : model_(model), error_(error), memory_(memory) {}
+  /// Whether add() needs the state.
+  [[nodiscard]] bool asks(const StepReport& report, bool kept) const;
   void add(const StepReport& report, bool kept);
   Accuracy atEnd(const Peaks& peaks);
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/worst.h"
@@ -25,54 +24,64 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
   Worst rounding;
   const std::vector<Vector> u = displacements(step.state0, iterate);
   std::vector<Vector> residual(bodies_.size());
-  std::vector<std::array<double, 3>> largest(bodies_.size());
-  const double motion = largestMotion(iterate);
+  struct Largest {
+    double now = 0;     ///< force of a triangle
+    double before = 0;  ///< at the start of the step, of which rounding is left
+    double rounded = 0;
+    double loose = 0;  ///< of what expands freely rounding is left of the stress that it would have
+    double load = 0, displacement = 0, increment = 0, depth = 0;
+  };
+  std::vector<Largest> largest(bodies_.size());
+  const double motion = model_.largest(largestMotion(iterate));
   constexpr int tasks = 4;
   threads_.forEach(tasks * static_cast<int>(bodies_.size()), [&](int i) {
     const size_t b = i / tasks;
     const Body& body = model_.bodies[b];
     const Matrix& stress0 = step.state0.bodies[b].stress;
     const BodyIterate& unknowns = iterate.bodies[b];
-    auto& [now, before, rounded] = largest[b];
     switch (i % tasks) {
       case 0:
-        residual[b] = step.loads[b] - body.internalForce(unknowns.stress);
+        residual[b] = -body.internalForce(unknowns.stress);
         break;
       case 1:
-        now = body.largestForce(unknowns.stress);
+        largest[b].now = body.largestForce(unknowns.stress);
         break;
       case 2:
-        before = body.largestForce(stress0);
+        largest[b].before = body.largestForce(stress0);
         break;
       default:
-        rounded = bodies_[b].rounding(stress0, unknowns, motion, u[b]);
+        largest[b].rounded = bodies_[b].rounding(stress0, unknowns, motion, u[b]);
     }
   });
+  const auto largestOf = [](const Vector& entries) {
+    Worst worst;
+    worst.add(entries);
+    return worst.value();
+  };
   for (size_t b = 0; b < bodies_.size(); ++b) {
     const Body& body = model_.bodies[b];
-    const BodyIterate& unknowns = iterate.bodies[b];
-    const auto& [now, before, rounded] = largest[b];
-    force.add(now);
-    force.add(before);  // of which rounding is left
-    force.add(step.loads[b]);
-    // Of what expands freely rounding is left of the stress that it would have.
+    model_.sumAtNodes(b, residual[b]);
+    residual[b] += step.loads[b];
+    Largest& of = largest[b];
+    of.load = largestOf(step.loads[b]);
+    of.displacement = largestOf(u[b]);
+    of.increment = largestOf(iterate.bodies[b].increment.high);
+    of.depth = depthOf(body);
     if (body.heated() && !step.data.thermal.empty()) {
       const Matrix strain = step.state0.bodies[b].thermalStrain + step.data.thermal[b];
-      Matrix held = Matrix::Zero(strain.rows(), strain.cols());
-      bodies_[b].forEachOwnBlock([&](int begin, int end) {
-        for (int i = begin; i < end; ++i) held.col(i) = stressOf(bodies_[b].law(), strain.col(i), i);
-      });
-      double loose = body.largestForce(held);
-      Ranks::all().largest(&loose, 1);
-      force.add(loose);
+      Matrix held(strain.rows(), strain.cols());
+      for (int i = 0; i < body.points(); ++i) held.col(i) = stressOf(bodies_[b].law(), strain.col(i), i);
+      of.loose = body.largestForce(held);
     }
+    static_assert(sizeof(Largest) == 8 * sizeof(double));
+    model_.largest(&of.now, 8);
+    for (const double each : {of.now, of.before, of.load, of.loose}) force.add(each);
     // A body that moves without any load has forces that are nothing but rounding, unless it is beyond yield.
-    if (bodies_[b].law().elastic == body.points() || body.material().stressScale() <= 0)
-      force.add(roundingOfMotion * bodies_[b].largestModulus() *
-                unknowns.increment.high.lpNorm<Eigen::Infinity>() * depthOf(body));
-    length.add(extent(body.mesh()));
-    length.add(u[b]);
-    rounding.add(rounded);
+    if (bodies_[b].elastic() || body.material().stressScale() <= 0)
+      force.add(roundingOfMotion * bodies_[b].largestModulus() * of.increment * of.depth);
+    length.add(body.extent());
+    length.add(of.displacement);
+    rounding.add(of.rounded);
   }
   Worst beyondBound;
   Worst wrongSlip;
@@ -108,11 +117,12 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
       if (contactForce.value() != 0) complementarity.add(std::abs(p[i] / contactForce.value() * g[i]));
     }
   }
-  Worst balance;
-  for (size_t b = 0; b < bodies_.size(); ++b) balance.add(model_.bodies[b].gather(residual[b]));
+  Worst own;
+  for (size_t b = 0; b < bodies_.size(); ++b) own.add(model_.bodies[b].gather(residual[b]));
+  const double balance = model_.largest(own.value());
   const auto overForce = [&](double value) { return value == 0 ? 0 : value / force.value(); };
   Certificate result;
-  result.forceBalance = overForce(balance.value());
+  result.forceBalance = overForce(balance);
   result.materialResidual = materialResidual;
   result.gapOnActive = gapOnActive.value();
   result.openPenetration = openPenetration.value();

@@ -18,20 +18,28 @@ CondensedBody::CondensedBody(const Model& model, int body, const std::vector<int
       engine_(options.linear),
       reduce_(options.reduce),
       whole_(whole),
-      threads_(threads) {
+      threads_(threads),
+      part_(model.inParts() ? &model.parts[body] : nullptr),
+      ranks_(model.ranks),
+      allPoints_(model.points(body)) {
   law_ = body_.material().room(body_.points());
-  if (whole_) return;
-  if (Ranks::all().shared()) share_.emplace(model, body, Ranks::all());
-  solver_ = newSolver();
-  if (share_) clearLawOfOthers();
+  if (!whole_) solver_ = newSolver();
 }
 
 std::unique_ptr<CondensingSolver> CondensedBody::newSolver() const {
   const CondensingSolverFactory engine =
       engine_ == LinearEngine::multifrontal ? multifrontalSolver : suiteSparseSolver;
-  auto solver =
-      share_ ? sharedSolver(body_.pattern(), contact_.equations, share_->equations(), engine, share_->ranks())
-             : engine(body_.pattern(), contact_.equations);
+  SharedEquations shared;
+  for (size_t i = 0; part_ != nullptr && i < part_->shared.size(); ++i)
+    for (const int c : {0, 1}) {
+      const int equation = body_.equations()[2 * part_->shared[i] + c];
+      if (part_->own[part_->shared[i]] == 0 || equation < 0) continue;
+      shared.equations.push_back(equation);
+      shared.numbers.push_back(2 * part_->places[i] + c);
+    }
+  if (part_ != nullptr) shared.count = 2 * part_->placesOfAll;
+  auto solver = part_ != nullptr ? sharedSolver(body_.pattern(), contact_.equations, shared, engine, *ranks_)
+                                 : engine(body_.pattern(), contact_.equations);
   solver->use(threads_);
   return solver;
 }
@@ -39,74 +47,75 @@ std::unique_ptr<CondensingSolver> CondensedBody::newSolver() const {
 void CondensedBody::linearise(const Matrix* shift, BodyIterate& iterate, const BodyLaw& law) {
   iterate.strain.resizeLike(iterate.stress);
   law_.elastic = 0;
-  if (share_ && lawComplete_) clearLawOfOthers();
   std::mutex lock;
   Worst change;
-  const auto strain = [&](int begin, int end) {
+  forEachBlock(body_.points(), threads_, [&](int begin, int end) {
+    stopIfInterrupted();
     body_.strain(iterate.increment, shift, iterate.strain, begin, end);
-  };
-  const auto linearise = [&](int begin, int end) {
     if (!law.inBlock) return;
     const LawReport report = law.inBlock(iterate, law_, begin, end);
     const std::scoped_lock locked(lock);
     change.add(report.change);
     law_.elastic += report.elastic;
-  };
-  if (!share_ || law.everywhere) {
-    forEachBlock(body_.points(), threads_, [&](int begin, int end) {
-      stopIfInterrupted();
-      strain(begin, end);
-      linearise(begin, end);
-    });
-  } else {
-    forEachBlock(body_.points(), threads_, strain);
-    forEachOwnBlock(linearise);
-  }
+  });
   if (law.everywhere) law.everywhere(iterate, law_);
-  facts_ = {change.value(), 0, 0, law_.elastic};
-  if (!share_) return;
-  if (law.everywhere) clearLawOfOthers();
-  if (law.everywhere && !share_->ranks().first()) facts_.elastic = 0;  // one of them counts
-  if (std::isnan(facts_.change)) facts_.change = std::numeric_limits<double>::infinity();
-  if (body_.material().stressScale() <= 0) facts_.predictor = share_->largest(law_.predictor);
-  facts_.modulus = share_->largest(law_.moduli);
+  facts_.change = change.value();
 }
 
-void CondensedBody::clearLawOfOthers() {
-  for (Matrix* part : {&law_.predictor, &law_.moduli, &law_.beyond})
-    if (part->size() > 0) share_->clearOthers(*part);
-  lawComplete_ = false;
+namespace {
+
+double largestOf(const Matrix& entries) {
+  return entries.size() > 0 ? entries.cwiseAbs().maxCoeff() : 0;
+}
+
+}  // namespace
+
+CondensedBody::LawFacts CondensedBody::measured(const Matrix& stress0, const BodyIterate& iterate) const {
+  LawFacts facts;
+  facts.change = facts_.change;
+  facts.before = largestOf(stress0);
+  if (body_.material().stressScale() > 0) {
+    facts.stress = largestOf(iterate.stress);
+    return facts;
+  }
+  facts.predictor = largestOf(law_.predictor);
+  facts.modulus = largestOf(law_.moduli);
+  facts.increment = largestOf(iterate.increment.high);
+  return facts;
+}
+
+CondensedBody::LawFacts CondensedBody::factsOfPart(const Matrix& stress0, const BodyIterate& iterate) const {
+  LawFacts facts = measured(stress0, iterate);
+  facts.modulus = largestOf(law_.moduli);
+  facts.elastic = law_.elastic;
+  if (std::isnan(facts.change)) facts.change = std::numeric_limits<double>::infinity();
+  return facts;
 }
 
 void CondensedBody::take(const LawFacts& facts) {
   facts_ = facts;
   if (std::isinf(facts_.change)) facts_.change = std::numeric_limits<double>::quiet_NaN();
-  law_.elastic = facts.elastic;
+  law_.elastic = static_cast<int>(facts.elastic);
 }
 
 double CondensedBody::residual(const Matrix& stress0, const BodyIterate& iterate, double motion) const {
   return facts_.change == 0 ? 0 : facts_.change / residualScale(stress0, iterate, motion);
 }
 
-void CondensedBody::completeLaw() {
-  if (!share_ || lawComplete_) return;
-  share_->gather(law_.predictor);
-  share_->gather(law_.moduli);
-  if (law_.beyond.size() > 0) share_->gather(law_.beyond);
-  lawComplete_ = true;
+double CondensedBody::largestModulus() const {
+  return part_ != nullptr ? facts_.modulus : largestOf(law_.moduli);
 }
 
 double CondensedBody::residualScale(const Matrix& stress0, const BodyIterate& iterate, double motion) const {
+  const LawFacts facts = part_ != nullptr ? facts_ : measured(stress0, iterate);
   // The rounding of the law is a part of the stresses that are there, which may be far beyond yield.
-  const double before = stress0.cwiseAbs().maxCoeff();
   if (const double scale = body_.material().stressScale(); scale > 0)
-    return std::max({scale, before, iterate.stress.cwiseAbs().maxCoeff()});
+    return std::max({scale, facts.before, facts.stress});
   // What rounding of the displacement makes of a rigid motion: tolerances of 1e-10 times this part are 1e-14
   // of E |du|/L.
   constexpr double rigidPart = 1e-4;
-  const double rigid = largestModulus() * motion / extent(body_.mesh());
-  const double predictor = share_ ? facts_.predictor : law_.predictor.cwiseAbs().maxCoeff();
-  return std::max({before, predictor, rigidPart * rigid});
+  const double rigid = facts.modulus * motion / body_.extent();
+  return std::max({facts.before, facts.predictor, rigidPart * rigid});
 }
 
 std::pair<int, double> CondensedBody::furthest(const Matrix& stress0, const BodyIterate& iterate,
@@ -136,21 +145,20 @@ double CondensedBody::rounding(const Matrix& stress0, const BodyIterate& iterate
 
 CondensedBody::Factors CondensedBody::factorise() {
   factorisedElastic_ = law_.elastic;
-  const bool elastic = law_.elastic == body_.points();
+  const bool elastic = this->elastic();
   if (reduce_ && factorised_ && elastic && elasticFactors_) return {};
   Factors result;
   result.begun = true;
   result.changed = !(std::exchange(counted_, false) && elastic);
   elasticFactors_ = elastic;
   schurFactor_.clear();
-  if (share_ && lawComplete_) clearLawOfOthers();
   body_.tangent(law_, values_, threads_);
   if (whole_) {
     factorised_ = true;
     return result;
   }
   factorised_ = solver_->factorise(values_);
-  if (!share_) useSchurComplement(result);
+  if (part_ == nullptr) useSchurComplement(result);
   return result;
 }
 
@@ -161,7 +169,7 @@ void CondensedBody::join(Factors& factors) {
 }
 
 void CondensedBody::useSchurComplement(Factors& factors) {
-  if (!factorised_ && engine_ == LinearEngine::multifrontal && !body_.pattern().symmetric) {
+  if (!factorised_ && engine_ == LinearEngine::multifrontal && !body_.material().symmetricTangent()) {
     // UMFPACK pivots in the whole matrix.
     useLibraries();
     factorised_ = solver_->join(solver_->factorise(values_));
@@ -175,10 +183,10 @@ void CondensedBody::useSchurComplement(Factors& factors) {
   if (contact_.R.cols() > 0) {
     double stiffness = 0;
     for (const double value : values_) stiffness = std::max(stiffness, std::abs(value));
-    if (share_) share_->ranks().largest(&stiffness, 1);
+    if (part_ != nullptr) ranks_->largest(&stiffness, 1);
     S.noalias() += stiffness * contact_.R * contact_.R.transpose();
   }
-  const bool symmetric = body_.pattern().symmetric;
+  const bool symmetric = body_.material().symmetricTangent();
   factorised_ = schurFactor_.factorise(std::move(S), symmetric) || !symmetric;
   if (!factorised_) factors.failure = "body " + body_.name() + ": its tangent is not positive definite";
 }
@@ -210,24 +218,19 @@ Vector CondensedBody::solveSchur(const Vector& f) const {
   return x;
 }
 
-double CondensedBody::largestModulus() const {
-  return share_ ? facts_.modulus : law_.moduli.cwiseAbs().maxCoeff();
-}
-
 Vector CondensedBody::leftOver(const Vector& load, const Matrix& stress) {
-  if (!share_) return load - body_.internalForce(stress);
-  if (lawComplete_) clearLawOfOthers();
+  if (part_ == nullptr) return load - body_.internalForce(stress);
   ownForce_ = body_.internalForce(stress);
   return load;
 }
 
 void CondensedBody::condense(const Vector& force) {
-  if (share_) {
+  if (part_ != nullptr) {
     ownForce_ = -ownForce_;
     for (int node = 0; node < body_.nodes(); ++node)
-      if (share_->responsible(node)) ownForce_.segment<2>(2 * node) += force.segment<2>(2 * node);
+      if (part_->responsible[node] != 0) ownForce_.segment<2>(2 * node) += force.segment<2>(2 * node);
   }
-  residual_ = body_.gather(share_ ? ownForce_ : force);
+  residual_ = body_.gather(part_ != nullptr ? ownForce_ : force);
   solver_->condense(residual_);
 }
 
@@ -237,17 +240,13 @@ Vector CondensedBody::joinCondensed() {
   return contact_.none() ? contactForce_ : solveSchur(contactForce_);
 }
 
-void CondensedBody::expand(const Vector& forceChange, const Vector& z) {
+Vector CondensedBody::expand(const Vector& forceChange, const Vector& z) {
   if (!contact_.none()) {
     Vector x = solveSchur(contactForce_ - contact_.C.transpose() * forceChange);
     if (contact_.R.cols() > 0) x += contact_.R * (z - contact_.R.transpose() * x);
     residual_(contact_.equations) = x;
   }
   solver_->expand(residual_);
-}
-
-Vector CondensedBody::joinExpanded() {
-  solver_->joinExpanded(residual_);
   return body_.spread(residual_);
 }
 

@@ -4,13 +4,11 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "base/blocks.h"
 #include "linear/condensing_solver.h"
-#include "solver/body_share.h"
 #include "solver/contact_dofs.h"
 #include "solver/dense_factor.h"
 #include "solver/iterate.h"
@@ -22,7 +20,7 @@ struct BodyLaw {
   /// In the points [begin, end).
   std::function<LawReport(const BodyIterate& iterate, Linearisation& result, int begin, int end)> inBlock =
       {};
-  /// Or at all points, the strain known everywhere.
+  /// Or at all points.
   std::function<void(const BodyIterate& iterate, Linearisation& result)> everywhere = {};
 };
 
@@ -35,27 +33,30 @@ class CondensedBody {
 
   [[nodiscard]] const ContactDofs& contact() const { return contact_; }
 
-  /// The strain of the iterate, and the law there: at the points of this rank where ranks share the body.
+  /// The strain of the iterate, and the law there.
   void linearise(const Matrix* shift, BodyIterate& iterate, const BodyLaw& law);
-  /// What the law asked for at its points; where ranks share the body it is to become that of all of them.
+  /// What a part has found where it was linearised, which is to become what all have; the largest each.
   struct LawFacts {
-    double change = 0;     ///< of stress, the largest; infinite for NaN [Pa]
-    double predictor = 0;  ///< the largest component, only where stresses are measured against it [Pa]
-    double modulus = 0;    ///< the largest [Pa]
-    int elastic = 0;       ///< points that are
+    double change = 0;     ///< of stress; infinite for NaN [Pa]
+    double predictor = 0;  ///< a component [Pa]
+    double modulus = 0;    ///< [Pa]
+    double before = 0;     ///< stress at the start of the step [Pa]
+    double stress = 0;     ///< of the iterate [Pa]
+    double increment = 0;  ///< of a displacement [m]
+    double elastic = 0;    ///< points that are: their number
   };
-  [[nodiscard]] const LawFacts& lawFacts() const { return facts_; }
+  [[nodiscard]] LawFacts factsOfPart(const Matrix& stress0, const BodyIterate& iterate) const;
   void take(const LawFacts& facts);
   /// The residual of what was linearised, scaled [-].
   /// \param motion  the largest of any body: contact hands on what its rounding strains [m]
   [[nodiscard]] double residual(const Matrix& stress0, const BodyIterate& iterate, double motion) const;
   [[nodiscard]] const Linearisation& law() const { return law_; }  ///< as last linearised
-  /// Makes it known at all points, until it is linearised or factorised again. Collective.
-  void completeLaw();
-  /// Of the share of this rank; null where there is one rank.
-  [[nodiscard]] const BodyShare* share() const { return share_ ? &*share_ : nullptr; }
+  /// Whether all points of all ranks are elastic.
+  [[nodiscard]] bool elastic() const { return law_.elastic == allPoints_; }
+  /// Of all ranks.
   [[nodiscard]] double largestModulus() const;
-  /// The point whose stress is furthest off the law as last linearised, and by how much [-]; -1 for none.
+  /// The point of this rank whose stress is furthest off the law as last linearised, and by how much [-]; -1
+  /// for none.
   [[nodiscard]] std::pair<int, double> furthest(const Matrix& stress0, const BodyIterate& iterate,
                                                 double motion) const;
   /// What the rounding of the mesh and of its displacements makes of stresses, by the moduli of the last
@@ -70,31 +71,26 @@ class CondensedBody {
     bool begun = false;    ///< whether there is anything to join
   };
   /// Factorises the tangent of the last linearisation, unless that and the one factorised before are both of
-  /// a body in which nothing flows. Where ranks share the body it begins with that, each with its part.
+  /// a body in which nothing flows. A rank begins with that for its part.
   Factors factorise();
   /// The tangent that was factorised last, as values of the body's pattern.
   [[nodiscard]] const std::vector<double>& tangent() const { return values_; }
-  /// What is left to do where ranks share the body. Collective.
+  /// What is left to do for parts. Collective.
   void join(Factors& factors);
   /// Whether points began or ceased to flow in the linearisations since.
   [[nodiscard]] bool stale() const { return factorisedElastic_ != law_.elastic; }
   /// W += C S^-1 C'.
   void addCompliance(Matrix& W) const;
-  /// A load (dofs) less the forces of a stress. Where ranks share the body the stress is 0 at the points of
-  /// others, each keeps these forces for condense(), and the load is returned as it is.
+  /// A load (dofs) less the forces of a stress. Of a part these forces are kept for condense(), as what is
+  /// added to the load meanwhile is that of all ranks.
   [[nodiscard]] Vector leftOver(const Vector& load, const Matrix& stress);
   /// Takes nodal forces (dofs): those of leftOver(), and what has been added.
   void condense(const Vector& force);
   /// \returns S^-1 times what they are on the contact dofs. Collective.
   Vector joinCondensed();
-  /// Finds the displacement under these and a change of the contact forces, with rigid motions `z` of this
-  /// body.
-  void expand(const Vector& forceChange, const Vector& z);
-  /// \returns it (dofs). Collective.
-  Vector joinExpanded();
-  /// Calls work(begin, end) for all points, or those of this rank.
-  template <class Work>
-  void forEachOwnBlock(const Work& work) const;
+  /// \returns the displacement under these and a change of the contact forces, with rigid motions `z` of this
+  /// body (dofs); of a part before it is completed at its nodes.
+  Vector expand(const Vector& forceChange, const Vector& z);
 
   /// From now on CHOLMOD or UMFPACK.
   void useLibraries();
@@ -109,7 +105,7 @@ class CondensedBody {
   [[nodiscard]] double residualScale(const Matrix& stress0, const BodyIterate& iterate, double motion) const;
   [[nodiscard]] Vector solveSchur(const Vector& f) const;
   [[nodiscard]] std::unique_ptr<CondensingSolver> newSolver() const;
-  void clearLawOfOthers();
+  [[nodiscard]] LawFacts measured(const Matrix& stress0, const BodyIterate& iterate) const;
   void useSchurComplement(Factors& factors);
 
   const Body& body_;
@@ -118,7 +114,9 @@ class CondensedBody {
   bool reduce_;
   bool whole_;
   Threads& threads_;
-  std::optional<BodyShare> share_;            ///< where ranks share the body
+  const BodyPart* part_ = nullptr;  ///< where the body is one
+  Ranks* ranks_ = nullptr;
+  int allPoints_;
   std::unique_ptr<CondensingSolver> solver_;  ///< none where the body is whole
   std::vector<double> values_;                ///< of the tangent
   bool factorised_ = false;
@@ -127,18 +125,10 @@ class CondensedBody {
   bool counted_ = false;
   Linearisation law_;
   LawFacts facts_;
-  bool lawComplete_ = false;  ///< whether it is known at all points, or is 0 at those of other ranks
-  DenseFactor schurFactor_;   ///< of S
-  Vector ownForce_;           ///< of the triangles of this rank (dofs)
-  Vector residual_;           ///< right-hand side over equations, condensed in place
-  Vector contactForce_;       ///< its part on the contact dofs
+  DenseFactor schurFactor_;  ///< of S
+  Vector ownForce_;          ///< of the triangles of a part (dofs)
+  Vector residual_;          ///< right-hand side over equations, condensed in place
+  Vector contactForce_;      ///< its part on the contact dofs
 };
-
-template <class Work>
-void CondensedBody::forEachOwnBlock(const Work& work) const {
-  if (!share_) return forEachBlock(body_.points(), threads_, work);
-  const std::vector<BodyShare::Run>& runs = share_->runs();
-  threads_.forEach(static_cast<int>(runs.size()), [&](int i) { work(runs[i].first, runs[i].second); });
-}
 
 }  // namespace mortier

@@ -41,7 +41,7 @@ void forEachEntry(const ContactInterface& interface, int body, const ConstraintR
 
 ContactDofs::ContactDofs(const Model& model, int body, const std::vector<int>& firstRow) {
   findEquations(model, body, firstRow);
-  findMotions(model.bodies[body]);
+  findMotions(model, body);
 }
 
 void ContactDofs::findEquations(const Model& model, int body, const std::vector<int>& firstRow) {
@@ -78,28 +78,45 @@ void ContactDofs::findEquations(const Model& model, int body, const std::vector<
   C.setFromTriplets(entries.begin(), entries.end());
 }
 
-void ContactDofs::findMotions(const Body& body) {
-  motions = rigidModes(body);
+void ContactDofs::findMotions(const Model& model, int body) {
+  const Body& of = model.bodies[body];
+  motions = model.inParts() ? model.parts[body].motions : rigidModes(of);
   R.resize(static_cast<Eigen::Index>(equations.size()), motions.cols());
-  for (Eigen::Index i = 0; i < motions.cols(); ++i) R.col(i) = body.gather(motions.col(i))(equations);
+  for (Eigen::Index i = 0; i < motions.cols(); ++i) R.col(i) = of.gather(motions.col(i))(equations);
+  basis_.setIdentity(motions.cols(), motions.cols());
   if (motions.cols() == 0) return;
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(R.transpose() * R);
   const double largest = std::max(1.0, eigen.eigenvalues().maxCoeff());
   if (eigen.eigenvalues()[0] <= motionTolerance * largest)
-    throw UnheldBodyError("body " + body.name() + ": nothing holds its " +
-                          describeRigidMotion(body, motions * eigen.eigenvectors().col(0)) +
+    throw UnheldBodyError("body " + of.name() + ": nothing holds its " +
+                          describe(model, body, eigen.eigenvectors().col(0)) +
                           "; a support (ux, uy) or a contact would");
   const Matrix T = eigen.eigenvectors() * eigen.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
+  basis_ = T;
   motions *= T;
   R *= T;
 }
 
-Vector ContactDofs::rigidForce(const Vector& load) const {
+std::string ContactDofs::describe(const Model& model, int body, const Vector& z) const {
+  if (!model.inParts()) return describeRigidMotion(model.bodies[body], motions * z);
+  const Body* whole = model.parts[body].whole;
+  return textOfFirst(*model.ranks,
+                     whole != nullptr ? describeRigidMotion(*whole, rigidModes(*whole) * (basis_ * z)) : "");
+}
+
+Vector ContactDofs::rigidForce(const Model& model, int body, const Vector& load) const {
   constexpr double roundingOfSums = 1e-14;
-  Vector force = motions.transpose() * load;
-  const Vector size = motions.cwiseAbs().transpose() * load.cwiseAbs();
-  for (Eigen::Index i = 0; i < force.size(); ++i)
-    if (std::abs(force[i]) <= roundingOfSums * size[i]) force[i] = 0;
+  Vector own = load;
+  for (Eigen::Index dof = 0; dof < own.size() && model.inParts(); ++dof)
+    if (model.parts[body].responsible[dof / 2] == 0) own[dof] = 0;
+  const Eigen::Index n = motions.cols();
+  Vector sums(2 * n);
+  sums.head(n) = motions.transpose() * own;
+  sums.tail(n) = motions.cwiseAbs().transpose() * own.cwiseAbs();
+  model.sum(sums.data(), sums.size());
+  Vector force = sums.head(n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (std::abs(force[i]) <= roundingOfSums * sums[n + i]) force[i] = 0;
   return force;
 }
 

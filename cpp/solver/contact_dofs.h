@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <string>
 #include <vector>
 
 #include "solver/model.h"
@@ -22,13 +23,18 @@ struct ContactDofs {
 
   /// Whether no condition acts on the body.
   [[nodiscard]] bool none() const { return equations.empty(); }
+  /// The rigid motion with these coefficients, in words. Collective.
+  [[nodiscard]] std::string describe(const Model& model, int body, const Vector& z) const;
   /// Work of nodal forces (dofs) on the rigid motions: what only contact can balance. Stresses do none.
   /// Forces that balance each other but for rounding give zero.
-  [[nodiscard]] Vector rigidForce(const Vector& load) const;
+  /// \param load  complete at all nodes
+  [[nodiscard]] Vector rigidForce(const Model& model, int body, const Vector& load) const;
 
  private:
   void findEquations(const Model& model, int body, const std::vector<int>& firstRow);
-  void findMotions(const Body& body);
+  void findMotions(const Model& model, int body);
+
+  Matrix basis_;  ///< of the motions by those of rigidModes()
 };
 
 }  // namespace mortier

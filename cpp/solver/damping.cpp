@@ -30,9 +30,10 @@ struct Damper {
     for (size_t b = 0; b < model.bodies.size(); ++b) {
       const double unit = model.bodies[b].material().stressScale();
       if (unit == 0) continue;
-      largest = std::max(largest, stress(b, iterate.bodies[b].strain, delta).cwiseAbs().maxCoeff() / unit);
+      const Matrix of = stress(b, iterate.bodies[b].strain, delta);
+      if (of.size() > 0) largest = std::max(largest, of.cwiseAbs().maxCoeff() / unit);
     }
-    return largest;
+    return model.largest(largest);
   }
 };
 

@@ -106,10 +106,10 @@ class Curve {
 
  private:
   [[nodiscard]] double dot(const Direction& a, const Direction& b) const {
-    double sum = a.decades * b.decades;
+    double sum = 0;
     for (size_t i = 0; i < std::min(a.response.size(), b.response.size()); ++i)
       sum += a.response[i].stress.cwiseProduct(b.response[i].stress).sum() / (unit_[i] * unit_[i]);
-    return sum;
+    return a.decades * b.decades + system_.model().sum(sum);
   }
 
   /// The direction at a place with this tangent, forwards as `along` is.

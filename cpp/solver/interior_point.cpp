@@ -12,7 +12,7 @@ namespace {
 /// The paths of all bodies; none of those whose law is linear.
 class Paths {
  public:
-  Paths(const Model& model, const Step& step) {
+  Paths(const Model& model, const Step& step) : model_(model) {
     for (size_t b = 0; b < model.bodies.size(); ++b) {
       const Material& material = model.bodies[b].material();
       const Matrix& stress0 = step.state0.bodies[b].stress;
@@ -23,8 +23,13 @@ class Paths {
       flow_ = std::max(flow_, flow);
       yieldStrain_ = std::min(yieldStrain_, flow / (1 + material.stiffness(step.data.weight)));
       // Stresses that are there may be far beyond yield already.
-      overstress_ = std::max(overstress_, stress0.cwiseAbs().maxCoeff() / material.stressScale());
+      if (stress0.size() > 0)
+        overstress_ = std::max(overstress_, stress0.cwiseAbs().maxCoeff() / material.stressScale());
     }
+    points_ = model.sum(points_);
+    flow_ = model.largest(flow_);
+    yieldStrain_ = -model.largest(-yieldStrain_);
+    overstress_ = model.largest(overstress_);
   }
   /// `overstress` is counted in the stresses that are there, or the yield stress.
   void begin(double overstress) {
@@ -37,12 +42,13 @@ class Paths {
   [[nodiscard]] double complementarity() const {
     double sum = 0;
     for (const auto& path : paths_) sum += path ? path->complementarity() : 0;
-    return sum / points_;
+    return model_.sum(sum) / points_;
   }
 
  private:
   std::vector<std::unique_ptr<InteriorPath>> paths_;
-  int points_ = 0;
+  const Model& model_;
+  double points_ = 0;
   double flow_ = 0;
   double yieldStrain_ = std::numeric_limits<double>::infinity();
   double overstress_ = 1;
@@ -90,7 +96,7 @@ StepOutcome interiorPoint(StepSystem& system, const Step& step, int maxIteration
       if (paths[b])
         largest = std::min(largest, paths[b]->direct(next.bodies[b].strain - iterate.bodies[b].strain));
     }
-    return largest;
+    return -model.largest(-largest);
   };
   for (const double end : ends) {
     for (double mu = paths.complementarity(); mu > end * paths.yieldStrain(); mu = paths.complementarity()) {

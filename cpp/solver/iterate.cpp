@@ -132,7 +132,9 @@ std::vector<Vector> solvedGaps(const Model& model, const State& state0, const It
   return result;
 }
 
-bool flows(const Model& model, const State& state) {
+namespace {
+
+bool flowsHere(const Model& model, const State& state) {
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Material& material = model.bodies[b].material();
     const Matrix strain = strainOfLaw(material, state.bodies[b]);
@@ -140,6 +142,12 @@ bool flows(const Model& model, const State& state) {
       if (material.flows(state.bodies[b].stress, i, &strain)) return true;
   }
   return false;
+}
+
+}  // namespace
+
+bool flows(const Model& model, const State& state) {
+  return model.any(flowsHere(model, state));
 }
 
 }  // namespace mortier

@@ -4,49 +4,50 @@
 
 namespace mortier {
 
-void StepSystem::agreeOnLaws() {
-  const size_t count = bodies_.size();
+void StepSystem::agreeOnLaws(const Step& step, const Iterate& iterate) {
+  constexpr size_t each = 6;
   std::vector<double> largest;
   std::vector<double> elastic;
-  for (const CondensedBody& body : bodies_) {
-    const CondensedBody::LawFacts& facts = body.lawFacts();
-    largest.insert(largest.end(), {facts.change, facts.predictor, facts.modulus});
+  for (size_t b = 0; b < bodies_.size(); ++b) {
+    const auto facts = bodies_[b].factsOfPart(step.state0.bodies[b].stress, iterate.bodies[b]);
+    largest.insert(largest.end(), {facts.change, facts.predictor, facts.modulus, facts.before, facts.stress,
+                                   facts.increment});
     elastic.push_back(facts.elastic);
   }
-  Ranks::all().largest(largest.data(), 3 * count);
-  Ranks::all().sum(elastic.data(), count);
-  for (size_t b = 0; b < count; ++b) {
-    bodies_[b].take({largest[3 * b], largest[3 * b + 1], largest[3 * b + 2], static_cast<int>(elastic[b])});
+  model_.largest(largest.data(), largest.size());
+  model_.sum(elastic.data(), elastic.size());
+  for (size_t b = 0; b < bodies_.size(); ++b) {
+    const double* of = &largest[each * b];
+    bodies_[b].take({of[0], of[1], of[2], of[3], of[4], of[5], elastic[b]});
   }
 }
 
 std::vector<Vector> StepSystem::condenseBodies(const std::vector<Vector>& force) {
   std::vector<Vector> motion(bodies_.size());
+  const bool parts = model_.inParts();
   forEachBody([&](int b) {
     bodies_[b].condense(force[b]);
-    if (!shared()) motion[b] = bodies_[b].joinCondensed();
+    if (!parts) motion[b] = bodies_[b].joinCondensed();
   });
-  for (size_t b = 0; b < bodies_.size() && shared(); ++b) motion[b] = bodies_[b].joinCondensed();
+  for (size_t b = 0; b < bodies_.size() && parts; ++b) motion[b] = bodies_[b].joinCondensed();
   return motion;
 }
 
 void StepSystem::expandBodies(const ContactSolution& contact,
-                              const std::function<Matrix&(int, const Vector&)>& stressOf) {
+                              const std::function<void(int, const Vector&)>& take) {
   if (sparse()) {
-    forEachBody([&](int b) { stressOf(b, contact.motion[b]); });
+    forEachBody([&](int b) { take(b, contact.motion[b]); });
     return;
   }
-  const auto expand = [&](int b) { bodies_[b].expand(contact.change, motionOf(contact.rigid, b)); };
-  if (!shared()) {
-    forEachBody([&](int b) {
-      expand(b);
-      stressOf(b, bodies_[b].joinExpanded());
-    });
+  const auto expand = [&](int b) { return bodies_[b].expand(contact.change, motionOf(contact.rigid, b)); };
+  if (!model_.inParts()) {
+    forEachBody([&](int b) { take(b, expand(b)); });
     return;
   }
-  forEachBody(expand);
-  for (size_t b = 0; b < bodies_.size(); ++b)
-    bodies_[b].share()->gather(stressOf(static_cast<int>(b), bodies_[b].joinExpanded()));
+  std::vector<Vector> motion(bodies_.size());
+  forEachBody([&](int b) { motion[b] = expand(b); });
+  for (size_t b = 0; b < bodies_.size(); ++b) completeAtNodes(model_.parts[b], *model_.ranks, motion[b]);
+  forEachBody([&](int b) { take(b, motion[b]); });
 }
 
 }  // namespace mortier

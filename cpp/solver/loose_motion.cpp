@@ -40,7 +40,7 @@ std::string StepSystem::looseMotion(const State& state0, const Iterate& solution
     const ContactPair& pair = model_.interfaces[k].pair();
     Vector gap = model_.interfaces[k].gap(u[pair.nonmortar.body], u[pair.mortar.body], state0.time);
     if (!solution.distanceChange.empty()) gap -= solution.distanceChange[k];
-    const double size = extent(model_.bodies[pair.nonmortar.body].mesh());
+    const double size = model_.bodies[pair.nonmortar.body].extent();
     for (Eigen::Index i = 0; i < gap.size(); ++i)
       if (solution.active[k][i] == 0 && gap[i] < -touching * size) closed.row(firstRow_[k] + i).setZero();
   }
@@ -61,7 +61,7 @@ std::string StepSystem::looseMotion(const State& state0, const Iterate& solution
   if (std::min(onwards, back) > negligibleMotion * std::max(onwards, back)) return "";
   bool untouched = true;
   for (size_t b = 0; b < bodies_.size(); ++b)
-    untouched = untouched && (motionOf(z, b).norm() <= negligibleMotion || u[b].isZero(0));
+    untouched = untouched && (motionOf(z, b).norm() <= negligibleMotion || !model_.any(!u[b].isZero(0)));
   return untouched ? "" : describeRigid(z);
 }
 
@@ -93,7 +93,7 @@ std::string StepSystem::describeRigid(const Vector& z) const {
     if (!(part.norm() > negligibleMotion * z.norm())) continue;
     if (!text.empty()) text += ", ";
     text += "body " + model_.bodies[b].name() + ": " +
-            describeRigidMotion(model_.bodies[b], bodies_[b].contact().motions * part);
+            bodies_[b].contact().describe(model_, static_cast<int>(b), part);
   }
   return text;
 }

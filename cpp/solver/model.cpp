@@ -48,4 +48,25 @@ void addInterface(Model& model, const ContactPair& pair, InterfaceOptions option
                                 ContactMesh{mortar.mesh(), mortar.elementNodes()}, options);
 }
 
+Model inParts(const Model& whole, Ranks& ranks) {
+  Model model;
+  model.ranks = &ranks;
+  const std::vector<std::vector<int>> owners = ownersOf(whole.bodies, ranks);
+  std::vector<std::vector<int>> numbers;
+  for (size_t b = 0; b < whole.bodies.size(); ++b) {
+    model.parts.push_back(partOf(whole.bodies[b], owners[b], ranks));
+    const BodyCut& cut = model.parts[b].cut;
+    model.bodies.emplace_back(whole.bodies[b], cut);
+    std::vector<int>& number = numbers.emplace_back(whole.bodies[b].nodes(), -1);
+    for (size_t i = 0; i < cut.nodes.size(); ++i) number[cut.nodes[i]] = static_cast<int>(i);
+  }
+  for (const ContactInterface& interface : whole.interfaces) {
+    const int one = interface.pair().nonmortar.body;
+    const int two = interface.pair().mortar.body;
+    model.interfaces.push_back(interface.renumbered({numbers[one], numbers[two]},
+                                                    {model.bodies[one].nodes(), model.bodies[two].nodes()}));
+  }
+  return model;
+}
+
 }  // namespace mortier

@@ -1,17 +1,60 @@
 // What is solved: bodies and the interfaces between them.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "contact/interface.h"
 #include "fem/body.h"
+#include "solver/body_part.h"
 
 namespace mortier {
 
+/// Of the bodies, all of it or the parts of one rank; interfaces are whole, in the numbers of these bodies.
+/// A rank knows the displacements of all its nodes, and so gaps, slips and contact forces; what is summed
+/// over triangles or the largest of them is that of its own.
 struct Model {
   std::vector<Body> bodies;
   std::vector<ContactInterface> interfaces;
+  std::vector<BodyPart> parts = {};  ///< of the bodies; empty where they are whole
+  Ranks* ranks = nullptr;            ///< where there are parts
+
+  [[nodiscard]] bool inParts() const { return !parts.empty(); }
+
+  // What ranks have found becomes that of all; nothing where bodies are whole. Collective.
+
+  void sum(double* values, size_t count) const {
+    if (inParts()) ranks->sum(values, count);
+  }
+  [[nodiscard]] double sum(double value) const {
+    sum(&value, 1);
+    return value;
+  }
+  /// NaN counts as infinite.
+  void largest(double* values, size_t count) const {
+    if (!inParts()) return;
+    std::replace_if(
+        values, values + count, [](double value) { return std::isnan(value); }, INFINITY);
+    ranks->largest(values, count);
+  }
+  [[nodiscard]] double largest(double value) const {
+    largest(&value, 1);
+    return value;
+  }
+  [[nodiscard]] bool any(bool own) const { return inParts() ? anyOf(*ranks, own) : own; }
+  /// Of nodal sums over triangles.
+  void sumAtNodes(size_t body, Vector& nodal) const {
+    if (inParts()) mortier::sumAtNodes(parts[body], *ranks, nodal);
+  }
+  /// Points of a body, of all ranks.
+  [[nodiscard]] int points(size_t body) const {
+    return inParts() ? parts[body].wholePoints : bodies[body].points();
+  }
 };
+
+/// The model of this rank's parts. `whole` must outlive it on the first rank. Collective.
+Model inParts(const Model& whole, Ranks& ranks);
 
 /// Whether any interface has friction.
 bool anyRough(const Model& model);

@@ -120,6 +120,7 @@ StepOutcome penaltyDuality(StepSystem& system, const Step& step, Iterate& iterat
   prescribe(model, step, iterate);
   double largestLoad = 0;
   for (const Vector& load : step.loads) largestLoad = std::max(largestLoad, load.cwiseAbs().maxCoeff());
+  largestLoad = model.largest(largestLoad);
   std::vector<Vector> penalty(model.bodies.size());
   const StepSystem::LawOf regularised = [&](int b) -> BodyLaw {
     return {[&, b](const BodyIterate& body, Linearisation& result, int begin, int end) {

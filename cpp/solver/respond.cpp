@@ -1,6 +1,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "base/blocks.h"
 #include "solver/step_system.h"
 
 namespace mortier {
@@ -96,7 +97,7 @@ std::vector<Response> StepSystem::Factorised::respond(const std::vector<Matrix>&
   system_->forEachBody([&](int b) {
     Matrix& stress = responses[b].stress;
     stress.setZero(error[b].rows(), error[b].cols());
-    bodies[b].forEachOwnBlock([&](int begin, int end) {
+    forEachBlock(model.bodies[b].points(), system_->threads_, [&](int begin, int end) {
       for (int i = begin; i < end; ++i) stress.col(i) = -stressOf(bodies[b].law(), error[b].col(i), i);
     });
     force[b] = bodies[b].leftOver(Vector::Zero(model.bodies[b].dofs()), stress);
@@ -112,12 +113,11 @@ std::vector<Response> StepSystem::Factorised::respond(const std::vector<Matrix>&
   }
   const ContactSolution contact =
       holdClosed(system_->contact_, slack, heldConditions(on, system_->friction_));
-  system_->expandBodies(contact, [&](int b, const Vector& displacement) -> Matrix& {
+  system_->expandBodies(contact, [&](int b, const Vector& displacement) {
     responses[b].displacement = displacement;
-    bodies[b].forEachOwnBlock([&](int begin, int end) {
+    forEachBlock(model.bodies[b].points(), system_->threads_, [&](int begin, int end) {
       model.bodies[b].addStressOf(displacement, bodies[b].law(), responses[b].stress, begin, end);
     });
-    return responses[b].stress;
   });
   return responses;
 }
@@ -126,7 +126,8 @@ std::vector<Response> StepSystem::respond(const std::vector<Matrix>& error, cons
                                           const std::vector<Vector>& slip) {
   std::vector<Response> responses(bodies_.size());
   const auto none = [](const auto& part) { return part.isZero(0); };
-  if (std::all_of(error.begin(), error.end(), none) && std::all_of(slip.begin(), slip.end(), none)) {
+  if (!model_.any(!std::all_of(error.begin(), error.end(), none)) &&
+      std::all_of(slip.begin(), slip.end(), none)) {
     for (size_t b = 0; b < bodies_.size(); ++b)
       responses[b] = {Vector::Zero(model_.bodies[b].dofs()), Matrix::Zero(error[b].rows(), error[b].cols())};
     return responses;

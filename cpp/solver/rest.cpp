@@ -9,17 +9,17 @@ namespace {
 bool sameData(StepSystem& system, const Step& step) {
   const double before = step.state0.time;
   const double after = step.data.time;
-  if (before != after && system.loadsAt(before) != step.loads) return false;
-  for (const ContactInterface& interface : system.model().interfaces)
+  const Model& model = system.model();
+  if (before != after && model.any(system.loadsAt(before) != step.loads)) return false;
+  for (const ContactInterface& interface : model.interfaces)
     if (interface.distanceMoves() && interface.distance(before) != interface.distance(after)) return false;
-  const std::vector<Body>& bodies = system.model().bodies;
-  return std::all_of(bodies.begin(), bodies.end(), [&](const Body& body) {
+  return !model.any(!std::all_of(model.bodies.begin(), model.bodies.end(), [&](const Body& body) {
     Vector u = Vector::Zero(body.dofs());
     Vector v = u;
     body.prescribe(before, u);
     body.prescribe(after, v);
     return u == v;
-  });
+  }));
 }
 
 }  // namespace
@@ -31,13 +31,13 @@ StepOutcome rest(StepSystem& system, const Step& step, Iterate& iterate) {
   const Model& model = system.model();
   const auto none = [](const Matrix& shift) { return shift.isZero(0); };
   if (!sameData(system, step) || flows(model, step.state0) ||
-      !std::all_of(step.data.shift.begin(), step.data.shift.end(), none))
+      model.any(!std::all_of(step.data.shift.begin(), step.data.shift.end(), none)))
     return outcome;
   iterate = startingIterate(step.state0);
   const double residual = system.linearise(step, iterate, step.data.weight, false).residual();
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const Vector& gap = step.state0.gap[k];
-    const double size = extent(model.bodies[model.interfaces[k].pair().nonmortar.body].mesh());
+    const double size = model.bodies[model.interfaces[k].pair().nonmortar.body].extent();
     for (Eigen::Index i = 0; i < gap.size(); ++i)
       if (gap[i] < -touching * size) iterate.active[k][i] = 0;
   }

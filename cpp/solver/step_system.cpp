@@ -47,7 +47,7 @@ StepSystem::StepSystem(const Model& model, const SolverOptions& options)
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     bodies_.emplace_back(model, static_cast<int>(b), firstRow_, options, threads_, sparse);
     firstMotion_.push_back(firstMotion_.back() + static_cast<int>(bodies_[b].contact().R.cols()));
-    uniqueSolutions_ = uniqueSolutions_ && model.bodies[b].pattern().symmetric;
+    uniqueSolutions_ = uniqueSolutions_ && model.bodies[b].material().symmetricTangent();
   }
   findFriction();
   requireHeld();
@@ -78,6 +78,7 @@ const std::vector<Vector>& StepSystem::loadsAt(double time) {
   Loads& loads = loads_[latestLoads_];
   loads = {time, {}};
   for (const Body& body : model_.bodies) loads.forces.push_back(body.load(time));
+  for (size_t b = 0; b < model_.bodies.size(); ++b) model_.sumAtNodes(b, loads.forces[b]);
   return loads.forces;
 }
 
@@ -108,8 +109,8 @@ std::vector<Vector> StepSystem::parted(const Vector& all) const {
 StepSystem::Linearised StepSystem::linearise(const Step& step, Iterate& iterate, const LawOf& lawOf) {
   std::vector<double> residual(bodies_.size());
   forEachBody([&](int b) { bodies_[b].linearise(step.shift(b), iterate.bodies[b], lawOf(b)); });
-  if (shared()) agreeOnLaws();
-  const double motion = largestMotion(iterate);
+  if (model_.inParts()) agreeOnLaws(step, iterate);
+  const double motion = model_.largest(largestMotion(iterate));
   forEachBody([&](int b) {
     residual[b] = bodies_[b].residual(step.state0.bodies[b].stress, iterate.bodies[b], motion);
   });
@@ -135,16 +136,28 @@ StepSystem::Linearised StepSystem::linearise(const Step& step, Iterate& iterate,
 
 std::optional<StuckPlace> StepSystem::furthest(const Step& step, Iterate& iterate, double weight) {
   linearise(step, iterate, weight, false);
-  for (CondensedBody& body : bodies_) body.completeLaw();
   std::optional<StuckPlace> place;
-  const double motion = largestMotion(iterate);
+  const double motion = model_.largest(largestMotion(iterate));
   for (size_t b = 0; b < bodies_.size(); ++b) {
     const auto [point, residual] =
         bodies_[b].furthest(step.state0.bodies[b].stress, iterate.bodies[b], motion);
-    if (point < 0 || residual <= (place ? place->residual : options_.tolerance)) continue;
+    const double worst = model_.largest(point < 0 ? 0 : residual);
+    if (worst == 0 || worst <= (place ? place->residual : options_.tolerance)) continue;
     const Body& body = model_.bodies[b];
-    const int ofATriangle = body.points() / static_cast<int>(body.mesh().triangles.size());
-    place = {static_cast<int>(b), point / ofATriangle, body.places()[point], residual, step.data.time};
+    std::array<double, 3> at{-1, 0, 0};  // of the rank that has it, or the last of them
+    if (point >= 0 && residual == worst) {
+      const int triangle = point / body.pointsOfTriangle();
+      at[0] = model_.inParts() ? model_.parts[b].cut.triangles[triangle] : triangle;
+    }
+    const double number = model_.largest(at[0]);
+    if (number == at[0]) {
+      const Point there = body.places()[point];
+      at = {number, there.x(), there.y()};
+    } else {
+      at = {0, 0, 0};
+    }
+    model_.sum(at.data(), at.size());
+    place = {static_cast<int>(b), static_cast<int>(number), Point(at[1], at[2]), worst, step.data.time};
   }
   return place;
 }
@@ -154,7 +167,7 @@ std::optional<StepSystem::Factorised> StepSystem::Linearised::factorise(StepOutc
   ContactProblem& contact = system_->contact_;
   std::vector<CondensedBody::Factors> factors(bodies.size());
   system_->forEachBody([&](int b) { factors[b] = bodies[b].factorise(); });
-  for (size_t b = 0; b < bodies.size() && system_->shared(); ++b) bodies[b].join(factors[b]);
+  for (size_t b = 0; b < bodies.size() && system_->model_.inParts(); ++b) bodies[b].join(factors[b]);
   bool changed = !system_->sparse() && contact.W.rows() != system_->conditions();
   bool regular = true;
   for (const CondensedBody::Factors& body : factors) {
@@ -171,7 +184,7 @@ std::optional<StepSystem::Factorised> StepSystem::Linearised::factorise(StepOutc
     contact.symmetric = true;
     for (size_t b = 0; b < bodies.size(); ++b) {
       if (bodies[b].contact().none()) continue;
-      contact.symmetric = contact.symmetric && system_->model_.bodies[b].pattern().symmetric;
+      contact.symmetric = contact.symmetric && system_->model_.bodies[b].material().symmetricTangent();
       bodies[b].addCompliance(contact.W);
     }
   }
@@ -218,7 +231,8 @@ StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const I
     const ContactDofs& dofs = bodies[b].contact();
     if (dofs.none()) continue;
     if (!system_->sparse()) result.slack -= dofs.C * motion[b];
-    result.balance.segment(system_->firstMotion_[b], dofs.R.cols()) = dofs.rigidForce(step.loads[b]);
+    result.balance.segment(system_->firstMotion_[b], dofs.R.cols()) =
+        dofs.rigidForce(model, static_cast<int>(b), step.loads[b]);
   }
   result.balance -= system_->contact_.G.transpose() * result.p0;
   result.active = joinedSets(iterate.active);
@@ -240,17 +254,16 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
     return outcome.fail(Reason::unheld, (system_->rough() ? "contact and its friction cannot hold "
                                                           : "contact cannot hold ") +
                                             system_->describeRigid(contact.rigid));
-  system_->expandBodies(contact, [&](int b, const Vector& d) -> Matrix& {
+  system_->expandBodies(contact, [&](int b, const Vector& d) {
     const Body& body = system_->model_.bodies[b];
     const Linearisation& law = system_->bodies_[b].law();
     Matrix& stress = iterate.bodies[b].stress;
     iterate.bodies[b].increment += d;
     stress.resizeLike(law.predictor);
-    system_->bodies_[b].forEachOwnBlock([&](int begin, int end) {
+    forEachBlock(body.points(), system_->threads_, [&](int begin, int end) {
       stress.middleCols(begin, end - begin) = law.predictor.middleCols(begin, end - begin);
       body.addStressOf(d, law, stress, begin, end);
     });
-    return stress;
   });
   iterate.contactForce = system_->parted(p0 + contact.change);
   iterate.wrongForce = 0;

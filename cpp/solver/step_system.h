@@ -135,15 +135,11 @@ class StepSystem {
   [[nodiscard]] int conditions() const { return rows() + static_cast<int>(friction_.node.size()); }
   void findFriction();
   [[nodiscard]] ListedSolution listed(const FrictionSolution& solution) const;
-  /// Whether ranks share the bodies.
-  [[nodiscard]] bool shared() const { return Ranks::all().shared() && !sparse(); }
   /// What the law asks for at the points of all ranks. Collective.
-  void agreeOnLaws();
-  /// CondensedBody::condense, expand and what joins them. `stressOf(body, displacement)` fills a stress at
-  /// the points of this rank, which becomes known everywhere.
+  void agreeOnLaws(const Step& step, const Iterate& iterate);
+  /// CondensedBody::condense, expand and what joins them; take(body, displacement).
   std::vector<Vector> condenseBodies(const std::vector<Vector>& force);
-  void expandBodies(const ContactSolution& contact,
-                    const std::function<Matrix&(int, const Vector&)>& stressOf);
+  void expandBodies(const ContactSolution& contact, const std::function<void(int, const Vector&)>& take);
 
   const Model& model_;
   SolverOptions options_;
@@ -172,11 +168,7 @@ class StepSystem::Linearised {
   Linearised(StepSystem& system, double residual, Key /*key*/) : system_(&system), residual_(residual) {}
   /// The material residual, scaled; NaN where any stress is NaN.
   [[nodiscard]] double residual() const { return residual_; }
-  /// Collective.
-  [[nodiscard]] const Linearisation& law(int body) const {
-    system_->bodies_[body].completeLaw();
-    return system_->bodies_[body].law();
-  }
+  [[nodiscard]] const Linearisation& law(int body) const { return system_->bodies_[body].law(); }
   /// Empty where a tangent is singular; `outcome` then has the reason.
   [[nodiscard]] std::optional<Factorised> factorise(StepOutcome& outcome) const;
   /// Takes the factors of the linearisation before, which had the same tangent.

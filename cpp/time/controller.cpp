@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/datum_error.h"
+#include "base/shared_fault.h"
 
 namespace mortier {
 namespace {
@@ -55,7 +56,7 @@ void Controller::pilot(StepTaker& taker, State& state) {
   ErrorNorms largest = measure_.sizeOf(state);
   const double k = (plan_.end - state.time) / steps;
   const double often = std::exchange(unseen_, coarse);
-  try {
+  const auto walk = [&] {
     // Where bodies are passing yield a step twice as long, to where more of them flows, is the easier one.
     bool longer = false;
     for (double t1 = nextTime(state.time, k);; t1 = nextTime(t1, k)) {
@@ -70,6 +71,9 @@ void Controller::pilot(StepTaker& taker, State& state) {
       if (t1 == plan_.end || (effort == Effort::usual && !outcome.converged())) break;
       longer = !outcome.converged();
     }
+  };
+  try {
+    withSharedFaults(Ranks::all(), walk);
   } catch (const DatumError&) {
     // The run ends there as well, and says so.
   }

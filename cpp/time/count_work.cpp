@@ -9,6 +9,8 @@
 //   D1 - D0 = sum |T| k sum b_i (s_i - X_i) : G_i,   X the back stress of hardening: X : eps_v / 2 is stored.
 // Thermal strain that changes by a adds 1/2 sum |T| (s0 + s1) : a on the right: less that is its work.
 // docs/theory.md says what is left between both where bodies flow.
+#include <array>
+
 #include "material/back_stress.h"
 #include "time/nodal_forces.h"
 #include "time/step_taker.h"
@@ -17,9 +19,11 @@ namespace mortier {
 namespace {
 
 /// r . du, r the part of `forces` along the directions that supports hold.
-double workOfSupports(const Body& body, const Vector& forces, const Vector& du) {
+double workOfSupports(const Body& body, const Vector& forces, const std::vector<char>& responsible,
+                      const Vector& du) {
   double work = 0;
   for (const NodeSupport& support : body.supports().nodes()) {
+    if (!responsible.empty() && responsible[support.node] == 0) continue;
     const Point force = forces.segment<2>(2 * support.node);
     const Point motion = du.segment<2>(2 * support.node);
     const Point& n = support.directions[0];
@@ -76,23 +80,40 @@ void StepTaker::countWork() {
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
     const int index = static_cast<int>(b);
+    // Nodes of which this rank adds what all ranks know.
+    const std::vector<char> responsible =
+        model_.inParts() ? model_.parts[b].responsible : std::vector<char>();
+    const auto counted = [&](Vector nodal) {
+      for (size_t node = 0; node < responsible.size(); ++node)
+        if (responsible[node] == 0) nodal.segment<2>(2 * static_cast<Eigen::Index>(node)).setZero();
+      return nodal;
+    };
     const Vector du = solutions_.back().bodies[b].increment.value();
     const Iterate& end = solutions_.back();
-    const Vector contact0 = contactForces(model_, state_.contactForce, state_.frictionForce, index);
+    const Vector contact0 = counted(contactForces(model_, state_.contactForce, state_.frictionForce, index));
     const Vector contact1 = contactForces(model_, end.contactForce, end.frictionForce, index);
     const Vector load = body.load(t1_);
     // What loads and supports exert: at the start what the stress balances, as loads may begin at once.
     const Vector before = body.internalForce(state_.bodies[b].stress) + contact0;
-    const Vector after = body.internalForce(solutions_.back().bodies[b].stress) + contact1 - load;
+    Vector after = body.internalForce(solutions_.back().bodies[b].stress) - load;
+    model_.sumAtNodes(b, after);
+    after += contact1;
+    std::array<double, 4> sums{};
+    auto& [external, contact, dissipation, thermal] = sums;
+    external = before.dot(du) + load.dot(du) + workOfSupports(body, after, responsible, du);
+    contact = contact0.dot(du) + counted(contact1).dot(du);
+    dissipation = dissipated(b);
+    if (body.heated()) {
+      const Matrix change = body.thermalStrain(t1_) - state_.bodies[b].thermalStrain;
+      const Matrix mean = (state_.bodies[b].stress + end.bodies[b].stress) / 2;
+      for (int i = 0; i < body.points(); ++i) thermal += body.weights()[i] * mean.col(i).dot(change.col(i));
+    }
+    model_.sum(sums.data(), sums.size());
     WorkDone& work = state_.bodies[b].work;
-    work.external += (before.dot(du) + load.dot(du) + workOfSupports(body, after, du)) / 2;
-    work.contact -= (contact0.dot(du) + contact1.dot(du)) / 2;
-    work.dissipated += dissipated(b);
-    if (!body.heated()) continue;
-    const Matrix change = body.thermalStrain(t1_) - state_.bodies[b].thermalStrain;
-    const Matrix mean = (state_.bodies[b].stress + end.bodies[b].stress) / 2;
-    for (int i = 0; i < body.points(); ++i)
-      work.thermal -= body.weights()[i] * mean.col(i).dot(change.col(i));
+    work.external += external / 2;
+    work.contact -= contact / 2;
+    work.dissipated += dissipation;
+    work.thermal -= thermal;
   }
 }
 

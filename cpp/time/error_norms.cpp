@@ -1,6 +1,7 @@
 #include "time/error_norms.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace mortier {
@@ -29,8 +30,9 @@ void addTo(SlipAndWork& sum, double factor, const SlipAndWork& part) {
 ErrorMeasure::ErrorMeasure(const Model& model) : model_(model), rough_(anyRough(model)) {
   for (const Body& body : model.bodies) {
     for (const double weight : body.weights()) area_ += weight;
-    extent_ = std::max(extent_, extent(body.mesh()));
+    extent_ = std::max(extent_, body.extent());
   }
+  area_ = model.sum(area_);
 }
 
 ErrorMeasure::StressNorms ErrorMeasure::normsOf(const Matrix& stress, size_t body) const {
@@ -48,7 +50,7 @@ ErrorMeasure::StressNorms ErrorMeasure::normsOf(const Matrix& stress, size_t bod
 /// Over the area of all bodies, a third of each triangle at each of its vertices.
 double ErrorMeasure::meanSquare(const Vector& displacement, size_t body) const {
   const Body& in = model_.bodies[body];
-  const size_t points = in.weights().size() / in.mesh().triangles.size();
+  const size_t points = in.pointsOfTriangle();
   double sum = 0;
   for (size_t i = 0; i < in.weights().size(); ++i)
     for (const int vertex : in.mesh().triangles[i / points])
@@ -62,15 +64,19 @@ ErrorNorms ErrorMeasure::sizeOf(const State& state) const {
   double stress = 0;
   double displacement = 0;
   double strain = 0;
-  double stiffness = 0;
   for (size_t b = 0; b < state.bodies.size(); ++b) {
     const StressNorms norms = normsOf(state.bodies[b].stress, b);
     stress += norms.energy;
     strain += norms.strain;
-    if (norms.strain > 0) stiffness += norms.energy / norms.strain;
     displacement += meanSquare(state.bodies[b].displacement, b);
   }
-  stress = std::max(stress, stiffness * displacement * std::pow(roundedMotion / extent_, 2));
+  std::array<double, 3> sums{stress, displacement, strain};
+  model_.sum(sums.data(), sums.size());
+  stress = sums[0];
+  displacement = sums[1];
+  strain = sums[2];
+  if (strain > 0)
+    stress = std::max(stress, stress / strain * displacement * std::pow(roundedMotion / extent_, 2));
   return {std::sqrt(stress), std::max(std::sqrt(displacement), extent_ * std::sqrt(strain)),
           rough_ ? std::max(state.frictionWork, little * stress) : 0};
 }
@@ -82,7 +88,9 @@ ErrorNorms ErrorMeasure::sizeOf(const std::vector<Response>& error) const {
     stress += normsOf(error[b].stress, b).energy;
     displacement += meanSquare(error[b].displacement, b);
   }
-  return {std::sqrt(stress), std::sqrt(displacement), 0};
+  std::array<double, 2> sums{stress, displacement};
+  model_.sum(sums.data(), sums.size());
+  return {std::sqrt(sums[0]), std::sqrt(sums[1]), 0};
 }
 
 }  // namespace mortier

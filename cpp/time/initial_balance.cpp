@@ -39,9 +39,12 @@ double balanceInitialStress(const Model& model, State& state, const SolverOption
   double change = 0;
   double largest = 0;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
+    if (state.bodies[b].stress.size() == 0) continue;
     change = std::max(change, (state.bodies[b].stress - before.bodies[b].stress).cwiseAbs().maxCoeff());
     largest = std::max(largest, state.bodies[b].stress.cwiseAbs().maxCoeff());
   }
+  change = model.largest(change);
+  largest = model.largest(largest);
   return largest > 0 ? change / largest : 0;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/datum_error.h"
+#include "base/shared_fault.h"
 #include "time/controller.h"
 #include "time/initial_balance.h"
 #include "time/measure.h"
@@ -82,14 +83,16 @@ void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& p
     report.step = run.steps + 1;
     const ActiveSets before = startingSets(state);
     try {
-      if (controlled) {
-        controller.advance(taker, state, report);
-        run.timeError = controller.worst();
-      } else {
-        report.time = memory.begin + (plan.end - memory.begin) * report.step / plan.steps;
-        report.timeStep = report.time - state.time;
-        advance(taker, state, report.time, report);
-      }
+      withSharedFaults(Ranks::all(), [&] {
+        if (controlled) {
+          controller.advance(taker, state, report);
+          run.timeError = controller.worst();
+        } else {
+          report.time = memory.begin + (plan.end - memory.begin) * report.step / plan.steps;
+          report.timeStep = report.time - state.time;
+          advance(taker, state, report.time, report);
+        }
+      });
     } catch (const DatumError& error) {
       // Shorter steps would end before it, but none beyond.
       report.status = Status::failed;
@@ -116,11 +119,13 @@ void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& p
 
 /// Whether no load, no support and no overlap moves the bodies in the first moment.
 bool balanced(const Model& model, const State& state) {
+  bool moved = false;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
-    if (!body.load(state.time).isZero(0) || !state.bodies[b].displacement.isZero(0)) return false;
-    if (body.heated() && !body.thermalStrain(state.time).isZero(0)) return false;
+    moved = moved || !body.load(state.time).isZero(0) || !state.bodies[b].displacement.isZero(0) ||
+            (body.heated() && !body.thermalStrain(state.time).isZero(0));
   }
+  if (model.any(moved)) return false;
   return std::all_of(state.gap.begin(), state.gap.end(),
                      [](const Vector& gap) { return (gap.array() <= 0).all(); });
 }

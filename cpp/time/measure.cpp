@@ -1,6 +1,7 @@
 #include "time/measure.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/blocks.h"
@@ -86,8 +87,15 @@ void measure(const Model& model, const State& state, Threads& threads, StepRepor
     }
     const double largest = largestDisplacement(state.bodies[b].displacement);
     report.displacement = std::max(report.displacement, largest);
-    report.motion = std::max(report.motion, largest / extent(body.mesh()));
+    report.motion = std::max(report.motion, largest / body.extent());
   }
+  std::array<double, 3> sums{all.area, all.flowing, all.energy};
+  std::array<double, 3> most{all.vonMises, report.displacement, report.motion};
+  model.sum(sums.data(), sums.size());
+  model.largest(most.data(), most.size());
+  all = {sums[0], sums[1], most[0], sums[2]};
+  report.displacement = most[1];
+  report.motion = most[2];
   report.vonMises = all.vonMises;
   report.energy = all.energy;
   report.viscoplasticFraction = all.flowing / all.area;

@@ -28,9 +28,9 @@ struct Wrench {
 /// What the supports of each label and each point exert on the body, by the first of their conditions.
 std::map<int, Wrench> reactions(const Model& model, const State& state, int b) {
   const Body& body = model.bodies[b];
-  const Vector forces = body.internalForce(state.bodies[b].stress) +
-                        contactForces(model, state.contactForce, state.frictionForce, b) -
-                        body.load(state.time);
+  Vector forces = body.internalForce(state.bodies[b].stress) - body.load(state.time);
+  model.sumAtNodes(b, forces);
+  forces += contactForces(model, state.contactForce, state.frictionForce, b);
   std::map<int, Wrench> result;
   for (const NodeSupport& support : body.supports().nodes()) {
     const Point force = forces.segment<2>(2 * support.node);
@@ -198,7 +198,7 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
     const int support = firstSupport(model.bodies[quantity.body], quantity.label, quantity.point);
     return componentOf(reactionsOf[quantity.body][support], quantity);
   };
-  const auto displacement = [&](const Quantity& quantity) {
+  const auto displacement = [&](const Quantity& quantity) {  // of the nodes of this rank
     const int component = quantity.component == Quantity::Component::x ? 0 : 1;
     double value = 0;
     for (const auto& [node, weight] : quantity.mean)
@@ -209,11 +209,11 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
     const BodyState& body = state.bodies[quantity.body];
     switch (quantity.kind) {
       case Kind::displacement:
-        return displacement(quantity);
+        return model.sum(displacement(quantity));
       case Kind::contactForce:
         return componentOf(contactOn(model, state, quantity.body, quantity.label), quantity);
       case Kind::storedEnergy:
-        return storedEnergy(model.bodies[quantity.body], body);
+        return model.sum(storedEnergy(model.bodies[quantity.body], body));
       case Kind::dissipatedEnergy:
         return body.work.dissipated;
       case Kind::work:
@@ -227,7 +227,7 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
       case Kind::contactLength:
         return contactLength(model, state, quantity);
       case Kind::largestMises:
-        return largestMises(model, state, quantity).value;
+        return model.largest(largestMises(model, state, quantity).value);
       case Kind::frictionWork:
         return frictionWork(model, state, quantity);
       case Kind::meanPressure:
@@ -240,6 +240,19 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
   values.reserve(quantities.size());
   for (const Quantity& quantity : quantities) values.push_back(valueOf(quantity));
   return values;
+}
+
+Quantity ofParts(const Quantity& quantity, const Model& model) {
+  Quantity own = quantity;
+  own.mean.clear();
+  const BodyPart& part = model.parts[quantity.body];
+  for (const auto& [node, weight] : quantity.mean) {
+    const auto at = std::lower_bound(part.cut.nodes.begin(), part.cut.nodes.end(), node);
+    const auto number = static_cast<int>(at - part.cut.nodes.begin());
+    if (at != part.cut.nodes.end() && *at == node && part.responsible[number] != 0)
+      own.mean.emplace_back(number, weight);
+  }
+  return own;
 }
 
 std::optional<Point> placeOf(const Quantity& quantity, const Model& model, const State& state) {

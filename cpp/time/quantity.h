@@ -65,6 +65,9 @@ int firstSupport(const Body& body, int label, const std::optional<Point>& point)
 /// The value of each, in the units above. Forces act on the body.
 std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Model& model, const State& state);
 
+/// The same for a rank that has parts of the bodies. \param quantity  with nodes of the whole body
+Quantity ofParts(const Quantity& quantity, const Model& model);
+
 /// Where a largest value is, as meshed [m]; none for other quantities, and where there is no contact.
 std::optional<Point> placeOf(const Quantity& quantity, const Model& model, const State& state);
 

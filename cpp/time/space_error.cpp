@@ -71,7 +71,7 @@ int SpaceErrorEstimator::Line::triangleOf(const std::array<int, 2>& edge) const 
 SpaceErrorEstimator::Compliance SpaceErrorEstimator::complianceOf(const State& state, int body,
                                                                   int triangle) const {
   const Body& of = model_.bodies[body];
-  const int point = of.points() / static_cast<int>(of.mesh().triangles.size()) * triangle;
+  const int point = of.pointsOfTriangle() * triangle;
   const double elastic = compliances_[body][point];
   if (of.material().linear()) return {elastic, elastic};
   // What has flowed is as soft as it was strained.

@@ -23,10 +23,9 @@ std::vector<double> polynomials(const std::vector<double>& nodes, double x) {
   return values;
 }
 
-bool none(const std::vector<Matrix>& fields) {
-  for (const Matrix& field : fields)
-    if (!field.isZero(0)) return false;
-  return true;
+/// Whether they are zero, at the points of this rank.
+bool noneHere(const std::vector<Matrix>& fields) {
+  return std::all_of(fields.begin(), fields.end(), [](const Matrix& field) { return field.isZero(0); });
 }
 
 }  // namespace
@@ -132,7 +131,7 @@ void StepTaker::limit(const Fields& rates, Fields& missed) const {
   constexpr double largest = 0.3;
   const double k = t1_ - state_.time;
   const std::vector<Matrix> start = startingRates();
-  if (none(start) && std::all_of(rates.begin(), rates.end(), none)) return;
+  if (noneHere(start) && std::all_of(rates.begin(), rates.end(), noneHere)) return;
   for (size_t b = 0; b < start.size(); ++b)
     for (Eigen::Index p = 0; p < start[b].cols(); ++p) {
       double rate = start[b].col(p).norm();
@@ -206,8 +205,8 @@ std::vector<Response> StepTaker::change(size_t stage) const {
 }
 
 double StepTaker::share(double fraction) const {
-  int points = 0;
-  int flowing = 0;
+  double points = 0;
+  double flowing = 0;
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     if (model_.bodies[b].material().linear()) continue;
     points += model_.bodies[b].points();
@@ -216,7 +215,9 @@ double StepTaker::share(double fraction) const {
     for (int i = 0; i < model_.bodies[b].points(); ++i)
       flowing += model_.bodies[b].material().flows(stress, i, &strain) ? 1 : 0;
   }
-  return points > 0 ? static_cast<double>(flowing) / points : 0;
+  points = model_.sum(points);
+  flowing = model_.sum(flowing);
+  return points > 0 ? flowing / points : 0;
 }
 
 double StepTaker::flowing() const {
@@ -230,7 +231,7 @@ double StepTaker::flowingAtEnd() const {
 /// The stress at the end of the attempt had it gone on as it began; nothing where that is not known.
 std::vector<Matrix> StepTaker::onwards() const {
   std::vector<Matrix> stress;
-  const bool elastic = solutions_.size() > 1 && none(rates_[0]);
+  const bool elastic = solutions_.size() > 1 && !model_.any(!noneHere(rates_[0]));
   if (!elastic && memory_.increments.empty()) return stress;
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Matrix& start = state_.bodies[b].stress;
@@ -284,10 +285,10 @@ double StepTaker::onset() const {
   };
   double below = 0;
   double above = 1;
-  if (!flowsAt(above)) return 1;
+  if (!model_.any(flowsAt(above))) return 1;
   for (int i = 0; i < halvings; ++i) {
     const double middle = (below + above) / 2;
-    (flowsAt(middle) ? above : below) = middle;
+    (model_.any(flowsAt(middle)) ? above : below) = middle;
   }
   return below;
 }

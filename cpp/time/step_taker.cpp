@@ -159,6 +159,8 @@ double StepTaker::turnedShare() const {
       all += flow;
       if (rates_[0][b].col(i).dot(rates_[1][b].col(i)) <= 0) against += flow;
     }
+  all = model_.sum(all);
+  against = model_.sum(against);
   return all > 0 ? against / all : 0;
 }
 
