@@ -79,7 +79,7 @@ TEST(EnergyBound, seesTheFalseStressesOfInterpolation) {
     }
     std::cout << "bound over error: " << bound.bound / std::sqrt(error) << "\n";
     EXPECT_GE(bound.bound, std::sqrt(error));
-    EXPECT_LE(bound.bound, 2.5 * std::sqrt(error));
+    EXPECT_LE(bound.bound, 1.4 * std::sqrt(error));
   }
 }
 
