@@ -97,6 +97,15 @@ void AdaptedMeshes::faceCorners(size_t body, int label, size_t otherBody, int ot
   cutFacing(other.mesh, other.curves, otherLabel, corners);
 }
 
+void AdaptedMeshes::faceSizes(size_t body, int label, size_t otherBody, int otherLabel) {
+  while (true) {
+    Adapted& one = bodies_[body];
+    const std::vector<char> longer = longerThanFacing(one.mesh, label, bodies_[otherBody].mesh, otherLabel);
+    if (std::find(longer.begin(), longer.end(), 1) == longer.end()) return;
+    cut(one, longer);
+  }
+}
+
 void AdaptedMeshes::learn(const std::vector<Vector>& errors) {
   for (size_t b = 0; b < bodies_.size(); ++b) learnRates(bodies_[b], errors[b]);
 }

@@ -43,6 +43,8 @@ class AdaptedMeshes {
   /// Gives each of two lines that face each other a vertex where the other one has a corner
   /// (adapt/facing_corners.h).
   void faceCorners(size_t body, int label, size_t otherBody, int otherLabel);
+  /// Cuts the triangles of the first line until none of its edges is longer than twice those that it faces.
+  void faceSizes(size_t body, int label, size_t otherBody, int otherLabel);
 
  private:
   struct Adapted {

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include "mesh/boundary_line.h"
+#include "mesh/line_part.h"
 
 namespace mortier {
 namespace {
@@ -96,6 +98,33 @@ std::vector<Point> cornersOf(const TriangleMesh& mesh, int label) {
 void cutFacing(TriangleMesh& mesh, const CurvedEdges& curves, int label, const std::vector<Point>& places) {
   for (const Point& place : places)
     if (const std::optional<Cut> cut = cutAt(mesh, curves, label, place)) apply(mesh, *cut);
+}
+
+std::vector<char> longerThanFacing(const TriangleMesh& mesh, int label, const TriangleMesh& other,
+                                   int otherLabel) {
+  constexpr double most = 2;
+  constexpr double inside = 0.499;  // beyond its end nothing faces a line
+  const LinePart line(boundaryLine(mesh, label));
+  struct Edge {
+    double middle, length;
+  };
+  std::vector<Edge> facing;
+  for (const auto& [a, b] : edgesOn(other, otherLabel))
+    facing.push_back({line.along((other.vertices[a] + other.vertices[b]) / 2),
+                      (other.vertices[b] - other.vertices[a]).norm()});
+  std::set<std::array<int, 2>> longer;
+  for (const auto& [a, b] : edgesOn(mesh, label)) {
+    const double length = (mesh.vertices[b] - mesh.vertices[a]).norm();
+    const double middle = line.along((mesh.vertices[a] + mesh.vertices[b]) / 2);
+    for (const Edge& each : facing)
+      if (std::abs(each.middle - middle) < inside * length && length > most * each.length)
+        longer.insert({a, b});
+  }
+  std::vector<char> marked(mesh.triangles.size(), 0);
+  for (size_t t = 0; t < marked.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (longer.count({mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]}) > 0) marked[t] = 1;
+  return marked;
 }
 
 }  // namespace mortier

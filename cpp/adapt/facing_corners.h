@@ -16,4 +16,9 @@ std::vector<Point> cornersOf(const TriangleMesh& mesh, int label);
 /// edge) or farther away than the edge is long, and the triangles behind them. Curved edges stay as they are.
 void cutFacing(TriangleMesh& mesh, const CurvedEdges& curves, int label, const std::vector<Point>& places);
 
+/// Of the triangles of a mesh, those with an edge on a labelled line that is longer than twice an edge of the
+/// line that it faces. \throws InputError
+std::vector<char> longerThanFacing(const TriangleMesh& mesh, int label, const TriangleMesh& other,
+                                   int otherLabel);
+
 }  // namespace mortier

@@ -140,6 +140,11 @@ bool Rounds::refine(const RoundResult& result, double aim, double cost, double s
       for (const ContactDescription& contact : description_.contacts)
         meshes_.faceCorners(bodyIndex(description_, contact.nonmortar.body), contact.nonmortar.label,
                             bodyIndex(description_, contact.mortar.body), contact.mortar.label);
+    // Pressures are as coarse as the nonmortar side, however little of the error is in its body.
+    if (aims())
+      for (const ContactDescription& contact : description_.contacts)
+        meshes_.faceSizes(bodyIndex(description_, contact.nonmortar.body), contact.nonmortar.label,
+                          bodyIndex(description_, contact.mortar.body), contact.mortar.label);
     const int nodes = nodesOf(meshes_, bodies, description_.degree);
     const double expected = cost * std::pow(double(nodes) / before, power);
     const bool small = 2.0 * nodes <= goal.maxUnknowns;

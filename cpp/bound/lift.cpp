@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "base/interrupt.h"
 #include "material/stress.h"
@@ -11,20 +12,25 @@
 namespace mortier {
 namespace {
 
-constexpr int rings = 2;
+constexpr int fewestRings = 2;
 constexpr int sweeps = 60;
 constexpr double worthwhile = 1e-3;  ///< of what a sweep took away: it was the last
+/// Moves are longer than each by itself should be, as its neighbours will go the same way (SOR).
+constexpr double beyond = 1.5;
+/// Over the longest triangles next to the line: as deep vertices move.
+constexpr double depth = 2;
 
 class Lifting {
  public:
   Lifting(const std::vector<LiftedBody>& bodies, const Model& model, const std::vector<MatchedPiece>& pieces,
           const std::vector<std::array<double, 2>>& pressure,
           const std::vector<std::array<double, 2>>& floors)
-      : bodies_(bodies) {
+      : bodies_(bodies), strained_(bodies.size()) {
     for (const LiftedBody& each : bodies) {
       displacements_.push_back(each.displacement);
       strains_.emplace_back(each.body.mesh().triangles.size(), Eigen::Vector3d::Zero());
-      near_.emplace_back(each.body.nodes(), 0);
+      moves_.emplace_back(each.body.nodes(), 0);
+      reach_.emplace_back(each.body.nodes(), 0);
       facingAt_.emplace_back(each.body.nodes());
       const auto& supports = each.body.supports().nodes();
       std::vector<int> supportOf(each.body.nodes(), -1);
@@ -55,9 +61,7 @@ class Lifting {
     }
     for (size_t b = 0; b < bodies_.size(); ++b) {
       Vector energies = Vector::Zero(static_cast<Eigen::Index>(strains_[b].size()));
-      for (const size_t t : strained_[b])
-        energies[static_cast<Eigen::Index>(t)] =
-            area(b, t) * strains_[b][t].dot(bodies_[b].moduli[t] * strains_[b][t]);
+      for (const int t : strained_[b]) energies[t] = energyIn(b, t);
       lift.energies.push_back(std::move(energies));
     }
     lift.leastGap = facing_.empty() ? 0 : std::numeric_limits<double>::max();
@@ -75,6 +79,9 @@ class Lifting {
 
  private:
   [[nodiscard]] double area(size_t body, size_t t) const { return bodies_[body].body.weights()[t]; }
+  [[nodiscard]] double energyIn(size_t body, int t) const {
+    return area(body, t) * strains_[body][t].dot(bodies_[body].moduli[t] * strains_[body][t]);
+  }
 
   void collect(const Model& model, const std::vector<MatchedPiece>& pieces,
                const std::vector<std::array<double, 2>>& pressure) {
@@ -83,8 +90,14 @@ class Lifting {
       const MatchedPiece& piece = pieces[k];
       const auto& [nonmortar, mortar, coupling] = model.interfaces[piece.interface].pair();
       const std::array<int, 2> sides{nonmortar.body, mortar.body};
+      double reach = 0;
+      for (int side = 0; side < 2; ++side)
+        reach = std::max(reach,
+                         depth * sizeAt(sides[side], model.bodies[sides[side]].mesh(), piece.vertices[side]));
       for (int end = 0; end < 2; ++end) {
         const std::array<int, 2> vertices{piece.vertices[0][end], piece.vertices[1][end]};
+        for (int side = 0; side < 2; ++side)
+          reach_[sides[side]][vertices[side]] = std::max(reach_[sides[side]][vertices[side]], reach);
         int index = -1;
         for (const int at : facingAt_[sides[0]][vertices[0]])
           if (facing_[at].vertices == vertices && facing_[at].bodies == sides &&
@@ -105,23 +118,45 @@ class Lifting {
     }
   }
 
+  /// The longest side of that triangle of the body's own mesh which has the side between two vertices.
+  [[nodiscard]] double sizeAt(int body, const TriangleMesh& own, const std::array<int, 2>& side) const {
+    const auto& [a, b] = side;
+    double size = 0;
+    for (const int t : bodies_[body].sides.trianglesAt(a)) {
+      const auto& v = bodies_[body].body.mesh().triangles[t];
+      if (std::find(v.begin(), v.end(), b) == v.end()) continue;
+      const auto& corners = own.triangles[bodies_[body].parents[t]];
+      for (int k = 0; k < 3; ++k)
+        size = std::max(size, (own.vertices[corners[(k + 1) % 3]] - own.vertices[corners[k]]).norm());
+    }
+    return size;
+  }
+
+  /// Two rings around the line, and more as far as triangles of either side are long there.
   void spreadRings() {
-    for (const Facing& each : facing_)
-      for (int side = 0; side < 2; ++side) near_[each.bodies[side]][each.vertices[side]] = rings + 1;
-    for (size_t b = 0; b < bodies_.size(); ++b) {
+    struct Reached {
+      int vertex, from;
+    };
+    for (int b = 0; b < static_cast<int>(bodies_.size()); ++b) {
       const TriangleMesh& mesh = bodies_[b].body.mesh();
-      for (int ring = rings; ring > 0; --ring)
-        for (const auto& triangle : mesh.triangles)
-          for (const int v : triangle)
-            if (near_[b][v] == ring + 1)
-              for (const int other : triangle) near_[b][other] = std::max(near_[b][other], ring);
-      for (int v = 0; v < bodies_[b].body.nodes(); ++v)
-        if (near_[b][v] > 0) moving_.push_back({static_cast<int>(b), v});
-      strained_.emplace_back();
-      for (size_t t = 0; t < mesh.triangles.size(); ++t)
-        if (std::any_of(mesh.triangles[t].begin(), mesh.triangles[t].end(),
-                        [&](int v) { return near_[b][v] > 0; }))
-          strained_[b].push_back(t);
+      std::vector<char> seen(mesh.triangles.size(), 0);
+      std::vector<Reached> ring;
+      const auto add = [&](int vertex, int from) {
+        if (std::exchange(moves_[b][vertex], 1) != 0) return;
+        ring.push_back({vertex, from});
+        moving_.push_back({b, vertex});
+        for (const int t : bodies_[b].sides.trianglesAt(vertex))
+          if (std::exchange(seen[t], 1) == 0) strained_[b].push_back(t);
+      };
+      for (const Facing& each : facing_)
+        for (int side = 0; side < 2; ++side)
+          if (each.bodies[side] == b) add(each.vertices[side], each.vertices[side]);
+      for (int i = 0; !ring.empty(); ++i)
+        for (const auto& [vertex, from] : std::exchange(ring, {}))
+          for (const int t : bodies_[b].sides.trianglesAt(vertex))
+            for (const int other : mesh.triangles[t])
+              if (i < fewestRings || (mesh.vertices[other] - mesh.vertices[from]).norm() <= reach_[b][from])
+                add(other, from);
     }
   }
 
@@ -182,7 +217,7 @@ class Lifting {
     for (const Step& step : steps)
       for (const int at : facingAt_[step.body][step.vertex]) openings[at] += opening(at, step);
     for (const auto& [at, by] : openings) slope += facing_[at].weight * by;
-    double amount = -slope / curvature;
+    double amount = -beyond * slope / curvature;
     for (const auto& [at, by] : openings)
       if (std::abs(by) > 1e-14 && by * amount < 0) {
         const double most = -facing_[at].gap / by;
@@ -248,16 +283,16 @@ class Lifting {
   [[nodiscard]] double value() const {
     double sum = 0;
     for (size_t b = 0; b < bodies_.size(); ++b)
-      for (const size_t t : strained_[b])
-        sum += area(b, t) * strains_[b][t].dot(bodies_[b].moduli[t] * strains_[b][t]);
+      for (const int t : strained_[b]) sum += energyIn(b, t);
     for (const Facing& each : facing_) sum += 2 * each.weight * each.gap;
     return sum;
   }
 
   const std::vector<LiftedBody>& bodies_;
   std::vector<std::vector<Eigen::Vector3d>> strains_;  ///< of w, by bodies and triangles
-  std::vector<std::vector<size_t>> strained_;          ///< triangles that may be, by bodies
-  std::vector<std::vector<int>> near_;
+  std::vector<std::vector<int>> strained_;             ///< triangles that may be, by bodies
+  std::vector<std::vector<char>> moves_;               ///< by bodies and vertices
+  std::vector<std::vector<double>> reach_;  ///< of the line, the same: how deep vertices move there [m]
   std::vector<std::vector<int>> supportOf_;
   std::vector<std::vector<std::vector<int>>> facingAt_;  ///< by bodies and vertices
   std::vector<Facing> facing_;

@@ -3,8 +3,10 @@
 //   G = g0 - [u^.n] = G_h + (w1 - w2).n >= 0      at every vertex of the matched line, so between them too,
 //
 // and |w|_E^2 + 2 integral of p^ G as small as a few rows of triangles next to the line allow: |w|_E is the
-// energy norm of w. Vertices of the line and of two rings around them are moved one direction at a time, each
-// as far as is best and allowed; two that touch also move together. Admissible whenever it stops.
+// energy norm of w. Vertices of the line and of some rings around it are moved one direction at a time, each
+// as far as is best and allowed (successive over-relaxation); two that touch also move together. Rings are
+// two, and more as far as the triangles of either side are long there: where one side is much finer, what is
+// lifted reaches deep in its triangles. Admissible whenever it stops.
 #pragma once
 
 #include <string>
@@ -35,7 +37,8 @@ struct Lift {
 };
 
 struct LiftedBody {
-  const Body& body;  ///< on the matched mesh
+  const Body& body;                 ///< on the matched mesh
+  const std::vector<int>& parents;  ///< of its triangles, in the body's own mesh
   const Sides& sides;
   const std::vector<Eigen::Matrix3d>& moduli;  ///< by triangles, on (p, q, r) of strains [Pa]
   Vector displacement;                         ///< u_h

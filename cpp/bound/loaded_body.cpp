@@ -71,6 +71,7 @@ LoadedBody::LoadedBody(const Model& model, const State& state, const CutMesh& cu
   size_t triangles = 0;
   for (const Body& body : model.bodies) triangles += body.mesh().triangles.size();
   coarse_ = triangles < many;
+  flows_ = weight > 0 && !body_.material().linear();
   const Eigen::Matrix3d B = toBasis();
   moduli_.reserve(cut_.parents.size());
   compliances_.reserve(cut_.parents.size());
@@ -105,7 +106,7 @@ bool LoadedBody::balance() {
   const auto relaxed = [&](const std::vector<Stress>& stress) {
     moments_ = balancedMoments(mesh(), sides_, stress, forces_, known_);
     Relaxation relaxation(mesh(), sides_, compliances_, stress_, forces_, known_, moments_);
-    relaxation.relax();
+    if (!(flows_ && coarse_ && relaxation.minimise())) relaxation.relax();
     energies_ = relaxation.energies();
   };
   std::vector<Stress> stress = stress_;

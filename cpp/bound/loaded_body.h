@@ -70,7 +70,7 @@ class LoadedBody {
   [[nodiscard]] const Matrix& modes() const { return modes_; }
   /// Nodal forces of loads and of the pressures so far [N/m].
   [[nodiscard]] const Vector& load() const { return load_; }
-  [[nodiscard]] LiftedBody lifted() const { return {body_, sides_, moduli_, displacement_}; }
+  [[nodiscard]] LiftedBody lifted() const { return {body_, parents(), sides_, moduli_, displacement_}; }
   [[nodiscard]] const DataOscillation& oscillation() const { return oscillation_; }
   /// Whether supports act along the normals or tangents of a curve: those of sides are not those of nodes.
   [[nodiscard]] bool hasCurvedSupport() const { return curvedSupport_; }
@@ -134,6 +134,7 @@ class LoadedBody {
   std::vector<KnownTraction> known_;
   DataOscillation oscillation_;
   bool curvedSupport_ = false;
+  bool flows_ = false;   ///< its tangents may differ by many orders: iterations would not see the stiff part
   bool coarse_ = false;  ///< the model is: solutions of whole bodies cost little
   SideMoments moments_;
   Vector energies_;

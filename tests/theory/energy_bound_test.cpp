@@ -60,9 +60,10 @@ TEST(EnergyBound, isZeroToRoundingWhereTheStressIsExact) {
 
 // The exact stress of the note's test is -10 e_y e_y.
 TEST(EnergyBound, seesTheFalseStressesOfInterpolation) {
-  for (const int cells : {6, 12}) {
-    const Model model = compression(cells, 22 - cells, elasticMaterial(noteElasticity),
-                                    CouplingKind::interpolation, upperBody);
+  // What is lifted reaches as deep as the sides of the coarser mesh are long, however fine the other one is.
+  for (const auto& [upper, lower] : {std::array{6, 16}, std::array{12, 10}, std::array{4, 48}}) {
+    const Model model =
+        compression(upper, lower, elasticMaterial(noteElasticity), CouplingKind::interpolation, upperBody);
     const auto [state, report] = run(model, 1, 1);
     const EnergyBound bound = energyBound(model, state);
     ASSERT_EQ(bound.obstacle, "");
@@ -78,7 +79,7 @@ TEST(EnergyBound, seesTheFalseStressesOfInterpolation) {
     }
     std::cout << "bound over error: " << bound.bound / std::sqrt(error) << "\n";
     EXPECT_GE(bound.bound, std::sqrt(error));
-    EXPECT_LE(bound.bound, 2.5 * std::sqrt(error));
+    EXPECT_LE(bound.bound, 1.4 * std::sqrt(error));
   }
 }
 

@@ -209,6 +209,20 @@ TEST(FacingCorners, linesGetVerticesWhereCornersFaceTheInsideOfAnEdge) {
   EXPECT_EQ(wide.vertices.size(), now);
 }
 
+TEST(FacingCorners, edgesAreCutUntilTheyAreNoLongerThanTwiceThoseThatTheyFace) {
+  AdaptedMeshes meshes({rectangleMesh({.lower = {-0.5, 0}, .upper = {0.5, 1}}),
+                        rectangleMesh({.lower = {-2, -1}, .upper = {2, 0}, .cellsX = 32, .cellsY = 8})},
+                       1);
+  meshes.faceSizes(0, 1, 1, 3);
+  for (const auto& [a, b] : edgesOn(meshes.mesh(0), 1))
+    EXPECT_EQ((meshes.mesh(0).vertices[b] - meshes.mesh(0).vertices[a]).norm(), 0.25);
+  TriangleMesh cut = meshes.mesh(0);
+  EXPECT_NO_THROW(validate(cut));
+  const size_t triangles = meshes.mesh(1).triangles.size();
+  meshes.faceSizes(1, 3, 0, 1);  // these are shorter, and nothing faces the others
+  EXPECT_EQ(meshes.mesh(1).triangles.size(), triangles);
+}
+
 TEST(FacingCorners, roundLinesHaveNone) {
   EXPECT_TRUE(cornersOf(annulusMesh({{0, 0}, 1, 2, 4, 24, 3}), 2).empty());
   EXPECT_EQ(cornersOf(annulusMesh({{0, 0}, 1, 2, 1, 6, 3}), 2).size(), 2U);
