@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/interrupt.h"
+#include "linear/strip_solver.h"
 
 namespace mortier {
 namespace {
@@ -110,7 +111,7 @@ bool AirySystem::join(const TriangleMesh& mesh, const Sides& sides, const std::v
       for (int c = 0; c < 3; ++c) put(3 * mesh.triangles[t][k] + c);
       put(firstSide_ + sides.of(t, k));
     }
-  std::vector<Entry> own;
+  std::vector<MatrixEntry> own;
   // Takes a coupling out of the sweeps where one of its modes is in the block.
   const auto take = [&](int i, int j, double& value) {
     const int a = number_[i];
@@ -147,20 +148,11 @@ bool AirySystem::join(const TriangleMesh& mesh, const Sides& sides, const std::v
     take(mode, mode, side.own);
     side.own = 1;
   }
-  std::sort(own.begin(), own.end(), [](const Entry& a, const Entry& b) {
-    return a.column != b.column ? a.column < b.column : a.row < b.row;
-  });
-  block_.size = static_cast<int>(inBlock_.size());
-  block_.columnStart.assign(block_.size + 1, 0);
-  for (const Entry& entry : own) {
-    block_.rows.push_back(entry.row);
-    // A linear function is no stress.
-    blockValues_.push_back(entry.value * (entry.row == entry.column ? 1 + regularised : 1));
-    ++block_.columnStart[entry.column + 1];
-  }
-  for (int c = 0; c < block_.size; ++c) block_.columnStart[c + 1] += block_.columnStart[c];
-  blockSolver_ = multifrontalSolver(block_, {});
-  return blockSolver_->factorise(blockValues_);
+  block_ = assembled(static_cast<int>(inBlock_.size()), own);
+  // A linear function is no stress.
+  for (int c = 0; c < block_.pattern.size; ++c) block_.values[block_.pattern.columnStart[c]] *= 1 + regularised;
+  blockSolver_ = stripSolver(block_.pattern);
+  return blockSolver_->factorise(block_.values);
 }
 
 void AirySystem::solveBlock(Vector& f) const {
@@ -217,11 +209,12 @@ void AirySystem::multiplyDiagonal(const Vector& f, Vector& result) const {
   for (int v = 0; v < vertices_; ++v) result.segment<3>(3 * v) = diagonal_[v] * f.segment<3>(3 * v);
   for (size_t e = 0; e < sides_.size(); ++e) result[firstSide_ + e] = sides_[e].own * f[firstSide_ + e];
   for (const int mode : inBlock_) result[mode] = 0;
-  for (int c = 0; c < block_.size; ++c)
-    for (int k = block_.columnStart[c]; k < block_.columnStart[c + 1]; ++k) {
-      const int r = block_.rows[k];
-      result[inBlock_[r]] += blockValues_[k] * f[inBlock_[c]];
-      if (r != c) result[inBlock_[c]] += blockValues_[k] * f[inBlock_[r]];
+  const SparsePattern& pattern = block_.pattern;
+  for (int c = 0; c < pattern.size; ++c)
+    for (int k = pattern.columnStart[c]; k < pattern.columnStart[c + 1]; ++k) {
+      const int r = pattern.rows[k];
+      result[inBlock_[r]] += block_.values[k] * f[inBlock_[c]];
+      if (r != c) result[inBlock_[c]] += block_.values[k] * f[inBlock_[r]];
     }
 }
 

@@ -19,6 +19,7 @@
 
 #include "bound/side_tractions.h"
 #include "linear/condensing_solver.h"
+#include "linear/matrix_entries.h"
 
 namespace mortier {
 
@@ -53,10 +54,6 @@ class AirySystem {
     std::array<double, 4> withOthers;
     double own;
   };
-  struct Entry {
-    int column, row;
-    double value;
-  };
   void solveBlock(Vector& f) const;
   void forward(Vector& f) const;   ///< f becomes (D + L)^-1 f
   void backward(Vector& f) const;  ///< f becomes (D + L')^-1 f
@@ -69,9 +66,8 @@ class AirySystem {
   std::vector<Eigen::Matrix3d> diagonal_, inverse_;
   std::vector<int> number_;  ///< of modes in the block, -1 for others; empty where there is none
   std::vector<int> inBlock_;
-  std::vector<Entry> toBlock_;  ///< rows are those of the block, columns other modes
-  SparsePattern block_;
-  std::vector<double> blockValues_;
+  std::vector<MatrixEntry> toBlock_;  ///< rows are those of the block, columns other modes
+  SparseSymmetric block_;
   std::unique_ptr<CondensingSolver> blockSolver_;
   Vector b_, x_;
   double energy_ = 0;

@@ -11,7 +11,7 @@ namespace {
 
 /// Iterations end where what is still to come is estimated to be no more than this part of the energy. It has
 /// been up to six times as much: bounds are about 1 % above the least at most.
-constexpr double part = 0.003;
+constexpr double part = 0.01;
 /// After as many a direct solution costs no more.
 constexpr int mostIterations = 80;
 
