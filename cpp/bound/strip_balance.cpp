@@ -20,7 +20,7 @@ constexpr int farRings = 3;
 /// Forces that are no more than this part of all are balanced.
 constexpr double balanced = 1e-11;
 /// Stiffness of springs, over that of the equations, for strips that nothing else holds.
-constexpr double spring = 1e-9;
+constexpr double spring = 1e-12;
 
 class Strip {
  public:
