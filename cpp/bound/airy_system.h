@@ -10,7 +10,8 @@
 //
 // which reads K once an iteration (Eisenstat, SIAM J. Sci. Stat. Comput. 2 (1981)). E falls in each. Modes of
 // thin triangles hang together so stiffly that sweeps over them one by one are slow: they are one block of D,
-// the last, which is factorised.
+// the last, which is factorised. All else of K is held in single precision: it says where to go, and whatever
+// x is, its stresses are in equilibrium.
 #pragma once
 
 #include <array>
@@ -19,44 +20,47 @@
 
 #include "bound/side_tractions.h"
 #include "linear/condensing_solver.h"
+#include "linear/matrix_entries.h"
 
 namespace mortier {
 
 class AirySystem {
  public:
-  explicit AirySystem(const Sides& sides, size_t vertices);
+  /// \param thin  triangles whose modes are one block
+  AirySystem(const TriangleMesh& mesh, const Sides& sides, const std::vector<int>& thin);
 
   /// Adds a triangle: \param K, b  by its modes, those of sides with the normals of `sides`; rows and columns
   /// of modes that are not allowed are 0. \param energy  of E(0)
   void add(const std::array<int, 3>& triangle, const std::array<int, 3>& sidesOf, const MomentMatrix& K,
            const AiryModes& b, double energy);
 
-  /// Makes the modes of these triangles one block. \pre all triangles have been added
-  /// \returns whether it could be factorised
-  bool join(const TriangleMesh& mesh, const Sides& sides, const std::vector<int>& triangles);
+  /// \pre all triangles have been added \returns whether the block could be factorised
+  bool factorise();
   /// Lowers E until what more iterations could take, as their gains fade, is no more than a part of it.
   /// \returns whether it is after `most` of them \throws Interrupted
   bool solve(double part, int most);
   [[nodiscard]] double energy() const { return energy_; }  ///< E(x)
   [[nodiscard]] int iterations() const { return iterations_; }
-  [[nodiscard]] Eigen::Vector3d atVertex(int vertex) const { return x_.segment<3>(3 * vertex); }
+  [[nodiscard]] Eigen::Vector3d atVertex(int vertex) const { return x_.segment<3>(stride * vertex); }
   [[nodiscard]] double atSide(int side) const { return x_[firstSide_ + side]; }
 
  private:
+  /// Modes of vertices are held with a 0 behind them, and what multiplies them, too.
+  static constexpr int stride = 4;
+  using Padded = std::array<float, stride>;
+  using PaddedSquare = std::array<Padded, 3>;  ///< columns
   /// The coupling of a side: with its two ends, the lower number first, and the vertices opposite; of these
   /// ends with each other; with sides of greater number.
   struct Coupling {
     std::array<int, 4> vertices;
     std::array<int, 4> others;
-    Eigen::Matrix3d ends;
-    std::array<Eigen::Vector3d, 4> withVertices;
-    std::array<double, 4> withOthers;
-    double own;
+    PaddedSquare ends;
+    std::array<Padded, 4> withVertices;
+    std::array<float, 4> withOthers;
+    float own;
   };
-  struct Entry {
-    int column, row;
-    double value;
-  };
+  void addToSweeps(const std::array<int, 3>& triangle, const std::array<int, 3>& sidesOf,
+                   const MomentMatrix& K);
   void solveBlock(Vector& f) const;
   void forward(Vector& f) const;   ///< f becomes (D + L)^-1 f
   void backward(Vector& f) const;  ///< f becomes (D + L')^-1 f
@@ -66,12 +70,12 @@ class AirySystem {
   int vertices_, firstSide_;
   std::vector<Coupling> sides_;
   std::vector<int> sidesFrom_;  ///< the sides of which a vertex is the lower end: those from here on
-  std::vector<Eigen::Matrix3d> diagonal_, inverse_;
+  std::vector<PaddedSquare> diagonal_, inverse_;
   std::vector<int> number_;  ///< of modes in the block, -1 for others; empty where there is none
   std::vector<int> inBlock_;
-  std::vector<Entry> toBlock_;  ///< rows are those of the block, columns other modes
-  SparsePattern block_;
-  std::vector<double> blockValues_;
+  std::vector<MatrixEntry> ofBlock_;  ///< to be assembled
+  std::vector<MatrixEntry> toBlock_;  ///< rows are those of the block, columns other modes
+  SparseSymmetric block_;
   std::unique_ptr<CondensingSolver> blockSolver_;
   Vector b_, x_;
   double energy_ = 0;

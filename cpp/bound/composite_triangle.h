@@ -31,12 +31,6 @@ class CompositeTriangle {
 
   /// A with m'A m = integral of s : E^-1 s, s the stress with moments m in equilibrium [1/Pa].
   [[nodiscard]] MomentMatrix energy() const;
-  /// The same by the Airy function of s.
-  [[nodiscard]] MomentMatrix airyEnergy() const;
-  /// An Airy function of moments in equilibrium that is 0 at the first corner, with its gradient.
-  [[nodiscard]] AiryModes airyOf(const Moments& m) const;
-  /// The energy of the stress of moments in equilibrium and of a load as below [J/m].
-  [[nodiscard]] double energyOf(const Moments& m, const Point& f) const;
   /// The moments of a constant stress.
   [[nodiscard]] Moments momentsOf(const Stress& stress) const;
   /// Of a linear stress without shear whose divergence is -f and whose value at the centroid is 0:
@@ -59,7 +53,6 @@ class CompositeTriangle {
  private:
   [[nodiscard]] Eigen::Matrix<double, 9, 3> loadValues(const Point& f) const;
   [[nodiscard]] Moments momentsInReference(const Moments& m) const;
-  [[nodiscard]] Point sideOf(int k) const { return x_[(k + 1) % 3] - x_[k]; }
 
   std::array<Point, 3> x_;
   Eigen::Matrix2d F_;

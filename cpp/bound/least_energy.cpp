@@ -1,8 +1,7 @@
 // The direct solution of bound/relaxation.h: the modes of all sides and vertices at once.
-#include <algorithm>
-
 #include "bound/relaxation.h"
 #include "linear/condensing_solver.h"
+#include "linear/matrix_entries.h"
 
 namespace mortier {
 
@@ -49,11 +48,7 @@ bool Relaxation::minimise() {
     count += static_cast<int>(vertexModes.back().cols());
   }
   if (count == 0) return true;
-  struct Entry {
-    int column, row;
-    double value;
-  };
-  std::vector<Entry> entries;
+  std::vector<MatrixEntry> entries;
   Vector slope = Vector::Zero(count);
   for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t) {
     const auto [effects, numbers] = modesOf(t, sideNumbers, vertexNumbers, vertexModes);
@@ -71,26 +66,10 @@ bool Relaxation::minimise() {
               {numbers[j], numbers[i], energy(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))});
     }
   }
-  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    return a.column != b.column ? a.column < b.column : a.row < b.row;
-  });
-  SparsePattern pattern;
-  pattern.size = count;
-  pattern.columnStart.assign(count + 1, 0);
-  std::vector<double> values;
-  int column = -1;
-  for (const Entry& entry : entries) {
-    if (entry.column != column || entry.row != pattern.rows.back()) {
-      pattern.rows.push_back(entry.row);
-      values.push_back(0);
-      ++pattern.columnStart[entry.column + 1];
-    }
-    column = entry.column;
-    // A linear function is no stress. What this adds moves the minimum by as little.
-    constexpr double regularised = 1e-12;
-    values.back() += entry.value * (entry.row == entry.column ? 1 + regularised : 1);
-  }
-  for (int c = 0; c < count; ++c) pattern.columnStart[c + 1] += pattern.columnStart[c];
+  auto [pattern, values] = assembled(count, entries);
+  // A linear function is no stress. What this adds moves the minimum by as little.
+  constexpr double regularised = 1e-12;
+  for (int c = 0; c < count; ++c) values[pattern.columnStart[c]] *= 1 + regularised;  // the diagonal
   auto solver = multifrontalSolver(pattern, {});
   if (!solver->factorise(values)) return false;
   Vector amounts = -slope;

@@ -80,7 +80,10 @@ LoadedBody::LoadedBody(const Model& model, const State& state, const CutMesh& cu
   for (size_t t = 0; t < cut_.parents.size(); ++t) {
     const int parent = cut_.parents[t];
     moduli_.emplace_back(Eigen::Map<const Eigen::Matrix3d>(moduliAt(law.moduli, parent).data()));
-    compliances_.emplace_back(B.transpose() * moduli_.back().inverse() * B);
+    if (t > 0 && moduli_[t] == moduli_[t - 1])
+      compliances_.push_back(compliances_.back());
+    else
+      compliances_.emplace_back(B.transpose() * moduli_.back().inverse() * B);
     stress_.emplace_back(toCartesian(state.bodies[index].stress.col(parent).head<3>()));
   }
   readForces(state.time);

@@ -15,6 +15,7 @@
 
 #include <vector>
 
+#include "bound/composite_lanes.h"
 #include "bound/side_tractions.h"
 
 namespace mortier {
@@ -56,7 +57,10 @@ class Relaxation {
   [[nodiscard]] double lengthAt(int vertex) const;
   [[nodiscard]] Modes seenBy(int triangle, int k, int vertex, double length) const;
   [[nodiscard]] CompositeTriangle elementOf(int triangle) const;
+  /// With compliances times a scale.
+  [[nodiscard]] CompositeLanes elementsOf(const Batch& batch, double scale) const;
   /// Moments less those of the stress and of the load.
+  [[nodiscard]] CompositeLanes::Twelve differencesOf(const Batch& batch, const CompositeLanes& elements) const;
   [[nodiscard]] Moments differenceOf(int triangle, const CompositeTriangle& element) const;
   [[nodiscard]] Point alongOf(int side) const;
   [[nodiscard]] Modes modesOf(int side, int vertex, double length) const;

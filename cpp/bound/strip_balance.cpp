@@ -5,19 +5,22 @@
 #include <cmath>
 #include <utility>
 
-#include "linear/condensing_solver.h"
+#include "linear/matrix_entries.h"
+#include "linear/strip_solver.h"
 #include "material/stress.h"
 
 namespace mortier {
 namespace {
 
-constexpr int rings = 8;
-/// Those from here on are far.
-constexpr int farRings = 5;
+/// Of triangles: so many, and on long lines one for so many nodes where forces are left over.
+constexpr int fewestRings = 8;
+constexpr int nodesOfARing = 20;
+/// The last ones are far.
+constexpr int farRings = 3;
 /// Forces that are no more than this part of all are balanced.
-constexpr double balanced = 1e-13;
+constexpr double balanced = 1e-11;
 /// Stiffness of springs, over that of the equations, for strips that nothing else holds.
-constexpr double spring = 1e-9;
+constexpr double spring = 1e-12;
 
 class Strip {
  public:
@@ -35,13 +38,14 @@ class Strip {
         reached[v] = 1;
         ring.push_back(v);
       }
+    const int rings = std::max(fewestRings, static_cast<int>(ring.size()) / nodesOfARing);
     for (int i = 0; i < rings; ++i) {
       std::vector<int> next;
       for (const int v : ring)
         for (const int t : sides_.trianglesAt(v)) {
           if (std::exchange(known[t], 1) != 0) continue;
           triangles_.push_back(t);
-          if (i >= farRings) far_.push_back(t);
+          if (i >= rings - farRings) far_.push_back(t);
           for (const int other : mesh.triangles[t])
             if (std::exchange(reached[other], 1) == 0) next.push_back(other);
         }
@@ -70,41 +74,19 @@ class Strip {
   }
 
   bool factorise() {
-    struct Entry {
-      int row;
-      double value;
-    };
-    std::vector<std::vector<Entry>> columns(equations_.size());
+    std::vector<MatrixEntry> entries;
+    entries.reserve(21 * triangles_.size());
     for (const int t : triangles_) {
       const Eigen::Matrix<double, 3, 6> B = strains(t);
       const Eigen::Matrix<double, 6, 6> K = body_.weights()[t] * B.transpose() * moduli_[t] * B;
       const std::array<int, 6> at = equationsOf(t);
       for (int i = 0; i < 6; ++i)
-        for (int j = 0; j < 6; ++j) {
-          if (at[j] < 0 || at[i] < at[j]) continue;
-          std::vector<Entry>& column = columns[at[j]];
-          const auto found = std::find_if(column.begin(), column.end(),
-                                          [&](const Entry& each) { return each.row == at[i]; });
-          if (found == column.end())
-            column.push_back({at[i], K(i, j)});
-          else
-            found->value += K(i, j);
-        }
+        for (int j = 0; j < 6; ++j)
+          if (at[j] >= 0 && at[i] >= at[j]) entries.push_back({at[j], at[i], K(i, j)});
     }
-    SparsePattern pattern;
-    pattern.size = static_cast<int>(equations_.size());
-    pattern.columnStart = {0};
-    std::vector<double> values;
-    for (std::vector<Entry>& column : columns) {
-      std::sort(column.begin(), column.end(), [](const Entry& a, const Entry& b) { return a.row < b.row; });
-      column.front().value *= 1 + spring;  // the diagonal
-      for (const auto& [row, value] : column) {
-        pattern.rows.push_back(row);
-        values.push_back(value);
-      }
-      pattern.columnStart.push_back(pattern.entries());
-    }
-    solver_ = multifrontalSolver(pattern, {});
+    auto [pattern, values] = assembled(static_cast<int>(equations_.size()), entries);
+    for (int c = 0; c < pattern.size; ++c) values[pattern.columnStart[c]] *= 1 + spring;  // the diagonal
+    solver_ = stripSolver(pattern);
     return solver_->factorise(values);
   }
 

@@ -58,38 +58,42 @@ TangentAssembly::TangentAssembly(const TriangleData& triangles, const std::vecto
 }
 
 void TangentAssembly::buildPattern(const TriangleData& triangles) {
-  const int n = pattern_.size;
-  // Columns by counting sort of the triangles' couplings, then sorted and made unique one column at a time.
-  const int dofs = 2 * triangles.nodes.perTriangle();
+  // The neighbours of each node by counting sort of the triangles' couplings, then sorted and made unique one
+  // node at a time. Equations ascend with nodes.
+  const auto nodes = static_cast<int>(triangles.equations.size() / 2);
+  const int n = triangles.nodes.perTriangle();
   const auto forEachCoupling = [&](auto visit) {
     for (size_t t = 0; t < triangles.count(); ++t) {
       const int* triangle = triangles.nodes.of(t);
-      for (int j = 0; j < dofs; ++j) {
-        const int column = triangles.equations[2 * triangle[j / 2] + j % 2];
-        if (column < 0) continue;
-        for (int i = 0; i < dofs; ++i) {
-          const int row = triangles.equations[2 * triangle[i / 2] + i % 2];
-          if (row >= 0 && (row >= column || !pattern_.symmetric)) visit(row, column);
-        }
-      }
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i)
+          if (triangle[i] >= triangle[j] || !pattern_.symmetric) visit(triangle[i], triangle[j]);
     }
   };
-  std::vector<int> start(n + 1, 0);
-  forEachCoupling([&](int, int column) { ++start[column + 1]; });
-  for (int j = 0; j < n; ++j) start[j + 1] += start[j];
-  std::vector<int> rows(start[n]);
+  std::vector<int> start(nodes + 1, 0);
+  forEachCoupling([&](int, int of) { ++start[of + 1]; });
+  for (int j = 0; j < nodes; ++j) start[j + 1] += start[j];
+  std::vector<int> neighbours(start[nodes]);
   std::vector<int> next(start.begin(), start.end() - 1);
-  forEachCoupling([&](int row, int column) { rows[next[column]++] = row; });
+  forEachCoupling([&](int neighbour, int of) { neighbours[next[of]++] = neighbour; });
 
-  pattern_.columnStart.assign(n + 1, 0);
-  int last = 0;
-  for (int j = 0; j < n; ++j) {
-    std::sort(rows.begin() + start[j], rows.begin() + start[j + 1]);
-    const auto end = std::unique(rows.begin() + start[j], rows.begin() + start[j + 1]);
-    last = static_cast<int>(std::copy(rows.begin() + start[j], end, rows.begin() + last) - rows.begin());
-    pattern_.columnStart[j + 1] = last;
+  pattern_.columnStart.assign(1, 0);
+  pattern_.columnStart.reserve(pattern_.size + 1);
+  for (int j = 0; j < nodes; ++j) {
+    const auto begin = neighbours.begin() + start[j];
+    std::sort(begin, neighbours.begin() + start[j + 1]);
+    const auto end = std::unique(begin, neighbours.begin() + start[j + 1]);
+    for (int c = 0; c < 2; ++c) {
+      const int column = triangles.equations[2 * j + c];
+      if (column < 0) continue;
+      for (auto node = begin; node != end; ++node)
+        for (int r = 0; r < 2; ++r) {
+          const int row = triangles.equations[2 * *node + r];
+          if (row >= 0 && (row >= column || !pattern_.symmetric)) pattern_.rows.push_back(row);
+        }
+      pattern_.columnStart.push_back(static_cast<int>(pattern_.rows.size()));
+    }
   }
-  pattern_.rows.assign(rows.begin(), rows.begin() + last);
 }
 
 int TangentAssembly::entry(int row, int column) const {

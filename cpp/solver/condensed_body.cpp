@@ -80,7 +80,6 @@ CondensedBody::LawFacts CondensedBody::measured(const Matrix& stress0, const Bod
   }
   facts.predictor = largestOf(law_.predictor);
   facts.modulus = largestOf(law_.moduli);
-  facts.increment = largestOf(iterate.increment.high);
   return facts;
 }
 
@@ -139,7 +138,7 @@ double CondensedBody::rounding(const Matrix& stress0, const BodyIterate& iterate
   const double strain = std::numeric_limits<double>::epsilon() * body_.largestGradient() * moved;
   const double scale = residualScale(stress0, iterate, motion);
   // A body that was moved before the step and is free of stress has none that could be wrong.
-  if (scale <= nothing * largestModulus() * moved / extent(body_.mesh())) return 0;
+  if (scale <= nothing * largestModulus() * moved / body_.extent()) return 0;
   return strain * largestModulus() / scale;
 }
 

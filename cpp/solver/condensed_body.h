@@ -42,7 +42,6 @@ class CondensedBody {
     double modulus = 0;    ///< [Pa]
     double before = 0;     ///< stress at the start of the step [Pa]
     double stress = 0;     ///< of the iterate [Pa]
-    double increment = 0;  ///< of a displacement [m]
     double elastic = 0;    ///< points that are: their number
   };
   [[nodiscard]] LawFacts factsOfPart(const Matrix& stress0, const BodyIterate& iterate) const;

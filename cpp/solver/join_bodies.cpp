@@ -5,20 +5,19 @@
 namespace mortier {
 
 void StepSystem::agreeOnLaws(const Step& step, const Iterate& iterate) {
-  constexpr size_t each = 6;
+  constexpr size_t each = 5;
   std::vector<double> largest;
   std::vector<double> elastic;
   for (size_t b = 0; b < bodies_.size(); ++b) {
     const auto facts = bodies_[b].factsOfPart(step.state0.bodies[b].stress, iterate.bodies[b]);
-    largest.insert(largest.end(), {facts.change, facts.predictor, facts.modulus, facts.before, facts.stress,
-                                   facts.increment});
+    largest.insert(largest.end(), {facts.change, facts.predictor, facts.modulus, facts.before, facts.stress});
     elastic.push_back(facts.elastic);
   }
   model_.largest(largest.data(), largest.size());
   model_.sum(elastic.data(), elastic.size());
   for (size_t b = 0; b < bodies_.size(); ++b) {
     const double* of = &largest[each * b];
-    bodies_[b].take({of[0], of[1], of[2], of[3], of[4], of[5], elastic[b]});
+    bodies_[b].take({of[0], of[1], of[2], of[3], of[4], elastic[b]});
   }
 }
 
