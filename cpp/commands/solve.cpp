@@ -8,6 +8,7 @@
 #include "base/ranks.h"
 #include "report/checkpoint_files.h"
 #include "report/clock.h"
+#include "solver/threads_for.h"
 
 namespace mortier {
 
@@ -66,6 +67,7 @@ Solved solve(Solving solving) {
     total.emplace(model, state, accuracySoFar.total);
   }
 
+  Threads threads(threadsFor(model, facts.threads));
   // A failure leaves the last good step in `state`, an interruption in what is kept here.
   State keptState = state;
   MarchMemory keptMemory = memory;
@@ -105,8 +107,12 @@ Solved solve(Solving solving) {
     if (files && !solving.onlyTheStart && report.step > 0 && state.time < scene.time.end &&
         solving.checkpoints.due())
       save(files->sync(), state, memory);
-    keptState = state;
-    keptMemory = memory;
+    threads.forEach(2, [&](int i) {
+      if (i == 0)
+        keptState = state;
+      else
+        keptMemory = memory;
+    });
   };
   RunReport& report = solved.report;
   const auto saveLast = [&] {

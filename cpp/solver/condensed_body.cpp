@@ -8,8 +8,22 @@
 
 #include "base/interrupt.h"
 #include "base/worst.h"
+#include "linear/multifrontal.h"
 
 namespace mortier {
+namespace {
+
+/// The largest |entry|.
+double largestOf(const Eigen::Ref<const Matrix>& columns, Threads& threads) {
+  const auto count = static_cast<int>(columns.cols());
+  std::vector<double> largest(blocksOf(count), 0);
+  forEachBlock(count, threads, [&](int begin, int end) {
+    largest[begin / itemsOfBlock] = columns.middleCols(begin, end - begin).cwiseAbs().maxCoeff();
+  });
+  return largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
+}
+
+}  // namespace
 
 CondensedBody::CondensedBody(const Model& model, int body, const std::vector<int>& firstRow,
                              const SolverOptions& options, Threads& threads, bool whole)
@@ -27,8 +41,10 @@ CondensedBody::CondensedBody(const Model& model, int body, const std::vector<int
 }
 
 std::unique_ptr<CondensingSolver> CondensedBody::newSolver() const {
-  const CondensingSolverFactory engine =
-      engine_ == LinearEngine::multifrontal ? multifrontalSolver : suiteSparseSolver;
+  const bool amongOthers = threads_.count() > 1 && !share_;  // bodies are made at once
+  const CondensingSolverFactory engine = engine_ == LinearEngine::suitesparse ? suiteSparseSolver
+                                         : amongOthers                        ? multifrontalSolverAmongOthers
+                                                                              : multifrontalSolver;
   auto solver =
       share_ ? sharedSolver(body_.pattern(), contact_.equations, share_->equations(), engine, share_->ranks())
              : engine(body_.pattern(), contact_.equations);
@@ -98,14 +114,14 @@ void CondensedBody::completeLaw() {
 
 double CondensedBody::residualScale(const Matrix& stress0, const BodyIterate& iterate) const {
   // The rounding of the law is a part of the stresses that are there, which may be far beyond yield.
-  const double before = stress0.cwiseAbs().maxCoeff();
+  const double before = largestOf(stress0, threads_);
   if (const double scale = body_.material().stressScale(); scale > 0)
-    return std::max({scale, before, iterate.stress.cwiseAbs().maxCoeff()});
+    return std::max({scale, before, largestOf(iterate.stress, threads_)});
   // What rounding of the displacement makes of a rigid motion: tolerances of 1e-10 times this part are 1e-14
   // of E |du|/L.
   constexpr double rigidPart = 1e-4;
   const double rigid = largestModulus() * iterate.increment.high.cwiseAbs().maxCoeff() / extent(body_.mesh());
-  const double predictor = share_ ? facts_.predictor : law_.predictor.cwiseAbs().maxCoeff();
+  const double predictor = share_ ? facts_.predictor : largestOf(law_.predictor, threads_);
   return std::max({before, predictor, rigidPart * rigid});
 }
 
@@ -170,8 +186,8 @@ void CondensedBody::useSchurComplement(Factors& factors) {
   // tangent: where few nodes are in contact the Schur complement itself may be nothing but rounding.
   Matrix S = solver_->takeSchurComplement();
   if (contact_.R.cols() > 0) {
-    double stiffness = 0;
-    for (const double value : values_) stiffness = std::max(stiffness, std::abs(value));
+    const auto entries = static_cast<Eigen::Index>(values_.size());
+    double stiffness = largestOf(Eigen::Map<const Matrix>(values_.data(), 1, entries), threads_);
     if (share_) share_->ranks().largest(&stiffness, 1);
     S.noalias() += stiffness * contact_.R * contact_.R.transpose();
   }
@@ -181,16 +197,17 @@ void CondensedBody::useSchurComplement(Factors& factors) {
 }
 
 void CondensedBody::addCompliance(Matrix& W) const {
-  constexpr int atOnce = 128;
+  constexpr Eigen::Index atOnce = 64;
   const Eigen::SparseMatrix<double> columns = contact_.C.transpose();  // contact dofs x contact rows
-  for (Eigen::Index begin = 0; begin < columns.cols(); begin += atOnce) {
+  threads_.forEach(static_cast<int>((columns.cols() + atOnce - 1) / atOnce), [&](int i) {
     stopIfInterrupted();
-    const Eigen::Index count = std::min<Eigen::Index>(atOnce, columns.cols() - begin);
+    const Eigen::Index begin = atOnce * i;
+    const Eigen::Index count = std::min(atOnce, columns.cols() - begin);
     Matrix x = columns.middleCols(begin, count);
-    if (x.isZero(0)) continue;
+    if (x.isZero(0)) return;
     schurFactor_.solve(x);
     W.middleCols(begin, count) += contact_.C * x;
-  }
+  });
 }
 
 void CondensedBody::useLibraries() {
@@ -208,7 +225,7 @@ Vector CondensedBody::solveSchur(const Vector& f) const {
 }
 
 double CondensedBody::largestModulus() const {
-  return share_ ? facts_.modulus : law_.moduli.cwiseAbs().maxCoeff();
+  return share_ ? facts_.modulus : largestOf(law_.moduli, threads_);
 }
 
 Vector CondensedBody::leftOver(const Vector& load, const Matrix& stress) {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <random>
 #include <stdexcept>
+#include <thread>
 
 namespace mortier {
 namespace {
@@ -82,6 +83,24 @@ TEST(Threads, callersHelpWithTheItemsOfTheirItems) {
       });
     });
     EXPECT_TRUE(met);
+  }
+}
+
+TEST(Threads, theFirstOfSeveralExceptionsComesOut) {
+  for (const int count : {1, 2, 4}) {
+    Threads threads(count);
+    for (int repetition = 0; repetition < 200; ++repetition) {
+      int first = -1;
+      try {
+        threads.forEach(20, [](int i) {
+          if (i == 3) std::this_thread::yield();
+          if (i >= 3) throw i;
+        });
+      } catch (const int item) {
+        first = item;
+      }
+      EXPECT_EQ(first, 3);
+    }
   }
 }
 
