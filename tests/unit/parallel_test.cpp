@@ -89,12 +89,13 @@ TEST(Threads, callersHelpWithTheItemsOfTheirItems) {
 TEST(Threads, theFirstOfSeveralExceptionsComesOut) {
   for (const int count : {1, 2, 4}) {
     Threads threads(count);
-    for (int repetition = 0; repetition < 200; ++repetition) {
+    for (int repetition = 0; repetition < 20; ++repetition) {
       int first = -1;
       try {
-        threads.forEach(20, [](int i) {
-          if (i == 3) std::this_thread::yield();
-          if (i >= 3) throw i;
+        threads.forEach(20, [&](int i) {
+          if (i < 3) return;
+          if ((i == 3) == (repetition % 2 == 0)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+          throw i;
         });
       } catch (const int item) {
         first = item;
