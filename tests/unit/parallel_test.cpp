@@ -91,10 +91,16 @@ TEST(Threads, theFirstOfSeveralExceptionsComesOut) {
     Threads threads(count);
     for (int repetition = 0; repetition < 20; ++repetition) {
       int first = -1;
+      std::atomic<bool> laterOneBegun = count == 1;
       try {
         threads.forEach(20, [&](int i) {
           if (i < 3) return;
-          if ((i == 3) == (repetition % 2 == 0)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+          const bool isFirst = i == 3;
+          if (isFirst)
+            while (!laterOneBegun) std::this_thread::yield();
+          else
+            laterOneBegun = true;
+          if (isFirst == (repetition % 2 == 0)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
           throw i;
         });
       } catch (const int item) {
