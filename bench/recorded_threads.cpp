@@ -107,15 +107,25 @@ double secondsOn(const std::vector<Piece>& pieces, int processors) {
   return time;
 }
 
-double criticalPath(const std::vector<Piece>& pieces) {
+std::vector<int> longestChain(const std::vector<Piece>& pieces) {
   std::vector<double> begins(pieces.size(), 0);
-  double end = 0;
+  std::vector<int> before(pieces.size(), -1);
+  double end = -1;
+  int last = -1;
   for (size_t i = 0; i < pieces.size(); ++i) {
     const double ends = begins[i] + pieces[i].seconds;
+    if (ends > end) last = static_cast<int>(i);
     end = std::max(end, ends);
-    for (const int each : pieces[i].next) begins[each] = std::max(begins[each], ends);
+    for (const int each : pieces[i].next)
+      if (before[each] < 0 || ends > begins[each]) {
+        begins[each] = ends;
+        before[each] = static_cast<int>(i);
+      }
   }
-  return end;
+  std::vector<int> chain;
+  for (int i = last; i >= 0; i = before[i]) chain.push_back(i);
+  std::reverse(chain.begin(), chain.end());
+  return chain;
 }
 
 }  // namespace bench

@@ -20,7 +20,7 @@ std::vector<Piece> takeRecord();
 
 /// Seconds on so many processors where whoever is idle takes the piece that became ready last.
 double secondsOn(const std::vector<Piece>& pieces, int processors);
-/// Seconds of the longest chain of pieces that wait for each other.
-double criticalPath(const std::vector<Piece>& pieces);
+/// The longest chain of pieces that wait for each other.
+std::vector<int> longestChain(const std::vector<Piece>& pieces);
 
 }  // namespace mortier::bench

@@ -47,23 +47,22 @@ void print(const Cells& cells, Projection projection, const char* name) {
   const std::vector<Piece> graph = graphOfStep(cells, projection);
   double all = 0;
   double parallel = 0;
-  double longestSerial = 0;
   for (const Piece& piece : graph) {
     all += piece.seconds;
-    if (piece.parallel)
-      parallel += piece.seconds;
-    else
-      longestSerial = std::max(longestSerial, piece.seconds);
+    if (piece.parallel) parallel += piece.seconds;
   }
+  const std::vector<int> chain = longestChain(graph);
+  double path = 0;
+  for (const int i : chain) path += graph[i].seconds;
   std::printf("%9d %-10s %8zu %9.4f %9.1f %9.4f", cells.triangles(), name, graph.size(), all,
-              100 * parallel / all, criticalPath(graph));
+              100 * parallel / all, path);
   for (const int processors : {2, 4, 8, 16, 64}) std::printf(" %6.2f", all / secondsOn(graph, processors));
   std::printf("\n");
-  if (std::getenv("MORTIER_SERIAL_PIECES") != nullptr) {
-    for (size_t i = 0; i < graph.size(); ++i)
-      if (!graph[i].parallel && graph[i].seconds > 0.002 * all)
-        std::printf("  serial piece %zu of %zu: %.2f %%\n", i, graph.size(), 100 * graph[i].seconds / all);
-  }
+  if (std::getenv("MORTIER_LONGEST_CHAIN") != nullptr)
+    for (const int i : chain)
+      if (graph[i].seconds > 0.001 * all)
+        std::printf("  piece %d of %zu%s: %.2f %%\n", i, graph.size(), graph[i].parallel ? "" : ", alone",
+                    100 * graph[i].seconds / all);
   std::fflush(stdout);
 }
 

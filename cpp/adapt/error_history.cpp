@@ -31,7 +31,7 @@ std::vector<Vector> ErrorHistory::errors() const {
   double rounding = negligible * energy_;
   double sum = 0;
   for (size_t b = 0; b < largest_.size(); ++b) {
-    rounding += error_.estimator().roundingOf(b, displacement_);
+    rounding += error_.roundingOf(b, displacement_);
     sum += largest_[b].sum();
   }
   std::vector<Vector> errors = largest_;

@@ -14,8 +14,10 @@
 #include <csignal>
 #include <cstddef>
 #include <cstring>
+#include <mutex>
 #include <new>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -119,30 +121,54 @@ std::string answerOf(const std::function<std::string()>& work) {
 
 }  // namespace
 
-std::string inChildProcess(const std::function<std::string()>& work, const std::string& subject) {
+ChildProcess::ChildProcess(const std::function<std::string()>& work, std::string subject)
+    : subject_(std::move(subject)) {
+  // What another one writes into would stay open in this one.
+  static std::mutex oneAtATime;
+  const std::scoped_lock alone(oneAtATime);
   int ends[2];
-  const auto cannot = [&] { throw OutputError(subject + ": no process for it: " + std::strerror(errno)); };
+  const auto cannot = [&] { throw OutputError(subject_ + ": no process for it: " + std::strerror(errno)); };
   if (pipe2(ends, O_CLOEXEC) != 0) cannot();
-  const pid_t child = fork();
-  if (child == 0) runChild(ends[1], work);
+  child_ = fork();
+  if (child_ == 0) runChild(ends[1], work);
   close(ends[1]);
+  pipe_ = ends[0];
+  if (child_ > 0) return;
+  close(pipe_);
+  cannot();
+}
+
+ChildProcess::~ChildProcess() {
+  if (child_ < 0) return;
+  kill(child_, SIGKILL);
+  end();
+}
+
+/// \returns the status of the child
+int ChildProcess::end() {
+  close(pipe_);
+  int status = 0;
+  while (waitpid(child_, &status, 0) < 0 && errno == EINTR) {
+  }
+  child_ = -1;
+  return status;
+}
+
+std::string ChildProcess::answer() {
   std::string answer;
   std::array<char, 65536> block{};
-  for (ssize_t n = 1; child > 0 && n != 0;) {
-    n = read(ends[0], block.data(), block.size());
+  for (ssize_t n = 1; n != 0;) {
+    n = read(pipe_, block.data(), block.size());
     if (n < 0 && errno != EINTR) break;
     if (n > 0) answer.append(block.data(), static_cast<size_t>(n));
   }
-  close(ends[0]);
-  if (child < 0) cannot();
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (WIFSIGNALED(status)) throw InputError(subject + " crashed on it (" + strsignal(WTERMSIG(status)) + ")");
-  if (answer.empty() || WEXITSTATUS(status) != 0) throw InputError(subject + " gave up on it");
+  const int status = end();
+  if (WIFSIGNALED(status))
+    throw InputError(subject_ + " crashed on it (" + strsignal(WTERMSIG(status)) + ")");
+  if (answer.empty() || WEXITSTATUS(status) != 0) throw InputError(subject_ + " gave up on it");
   std::string bytes = answer.substr(1);
   if (answer.front() == isMemory) throw std::bad_alloc();
-  if (answer.front() == isError) throw InputError(bytes.front() == ':' ? subject + bytes : bytes);
+  if (answer.front() == isError) throw InputError(bytes.front() == ':' ? subject_ + bytes : bytes);
   return bytes;
 }
 

@@ -7,9 +7,32 @@
 
 namespace mortier {
 
-/// The bytes that `work` gives, run in a child process. Its standard output and errors are lost.
-/// \param subject  with which the message of a crash begins, e.g. `plate.msh: Gmsh`
-/// \throws InputError that work throws, or that names its crash; std::bad_alloc
-std::string inChildProcess(const std::function<std::string()>& work, const std::string& subject);
+class ChildProcess {
+ public:
+  /// Begins `work` in a child process. Its standard output and errors are lost.
+  /// \param subject  with which the message of a crash begins, e.g. `plate.msh: Gmsh`
+  /// \throws OutputError where there is no process for it
+  ChildProcess(const std::function<std::string()>& work, std::string subject);
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+  /// Kills it where its answer was not waited for.
+  ~ChildProcess();
+
+  /// Waits for the bytes that `work` gives. Once.
+  /// \throws InputError that work throws, or that names its crash; std::bad_alloc
+  std::string answer();
+
+ private:
+  int end();
+
+  std::string subject_;
+  int pipe_ = -1;
+  int child_ = -1;
+};
+
+/// The bytes that `work` gives, run in a child process: as above, at once.
+inline std::string inChildProcess(const std::function<std::string()>& work, const std::string& subject) {
+  return ChildProcess(work, subject).answer();
+}
 
 }  // namespace mortier

@@ -17,6 +17,7 @@ struct Job {
   std::deque<int> ready;
   int unfinished = 0;
   std::exception_ptr failure;
+  int failed = 0;  ///< the item it is of
 };
 
 class Threads::Pool {
@@ -85,7 +86,10 @@ class Threads::Pool {
         failure = std::current_exception();
       }
       lock.lock();
-      if (failure) job.failure = failure;
+      if (failure && (!job.failure || item < job.failed)) {
+        job.failure = failure;
+        job.failed = item;
+      }
     }
     // What has become ready comes first: its data are at hand.
     for (const int each : job.next.empty() ? std::vector<int>{} : job.next[item])

@@ -81,7 +81,7 @@ std::string whyAlone(const SceneDescription& scene, const Model& model) {
 Attempt::Attempt(ResolvedScene scene, const AttemptOptions& options) : resolved(std::move(scene)) {
   SceneDescription& description = resolved.description;
   model = std::make_unique<Model>(buildModel(resolved));
-  error = std::make_unique<CurrentSpaceError>(*model);
+  error = std::make_unique<CurrentSpaceError>(*model, options.threads);
   description.solver.threads = options.threads;
   facts = factsOf(description, options);
   description.time.quantities = facts.quantities = buildQuantities(description, *model);

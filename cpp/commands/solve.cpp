@@ -8,6 +8,7 @@
 #include "base/ranks.h"
 #include "report/checkpoint_files.h"
 #include "report/clock.h"
+#include "solver/threads_for.h"
 #include "time/parts_of_run.h"
 
 namespace mortier {
@@ -96,6 +97,7 @@ Solved solve(Solving solving) {
     total.emplace(model, state, accuracySoFar.total);
   }
 
+  Threads threads(threadsFor(model, facts.threads));
   // A failure leaves the last good step in `state`, an interruption in what is kept here.
   State keptState = state;
   MarchMemory keptMemory = memory;
@@ -150,8 +152,12 @@ Solved solve(Solving solving) {
     }
     if (asked(mayBeSaved && files && solving.checkpoints.due()))
       save(files ? files->sync() : empty, state, memory);
-    keptState = state;
-    keptMemory = memory;
+    threads.forEach(2, [&](int i) {
+      if (i == 0)
+        keptState = state;
+      else
+        keptMemory = memory;
+    });
   };
   RunReport& report = solved.report;
   const auto saveLast = [&] {

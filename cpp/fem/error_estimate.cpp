@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
+#include "base/blocks.h"
 #include "fem/element.h"
 
 namespace mortier {
@@ -65,24 +67,24 @@ double radiusOverMean(const Body& body, Eigen::Index triangle, const Barycentric
   return 3 * radius / sum;
 }
 
-/// The fits of one region: polynomials of the degree of the displacements to the stresses at the points of
-/// the element.
+/// Fits: polynomials of the degree of the displacements to the stresses at the points of the element.
 template <class Element>
 class Fits {
  public:
   /// \param samples  places of the points, triangle by triangle
-  Fits(const TriangleMesh& mesh, const Neighbours& neighbours, const std::vector<Point>& samples, int region)
-      : mesh_(mesh), neighbours_(neighbours), samples_(samples), region_(region) {}
+  Fits(const TriangleMesh& mesh, const Neighbours& neighbours, const std::vector<Point>& samples)
+      : mesh_(mesh), neighbours_(neighbours), samples_(samples) {}
 
-  /// The fit to the points around a vertex, by least squares; their mean where they do not determine the
-  /// polynomial. Where they lie to one side, those of the next ring count too. Quadratic ones count a point
-  /// by the inverse square of its distance from the vertex: on meshes that are graded towards an unbounded
-  /// stress, points that are far off would have as much to say as those nearby.
+  /// The fit to the points of a region around a vertex, by least squares; their mean where they do not
+  /// determine the polynomial. Where they lie to one side, those of the next ring count too. Quadratic ones
+  /// count a point by the inverse square of its distance from the vertex: on meshes that are graded towards
+  /// an unbounded stress, points that are far off would have as much to say as those nearby.
   /// Appends the points, and for each its weights in the coefficients that are needed. \returns the size [m].
-  double around(int vertex, std::vector<int>& points, std::vector<double>& weights) {
+  double operator()(int vertex, int region, std::vector<int>& points, std::vector<double>& weights) {
     constexpr int terms = Element::nodes;
     constexpr int kept = keptTerms<Element>;
     constexpr double degenerate = 1e-10;
+    region_ = region;
     choosePatch(vertex);
     const Point& centre = mesh_.vertices[vertex];
     double size = 0;
@@ -152,7 +154,7 @@ class Fits {
   const TriangleMesh& mesh_;
   const Neighbours& neighbours_;
   const std::vector<Point>& samples_;
-  int region_;
+  int region_ = 0;
   std::vector<int> patch_;
   std::vector<int> corners_;
   std::vector<Terms<Element>> basis_;
@@ -164,34 +166,34 @@ double ErrorEstimate::relative() const {
   return energy > 0 ? std::sqrt(error.sum() / energy) : 0;
 }
 
-ErrorEstimator::ErrorEstimator(const Body& body) : body_(body) {
-  withElement(body.degree(), [&](auto element) { recover<decltype(element)>(); });
+ErrorEstimator::ErrorEstimator(const Body& body, Threads& threads) : body_(body) {
+  withElement(body.degree(), [&](auto element) { recover<decltype(element)>(threads); });
 }
 
 template <class Element>
-void ErrorEstimator::recover() {
+void ErrorEstimator::recover(Threads& threads) {
+  constexpr int kept = keptTerms<Element>;
   const TriangleMesh& mesh = body_.mesh();
   const ElementNodes& nodes = body_.elementNodes();
-  const Neighbours neighbours(mesh);
-  const std::vector<Point> samples = body_.places();
   std::vector<int> regions = mesh.regions;
   std::sort(regions.begin(), regions.end());
   regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
   recoveredAt_.resize(nodes.triangles.size());
+  // Which fits there are, and which values come of them.
+  std::vector<int> vertexOf;
+  std::vector<int> regionOf;
   for (const int region : regions) {
-    Fits<Element> fits(mesh, neighbours, samples, region);
     std::vector<int> fitOf(mesh.vertices.size(), -1);
-    std::vector<double> sizes(mesh.vertices.size());
     const auto fitAround = [&](int vertex) {
       if (fitOf[vertex] < 0) {
-        fitOf[vertex] = static_cast<int>(first_.size()) - 1;
-        sizes[vertex] = fits.around(vertex, points_, weights_);
-        first_.push_back(points_.size());
+        fitOf[vertex] = static_cast<int>(vertexOf.size());
+        vertexOf.push_back(vertex);
+        regionOf.push_back(region);
       }
       return fitOf[vertex];
     };
     const auto valueOf = [&](int vertex, const Point& place) {
-      return Value{fitAround(vertex), (place - mesh.vertices[vertex]) / sizes[vertex]};
+      return Value{fitAround(vertex), place - mesh.vertices[vertex]};
     };
     std::vector<int> known(nodes.places.size(), -1);
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -201,7 +203,7 @@ void ErrorEstimator::recover() {
         const int node = nodes.of(t)[a];
         if (known[node] < 0) {
           const Point& place = nodes.places[node];
-          if (keptTerms<Element> == 1) {
+          if (kept == 1) {
             known[node] = fitAround(node);
           } else {
             known[node] = static_cast<int>(values_.size());
@@ -213,68 +215,116 @@ void ErrorEstimator::recover() {
       }
     }
   }
+  // The fits.
+  struct Block {
+    std::vector<int> points;
+    std::vector<double> weights;
+  };
+  const Neighbours neighbours(mesh);
+  const std::vector<Point> samples = body_.places();
+  const auto fits = static_cast<int>(vertexOf.size());
+  std::vector<double> sizes(fits);
+  std::vector<Block> blocks(blocksOf(fits));
+  first_.assign(fits + 1, 0);
+  forEachBlock(fits, threads, [&](int begin, int end) {
+    Fits<Element> around(mesh, neighbours, samples);
+    auto& [points, weights] = blocks[begin / itemsOfBlock];
+    for (int fit = begin; fit < end; ++fit) {
+      const size_t before = points.size();
+      sizes[fit] = around(vertexOf[fit], regionOf[fit], points, weights);
+      first_[fit + 1] = points.size() - before;
+    }
+  });
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  points_.resize(first_[fits]);
+  weights_.resize(kept * first_[fits]);
+  forEachBlock(fits, threads, [&](int begin, int /*end*/) {
+    const Block block = std::move(blocks[begin / itemsOfBlock]);
+    std::copy(block.points.begin(), block.points.end(), points_.begin() + first_[begin]);
+    std::copy(block.weights.begin(), block.weights.end(), weights_.begin() + kept * first_[begin]);
+  });
+  for (auto& values : values_)
+    for (Value& value : values) value.at /= sizes[value.fit];
 }
 
-ErrorEstimate ErrorEstimator::operator()(const Matrix& stress) const {
-  return withElement(body_.degree(), [&](auto element) { return estimate<decltype(element)>(stress); });
+ErrorEstimate ErrorEstimator::operator()(const Matrix& stress, Threads& threads) const {
+  return withElement(body_.degree(),
+                     [&](auto element) { return estimate<decltype(element)>(stress, threads); });
 }
 
 template <class Element>
-Matrix ErrorEstimator::recoveredStress(const Matrix& stress) const {
+Matrix ErrorEstimator::recoveredStress(const Matrix& stress, Threads& threads) const {
   constexpr int kept = keptTerms<Element>;
-  Matrix coefficients = Matrix::Zero(stress.rows(), kept * (static_cast<Eigen::Index>(first_.size()) - 1));
-  for (size_t fit = 0; fit + 1 < first_.size(); ++fit)
-    for (size_t k = first_[fit]; k < first_[fit + 1]; ++k)
-      for (size_t term = 0; term < kept; ++term)
-        coefficients.col(kept * fit + term) += weights_[kept * k + term] * stress.col(points_[k]);
+  const auto fits = static_cast<int>(first_.size()) - 1;
+  Matrix coefficients(stress.rows(), kept * static_cast<Eigen::Index>(fits));
+  forEachBlock(fits, threads, [&](int begin, int end) {
+    coefficients.middleCols(kept * begin, kept * (end - begin)).setZero();
+    for (int fit = begin; fit < end; ++fit)
+      for (size_t k = first_[fit]; k < first_[fit + 1]; ++k)
+        for (int term = 0; term < kept; ++term)
+          coefficients.col(kept * fit + term) += weights_[kept * k + term] * stress.col(points_[k]);
+  });
   if constexpr (kept == 1) {
     return coefficients;
   } else {
-    Matrix recovered = Matrix::Zero(stress.rows(), static_cast<Eigen::Index>(values_.size()));
-    for (size_t i = 0; i < values_.size(); ++i)
-      for (const Value& value : values_[i])
-        recovered.col(i) += coefficients.middleCols<kept>(kept * value.fit) * termsAt<Element>(value.at) / 2;
+    const auto values = static_cast<int>(values_.size());
+    Matrix recovered(stress.rows(), values);
+    forEachBlock(values, threads, [&](int begin, int end) {
+      recovered.middleCols(begin, end - begin).setZero();
+      for (int i = begin; i < end; ++i)
+        for (const Value& value : values_[i])
+          recovered.col(i) +=
+              coefficients.middleCols<kept>(kept * value.fit) * termsAt<Element>(value.at) / 2;
+    });
     return recovered;
   }
 }
 
 template <class Element>
-ErrorEstimate ErrorEstimator::estimate(const Matrix& stress) const {
+ErrorEstimate ErrorEstimator::estimate(const Matrix& stress, Threads& threads) const {
   constexpr int n = Element::points;
   constexpr auto rule = Element::loadRule();
-  const Matrix recovered = recoveredStress<Element>(stress);
-  const Eigen::Index triangles = stress.cols() / n;
-  ErrorEstimate estimate{Vector::Zero(triangles), 0};
+  const Matrix recovered = recoveredStress<Element>(stress, threads);
+  const auto triangles = static_cast<int>(stress.cols() / n);
+  ErrorEstimate estimate{Vector(triangles), 0};
+  std::vector<double> energies(blocksOf(triangles), 0);
   Matrix there(stress.rows(), stress.cols());
-  Matrix own(stress.rows(), stress.cols());
-  Matrix strain;
-  const auto integrate = [&](size_t at, auto add) {
-    body_.material().elasticStrain(there, strain);
-    for (Eigen::Index i = 0; i < stress.cols(); ++i) {
-      const auto& toNode = rule[at + i % n].toNode;
-      double area = 0;
-      for (int k = 0; k < n; ++k) area += body_.weights()[n * (i / n) + k];
-      if (body_.axisymmetric()) area *= radiusOverMean(body_, i / n, rule[at + i % n].at);
-      const double weight = area * std::accumulate(toNode.begin(), toNode.end(), 0.0) / Element::loadDivisor;
-      add(i / n, weight * there.col(i).dot(strain.col(i)));
+  Matrix strain(stress.rows(), stress.cols());
+  forEachBlock(triangles, threads, [&](int firstTriangle, int lastTriangle) {
+    const int begin = n * firstTriangle;
+    const int end = n * lastTriangle;
+    double energy = 0;
+    estimate.error.segment(firstTriangle, lastTriangle - firstTriangle).setZero();
+    const auto integrate = [&](size_t at, auto add) {
+      body_.material().elasticStrain(there, strain, begin, end);
+      for (int i = begin; i < end; ++i) {
+        const auto& toNode = rule[at + i % n].toNode;
+        double area = 0;
+        for (int k = 0; k < n; ++k) area += body_.weights()[n * (i / n) + k];
+        if (body_.axisymmetric()) area *= radiusOverMean(body_, i / n, rule[at + i % n].at);
+        const double weight =
+            area * std::accumulate(toNode.begin(), toNode.end(), 0.0) / Element::loadDivisor;
+        add(i / n, weight * there.col(i).dot(strain.col(i)));
+      }
+    };
+    // As many points of the rule at once as the element has: so each meets the material of its triangle.
+    for (size_t at = 0; at < rule.size(); at += n) {
+      for (int i = begin; i < end; ++i) {
+        const auto N = Element::shapes(rule[at + i % n].at);
+        there.col(i).setZero();
+        for (int a = 0; a < Element::nodes; ++a)
+          there.col(i) += N[a] * recovered.col(recoveredAt_[Element::nodes * (i / n) + a]);
+      }
+      integrate(at, [&](int /*triangle*/, double part) { energy += part; });
+      for (int i = begin; i < end; ++i) {
+        const auto L = Element::stressShapes(rule[at + i % n].at);
+        for (int k = 0; k < n; ++k) there.col(i) -= L[k] * stress.col(n * (i / n) + k);
+      }
+      integrate(at, [&](int triangle, double part) { estimate.error[triangle] += part; });
     }
-  };
-  // As many points of the rule at once as the element has: so each meets the material of its triangle.
-  for (size_t at = 0; at < rule.size(); at += n) {
-    for (Eigen::Index i = 0; i < stress.cols(); ++i) {
-      const Barycentric& place = rule[at + i % n].at;
-      const auto N = Element::shapes(place);
-      const auto L = Element::stressShapes(place);
-      there.col(i).setZero();
-      own.col(i).setZero();
-      for (int a = 0; a < Element::nodes; ++a)
-        there.col(i) += N[a] * recovered.col(recoveredAt_[Element::nodes * (i / n) + a]);
-      for (int k = 0; k < n; ++k) own.col(i) += L[k] * stress.col(n * (i / n) + k);
-    }
-    integrate(at, [&](Eigen::Index, double part) { estimate.energy += part; });
-    there -= own;
-    integrate(at, [&](Eigen::Index triangle, double part) { estimate.error[triangle] += part; });
-  }
+    energies[firstTriangle / itemsOfBlock] = energy;
+  });
+  for (const double energy : energies) estimate.energy += energy;
   return estimate;
 }
 

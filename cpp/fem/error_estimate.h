@@ -8,6 +8,7 @@
 #include <array>
 #include <vector>
 
+#include "base/parallel.h"
 #include "fem/body.h"
 
 namespace mortier {
@@ -23,18 +24,18 @@ struct ErrorEstimate {
 /// between materials.
 class ErrorEstimator {
  public:
-  explicit ErrorEstimator(const Body& body);
+  explicit ErrorEstimator(const Body& body, Threads& threads = Threads::none());
   /// \param stress  components x points [Pa].
-  [[nodiscard]] ErrorEstimate operator()(const Matrix& stress) const;
+  [[nodiscard]] ErrorEstimate operator()(const Matrix& stress, Threads& threads = Threads::none()) const;
 
  private:
   template <class Element>
-  void recover();
+  void recover(Threads& threads);
   template <class Element>
-  [[nodiscard]] ErrorEstimate estimate(const Matrix& stress) const;
+  [[nodiscard]] ErrorEstimate estimate(const Matrix& stress, Threads& threads) const;
 
   template <class Element>
-  [[nodiscard]] Matrix recoveredStress(const Matrix& stress) const;
+  [[nodiscard]] Matrix recoveredStress(const Matrix& stress, Threads& threads) const;
 
   /// Of a fit, at a distance from its vertex over its size.
   struct Value {

@@ -181,7 +181,7 @@ bool tiledLU(double* panel, int n, int pivots, int* interchange, Threads& thread
 }  // namespace
 
 bool isLarge(int n, int pivots) {
-  constexpr double least = 5e7;  // multiplications worth the locks of their tiles
+  constexpr double least = 2e7;  // multiplications worth the locks of their tiles
   return static_cast<double>(pivots) * n * n > least;
 }
 

@@ -6,8 +6,12 @@
 #include <mutex>
 #include <new>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
+#include <string>
 
+#include "base/child_process.h"
+#include "base/error.h"
 #include "base/interrupt.h"
 #include "linear/cholmod_common.h"
 
@@ -44,9 +48,46 @@ Columns permuted(const SparsePattern& pattern, const std::vector<int>& position,
   return result;
 }
 
+/// METIS's order of a pattern. \pre none other of this process calls METIS
+std::vector<int> orderOf(Columns& columns) {
+  CholmodCommon common;
+  std::vector<int> permutation(columns.start.size() - 1);
+  cholmod_sparse A = lowerTriangle(columns.start, columns.rows);
+  if (cholmod_metis(&A, nullptr, 0, 1, permutation.data(), &common) == 0) {
+    // METIS traps SIGTERM and takes it for an error of its own, of which there is no other here.
+    if (common->status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+    requestInterrupt();
+    stopIfInterrupted();
+  }
+  return permutation;
+}
+
+/// The same from a child process; nothing where that did not come to its end.
+std::vector<int> orderAside(Columns& columns) {
+  const auto work = [&] {
+    const std::vector<int> order = orderOf(columns);
+    return std::string(reinterpret_cast<const char*>(order.data()), order.size() * sizeof(int));
+  };
+  std::vector<int> order;
+  try {
+    std::optional<ChildProcess> child;
+    {
+      const std::lock_guard noneInUse(
+          metisInUse);  // a lock of its random numbers would stay shut in the child
+      child.emplace(work, "METIS");
+    }
+    const std::string bytes = child->answer();
+    order.resize(bytes.size() / sizeof(int));
+    std::copy_n(bytes.data(), bytes.size(), reinterpret_cast<char*>(order.data()));
+  } catch (const OutputError&) {
+  } catch (const InputError&) {
+  }
+  return order;
+}
+
 /// Fill-reducing order of the interior alone, the kept equations appended.
-std::vector<int> fillReducingOrder(const SparsePattern& pattern, const std::vector<int>& kept,
-                                   CholmodCommon& common) {
+std::vector<int> fillReducingOrder(const SparsePattern& pattern, const std::vector<int>& kept, bool aside) {
+  constexpr int worthAProcess = 10000;  // equations
   std::vector<int> position(pattern.size, 0);
   const int interior = pattern.size - static_cast<int>(kept.size());
   for (size_t k = 0; k < kept.size(); ++k) position[kept[k]] = interior + static_cast<int>(k);
@@ -56,17 +97,14 @@ std::vector<int> fillReducingOrder(const SparsePattern& pattern, const std::vect
       position[i] = static_cast<int>(equation.size());
       equation.push_back(i);
     }
-  std::vector<int> permutation(interior);
+  std::vector<int> permutation;
   if (interior > 0) {
     Columns columns = permuted(pattern, position, interior, interior);
-    cholmod_sparse A = lowerTriangle(columns.start, columns.rows);
-    const std::lock_guard alone(metisInUse);
     const DeafCall deaf;
-    if (cholmod_metis(&A, nullptr, 0, 1, permutation.data(), &common) == 0) {
-      // METIS traps SIGTERM and takes it for an error of its own, of which there is no other here.
-      if (common->status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
-      requestInterrupt();
-      stopIfInterrupted();
+    if (aside && interior >= worthAProcess) permutation = orderAside(columns);
+    if (permutation.empty()) {
+      const std::lock_guard alone(metisInUse);
+      permutation = orderOf(columns);
     }
   }
   std::vector<int> order(pattern.size);
@@ -77,19 +115,19 @@ std::vector<int> fillReducingOrder(const SparsePattern& pattern, const std::vect
 
 }  // namespace
 
-Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept) {
+Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept, bool aside) {
   Elimination result;
   result.size = pattern.size;
   result.kept = static_cast<int>(kept.size());
   if (pattern.size == 0) return result;
   const int interior = result.size - result.kept;
 
-  CholmodCommon common;
-  const std::vector<int> order = fillReducingOrder(pattern, kept, common);
+  const std::vector<int> order = fillReducingOrder(pattern, kept, aside);
   std::vector<int> position(result.size);
   for (int i = 0; i < result.size; ++i) position[order[i]] = i;
 
   // Supernodes. The kept equations couple as a clique, so they end up together in the last one.
+  CholmodCommon common;
   common->supernodal = CHOLMOD_SUPERNODAL;
   common->nmethods = 1;
   common->method[0].ordering = CHOLMOD_GIVEN;

@@ -36,6 +36,7 @@ struct Elimination {
 };
 
 /// \param kept  equations to be left, in this order, at the end.
-Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept);
+/// \param aside  whether METIS is called in a child process: several threads may then do so at once
+Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept, bool aside = false);
 
 }  // namespace mortier

@@ -3,12 +3,13 @@
 // and F22 - L21 U12 is passed to the parent. Where K is symmetric U = L' and only the lower triangle is held.
 // The last front stops at the kept equations: what is left of it is the Schur complement. LU pivots inside
 // the pivot block only; the caller checks residuals. Threads work on the pieces of the elimination tree.
+#include "linear/multifrontal.h"
+
 #include <algorithm>
 #include <atomic>
 #include <utility>
 
 #include "base/interrupt.h"
-#include "linear/condensing_solver.h"
 #include "linear/dense_kernels.h"
 #include "linear/elimination.h"
 #include "linear/pieces.h"
@@ -18,9 +19,9 @@ namespace {
 
 class Multifrontal final : public CondensingSolver {
  public:
-  Multifrontal(const SparsePattern& pattern, const std::vector<int>& kept)
+  Multifrontal(const SparsePattern& pattern, const std::vector<int>& kept, bool amongOthers)
       : symmetric_(pattern.symmetric),
-        plan_(analyse(pattern, kept)),
+        plan_(analyse(pattern, kept, amongOthers)),
         pieces_(cutIntoPieces(plan_.fronts)),
         factors_(plan_.fronts.size()),
         updates_(plan_.fronts.size()),
@@ -74,10 +75,10 @@ class Multifrontal final : public CondensingSolver {
         for (int i = pivots; i < n; ++i) y[i - pivots] = x[front.rows[i]];
         const double* L = panel(s);
         if (symmetric_) {
-          dense::subtractTransposed(L + pivots, n, n - pivots, pivots, y.data(), x1);
+          subtractTransposed(L + pivots, n, n - pivots, pivots, y.data(), x1);
           dense::solveLowerTransposed(L, n, pivots, x1);
         } else {
-          dense::subtractTransposed(upper(s), n - pivots, n - pivots, pivots, y.data(), x1);
+          subtractTransposed(upper(s), n - pivots, n - pivots, pivots, y.data(), x1);
           dense::solveUpper(L, n, pivots, x1);
         }
       }
@@ -105,6 +106,19 @@ class Multifrontal final : public CondensingSolver {
   }
 
   static constexpr size_t equations = 1 << 15;  ///< of a vector, worth a lock
+
+  /// Rows of so many entries that are worth a lock.
+  [[nodiscard]] static size_t rowsAtOnce(size_t entries) {
+    constexpr size_t worthALock = 1 << 16;
+    return std::max<size_t>(worthALock / std::max<size_t>(entries, 1), 1);
+  }
+
+  /// y -= A' x, A rows x count.
+  void subtractTransposed(const double* A, int ld, int rows, int count, const double* x, double* y) const {
+    forEachPart(count, rowsAtOnce(rows), [&](size_t begin, size_t end) {
+      dense::subtractTransposed(A + ld * begin, ld, rows, static_cast<int>(end - begin), x, y + begin);
+    });
+  }
 
   [[nodiscard]] Vector inOrder(const Vector& f) const {
     Vector x(f.size());
@@ -248,7 +262,9 @@ class Multifrontal final : public CondensingSolver {
         const double* L = panel(s);
         if (!symmetric_) dense::swapRows(x1, pivots_.data() + factors_[s].pivot, pivots);
         dense::solveLower(L, n, pivots, !symmetric_, x1);
-        dense::multiply(L + pivots, n, n - pivots, pivots, x1, product);
+        forEachPart(n - pivots, rowsAtOnce(pivots), [&](size_t begin, size_t end) {
+          dense::multiply(L + pivots + begin, n, static_cast<int>(end - begin), pivots, x1, product + begin);
+        });
         for (int i = pivots; i < n; ++i) sum[i] += product[i - pivots];
       }
       if (front.parent < 0)  // the last front keeps its other rows
@@ -279,7 +295,13 @@ class Multifrontal final : public CondensingSolver {
 std::unique_ptr<CondensingSolver> multifrontalSolver(const SparsePattern& pattern,
                                                      const std::vector<int>& kept) {
   dense::useOneThread();
-  return std::make_unique<Multifrontal>(pattern, kept);
+  return std::make_unique<Multifrontal>(pattern, kept, false);
+}
+
+std::unique_ptr<CondensingSolver> multifrontalSolverAmongOthers(const SparsePattern& pattern,
+                                                                const std::vector<int>& kept) {
+  dense::useOneThread();
+  return std::make_unique<Multifrontal>(pattern, kept, true);
 }
 
 }  // namespace mortier

@@ -34,7 +34,7 @@ size_t stackOf(const std::vector<Front>& fronts, const Piece& piece, Size passed
 
 Pieces cutIntoPieces(const std::vector<Front>& fronts) {
   // Small enough for threads to end together, large enough to be worth a lock.
-  constexpr int parts = 40;
+  constexpr int parts = 128;
   constexpr double leastWork = 2e6;
   const auto n = static_cast<int>(fronts.size());
   std::vector<double> work(n);

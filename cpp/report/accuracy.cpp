@@ -37,7 +37,7 @@ Accuracy AccuracyRecord::atEnd(const Peaks& peaks) {
   const CurrentSpaceError::Estimates estimates = error_.estimates();
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const ErrorEstimate& estimate = (*estimates)[b];
-    const double rounding = error_.estimator().roundingOf(b, peaks.displacement.value);
+    const double rounding = error_.roundingOf(b, peaks.displacement.value);
     allRounding += rounding;
     energy += estimate.energy;
     const bool real = estimate.error.sum() > rounding + negligible * largestEnergy;

@@ -8,8 +8,22 @@
 
 #include "base/interrupt.h"
 #include "base/worst.h"
+#include "linear/multifrontal.h"
 
 namespace mortier {
+namespace {
+
+/// The largest |entry|.
+double largestOf(const Eigen::Ref<const Matrix>& columns, Threads& threads) {
+  const auto count = static_cast<int>(columns.cols());
+  std::vector<double> largest(blocksOf(count), 0);
+  forEachBlock(count, threads, [&](int begin, int end) {
+    largest[begin / itemsOfBlock] = columns.middleCols(begin, end - begin).cwiseAbs().maxCoeff();
+  });
+  return largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
+}
+
+}  // namespace
 
 CondensedBody::CondensedBody(const Model& model, int body, const std::vector<int>& firstRow,
                              const SolverOptions& options, Threads& threads, bool whole)
@@ -27,8 +41,10 @@ CondensedBody::CondensedBody(const Model& model, int body, const std::vector<int
 }
 
 std::unique_ptr<CondensingSolver> CondensedBody::newSolver() const {
-  const CondensingSolverFactory engine =
-      engine_ == LinearEngine::multifrontal ? multifrontalSolver : suiteSparseSolver;
+  const bool amongOthers = threads_.count() > 1 && part_ == nullptr;  // bodies are made at once
+  const CondensingSolverFactory engine = engine_ == LinearEngine::suitesparse ? suiteSparseSolver
+                                         : amongOthers                        ? multifrontalSolverAmongOthers
+                                                                              : multifrontalSolver;
   SharedEquations shared;
   for (size_t i = 0; part_ != nullptr && i < part_->shared.size(); ++i)
     for (const int c : {0, 1}) {
@@ -62,30 +78,22 @@ void CondensedBody::linearise(const Matrix* shift, BodyIterate& iterate, const B
   facts_.change = change.value();
 }
 
-namespace {
-
-double largestOf(const Matrix& entries) {
-  return entries.size() > 0 ? entries.cwiseAbs().maxCoeff() : 0;
-}
-
-}  // namespace
-
 CondensedBody::LawFacts CondensedBody::measured(const Matrix& stress0, const BodyIterate& iterate) const {
   LawFacts facts;
   facts.change = facts_.change;
-  facts.before = largestOf(stress0);
+  facts.before = largestOf(stress0, threads_);
   if (body_.material().stressScale() > 0) {
-    facts.stress = largestOf(iterate.stress);
+    facts.stress = largestOf(iterate.stress, threads_);
     return facts;
   }
-  facts.predictor = largestOf(law_.predictor);
-  facts.modulus = largestOf(law_.moduli);
+  facts.predictor = largestOf(law_.predictor, threads_);
+  facts.modulus = largestOf(law_.moduli, threads_);
   return facts;
 }
 
 CondensedBody::LawFacts CondensedBody::factsOfPart(const Matrix& stress0, const BodyIterate& iterate) const {
   LawFacts facts = measured(stress0, iterate);
-  facts.modulus = largestOf(law_.moduli);
+  facts.modulus = largestOf(law_.moduli, threads_);
   facts.elastic = law_.elastic;
   if (std::isnan(facts.change)) facts.change = std::numeric_limits<double>::infinity();
   return facts;
@@ -102,7 +110,7 @@ double CondensedBody::residual(const Matrix& stress0, const BodyIterate& iterate
 }
 
 double CondensedBody::largestModulus() const {
-  return part_ != nullptr ? facts_.modulus : largestOf(law_.moduli);
+  return part_ != nullptr ? facts_.modulus : largestOf(law_.moduli, threads_);
 }
 
 double CondensedBody::residualScale(const Matrix& stress0, const BodyIterate& iterate, double motion) const {
@@ -180,8 +188,8 @@ void CondensedBody::useSchurComplement(Factors& factors) {
   // tangent: where few nodes are in contact the Schur complement itself may be nothing but rounding.
   Matrix S = solver_->takeSchurComplement();
   if (contact_.R.cols() > 0) {
-    double stiffness = 0;
-    for (const double value : values_) stiffness = std::max(stiffness, std::abs(value));
+    const auto entries = static_cast<Eigen::Index>(values_.size());
+    double stiffness = largestOf(Eigen::Map<const Matrix>(values_.data(), 1, entries), threads_);
     if (part_ != nullptr) ranks_->largest(&stiffness, 1);
     S.noalias() += stiffness * contact_.R * contact_.R.transpose();
   }
@@ -191,16 +199,17 @@ void CondensedBody::useSchurComplement(Factors& factors) {
 }
 
 void CondensedBody::addCompliance(Matrix& W) const {
-  constexpr int atOnce = 128;
+  constexpr Eigen::Index atOnce = 64;
   const Eigen::SparseMatrix<double> columns = contact_.C.transpose();  // contact dofs x contact rows
-  for (Eigen::Index begin = 0; begin < columns.cols(); begin += atOnce) {
+  threads_.forEach(static_cast<int>((columns.cols() + atOnce - 1) / atOnce), [&](int i) {
     stopIfInterrupted();
-    const Eigen::Index count = std::min<Eigen::Index>(atOnce, columns.cols() - begin);
+    const Eigen::Index begin = atOnce * i;
+    const Eigen::Index count = std::min(atOnce, columns.cols() - begin);
     Matrix x = columns.middleCols(begin, count);
-    if (x.isZero(0)) continue;
+    if (x.isZero(0)) return;
     schurFactor_.solve(x);
     W.middleCols(begin, count) += contact_.C * x;
-  }
+  });
 }
 
 void CondensedBody::useLibraries() {

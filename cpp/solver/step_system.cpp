@@ -7,19 +7,11 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/worst.h"
+#include "solver/threads_for.h"
 #include "solver/total_strain.h"
 
 namespace mortier {
 namespace {
-
-/// Starting threads costs more than it gains below this many triangles.
-constexpr int trianglesWorthThreads = 30000;
-
-int threadsFor(const Model& model, int most) {
-  int triangles = 0;
-  for (const Body& body : model.bodies) triangles += static_cast<int>(body.mesh().triangles.size());
-  return triangles >= trianglesWorthThreads ? most : 1;
-}
 
 std::vector<int> numberRows(const Model& model) {
   std::vector<int> first{0};
@@ -43,9 +35,15 @@ StepSystem::StepSystem(const Model& model, const SolverOptions& options)
       threads_(threadsFor(model, options.threads)),
       firstRow_(numberRows(model)) {
   const bool sparse = solvesSparse(model, options);
-  bodies_.reserve(model.bodies.size());
-  for (size_t b = 0; b < model.bodies.size(); ++b) {
-    bodies_.emplace_back(model, static_cast<int>(b), firstRow_, options, threads_, sparse);
+  std::vector<std::optional<CondensedBody>> bodies(model.bodies.size());
+  const auto make = [&](int b) { bodies[b].emplace(model, b, firstRow_, options, threads_, sparse); };
+  if (shared())  // what they do together they do body by body
+    for (size_t b = 0; b < bodies.size(); ++b) make(static_cast<int>(b));
+  else
+    threads_.forEach(static_cast<int>(bodies.size()), make);
+  bodies_.reserve(bodies.size());
+  for (size_t b = 0; b < bodies.size(); ++b) {
+    bodies_.push_back(std::move(*bodies[b]));
     firstMotion_.push_back(firstMotion_.back() + static_cast<int>(bodies_[b].contact().R.cols()));
     uniqueSolutions_ = uniqueSolutions_ && model.bodies[b].material().symmetricTangent();
   }

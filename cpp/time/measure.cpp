@@ -29,21 +29,20 @@ struct Part {
   double energy = 0;
 };
 
-Part partOf(const Body& body, const BodyState& state, int begin, int end) {
+/// \param strain  room for the elastic strain, and for the total one where the law depends on that
+Part partOf(const Body& body, const BodyState& state, Matrix& strain, int begin, int end) {
   Part part;
   const Material& material = body.material();
-  const int count = end - begin;
-  const Matrix stress = state.stress.middleCols(begin, count);
-  Matrix strain;
-  material.elasticStrain(stress, strain);
-  Matrix total;
-  if (material.ofStrain()) total = strain + state.viscoplasticStrain.middleCols(begin, count);
-  for (int i = 0; i < count; ++i) {
-    const double weight = body.weights()[begin + i];
+  const Matrix& stress = state.stress;
+  material.elasticStrain(stress, strain, begin, end);
+  for (int i = begin; i < end; ++i) part.energy += body.weights()[i] / 2 * stress.col(i).dot(strain.col(i));
+  if (material.ofStrain())
+    strain.middleCols(begin, end - begin) += state.viscoplasticStrain.middleCols(begin, end - begin);
+  for (int i = begin; i < end; ++i) {
+    const double weight = body.weights()[i];
     part.area += weight;
-    if (material.flows(stress, i, &total)) part.flowing += weight;
+    if (material.flows(stress, i, &strain)) part.flowing += weight;
     part.vonMises = std::max(part.vonMises, vonMises(stress.col(i).head(material.tensorComponents())));
-    part.energy += weight / 2 * stress.col(i).dot(strain.col(i));
   }
   return part;
 }
@@ -76,8 +75,9 @@ void measure(const Model& model, const State& state, Threads& threads, StepRepor
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     std::vector<Part> parts(blocksOf(body.points()));
+    Matrix strain(state.bodies[b].stress.rows(), state.bodies[b].stress.cols());
     forEachBlock(body.points(), threads, [&](int begin, int end) {
-      parts[begin / itemsOfBlock] = partOf(body, state.bodies[b], begin, end);
+      parts[begin / itemsOfBlock] = partOf(body, state.bodies[b], strain, begin, end);
     });
     for (const Part& part : parts) {
       all.area += part.area;

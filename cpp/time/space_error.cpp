@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
+#include <utility>
 
+#include "base/blocks.h"
 #include "material/stress.h"
+#include "solver/threads_for.h"
 
 namespace mortier {
 
@@ -11,30 +15,37 @@ namespace {
 
 /// Strain over stress along x, or along the stiffest of four directions where these differ by more than
 /// rounding [1/Pa].
-Vector stiffestCompliance(const Body& body) {
+Vector stiffestCompliance(const Body& body, Threads& threads) {
   constexpr double differs = 1 - 1e-9;
   const Eigen::Vector3d along[] = {{1, 0, 0}, {0, 1, 0}, {0.5, 0.5, 0.5}, {0.5, 0.5, -0.5}};
-  Vector result;
-  for (const Eigen::Vector3d& cartesian : along) {
-    Matrix stress = Matrix::Zero(body.material().components(), body.points());
-    stress.topRows<3>().colwise() = fromCartesian(cartesian);
-    Matrix strain;
-    body.material().elasticStrain(stress, strain);
-    const Vector compliance = (stress.array() * strain.array()).colwise().sum().transpose();
-    if (result.size() == 0) result = compliance;
-    for (Eigen::Index i = 0; i < result.size(); ++i)
-      if (compliance[i] < differs * result[i]) result[i] = compliance[i];
-  }
+  Matrix stress(body.material().components(), body.points());
+  Matrix strain(body.material().components(), body.points());
+  Vector result(body.points());
+  forEachBlock(body.points(), threads, [&](int begin, int end) {
+    auto own = stress.middleCols(begin, end - begin);
+    own.setZero();
+    for (const Eigen::Vector3d& cartesian : along) {
+      own.topRows<3>().colwise() = fromCartesian(cartesian);
+      body.material().elasticStrain(stress, strain, begin, end);
+      for (int i = begin; i < end; ++i) {
+        const double compliance = stress.col(i).dot(strain.col(i));
+        if (&cartesian == along || compliance < differs * result[i]) result[i] = compliance;
+      }
+    }
+  });
   return result;
 }
 
 }  // namespace
 
-SpaceErrorEstimator::SpaceErrorEstimator(const Model& model) : model_(model) {
-  for (const Body& body : model.bodies) {
-    bodies_.emplace_back(body);
-    compliances_.push_back(stiffestCompliance(body));
-  }
+SpaceErrorEstimator::SpaceErrorEstimator(const Model& model, Threads& threads) : model_(model) {
+  std::vector<std::optional<ErrorEstimator>> bodies(model.bodies.size());
+  compliances_.resize(model.bodies.size());
+  threads.forEach(static_cast<int>(model.bodies.size()), [&](int b) {
+    bodies[b].emplace(model.bodies[b], threads);
+    compliances_[b] = stiffestCompliance(model.bodies[b], threads);
+  });
+  for (std::optional<ErrorEstimator>& body : bodies) bodies_.push_back(std::move(*body));
   for (const ContactInterface& interface : model.interfaces) {
     const auto of = [&](const ContactSide& side) {
       return lineOf(model.bodies[side.body].mesh(), side.label);
@@ -80,9 +91,10 @@ SpaceErrorEstimator::Compliance SpaceErrorEstimator::complianceOf(const State& s
   return {elastic, stress > 0 ? elastic + flowed / stress : elastic};
 }
 
-std::vector<ErrorEstimate> SpaceErrorEstimator::operator()(const State& state) const {
-  std::vector<ErrorEstimate> estimates;
-  for (size_t b = 0; b < bodies_.size(); ++b) estimates.push_back(bodies_[b](state.bodies[b].stress));
+std::vector<ErrorEstimate> SpaceErrorEstimator::operator()(const State& state, Threads& threads) const {
+  std::vector<ErrorEstimate> estimates(bodies_.size());
+  threads.forEach(static_cast<int>(bodies_.size()),
+                  [&](int b) { estimates[b] = bodies_[b](state.bodies[b].stress, threads); });
   for (size_t k = 0; k < lines_.size(); ++k) addGaps(k, state, estimates);
   return estimates;
 }
@@ -93,12 +105,20 @@ void CurrentSpaceError::moveTo(const State& state) {
 }
 
 CurrentSpaceError::Estimates CurrentSpaceError::estimates() {
-  if (!estimates_) estimates_ = std::make_shared<const std::vector<ErrorEstimate>>(estimator()(*state_));
+  if (!estimates_) {
+    Threads threads(threadsFor(model_, threads_));
+    estimates_ = std::make_shared<const std::vector<ErrorEstimate>>(estimator(threads)(*state_, threads));
+  }
   return estimates_;
 }
 
-const SpaceErrorEstimator& CurrentSpaceError::estimator() {
-  if (!estimator_) estimator_.emplace(model_);
+double CurrentSpaceError::roundingOf(size_t body, double displacement) {
+  Threads threads(threadsFor(model_, threads_));
+  return estimator(threads).roundingOf(body, displacement, threads);
+}
+
+const SpaceErrorEstimator& CurrentSpaceError::estimator(Threads& threads) {
+  if (!estimator_) estimator_.emplace(model_, threads);
   return *estimator_;
 }
 
@@ -123,17 +143,21 @@ void SpaceErrorEstimator::addGaps(size_t interface, const State& state,
   }
 }
 
-double SpaceErrorEstimator::roundingOf(size_t body, double displacement) const {
+double SpaceErrorEstimator::roundingOf(size_t body, double displacement, Threads& threads) const {
   constexpr double roundings = 4;
   const Body& of = model_.bodies[body];
   const double u = roundings * std::numeric_limits<double>::epsilon() * displacement;
-  Matrix strain;
-  of.material().elasticStrain(Matrix::Ones(of.material().components(), of.points()), strain);
+  const Matrix ones = Matrix::Ones(of.material().components(), of.points());
+  Matrix strain(of.material().components(), of.points());
   const std::vector<Point> places = of.axisymmetric() ? of.places() : std::vector<Point>(of.points());
-  double sum = 0;
-  for (int i = 0; i < of.points(); ++i)
-    sum += of.depthAt(places[i]) * u * u / strain.col(i).cwiseAbs().head<3>().minCoeff();
-  return sum;
+  std::vector<double> sums(blocksOf(of.points()), 0);
+  forEachBlock(of.points(), threads, [&](int begin, int end) {
+    of.material().elasticStrain(ones, strain, begin, end);
+    double& sum = sums[begin / itemsOfBlock];
+    for (int i = begin; i < end; ++i)
+      sum += of.depthAt(places[i]) * u * u / strain.col(i).cwiseAbs().head<3>().minCoeff();
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 }  // namespace mortier

@@ -26,12 +26,13 @@ namespace mortier {
 /// Estimates for a model, which must outlive it.
 class SpaceErrorEstimator {
  public:
-  explicit SpaceErrorEstimator(const Model& model);
+  explicit SpaceErrorEstimator(const Model& model, Threads& threads = Threads::none());
   /// By bodies.
-  [[nodiscard]] std::vector<ErrorEstimate> operator()(const State& state) const;
+  [[nodiscard]] std::vector<ErrorEstimate> operator()(const State& state,
+                                                      Threads& threads = Threads::none()) const;
   /// The energy norm, squared, of the stresses of a body that the rounding of displacements makes: strains of
   /// `displacement` [m] times epsilon over the size of a triangle [J/m].
-  [[nodiscard]] double roundingOf(size_t body, double displacement) const;
+  [[nodiscard]] double roundingOf(size_t body, double displacement, Threads& threads) const;
 
  private:
   /// Where the elements of a line are, and how soft.
@@ -62,16 +63,21 @@ class CurrentSpaceError {
   using Estimates = std::shared_ptr<const std::vector<ErrorEstimate>>;
 
   /// \param model  must outlive it.
-  explicit CurrentSpaceError(const Model& model) : model_(model) {}
+  /// \param threads  at most, that work on estimates
+  explicit CurrentSpaceError(const Model& model, int threads = 1) : model_(model), threads_(threads) {}
   /// \param state  must not change before it is the next one's turn.
   void moveTo(const State& state);
   [[nodiscard]] const State& state() const { return *state_; }
   /// By bodies.
   [[nodiscard]] Estimates estimates();
-  [[nodiscard]] const SpaceErrorEstimator& estimator();
+  /// The energy norm, squared, of what rounding makes of the stresses of a body (SpaceErrorEstimator).
+  [[nodiscard]] double roundingOf(size_t body, double displacement);
 
  private:
+  [[nodiscard]] const SpaceErrorEstimator& estimator(Threads& threads);
+
   const Model& model_;
+  int threads_;
   std::optional<SpaceErrorEstimator> estimator_;  ///< from the first estimate on
   const State* state_ = nullptr;
   Estimates estimates_;  ///< null before they are asked for

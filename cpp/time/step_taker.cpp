@@ -188,15 +188,16 @@ void StepTaker::commit() {
       // The state takes the stress of the last stage, the memory the increments.
       if (last) step.stress.swap(body.stress);
       const Material& material = model_.bodies[b].material();
+      const bool strains = last && !material.linear();
+      Matrix elastic(strains ? step.stress.rows() : 0, strains ? step.stress.cols() : 0);
       forEachBlock(model_.bodies[b].points(), system_.threads(), [&](int begin, int end) {
         const auto part = [&](auto& all) { return all.middleCols(begin, end - begin); };
         part(step.stress) = last ? Matrix(part(body.stress) - part(step.stress))
                                  : Matrix(part(step.stress) - part(body.stress));
-        if (!last || material.linear()) return;
+        if (!strains) return;
         // What the elastic part leaves of the strain of the step.
-        Matrix elastic;
-        material.elasticStrain(part(step.stress), elastic);
-        part(body.viscoplasticStrain) += part(step.strain) - elastic;
+        material.elasticStrain(step.stress, elastic, begin, end);
+        part(body.viscoplasticStrain) += part(step.strain) - part(elastic);
         if (!shift_.empty()) part(body.viscoplasticStrain) += part(shift_[b]);
       });
       increments.push_back({std::move(step.increment), std::move(step.stress)});

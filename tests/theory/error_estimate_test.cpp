@@ -62,6 +62,21 @@ TEST(ErrorEstimate, stressesMayJumpBetweenRegions) {
   EXPECT_GT(ErrorEstimator(whole)(stress).relative(), 0.1);
 }
 
+TEST(ErrorEstimate, threadsChangeNothing) {
+  TriangleMesh mesh = square(0, 60);  // some blocks
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) mesh.regions[t] = t < 5000 ? 1 : 2;
+  for (const int degree : {1, 2}) {
+    const Body body("block", mesh, elasticMaterial(unit), {}, degree);
+    const Matrix stress = Matrix::Random(3, body.points());
+    const ErrorEstimate one = ErrorEstimator(body)(stress);
+    for (const int count : {2, 5}) {
+      Threads threads(count);
+      const ErrorEstimate many = ErrorEstimator(body, threads)(stress, threads);
+      EXPECT_TRUE(many.error == one.error && many.energy == one.energy) << count << " threads";
+    }
+  }
+}
+
 TEST(ErrorEstimate, nothingIsEstimatedWithoutStress) {
   const Body body = block(square(0, 2));
   EXPECT_EQ(ErrorEstimator(body)(Matrix::Zero(3, body.points())).relative(), 0);

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <random>
 
+#include "linear/elimination.h"
 #include "unit/dense_reference.h"
 
 namespace mortier {
@@ -79,6 +80,18 @@ struct Grid {
     return y;
   }
 };
+
+TEST(Elimination, ordersAsideAreThoseInThisProcess) {
+  constexpr int side = 120;  // worth a process
+  std::mt19937 random(5);
+  const Grid system(random, side, true);
+  const std::vector<int> kept{0, 7, side};
+  const std::vector<int> order = analyse(system.pattern, kept).order;
+  Threads threads(3);
+  std::vector<std::vector<int>> orders(6);
+  threads.forEach(6, [&](int i) { orders[i] = analyse(system.pattern, kept, i % 3 > 0).order; });
+  for (const std::vector<int>& each : orders) EXPECT_EQ(each, order);
+}
 
 // The tree is the same, so is the order of every sum: no bit depends on the number of threads.
 TEST(CondensingSolver, threadsChangeNothing) {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <random>
 #include <stdexcept>
+#include <thread>
 
 namespace mortier {
 namespace {
@@ -82,6 +83,31 @@ TEST(Threads, callersHelpWithTheItemsOfTheirItems) {
       });
     });
     EXPECT_TRUE(met);
+  }
+}
+
+TEST(Threads, theFirstOfSeveralExceptionsComesOut) {
+  for (const int count : {1, 2, 4}) {
+    Threads threads(count);
+    for (int repetition = 0; repetition < 20; ++repetition) {
+      int first = -1;
+      std::atomic<bool> laterOneBegun = count == 1;
+      try {
+        threads.forEach(20, [&](int i) {
+          if (i < 3) return;
+          const bool isFirst = i == 3;
+          if (isFirst)
+            while (!laterOneBegun) std::this_thread::yield();
+          else
+            laterOneBegun = true;
+          if (isFirst == (repetition % 2 == 0)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+          throw i;
+        });
+      } catch (const int item) {
+        first = item;
+      }
+      EXPECT_EQ(first, 3);
+    }
   }
 }
 

@@ -4,8 +4,11 @@
 
 #include <cmath>
 
+#include "base/blocks.h"
 #include "material/interior_path.h"
+#include "time/march.h"
 #include "unit/one_point.h"
+#include "unit/plate.h"
 
 namespace mortier {
 namespace {
@@ -168,6 +171,37 @@ TEST(Parts, interiorPathIsThatOfEachPart) {
   EXPECT_DOUBLE_EQ(largest, expectedLargest);
   EXPECT_NEAR(path->complementarity(), complementarity, 1e-14);
   EXPECT_FALSE(materialOfParts({materials[0], elasticMaterial(hard)}, {0, 1})->interiorPath(0.1, stress0));
+}
+
+// What a step commits and reports is taken by blocks of points.
+TEST(Parts, statesAndReportsMeetTheMaterialOfEveryBlock) {
+  Conditions conditions;
+  conditions.displacements = {{left, alongX, constant(0)}, {bottom, alongY, constant(0)}};
+  conditions.tractions = {{top, alongY, [](double x, double, double t) { return (4 + x) * t; }}};
+  const TriangleMesh mesh = crissCrossMesh({.cellsX = 30, .cellsY = 30});
+  const auto triangles = static_cast<int>(mesh.triangles.size());
+  ASSERT_GT(triangles, itemsOfBlock);
+  std::vector<int> of(triangles, 1);
+  std::fill(of.begin() + triangles / 2, of.end(), 2);
+  Model model;
+  model.bodies.emplace_back("square", mesh, materialOfParts(three(), of), conditions);
+  State state = initialState(model);
+  StepReport last;
+  march(model, state, {1, 3, Scheme::backwardEuler}, {},
+        [&](const State&, const StepReport& report) { last = report; });
+  ASSERT_EQ(last.step, 3);
+  EXPECT_GT(last.viscoplasticFraction, 0.5);
+
+  const Body& body = model.bodies[0];
+  const auto& [displacement, stress, viscoplasticStrain, work, thermalStrain] = state.bodies[0];
+  Matrix strain(3, body.points());
+  body.strain({displacement, Vector::Zero(displacement.size())}, nullptr, strain, 0, body.points());
+  const Matrix elastic = elasticOf(body.material(), stress);
+  EXPECT_LE((elastic + viscoplasticStrain - strain).cwiseAbs().maxCoeff(),
+            1e-11 * strain.cwiseAbs().maxCoeff());
+  double energy = 0;
+  for (int i = 0; i < body.points(); ++i) energy += body.weights()[i] / 2 * stress.col(i).dot(elastic.col(i));
+  EXPECT_NEAR(last.energy, energy, 1e-12 * energy);
 }
 
 }  // namespace
