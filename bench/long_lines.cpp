@@ -1,10 +1,14 @@
 // Contact of long thin strips without dense matrices over the contact conditions, and with them.
 //   long_lines NODES          a strip of two layers in waves of contact, about 4 triangles a node:
 //                              time and peak memory of the process (with dense matrices: `dense` after it)
-//   long_lines random COUNT   random lines (tests/theory/random_line.h) both ways, and how far apart
-//   long_lines threshold      both ways for growing strips and squares
+//   long_lines random COUNT FIRST   random lines (tests/theory/random_line.h) both ways, and how far apart
+//   long_lines threshold      processor time and peak memory of both ways for strips of growing thickness
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -60,60 +64,85 @@ void one(int nodes, bool dense) {
               worst.sign, worst.complementarity);
 }
 
-void randomLines(int count) {
+void randomLines(int first, int count, int most) {
   double force = 0;
   double displacement = 0;
   int apart = 0;
   int otherEnd = 0;
-  for (int seed = 0; seed < count; ++seed) {
-    const RandomLine line = randomLine(static_cast<unsigned>(seed), 40);
+  int unsolved = 0;
+  int usual = 0;  // dense with the usual tolerance
+  for (int seed = first; seed < first + count; ++seed) {
+    const RandomLine line = randomLine(static_cast<unsigned>(seed), most);
     const Difference difference = denseAndSparse(line);
     otherEnd += difference.sameEnd ? 0 : 1;
-    const double most = std::max(difference.force, difference.displacement);
-    apart += most > 1e-10 ? 1 : 0;
-    if (most > 1e-10 || !difference.sameEnd)
+    const Difference loose =
+        differenceOf(runLine(line, denseContact(1e-10)), runLine(line, denseContact(1e-13)));
+    usual += std::max(loose.force, loose.displacement) > 1e-10 ? 1 : 0;
+    unsolved += difference.sameEnd && !difference.converged ? 1 : 0;
+    const double larger = std::max(difference.force, difference.displacement);
+    apart += larger > 1e-10 ? 1 : 0;
+    if (larger > 1e-10 || !difference.sameEnd)
       std::printf("  seed %d: %s: force %.1e, displacement %.1e%s\n", seed, line.words.c_str(),
                   difference.force, difference.displacement, difference.sameEnd ? "" : ", another end");
     force = std::max(force, difference.force);
     displacement = std::max(displacement, difference.displacement);
   }
   std::printf(
-      "%d random lines: forces agree to %.1e, displacements to %.1e; %d beyond 1e-10, %d end otherwise\n",
-      count, force, displacement, apart, otherEnd);
+      "%d random lines: forces agree to %.1e, displacements to %.1e; %d beyond 1e-10, %d end otherwise, %d "
+      "are solved by neither; dense with the usual tolerance: %d beyond 1e-10\n",
+      count, force, displacement, apart, otherEnd, unsolved, usual);
+}
+
+struct Cost {
+  double seconds = INFINITY;  ///< of processor time
+  double mebibytes = 0;
+};
+
+/// Of a process of its own, the least time of several.
+template <class Work>
+Cost costOf(int times, Work work) {
+  Cost cost;
+  for (int i = 0; i < times; ++i) {
+    const pid_t child = fork();
+    if (child == 0) {
+      work();
+      _exit(0);
+    }
+    int status = 0;
+    rusage usage{};
+    wait4(child, &status, 0, &usage);
+    const auto seconds = [](const timeval& t) {
+      return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    cost.seconds = std::min(cost.seconds, seconds(usage.ru_utime));
+    cost.mebibytes = static_cast<double>(usage.ru_maxrss) / 1024;
+  }
+  return cost;
 }
 
 void threshold() {
-  std::printf("%10s %8s %10s %12s %10s %10s\n", "conditions", "layers", "equations", "n^2/equation", "dense",
-              "sparse");
-  for (const auto& [nodes, layers] : std::initializer_list<std::pair<int, int>>{{50, 1},
-                                                                                {100, 1},
-                                                                                {200, 1},
-                                                                                {400, 1},
-                                                                                {800, 1},
-                                                                                {100, 4},
-                                                                                {200, 4},
-                                                                                {400, 4},
-                                                                                {800, 4},
-                                                                                {100, 32},
-                                                                                {200, 32},
-                                                                                {400, 32},
-                                                                                {100, 100},
-                                                                                {200, 200}}) {
-    const Model model = strip(nodes, layers, elasticMaterial({100, 0.3}));
-    SolverOptions options;
-    const double n = model.interfaces[0].rows();
-    const double equations = model.bodies[0].freeDofs() + model.bodies[1].freeDofs();
-    double seconds[2];
-    for (const bool dense : {true, false}) {
-      options.denseEntries = dense ? 1e300 : 0;
-      std::vector<double> times;
-      for (int i = 0; i < 3; ++i) times.push_back(bench::secondsOf([&] { run(model, 1, 1, options); }));
-      seconds[dense ? 0 : 1] = bench::median(times);
+  std::printf("%10s %8s %10s %12s %22s %22s\n", "conditions", "layers", "equations", "n^2/equation",
+              "dense [s, MiB]", "sparse [s, MiB]");
+  for (const int layers : {1, 4, 16, 64, 200})
+    for (const int nodes : {50, 100, 200, 400, 800, 1600}) {
+      if (nodes * layers > 50000 || layers > nodes) continue;
+      const auto material = elasticMaterial({100, 0.3});
+      const Model model = strip(nodes, layers, material);
+      const double n = model.interfaces[0].rows();
+      const double equations = model.bodies[0].freeDofs() + model.bodies[1].freeDofs();
+      const auto runIt = [&](double denseEntries) {
+        return costOf(nodes * layers > 10000 ? 3 : 5, [&] {
+          SolverOptions options;
+          options.denseEntries = denseEntries;
+          run(model, 1, 1, options);
+        });
+      };
+      const Cost dense = runIt(INFINITY);
+      const Cost sparse = runIt(0);
+      std::printf("%10.0f %8d %10.0f %12.1f %12.3f %9.0f %12.3f %9.0f\n", n, layers, equations,
+                  n * n / equations, dense.seconds, dense.mebibytes, sparse.seconds, sparse.mebibytes);
+      std::fflush(stdout);
     }
-    std::printf("%10.0f %8d %10.0f %12.1f %9.3fs %9.3fs\n", n, layers, equations, n * n / equations,
-                seconds[0], seconds[1]);
-    std::fflush(stdout);
-  }
 }
 
 }  // namespace
@@ -123,7 +152,7 @@ int main(int argc, char** argv) {
   if (what == "threshold")
     threshold();
   else if (what == "random")
-    randomLines(argc > 2 ? std::atoi(argv[2]) : 1000);
+    randomLines(argc > 3 ? std::atoi(argv[3]) : 0, argc > 2 ? std::atoi(argv[2]) : 1000, 40);
   else
     one(std::atoi(what.c_str()), argc > 2 && std::strcmp(argv[2], "dense") == 0);
   return 0;

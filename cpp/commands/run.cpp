@@ -115,7 +115,9 @@ int run(RunCommand command) {
   const double endTime = attempt->resolved.description.time.end;
   Log log(command.quiet, endTime);
   Log rows(command.quiet || rounds, endTime);
-  log.print("memory     " + aboutMemory(memoryNeed(*attempt->model, attempt->resolved.description.solver)) +
+  const MemoryNeed need = memoryNeed(*attempt->model, attempt->resolved.description.solver);
+  const std::string part = anyRough(*attempt->model) ? forFriction(need) : "";
+  log.print("memory     " + aboutMemory(need.all) + (part.empty() ? "" : ", " + part) +
             (rounds ? ", first meshes\n" : "\n"));
   if (alone) log.print("ranks      the first one alone: " + attempt->alone + "\n");
   log.print(logHeader(attempt->facts, *attempt->model));

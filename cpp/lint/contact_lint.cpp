@@ -257,9 +257,9 @@ void lintContacts(const LintInput& input, Faults& faults) {
     compareStiffness(input, contact, one, two, faults);
     const ContactPair pair{{0, contact.nonmortar.label}, {1, contact.mortar.label}, contact.variant};
     checkFriction(contact, faults);
-    if (memoryNeed({one.mesh, two.mesh}, {pair}, input.scene.degree, {contact.friction.any()},
-                   input.scene.solver) > availableMemory())
-      continue;  // buildModel tells
+    const MemoryNeed need = memoryNeed({one.mesh, two.mesh}, {pair}, input.scene.degree,
+                                       {contact.friction.any()}, input.scene.solver);
+    if (need.all > availableMemory()) continue;  // buildModel tells
     try {
       const ContactInterface interface = interfaceOf(contact, one, two, false);
       checkInterface(contact, one, two, interface, std::min(extent(*one.mesh), extent(*two.mesh)),

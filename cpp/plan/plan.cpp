@@ -142,14 +142,16 @@ class Planner {
   }
 
   void planMemory() {
-    SolverOptions dense = scene_.solver;
-    dense.denseEntries = std::numeric_limits<double>::infinity();
-    const bool sparse = solvesSparse(model_, scene_.solver);
-    add("scene", true, aboutMemory(memoryNeed(model_, scene_.solver)) + " of memory",
-        sparse
-            ? "contact in one sparse matrix with the bodies; dense ones over the contact nodes would take " +
-                  aboutMemory(memoryNeed(model_, dense)).substr(6)
-            : "factors of the bodies, and dense matrices over the contact nodes");
+    SolverOptions options = scene_.solver;
+    const MemoryNeed need = memoryNeed(model_, options);
+    const std::string part = anyRough(model_) ? forFriction(need) : "";
+    std::string why = "factors of the bodies, and dense matrices over the contact nodes";
+    if (solvesSparse(model_, options)) {
+      options.denseEntries = std::numeric_limits<double>::infinity();
+      why = "contact in one sparse matrix with the bodies; dense ones over the contact nodes would take " +
+            aboutMemory(memoryNeed(model_, options).all).substr(6);
+    }
+    add("scene", true, aboutMemory(need.all) + " of memory", part.empty() ? why : part);
   }
 
   void planTime() {

@@ -41,8 +41,8 @@ double needOf(size_t nodes) {
 
 }  // namespace
 
-double memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs,
-                  int degree, const std::vector<bool>& rough, const SolverOptions& options) {
+MemoryNeed memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs,
+                      int degree, const std::vector<bool>& rough, const SolverOptions& options) {
   constexpr double ofALongLine = 400;
   constexpr double program = 12 << 17;  // in 8 bytes: code and libraries, 12 MiB
   double need = program;
@@ -67,7 +67,7 @@ double memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vec
   }
   const bool friction = std::find(rough.begin(), rough.end(), true) != rough.end();
   if (solvesSparse(conditions, equations, friction, options))
-    return sizeof(double) * (need + ofALongLine * conditions);
+    return {sizeof(double) * (need + ofALongLine * conditions), 0};
   double solving = conditions * conditions;
   double largest = 0;
   for (const double m : dofs) {
@@ -75,10 +75,10 @@ double memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vec
     largest = std::max(largest, m * m);
   }
   solving += std::max(conditions * conditions, largest);
-  return sizeof(double) * (need + solving);
+  return {sizeof(double) * (need + solving), sizeof(double) * solving};
 }
 
-double memoryNeed(const Model& model, const SolverOptions& options) {
+MemoryNeed memoryNeed(const Model& model, const SolverOptions& options) {
   std::vector<const TriangleMesh*> meshes;
   for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
   std::vector<ContactPair> pairs;
@@ -88,6 +88,12 @@ double memoryNeed(const Model& model, const SolverOptions& options) {
     rough.push_back(interface.rough());
   }
   return memoryNeed(meshes, pairs, model.bodies.front().degree(), rough, options);
+}
+
+std::string forFriction(const MemoryNeed& need) {
+  constexpr double worthTelling = 0.5;
+  if (need.dense < worthTelling * need.all) return "";
+  return aboutMemory(need.dense) + " of it for the dense matrices that friction needs";
 }
 
 double availableMemory() {
@@ -115,11 +121,14 @@ std::string aboutMemory(double bytes) {
 
 void requireMemory(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs,
                    int degree, const std::vector<bool>& rough, const SolverOptions& options) {
-  const double need = memoryNeed(meshes, pairs, degree, rough, options);
+  const MemoryNeed need = memoryNeed(meshes, pairs, degree, rough, options);
   const double available = availableMemory();
-  if (need <= available) return;
-  throw FaultError("the run needs " + aboutMemory(need) + " of memory, expected at most the " +
-                       aboutMemory(available).substr(6) + " that are available",
+  if (need.all <= available) return;
+  const bool friction = std::find(rough.begin(), rough.end(), true) != rough.end();
+  const std::string part = friction ? forFriction(need) : "";
+  throw FaultError("the run needs " + aboutMemory(need.all) + " of memory, expected at most the " +
+                       aboutMemory(available).substr(6) + " that are available" +
+                       (part.empty() ? "" : "; " + part),
                    "memory");
 }
 

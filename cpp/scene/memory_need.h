@@ -16,12 +16,21 @@
 
 namespace mortier {
 
-/// \param meshes  of all bodies; \param degree  of the displacements; \param rough  which pairs have
-/// friction, none where empty. \returns the peak [bytes]; within a factor of two of what runs take.
-double memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs,
-                  int degree, const std::vector<bool>& rough = {}, const SolverOptions& options = {});
+struct MemoryNeed {
+  double all = 0;    ///< the peak [bytes]; within a factor of two of what runs take
+  double dense = 0;  ///< of it, dense matrices over the contact conditions [bytes]
+};
 
-double memoryNeed(const Model& model, const SolverOptions& options = {});
+/// \param meshes  of all bodies; \param degree  of the displacements; \param rough  which pairs have
+/// friction, none where empty.
+MemoryNeed memoryNeed(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs,
+                      int degree, const std::vector<bool>& rough = {}, const SolverOptions& options = {});
+
+MemoryNeed memoryNeed(const Model& model, const SolverOptions& options = {});
+
+/// "about 45.7 GiB of it for the dense matrices that friction needs", of a run with friction; empty where
+/// other things take more.
+std::string forFriction(const MemoryNeed& need);
 
 /// What the machine and the limits of the process leave [bytes]; infinity where nothing tells.
 double availableMemory();

@@ -133,4 +133,19 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
   return result;
 }
 
+double StepSystem::opened(const Step& step, const Iterate& iterate) const {
+  if (rough()) return 0;
+  const Vector compliance = sparse() ? sparse_->compliance() : Vector(contact_.W.diagonal());
+  const std::vector<Vector> gap = gaps(model_, step.state0, iterate);
+  double largest = 0;
+  double force = 0;
+  for (size_t k = 0; k < gap.size(); ++k)
+    for (Eigen::Index i = 0; i < gap[k].size(); ++i) {
+      if (iterate.active[k][i] == 0) continue;
+      largest = std::max(largest, std::abs(gap[k][i]) / compliance[firstRow_[k] + i]);
+      force = std::max(force, iterate.contactForce[k][i]);
+    }
+  return force > 0 ? largest / force : 0;
+}
+
 }  // namespace mortier

@@ -20,9 +20,8 @@ ContactSolution StepSystem::Condensed::solveContact() const {
 ContactSolution StepSystem::Condensed::solveSparse() const {
   Vector motion;
   SparseContact& matrix = *system_->sparse_;
-  const Vector F = system_->gathered(force) + matrix.C().transpose() * p0;
-  ContactSolution solution =
-      mortier::solveSparse(matrix, system_->contact_, F, slack, p0, balance, active, motion);
+  ContactSolution solution = mortier::solveSparse(matrix, system_->contact_, system_->gathered(force), slack,
+                                                  p0, balance, active, motion);
   system_->special_.idle = std::max(system_->special_.idle, solution.idle);
   if (solution.outcome != ContactSolution::Outcome::solved) return solution;
   solution.motion = system_->spread(motion, solution.rigid);
@@ -62,7 +61,8 @@ std::vector<Response> StepSystem::respondSparse(const std::vector<Matrix>& error
   sparse_->setSprings(contact_.proximal);
   const Vector none = Vector::Zero(contact_.G.cols());
   SparseContact::Solution held{Vector::Zero(sparse_->firstEquation().back()), none, {}};
-  if (sparse_->factorise(active)) held = sparse_->solve(gathered(force), Vector::Zero(rows()), none, true);
+  const Vector zero = Vector::Zero(rows());
+  if (sparse_->factorise(active)) held = sparse_->solve(gathered(force), zero, zero, none, true);
   const std::vector<Vector> displacement = spread(held.motion, held.rigid);
   forEachBody([&](int b) {
     Response& response = responses[b];

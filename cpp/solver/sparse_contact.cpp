@@ -272,8 +272,8 @@ Vector SparseContact::stiffnessTimes(const Vector& d) const {
   return f;
 }
 
-SparseContact::Solution SparseContact::solve(const Vector& F, const Vector& slack, const Vector& anchors,
-                                             bool exact) const {
+SparseContact::Solution SparseContact::solve(const Vector& force, const Vector& p0, const Vector& slack,
+                                             const Vector& anchors, bool exact) const {
   constexpr int repetitions = 40;
   const double enough = exact ? 4 * std::numeric_limits<double>::epsilon() : 1e-6;
   const Eigen::Index n = first_.back();
@@ -283,7 +283,9 @@ SparseContact::Solution SparseContact::solve(const Vector& F, const Vector& slac
     if (active_[i] != 0) x[n + i] = slack[i];
   Vector q = Vector::Zero(rows);
   Solution solution;
-  solution.force = Vector::Zero(rows);
+  solution.change = Vector::Zero(rows);
+  for (Eigen::Index i = 0; i < rows; ++i)
+    if (active_[i] == 0) solution.change[i] = -p0[i];
   solution.rigid = Vector::Zero(motions_.cols());
   const double given = slack.size() > 0 ? slack.cwiseAbs().maxCoeff() : 0;
   const Matrix motionsAcross = C_ * motions_;
@@ -293,12 +295,11 @@ SparseContact::Solution SparseContact::solve(const Vector& F, const Vector& slac
     stopIfInterrupted();
     const Vector off = -(E_ * x) - motionsInRows_ * solution.rigid;
     Vector step = E_.transpose() * Vector(penalty_.cwiseProduct(off) - q);
-    step.head(n) += F - stiffnessTimes(x.head(n));
+    step.head(n) += force - stiffnessTimes(x.head(n));
     const Vector stretch = anchors - springMotions_ * solution.rigid;
     for (size_t k = 0; k < springs_.size(); ++k)
       step[springs_[k]] += springWeight_ * diagonal_[springs_[k]] * stretch[static_cast<Eigen::Index>(k)];
-    for (Eigen::Index i = 0; i < rows; ++i)
-      if (active_[i] != 0) step[n + i] = 0;
+    for (Eigen::Index i = 0; i < rows; ++i) step[n + i] = active_[i] != 0 ? 0 : step[n + i] + p0[i];
     solver_->condense(step);
     solver_->expand(step);
     const Vector dq = penalty_.cwiseProduct(E_ * step - off);
@@ -314,14 +315,14 @@ SparseContact::Solution SparseContact::solve(const Vector& F, const Vector& slac
     Vector dp = T_.transpose() * dq;
     for (Eigen::Index i = 0; i < rows; ++i)
       if (active_[i] == 0) dp[i] = 0;
-    solution.force += dp;
+    solution.change += dp;
     const auto largest = [](const Vector& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0; };
     solution.forceNoise = largest(dp);
     solution.motionNoise = largest(moved);
     const auto part = [](double a, double b) { return a == 0 ? 0 : a / b; };
     const double length = given + largest(x.head(n)) + largest(motionsAcross * solution.rigid);
-    const double change =
-        part(solution.forceNoise, largest(solution.force)) + part(solution.motionNoise, length);
+    const double change = part(solution.forceNoise, largest(p0) + largest(p0 + solution.change)) +
+                          part(solution.motionNoise, length);
     if (!(change < before / 2)) ++stalled;
     if (!(change > enough) || stalled > 2) break;
     before = std::min(before, change);

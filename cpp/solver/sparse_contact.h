@@ -29,6 +29,7 @@ class SparseContact {
 
   /// Takes the tangents of the bodies.
   void take(const std::vector<CondensedBody>& bodies);
+  [[nodiscard]] bool taken() const { return !K_.empty(); }
   /// Factors of H for a set of closed conditions, unless they are there. \returns false where it is singular.
   bool factorise(const std::vector<char>& active);
   /// Uses CHOLMOD or UMFPACK from now on.
@@ -37,13 +38,14 @@ class SparseContact {
   struct Solution {
     Vector motion;           ///< d without the rigid motions that the springs see, by equations
     Vector rigid;            ///< these
-    Vector force;            ///< p
-    double forceNoise = 0;   ///< the last correction of p
+    Vector change;           ///< dp, of closed conditions and of those that are not: p = 0 there
+    double forceNoise = 0;   ///< the last correction of it
     double motionNoise = 0;  ///< and of C d
   };
-  /// On the set that was factorised. \param anchors  where the springs on rigid motions pull to.
-  /// \param exact  to rounding, or only so far that signs can be told.
-  [[nodiscard]] Solution solve(const Vector& F, const Vector& slack, const Vector& anchors, bool exact) const;
+  /// On the set that was factorised. \param force  F - C' p0. \param anchors  where the springs on rigid
+  /// motions pull to. \param exact  to rounding, or only so far that signs can be told.
+  [[nodiscard]] Solution solve(const Vector& force, const Vector& p0, const Vector& slack,
+                               const Vector& anchors, bool exact) const;
 
   /// C: conditions x equations of all bodies.
   [[nodiscard]] const Eigen::SparseMatrix<double, Eigen::RowMajor>& C() const { return C_; }

@@ -17,10 +17,10 @@ constexpr double softest = 1e-13;
 class SparseSets final : public ContactSets {
  public:
   SparseSets(SparseContact& matrix, const ContactProblem& problem, const std::vector<char>& idle,
-             const Vector& F, const Vector& slack, const Vector& p0, const Vector& balance)
+             const Vector& force, const Vector& slack, const Vector& p0, const Vector& balance)
       : ContactSets(problem, idle, matrix.compliance(), slack, p0, balance),
         matrix_(matrix),
-        F_(F),
+        force_(force),
         anchors_(Vector::Zero(balance.size())) {
     if (balance.size() == 0) return;
     weight_ = problem.proximal;
@@ -45,8 +45,8 @@ class SparseSets final : public ContactSets {
     --pivotsLeft_;
     if (!take(solution.active)) return false;
     exact_ = solution.active == last_;
-    solved_ = matrix_.solve(F_, slack_, anchors_, exact_);
-    solution.change = solved_.force - p0_;
+    solved_ = matrix_.solve(force_, p0_, slack_, anchors_, exact_);
+    solution.change = solved_.change;
     solution.rigid = solved_.rigid;
     open_ = slack_ - matrix_.C() * solved_.motion;
     if (anchors_.size() > 0) open_ -= problem_.G * solved_.rigid;
@@ -65,8 +65,8 @@ class SparseSets final : public ContactSets {
     if (!take(solution.active)) return false;
     const Vector load = -matrix_.C().row(condition).transpose();
     const Vector zero = Vector::Zero(slack_.size());
-    const SparseContact::Solution rate = matrix_.solve(load, zero, Vector::Zero(anchors_.size()), true);
-    growth.force = rate.force;
+    const SparseContact::Solution rate = matrix_.solve(load, zero, zero, Vector::Zero(anchors_.size()), true);
+    growth.force = rate.change;
     growth.force[condition] = 1;
     growth.slack = -(matrix_.C() * rate.motion);
     if (anchors_.size() > 0) growth.slack -= problem_.G * rate.rigid;
@@ -104,7 +104,7 @@ class SparseSets final : public ContactSets {
   [[nodiscard]] Noise noise(const ContactSolution& solution) const override {
     // Forces beside those that are there; slacks beside the motions whose differences they are.
     constexpr double corrections = 4;
-    const double force = std::max(p0_.cwiseAbs().maxCoeff(), solved_.force.cwiseAbs().maxCoeff());
+    const double force = std::max(p0_.cwiseAbs().maxCoeff(), (p0_ + solved_.change).cwiseAbs().maxCoeff());
     double length = slack_.cwiseAbs().maxCoeff() + (slack_ - open_).cwiseAbs().maxCoeff();
     length = std::max(rounding * length, corrections * solved_.motionNoise);
     for (Eigen::Index i = 0; i < open_.size(); ++i)
@@ -114,7 +114,7 @@ class SparseSets final : public ContactSets {
   }
 
   SparseContact& matrix_;
-  const Vector& F_;
+  const Vector& force_;
   Vector anchors_;
   double weight_ = 0;
   double weakest_ = softest;
@@ -153,7 +153,7 @@ std::vector<char> startingSet(SparseSets& contact, const std::vector<char>& acti
 
 }  // namespace
 
-ContactSolution solveSparse(SparseContact& matrix, const ContactProblem& problem, const Vector& F,
+ContactSolution solveSparse(SparseContact& matrix, const ContactProblem& problem, const Vector& force,
                             const Vector& fullSlack, const Vector& p0, const Vector& balance,
                             std::vector<char> active, Vector& motion) {
   Vector slack = fullSlack;
@@ -162,7 +162,7 @@ ContactSolution solveSparse(SparseContact& matrix, const ContactProblem& problem
   for (size_t i = 0; i < idle.size(); ++i)
     if (idle[i] != 0) active[i] = 0;
   const int before = matrix.factorisations();
-  SparseSets contact(matrix, problem, idle, F, slack, p0, balance);
+  SparseSets contact(matrix, problem, idle, force, slack, p0, balance);
   ContactSolution solution = solveBalanced(contact, startingSet(contact, active));
   solution.idle = static_cast<int>(std::count(idle.begin(), idle.end(), 1));
   solution.work = matrix.factorisations() - before;

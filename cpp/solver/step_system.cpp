@@ -166,7 +166,8 @@ std::optional<StepSystem::Factorised> StepSystem::Linearised::factorise(StepOutc
   std::vector<CondensedBody::Factors> factors(bodies.size());
   system_->forEachBody([&](int b) { factors[b] = bodies[b].factorise(); });
   for (size_t b = 0; b < bodies.size() && system_->model_.inParts(); ++b) bodies[b].join(factors[b]);
-  bool changed = !system_->sparse() && contact.W.rows() != system_->conditions();
+  // After a restart there is neither yet, though factors were counted before it.
+  bool changed = system_->sparse() ? !system_->sparse_->taken() : contact.W.rows() != system_->conditions();
   bool regular = true;
   for (const CondensedBody::Factors& body : factors) {
     if (!body.failure.empty()) regular = outcome.fail(Reason::singular, body.failure);

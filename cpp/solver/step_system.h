@@ -77,6 +77,10 @@ class StepSystem {
   /// Collective.
   [[nodiscard]] Certificate certify(const Step& step, const Iterate& iterate, double materialResidual) const;
 
+  /// What the rounding of the last linear solve left of the gaps of closed conditions, each as the force that
+  /// would close it by itself, over the largest contact force; 0 with friction [-].
+  [[nodiscard]] double opened(const Step& step, const Iterate& iterate) const;
+
   /// Where an iterate is further off the law than a converged step may be; none where it is so nowhere.
   std::optional<StuckPlace> furthest(const Step& step, Iterate& iterate, double weight);
 

@@ -79,13 +79,21 @@ class MemoryNeed(InFolder):
             resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))
 
         expected = (r"scene.toml:12: contact: the run needs about 45.8 GiB of memory, "
-                    r"expected at most the \S+ GiB that are available")
+                    r"expected at most the \S+ GiB that are available; "
+                    r"about 45.\d GiB of it for the dense matrices that friction needs\n")
         self.assertRegex(self.mortier("run", "scene.toml", "--out", "out", code=2, preexec_fn=limit).stderr,
                          expected)
         self.assertFalse((self.folder / "out").exists())
         check = mortier("check", "scene.toml", cwd=self.folder, preexec_fn=limit)
         self.assertEqual(check.returncode, 2, check.stderr)
         self.assertIn("needs about 45.8 GiB", check.stdout)
+
+    def test_friction_is_told_as_what_takes_the_memory(self):
+        self.strips(1000, "friction = 0.3\n")
+        part = r"about (\d+) MiB of it for the dense matrices that friction needs"
+        self.assertRegex(self.mortier("check", "scene.toml").stdout, part)
+        self.assertRegex(self.mortier("run", "scene.toml", "--out", "out").stdout,
+                         r"(?m)^memory +about \d+ MiB, " + part)
 
 
 if __name__ == "__main__":
