@@ -148,7 +148,9 @@ class MpiRanks final : public Ranks {
   void wait(MPI_Request request) {
     const std::chrono::milliseconds patience(deaf_ ? 5000 : 200);
     constexpr std::chrono::milliseconds soon(5);  // who waits longer waits for the work of others, in meet()
-    constexpr std::chrono::microseconds pause(50);
+    constexpr std::chrono::nanoseconds shortest(50000);
+    constexpr std::chrono::nanoseconds longest(5000000);
+    constexpr int part = 100;  // of the time that it has waited
     const auto begin = std::chrono::steady_clock::now();
     auto asked = std::chrono::steady_clock::time_point::max();
     for (int done = 0;;) {
@@ -163,7 +165,8 @@ class MpiRanks final : public Ranks {
       if (now - begin < soon)
         std::this_thread::yield();
       else
-        std::this_thread::sleep_for(pause);
+        std::this_thread::sleep_for(
+            std::clamp<std::chrono::nanoseconds>((now - begin) / part, shortest, longest));
     }
   }
 
