@@ -1,7 +1,6 @@
 #include "commands/solve_rounds.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <new>
 #include <utility>
