@@ -77,10 +77,21 @@ class MpiRanks final : public Ranks {
         const auto failed = [](int each) { return each > ended; };
         tells = std::find_if(standing.begin(), standing.end(), failed) - standing.begin() == rank_;
       }
-      finish();
     } catch (const Interrupted&) {  // some no longer answer
     }
+    if (errors_ >= 0) dup2(errors_, STDERR_FILENO);
     return tells && !peerEnded_;
+  }
+
+  void leave() override {
+    if (lost_) return;
+    try {
+      MPI_Request request = MPI_REQUEST_NULL;
+      MPI_Ibarrier(MPI_COMM_WORLD, &request);
+      wait(request);
+      MPI_Finalize();
+    } catch (const Interrupted&) {  // some no longer answer
+    }
   }
 
   bool interrupt() noexcept override {
@@ -102,15 +113,6 @@ class MpiRanks final : public Ranks {
     dup2(nowhere, STDOUT_FILENO);
     dup2(nowhere, STDERR_FILENO);
     close(nowhere);
-  }
-
-  void finish() {
-    if (errors_ >= 0) dup2(errors_, STDERR_FILENO);
-    if (lost_) return;
-    MPI_Request request = MPI_REQUEST_NULL;
-    MPI_Ibarrier(MPI_COMM_WORLD, &request);  // mpirun ends those that are not ready when one fails
-    wait(request);
-    MPI_Finalize();
   }
 
   void reduce(double* values, size_t count, MPI_Op operation) {
