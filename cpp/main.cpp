@@ -235,6 +235,7 @@ int dispatch(int argc, char** argv) {
 
 int complainOf(const std::string& text, int code) {
   if (Ranks::all().end(code)) complain(text);
+  Ranks::all().leave();
   return code;
 }
 }  // namespace
@@ -249,6 +250,7 @@ int main(int argc, char** argv) {
     const int code = dispatch(argc, argv);
     finishStandardOutput();
     static_cast<void>(Ranks::all().end(code));  // it has told why
+    Ranks::all().leave();
     return code;
   } catch (const InputError& error) {
     return complainOf(error.what(), exitWrongInput);

@@ -62,6 +62,8 @@ class Ranks {
   virtual bool answer() noexcept { return true; }
   /// Values that were sent and received so far [bytes].
   [[nodiscard]] virtual double traffic() const { return 0; }
+  /// After end(), when what there was to tell is told: mpirun ends the others when one that failed is gone.
+  virtual void leave() {}
 
  private:
   static Ranks* all_;

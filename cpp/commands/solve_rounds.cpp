@@ -1,7 +1,6 @@
 #include "commands/solve_rounds.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <new>
 #include <utility>
@@ -9,7 +8,6 @@
 #include "adapt/error_history.h"
 #include "base/error.h"
 #include "base/interrupt.h"
-#include "base/ranks.h"
 #include "commands/bound_of.h"
 #include "report/clock.h"
 #include "scene/initial_equilibrium.h"
@@ -66,9 +64,7 @@ std::optional<Rounds> beginRounds(ResolvedScene& resolved) {
 
 std::string solveRounds(Rounds& rounds, std::unique_ptr<Attempt>& attempt, const AttemptOptions& options,
                         const std::string& folder, Log& log, const SolveAttempt& solve) {
-  // Several ranks stop together: between rounds.
-  const double most = Ranks::all().shared() ? INFINITY : attempt->scene().accuracy.maxSeconds;
-  const TimeLimit limit(most - processSeconds());
+  const TimeLimit limit(attempt->scene().accuracy.maxSeconds - processSeconds());
   std::vector<RoundFacts> done;
   Rounds::Verdict verdict = Rounds::Verdict::goOn;
   double begin = 0;
@@ -77,7 +73,7 @@ std::string solveRounds(Rounds& rounds, std::unique_ptr<Attempt>& attempt, const
     round.facts.rounds = done;
     solve(round, [&](const State&, const StepReport& report) { errors.add(report); });
     if (round.solved.report.status != Status::converged) return;
-    const double end = numberOfFirst(Ranks::all(), processSeconds());
+    const double end = processSeconds();
     const double time = round.solved.report.timeError;
     RoundResult result{errors.errors(), errors.energy(), time, end - begin};
     if (!round.facts.aim.empty()) {

@@ -77,10 +77,21 @@ class MpiRanks final : public Ranks {
         const auto failed = [](int each) { return each > ended; };
         tells = std::find_if(standing.begin(), standing.end(), failed) - standing.begin() == rank_;
       }
-      finish();
     } catch (const Interrupted&) {  // some no longer answer
     }
+    if (errors_ >= 0) dup2(errors_, STDERR_FILENO);
     return tells && !peerEnded_;
+  }
+
+  void leave() override {
+    if (lost_) return;
+    try {
+      MPI_Request request = MPI_REQUEST_NULL;
+      MPI_Ibarrier(MPI_COMM_WORLD, &request);
+      wait(request);
+      MPI_Finalize();
+    } catch (const Interrupted&) {  // some no longer answer
+    }
   }
 
   bool interrupt() noexcept override {
@@ -102,15 +113,6 @@ class MpiRanks final : public Ranks {
     dup2(nowhere, STDOUT_FILENO);
     dup2(nowhere, STDERR_FILENO);
     close(nowhere);
-  }
-
-  void finish() {
-    if (errors_ >= 0) dup2(errors_, STDERR_FILENO);
-    if (lost_) return;
-    MPI_Request request = MPI_REQUEST_NULL;
-    MPI_Ibarrier(MPI_COMM_WORLD, &request);  // mpirun ends those that are not ready when one fails
-    wait(request);
-    MPI_Finalize();
   }
 
   void reduce(double* values, size_t count, MPI_Op operation) {
@@ -148,7 +150,9 @@ class MpiRanks final : public Ranks {
   void wait(MPI_Request request) {
     const std::chrono::milliseconds patience(deaf_ ? 5000 : 200);
     constexpr std::chrono::milliseconds soon(5);  // who waits longer waits for the work of others, in meet()
-    constexpr std::chrono::microseconds pause(50);
+    constexpr std::chrono::nanoseconds shortest(50000);
+    constexpr std::chrono::nanoseconds longest(5000000);
+    constexpr int part = 100;  // of the time that it has waited
     const auto begin = std::chrono::steady_clock::now();
     auto asked = std::chrono::steady_clock::time_point::max();
     for (int done = 0;;) {
@@ -163,7 +167,8 @@ class MpiRanks final : public Ranks {
       if (now - begin < soon)
         std::this_thread::yield();
       else
-        std::this_thread::sleep_for(pause);
+        std::this_thread::sleep_for(
+            std::clamp<std::chrono::nanoseconds>((now - begin) / part, shortest, longest));
     }
   }
 

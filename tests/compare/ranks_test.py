@@ -19,6 +19,7 @@ ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_R
 SAME = 1e-10  # of the largest value of its kind
 FRICTION = ["contact.friction=0.3", "body.lower.boundary=[{label=1, ux=0, uy=0}]",
             "body.upper.boundary=[{label=3, uy='-0.1*t', ux='0.1*sin(9*t)'}]"]
+NOT_FINITE = "body.upper.boundary=[{label=4, ux=0}, {label=3, ty='-10*t + 0*sqrt(abs(t-0.68)-0.03)'}]"
 TWO_BLOCKS = str(ROOT / "scenes/compression.toml")
 
 
@@ -81,6 +82,7 @@ class Ranks(InFolder):
         for scene, settings, code in (("wrong.toml", [], 2),
                                       (TWO_BLOCKS, ["time.steps=2", "solver.max_iterations=1",
                                                     "contact.variant=interpolation"], 1),
+                                      (TWO_BLOCKS, ["time.steps=9", NOT_FINITE], 1),
                                       (TWO_BLOCKS, ["body.lower.boundary=[]"], 3)):
             with self.subTest(scene=scene, settings=settings):
                 alone = self.mortier("run", scene, "--quiet", "--out", "alone", *self.set(settings),
