@@ -48,11 +48,15 @@ Part partOf(const Body& body, const BodyState& state, Matrix& strain, int begin,
 }
 
 /// The largest displacement of a node [m].
-double largestDisplacement(const Vector& displacement) {
-  double square = 0;
-  for (Eigen::Index i = 0; i + 1 < displacement.size(); i += 2)
-    square = std::max(square, displacement.segment<2>(i).squaredNorm());
-  return std::sqrt(square);
+double largestDisplacement(const Vector& displacement, Threads& threads) {
+  const auto nodes = static_cast<int>(displacement.size() / 2);
+  std::vector<double> squares(blocksOf(nodes), 0);
+  forEachBlock(nodes, threads, [&](int begin, int end) {
+    double& square = squares[begin / itemsOfBlock];
+    for (Eigen::Index i = begin; i < end; ++i)
+      square = std::max(square, displacement.segment<2>(2 * i).squaredNorm());
+  });
+  return std::sqrt(*std::max_element(squares.begin(), squares.end()));
 }
 
 }  // namespace
@@ -85,7 +89,7 @@ void measure(const Model& model, const State& state, Threads& threads, StepRepor
       all.vonMises = std::max(all.vonMises, part.vonMises);
       all.energy += part.energy;
     }
-    const double largest = largestDisplacement(state.bodies[b].displacement);
+    const double largest = largestDisplacement(state.bodies[b].displacement, threads);
     report.displacement = std::max(report.displacement, largest);
     report.motion = std::max(report.motion, largest / body.extent());
   }

@@ -111,7 +111,11 @@ Iterate StepTaker::guess(size_t stage, double k) {
   const double ratio = std::abs(memory_.timeStep - k) > sameStep * k ? k / memory_.timeStep : 1;
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyIncrement& last = memory_.increments[stage][b];
-    iterate.bodies[b].increment = ratio * last.displacement;
+    TwoPartVector& increment = iterate.bodies[b].increment;
+    forEachBlock(static_cast<int>(increment.high.size()), system_.threads(), [&](int begin, int end) {
+      increment.high.segment(begin, end - begin) = ratio * last.displacement.high.segment(begin, end - begin);
+      increment.low.segment(begin, end - begin) = ratio * last.displacement.low.segment(begin, end - begin);
+    });
     Matrix& stress = iterate.bodies[b].stress;
     forEachBlock(static_cast<int>(stress.cols()), system_.threads(), [&](int begin, int end) {
       stress.middleCols(begin, end - begin) += ratio * last.stress.middleCols(begin, end - begin);
