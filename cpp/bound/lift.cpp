@@ -17,7 +17,9 @@ constexpr int sweeps = 60;
 constexpr double worthwhile = 1e-3;  ///< of what a sweep took away: it was the last
 /// Moves are longer than each by itself should be, as its neighbours will go the same way (SOR).
 constexpr double beyond = 1.5;
-/// Over the longest triangles next to the line: as deep vertices move.
+/// Triangles that face each other, by their longest sides: the first rings are enough. Where they differ more
+/// vertices move as deep as the longer side times this.
+constexpr double alike = 2;
 constexpr double depth = 2;
 
 class Lifting {
@@ -90,10 +92,11 @@ class Lifting {
       const MatchedPiece& piece = pieces[k];
       const auto& [nonmortar, mortar, coupling] = model.interfaces[piece.interface].pair();
       const std::array<int, 2> sides{nonmortar.body, mortar.body};
-      double reach = 0;
+      std::array<double, 2> sizes{};
       for (int side = 0; side < 2; ++side)
-        reach = std::max(reach,
-                         depth * sizeAt(sides[side], model.bodies[sides[side]].mesh(), piece.vertices[side]));
+        sizes[side] = sizeAt(sides[side], model.bodies[sides[side]].mesh(), piece.vertices[side]);
+      const auto [small, large] = std::minmax(sizes[0], sizes[1]);
+      const double reach = large > alike * small ? depth * large : 0;
       for (int end = 0; end < 2; ++end) {
         const std::array<int, 2> vertices{piece.vertices[0][end], piece.vertices[1][end]};
         for (int side = 0; side < 2; ++side)
@@ -132,7 +135,7 @@ class Lifting {
     return size;
   }
 
-  /// Two rings around the line, and more as far as triangles of either side are long there.
+  /// Two rings around the line, and more where triangles of one side are much longer than those of the other.
   void spreadRings() {
     struct Reached {
       int vertex, from;

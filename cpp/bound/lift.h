@@ -5,8 +5,8 @@
 // and |w|_E^2 + 2 integral of p^ G as small as a few rows of triangles next to the line allow: |w|_E is the
 // energy norm of w. Vertices of the line and of some rings around it are moved one direction at a time, each
 // as far as is best and allowed (successive over-relaxation); two that touch also move together. Rings are
-// two, and more as far as the triangles of either side are long there: where one side is much finer, what is
-// lifted reaches deep in its triangles. Admissible whenever it stops.
+// two, and more where one side is much finer than the other: what is lifted reaches as deep as the sides of
+// the coarser one are long. Admissible whenever it stops.
 #pragma once
 
 #include <string>

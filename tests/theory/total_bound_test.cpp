@@ -83,7 +83,7 @@ TEST(TotalBound, isAboveAndNearTheErrorOfTheNotesTest) {
                           {CouplingKind::interpolation, {3, 8}, 3e11, 20, 2},
                           {CouplingKind::interpolation, {3, 8}, 10, 20, 6},
                           // A body of more than 1,000 triangles of which parts flow, 1e9 times as soft.
-                          {CouplingKind::interpolation, {6, 16}, 3e11, 40, 1.9}};
+                          {CouplingKind::interpolation, {6, 16}, 3e11, 100, 1.9}};
   if (std::getenv("MORTIER_LONG_TOTALS") != nullptr) {
     cases.clear();
     for (const int steps : {10, 20, 100, 1000})
