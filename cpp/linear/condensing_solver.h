@@ -40,6 +40,8 @@ class CondensingSolver {
   virtual bool join(bool regular) { return regular; }
   /// After condense().
   virtual void joinCondensed(Vector& /*f*/) const {}
+  /// Before expand().
+  virtual void expandJoined(Vector& /*f*/) const {}
   /// After expand(): f becomes the whole solution.
   virtual void joinExpanded(Vector& /*f*/) const {}
 
@@ -66,13 +68,19 @@ std::unique_ptr<CondensingSolver> multifrontalSolver(const SparsePattern& patter
 std::unique_ptr<CondensingSolver> suiteSparseSolver(const SparsePattern& pattern,
                                                     const std::vector<int>& kept);
 
+/// Below it a skeleton is eliminated as fast on every rank, in memory that does not count (docs/scaling.md).
+constexpr int distributedSkeletonFrom = 4000;
+
 /// The interior shared by ranks: the matrix is the sum of those of all of them, each with entries in the rows
 /// and columns of its own equations alone. Equations that several ranks have, the skeleton, are kept in every
 /// part and eliminated from the sum of what the parts leave there.
 /// \param own  equations of this rank, ascending
-/// \param engine  of the parts and of the skeleton. Collective.
+/// \param engine  of the parts and of the skeleton
+/// \param distributedFrom  equations of the skeleton from which on its factor is shared (linear/skeleton.h).
+/// Collective.
 std::unique_ptr<CondensingSolver> sharedSolver(const SparsePattern& pattern, const std::vector<int>& kept,
                                                const std::vector<int>& own,
-                                               const CondensingSolverFactory& engine, Ranks& ranks);
+                                               const CondensingSolverFactory& engine, Ranks& ranks,
+                                               int distributedFrom = distributedSkeletonFrom);
 
 }  // namespace mortier

@@ -6,52 +6,15 @@
 #include <utility>
 
 #include "linear/condensing_solver.h"
+#include "linear/skeleton.h"
 
 namespace mortier {
 namespace {
 
-/// The couplings of sets of equations, each with all others of its set.
-SparsePattern patternOf(const std::vector<std::vector<int>>& sets, int size, bool symmetric) {
-  std::vector<std::vector<int>> setsOf(size);
-  for (size_t s = 0; s < sets.size(); ++s)
-    for (const int each : sets[s]) setsOf[each].push_back(static_cast<int>(s));
-  SparsePattern pattern{size, symmetric, {0}, {}};
-  std::vector<int> rows;
-  for (int column = 0; column < size; ++column) {
-    rows.assign(1, column);
-    for (const int s : setsOf[column])
-      for (const int row : sets[s])
-        if (row >= column || !symmetric) rows.push_back(row);
-    std::sort(rows.begin(), rows.end());
-    pattern.rows.insert(pattern.rows.end(), rows.begin(), std::unique(rows.begin(), rows.end()));
-    pattern.columnStart.push_back(pattern.entries());
-  }
-  return pattern;
-}
-
-/// A list of each rank, known to all.
-std::vector<std::vector<int>> listsOfAll(const std::vector<int>& own, Ranks& ranks) {
-  const std::vector<size_t> one(ranks.count(), 1);
-  std::vector<double> counts(ranks.count());
-  ranks.gather({static_cast<double>(own.size())}, one, counts.data());
-  const std::vector<size_t> sizes(counts.begin(), counts.end());
-  size_t total = 0;
-  for (const size_t size : sizes) total += size;
-  std::vector<double> all(total);
-  ranks.gather({own.begin(), own.end()}, sizes, all.data());
-  std::vector<std::vector<int>> lists;
-  auto next = all.begin();
-  for (const size_t size : sizes) {
-    lists.emplace_back(next, next + static_cast<std::ptrdiff_t>(size));
-    next += static_cast<std::ptrdiff_t>(size);
-  }
-  return lists;
-}
-
 class Shared final : public CondensingSolver {
  public:
   Shared(const SparsePattern& pattern, const std::vector<int>& kept, const std::vector<int>& own,
-         const CondensingSolverFactory& engine, Ranks& ranks)
+         const CondensingSolverFactory& engine, Ranks& ranks, int distributedFrom)
       : ranks_(ranks), own_(own) {
     // 1. The equations of this rank, and those that several have.
     Vector holders = Vector::Zero(pattern.size);
@@ -65,7 +28,6 @@ class Shared final : public CondensingSolver {
     for (const int each : kept) isKept[each] = 1;
     for (int j = 0; j < pattern.size; ++j)
       if (holders[j] > 1 && isKept[j] == 0) together_.push_back(j);
-    const auto skeleton = static_cast<int>(together_.size());
     together_.insert(together_.end(), kept.begin(), kept.end());
 
     // 2. Its part.
@@ -92,10 +54,9 @@ class Shared final : public CondensingSolver {
     if (!own_.empty()) part_ = engine(part, keptInPart);
 
     // 3. The skeleton.
-    top_ = patternOf(listsOfAll(places_, ranks_), static_cast<int>(together_.size()), pattern.symmetric);
-    std::vector<int> last;
-    for (int i = skeleton; i < top_.size; ++i) last.push_back(i);
-    skeleton_ = engine(top_, last);
+    skeleton_ = newSkeleton(
+        {static_cast<int>(together_.size()), static_cast<int>(kept.size()), pattern.symmetric, places_},
+        engine, ranks_, distributedFrom);
   }
 
   bool factorise(const std::vector<double>& values) override {
@@ -107,23 +68,9 @@ class Shared final : public CondensingSolver {
   }
 
   bool join(bool regular) override {
-    std::vector<double> values(top_.entries() + 1, 0.0);
-    values.back() = regular ? 0 : 1;  // ranks that failed
-    if (regular && part_) {
-      const Matrix S = part_->takeSchurComplement();
-      for (size_t j = 0; j < places_.size(); ++j) {
-        int at = top_.columnStart[places_[j]];
-        for (size_t i = top_.symmetric ? j : 0; i < places_.size(); ++i) {
-          while (top_.rows[at] != places_[i]) ++at;
-          values[at] = S(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-        }
-      }
-    }
-    ranks_.sum(values.data(), values.size());
-    if (values.back() > 0) return false;
-    values.pop_back();
-    skeleton_->use(threads());
-    return skeleton_->factorise(values);
+    Matrix own;
+    if (regular && part_) own = part_->takeSchurComplement();
+    return skeleton_->factorise(std::move(own), regular, threads());
   }
 
   [[nodiscard]] const Matrix& schurComplement() const override { return skeleton_->schurComplement(); }
@@ -138,15 +85,17 @@ class Shared final : public CondensingSolver {
 
   void joinCondensed(Vector& f) const override {
     Vector shared = f(together_);
-    ranks_.sum(shared.data(), shared.size());
     skeleton_->condense(shared);
     f(together_) = shared;
   }
 
-  void expand(Vector& f) const override {
+  void expandJoined(Vector& f) const override {
     Vector shared = f(together_);
     skeleton_->expand(shared);
     f(together_) = shared;
+  }
+
+  void expand(Vector& f) const override {
     if (!part_) return;
     Vector own = f(own_);
     part_->expand(own);
@@ -169,16 +118,16 @@ class Shared final : public CondensingSolver {
   std::vector<int> together_;  ///< the skeleton, then the kept equations
   std::vector<int> places_;    ///< of those that this rank has, ascending, the kept ones of part_
   std::unique_ptr<CondensingSolver> part_;  ///< none where the rank has nothing of the matrix
-  SparsePattern top_;                       ///< over together_
-  std::unique_ptr<CondensingSolver> skeleton_;
+  std::unique_ptr<Skeleton> skeleton_;      ///< over together_
 };
 
 }  // namespace
 
 std::unique_ptr<CondensingSolver> sharedSolver(const SparsePattern& pattern, const std::vector<int>& kept,
                                                const std::vector<int>& own,
-                                               const CondensingSolverFactory& engine, Ranks& ranks) {
-  return std::make_unique<Shared>(pattern, kept, own, engine, ranks);
+                                               const CondensingSolverFactory& engine, Ranks& ranks,
+                                               int distributedFrom) {
+  return std::make_unique<Shared>(pattern, kept, own, engine, ranks, distributedFrom);
 }
 
 }  // namespace mortier

@@ -17,6 +17,7 @@ CondensedBody::CondensedBody(const Model& model, int body, const std::vector<int
       contact_(model, body, firstRow),
       engine_(options.linear),
       reduce_(options.reduce),
+      distributedFrom_(options.distributedFrom),
       whole_(whole),
       threads_(threads) {
   law_ = body_.material().room(body_.points());
@@ -29,9 +30,9 @@ CondensedBody::CondensedBody(const Model& model, int body, const std::vector<int
 std::unique_ptr<CondensingSolver> CondensedBody::newSolver() const {
   const CondensingSolverFactory engine =
       engine_ == LinearEngine::multifrontal ? multifrontalSolver : suiteSparseSolver;
-  auto solver =
-      share_ ? sharedSolver(body_.pattern(), contact_.equations, share_->equations(), engine, share_->ranks())
-             : engine(body_.pattern(), contact_.equations);
+  auto solver = share_ ? sharedSolver(body_.pattern(), contact_.equations, share_->equations(), engine,
+                                      share_->ranks(), distributedFrom_)
+                       : engine(body_.pattern(), contact_.equations);
   solver->use(threads_);
   return solver;
 }
@@ -234,13 +235,13 @@ Vector CondensedBody::joinCondensed() {
   return contact_.none() ? contactForce_ : solveSchur(contactForce_);
 }
 
-void CondensedBody::expand(const Vector& forceChange, const Vector& z) {
+void CondensedBody::moveContact(const Vector& forceChange, const Vector& z) {
   if (!contact_.none()) {
     Vector x = solveSchur(contactForce_ - contact_.C.transpose() * forceChange);
     if (contact_.R.cols() > 0) x += contact_.R * (z - contact_.R.transpose() * x);
     residual_(contact_.equations) = x;
   }
-  solver_->expand(residual_);
+  solver_->expandJoined(residual_);
 }
 
 Vector CondensedBody::joinExpanded() {

@@ -86,8 +86,10 @@ class CondensedBody {
   /// \returns S^-1 times what they are on the contact dofs. Collective.
   Vector joinCondensed();
   /// Finds the displacement under these and a change of the contact forces, with rigid motions `z` of this
-  /// body.
-  void expand(const Vector& forceChange, const Vector& z);
+  /// body: where it is in contact, and where ranks share it. Collective.
+  void moveContact(const Vector& forceChange, const Vector& z);
+  /// And elsewhere.
+  void expand() { solver_->expand(residual_); }
   /// \returns it (dofs). Collective.
   Vector joinExpanded();
   /// Calls work(begin, end) for all points, or those of this rank.
@@ -114,6 +116,7 @@ class CondensedBody {
   ContactDofs contact_;
   LinearEngine engine_;
   bool reduce_;
+  int distributedFrom_;
   bool whole_;
   Threads& threads_;
   std::optional<BodyShare> share_;            ///< where ranks share the body

@@ -36,15 +36,17 @@ void StepSystem::expandBodies(const ContactSolution& contact,
     forEachBody([&](int b) { stressOf(b, contact.motion[b]); });
     return;
   }
-  const auto expand = [&](int b) { bodies_[b].expand(contact.change, motionOf(contact.rigid, b)); };
+  const auto moveContact = [&](int b) { bodies_[b].moveContact(contact.change, motionOf(contact.rigid, b)); };
   if (!shared()) {
     forEachBody([&](int b) {
-      expand(b);
+      moveContact(b);
+      bodies_[b].expand();
       stressOf(b, bodies_[b].joinExpanded());
     });
     return;
   }
-  forEachBody(expand);
+  for (size_t b = 0; b < bodies_.size(); ++b) moveContact(static_cast<int>(b));
+  forEachBody([&](int b) { bodies_[b].expand(); });
   for (size_t b = 0; b < bodies_.size(); ++b)
     bodies_[b].share()->gather(stressOf(static_cast<int>(b), bodies_[b].joinExpanded()));
 }

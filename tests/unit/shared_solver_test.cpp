@@ -106,6 +106,7 @@ void expectSameSolution(const CondensingSolverFactory& engine, bool symmetric, i
     solver->condense(f);
     solver->joinCondensed(f);
     for (int i = 0; i < kept; ++i) EXPECT_NEAR(f[last[i]], condensed[i], rounding) << i;
+    solver->expandJoined(f);
     solver->expand(f);
     solver->joinExpanded(f);
     EXPECT_LE((f - expected).cwiseAbs().maxCoeff(), rounding) << "rank " << all.rank();
