@@ -130,6 +130,29 @@ TEST(MumpsSkeleton, pivotsInTheWholeMatrix) {
   expectSolves(*skeleton, random, 20, 1e3 * rounding);  // its condition
 }
 
+// Equations of one rank alone that have no pivots before those of all are there: more space than foreseen.
+TEST(MumpsSkeleton, makesRoomForDelayedPivots) {
+  constexpr int alone = 150;
+  const int count = Ranks::all().count();
+  Random random(8, alone * count * 2 + 20, false, count);
+  std::mt19937 numbers(9);
+  std::uniform_real_distribution<double> value(-1, 1);
+  for (int r = 0; r < count; ++r) {
+    std::vector<int>& places = random.places[r];
+    places.clear();
+    for (int i = 0; i < random.size; ++i)
+      if (i / alone == r || i >= alone * count) places.push_back(i);
+    random.matrices[r].resize(places.size(), places.size());
+    for (double& entry : random.matrices[r].reshaped()) entry = value(numbers);
+    random.matrices[r].topLeftCorner(alone, alone).setZero();
+  }
+  for (const int kept : {0, 20}) {
+    const auto skeleton = mumpsSkeleton(random.shape(kept), Ranks::all());
+    ASSERT_TRUE(skeleton->factorise(random.own(), true, Threads::none())) << kept;
+    expectSolves(*skeleton, random, kept, 1e4 * rounding);  // its condition
+  }
+}
+
 TEST(MumpsSkeleton, isSingularOnAllRanksWhereOneIs) {
   Ranks& all = Ranks::all();
   for (const bool symmetric : {true, false})
