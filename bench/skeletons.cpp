@@ -1,5 +1,5 @@
-// What the factor of a skeleton costs: a square cut into equal parts, their inner edges the skeleton, the nodes
-// of its lowest edge kept.
+// What the factor of a skeleton costs: a square cut into equal parts, their inner edges the skeleton, the
+// nodes of its lowest edge kept.
 //   mpirun -n P build/bench/skeletons replicated|mumps PX PY NODES   P = PX PY parts of NODES nodes a side
 //   mpirun -n P build/bench/skeletons predict PX PY NODES            PX PY parts shared out among any P
 #include <dmumps_c.h>

@@ -68,7 +68,7 @@ std::unique_ptr<CondensingSolver> multifrontalSolver(const SparsePattern& patter
 std::unique_ptr<CondensingSolver> suiteSparseSolver(const SparsePattern& pattern,
                                                     const std::vector<int>& kept);
 
-/// Below it a skeleton is eliminated as fast on every rank, in memory that does not count (docs/scaling.md).
+/// Below it MUMPS may be slower than a factor on every rank, whose memory does not count (docs/scaling.md).
 constexpr int distributedSkeletonFrom = 4000;
 
 /// The interior shared by ranks: the matrix is the sum of those of all of them, each with entries in the rows

@@ -1,6 +1,5 @@
 // The skeleton between the parts of ranks: a matrix that is the sum of dense ones, one of each rank, of which
-// all equations but the last are eliminated. Its interface is that of CondensingSolver, but for what the ranks
-// do together.
+// all equations but the last are eliminated.
 #pragma once
 
 #include <memory>
