@@ -10,7 +10,7 @@ packages=(
   libeigen3-dev libsuitesparse-dev libopenblas-dev         # linear algebra
   libtomlplusplus-dev libmuparser-dev                      # scenes
   libgmsh-dev                                              # meshes other than Medit's
-  libopenmpi-dev openmpi-bin libmetis-dev                  # runs of several processes
+  libopenmpi-dev openmpi-bin libmetis-dev libmumps-dev     # runs of several processes
   libcli11-dev nlohmann-json3-dev                          # command line, summaries
   libgtest-dev libbenchmark-dev groff-base zsh fish        # tests, benchmarks
   dpkg-dev file                                            # packaging

@@ -40,6 +40,8 @@ class CondensingSolver {
   virtual bool join(bool regular) { return regular; }
   /// After condense().
   virtual void joinCondensed(Vector& /*f*/) const {}
+  /// Before expand().
+  virtual void expandJoined(Vector& /*f*/) const {}
 
   /// Works on these threads from now on; they must outlive the solver.
   void use(Threads& threads) { threads_ = &threads; }
@@ -64,6 +66,9 @@ std::unique_ptr<CondensingSolver> multifrontalSolver(const SparsePattern& patter
 std::unique_ptr<CondensingSolver> suiteSparseSolver(const SparsePattern& pattern,
                                                     const std::vector<int>& kept);
 
+/// Below it MUMPS may be slower than a factor on every rank, whose memory does not count (docs/scaling.md).
+constexpr int distributedSkeletonFrom = 4000;
+
 /// Equations of a part that other ranks may have too, each with its number among those of all ranks.
 struct SharedEquations {
   std::vector<int> equations;
@@ -77,9 +82,12 @@ struct SharedEquations {
 /// ranks, solutions known where a rank has the equation, and where it is kept.
 /// \param kept  the same of all ranks in the same order, by the numbers of this one: those that are beyond
 /// its part are none of it
-/// \param engine  of the parts and of the skeleton. Collective.
+/// \param engine  of the parts and of the skeleton
+/// \param distributedFrom  equations of the skeleton from which on its factor is shared (linear/skeleton.h).
+/// Collective.
 std::unique_ptr<CondensingSolver> sharedSolver(const SparsePattern& part, const std::vector<int>& kept,
                                                const SharedEquations& shared,
-                                               const CondensingSolverFactory& engine, Ranks& ranks);
+                                               const CondensingSolverFactory& engine, Ranks& ranks,
+                                               int distributedFrom = distributedSkeletonFrom);
 
 }  // namespace mortier

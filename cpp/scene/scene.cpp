@@ -133,6 +133,7 @@ void readOptions(const TableReader& root, SceneDescription& scene) {
     }
     scene.solver.maxIterations = solver.integer("max_iterations", 1, defaultIterations(scene.solver.method));
     scene.solver.linear = static_cast<LinearEngine>(solver.oneOf("linear", linearWords, 0));
+    scene.solver.distributedFrom = solver.integer("distributed_from", 1, scene.solver.distributedFrom);
     scene.solver.reduce = solver.boolean("reduce", scene.solver.reduce);
     scene.solver.listSolutions = solver.boolean("list_solutions", false);
   }

@@ -31,6 +31,7 @@ CondensedBody::CondensedBody(const Model& model, int body, const std::vector<int
       contact_(model, body, firstRow),
       engine_(options.linear),
       reduce_(options.reduce),
+      distributedFrom_(options.distributedFrom),
       whole_(whole),
       threads_(threads),
       part_(model.inParts() ? &model.parts[body] : nullptr),
@@ -54,7 +55,8 @@ std::unique_ptr<CondensingSolver> CondensedBody::newSolver() const {
       shared.numbers.push_back(2 * part_->places[i] + c);
     }
   if (part_ != nullptr) shared.count = 2 * part_->placesOfAll;
-  auto solver = part_ != nullptr ? sharedSolver(body_.pattern(), contact_.equations, shared, engine, *ranks_)
+  auto solver = part_ != nullptr ? sharedSolver(body_.pattern(), contact_.equations, shared, engine, *ranks_,
+                                                distributedFrom_)
                                  : engine(body_.pattern(), contact_.equations);
   solver->use(threads_);
   return solver;
@@ -248,12 +250,16 @@ Vector CondensedBody::joinCondensed() {
   return contact_.none() ? contactForce_ : solveSchur(contactForce_);
 }
 
-Vector CondensedBody::expand(const Vector& forceChange, const Vector& z) {
+void CondensedBody::moveContact(const Vector& forceChange, const Vector& z) {
   if (!contact_.none()) {
     Vector x = solveSchur(contactForce_ - contact_.C.transpose() * forceChange);
     if (contact_.R.cols() > 0) x += contact_.R * (z - contact_.R.transpose() * x);
     residual_(contact_.equations) = x;
   }
+  solver_->expandJoined(residual_);
+}
+
+Vector CondensedBody::expand() {
   solver_->expand(residual_);
   return body_.spread(residual_);
 }

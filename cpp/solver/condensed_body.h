@@ -87,9 +87,11 @@ class CondensedBody {
   void condense(const Vector& force);
   /// \returns S^-1 times what they are on the contact dofs. Collective.
   Vector joinCondensed();
-  /// \returns the displacement under these and a change of the contact forces, with rigid motions `z` of this
-  /// body (dofs); of a part before it is completed at its nodes.
-  Vector expand(const Vector& forceChange, const Vector& z);
+  /// Finds the displacement under these and a change of the contact forces, with rigid motions `z` of this
+  /// body: where it is in contact, and where ranks share it. Collective.
+  void moveContact(const Vector& forceChange, const Vector& z);
+  /// \returns it everywhere (dofs); of a part before it is completed at its nodes.
+  Vector expand();
 
   /// From now on CHOLMOD or UMFPACK.
   void useLibraries();
@@ -111,6 +113,7 @@ class CondensedBody {
   ContactDofs contact_;
   LinearEngine engine_;
   bool reduce_;
+  int distributedFrom_;
   bool whole_;
   Threads& threads_;
   const BodyPart* part_ = nullptr;  ///< where the body is one

@@ -38,13 +38,17 @@ void StepSystem::expandBodies(const ContactSolution& contact,
     forEachBody([&](int b) { take(b, contact.motion[b]); });
     return;
   }
-  const auto expand = [&](int b) { return bodies_[b].expand(contact.change, motionOf(contact.rigid, b)); };
+  const auto moveContact = [&](int b) { bodies_[b].moveContact(contact.change, motionOf(contact.rigid, b)); };
   if (!model_.inParts()) {
-    forEachBody([&](int b) { take(b, expand(b)); });
+    forEachBody([&](int b) {
+      moveContact(b);
+      take(b, bodies_[b].expand());
+    });
     return;
   }
   std::vector<Vector> motion(bodies_.size());
-  forEachBody([&](int b) { motion[b] = expand(b); });
+  for (size_t b = 0; b < bodies_.size(); ++b) moveContact(static_cast<int>(b));
+  forEachBody([&](int b) { motion[b] = bodies_[b].expand(); });
   for (size_t b = 0; b < bodies_.size(); ++b) completeAtNodes(model_.parts[b], *model_.ranks, motion[b]);
   forEachBody([&](int b) { take(b, motion[b]); });
 }

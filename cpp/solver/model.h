@@ -7,6 +7,7 @@
 
 #include "contact/interface.h"
 #include "fem/body.h"
+#include "linear/condensing_solver.h"
 #include "solver/body_part.h"
 
 namespace mortier {
@@ -94,6 +95,8 @@ struct SolverOptions {
   /// Without friction, contact is solved without dense matrices (sparse_contact.h) where one over all its
   /// conditions has more than so many entries for each equation of the bodies.
   double denseEntries = 25;
+  /// Equations of a skeleton (linear/skeleton.h) from which on its factor is distributed.
+  int distributedFrom = distributedSkeletonFrom;
   // Where two methods begin; their results do not depend on it.
   double proximalWeight = 1e-9;  ///< solver/complementarity.h [-]
   double firstOverstress = 100;  ///< of the interior point method, in yield stresses, far beyond any [-]

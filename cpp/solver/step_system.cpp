@@ -37,7 +37,7 @@ StepSystem::StepSystem(const Model& model, const SolverOptions& options)
   const bool sparse = solvesSparse(model, options);
   std::vector<std::optional<CondensedBody>> bodies(model.bodies.size());
   const auto make = [&](int b) { bodies[b].emplace(model, b, firstRow_, options, threads_, sparse); };
-  if (shared())  // what they do together they do body by body
+  if (model.inParts())  // what they do together they do body by body
     for (size_t b = 0; b < bodies.size(); ++b) make(static_cast<int>(b));
   else
     threads_.forEach(static_cast<int>(bodies.size()), make);

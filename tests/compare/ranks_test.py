@@ -20,6 +20,9 @@ SAME = 1e-10  # of the largest value of its kind
 FRICTION = ["contact.friction=0.3", "body.lower.boundary=[{label=1, ux=0, uy=0}]",
             "body.upper.boundary=[{label=3, uy='-0.1*t', ux='0.1*sin(9*t)'}]"]
 NOT_FINITE = "body.upper.boundary=[{label=4, ux=0}, {label=3, ty='-10*t + 0*sqrt(abs(t-0.68)-0.03)'}]"
+DISTRIBUTED = ["solver.distributed_from=1"]  # by MUMPS, where it is installed
+SHEAR = ["contact.friction=0.3", "body.lower.boundary=[{label=1, ux=0, uy=0}]",
+         "body.upper.boundary=[{label=3, ty='-10*t', tx='2*t'}]"]
 TWO_BLOCKS = str(ROOT / "scenes/compression.toml")
 
 
@@ -77,6 +80,13 @@ class Ranks(InFolder):
             with self.subTest(settings=settings):
                 self.expect_same([3], TWO_BLOCKS, "time.steps=5", *settings)
 
+    def test_a_distributed_skeleton_changes_nothing(self):
+        for ranks, settings in ((2, []), (3, []), (4, []), (3, ["body.material.projection='elasticity'"]),
+                                (4, ["solver.linear=suitesparse"]), (3, SHEAR),
+                                (3, ["contact.variant=interpolation", "plane=strain"])):
+            with self.subTest(ranks=ranks, settings=settings):
+                self.expect_same([ranks], TWO_BLOCKS, "time.steps=2", *DISTRIBUTED, *settings)
+
     def test_the_first_one_tells(self):
         (self.folder / "wrong.toml").write_text("title = 3\n")
         for scene, settings, code in (("wrong.toml", [], 2),
@@ -92,7 +102,13 @@ class Ranks(InFolder):
                 self.assertEqual(ours, alone.splitlines())
 
     def test_a_run_whose_rank_died_goes_on_with_any_number(self):
-        settings = ["time.steps=60"]
+        self.expect_to_go_on()
+
+    def test_a_run_whose_rank_died_among_those_of_mumps_goes_on(self):
+        self.expect_to_go_on(*DISTRIBUTED)
+
+    def expect_to_go_on(self, *settings):
+        settings = ["time.steps=60", *settings]
         alone = self.alone(TWO_BLOCKS, *settings)
         process = subprocess.Popen(
             [*MPIRUN, "3", PROGRAM, "run", TWO_BLOCKS, "--quiet", "--checkpoint", "0", "--out", "run",

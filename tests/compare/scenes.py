@@ -79,6 +79,7 @@ scheme = "sdirk2"
 tolerance = 1e-9
 max_iterations = 200
 linear = "suitesparse"
+distributed_from = 50
 [output]
 every = 2
 """

@@ -28,7 +28,7 @@ LIBRARIES = {r"cholmod|umfpack|cblas|amd\.h|colamd|lapack": r"linear/\w+\.cpp|li
              r"Eigen/.*(Sparse\w*(LU|QR|Cholesky)|Iterative|\w*Support)": r"(linear|contact)/\w+\.cpp",
              r"gmsh": r"mesh/\w+\.cpp", r"muParser|toml\+\+": r"scene/\w+\.cpp",
              r"nlohmann": r"(report|commands)/\w+\.cpp", r"CLI/": r"commands/\w+\.cpp|main\.cpp",
-             r"pybind11|Python\.h": r"python/\w+\.(cpp|h)", r"mpi\.h|metis": r"ranks/\w+\.cpp"}
+             r"pybind11|Python\.h": r"python/\w+\.(cpp|h)", r"mpi\.h|metis|dmumps": r"ranks/\w+\.cpp"}
 
 
 def includes(path):
