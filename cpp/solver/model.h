@@ -48,9 +48,9 @@ struct SolverOptions {
   bool reduce = true;
   /// With friction, look for all solutions of the contact problem of every step (friction_solutions.h).
   bool listSolutions = false;
-  /// Without friction, contact is solved without dense matrices (sparse_contact.h) where one over all its
-  /// conditions has more than so many entries for each equation of the bodies.
-  double denseEntries = 25;
+  /// Without friction, contact is solved without dense matrices (sparse_contact.h) where the cube of the
+  /// number of its conditions is more than so many times the number of equations of the bodies.
+  double denseWork = 1e5;
   // Where two methods begin; their results do not depend on it.
   double proximalWeight = 1e-9;  ///< solver/complementarity.h [-]
   double firstOverstress = 100;  ///< of the interior point method, in yield stresses, far beyond any [-]
