@@ -50,7 +50,7 @@ struct SolverOptions {
   bool listSolutions = false;
   /// Without friction, contact is solved without dense matrices (sparse_contact.h) where the cube of the
   /// number of its conditions is more than so many times the number of equations of the bodies.
-  double denseWork = 1e5;
+  double denseWork = 8e4;
   // Where two methods begin; their results do not depend on it.
   double proximalWeight = 1e-9;  ///< solver/complementarity.h [-]
   double firstOverstress = 100;  ///< of the interior point method, in yield stresses, far beyond any [-]
