@@ -50,7 +50,7 @@ void one(int nodes, bool dense) {
   for (const Body& body : model.bodies) triangles += body.mesh().triangles.size();
   const double made = bench::now();
   SolverOptions options;
-  options.denseEntries = dense ? 1e300 : 0;
+  options.denseWork = dense ? 1e300 : 0;
   const Result result = run(model, 1, 1, options);
   int active = 0;
   for (const double p : result.state.contactForce[0]) active += p > 0 ? 1 : 0;
@@ -130,10 +130,10 @@ void threshold() {
       const Model model = strip(nodes, layers, material);
       const double n = model.interfaces[0].rows();
       const double equations = model.bodies[0].freeDofs() + model.bodies[1].freeDofs();
-      const auto runIt = [&](double denseEntries) {
+      const auto runIt = [&](double denseWork) {
         return costOf(nodes * layers > 10000 ? 3 : 5, [&] {
           SolverOptions options;
-          options.denseEntries = denseEntries;
+          options.denseWork = denseWork;
           run(model, 1, 1, options);
         });
       };

@@ -147,7 +147,7 @@ class Planner {
     const std::string part = anyRough(model_) ? forFriction(need) : "";
     std::string why = "factors of the bodies, and dense matrices over the contact nodes";
     if (solvesSparse(model_, options)) {
-      options.denseEntries = std::numeric_limits<double>::infinity();
+      options.denseWork = std::numeric_limits<double>::infinity();
       why = "contact in one sparse matrix with the bodies; dense ones over the contact nodes would take " +
             aboutMemory(memoryNeed(model_, options).all).substr(6);
     }

@@ -36,7 +36,7 @@ bool solvesSparse(const Model& model, const SolverOptions& options) {
 
 bool solvesSparse(double conditions, double equations, bool rough, const SolverOptions& options) {
   return !rough && options.method == Method::newton &&
-         conditions * conditions > options.denseEntries * equations;
+         conditions * conditions * conditions > options.denseWork * equations;
 }
 
 void addInterface(Model& model, const ContactPair& pair, InterfaceOptions options) {

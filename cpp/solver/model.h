@@ -92,9 +92,9 @@ struct SolverOptions {
   bool reduce = true;
   /// With friction, look for all solutions of the contact problem of every step (friction_solutions.h).
   bool listSolutions = false;
-  /// Without friction, contact is solved without dense matrices (sparse_contact.h) where one over all its
-  /// conditions has more than so many entries for each equation of the bodies.
-  double denseEntries = 25;
+  /// Without friction, contact is solved without dense matrices (sparse_contact.h) where the cube of the
+  /// number of its conditions is more than so many times the number of equations of the bodies.
+  double denseWork = 8e4;
   /// Equations of a skeleton (linear/skeleton.h) from which on its factor is distributed.
   int distributedFrom = distributedSkeletonFrom;
   // Where two methods begin; their results do not depend on it.

@@ -177,14 +177,14 @@ inline Difference differenceOf(const Result& a, const Result& b) {
 
 inline SolverOptions sparseContact() {
   SolverOptions options;
-  options.denseEntries = 0;
+  options.denseWork = 0;
   return options;
 }
 
 /// The tolerance also decides how much rounding is left in contact (solver/newton.cpp).
 inline SolverOptions denseContact(double tolerance) {
   SolverOptions options;
-  options.denseEntries = std::numeric_limits<double>::infinity();
+  options.denseWork = std::numeric_limits<double>::infinity();
   options.tolerance = tolerance;
   return options;
 }
