@@ -10,7 +10,7 @@ namespace mortier {
 namespace {
 
 /// Iterations end where what is still to come is estimated to be no more than this part of the energy. It has
-/// been up to six times as much: bounds are about 1 % above the least at most.
+/// been up to six times as much: bounds are about 3 % above the least at most.
 constexpr double part = 0.01;
 /// After as many a direct solution costs no more.
 constexpr int mostIterations = 80;
