@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "base/interrupt.h"
-#include "linear/strip_solver.h"
 
 namespace mortier {
 namespace {
@@ -17,8 +16,7 @@ constexpr double regularised = 1e-12;
 
 using Four = std::experimental::fixed_size_simd<double, 4>;
 
-template <class Number>
-Four four(const Number* values) {
+Four four(const double* values) {
   return Four(values, std::experimental::element_aligned);
 }
 
@@ -35,7 +33,7 @@ Four product(const Columns& A, const double* x) {
 template <class Columns>
 void addTo(Columns& to, const Eigen::Matrix3d& K) {
   for (int c = 0; c < 3; ++c)
-    for (int r = 0; r < 3; ++r) to[c][r] += static_cast<float>(K(r, c));
+    for (int r = 0; r < 3; ++r) to[c][r] += K(r, c);
 }
 
 /// What iterations still take that gain like those before: with g the gains, the last one times the largest
@@ -113,7 +111,7 @@ void AirySystem::add(const std::array<int, 3>& triangle, const std::array<int, 3
 void AirySystem::addToSweeps(const std::array<int, 3>& triangle, const std::array<int, 3>& sidesOf,
                              const MomentMatrix& K) {
   const auto couple = [&](Padded& with, int vertex, int side) {
-    for (int c = 0; c < 3; ++c) with[c] += static_cast<float>(K(3 * vertex + c, 9 + side));
+    for (int c = 0; c < 3; ++c) with[c] += K(3 * vertex + c, 9 + side);
   };
   for (int k = 0; k < 3; ++k) {
     const int last = (k + 1) % 3;
@@ -127,12 +125,12 @@ void AirySystem::addToSweeps(const std::array<int, 3>& triangle, const std::arra
     const bool second = side.vertices[2] != side.vertices[0];  // the side of two triangles
     side.vertices[second ? 3 : 2] = triangle[apex];
     couple(side.withVertices[second ? 3 : 2], apex, k);
-    side.own += static_cast<float>(K(9 + k, 9 + k));
+    side.own += K(9 + k, 9 + k);
     int slot = second ? 2 : 0;
     for (const int other : {last, apex})
       if (sidesOf[other] > sidesOf[k]) {
         side.others[slot] = sidesOf[other];
-        side.withOthers[slot++] = static_cast<float>(K(9 + other, 9 + k));
+        side.withOthers[slot++] = K(9 + other, 9 + k);
       }
   }
 }
@@ -151,8 +149,7 @@ void AirySystem::invertDiagonal() {
     Eigen::Matrix3d inverse = (scale.asDiagonal() * D * scale.asDiagonal()).inverse();
     if (!inverse.allFinite()) inverse.setIdentity();
     for (int c = 0; c < 3; ++c)
-      for (int r = 0; r < 3; ++r)
-        inverse_[v][c][r] = static_cast<float>(scale[r] * inverse(r, c) * scale[c]);
+      for (int r = 0; r < 3; ++r) inverse_[v][c][r] = scale[r] * inverse(r, c) * scale[c];
   }
   for (Coupling& side : sides_)
     if (side.own == 0) side.own = 1;
@@ -167,7 +164,7 @@ bool AirySystem::factorise() {
     double& diagonal = block_.values[block_.pattern.columnStart[c]];
     diagonal = diagonal == 0 ? 1 : diagonal * (1 + regularised);  // a linear function is no stress
   }
-  blockSolver_ = stripSolver(block_.pattern);
+  blockSolver_ = multifrontalSolver(block_.pattern, {});
   return blockSolver_->factorise(block_.values);
 }
 

@@ -10,8 +10,7 @@
 //
 // which reads K once an iteration (Eisenstat, SIAM J. Sci. Stat. Comput. 2 (1981)). E falls in each. Modes of
 // thin triangles hang together so stiffly that sweeps over them one by one are slow: they are one block of D,
-// the last, which is factorised. All else of K is held in single precision: it says where to go, and whatever
-// x is, its stresses are in equilibrium.
+// the last, which is factorised.
 #pragma once
 
 #include <array>
@@ -47,7 +46,7 @@ class AirySystem {
  private:
   /// Modes of vertices are held with a 0 behind them, and what multiplies them, too.
   static constexpr int stride = 4;
-  using Padded = std::array<float, stride>;
+  using Padded = std::array<double, stride>;
   using PaddedSquare = std::array<Padded, 3>;  ///< columns
   /// The coupling of a side: with its two ends, the lower number first, and the vertices opposite; of these
   /// ends with each other; with sides of greater number.
@@ -56,8 +55,8 @@ class AirySystem {
     std::array<int, 4> others;
     PaddedSquare ends;
     std::array<Padded, 4> withVertices;
-    std::array<float, 4> withOthers;
-    float own;
+    std::array<double, 4> withOthers;
+    double own;
   };
   void addToSweeps(const std::array<int, 3>& triangle, const std::array<int, 3>& sidesOf,
                    const MomentMatrix& K);

@@ -99,7 +99,8 @@ Eigen::Matrix<double, 9, 3> CompositeTriangle::loadValues(const Point& f) const 
 Moments CompositeTriangle::loadProduct(const Point& f) const {
   const Eigen::Matrix<double, 9, 3> weighted = reference().mass * loadValues(f) * reference_;
   Moments moments = Moments::Zero();
-  for (int c = 0; c < 3; ++c) moments += reference().stresses.middleRows<9>(9 * c).transpose() * weighted.col(c);
+  for (int c = 0; c < 3; ++c)
+    moments += reference().stresses.middleRows<9>(9 * c).transpose() * weighted.col(c);
   Moments result;
   for (int i = 0; i < 6; ++i) result.segment<2>(2 * i) = inverse_.transpose() * moments.segment<2>(2 * i);
   return result;

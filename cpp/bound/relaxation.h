@@ -57,10 +57,10 @@ class Relaxation {
   [[nodiscard]] double lengthAt(int vertex) const;
   [[nodiscard]] Modes seenBy(int triangle, int k, int vertex, double length) const;
   [[nodiscard]] CompositeTriangle elementOf(int triangle) const;
-  /// With compliances times a scale.
-  [[nodiscard]] CompositeLanes elementsOf(const Batch& batch, double scale) const;
+  [[nodiscard]] CompositeLanes elementsOf(const Batch& batch) const;
   /// Moments less those of the stress and of the load.
-  [[nodiscard]] CompositeLanes::Twelve differencesOf(const Batch& batch, const CompositeLanes& elements) const;
+  [[nodiscard]] CompositeLanes::Twelve differencesOf(const Batch& batch,
+                                                     const CompositeLanes& elements) const;
   [[nodiscard]] Moments differenceOf(int triangle, const CompositeTriangle& element) const;
   [[nodiscard]] Point alongOf(int side) const;
   [[nodiscard]] Modes modesOf(int side, int vertex, double length) const;

@@ -17,8 +17,10 @@ constexpr int fewestRings = 8;
 constexpr int nodesOfARing = 20;
 /// The last ones are far.
 constexpr int farRings = 3;
-/// Forces that are no more than this part of all are balanced.
-constexpr double balanced = 1e-11;
+/// Forces that are no more than this part of all are what the solution of the body left by rounding,
+constexpr double rounding = 1e-11;
+/// and those that strips may leave.
+constexpr double balanced = 1e-12;
 /// Stiffness of springs, over that of the equations, for strips that nothing else holds.
 constexpr double spring = 1e-12;
 
@@ -71,6 +73,14 @@ class Strip {
       energy += body_.weights()[t] * s.dot(moduli_[t].inverse() * s);
     }
     return energy;
+  }
+
+  /// Of forces (dofs) in the strip.
+  [[nodiscard]] double largest(const Vector& forces) const {
+    const Vector all = body_.gather(forces);
+    double result = 0;
+    for (const int equation : equations_) result = std::max(result, std::abs(all[equation]));
+    return result;
   }
 
   bool factorise() {
@@ -157,19 +167,17 @@ std::optional<double> balanceStrip(const Body& body, const Sides& sides,
                                    const std::vector<Eigen::Matrix3d>& moduli, double size, Vector& left,
                                    std::vector<Stress>& stress) {
   constexpr int most = 6;
-  const auto isBalanced = [&](const Vector& forces) {
-    return body.gather(forces).lpNorm<Eigen::Infinity>() <= balanced * size;
-  };
-  if (isBalanced(left)) return 0;
+  const Vector free = body.gather(left);
+  if (free.lpNorm<Eigen::Infinity>() <= rounding * size) return 0;
   if (!body.material().symmetricTangent()) return std::nullopt;
   Strip strip(body, sides, moduli);
-  strip.choose(body.spread(body.gather(left)), balanced * size);
+  strip.choose(body.spread(free), rounding * size);
   if (!strip.factorise()) return std::nullopt;
   std::vector<Stress> found = stress;
   Vector forces = left;
   for (int i = 0; i < most; ++i) {
     strip.solve(forces, found);
-    if (!isBalanced(forces)) continue;
+    if (!(strip.largest(forces) <= balanced * size)) continue;
     const double far = strip.farEnergy(found, stress);
     left = std::move(forces);
     stress = std::move(found);

@@ -59,8 +59,7 @@ class StripSolver final : public CondensingSolver {
 
   [[nodiscard]] bool isNarrow() const {
     double squares = 0;
-    for (const Front& front : fronts_)
-      squares += static_cast<double>(front.pivots) * front.rows * front.rows;
+    for (const Front& front : fronts_) squares += static_cast<double>(front.pivots) * front.rows * front.rows;
     return squares <= narrow * narrow * static_cast<double>(order_.size());
   }
 
