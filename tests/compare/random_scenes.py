@@ -11,7 +11,8 @@ Exit code 0 is asked for. 3 is right where contact alone holds a body and the lo
 rare, with a reason; a run that takes longer than the patience counts as a fault whatever it would have ended
 with.
 
-Usage: random_scenes.py [--choices] [--count 100] [--seed 0] [--patience 20] [--jobs 1] [--mortier build/mortier]
+Usage: random_scenes.py [--choices] [--count 100] [--seed 0] [--patience 20] [--jobs 1]
+                        [--mortier build/mortier]
 Scene N is the same on every machine: random_scenes.py --seed N --count 1 --keep FOLDER shows it.
 """
 import argparse
