@@ -167,5 +167,6 @@ int main(int argc, char** argv) {
       measure(way, square);
   }
   static_cast<void>(Ranks::all().end(0));
+  Ranks::all().leave();
   return 0;
 }

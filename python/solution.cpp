@@ -57,6 +57,7 @@ struct Output {
   Solved solve(Attempt& attempt, const Observer& observe) {
     return mortier::solve({attempt.scene(),
                            *attempt.model,
+                           attempt.solvedModel(),
                            *attempt.error,
                            attempt.facts,
                            folder.temporary(),

@@ -59,7 +59,7 @@ TangentAssembly::TangentAssembly(const TriangleData& triangles, const std::vecto
 
 void TangentAssembly::buildPattern(const TriangleData& triangles) {
   // The neighbours of each node by counting sort of the triangles' couplings, then sorted and made unique one
-  // node at a time. Equations ascend with nodes.
+  // node at a time. Equations ascend with nodes; those of nodes without a triangle here may be beyond.
   const auto nodes = static_cast<int>(triangles.equations.size() / 2);
   const int n = triangles.nodes.perTriangle();
   const auto forEachCoupling = [&](auto visit) {
@@ -85,7 +85,7 @@ void TangentAssembly::buildPattern(const TriangleData& triangles) {
     const auto end = std::unique(begin, neighbours.begin() + start[j + 1]);
     for (int c = 0; c < 2; ++c) {
       const int column = triangles.equations[2 * j + c];
-      if (column < 0) continue;
+      if (column < 0 || column >= pattern_.size) continue;
       for (auto node = begin; node != end; ++node)
         for (int r = 0; r < 2; ++r) {
           const int row = triangles.equations[2 * *node + r];

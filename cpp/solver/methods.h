@@ -2,6 +2,8 @@
 // in `iterate`.
 #pragma once
 
+#include <optional>
+
 #include "solver/step_system.h"
 #include "solver/viscosity_walk.h"
 
@@ -22,6 +24,14 @@ struct NewtonLimits {
 /// Newton's method from `iterate`, at this weight [s].
 StepOutcome newton(StepSystem& system, const Step& step, double weight, const NewtonLimits& limits,
                    Iterate& iterate);
+
+/// Whether gaps that rounding left of closed conditions are worth another linear solve.
+bool worthCorrecting(const StepSystem& system, const Step& step, double tolerance, const Iterate& iterate);
+/// That, with the same factors. \returns the certificate of what it made of the iterate; none, and the
+/// iterate as it was, where that is no better.
+std::optional<Certificate> corrected(StepSystem& system, const StepSystem::Linearised& linearised,
+                                     const Step& step, double weight, const NewtonLimits& limits,
+                                     Iterate& iterate);
 
 /// Follows the law along its central path (material/interior_path.h); contact is exact in every linear
 /// solve.

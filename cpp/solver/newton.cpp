@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -8,36 +7,6 @@
 #include "solver/methods.h"
 
 namespace mortier {
-namespace {
-
-/// Gaps that the rounding of a linear solve leaves of closed conditions, as parts of the contact forces,
-/// beyond which it is corrected: lines that are long beside the thickness of a layer multiply it. Sparse
-/// contact has its factors at hand and is always corrected.
-double worthCorrecting(const StepSystem& system, double tolerance) {
-  constexpr double ofTolerance = 1e-3;
-  return system.sparse() ? 0 : ofTolerance * tolerance;
-}
-
-/// Another linear solve with the same factors, of what rounding left over. \returns the certificate of what
-/// it made of the iterate; none, and the iterate as it was, where that is no better.
-std::optional<Certificate> corrected(StepSystem& system, const StepSystem::Linearised& linearised,
-                                     const Step& step, double weight, const NewtonLimits& limits,
-                                     Iterate& iterate) {
-  Iterate next = iterate;
-  StepOutcome outcome;
-  StepSystem::Condensed condensed = linearised.keepFactors().condense(step, next);
-  const ContactSolution contact = condensed.solveContact();
-  if (!std::move(condensed).expand(contact, next, outcome)) return std::nullopt;
-  const double residual = system.linearise(step, next, weight, limits.anticipate).residual();
-  if (!(residual <= limits.tolerance)) return std::nullopt;
-  if (!(system.opened(step, next) < system.opened(step, iterate))) return std::nullopt;
-  const Certificate certificate = system.certify(step, next, residual);
-  iterate = std::move(next);
-  return certificate;
-}
-
-}  // namespace
-
 StepOutcome newton(StepSystem& system, const Step& step, double weight, const NewtonLimits& limits,
                    Iterate& iterate) {
   // Beyond this many times the stresses that are there, or the yield stress, an iterate does not come back.
@@ -80,7 +49,7 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
     // triangles, unseen by the residual, until an iteration has nothing to cancel.
     if (!(linearised.residual() <= limits.tolerance) || residual > cancelling) continue;
     Certificate certificate = system.certify(step, iterate, linearised.residual());
-    if (system.opened(step, iterate) > worthCorrecting(system, limits.tolerance)) {
+    if (worthCorrecting(system, step, limits.tolerance, iterate)) {
       if (const auto better = corrected(system, linearised, step, weight, limits, iterate))
         certificate = *better;
       else

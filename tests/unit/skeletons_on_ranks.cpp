@@ -218,5 +218,6 @@ int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   const int code = RUN_ALL_TESTS();
   static_cast<void>(mortier::Ranks::all().end(code));
+  mortier::Ranks::all().leave();
   return code;
 }
