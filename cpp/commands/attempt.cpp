@@ -95,9 +95,11 @@ void Attempt::share() {
   Ranks& ranks = Ranks::all();
   parts = std::make_unique<Model>(inParts(*model, ranks));
   for (Quantity& quantity : resolved.description.time.quantities) quantity = ofParts(quantity, *parts);
-  if (ranks.first()) return;
-  model = std::move(parts);
-  error = std::make_unique<CurrentSpaceError>(*model);
+  if (!ranks.first()) {
+    model = std::move(parts);
+    error = std::make_unique<CurrentSpaceError>(*model);
+  }
+  ranks.giveBack();
 }
 
 int Attempt::unknowns() const {

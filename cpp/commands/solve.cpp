@@ -49,6 +49,7 @@ class WholeRun {
   void forget() {
     state_.reset();
     memory_.reset();
+    if (model_.inParts()) model_.ranks->giveBack();
   }
 
  private:

@@ -80,6 +80,10 @@ void MpiRanks::tellFault() {
   meet(faulty);
 }
 
+void MpiRanks::giveBack() {
+  malloc_trim(0);
+}
+
 void MpiRanks::call(std::function<void()> work) {
   meet();
   std::packaged_task<void()> task(std::move(work));
@@ -188,9 +192,6 @@ void MpiRanks::wait(const std::function<bool()>& done) {
 }
 
 void startRanks(int& argc, char**& argv) {
-  // What is whole for a moment (meshes before they are cut, states that are gathered) is given back at once.
-  constexpr int large = 1 << 20;
-  mallopt(M_MMAP_THRESHOLD, large);
   static MpiRanks ranks(argc, argv);
   Ranks::use(ranks);
   partitionBy(partitionByMetis);
