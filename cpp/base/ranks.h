@@ -60,8 +60,8 @@ class Ranks {
   virtual bool interrupt() noexcept { return false; }
   /// After Interrupted was thrown: whether all ranks still answer. They no longer hear of interruptions then.
   virtual bool answer() noexcept { return true; }
-  /// To be called where what was whole for a moment (meshes before they are cut, states that were gathered) is
-  /// gone: several processes on one machine need the memory.
+  /// To be called where what was whole for a moment (meshes before they are cut, states that were gathered)
+  /// is gone: several processes on one machine need the memory.
   virtual void giveBack() {}
   /// Values that were sent and received so far [bytes].
   [[nodiscard]] virtual double traffic() const { return 0; }
