@@ -18,7 +18,10 @@ double largestOf(const Eigen::Ref<const Matrix>& columns, Threads& threads) {
   const auto count = static_cast<int>(columns.cols());
   std::vector<double> largest(blocksOf(count), 0);
   forEachBlock(count, threads, [&](int begin, int end) {
-    largest[begin / itemsOfBlock] = columns.middleCols(begin, end - begin).cwiseAbs().maxCoeff();
+    const Eigen::Index rows = columns.rows();
+    const double* first = columns.data() + rows * begin;
+    largest[begin / itemsOfBlock] =
+        Eigen::Map<const Eigen::ArrayXd>(first, rows * (end - begin)).abs().maxCoeff();
   });
   return largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
 }

@@ -3,7 +3,9 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <optional>
 
+#include "base/error.h"
 #include "theory/random_line.h"
 #include "theory/random_scene.h"
 
@@ -14,6 +16,15 @@ using namespace scenes;
 
 constexpr double tolerance = 1e-10;
 
+/// None where a bent line turns a quadratic triangle of a coarse mesh inside out.
+std::optional<RandomLine> soundLine(unsigned seed, int cells) {
+  try {
+    return randomLine(seed, cells);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 TEST(LongLines, randomLinesAgreeWithDenseMatrices) {
   const char* asked = std::getenv("MORTIER_RANDOM_LINES");
   const int count = asked != nullptr ? std::atoi(asked) : 100;
@@ -22,8 +33,12 @@ TEST(LongLines, randomLinesAgreeWithDenseMatrices) {
   double displacement = 0;
   int solved = 0;
   int otherEnd = 0;
-  for (int seed = 0; seed < count; ++seed) {
-    const RandomLine line = randomLine(static_cast<unsigned>(seed), cells);
+  unsigned seed = 0;
+  for (int drawn = 0; drawn < count; ++seed) {
+    const std::optional<RandomLine> sound = soundLine(seed, cells);
+    if (!sound) continue;
+    ++drawn;
+    const RandomLine& line = *sound;
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + line.words);
     const Difference difference = denseAndSparse(line);
     otherEnd += difference.sameEnd ? 0 : 1;
