@@ -24,6 +24,18 @@ namespace {
 
 enum Standing { going = 0, faulty = 1, interrupted = 2, ended = 3 };  // ended + its exit code
 
+/// Where the parts of the ranks are, one after the other.
+struct PartsOfAll {
+  explicit PartsOfAll(const std::vector<size_t>& sizes)
+      : counts(sizes.begin(), sizes.end()), places(sizes.size(), 0) {
+    for (size_t r = 1; r < counts.size(); ++r) places[r] = places[r - 1] + counts[r - 1];
+  }
+  [[nodiscard]] size_t size() const { return static_cast<size_t>(places.back()) + counts.back(); }
+
+  std::vector<int> counts;
+  std::vector<int> places;
+};
+
 auto complete(MPI_Request& request) {
   return [&request] {
     int done = 0;
@@ -52,28 +64,24 @@ void MpiRanks::largest(double* values, size_t count) {
 
 void MpiRanks::gather(const std::vector<double>& own, const std::vector<size_t>& sizes, double* all) {
   meet();
-  std::vector<int> counts(sizes.begin(), sizes.end());
-  std::vector<int> places(counts.size(), 0);
-  for (size_t r = 1; r < counts.size(); ++r) places[r] = places[r - 1] + counts[r - 1];
+  const PartsOfAll parts(sizes);
   MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Iallgatherv(own.data(), static_cast<int>(own.size()), MPI_DOUBLE, all, counts.data(), places.data(),
-                  MPI_DOUBLE, MPI_COMM_WORLD, &request);
+  MPI_Iallgatherv(own.data(), static_cast<int>(own.size()), MPI_DOUBLE, all, parts.counts.data(),
+                  parts.places.data(), MPI_DOUBLE, MPI_COMM_WORLD, &request);
   wait(complete(request));
-  traffic_ += sizeof(double) * static_cast<double>(places.back() + counts.back() + own.size());
+  traffic_ += sizeof(double) * static_cast<double>(parts.size() + own.size());
 }
 
 // Messages to the first alone; it takes as much memory as what it asked for.
 void MpiRanks::gatherToFirst(const std::vector<double>& own, const std::vector<size_t>& sizes, double* all) {
   meet();
-  std::vector<int> counts(sizes.begin(), sizes.end());
-  std::vector<int> places(counts.size(), 0);
-  for (size_t r = 1; r < counts.size(); ++r) places[r] = places[r - 1] + counts[r - 1];
+  const PartsOfAll parts(sizes);
   MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Igatherv(own.data(), static_cast<int>(own.size()), MPI_DOUBLE, all, counts.data(), places.data(),
-               MPI_DOUBLE, 0, MPI_COMM_WORLD, &request);
+  MPI_Igatherv(own.data(), static_cast<int>(own.size()), MPI_DOUBLE, all, parts.counts.data(),
+               parts.places.data(), MPI_DOUBLE, 0, MPI_COMM_WORLD, &request);
   wait(complete(request));
   traffic_ += sizeof(double) * static_cast<double>(own.size());
-  if (first()) traffic_ += sizeof(double) * static_cast<double>(places.back() + counts.back());
+  if (first()) traffic_ += sizeof(double) * static_cast<double>(parts.size());
 }
 
 void MpiRanks::tellFault() {

@@ -27,52 +27,47 @@ struct Gathering {
   }
 };
 
+// Members are named one by one: with one more these do not compile.
+
+template <class Way>
+BodyState taken(const Way& way, size_t body, const BodyState& from) {
+  const auto& [displacement, stress, viscoplastic, work, thermal] = from;
+  return {way.nodes(body, displacement), way.points(body, stress), way.points(body, viscoplastic), work,
+          thermal.rows() > 0 ? way.points(body, thermal) : Matrix()};
+}
+
 template <class Way>
 State taken(const Way& way, const State& from) {
-  State state;
-  state.time = from.time;
-  for (size_t b = 0; b < from.bodies.size(); ++b) {
-    const BodyState& body = from.bodies[b];
-    state.bodies.push_back({way.nodes(b, body.displacement),
-                            way.points(b, body.stress),
-                            way.points(b, body.viscoplasticStrain),
-                            body.work,
-                            {}});
-    if (body.thermalStrain.rows() > 0) state.bodies[b].thermalStrain = way.points(b, body.thermalStrain);
-  }
-  state.contactForce = from.contactForce;
-  state.gap = from.gap;
-  state.frictionForce = from.frictionForce;
-  state.slipping = from.slipping;
-  state.frictionWork = from.frictionWork;
-  state.frictionWorkOf = from.frictionWorkOf;
-  state.gapWork = from.gapWork;
+  const auto& [time, bodies, force, gap, friction, slipping, work, workOf, gapWork] = from;
+  State state{time, {}, force, gap, friction, slipping, work, workOf, gapWork};
+  for (size_t b = 0; b < bodies.size(); ++b) state.bodies.push_back(taken(way, b, bodies[b]));
   return state;
 }
 
 template <class Way>
+BodyIncrement taken(const Way& way, size_t body, const BodyIncrement& from) {
+  const auto& [displacement, stress] = from;
+  return {{way.nodes(body, displacement.high), way.nodes(body, displacement.low)}, way.points(body, stress)};
+}
+
+template <class Way>
+ControllerMemory taken(const Way& way, const ControllerMemory& from) {
+  const auto& [trial, start, timeStep, scale, largest, local, strain, error, worst, slip, missed, pairEnd] =
+      from;
+  ControllerMemory memory{
+      trial, taken(way, start), timeStep, scale, largest, local, {}, error, worst, slip, missed, pairEnd};
+  for (size_t b = 0; b < strain.size(); ++b) memory.strain.push_back(way.points(b, strain[b]));
+  return memory;
+}
+
+template <class Way>
 MarchMemory taken(const Way& way, const MarchMemory& from) {
-  MarchMemory memory;
-  memory.begin = from.begin;
-  memory.run = from.run;
-  memory.timeStep = from.timeStep;
-  memory.solver = from.solver;
-  for (const std::vector<BodyIncrement>& stage : from.increments) {
-    std::vector<BodyIncrement>& increments = memory.increments.emplace_back();
-    for (size_t b = 0; b < stage.size(); ++b)
-      increments.push_back(
-          {{way.nodes(b, stage[b].displacement.high), way.nodes(b, stage[b].displacement.low)},
-           way.points(b, stage[b].stress)});
+  const auto& [begin, run, increments, timeStep, solver, controller] = from;
+  MarchMemory memory{begin, run, {}, timeStep, solver, taken(way, controller)};
+  for (const std::vector<BodyIncrement>& stage : increments) {
+    std::vector<BodyIncrement>& of = memory.increments.emplace_back();
+    for (size_t b = 0; b < stage.size(); ++b) of.push_back(taken(way, b, stage[b]));
   }
-  const ControllerMemory& own = from.controller;
-  memory.controller = {own.trial,    taken(way, own.start),
-                       own.timeStep, own.scale,
-                       own.largest,  own.local,
-                       {},           own.error,
-                       own.worst,    own.slip,
-                       own.missed,   own.pairEnd};
-  for (size_t b = 0; b < own.strain.size(); ++b)
-    memory.controller.strain.push_back(way.points(b, own.strain[b]));
   return memory;
 }
 
