@@ -116,7 +116,7 @@ void bindScene(py::module_& module) {
       .def_property_readonly("title", [](const Scene& scene) { return scene.resolved.description.title; })
       .def_property_readonly("is_adaptive", [](const Scene& scene) {
         const SceneDescription& of = scene.resolved.description;
-        return of.time.controlled() || of.accuracy.energy > 0;
+        return of.time.controlled() || of.accuracy.asked() > 0;
       });
   module.def("check", &check);
   module.def("write_mesh", &writeMesh);

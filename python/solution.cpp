@@ -29,21 +29,23 @@ struct Record {
   }
 };
 
-/// The files of a run and what belongs to them.
+/// Where the result goes, a folder or memory alone, and what belongs to it.
 struct Output {
-  RunIdentity identity;
-  OutputFolder folder;
+  std::unique_ptr<OutputFolder> folder;
+  std::string temporary;  ///< empty: in memory alone
   Checkpoints checkpoints;
   Log quiet;
+  bool inRounds;
   std::string again;
 
   Output(const Scene& scene, const RunOptions& options, const Attempt& first)
-      : identity(identityOf(scene, first)),
-        folder(options.out),
-        checkpoints(folder.temporary(), options.checkpoint, identity),
+      : folder(options.out.empty() ? nullptr : std::make_unique<OutputFolder>(options.out)),
+        temporary(folder ? folder->temporary() : ""),
+        checkpoints(temporary, options.checkpoint, folder ? identityOf(scene, first) : RunIdentity()),
         quiet(true, first.scene().time.end),
+        inRounds(first.scene().accuracy.asked() > 0),
         again("; mortier run --restart " + options.out +
-              (first.scene().accuracy.energy > 0 ? " begins the rounds again" : " goes on")) {}
+              (inRounds ? " begins the rounds again" : " goes on")) {}
 
   static RunIdentity identityOf(const Scene& scene, const Attempt& first) {
     RunCommand command;
@@ -60,52 +62,16 @@ struct Output {
                            attempt.solvedModel(),
                            *attempt.error,
                            attempt.facts,
-                           folder.temporary(),
+                           temporary,
                            quiet,
                            attempt.state,
                            {},
                            checkpoints,
                            again,
                            observe,
-                           attempt.scene().accuracy.energy > 0});
+                           inRounds});
   }
 };
-
-/// The march of solve() without files.
-Solved solveInMemory(const Attempt& attempt, const Observer& observe) {
-  const SceneDescription& scene = attempt.scene();
-  Solved solved;
-  solved.state = attempt.state;
-  State last = solved.state;
-  MarchMemory memory;
-  MarchMemory lastMemory;
-  AccuracyMemory errors;
-  CurrentSpaceError& error = *attempt.error;
-  error.moveTo(solved.state);
-  AccuracyRecord accuracies(*attempt.model, error, errors);
-  try {
-    solved.report = march(*attempt.model, solved.state, memory, scene.time, scene.solver,
-                          [&](const State& state, const StepReport& report) {
-                            if (report.step == 0) errors = {};
-                            const bool kept = scene.every > 0 && report.step % scene.every == 0;
-                            error.moveTo(state);
-                            accuracies.add(report, kept);
-                            observe(state, report);
-                            solved.last = report;
-                            last = state;
-                            lastMemory = memory;
-                          });
-  } catch (const TimeIsUp&) {
-    solved.report = lastMemory.run;
-    solved.report.status = Status::failed;
-    solved.report.reason = timeIsUp;
-    solved.state = last;
-  } catch (const Interrupted&) {
-    throw InterruptedError(scene.path + ": interrupted after step " + std::to_string(solved.last.step));
-  }
-  solved.accuracy = accuracies.atEnd(solved.report.peaks);
-  return solved;
-}
 
 std::vector<std::pair<std::string, HistoryColumn>> columnsOf(const Attempt& attempt, const Record& record) {
   const std::vector<std::string> names =
@@ -140,8 +106,7 @@ Solution solveScene(const Scene& scene, const RunOptions& options,
   const AttemptOptions forAttempt{scene.settings, options.threads, scene.text};
   auto first = std::make_unique<Attempt>(std::move(resolved), forAttempt);
   findInitialEquilibrium(first->scene(), *first->model, first->state);
-  std::optional<Output> output;
-  if (!options.out.empty()) output.emplace(scene, options, *first);
+  Output output(scene, options, *first);
 
   std::shared_ptr<Attempt> attempt;
   std::map<const Attempt*, Record> records;
@@ -164,16 +129,14 @@ Solution solveScene(const Scene& scene, const RunOptions& options,
       }
       if (alsoObserve) alsoObserve(state, report);
     };
-    now.solved = output ? output->solve(now, observe) : solveInMemory(now, observe);
+    now.solved = output.solve(now, observe);
     const Solved& solved = now.solved;
     if (record.kept.empty() || record.kept.back().report.step != solved.last.step)
       record.keep(solved.last, solved.state);
   };
   std::string shortfall;
   if (rounds) {
-    Log quiet(true, 0);
-    shortfall =
-        solveRounds(*rounds, first, forAttempt, output ? output->folder.temporary() : "", quiet, solveIt);
+    shortfall = solveRounds(*rounds, first, forAttempt, output.temporary, output.quiet, solveIt);
     attempt = std::move(first);
   } else {
     attempt = std::move(first);
@@ -182,11 +145,11 @@ Solution solveScene(const Scene& scene, const RunOptions& options,
 
   Solution solution;
   addVerdict(*attempt, rounds ? &*rounds : nullptr, shortfall);
-  if (output) solution.folder = putInPlace(*attempt, output->folder);
+  if (output.folder) solution.folder = putInPlace(*attempt, *output.folder);
   const Solved& solved = attempt->solved;
-  solution.summary = output ? readSceneText(solution.folder + "/summary.json")
-                            : summaryText("summary", attempt->facts, *attempt->model, solved.state,
-                                          solved.last, solved.report, solved.accuracy);
+  solution.summary = output.folder ? readSceneText(solution.folder + "/summary.json")
+                                   : summaryText("summary", attempt->facts, *attempt->model, solved.state,
+                                                 solved.last, solved.report, solved.accuracy);
   solution.ending = endingOf(*attempt, shortfall, solution.folder);
   Record& record = records.at(attempt.get());
   solution.history = columnsOf(*attempt, record);

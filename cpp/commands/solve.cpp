@@ -21,11 +21,13 @@ Checkpoints::Checkpoints(std::string folder, double interval, RunIdentity identi
 
 bool Checkpoints::due() const {
   constexpr double rarely = 10;
-  return processSeconds() - last_ >= (interval_ > 0 ? std::max(interval_, rarely * cost_) : 0);
+  return !folder_.empty() &&
+         processSeconds() - last_ >= (interval_ > 0 ? std::max(interval_, rarely * cost_) : 0);
 }
 
 void Checkpoints::write(const FilesSoFar& empty, const FilesSoFar& files, const StepReport& last,
                         const State& state, const MarchMemory& memory, const AccuracyMemory& accuracy) {
+  if (folder_.empty()) return;
   const double begin = processSeconds();
   writeCheckpoint(folder_, {identity_, empty, files, last, state, memory, accuracy});
   last_ = processSeconds();
@@ -71,13 +73,14 @@ Solved solve(Solving solving) {
   StepReport& last = solved.last;
   State& state = solved.state;
   const bool writes = Ranks::all().first();
+  const bool toFiles = writes && !folder.empty();
   std::optional<ResultFiles> files;  // where this rank writes
   FilesSoFar empty;
   MarchMemory memory;
   AccuracyMemory accuracySoFar;
   if (solving.stopped) {
     Checkpoint& stopped = *solving.stopped;
-    if (writes) files.emplace(folder, model, solving.error, scene.every, stopped.files);
+    if (toFiles) files.emplace(folder, model, solving.error, scene.every, stopped.files);
     empty = stopped.empty;
     last = stopped.last;
     state = inParts ? ofParts(solving.solvedModel, stopped.state) : std::move(stopped.state);
@@ -85,7 +88,7 @@ Solved solve(Solving solving) {
     accuracySoFar = stopped.accuracy;
     solving.stopped.reset();
   } else {
-    if (writes) files.emplace(folder, model, solving.error, facts.quantities, facts.units, scene.every);
+    if (toFiles) files.emplace(folder, model, solving.error, facts.quantities, facts.units, scene.every);
     state = std::move(solving.state);
   }
   if (!inParts) solving.error.moveTo(state);
@@ -125,7 +128,7 @@ Solved solve(Solving solving) {
       if (!solving.onlyTheStart) save(empty, state, memory);
       files.reset();
       removeFields(folder, written, empty);
-      if (writes) files.emplace(folder, model, solving.error, scene.every, empty);
+      if (toFiles) files.emplace(folder, model, solving.error, scene.every, empty);
     }
     if (asked(kept || accuracies.asks(report, kept))) {
       const State& at = whole.state(state);
@@ -171,7 +174,7 @@ Solved solve(Solving solving) {
     report = march(solving.solvedModel, state, memory, scene.time, scene.solver, observe);
   } catch (const OutputError& error) {
     log.finish();
-    if (!hasCheckpoint(folder)) throw;
+    if (folder.empty() || !hasCheckpoint(folder)) throw;
     throw OutputError(error.what() + solving.again);
   } catch (const TimeIsUp&) {
     report = keptMemory.run;
@@ -186,8 +189,10 @@ Solved solve(Solving solving) {
       saveLast();
     } catch (const Interrupted&) {  // some no longer answer: the checkpoint before holds
     }
-    throw InterruptedError(scene.path + ": interrupted after step " + std::to_string(last.step) +
-                           (hasCheckpoint(folder) ? solving.again : "; nothing was written"));
+    const std::string resume = folder.empty()          ? ""
+                               : hasCheckpoint(folder) ? solving.again
+                                                       : "; nothing was written";
+    throw InterruptedError(scene.path + ": interrupted after step " + std::to_string(last.step) + resume);
   }
   log.finish();
   keptState = {};
@@ -195,7 +200,7 @@ Solved solve(Solving solving) {
   if (inParts) state = gathered(solving.solvedModel, state);
   if (!writes) return solved;
   solving.error.moveTo(state);
-  solved.files = files->close(state, last.step);
+  if (files) solved.files = files->close(state, last.step);
   solved.accuracy = accuracies.atEnd(report.peaks);
   if (flow) {
     solved.accuracy.flow = flow->atEnd(state);

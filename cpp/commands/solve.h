@@ -16,6 +16,7 @@
 namespace mortier {
 
 /// Writes checkpoints at intervals of wall time, and never so often that a tenth of the time goes into them.
+/// Without a folder it writes none.
 class Checkpoints {
  public:
   Checkpoints(std::string folder, double interval, RunIdentity identity);
@@ -41,7 +42,7 @@ struct Solving {
   const Model& solvedModel;  ///< that of this rank: the same, or in parts
   CurrentSpaceError& error;  ///< kept up to date
   const RunFacts& facts;
-  const std::string& folder;  ///< to write into
+  const std::string& folder;  ///< of the result files; empty: none are written
   Log& log;
   State state;  ///< in which it begins
   /// What a stopped run had done; it is gone on with.

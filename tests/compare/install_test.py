@@ -68,6 +68,44 @@ class Install(InSharedFolder):
             self.assertAlmostEqual(float(row["contact_force[N/m]"]), float(force), delta=1e-14 * float(force))
 
         self.compare_own_law(build / "own_law", package / "bin/mortier")
+        self.compare_two_blocks(build / "two_blocks", package / "bin/mortier")
+
+    def compare_two_blocks(self, example, program):
+        """The method by the layers, in a page: the patch test, and the same stresses as the program's."""
+        import meshio
+        shape = 'shape = "rectangle", cut = "both"'
+        material = "material = { young = 1000, poisson = 0.3 }"
+        scene = self.folder / "two_blocks.toml"
+        scene.write_text(f'''
+[[body]]
+name = "upper"
+mesh = {{ {shape}, cells = 3, lower = [0, 0], upper = [1, 1] }}
+{material}
+boundary = [ {{ label = 4, ux = 0 }}, {{ label = 3, ty = "-t" }} ]
+[[body]]
+name = "lower"
+mesh = {{ {shape}, cells = 4, lower = [0, -1], upper = [1, 0] }}
+{material}
+boundary = [ {{ label = 4, ux = 0 }}, {{ label = 1, uy = 0 }} ]
+[contact]
+nonmortar = {{ body = "upper", label = 1 }}
+mortar = {{ body = "lower", label = 3 }}
+[time]
+end = 1
+steps = 1
+''')
+        for line in output(example).splitlines():
+            variant = line.split()[0]
+            numbers = [float(word) for word in re.findall(r"-?[\d.]+", line.split("upper")[1])]
+            folder = self.folder / variant
+            output(program, "run", scene, "--quiet", "--out", folder, "--set", f"contact.variant={variant}")
+            theirs = [limit(meshio.read(folder / f"{body}_000001.vtu").cell_data["stress"][0][:, 1])
+                      for body in ("upper", "lower") for limit in (min, max)] + [1]
+            self.assertEqual(len(numbers), len(theirs))
+            for ours, told in zip(numbers, theirs):
+                self.assertAlmostEqual(ours, told, delta=1e-9)
+            self.assertEqual(numbers == [-1, -1, -1, -1, 1], variant == "mortar")
+        self.assertLessEqual(len((ROOT / "examples/two_blocks.cpp").read_text().splitlines()), 120)
 
     def compare_own_law(self, example, program):
         """The example's law beside the same one as expressions."""

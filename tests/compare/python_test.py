@@ -24,6 +24,8 @@ CASES = {
     "plane-strain": ("thick-cylinder.toml", {"time.steps": 4, "output.every": 2}),
     "accuracy": ("punch.toml", {"accuracy.energy": 0.2, "output.every": 1}),
     "bound": ("exact-contact.toml", {"accuracy.bound": True}),
+    "flow-and-bound": ("compression.toml", {"accuracy.bound": True, "time.steps": 4,
+                                            "body.material.projection": "frobenius"}),
     "no-bound": ("hertz.toml", {"accuracy.bound": True, "time.steps": 1}),
     "accuracy-and-bound": ("punch.toml", {"accuracy.energy": 0.2, "accuracy.bound": True}),
 }
@@ -53,6 +55,29 @@ class AsTheProgram(InSharedFolder):
                 self.compare(run, folder, name)
                 self.assertEqual("bound" in run.summary["accuracy"], "bound" in name)
                 self.assertEqual("reached" in run.summary["accuracy"], "accuracy" in name)
+
+    def test_refinement_that_aims_at_a_quantity(self):
+        path = self.folder / "aimed.toml"
+        path.write_text((SCENES / "punch.toml").read_text().replace("../", f"{SCENES.parent}/") + '''
+[accuracy]
+quantity = "press"
+tolerance = 0.02
+[[quantity]]
+name = "press"
+contact_force = { body = "ground", label = 3 }
+component = "y"
+''')
+        folder = self.folder / "aimed"
+        told = mortier_program("run", path, "--quiet", "--out", folder)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        scene = mortier.load(path)
+        run = scene.run()
+        self.assertGreater(len(run.summary["rounds"]), 1)
+        self.compare(run, folder, "aimed")
+        # Meshes are refined, so the steps are those of the last round.
+        self.assertEqual([step.number for step in scene.steps()], [0, 1])
+        out = scene.run(self.folder / "aimed-too")
+        self.assertEqual(without_measured(out.summary), without_measured(run.summary))
 
     def compare(self, run, folder, name):
         self.assertEqual(without_measured(run.summary),
