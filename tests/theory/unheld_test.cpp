@@ -103,7 +103,8 @@ Model apart(double distance, const std::shared_ptr<const Material>& material, co
 // over the size.
 TEST(Unheld, bodiesTravelUntilContactCloses) {
   constexpr double distance = 0.1;
-  for (const CouplingKind coupling : {CouplingKind::mortar})
+  for (const CouplingKind coupling :
+       {CouplingKind::mortar, CouplingKind::interpolation, CouplingKind::weighted})
     for (const bool elastic : {true, false})
       for (const double pressure : {1e-6, 1e-3, 1.0, 1e3}) {
         const auto material = elastic ? elasticMaterial(noteElasticity)
