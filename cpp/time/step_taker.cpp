@@ -1,6 +1,8 @@
 #include "time/step_taker.h"
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "base/blocks.h"
@@ -45,8 +47,36 @@ StepOutcome StepTaker::guard(const StepOutcome& before, Effort effort) {
   return again;
 }
 
-/// Refuses a solution that could be anywhere along a motion.
+namespace {
+
+/// The first residual of a solution that is beyond `most`, in words; empty where none is.
+std::string beyond(const Certificate& found, double most) {
+  const std::pair<const char*, double> residuals[] = {{"force balance", found.forceBalance},
+                                                      {"material residual", found.materialResidual},
+                                                      {"gap on active contact", found.gapOnActive},
+                                                      {"negative contact force", found.sign},
+                                                      {"complementarity", found.complementarity},
+                                                      {"friction", found.friction}};
+  for (const auto& [name, value] : residuals)
+    if (!(value <= most)) {
+      std::ostringstream text;
+      text << name << " of the solution " << value << ", expected at most " << most;
+      return text.str();
+    }
+  return "";
+}
+
+}  // namespace
+
+/// Refuses a solution whose residuals are no rounding, and one that could be anywhere along a motion.
 StepOutcome StepTaker::hold(StepOutcome outcome) {
+  constexpr double rounding = 1e-8;  // residuals of solutions are 1e-10 and less
+  if (const std::string residual =
+          outcome.converged()
+              ? beyond(outcome.certificate, std::max(rounding, system_.options().tolerance))
+              : "";
+      model_.any(!residual.empty()))
+    outcome.fail(Reason::unconverged, residual);
   if (const std::string motion = outcome.converged() ? system_.looseMotion(state_, solutions_.back()) : "";
       !motion.empty())
     outcome.fail(Reason::unheld, "no contact is closed that would hold " + motion);
