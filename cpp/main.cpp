@@ -167,9 +167,7 @@ int dispatch(int argc, char** argv) {
       "compare a scene with FreeFEM or with a stored reference (docs/compare.md); exit code 0 or 1");
   compareApp->add_option("SCENE", compareCommand.scene, "scene, a TOML file");
   compareApp->add_option("--set", compareCommand.settings, settingsHelp)->type_name("KEY=VALUE");
-  compareApp
-      ->add_option("--accept", compareCommand.accept,
-                   "store the result of the scene as a reference")
+  compareApp->add_option("--accept", compareCommand.accept, "store the result of the scene as a reference")
       ->type_name("FOLDER");
   compareApp
       ->add_option(

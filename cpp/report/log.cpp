@@ -223,7 +223,8 @@ std::string logAccuracy(const RunFacts& facts, const Model& model, const Accurac
   if (accuracy.all == 0 && accuracy.largest == 0) return text;
   for (const std::string& doubt : facts.doubts) text += "           not reliable: " + doubt + "\n";
   if (std::max(accuracy.all, accuracy.largest) > coarse)
-    text += "           not reliable: above 30 %, mesh too coarse: the estimate is 0.8 to 2 times the error\n";
+    text +=
+        "           not reliable: above 30 %, mesh too coarse: the estimate is 0.8 to 2 times the error\n";
   return text;
 }
 

@@ -51,12 +51,10 @@ namespace {
 
 /// The first residual of a solution that is beyond `most`, in words; empty where none is.
 std::string beyond(const Certificate& found, double most) {
-  const std::pair<const char*, double> residuals[] = {{"force balance", found.forceBalance},
-                                                      {"material residual", found.materialResidual},
-                                                      {"gap on active contact", found.gapOnActive},
-                                                      {"negative contact force", found.sign},
-                                                      {"complementarity", found.complementarity},
-                                                      {"friction", found.friction}};
+  const std::pair<const char*, double> residuals[] = {
+      {"force balance", found.forceBalance},        {"material residual", found.materialResidual},
+      {"gap on active contact", found.gapOnActive}, {"negative contact force", found.sign},
+      {"complementarity", found.complementarity},   {"friction", found.friction}};
   for (const auto& [name, value] : residuals)
     if (!(value <= most)) {
       std::ostringstream text;
@@ -72,9 +70,8 @@ std::string beyond(const Certificate& found, double most) {
 StepOutcome StepTaker::hold(StepOutcome outcome) {
   constexpr double rounding = 1e-8;  // residuals of solutions are 1e-10 and less
   if (const std::string residual =
-          outcome.converged()
-              ? beyond(outcome.certificate, std::max(rounding, system_.options().tolerance))
-              : "";
+          outcome.converged() ? beyond(outcome.certificate, std::max(rounding, system_.options().tolerance))
+                              : "";
       model_.any(!residual.empty()))
     outcome.fail(Reason::unconverged, residual);
   if (const std::string motion = outcome.converged() ? system_.looseMotion(state_, solutions_.back()) : "";
