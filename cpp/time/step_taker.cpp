@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/blocks.h"
+#include "material/stress.h"
 #include "solver/total_strain.h"
 #include "time/measure.h"
 
@@ -116,6 +117,20 @@ std::optional<StuckPlace> StepTaker::stuck() {
   if (!unsolved_) return std::nullopt;
   auto& [data, iterate] = *unsolved_;
   return system_.furthest(system_.step(state_, data), iterate, data.weight);
+}
+
+std::string StepTaker::stressAt(const StuckPlace& place) const {
+  const Body& body = model_.bodies[place.body];
+  if (!unsolved_ || model_.inParts()) return "";
+  const int first = place.triangle * body.pointsOfTriangle();
+  int point = first;
+  while (point + 1 < first + body.pointsOfTriangle() && body.places()[point] != place.at) ++point;
+  const Matrix& stress = unsolved_->second.bodies[place.body].stress;
+  const Eigen::Vector3d s = toCartesian(stress.col(point).head<3>());
+  std::ostringstream text;
+  text << ", at the stress s11 = " << s[0] << ", s22 = " << s[1] << ", s12 = " << s[2];
+  if (stress.rows() > 3) text << ", s33 = " << stress(3, point);
+  return text.str();
 }
 
 /// sum_{j<i} a_ij k G_j
