@@ -50,7 +50,7 @@ int dispatch(int argc, char** argv) {
   CLI::Option* out = runApp->add_option("--out", runCommand.out,
                                         "folder of the result (default: out/ and the scene's name)");
   out->type_name("DIR");
-  runApp->add_option("--restart", runCommand.restart, "go on with a stopped run whose result was to be DIR")
+  runApp->add_option("--restart", runCommand.restart, "resume the interrupted run that was writing to DIR")
       ->type_name("DIR")
       ->excludes(out);
   runApp
@@ -156,7 +156,7 @@ int dispatch(int argc, char** argv) {
 
   ReportCommand reportCommand;
   CLI::App* reportApp =
-      app.add_subcommand("report", "results as one HTML file that can be turned over (docs/pictures.md)");
+      app.add_subcommand("report", "results as one interactive HTML file (docs/pictures.md)");
   reportApp->add_option("OUT", reportCommand.results, "folders of results; several stand side by side")
       ->required();
   reportApp->add_option("--out", reportCommand.out, "the HTML file (default: OUT.html beside the result)");
@@ -164,12 +164,10 @@ int dispatch(int argc, char** argv) {
   CompareCommand compareCommand;
   CLI::App* compareApp = app.add_subcommand(
       "compare",
-      "a scene in both codes, or beside a result that was kept (docs/compare.md); exit code 0 or 1");
+      "compare a scene with FreeFEM or with a stored reference (docs/compare.md); exit code 0 or 1");
   compareApp->add_option("SCENE", compareCommand.scene, "scene, a TOML file");
   compareApp->add_option("--set", compareCommand.settings, settingsHelp)->type_name("KEY=VALUE");
-  compareApp
-      ->add_option("--accept", compareCommand.accept,
-                   "keeps the result of the scene, to be compared with later")
+  compareApp->add_option("--accept", compareCommand.accept, "store the result of the scene as a reference")
       ->type_name("FOLDER");
   compareApp
       ->add_option(

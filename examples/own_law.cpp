@@ -1,4 +1,4 @@
-// A law of one's own in a scene: own_law SCENE.toml, whose bodies may say law = "sinh-creep",
+// A user-defined law in a scene: own_law SCENE.toml, whose bodies may say law = "sinh-creep",
 //   eps' = E^-1 sigma' + rate sinh(vM/stress) (3/2) dev sigma/vM   (F. Garofalo, 1965, exponent 1),
 // with parameters = { rate = 1e-9, stress = 2e7 }. Prints the largest von Mises stress after each step.
 #include <cstdio>

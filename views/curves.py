@@ -57,7 +57,7 @@ def contact(views, exact=None):
         below.grid()
     what = "pressure; dashed: shear stress,\nmarks where it slips" if rough else "contact pressure"
     axes[0, 0].set_ylabel(labelled(what, views[0].result.stress_unit))
-    axes[1, 0].set_ylabel(labelled("gap, marks: as the nodes see it", views[0].result.length_unit))
+    axes[1, 0].set_ylabel(labelled("gap: line geometric, markers weighted", views[0].result.length_unit))
     words = time_words(views[0].result, views[0].step)
     figure.suptitle(f"{views[0].result.title}, {words}" if len(views) == 1 else words, x=0.02, ha="left",
                     fontsize=10.5)

@@ -224,7 +224,7 @@ def fields(views, field_name="von_mises", scale=None, window=None, norm=None, co
             below = figure.add_subplot(grid[1 + k, i])
             shared = strip_window([of_run[k] for of_run in lines if len(of_run) > k] if alike else [line])
             draw_magnified(below, each, line, shared, field, value, norm, colours)
-            below.set_ylabel("stretched")
+            below.set_ylabel("magnified")
             below.set_title(f"contact: {line.nonmortar} (nonmortar, circles), {line.mortar} (squares)",
                             loc="left", fontsize=8)
     if field is not None:
@@ -235,7 +235,7 @@ def fields(views, field_name="von_mises", scale=None, window=None, norm=None, co
 
 def title_of(view, views, scale, letters):
     name = view.result.title if len(views) == 1 else view.result.name
-    words = "" if scale == 1 else f", displacements times {scale:g}"
+    words = "" if scale == 1 else f", deformation x{scale:g}"
     lines = [f"{name}, {time_words(view.result, view.step)}{words}"]
     if view.result.failed:
         lines.append(f"stopped early: {view.result.reason}")

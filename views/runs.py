@@ -154,7 +154,7 @@ class Result:
                               True,
                               lambda body, c=c: body.cells["viscoplastic_strain"].reshape(len(body.triangles),
                                                                                           -1)[:, c]))
-        made += [Field("viscoplastic", "beyond yield", "", False, False,
+        made += [Field("viscoplastic", "yielding", "", False, False,
                        lambda body: body.cells["viscoplastic"].astype(float)),
                  Field("error", "estimated error of the stress, share of the triangle", "", False, False,
                        lambda body: body.cells["error"]),

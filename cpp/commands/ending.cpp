@@ -14,6 +14,16 @@ namespace mortier {
 
 namespace {
 
+/// The law of a triangle.
+std::string lawOf(const BodyDescription& description, const Body& body, int triangle) {
+  size_t part = 0;  // of the body's laws; the first is that of the triangles in no region with its own
+  size_t next = 0;
+  for (const RegionDescription& region : description.regions)
+    if (region.material && (++next, region.label == body.mesh().regions[triangle])) part = next;
+  const std::vector<LawDescription> laws = body.material().laws();
+  return laws[part].text();
+}
+
 /// "; furthest off ..." where that is known.
 std::string whereToLook(const Attempt& attempt) {
   const std::optional<StuckPlace>& stuck = attempt.solved.report.stuck;
@@ -22,8 +32,9 @@ std::string whereToLook(const Attempt& attempt) {
   const std::string& driving = attempt.facts.driving;
   char at[64];
   std::snprintf(at, sizeof at, "(%.4g, %.4g)", stuck->at.x(), stuck->at.y());
-  return "; furthest off its law is body " + body.name() + " at " + at + ", triangle " +
-         std::to_string(stuck->triangle) + (driving.empty() ? "" : "; what drives the step is " + driving);
+  return "; furthest off its law, " + lawOf(attempt.scene().bodies[stuck->body], body, stuck->triangle) +
+         ", is body " + body.name() + " at " + at + ", triangle " + std::to_string(stuck->triangle) +
+         (driving.empty() ? "" : "; what drives the step is " + driving);
 }
 
 }  // namespace

@@ -59,9 +59,12 @@ void judge(const LawCheck& check, const Material& material, bool isotropic, cons
   constexpr double turns = 1e-9;
   constexpr double makesEnergy = -1e-9;
   const std::string& unit = scene.units.stress;
-  verdicts.line(
-      "rate", check.numbers == check.samples,
-      "a number at " + std::to_string(check.numbers) + " of " + std::to_string(check.samples) + " stresses");
+  const bool everywhere = check.numbers == check.samples;
+  verdicts.line("rate", everywhere,
+                "a number at " + std::to_string(check.numbers) + " of " + std::to_string(check.samples) +
+                    " stresses" + (everywhere ? "" : ", the least without" + atStress(check.overflow, unit)));
+  if (everywhere && check.overflow.size() > 0)
+    verdicts.line("overflow", true, "beyond these stresses" + atStress(check.overflow, unit));
   if (check.lipschitz == 0) {
     verdicts.line("flow", true, "none at these stresses");
     return;

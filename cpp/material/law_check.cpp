@@ -24,6 +24,7 @@ class Trial {
 
   LawCheck run() {
     for (int i = 0; i < range_.samples; ++i) takeSample();
+    for (size_t i = 0; i < stresses_.size(); ++i) takeMultiples(stresses_[i], strains_[i]);
     if (result_.lipschitz > 0) {
       result_.monotony /= result_.lipschitz;
       for (size_t i = 0; i < stresses_.size(); i += 4) takeTangents(stresses_[i], strains_[i]);
@@ -54,12 +55,11 @@ class Trial {
     Vector e = random(range_.strain);
     if (n_ == 4) e[3] = 0;
     const Vector G = rate(s, e);
-    if (!G.allFinite()) return;
+    if (!usable(G) || !takeSlopes(s, e)) return takeOverflow(s);
     ++result_.numbers;
     if (const double size = (rootC_ * s).norm() * (rootE_ * G).norm(); size > 0)
       result_.dissipation = std::min(result_.dissipation, s.dot(G) / size);
     takeTurns(s, e, G);
-    takeSlopes(s, e);
     stresses_.push_back(s);
     strains_.push_back(e);
   }
@@ -77,7 +77,22 @@ class Trial {
     }
   }
 
-  void takeSlopes(const Vector& s, const Vector& e) {
+  [[nodiscard]] bool usable(const Vector& G) const { return std::isfinite((rootE_ * G).squaredNorm()); }
+
+  void takeOverflow(const Vector& s) {
+    if (result_.overflow.size() == 0 || s.norm() < result_.overflow.norm()) result_.overflow = s;
+  }
+
+  void takeMultiples(const Vector& s, const Vector& e) {
+    constexpr double factor = 1.25;
+    const double strain = (C_ * s).norm();
+    const double nearest = result_.overflow.size() == 0 ? 1 / strain : result_.overflow.norm() / s.norm();
+    for (double multiple = 1; multiple * strain <= 1 && multiple < nearest; multiple *= factor)
+      if (!usable(rate(multiple * s, e))) return takeOverflow(multiple * s);
+  }
+
+  /// \returns whether they are numbers.
+  bool takeSlopes(const Vector& s, const Vector& e) {
     constexpr double part = 1e-6;
     const int count = material_.ofStrain() ? 2 * n_ : n_;
     Matrix slopes(n_, count);
@@ -88,7 +103,7 @@ class Trial {
       slopes.col(k) = byStress ? Vector((rate(s + d, e) - rate(s - d, e)) / (2 * h))
                                : Vector((rate(s, e + d) - rate(s, e - d)) / (2 * h));
     }
-    if (!slopes.allFinite()) return;
+    if (!slopes.allFinite()) return false;
     const Matrix byStress = rootE_ * slopes.leftCols(n_) * rootE_;
     Matrix all = byStress;
     if (count > n_) {
@@ -96,6 +111,7 @@ class Trial {
       all.rightCols(n_) = rootE_ * slopes.rightCols(n_) * rootC_;
     }
     const double steep = all.jacobiSvd().singularValues()[0];
+    if (!std::isfinite(steep)) return false;
     if (!(steep <= result_.lipschitz)) {
       result_.lipschitz = steep;
       result_.steepest = s;
@@ -103,6 +119,7 @@ class Trial {
     const Matrix symmetric = (byStress + byStress.transpose()) / 2;
     result_.monotony =
         std::min(result_.monotony, Eigen::SelfAdjointEigenSolver<Matrix>(symmetric).eigenvalues()[0]);
+    return true;
   }
 
   /// The stress at the end of a step, linearised there.

@@ -12,6 +12,8 @@
 
 namespace mortier {
 
+/// A rate is usable where it is finite and has a norm: a step is cut back from a stress where it has none. The
+/// rate is tried at multiples of the samples too, up to the stress of an elastic strain of 1.
 struct LawRange {
   double stress = 0;  ///< largest size of a stress [Pa]; the least is a thousandth of it
   double strain = 0;  ///< of a strain [-]
@@ -20,7 +22,8 @@ struct LawRange {
 
 struct LawCheck {
   int samples = 0;
-  int numbers = 0;           ///< samples at which the rate is finite
+  int numbers = 0;           ///< samples at which the rate and its slopes are usable numbers
+  Vector overflow = {};      ///< least stress that was tried at which they are not [Pa]; empty for none
   double lipschitz = 0;      ///< L [1/s]
   Vector steepest = {};      ///< stress at which it is that [Pa]
   double monotony = 0;       ///< least eigenvalue of the symmetric part of dG/ds, over L [-]

@@ -196,7 +196,9 @@ class OwnMaterial final : public Material {
       Solved solved{norm(r), norm(elastic) + norm(flow) + norm(problem.rhs.col(which[k])), inverse * r,
                     inverse};
       if (ofStrain()) solved.moduli = inverse * (Mat::Identity() - problem.weight * slopesAt(16));
-      if (solved.direction.allFinite() && solved.moduli.allFinite()) result[k] = solved;
+      // A rate beyond the square root of the largest number has no norm: such a stress is no iterate.
+      if (std::isfinite(solved.size) && solved.direction.allFinite() && solved.moduli.allFinite())
+        result[k] = solved;
     }
     return result;
   }

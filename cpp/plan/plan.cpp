@@ -100,7 +100,7 @@ class Planner {
     const std::string loads = "loads of the order of " + twoDigits(largest_) + " " + scene_.units.stress +
                               ", yield_stress " + shortest(yieldStress) + " " + scene_.units.stress;
     if (largest_ < yieldStress)
-      add(part, false, "flow, unless some point yields after all", loads);
+      add(part, false, "flow, as none is expected", loads);
     else
       add(part, true, "flow", loads);
   }

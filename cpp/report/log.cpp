@@ -77,12 +77,12 @@ std::string logStepsHeader(const Units& units) {
 }
 
 std::string logRoundsHeader() {
-  return " round  triangles  unknowns  steps  error of meshes  of steps  seconds\n";
+  return " round  triangles  unknowns  steps  mesh error  time error  seconds\n";
 }
 
 std::string logRound(const std::vector<RoundFacts>& rounds) {
   const RoundFacts& last = rounds.back();
-  return format("%6zu  %9zu  %8d  %5d  %13.3g %%  %6.2g %%  %7.3g\n", rounds.size(), last.triangles,
+  return format("%6zu  %9zu  %8d  %5d  %8.3g %%  %8.2g %%  %7.3g\n", rounds.size(), last.triangles,
                 last.unknowns, last.steps, 100 * last.mesh, 100 * last.time, last.seconds);
 }
 
@@ -136,7 +136,7 @@ std::string logBound(const EnergyBound& bound) {
   if (!std::isfinite(relative))
     return "           guaranteed: nothing below 100 %, the meshes are too coarse\n";
   constexpr double rounding = 1e-12;
-  if (bound.bound <= rounding * bound.norm) return "           guaranteed: 0 to rounding\n";
+  if (bound.bound <= rounding * bound.norm) return "           guaranteed: below rounding\n";
   std::string text = format("           guaranteed: at most %.2g %%", 100 * relative);
   if (bound.oscillation > linear)
     text += format(", for data that are linear on sides; these are off by %.1g %%", 100 * bound.oscillation);
@@ -199,7 +199,7 @@ std::string logAccuracy(const RunFacts& facts, const Model& model, const Accurac
   constexpr double coarse = 0.3;
   std::string text = "accuracy   estimated error of the stress, meshes only: ";
   if (accuracy.all == 0) {
-    text += "0 to rounding\n";
+    text += "below rounding\n";
   } else {
     text += format("%.2g %%", 100 * accuracy.all);
     for (size_t b = 0; b < model.bodies.size(); ++b)
@@ -223,7 +223,8 @@ std::string logAccuracy(const RunFacts& facts, const Model& model, const Accurac
   if (accuracy.all == 0 && accuracy.largest == 0) return text;
   for (const std::string& doubt : facts.doubts) text += "           not reliable: " + doubt + "\n";
   if (std::max(accuracy.all, accuracy.largest) > coarse)
-    text += "           not reliable: above 30 %, on meshes this coarse, it is 0.8 to 2 times the error\n";
+    text +=
+        "           not reliable: above 30 %, mesh too coarse: the estimate is 0.8 to 2 times the error\n";
   return text;
 }
 
@@ -278,7 +279,7 @@ std::string logRanges(const RunFacts& facts, const std::vector<QuantityRange>& r
   for (size_t i = 0; i < ranges.size(); ++i) {
     const QuantityRange& range = ranges[i];
     const char* unit = facts.units.time.c_str();
-    text += (i == 0 ? "in the run " : ", ") + facts.quantities[i].name +
+    text += (i == 0 ? "range      " : ", ") + facts.quantities[i].name +
             format(" %.5g (t = %.5g %s) to %.5g (t = %.5g %s)", range.smallest, range.smallestTime, unit,
                    range.largest, range.largestTime, unit);
   }

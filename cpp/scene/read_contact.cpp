@@ -49,7 +49,7 @@ void readSides(const TableReader& table, const SceneDescription& scene, ContactD
   contact.mortar = readSide(*sides[1], "sides", scene);
 }
 
-/// \throws InputError  where friction is asked for beside what it is not yet for
+/// \throws InputError  where friction stands together with what does not support it
 Friction readFriction(const TableReader& table, const SceneDescription& scene) {
   const Range notNegative{[](double x) { return x >= 0; },
                           [](const std::string& key) { return key + " >= 0"; }};
@@ -60,7 +60,7 @@ Friction readFriction(const TableReader& table, const SceneDescription& scene) {
   const char* key = friction.coefficient > 0 ? "friction" : "shear_limit";
   if (friction.coefficient > 0 && friction.limit > 0) table.reject("shear_limit", "friction or shear_limit");
   const auto refuse = [&](bool found, const std::string& what) {
-    if (found) table.reject(key, "none: friction is not yet for " + what);
+    if (found) table.reject(key, "none: " + what + " does not support friction, remove one of them");
   };
   refuse(scene.solver.method != Method::newton, "solver.method = penalty-duality");
   refuse(scene.accuracy.bound, "accuracy.bound");

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/worst.h"
 #include "solver/step_system.h"
@@ -120,7 +121,10 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
   Worst own;
   for (size_t b = 0; b < bodies_.size(); ++b) own.add(model_.bodies[b].gather(residual[b]));
   const double balance = model_.largest(own.value());
-  const auto overForce = [&](double value) { return value == 0 ? 0 : value / force.value(); };
+  const auto overForce = [&](double value) {
+    if (!std::isfinite(force.value())) return std::numeric_limits<double>::quiet_NaN();
+    return value == 0 ? 0 : value / force.value();
+  };
   Certificate result;
   result.forceBalance = overForce(balance);
   result.materialResidual = materialResidual;

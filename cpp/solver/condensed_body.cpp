@@ -135,8 +135,9 @@ std::pair<int, double> CondensedBody::furthest(const Matrix& stress0, const Body
   int point = -1;
   double largest = 0;
   for (int i = 0; i < body_.points(); ++i) {
-    const double change = (law_.predictor.col(i) - iterate.stress.col(i)).norm();
-    if (!std::isfinite(change) || change <= largest) continue;
+    double change = (law_.predictor.col(i) - iterate.stress.col(i)).norm();
+    if (std::isnan(change)) change = std::numeric_limits<double>::infinity();  // the law has no rate there
+    if (change <= largest) continue;
     largest = change;
     point = i;
   }

@@ -114,7 +114,8 @@ StepOutcome interiorPoint(StepSystem& system, const Step& step, int maxIteration
       if (!most) return total;
       const double length = std::min(1.0, toBoundary * *most);
       if (length < blocked) {
-        total.fail(Reason::unconverged, "the interior point method found its way barred");
+        total.fail(Reason::unconverged,
+                   "line search of the interior point method failed: step length below 1e-6");
         return total;
       }
       for (size_t b = 0; b < model.bodies.size(); ++b) {

@@ -100,6 +100,7 @@ void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& p
     }
     run.solveSeconds += secondsSince(begin);
     if (report.status == Status::failed) run.stuck = taker.stuck();
+    if (run.stuck) report.reason += taker.stressAt(*run.stuck);
     add(report, run);
     run.special = taker.special();
     if (report.status != Status::converged) break;

@@ -1,9 +1,12 @@
 #include "time/step_taker.h"
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "base/blocks.h"
+#include "material/stress.h"
 #include "solver/total_strain.h"
 #include "time/measure.h"
 
@@ -45,8 +48,33 @@ StepOutcome StepTaker::guard(const StepOutcome& before, Effort effort) {
   return again;
 }
 
-/// Refuses a solution that could be anywhere along a motion.
+namespace {
+
+/// The first residual of a solution that is beyond `most`, in words; empty where none is.
+std::string beyond(const Certificate& found, double most) {
+  const std::pair<const char*, double> residuals[] = {
+      {"force balance", found.forceBalance},        {"material residual", found.materialResidual},
+      {"gap on active contact", found.gapOnActive}, {"negative contact force", found.sign},
+      {"complementarity", found.complementarity},   {"friction", found.friction}};
+  for (const auto& [name, value] : residuals)
+    if (!(value <= most)) {
+      std::ostringstream text;
+      text << name << " of the solution " << value << ", expected at most " << most;
+      return text.str();
+    }
+  return "";
+}
+
+}  // namespace
+
+/// Refuses a solution whose residuals are no rounding, and one that could be anywhere along a motion.
 StepOutcome StepTaker::hold(StepOutcome outcome) {
+  constexpr double rounding = 1e-8;  // residuals of solutions are 1e-10 and less
+  if (const std::string residual =
+          outcome.converged() ? beyond(outcome.certificate, std::max(rounding, system_.options().tolerance))
+                              : "";
+      model_.any(!residual.empty()))
+    outcome.fail(Reason::unconverged, residual);
   if (const std::string motion = outcome.converged() ? system_.looseMotion(state_, solutions_.back()) : "";
       !motion.empty())
     outcome.fail(Reason::unheld, "no contact is closed that would hold " + motion);
@@ -89,6 +117,20 @@ std::optional<StuckPlace> StepTaker::stuck() {
   if (!unsolved_) return std::nullopt;
   auto& [data, iterate] = *unsolved_;
   return system_.furthest(system_.step(state_, data), iterate, data.weight);
+}
+
+std::string StepTaker::stressAt(const StuckPlace& place) const {
+  const Body& body = model_.bodies[place.body];
+  if (!unsolved_ || model_.inParts()) return "";
+  const int first = place.triangle * body.pointsOfTriangle();
+  int point = first;
+  while (point + 1 < first + body.pointsOfTriangle() && body.places()[point] != place.at) ++point;
+  const Matrix& stress = unsolved_->second.bodies[place.body].stress;
+  const Eigen::Vector3d s = toCartesian(stress.col(point).head<3>());
+  std::ostringstream text;
+  text << ", at the stress s11 = " << s[0] << ", s22 = " << s[1] << ", s12 = " << s[2];
+  if (stress.rows() > 3) text << ", s33 = " << stress(3, point);
+  return text.str();
 }
 
 /// sum_{j<i} a_ij k G_j

@@ -67,6 +67,8 @@ class StepTaker {
   [[nodiscard]] int errorOrder() const { return tableau_.errorOrder; }
   /// Where the last attempt is furthest off the material law, if it was not solved.
   [[nodiscard]] std::optional<StuckPlace> stuck();
+  /// The stress of its iterate there, in words; empty where ranks share the bodies.
+  [[nodiscard]] std::string stressAt(const StuckPlace& place) const;
   /// The special contact conditions that were found so far.
   [[nodiscard]] const SpecialConditions& special() const { return system_.special(); }
   StepSolutions takeSolutions() { return system_.takeSolutions(); }

@@ -1,4 +1,4 @@
-"""Laws of one's own, as callables of NumPy arrays."""
+"""User-defined laws, as callables of NumPy arrays."""
 from __future__ import annotations
 
 from collections.abc import Callable

@@ -1,5 +1,7 @@
 """Laws of one's own, as expressions: runs beside the built-in laws that they repeat; mortier law."""
 import csv
+import json
+import math
 import unittest
 
 from support import InFolder, mortier
@@ -111,6 +113,101 @@ class OwnLaw(InFolder):
         self.assertEqual(*results)
 
 
+class FastGrowth(InFolder):
+    """Rates that overflow at stresses of an elastic trial: what a step finds is the solution, or a reason."""
+
+    SCENE = """\
+plane = "PLANE"
+[[body]]
+name = "upper"
+mesh = {{ shape = "rectangle", lower = [0, 0], upper = [1, 1], cells = {cells} }}
+boundary = [ {{ label = 4, ux = 0 }}, {{ label = 3, {drive} }} ]
+[body.material]
+young = {young!r}
+poisson = 0.3
+{law}
+[[body]]
+name = "lower"
+mesh = {{ shape = "rectangle", lower = [0, -1], upper = [1, 0], cells = {cells} }}
+material = {{ young = {young!r}, poisson = 0.3 }}
+boundary = [ {{ label = 4, ux = 0 }}, {{ label = 1, uy = 0 }} ]
+[contact]
+nonmortar = {{ body = "upper", label = 1 }}
+mortar = {{ body = "lower", label = 3 }}
+[time]
+end = 0.6
+steps = 6
+"""
+    #: flow(mises) of rate = flow(mises)/mises*deviator, in stresses of `unit`
+    GROWTHS = {
+        "sinh": ("0.075*sinh(mises/(s0*unit))", lambda s, s0: 0.075 * math.sinh(s / s0)),
+        "exp": ("0.05*(exp(mises/(s0*unit)) - 1)", lambda s, s0: 0.05 * math.expm1(s / s0)),
+        "power": ("0.075*(mises/(s0*unit))^20", lambda s, s0: 0.075 * (s / s0)**20),
+    }
+
+    def law(self, growth, s0, unit=1.0):
+        return along_deviator(f"{self.GROWTHS[growth][0]}/max(mises, 1e-9*unit)",
+                              f"s0 = {s0!r}, unit = {unit!r}")
+
+    def forces(self, growth, s0, steps=6):
+        """The contact force of each step in plane stress: uniaxial stress -s, of backward Euler."""
+        crept, forces = 0.0, []
+        for i in range(1, steps + 1):
+            short = 0.03 * (0.5 - 0.5 * math.cos(10 * math.pi * 0.1 * i)) - crept
+            flow = self.GROWTHS[growth][1]
+            low, high = 0.0, max(short, 0) * 500
+            for _ in range(200):
+                s = (low + high) / 2
+                try:
+                    over = 2 * s / 1000 + 0.1 * flow(s, s0) * 2 / 3 > short
+                except OverflowError:
+                    over = True
+                low, high = (low, s) if over else (s, high)
+            crept += 0.1 * flow(low, s0) * 2 / 3
+            forces.append(low)
+        return forces
+
+    def solved(self, growth, s0, plane="stress", unit=1.0, drive=None, cells=1, code=0, settings=()):
+        drive = drive or 'uy = "-0.03*(0.5 - 0.5*cos(10*pi*t))"'
+        self.write(self.SCENE.replace("PLANE", plane).format(
+            law=self.law(growth, s0, unit), young=1e3 * unit, drive=drive, cells=cells))
+        changes = ["--set", *settings] if settings else []
+        return self.mortier("run", "scene.toml", "--quiet", "--out", "out", *changes, code=code)
+
+    def rows(self):
+        rows = csv.DictReader(self.read("out/history.csv").splitlines())
+        return [{name: value if name == "rung" else float(value) for name, value in row.items()}
+                for row in rows]
+
+    def test_uniaxial_stress_is_that_of_the_scalar_law(self):
+        for growth in self.GROWTHS:
+            for s0, unit in ((4.0, 1.0), (2.0, 1e12), (0.5, 1e-9), (0.1, 1.0), (0.01, 1e12)):
+                with self.subTest(growth, s0=s0, unit=unit):
+                    self.solved(growth, s0, unit=unit)
+                    found = [row["contact_force[N/m]"] / unit for row in self.rows() if row["step"] > 0]
+                    expected = self.forces(growth, s0)
+                    for a, b in zip(found, expected, strict=True):
+                        self.assertAlmostEqual(a, b, delta=1e-8 * max(expected))
+
+    def test_stays_below_elasticity_in_all_planes(self):
+        """A bar that creeps bears no more than one that does not: E/2 (1 - nu^2) times the strain at most."""
+        for plane in ("strain", "axisymmetric"):
+            for growth in self.GROWTHS:
+                with self.subTest(plane, growth=growth):
+                    self.solved(growth, 0.5, plane=plane, cells=2, settings=["time.steps=3"])
+                    summary = json.loads(self.read("out/summary.json"))
+                    self.assertLess(summary["peaks"]["contact_force"]["value"], 1e3 / 2 / (1 - 0.09) * 0.03)
+                    self.assertTrue(all(value <= 1e-8 for value in summary["verification"].values()))
+
+    def test_without_a_solution_of_numbers_ends_with_law_stress_and_place(self):
+        """A stress that is given, at which the rate is beyond doubles."""
+        done = self.solved("exp", 0.01, drive='ty = "-15*t"', code=1)
+        self.assertRegex(done.stderr, r"step \d+ at t = .*, at the stress s11 = \S+, s22 = \S+, s12 = \S+; "
+                                      r"furthest off its law, expression, is body upper at \(.*\), triangle")
+        stuck = json.loads(self.read("out.failed/summary.json"))["stuck"]
+        self.assertEqual((stuck["body"], stuck["time"] > 0), ("upper", True))
+
+
 class Law(InFolder):
     """mortier law."""
 
@@ -148,6 +245,14 @@ class Law(InFolder):
         self.assertIn("times as long", self.told(heating.replace("-1e-12", "-1e-9"), code=1)["steps"])
         jump = along_deviator("mises > 1e6 ? 1e-12 : 0*log(1e5 - mises)", "k = 1")
         self.assertIn("WRONG", self.told(jump, code=1)["rate"])
+
+    def test_names_the_stress_at_which_the_rate_overflows(self):
+        steep = along_deviator("1e-20*sinh(mises/s0)", "s0 = 1e7")
+        told = self.told(steep, "--stress", "1e9")
+        self.assertIn("beyond these stresses at s11 = ", told["overflow"])
+        self.assertNotIn("overflow", self.told(NORTON, "--stress", "1e9"))
+        told = self.told(steep, "--stress", "1e11", code=1)
+        self.assertRegex(told["rate"], "WRONG: a number at .* stresses, the least without at s11 = ")
 
     def test_wants_a_stress(self):
         self.write(SCENE.replace("PLANE", "strain").format(law=NORTON).replace(

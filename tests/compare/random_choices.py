@@ -1,5 +1,6 @@
 """Random scenes of what random_scenes.py leaves out: every law, axes, temperature, friction, round bodies,
 bodies of revolution, degree 2, distances that change, quantities and accuracies. Run by random_scenes.py."""
+import math
 import random
 
 from random_scenes import decades
@@ -10,17 +11,23 @@ SCHEMES = ("backward-euler", "backward-euler", "sdirk2", "crank-nicolson", "sdir
 
 
 class WideScene:
-    """Scene number `seed`: its text, its meshes (as arguments of `mortier mesh`) and its classes."""
+    """Scene number `seed`: its text, its meshes (as arguments of `mortier mesh`) and its classes.
+
+    The same problem in other words, for random_equalities.py: in units in which stresses, lengths and times are
+    so many times as large; with x and y turned by a right angle (the meshes have to be turned, too); with the
+    bodies in the reverse order."""
 
     KINDS = ("plane", "degree", "scheme", "law", "friction", "temperature", "round", "gap", "accuracy",
              "bodies")
 
-    def __init__(self, seed):
+    def __init__(self, seed, units=(1.0, 1.0, 1.0), turned=False, exchanged=False):
+        stress, self.length, time = units
+        self.turned = turned
         self.rng = rng = random.Random(1000003 * seed + 17)
         self.plane = rng.choice(["stress", "strain", "axisymmetric"])
         self.degree = rng.choice([1, 1, 2])
         self.scheme = rng.choice(SCHEMES)
-        self.load, self.end = decades(rng, -2, 8), decades(rng, -1, 2)
+        self.load, self.end = decades(rng, -2, 8) * stress, decades(rng, -1, 2) * time
         self.young = self.load * decades(rng, 1.5, 7)
         self.law = rng.choice(LAWS)
         self.ramp = f"(t/{self.end!r})"
@@ -33,6 +40,8 @@ class WideScene:
         self.text = [f'title = "random choices {seed}"', f'plane = "{self.plane}"',
                      f"degree = {self.degree}"]
         self.make_bodies(("lower", "upper", "top")[:bodies])
+        if exchanged:
+            self.exchange_bodies()
         self.make_time()
         self.classes = {"plane": self.plane, "degree": str(self.degree), "scheme": self.scheme,
                         "law": "+".join(sorted(self.laws)), "bodies": str(bodies), "gap": self.moves,
@@ -40,6 +49,23 @@ class WideScene:
                         "temperature": "yes" if self.warm else "no",
                         "accuracy": "yes" if self.accuracy else "no",
                         "held by contact alone": "yes" if bodies > 1 else "no"}
+
+    def along(self, name, value, factor):
+        """A datum of the direction y: "factor*value"."""
+        sign, axis = (-1, "x") if self.turned else (1, "y")
+        return f'{name}{axis} = "{sign * factor!r}*{value}"'
+
+    def held(self, axes):
+        """Supports of the directions."""
+        turn = {"x": "y", "y": "x"} if self.turned else {"x": "x", "y": "y"}
+        return [f"u{turn[axis]} = 0" for axis in axes]
+
+    def exchange_bodies(self):
+        begins = [i for i, line in enumerate(self.text) if line == "[[body]]"]
+        end = next((i for i, line in enumerate(self.text) if line in ("[[contact]]", "[[quantity]]")),
+                   len(self.text))
+        blocks = [self.text[a:b] for a, b in zip(begins, [*begins[1:], end])]
+        self.text[begins[0]:end] = [line for block in reversed(blocks) for line in block]
 
     def make_bodies(self, names):
         rng = self.rng
@@ -55,11 +81,13 @@ class WideScene:
                 width = 1.0 if i == 0 or rng.random() < 0.6 else rng.uniform(0.4, 1.3)
                 self.meshes[f"{name}.mesh"] = [
                     rng.choice(["rectangle", "crisscross"]), "--cells",
-                    f"{rng.randint(2, 5)},{rng.randint(1, 4)}", f"--lower={left!r},{bottom!r}",
-                    f"--upper={left + width!r},{bottom + height!r}"]
+                    f"{rng.randint(2, 5)},{rng.randint(1, 4)}",
+                    f"--lower={left * self.length!r},{bottom * self.length!r}",
+                    f"--upper={(left + width) * self.length!r},{(bottom + height) * self.length!r}"]
             self.text += ["[[body]]", f'name = "{name}"', f'mesh = "{name}.mesh"']
             if rng.random() < 0.15:
-                self.text.append(f'force.y = "{-self.load * decades(rng, -3, 0)!r}*{self.ramp}"')
+                self.text.append(self.along("force.", self.ramp,
+                                            -self.load * decades(rng, -3, 0) / self.length))
             self.text.append(self.material(self.young * (1 if i % 2 == 0 else decades(rng, -3, 3))))
             self.support(i)
             if last:
@@ -75,16 +103,17 @@ class WideScene:
         radius, cells = rng.choice([1.0, 3.0]), str(rng.randint(2, 4))
         half = self.plane == "axisymmetric"
         self.meshes[f"{name}.mesh"] = [
-            "quarterdisc" if half else "halfdisc", "--cells", cells, "--radius", str(radius), "--core",
-            str(0.3 * radius), f"--lowest={0 if half else 0.5},{bottom!r}"]
+            "quarterdisc" if half else "halfdisc", "--cells", cells, "--radius",
+            str(radius * self.length), "--core", str(0.3 * radius * self.length),
+            f"--lowest={0 if half else 0.5 * self.length},{bottom * self.length!r}"]
 
     def support(self, i):
         """Body 0 rests on its bottom; the others are held along a line, or by friction alone."""
         rng = self.rng
         if i == 0:
-            self.text += ["[[body.boundary]]", "label = 1", "ux = 0", "uy = 0"]
+            self.text += ["[[body.boundary]]", "label = 1", *self.held("xy")]
         elif self.plane != "axisymmetric" and (not self.rough or rng.random() < 0.7):
-            self.text += ["[[body.boundary]]", f"label = {2 if self.curved else 4}", "ux = 0"]
+            self.text += ["[[body.boundary]]", f"label = {2 if self.curved else 4}", *self.held("x")]
 
     def drive(self):
         rng, s = self.rng, self.ramp
@@ -94,9 +123,10 @@ class WideScene:
             self.text += ["[[body.boundary]]", label]
         # A round body that touches at one node rolls under a force.
         if rng.random() < 0.5 and not self.curved:
-            self.text.append(f'ty = "{-self.load!r}*{shape}"')
+            self.text.append(self.along("t", shape, -self.load))
         else:
-            self.text.append(f'uy = "{-self.load / self.young * decades(rng, -1, 0.5)!r}*{shape}"')
+            moved = -self.load / self.young * decades(rng, -1, 0.5)
+            self.text.append(self.along("u", shape, moved * self.length))
 
     def material(self, young):
         rng, load, end = self.rng, self.load, self.end
@@ -109,7 +139,7 @@ class WideScene:
         if law == "axes":
             text = (f'elasticity = "orthotropic", young1 = {young!r}, young2 = {young * 0.3!r}, '
                     f"poisson12 = 0.2, shear12 = {young * 0.2!r}, young3 = {young!r}, poisson13 = 0.2, "
-                    f"poisson23 = 0.05, angle = {rng.uniform(0, 3)!r}")
+                    f"poisson23 = 0.05, angle = {rng.uniform(0, 3) + (math.pi / 2 if self.turned else 0)!r}")
         elif law == "perzyna":
             text += (f", viscosity = {end * young / decades(rng, -2, 6)!r}, "
                      f"yield_stress = {load * decades(rng, -3, 1)!r}")
@@ -127,7 +157,8 @@ class WideScene:
             text += f', law = "expression", {self.rates(rate / load**3 * decades(rng, -2, 1))}'
         if self.warm and rng.random() < 0.7:
             text += f", expansion = {decades(rng, -6, -4)!r}"
-            self.text.append(f'temperature = "{rng.uniform(-100, 100)!r}*{self.ramp}*(1+0.3*x)"')
+            place = ("y" if self.turned else "x") + (f"/{self.length!r}" if self.length != 1 else "")
+            self.text.append(f'temperature = "{rng.uniform(-100, 100)!r}*{self.ramp}*(1+0.3*{place})"')
         return f"material = {{ {text} }}"
 
     def rates(self, factor):
@@ -156,13 +187,14 @@ class WideScene:
                                          f"shear_limit = {self.load * rng.uniform(0.05, 1)!r}"]))
         if rng.random() < 0.15:
             self.moves = rng.choice(["moves", "stands"])
-            amount = rng.choice([-1, 1]) * self.load / self.young * decades(rng, -1, 1)
+            amount = rng.choice([-1, 1]) * self.load / self.young * decades(rng, -1, 1) * self.length
             self.text.append(f'gap = "{amount!r}*{self.ramp if self.moves == "moves" else 1}"')
 
     def quantities(self, names):
         last, choices = names[-1], ["stored_energy", "work", "largest_mises"]
         lines = [f'{kind} = {{ body = "{last}" }}' for kind in choices]
-        lines.append('reaction = { body = "lower", label = 1 }\ncomponent = "y"')
+        lines.append('reaction = { body = "lower", label = 1 }\n'
+                       f'component = "{"x" if self.turned else "y"}"')
         if len(names) > 1:
             side = '{ body = "lower", label = 3 }'
             lines += [f"{kind} = {side}" for kind in ("mean_pressure", "largest_pressure", "contact_length")]

@@ -2,11 +2,13 @@
 import unittest
 
 from random_choices import WideScene
+from random_equalities import TOLERANCE, compare
 from random_scenes import Scene, explore
 from support import PROGRAM
 
 FIRST, COUNT = 176, 58
 CHOICES = 80
+EQUALITIES = 8
 # A body that was moved before the first step and is free of stress.
 MOVED = 30
 # Crank-Nicolson rings at 1e4 yield stresses: the interior point method must begin beyond them.
@@ -52,6 +54,14 @@ class RandomScenes(unittest.TestCase):
                     self.assertEqual(result["classes"]["held by contact alone"], "yes")
                     self.assertRegex(result["told"], "(hold|holds) (body|its) .*(translation|rotation)")
         self.assertGreater(sum(result["code"] == 0 for result in results), CHOICES * 3 // 4)
+
+    def test_other_words_for_a_scene_change_nothing(self):
+        """Units, axes, the order of bodies, threads, what is reduced, libraries: random_equalities.py."""
+        for seed in range(EQUALITIES):
+            _, code, found = compare(PROGRAM, seed, SECONDS)
+            for way, column, difference in found:
+                with self.subTest(seed=seed, code=code, way=way, column=column):
+                    self.assertLessEqual(difference, TOLERANCE)
 
     def test_what_is_not_solved_has_its_own_reason_soon(self):
         reasons = {CRAWLING: "at the pace of the steps that can be solved max_steps = 100000",

@@ -273,6 +273,37 @@ TEST(OwnMaterial, aJumpIsNotTakenForASolution) {
   }
 }
 
+struct Sinh {
+  static constexpr bool ofStrain = false;
+  template <class Number>
+  Components<Number> rateOf(const Components<Number>& s, const Components<Number>&) const {
+    using std::max;
+    using std::sinh;
+    const Number size = mises(s);
+    return alongDeviator(s, Number(sinh(size) / max(size, Number(1e-9))));
+  }
+};
+
+// Stresses at which the rate is a number without a norm, at which its slopes overflow, and beyond.
+TEST(OwnMaterial, oneIterationIsOnTheLawFromStressesAtWhichItsRateOverflows) {
+  const auto material = ownMaterial(elasticity, named(rateLaw(Sinh())), Plane::stress);
+  for (const double weight : {1e-6, 1.0, 1e6})
+    for (const double size : {1e-3, 1.0, 1e3, 1e6})
+      for (const double start : {300.0, 360.0, 400.0, 500.0, 700.0, 705.0, 710.0, 1e3, 1e200}) {
+        const Matrix zero = Matrix::Zero(3, 1);
+        const Matrix strain = size * Eigen::Vector3d(0.3, -0.5, 0.2);
+        const Matrix stress = start * Eigen::Vector3d(0.1, 0.4, 0.7);
+        Linearisation law = material->room(1);
+        material->linearise({weight, zero, strain, false}, stress, law, 0, 1);
+        Matrix rate;
+        Matrix elastic;
+        material->viscoplasticRate(law.predictor, rate);
+        material->elasticStrain(law.predictor, elastic);
+        EXPECT_LE((elastic + weight * rate - strain).norm(), 1e-9 * strain.norm())
+            << weight << " " << size << " " << start;
+      }
+}
+
 struct Broken {
   static constexpr bool ofStrain = true;
   template <class Number>

@@ -90,7 +90,7 @@ class Quantities(OfTwoBlocks):
                 self.assertEqual(quantity["smallest"]["value"], min(column))
             self.assertEqual(final["press"]["largest"]["time"], 1)
             self.assertRegex(run.stdout, r"\nquantities .* stress \S+ Pa at \(\S+, \S+\)\n"
-                                         r"in the run .*press 0 \(t = 0 s\) to 10 \(t = 1 s\)")
+                                         r"range      .*press 0 \(t = 0 s\) to 10 \(t = 1 s\)")
 
     def test_mean_pressures(self):
         part = ', from = [0.2, 0], to = [0.6, 0]'

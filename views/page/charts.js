@@ -130,7 +130,7 @@ function drawContact(panel) {
                 : []),
       chart({
         id: `gap${r}-${k}`,
-        title: `gap, ${withUnit(where, run.units.length)}; marks: as the nodes see it`,
+        title: `gap, ${withUnit(where, run.units.length)}; line geometric, markers weighted`,
         xWords,
         small,
         also: [...range("gap"), ...jumps],

@@ -49,7 +49,7 @@ const scales = [...new Set([
                      f => Number((f * natural).toPrecision(2)))
                ])].sort((a, b) => a - b);
 const scaleSlider = control(
-    "displacements times", $("input", {type: "range", id: "scale", min: 0, max: scales.length - 1, step: 1}),
+    "deformation x", $("input", {type: "range", id: "scale", min: 0, max: scales.length - 1, step: 1}),
     scaleOutput);
 scaleSlider.value = scales.indexOf(natural);
 const box = (id, words, checked) => {
@@ -57,9 +57,9 @@ const box = (id, words, checked) => {
   element.checked = checked;
   return control(words, element);
 };
-const meshBox = box("mesh", "meshes", true), ghostBox = box("ghost", "as meshed", true),
-      wideBox = box("wide", "same colours at all steps", false);
-const whole = controls.appendChild($("button", {type: "button", id: "whole"}, "whole picture"));
+const meshBox = box("mesh", "meshes", true), ghostBox = box("ghost", "undeformed", true),
+      wideBox = box("wide", "fix colour range", false);
+const whole = controls.appendChild($("button", {type: "button", id: "whole"}, "reset view"));
 
 const grid = page.appendChild($("div", {class: "runs"}));
 const panels = runs.map((run, r) => {
