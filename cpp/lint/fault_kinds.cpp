@@ -155,6 +155,8 @@ const std::vector<FaultKind>& faultKinds() {
        "correct it or the loads, unless the bodies are meant to settle"},
       {"large-displacement", warning, "a large displacement is prescribed",
        "check its units; displacements are taken as small here"},
+      {"initial-load", warning, "a load acts on a viscoplastic body at t = 0",
+       "let it grow from 0 in a few steps, unless it comes at once"},
       {"load-on-support", warning, "a traction acts on nodes that are held in its direction",
        "take the traction or the support away"},
       {"kink-between-steps", warning, "an expression changes its law within a step",

@@ -37,6 +37,12 @@ void checkDatum(const LintInput& input, const SampledDatum& datum, Faults& fault
       faults.add("large-displacement", placeOf(*datum.value),
                  subject + "a displacement of " + shortest(most) + " " + length +
                      " is prescribed on a body of " + shortest(datum.size) + " " + length);
+  } else if ((datum.kind == Kind::traction || datum.kind == Kind::force) && flows(body) &&
+             datum.largest(0) > 0) {
+    faults.add("initial-load", placeOf(*datum.value),
+               subject + "a load of " + shortest(datum.largest(0)) + " " +
+                   (datum.kind == Kind::force ? input.scene.units.bodyForce() : input.scene.units.stress) +
+                   " acts at t = 0: it comes at once, the body responds elastically before it flows");
   }
 }
 

@@ -1,5 +1,4 @@
 """What is there at t = 0 acts at once: elastically, then the bodies flow from there. docs/scene.md."""
-import json
 import math
 import unittest
 
@@ -212,14 +211,6 @@ class JumpAtStart(OfScene):
         self.assertIn("at t = 0: ", errors)
         history = read_history(self.folder / "out.failed")
         self.assertEqual(len(history["step"]), 1)
-
-    def test_a_run_that_was_stopped_goes_on(self):
-        text = SHEARED.format(plane="", material=SOLID, x="0.02*y", time="steps = 6")
-        self.run_it(text)
-        whole = self.read("out/history.csv")
-        self.assertEqual(json.loads(self.read("out/summary.json"))["steps"], 6)
-        self.run_it(text, folder="again")
-        self.assertEqual(self.read("again/history.csv"), whole)
 
 
 if __name__ == "__main__":
