@@ -119,6 +119,38 @@ SPRUNG = (OWN + 'rate11="0.02*x_11*size", rate22="0.03*x_22*size + 0.004*s33", r
           'rate33="0.02*s33*size - 0.003*s11", parameters={K=30, x_11="s11-K*e11", x_22="s22-K*e22", '
           'x_12="s12-K*e12", size="1 + (x_11^2+x_22^2+2*x_12^2+s33^2)/50"}}', 'plane="strain"')
 
+# A law in each body. Beside each other none may disturb the other.
+LAWS = {"elastic": "", "Perzyna": "viscosity=1, yield_stress=1",
+        "Norton": 'law="norton", reference_stress=10, reference_rate=0.05, exponent=5',
+        "Maxwell": 'law="maxwell", relaxation_time=0.4',
+        "solid": 'law="standard-solid", relaxation_time=0.4, relaxed_fraction=0.3',
+        "plastic": 'law="viscoplastic", yield_stress=1, viscosity=0, kinematic_hardening=5, '
+                   'isotropic_hardening=10',
+        "power": 'law="viscoplastic", yield_stress=1, reference_stress=2, reference_rate=0.5, exponent=4',
+        "own": 'law="expression", rate11="0.01*s11*abs(s11)", rate22="0.02*s22", rate12="0.03*s12"'}
+
+
+def beside(upper, lower, young=100):
+    return tuple(f"body.{body}.material={{young={young}, poisson=0.3{', ' if LAWS[law] else ''}{LAWS[law]}}}"
+                 for body, law in (("upper", upper), ("lower", lower)))
+
+
+# The note's stiff bodies.
+STIFF = ("time.steps=3", "body.upper.material={young=3e11, poisson=0.3, law=\"viscoplastic\", viscosity=10, "
+         "yield_stress=1}")
+# What is there at t = 0 acts at once.
+AT_ONCE = {
+    "supports": ("body.lower.boundary=[{label=1, ux=0, uy=0}]", "body.upper.boundary=[{label=3, uy=-0.02}]"),
+    "loads": ("body.upper.boundary=[{label=4, ux=0}, {label=3, ty=-2}]", "body.lower.force.y=-1",
+              "body.lower.boundary.2.tx=-1"),
+    "distances": ("body.upper.boundary=[{label=4, ux=0}, {label=3, uy=0}]", "contact.gap=-0.01*(1+x)",
+                  "body.lower.boundary.2.tx=0"),
+    "temperatures": ("body.upper.boundary=[{label=4, ux=0}, {label=3, uy=0}]", "body.material.expansion=1e-3",
+                     "body.upper.temperature=20", "body.lower.boundary.2.tx=0"),
+    "friction": ("contact.friction=0.3", "body.lower.boundary=[{label=1, ux=0, uy=0}]",
+                 'body.upper.boundary=[{label=3, uy=-0.02, ux="0.004-0.01*t"}]'),
+}
+
 # Pressed, pushed along, pulled back until some nodes slip, on a sloped line and on two level ones.
 THERE_AND_BACK = "{time=[0, 1, 2, 3], value=[0, 0, 1e-3, 4e-4]}"
 RUBBED = ("contact.friction=0.3", "time.end=3", "time.steps=12",
@@ -234,6 +266,22 @@ def scene_cases():
         SceneCase("ring", "weighted", "linear"),
         SceneCase("sloped", "weighted", "linear, parted by a parabola", ("contact.gap=1e-5*x^2+2e-6",)),
         SceneCase("stack", "weighted", "linear, held on the left up to the contact lines", HELD),
+        # Laws beside each other
+        *(SceneCase("sloped", variant, f"{upper} on {lower}", (*beside(upper, lower), "time.steps=3", *more))
+          for (upper, lower), (variant, *more) in zip(
+              zip(LAWS, [*LAWS][3:] + [*LAWS][:3]),
+              itertools.cycle([("mortar",), ("interpolation", 'plane="strain"'), ("weighted", "degree=2")]))),
+        *(SceneCase("compression", variant, "viscoplastic on Perzyna", STIFF) for variant in VARIANTS),
+        # What acts at once
+        *(SceneCase("sloped", variant, f"at once, {what}", (*beside(*laws), "time.steps=3", *changes, *more))
+          for (what, changes), laws, (variant, *more) in zip(
+              AT_ONCE.items(), itertools.cycle([("Perzyna", "Perzyna"), ("solid", "elastic"),
+                                                ("power", "Maxwell")]),
+              itertools.cycle([("mortar",), ("interpolation", 'plane="strain"'), ("weighted", "degree=2")]))),
+        SceneCase("sloped", "mortar", "ends without loads",
+                  (*beside("elastic", "elastic"), "time.steps=2",
+                   'body.upper.boundary=[{label=4, ux=0}, {label=3, ty="-10*t*(1-t)"}]',
+                   'body.lower.boundary=[{label=4, ux=0}, {label=1, uy=0}]')),
         # Friction
         SceneCase("sloped", "mortar", "friction, rubbed", RUBBED),
         SceneCase("sloped", "interpolation", "friction, rubbed, sides swapped",

@@ -25,7 +25,7 @@ struct Record {
   std::vector<Step> kept;
 
   void keep(const StepReport& report, const State& state) {
-    kept.push_back({{}, report, report.step > 0 ? rows.back() : std::vector<HistoryValue>(), state});
+    kept.push_back({{}, report, hasRow(report) ? rows.back() : std::vector<HistoryValue>(), state});
   }
 };
 
@@ -115,7 +115,7 @@ Solution solveScene(const Scene& scene, const RunOptions& options,
     const int every = options.keepAll ? 1 : now.scene().every;
     const Observer observe = [&](const State& state, const StepReport& report) {
       if (report.step == 0) record = {};
-      if (report.step > 0) record.rows.push_back(historyRow(report));
+      if (hasRow(report)) record.rows.push_back(historyRow(report));
       if (onStep) {
         record.keep(report, state);
         record.kept.back().of = attempt;

@@ -10,7 +10,7 @@ void ErrorHistory::add(const StepReport& report) {
     for (const Body& body : model_.bodies)
       largest_.emplace_back(Vector::Zero(static_cast<Eigen::Index>(body.mesh().triangles.size())));
     largestSum_ = energy_ = displacement_ = 0;
-    return;  // it is given; what overlaps in it is pressed apart in the first step
+    if (report.vonMises == 0) return;  // nothing acts yet
   }
   double error = 0;
   double energy = 0;

@@ -77,8 +77,6 @@ void FlowBoundRecord::begin(const State& state) {
   memory_.begin = state.time;
   memory_.obstacle = obstacleOf(model_, steps_);
   bool moved = false;
-  for (size_t b = 0; b < model_.bodies.size(); ++b)
-    moved = moved || (!steps_.chosen && !state.bodies[b].displacement.isZero(0));
   for (const Vector& gap : state.gap) moved = moved || (gap.array() > rounding_).any();
   if (memory_.obstacle.empty() && (moved || !balanced(model_, state)))
     memory_.obstacle = "what acts at the start is not in balance";

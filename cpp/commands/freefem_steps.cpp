@@ -40,6 +40,7 @@ std::vector<double> stepsOfRun(const std::string& folder, double end) {
     double time = 0;
     const std::string text = column < row.size() ? row[column] : "";
     const auto [rest, fault] = std::from_chars(text.data(), text.data() + text.size(), time);
+    if (number == 2 && text == "0") continue;  // what acts at once is no step
     const double last = times.empty() ? 0 : times.back();
     if (fault != std::errc() || rest != text.data() + text.size() || !(time > last) || !(time <= end))
       refuse(number, "time " + text, "a number above the one before, up to the end of the scene");

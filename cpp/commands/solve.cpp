@@ -148,7 +148,7 @@ Solved solve(Solving solving) {
       }
     }
     if (solving.alsoObserve) solving.alsoObserve(state, report);
-    if (report.step > 0) log.step(report);
+    if (hasRow(report)) log.step(report);
     last = report;
     if (flow) {
       flow->add(state, report);

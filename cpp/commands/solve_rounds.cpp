@@ -10,7 +10,6 @@
 #include "base/interrupt.h"
 #include "commands/bound_of.h"
 #include "report/clock.h"
-#include "scene/initial_equilibrium.h"
 
 namespace mortier {
 namespace {
@@ -104,7 +103,6 @@ std::string solveRounds(Rounds& rounds, std::unique_ptr<Attempt>& attempt, const
     aside = true;
     shortfall = failureOf([&] {
       attempt = std::make_unique<Attempt>(rounds.scene(), options);
-      findInitialEquilibrium(attempt->scene(), *attempt->model, attempt->state);
       march(*attempt);
     });
     if (shortfall.empty()) shortfall = attempt->solved.report.reason;

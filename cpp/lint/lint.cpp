@@ -14,6 +14,7 @@
 #include "scene/overrides.h"
 #include "scene/resolve.h"
 #include "solver/solve_step.h"
+#include "time/initial_balance.h"
 
 namespace mortier {
 namespace {
@@ -95,8 +96,8 @@ void requireHeld(const SceneDescription& scene, const Model& model) {
   const TimePlan& plan = scene.time;
   const State begin = initialState(model);
   const double first = plan.end / (plan.steps > 0 ? plan.steps : 100);
-  for (int i = 0; i <= count; ++i) {
-    const double time = i == 0 ? first : plan.end * i / count;
+  for (int i = actsAtOnce(model, begin) ? -1 : 0; i <= count; ++i) {
+    const double time = i < 0 ? 0 : i == 0 ? first : plan.end * i / count;
     Iterate iterate = startingIterate(begin);
     StepData data{time, 0, {}};
     addThermalStrain(model, begin, data);
@@ -136,8 +137,7 @@ void build(ResolvedScene resolved, LintReport& report) {
     static_cast<void>(buildQuantities(scene, model));
     lintModel(asSolved(scene), model, report.faults);
     requireHeld(scene, model);
-    State state = initialState(model);
-    lintSettling(scene, findInitialEquilibrium(scene, model, state), report.faults);
+    lintSettling(scene, findInitialEquilibrium(scene, model, initialState(model)), report.faults);
     report.model = std::move(model);
   } catch (const InputError& error) {
     addError(error, "data", report.faults);

@@ -31,23 +31,18 @@ void checkDatum(const LintInput& input, const SampledDatum& datum, Faults& fault
   const std::string subject = "body " + body.name + ": ";
   const std::string& length = input.scene.units.length;
   if (datum.kind == Kind::displacement) {
-    double most = 0;
-    for (const double t : trialTimes(input.scene.time)) most = std::max(most, datum.change(0, t));
+    double most = datum.largest(0);
+    for (const double t : trialTimes(input.scene.time)) most = std::max(most, datum.largest(t));
     if (most > large * datum.size)
       faults.add("large-displacement", placeOf(*datum.value),
                  subject + "a displacement of " + shortest(most) + " " + length +
                      " is prescribed on a body of " + shortest(datum.size) + " " + length);
-    if (const double initial = datum.largest(0); initial > 0)
-      faults.add(
-          "initial-displacement", placeOf(*datum.value),
-          subject + "a displacement of " + shortest(initial) + " " + length +
-              " is prescribed at t = 0, where the run begins unstressed: only its change has an effect");
   } else if ((datum.kind == Kind::traction || datum.kind == Kind::force) && flows(body) &&
              datum.largest(0) > 0) {
     faults.add("initial-load", placeOf(*datum.value),
                subject + "a load of " + shortest(datum.largest(0)) + " " +
                    (datum.kind == Kind::force ? input.scene.units.bodyForce() : input.scene.units.stress) +
-                   " acts at t = 0, where the run begins unstressed: it comes at once in the first step");
+                   " acts at t = 0: it comes at once, the body responds elastically before it flows");
   }
 }
 
@@ -147,8 +142,7 @@ void lintLoads(const LintInput& input, Faults& faults) {
     checkKinks(input, datum, faults);
     const bool moves = changesInTime(datum, time);
     changes = changes || moves;
-    any = any || moves ||
-          (datum.kind != Kind::displacement && datum.kind != Kind::distance && datum.largest(0) > 0);
+    any = any || moves || (datum.kind != Kind::distance && datum.largest(0) > 0);
   }
   for (size_t b = 0; b < input.meshes.size(); ++b) {
     complete = complete && input.meshes[b] != nullptr;

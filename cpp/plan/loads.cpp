@@ -107,6 +107,8 @@ double nominalStress(const SceneDescription& scene, const std::vector<SampledDat
         result = std::max(result, datum.largest(t) / datum.size * young);
         break;
       case SampledDatum::Kind::displacement:
+        result = std::max(result, datum.largest(t) / datum.size * young);
+        break;
       case SampledDatum::Kind::distance:
         result = std::max(result, datum.change(0, t) / datum.size * young);
         break;

@@ -13,8 +13,8 @@ constexpr double negligible = 1e-24;
 
 bool AccuracyRecord::asks(const StepReport& report, bool kept) const {
   constexpr double often = 2;
-  // The first is a given state: what overlaps in it is pressed apart in the first step.
-  return report.step > 0 && (kept || report.energy > often * memory_.energy);
+  const bool solved = report.step > 0 || report.energy > 0;  // nothing may act in the first state
+  return solved && (kept || report.energy > often * memory_.energy);
 }
 
 void AccuracyRecord::add(const StepReport& report, bool kept) {

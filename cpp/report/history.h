@@ -18,6 +18,10 @@ std::vector<std::string> historyColumns(const Model& model, const std::vector<Qu
                                         const Units& units);
 using HistoryValue = std::variant<int, double, std::string_view>;
 std::vector<HistoryValue> historyRow(const StepReport& report);
+/// The initial state has one where something acts in it.
+inline bool hasRow(const StepReport& report) {
+  return report.step > 0 || report.motion > 0 || report.vonMises > 0;
+}
 
 class History {
  public:

@@ -57,7 +57,7 @@ ResultFiles::ResultFiles(const std::string& folder, const Model& model, CurrentS
       lastKept_(soFar.fields.empty() ? -1 : soFar.fields.back().step) {}
 
 void ResultFiles::add(const State& state, const StepReport& report) {
-  if (report.step > 0) history_.add(report);
+  if (hasRow(report)) history_.add(report);
   if (every_ > 0 && report.step % every_ == 0) keep(state, report.step);
 }
 

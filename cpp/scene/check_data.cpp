@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/error.h"
 #include "mesh/boundary_line.h"
@@ -29,6 +30,20 @@ std::vector<Point> centres(const TriangleMesh& mesh) {
     points.emplace_back((mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3);
   }
   return points;
+}
+
+/// Where it acts, over the run: of a value that passes zero only this has digits.
+double largestOf(const ConditionDescription& condition, const TriangleMesh& mesh,
+                 const std::vector<double>& times) {
+  std::vector<Point> points;
+  if (condition.point)
+    points.push_back(*condition.point);
+  else
+    for (const int v : verticesOn(mesh, condition.label)) points.push_back(mesh.vertices[v]);
+  double largest = 0;
+  for (const Point& p : points)
+    for (const double t : times) largest = std::max(largest, std::abs(condition.value.value(p[0], p[1], t)));
+  return largest;
 }
 
 }  // namespace
@@ -72,6 +87,12 @@ void requireOneDisplacement(const Supports& supports,
                             const std::vector<const ConditionDescription*>& displacements,
                             const TriangleMesh& mesh, const std::vector<double>& times) {
   constexpr double rounding = 1e-9;  // normals of meshed circles are rounded
+  std::vector<std::optional<double>> scales(displacements.size());
+  const auto scaleOf = [&](int condition) {
+    std::optional<double>& scale = scales[condition];
+    if (!scale) scale = largestOf(*displacements[condition], mesh, times);
+    return *scale;
+  };
   for (const FurtherMotion& motion : supports.further()) {
     const NodeSupport& support = supports.nodes()[motion.support];
     const Point& p = mesh.vertices[support.node];
@@ -80,15 +101,13 @@ void requireOneDisplacement(const Supports& supports,
         return displacements[condition]->value.value(p[0], p[1], t);
       };
       std::array<double, 2> values{0, 0};
-      double scale = std::abs(valueOf(motion.condition));
-      for (int i = 0; i < support.count; ++i) {
-        values[i] = valueOf(support.conditions[i]);
-        scale = std::max(scale, std::abs(values[i]));
-      }
+      for (int i = 0; i < support.count; ++i) values[i] = valueOf(support.conditions[i]);
       const double implied = impliedMotion(support, values, motion.direction) + 0.0;  // no -0
-      if (std::abs(valueOf(motion.condition) - implied) <= rounding * scale) {
-        continue;
-      }
+      const double off = std::abs(valueOf(motion.condition) - implied);
+      if (off == 0) continue;
+      double scale = scaleOf(motion.condition);
+      for (int i = 0; i < support.count; ++i) scale = std::max(scale, scaleOf(support.conditions[i]));
+      if (off <= rounding * scale) continue;
       const auto placeOf = [&](int i) { return nameOfPlace(*displacements[support.conditions[i]]); };
       const int same = sameMotion(support, motion.direction);
       throw InputError(

@@ -8,7 +8,7 @@
 
 namespace mortier {
 
-std::string findInitialEquilibrium(const SceneDescription& scene, const Model& model, State& state) {
+std::string findInitialEquilibrium(const SceneDescription& scene, const Model& model, State state) {
   constexpr double noticeable = 1e-6;
   const auto stressed = [](const Body& body) { return body.hasInitialStress(); };
   if (std::none_of(model.bodies.begin(), model.bodies.end(), stressed)) return "";

@@ -1,4 +1,4 @@
-// The state at t = 0 of a scene: initial stresses brought into equilibrium.
+// How far initial stresses are from equilibrium with what acts at t = 0.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace mortier {
 
-/// Brings the initial stresses of `state`, where there are any, into equilibrium (time/initial_balance.h).
-/// \returns what a user may not have meant: by how much they changed; empty where they were in equilibrium.
+/// \returns what a user may not have meant: by how much the initial stresses of `state` change at t = 0
+/// (time/initial_balance.h); empty where they are in equilibrium.
 /// \throws InputError, UnheldBodyError
-std::string findInitialEquilibrium(const SceneDescription& scene, const Model& model, State& state);
+std::string findInitialEquilibrium(const SceneDescription& scene, const Model& model, State state);
 
 }  // namespace mortier

@@ -29,9 +29,18 @@ Iterate startingIterate(const State& state0) {
   return iterate;
 }
 
+/// In a step of length zero supports jump from where the state is.
 void prescribe(const Model& model, const Step& step, Iterate& iterate) {
-  for (size_t b = 0; b < model.bodies.size(); ++b)
-    model.bodies[b].prescribeIncrement(step.state0.time, step.data.time, iterate.bodies[b].increment);
+  const bool jump = step.data.time == step.state0.time;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    TwoPartVector& increment = iterate.bodies[b].increment;
+    model.bodies[b].prescribeIncrement(step.state0.time, step.data.time, increment);
+    if (!jump) continue;
+    const Vector& u0 = step.state0.bodies[b].displacement;
+    Vector u = u0;
+    model.bodies[b].prescribe(step.data.time, u);
+    increment.high += u - u0;
+  }
   iterate.distanceChange.clear();
   if (!anyDistanceMoves(model)) return;
   for (const ContactInterface& interface : model.interfaces)

@@ -47,7 +47,7 @@ double product(const Body& body, const Matrix& stress, const Matrix& flowed, con
 /// sum b_i k (s_i - X_i) : G_i of the attempt.
 double StepTaker::dissipated(size_t b) const {
   const Body& body = model_.bodies[b];
-  if (body.material().linear()) return 0;
+  if (body.material().linear() || t1_ == state_.time) return 0;
   const BodyState& start = state_.bodies[b];
   const double k = t1_ - state_.time;
   // a_ss k G_s of a stage, and the viscoplastic strain there.

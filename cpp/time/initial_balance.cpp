@@ -1,38 +1,35 @@
 #include "time/initial_balance.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "base/error.h"
-#include "solver/solve_step.h"
 
 namespace mortier {
 
-StepOutcome balanceElastically(const Model& model, State& state, const SolverOptions& options) {
-  StepSystem system(model, options);
-  Iterate iterate = startingIterate(state);
-  StepData data{state.time, 0, {}};
-  addThermalStrain(model, state, data);
-  StepOutcome outcome = solveStep(system, state, data, iterate);
-  if (!outcome.converged()) return outcome;
-  state.gap = solvedGaps(model, state, iterate);
+bool actsAtOnce(const Model& model, const State& state) {
+  constexpr double rounding = 1e-13;  // of coordinates: what meshes leave of a distance
+  bool acts = false;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
-    BodyState& body = state.bodies[b];
-    BodyIterate& balanced = iterate.bodies[b];
-    body.displacement += balanced.increment.value();
-    body.stress = std::move(balanced.stress);
-    if (model.bodies[b].heated()) body.thermalStrain = model.bodies[b].thermalStrain(state.time);
+    const Body& body = model.bodies[b];
+    Vector prescribed = Vector::Zero(body.dofs());
+    body.prescribe(state.time, prescribed);
+    acts = acts || body.hasInitialStress() || !prescribed.isZero(0) || !body.load(state.time).isZero(0) ||
+           (body.heated() && !body.thermalStrain(state.time).isZero(0));
   }
-  addFrictionWork(model, iterate, state);
-  state.contactForce = std::move(iterate.contactForce);
-  state.frictionForce = std::move(iterate.frictionForce);
-  state.slipping = std::move(iterate.slipping);
-  return outcome;
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    double largest = 0;
+    for (const int b : {model.interfaces[k].pair().nonmortar.body, model.interfaces[k].pair().mortar.body})
+      for (const Point& x : model.bodies[b].mesh().vertices)
+        largest = std::max(largest, x.cwiseAbs().maxCoeff());
+    acts = acts || (state.gap[k].array() > rounding * largest).any();
+  }
+  return model.any(acts);
 }
 
 double balanceInitialStress(const Model& model, State& state, const SolverOptions& options) {
   const State before = state;
-  const StepOutcome outcome = balanceElastically(model, state, options);
+  MarchMemory memory;
+  const StepOutcome outcome = StepTaker(model, state, memory, Scheme::backwardEuler, options).jump();
   if (outcome.unheld()) throw UnheldBodyError("at t = 0: " + outcome.detail);
   if (!outcome.converged())
     throw InputError("the initial stress cannot be brought into equilibrium at t = 0: " + outcome.detail);

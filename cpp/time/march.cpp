@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -118,35 +119,61 @@ void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& p
   }
 }
 
-/// Whether no load, no support and no overlap moves the bodies in the first moment.
-bool balanced(const Model& model, const State& state) {
-  bool moved = false;
-  for (size_t b = 0; b < model.bodies.size(); ++b) {
-    const Body& body = model.bodies[b];
-    moved = moved || !body.load(state.time).isZero(0) || !state.bodies[b].displacement.isZero(0) ||
-            (body.heated() && !body.thermalStrain(state.time).isZero(0));
+/// Reports the state in which a run begins, with what a jump did.
+void reportStart(const Model& model, const State& state, Threads& threads, MarchMemory& memory,
+                 const TimePlan& plan, const Observer& observer, StepReport report = {}) {
+  report.time = state.time;
+  const auto atRest = [](const BodyState& body) {
+    return body.displacement.isZero(0) && body.stress.isZero(0);
+  };
+  if (model.any(!std::all_of(state.bodies.begin(), state.bodies.end(), atRest))) {
+    measure(model, state, threads, report);
+    raise(memory.run.peaks, report);
   }
-  if (model.any(moved)) return false;
-  return std::all_of(state.gap.begin(), state.gap.end(),
-                     [](const Vector& gap) { return (gap.array() <= 0).all(); });
-}
-
-/// Reports the state in which a run begins.
-void reportStart(const Model& model, const State& state, MarchMemory& memory, const TimePlan& plan,
-                 const Observer& observer) {
-  StepReport report;
+  for (const Vector& force : state.contactForce)
+    report.active += static_cast<int>((force.array() > 0).count());
   report.quantities = evaluate(plan.quantities, model, state);
   for (const double value : report.quantities)
     memory.run.quantities.push_back(QuantityRange::from(value, state.time));
   observer(state, report);
 }
 
-/// Makes ready for steps chosen by their error: loads of the first moment act, and their scales are found.
-void prepare(const Model& model, State& state, MarchMemory& memory, const TimePlan& plan,
-             const SolverOptions& options) {
+/// Lets what acts in the first moment act at once. \returns what it did
+StepReport jump(const Model& model, const State& state, MarchMemory& memory, StepTaker& taker) {
+  RunReport& run = memory.run;
+  StepReport report;
   const auto begin = Clock::now();
-  if (!balanced(model, state)) memory.run.iterations += balanceElastically(model, state, options).iterations;
-  StepTaker taker(model, state, memory, Scheme::backwardEuler, options);
+  try {
+    withSharedFaults(Ranks::all(), [&] {
+      if (!actsAtOnce(model, state)) return;
+      const StepOutcome outcome = taker.jump();
+      report.iterations = outcome.iterations;
+      report.factorisations = outcome.factorisations;
+      report.certificate = outcome.certificate;
+      if (outcome.converged()) return;
+      report.status = outcome.unheld() ? Status::unheld : Status::failed;
+      std::ostringstream reason;
+      reason << "at t = " << state.time << ": " << outcome.detail;
+      report.reason = reason.str();
+    });
+  } catch (const DatumError& error) {
+    report.status = Status::failed;
+    report.reason = error.what();
+  }
+  if (report.status == Status::failed) run.stuck = taker.stuck();
+  run.iterations += report.iterations;
+  run.factorisations += report.factorisations;
+  run.status = report.status;
+  run.reason = report.reason;
+  if (report.status == Status::converged) run.worst = worse(run.worst, report.certificate);
+  report.solutions = taker.takeSolutions();
+  run.solveSeconds += secondsSince(begin);
+  return report;
+}
+
+/// Makes ready for steps chosen by their error: finds their scales.
+void prepare(const Model& model, State& state, MarchMemory& memory, const TimePlan& plan, StepTaker& taker) {
+  const auto begin = Clock::now();
   Controller controller(model, plan, memory);
   controller.pilot(taker, state);
   memory.run.solveSeconds += secondsSince(begin);
@@ -161,7 +188,6 @@ State initialState(const Model& model) {
     const int components = body.material().components();
     BodyState initial{Vector::Zero(body.dofs()), body.initialStress(),
                       Matrix::Zero(components, body.points())};
-    body.prescribe(0, initial.displacement);
     if (body.heated()) initial.thermalStrain = Matrix::Zero(components, body.points());
     state.bodies.push_back(std::move(initial));
   }
@@ -188,19 +214,30 @@ RunReport march(const Model& model, State& state, MarchMemory& memory, const Tim
                 const SolverOptions& options, const Observer& observer) {
   const bool controlled = plan.controlled();
   const bool begun = memory.run.steps > 0 || memory.controller.trial > 0;
-  if (!begun) memory.begin = state.time;
-  if (!begun && controlled) prepare(model, state, memory, plan, options);
-  if (!begun) reportStart(model, state, memory, plan, observer);
-  Controller controller(model, plan, memory);
   const bool countsWork = std::any_of(plan.quantities.begin(), plan.quantities.end(), needsWork);
-  while (true) {
+  if (!begun) memory.begin = state.time;
+  std::optional<StepTaker> taker;
+  const auto makeTaker = [&] {
     const auto begin = Clock::now();
-    StepTaker taker(model, state, memory, plan.scheme, options, countsWork);
+    taker.emplace(model, state, memory, plan.scheme, options, countsWork);
     memory.run.solveSeconds += secondsSince(begin);
-    go(model, state, memory, plan, taker, controller, observer);
+  };
+  makeTaker();
+  if (!begun) {
+    StepReport start = jump(model, state, memory, *taker);
+    const bool possible = start.status == Status::converged;
+    if (possible && controlled) prepare(model, state, memory, plan, *taker);
+    reportStart(model, state, taker->threads(), memory, plan, observer, std::move(start));
+    if (!possible) return memory.run;
+    if (controlled) makeTaker();
+  }
+  Controller controller(model, plan, memory);
+  while (true) {
+    go(model, state, memory, plan, *taker, controller, observer);
     if (!controlled || memory.run.status != Status::converged || !controller.beginAgain(state))
       return memory.run;
-    reportStart(model, state, memory, plan, observer);
+    reportStart(model, state, taker->threads(), memory, plan, observer);
+    makeTaker();
   }
 }
 

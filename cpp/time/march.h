@@ -16,7 +16,7 @@ namespace mortier {
 /// large.
 using Observer = std::function<void(const State& state, const StepReport& report)>;
 
-/// u0 = 0 but for what is prescribed at t = 0, sigma0 the initial stress of the bodies.
+/// Before anything acts: u0 = 0, sigma0 the initial stress of the bodies. march() lets the data of t = 0 act.
 State initialState(const Model& model);
 
 /// Marches `state` to the end of the plan; on failure it is left at the last converged step.

@@ -23,6 +23,15 @@ StepTaker::StepTaker(const Model& model, State& state, MarchMemory& memory, Sche
   if (memory.run.steps > 0) system_.resume(memory.solver);
 }
 
+StepOutcome StepTaker::jump() {
+  StepOutcome outcome = attempt(state_.time, Scheme::backwardEuler);
+  if (!outcome.converged()) return outcome;
+  commit();
+  memory_.increments.clear();
+  startSolved_ = true;
+  return outcome;
+}
+
 StepOutcome StepTaker::attempt(double t1, Scheme scheme, Effort effort) {
   t1_ = t1;
   tableau_ = tableau(scheme);
@@ -67,7 +76,8 @@ std::string beyond(const Certificate& found, double most) {
 
 }  // namespace
 
-/// Refuses a solution whose residuals are no rounding, and one that could be anywhere along a motion.
+/// Refuses a solution whose residuals are no rounding, and one that could be anywhere along a motion. In a jump
+/// the next step may hold it.
 StepOutcome StepTaker::hold(StepOutcome outcome) {
   constexpr double rounding = 1e-8;  // residuals of solutions are 1e-10 and less
   if (const std::string residual =
@@ -75,8 +85,8 @@ StepOutcome StepTaker::hold(StepOutcome outcome) {
                               : "";
       model_.any(!residual.empty()))
     outcome.fail(Reason::unconverged, residual);
-  if (const std::string motion = outcome.converged() ? system_.looseMotion(state_, solutions_.back()) : "";
-      !motion.empty())
+  const bool asked = outcome.converged() && t1_ > state_.time;
+  if (const std::string motion = asked ? system_.looseMotion(state_, solutions_.back()) : ""; !motion.empty())
     outcome.fail(Reason::unheld, "no contact is closed that would hold " + motion);
   if (!outcome.converged()) memory_.increments.clear();
   memory_.solver = system_.memory();
@@ -94,7 +104,7 @@ StepOutcome StepTaker::solveStages(double t1, Effort effort) {
     const Stage& stage = tableau_.stages[i];
     shiftOf(stage, k);
     const double time = stage.time == 1 ? t1 : state_.time + stage.time * k;
-    StepData data{time, stage.diagonal * k, shift_, memory_.run.steps > 0};
+    StepData data{time, stage.diagonal * k, shift_, startSolved_ || memory_.run.steps > 0};
     addThermalStrain(model_, state_, data);
     Iterate iterate = guess(i, k);
     StepOutcome outcome = solveStep(system_, state_, data, iterate, effort);
@@ -234,7 +244,7 @@ void StepTaker::commit() {
       // The state takes the stress of the last stage, the memory the increments.
       if (last) step.stress.swap(body.stress);
       const Material& material = model_.bodies[b].material();
-      const bool strains = last && !material.linear();
+      const bool strains = last && t1_ > state_.time && !material.linear();
       Matrix elastic(strains ? step.stress.rows() : 0, strains ? step.stress.cols() : 0);
       forEachBlock(model_.bodies[b].points(), system_.threads(), [&](int begin, int end) {
         const auto part = [&](auto& all) { return all.middleCols(begin, end - begin); };

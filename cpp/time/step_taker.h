@@ -25,6 +25,9 @@ class StepTaker {
   StepOutcome attempt(double t1, Effort effort = Effort::usual) { return attempt(t1, scheme_, effort); }
   /// The same with another scheme.
   StepOutcome attempt(double t1, Scheme scheme, Effort effort = Effort::usual);
+  /// Lets the data of the state's time act at once: a step of length zero, in which nothing flows. Where it
+  /// is solved it is the state.
+  StepOutcome jump();
   /// Whether the last attempt, which converged, needs the guard.
   [[nodiscard]] bool turned() const;
   /// Repeats it as two half steps of backward Euler. \returns the outcome, the work of `before` included
@@ -117,6 +120,7 @@ class StepTaker {
   std::vector<Response> reached_;                         ///< of the error last taken through the stages
   double t1_ = 0;
   bool guarded_ = false;
+  bool startSolved_ = false;  ///< the state is the end of a step
   ActiveSets active_;
 };
 

@@ -12,11 +12,6 @@ def _(case):
     case.replace("uy = 0", "uy = \"0.7*t\"")
 
 
-@fault("initial-displacement", "uy = 0.01")
-def _(case):
-    case.replace("uy = 0", "uy = 0.01")
-
-
 @fault("initial-load", 'ty = "')
 def _(case):
     case.replace("-10*t", "-5-5*t")
