@@ -1,5 +1,6 @@
 #include "base/adaptive_quadrature.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
