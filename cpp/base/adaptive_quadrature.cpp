@@ -14,7 +14,7 @@ constexpr double smoothOnTriangle = 1e-4;
 /// A part is not cut again where what it may be off by, times its share of the whole, is below this part of
 /// the largest value.
 constexpr double shareOfEdge = 1e-10;
-constexpr double shareOfTriangle = 3e-4;
+constexpr double shareOfTriangle = 2e-4;
 /// The same for values that an enclosure allows and no sample has.
 constexpr double shareHidden = 1e-3;
 constexpr size_t mostParts = 1500;
@@ -60,15 +60,16 @@ struct EdgeRule {
   }
 };
 
-// Dunavant (1985), degree 6.
+// Dunavant (1985), degree 6; and points next to the corners and the sides, which it does not reach.
 using Barycentric = std::array<double, 3>;
 using Corners = std::array<Barycentric, 3>;
 constexpr int dunavantPoints = 12;
+constexpr int trianglePoints = dunavantPoints + 6;
 
 struct TriangleRule {
-  std::array<Barycentric, dunavantPoints> at{};
-  std::array<double, dunavantPoints> weight{};
-  Eigen::Matrix<double, dunavantPoints, dunavantPoints> residual;  ///< of the quadratic that fits best
+  std::array<Barycentric, trianglePoints> at{};
+  std::array<double, trianglePoints> weight{};
+  Eigen::Matrix<double, trianglePoints, trianglePoints> residual;  ///< of the quadratic that fits best
   TriangleRule() {
     int n = 0;
     const auto add = [&](Barycentric b, double w) {
@@ -85,17 +86,27 @@ struct TriangleRule {
     Barycentric b{0.053145049844817, 0.310352451033784, 1 - 0.053145049844817 - 0.310352451033784};
     do add(b, (1 - 3 * (0.050844906370207 + 0.116786275726379)) / 6);
     while (std::next_permutation(b.begin(), b.end()));
-    Eigen::Matrix<double, dunavantPoints, 6> terms;
-    for (int i = 0; i < dunavantPoints; ++i) {
+    constexpr double inside = 0.005;
+    for (int k = 0; k < 3; ++k) {
+      Barycentric corner{inside, inside, inside};
+      corner[k] = 1 - 2 * inside;
+      add(corner, 0);
+      Barycentric side{(1 - inside) / 2, (1 - inside) / 2, (1 - inside) / 2};
+      side[k] = inside;
+      add(side, 0);
+    }
+    Eigen::Matrix<double, trianglePoints, 6> terms;
+    for (int i = 0; i < trianglePoints; ++i) {
       const auto& [c, d, e] = at[i];
       terms.row(i) << c * c, d * d, e * e, c * d, d * e, e * c;
     }
-    const Eigen::Matrix<double, 6, 6> normal = terms.transpose() * terms;
-    residual = -terms * normal.inverse() * terms.transpose();
-    residual.diagonal().array() += 1;
+    const auto fitted = terms.topRows<dunavantPoints>();
+    const Eigen::Matrix<double, 6, 6> normal = fitted.transpose() * fitted;
+    residual.setIdentity();
+    residual.leftCols<dunavantPoints>() -= terms * normal.inverse() * fitted.transpose();
   }
-  [[nodiscard]] double off(const std::array<double, dunavantPoints>& f) const {
-    return (residual * Eigen::Map<const Eigen::Matrix<double, dunavantPoints, 1>>(f.data()))
+  [[nodiscard]] double off(const std::array<double, trianglePoints>& f) const {
+    return (residual * Eigen::Map<const Eigen::Matrix<double, trianglePoints, 1>>(f.data()))
         .lpNorm<Eigen::Infinity>();
   }
 };
@@ -122,7 +133,7 @@ struct EdgePart {
 };
 
 struct TrianglePart {
-  static constexpr int count = dunavantPoints;
+  static constexpr int count = trianglePoints;
   static constexpr double smooth = smoothOnTriangle;
   static constexpr double share = shareOfTriangle;
   Corners corners{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -189,9 +200,11 @@ Resolved<Place> resolved(const Value& value, const Enclosure& enclosure, std::ve
         continue;
       }
       for (int k = 0; k < Part::count; ++k)
-        result.samples.push_back({part.place(rule.at[k]), rule.weight[k] * part.part(), values[i][k]});
-      const double missed = ((smooth ? 0 : off) + (seen ? 0 : beyond)) * part.part();
-      result.uncertain += missed;
+        if (rule.weight[k] > 0)
+          result.samples.push_back({part.place(rule.at[k]), rule.weight[k] * part.part(), values[i][k]});
+      const bool met = off <= Part::smooth * result.size;
+      const double missed = ((met ? 0 : off) + (seen ? 0 : beyond)) * part.part();
+      result.uncertain = std::hypot(result.uncertain, missed);  // parts are off to either side
       if (missed > most) {
         most = missed;
         result.worst = part.middle();
