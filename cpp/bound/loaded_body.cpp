@@ -8,6 +8,8 @@
 #include "base/interrupt.h"
 #include "bound/relaxation.h"
 #include "bound/strip_balance.h"
+#include "fem/data_misfit.h"
+#include "fem/element.h"
 #include "fem/rigid_modes.h"
 #include "linear/condensing_solver.h"
 #include "material/stress.h"
@@ -152,7 +154,10 @@ void LoadedBody::readForces(double t) {
         const Point at = (mesh().vertices[v[i]] + mesh().vertices[v[(i + 1) % 3]]) / 2;
         values[i] = force.value(at.x(), at.y(), t);
       }
-      const double mean = (values[0] + values[1] + values[2]) / 3;
+      double mean = (values[0] + values[1] + values[2]) / 3;
+      if (force.value.degree > LinearTriangle::loadExact)
+        mean = mortier::mean(onTriangle(
+            force.value, {mesh().vertices[v[0]], mesh().vertices[v[1]], mesh().vertices[v[2]]}, t));
       sum += mean * Point::Unit(force.component);
       for (const double value : values) oscillation_.forces.add(body_.weights()[k], value - mean, value);
     }
@@ -192,9 +197,14 @@ void LoadedBody::readBoundary(double t) {
         return traction.value(a.x() + s * along.x(), a.y() + s * along.y(), t);
       };
       oscillation_.tractions.addLinear(along.norm(), value);
+      // As nodal loads are found (fem/body_loads.cpp).
       const Point d = along.norm() / 6 * direction(traction.component);
-      known_[e].moments[0] += (value(0) + 2 * value(0.5)) * d;
-      known_[e].moments[1] += (2 * value(0.5) + value(1)) * d;
+      std::array<double, 2> moments{value(0) + 2 * value(0.5), 2 * value(0.5) + value(1)};
+      if (traction.value.degree > LinearTriangle::edgeExact) {
+        moments = linearMoments(onEdge(traction.value, {a, a + along}, t));
+        for (double& moment : moments) moment *= 6;
+      }
+      for (int end = 0; end < 2; ++end) known_[e].moments[end] += moments[end] * d;
     }
   }
 }

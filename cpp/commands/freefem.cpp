@@ -15,6 +15,7 @@
 #include "commands/freefem_text.h"
 #include "commands/shipped.h"
 #include "contact/smooth_part.h"
+#include "fem/element.h"
 #include "mesh/gmsh.h"
 #include "mesh/medit.h"
 #include "scene/build.h"
@@ -67,8 +68,9 @@ bool isRoller(const ConditionDescription& condition) {
          (condition.component == alongNormal || condition.component == alongTangent);
 }
 
-/// Loads by the rules that mortier takes (docs/theory.md), for they decide what nodal forces are; with
-/// quadratic displacements by FreeFEM's own of degree 5. A macro must not be empty.
+/// Loads by the rules that mortier takes (docs/theory.md) where these integrate them, with quadratic
+/// displacements by FreeFEM's own of degree 5; others, which mortier resolves, by those of degree 9 on
+/// edges and triangles. A macro must not be empty.
 void writeConditions(std::ostream& out, const BodyDescription& body, int number,
                      const SceneDescription& scene) {
   const std::string n = std::to_string(number);
@@ -84,15 +86,24 @@ void writeConditions(std::ostream& out, const BodyDescription& body, int number,
     } else if (c.kind == Kind::traction) {
       const std::string direction =
           c.component == alongNormal ? "(N.x*v1 + N.y*v2)" : "v" + std::to_string(c.component + 1);
-      loads << (degree == 1 ? "+ simpson(" + n + ", " : "+ int1d(Body" + n + ", ") << c.label
-            << (degree == 1 ? ", (" : ")((") << value << ")*" << direction << (degree == 1 ? "" : own)
-            << ") ";
+      const bool simpson = degree == 1 && c.value.value.degree <= LinearTriangle::edgeExact;
+      const bool rough = c.value.value.degree > QuadraticTriangle::edgeExact;
+      loads << (simpson ? "+ simpson(" + n + ", " : "+ int1d(Body" + n + ", ") << c.label
+            << (simpson ? ", ("
+                : rough ? ", qfe = qf5pE)(("
+                        : ")((")
+            << value << ")*" << direction << (simpson ? "" : own) << ") ";
     }
   }
   for (const int c : {0, 1}) {
     if (body.force[c]) {
-      loads << (degree == 1 ? "+ midpoints(" + n + ", (" : "+ int2d(Body" + n + ")((")
-            << freefemExpression(*body.force[c]) << ")*v" << c + 1 << (degree == 1 ? "" : own) << ") ";
+      const bool midpoints = degree == 1 && body.force[c]->value.degree <= LinearTriangle::loadExact;
+      const bool rough = body.force[c]->value.degree > QuadraticTriangle::loadExact;
+      loads << (midpoints ? "+ midpoints(" + n + ", (" : "+ int2d(Body" + n)
+            << (midpoints ? ""
+                : rough   ? ", qft = qf9pT)(("
+                          : ")((")
+            << freefemExpression(*body.force[c]) << ")*v" << c + 1 << (midpoints ? "" : own) << ") ";
     }
   }
   const auto orNothing = [&](const std::ostringstream& terms, const char* nothing) {

@@ -17,7 +17,9 @@
 
 #include <Eigen/SparseCore>
 #include <functional>
+#include <utility>
 
+#include "base/datum.h"
 #include "base/types.h"
 #include "contact/coupling.h"
 #include "contact/penetration.h"
@@ -105,6 +107,9 @@ class ContactInterface {
   [[nodiscard]] bool distanceMoves() const { return static_cast<bool>(gapInTime_); }
   /// g0 at a time [m].
   [[nodiscard]] Vector distance(double t) const;
+  /// The distance that is given in place of that as meshed, as it was written; empty where none is.
+  [[nodiscard]] const Datum& given() const { return given_; }
+  void setGiven(Datum distance) { given_ = std::move(distance); }
   [[nodiscard]] const Friction& friction() const { return friction_; }
   /// Whether there is friction. Then every row of C has one beside it for the slip T u, with the same
   /// weights, along n turned by +90 degrees: the direction of the nonmortar line, with its body to the left.
@@ -183,6 +188,7 @@ class ContactInterface {
   ConstraintRows T2_;
   Eigen::SparseMatrix<double> mass_;
   Vector distance_;
+  Datum given_;
   std::function<double(const Point&, double t)> gapInTime_;
   std::vector<std::pair<int, Point>> gapNodes_;  ///< where it is given, with their places
   Eigen::SparseMatrix<double> N_;                ///< g0 = N times what is given by node

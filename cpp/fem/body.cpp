@@ -5,7 +5,6 @@
 
 #include "base/error.h"
 #include "fem/element.h"
-#include "material/stress.h"
 #include "mesh/boundary_line.h"
 
 namespace mortier {
@@ -17,13 +16,6 @@ std::array<Point, Element::nodes> placesOf(const ElementNodes& nodes, size_t tri
   std::array<Point, Element::nodes> x;
   for (int a = 0; a < Element::nodes; ++a) x[a] = nodes.places[nodes.of(triangle)[a]];
   return x;
-}
-
-template <size_t n>
-Point placeOf(const std::array<double, n>& shapes, const std::array<Point, n>& x) {
-  Point place = Point::Zero();
-  for (size_t a = 0; a < n; ++a) place += shapes[a] * x[a];
-  return place;
 }
 
 Conditions withAxisHeld(Conditions conditions) {
@@ -83,6 +75,7 @@ Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> 
     }
   });
   numberEquations();
+  findSteadyLoads();
 }
 
 const TangentAssembly& Body::assembly() const {
@@ -185,95 +178,6 @@ void Body::prescribeIncrement(double t0, double t1, TwoPartVector& increment) co
     for (const int c : {0, 1})
       if (support.count == 2 || n[c] != 0) increment.set(dof + c, change[c]);
   }
-}
-
-Vector Body::load(double t) const {
-  Vector f = Vector::Zero(dofs());
-  addTractions(t, f);
-  addForces(t, f);
-  return f;
-}
-
-void Body::addTractions(double t, Vector& f) const {
-  withElement(degree(), [&](auto element) {
-    using Element = decltype(element);
-    for (const auto& traction : conditions_.tractions)
-      for (size_t e = 0; e < mesh_.boundaryEdges.size(); ++e) {
-        if (mesh_.boundaryLabels[e] != traction.label || (!ownEdges_.empty() && ownEdges_[e] == 0)) continue;
-        std::array<int, Element::edgeNodes> nodes;
-        std::array<Point, Element::edgeNodes> x;
-        for (int a = 0; a < Element::edgeNodes; ++a) {
-          nodes[a] = a < 2 ? mesh_.boundaryEdges[e][a] : nodes_.middles[e];
-          x[a] = nodes_.places[nodes[a]];
-        }
-        std::array<double, Element::edgeNodes> sums{};
-        for (const auto& [s, toNode] : Element::edgeRule()) {
-          const Point at = placeOf(Element::edgeShapes(s), x);
-          const double value = depthAt(at) * traction.value(at.x(), at.y(), t);
-          for (int a = 0; a < Element::edgeNodes; ++a) sums[a] += toNode[a] * value;
-          if (Element::straight && s != Element::edgeRule().back().at) continue;
-          // The direction times the length of the edge.
-          const Point along = Element::edgeTangent(s, x);
-          const double length = along.norm();
-          const Point direction = traction.component == alongX        ? Point(length, 0)
-                                  : traction.component == alongY      ? Point(0, length)
-                                  : traction.component == alongNormal ? Point(along.y(), -along.x())
-                                                                      : along;
-          for (int a = 0; a < Element::edgeNodes; ++a)
-            f.segment<2>(2 * nodes[a]) += sums[a] / Element::edgeDivisor * direction;
-          sums.fill(0);
-        }
-      }
-  });
-}
-
-void Body::addForces(double t, Vector& f) const {
-  withElement(degree(), [&](auto element) {
-    using Element = decltype(element);
-    for (const auto& force : conditions_.forces)
-      for (size_t tri = 0; tri < mesh_.triangles.size(); ++tri) {
-        const auto x = placesOf<Element>(nodes_, tri);
-        for (const auto& [at, toNode] : Element::loadRule()) {
-          const Point place = placeOf(Element::shapes(at), x);
-          const double value = depthAt(place) * Element::areaAt(at, x) / Element::loadDivisor *
-                               force.value(place.x(), place.y(), t);
-          for (int a = 0; a < Element::nodes; ++a)
-            f[2 * nodes_.of(tri)[a] + force.component] += toNode[a] * value;
-        }
-      }
-  });
-}
-
-Matrix Body::thermalStrain(double t) const {
-  const std::vector<Point> places = this->places();
-  Matrix strain = Matrix::Zero(material_->components(), points());  // what a law remembers has none
-  for (int i = 0; i < points(); ++i)
-    strain.col(i).head(conditions_.expansion.rows()) =
-        conditions_.expansion.col(i) * conditions_.temperature(places[i].x(), places[i].y(), t);
-  return strain;
-}
-
-Matrix Body::initialStress() const {
-  const int components = material_->components();
-  const std::vector<Point> places = hasInitialStress() ? this->places() : std::vector<Point>();
-  // By component, those beyond the plane as far as they are given.
-  Matrix given = Matrix::Zero(components, points());
-  std::vector<char> beyond(points(), 0);
-  for (const auto& [component, region, value] : conditions_.initialStresses)
-    for (int i = 0; i < points(); ++i) {
-      const size_t triangle = i / pointsOfTriangle();
-      if (region && mesh_.regions[triangle] != *region) continue;
-      given(component, i) = value(places[i].x(), places[i].y(), 0);
-      if (component == 3) beyond[i] = 1;
-    }
-  Matrix stress = given;
-  for (int i = 0; i < points(); ++i) {
-    const Eigen::Vector3d pqr = fromCartesian(given.col(i).head<3>());
-    stress.col(i).head<3>() = pqr;
-    if (material_->tensorComponents() > 3 && beyond[i] == 0 && !axisymmetric_)
-      stress(3, i) = material_->outOfPlane(pqr, i);
-  }
-  return stress;
 }
 
 }  // namespace mortier

@@ -24,13 +24,13 @@ namespace mortier {
 struct Traction {
   int label = 0;
   int component = 0;
-  Function value;
+  Datum value;
 };
 
 /// Force per volume, one component [N/m^3].
 struct BodyForce {
   int component = 0;
-  Function value;
+  Datum value;
 };
 
 /// Stress at t = 0, one component (0: s11, 1: s22, 2: s12, 3: s33 in plane strain or around the axis), in a
@@ -38,7 +38,7 @@ struct BodyForce {
 struct InitialStress {
   int component = 0;
   std::optional<int> region;
-  Function value;
+  Datum value;
 };
 
 struct Conditions {
@@ -46,8 +46,8 @@ struct Conditions {
   std::vector<Traction> tractions;
   std::vector<BodyForce> forces;
   std::vector<InitialStress> initialStresses = {};
-  Function temperature = {};  ///< above that at which nothing is strained [K]; none where empty
-  Matrix expansion = {};      ///< thermal strain per kelvin, components of the tensor x points [1/K]
+  Datum temperature = {};  ///< above that at which nothing is strained [K]; none where empty
+  Matrix expansion = {};   ///< thermal strain per kelvin, components of the tensor x points [1/K]
 };
 
 /// Places of the quadrature points of all triangles, one triangle after the other [m].
@@ -121,7 +121,8 @@ class Body {
   /// Gives an increment (dofs) what prescribed displacements change by from t0 to t1: taken from the
   /// displacements themselves, their rounding would strain the body.
   void prescribeIncrement(double t0, double t1, TwoPartVector& increment) const;
-  /// Nodal forces (dofs) of tractions and body forces at time t [N/m].
+  /// Nodal forces (dofs) of tractions and body forces at time t: the integrals of the data, resolved
+  /// (base/adaptive_quadrature.h) where the rule of the element does not integrate them [N/m].
   [[nodiscard]] Vector load(double t) const;
 
   /// Of a shape function, the largest component in any triangle of the whole body [1/m].
@@ -174,8 +175,12 @@ class Body {
   void hoopStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
   template <class Element>
   void strainOf(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
-  void addTractions(double t, Vector& f) const;
-  void addForces(double t, Vector& f) const;
+  // Of data that do not change and the rule of the element does not integrate, or of all others.
+  void addTractions(double t, Vector& f, bool steady) const;
+  void addForces(double t, Vector& f, bool steady) const;
+  void findSteadyLoads();
+  /// A datum at the points of the triangles: its projection onto what stresses can be.
+  [[nodiscard]] Vector atPoints(const Datum& datum, double t) const;
 
   std::string name_;
   TriangleMesh mesh_;
@@ -193,6 +198,7 @@ class Body {
   std::vector<double> hoops_;  ///< of all shape functions of a triangle their value over r, by points
   double largestGradient_ = 0;
   double extent_ = 0;
+  Vector steady_;  ///< nodal forces of findSteadyLoads(), by dofs; empty where there are none
   int freeDofs_ = 0;
   int tangentSize_ = 0;         ///< equations of nodes that have triangles
   std::vector<char> ownEdges_;  ///< by labelled edges, whether they are sides of triangles; all where empty

@@ -56,7 +56,9 @@ struct LinearTriangle {
     return result;
   }
 
-  // Loads: sums over these over the divisor. Exact for data of degree 2 on edges (Simpson), 1 on triangles.
+  // Loads: sums over these over the divisor, exact for data of these degrees; on edges Simpson's rule.
+  static constexpr int edgeExact = 2;
+  static constexpr int loadExact = 1;
   static constexpr double edgeDivisor = 6;
   static constexpr std::array<EdgePoint<2>, 3> edgeRule() {
     return {{{0, {1, 0}}, {0.5, {2, 2}}, {1, {0, 1}}}};
@@ -140,8 +142,9 @@ struct QuadraticTriangle {
     return result;
   }
 
-  // Exact for data of degree 3 on edges (Gauss, three points), 2 on straight triangles (Dunavant 1985, degree
-  // 4).
+  // On edges Gauss, three points, on straight triangles Dunavant (1985), degree 4.
+  static constexpr int edgeExact = 3;
+  static constexpr int loadExact = 2;
   static constexpr double edgeDivisor = 1;
   static constexpr EdgePoint<3> gauss(double s, double w) {
     const auto [a, b, m] = edgeShapes(s);

@@ -114,6 +114,7 @@ Body::Body(const Body& whole, const BodyCut& cut)
   std::vector<char> own(nodes(), 0);
   for (const int node : nodes_.triangles) own[node] = 1;
   numberEquations(own);
+  findSteadyLoads();
 }
 
 }  // namespace mortier

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/datum.h"
 #include "base/types.h"
 #include "mesh/element_nodes.h"
 
@@ -19,7 +20,7 @@ enum Component : int { alongX, alongY, alongNormal, alongTangent };
 struct PrescribedDisplacement {
   int label = 0;
   int component = 0;
-  Function value;
+  Datum value;
   std::optional<Point> point = {};  ///< where the vertex is, in place of the label [m]
   bool onAxis = false;              ///< of all nodes with x = 0, in place of the label
 
@@ -28,7 +29,10 @@ struct PrescribedDisplacement {
 
 /// Nodes on the axis of a body of revolution stay there.
 inline PrescribedDisplacement heldOnAxis() {
-  return {0, alongX, [](double, double, double) { return 0.0; }, std::nullopt, true};
+  Datum zero = [](double, double, double) { return 0.0; };
+  zero.degree = 0;
+  zero.inTime = false;
+  return {0, alongX, std::move(zero), std::nullopt, true};
 }
 
 /// A node that may move along one direction only, or not at all.

@@ -205,6 +205,7 @@ Faults lintResolved(const ResolvedScene& resolved, const std::vector<std::string
 }
 
 void lintModel(const SceneDescription& scene, const Model& model, Faults& faults) {
+  lintData(scene, model, faults);
   if (scene.time.controlled()) return;  // steps see what there is
   for (const std::string& warning : loadsBetweenSteps(scene, model)) {
     const auto [place, text] = splitPlace(warning);

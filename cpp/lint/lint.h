@@ -63,5 +63,7 @@ void lintBodies(const LintInput& input, Faults& faults);
 void lintMaterials(const LintInput& input, Faults& faults);
 void lintLoads(const LintInput& input, Faults& faults);
 void lintTime(const LintInput& input, Faults& faults);
+/// Data in space, against what the meshes make of them.
+void lintData(const SceneDescription& scene, const Model& model, Faults& faults);
 
 }  // namespace mortier

@@ -66,6 +66,7 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
   try {
     requireMemory(meshes, pairs, scene.degree, rough, scene.solver);
     addInterface(model, pair, options);
+    if (contact.gap) model.interfaces.back().setGiven(finiteValue(*contact.gap));
   } catch (const FaultError& error) {
     throw FaultError(contact.where + ": contact: " + error.what(), error.id());
   } catch (const InputError& error) {

@@ -46,8 +46,9 @@ std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model
     if (quantity.kind == Kind::frictionWork && !isInContact(model, quantity.body, quantity.label, true))
       refuse(label + " is no side of a contact with friction, expected one");
     if (quantity.kind == Kind::displacement) {
-      quantity.mean = description.point ? meanAt(body.mesh(), *description.point)
-                                        : meanOn(body.mesh(), quantity.label, body.axisymmetric());
+      quantity.mean = description.point
+                          ? meanAt(body.mesh(), body.elementNodes(), *description.point)
+                          : meanOn(body.mesh(), body.elementNodes(), quantity.label, body.axisymmetric());
       if (quantity.mean.empty())
         refuse("point = " + shortest(*description.point) + ", expected a point of body " + body.name());
     }

@@ -36,12 +36,15 @@ void addTemperature(const BodyDescription& body, const TriangleMesh& mesh, Plane
   const TemperatureDescription& temperature = *body.temperature;
   requireFinite(temperature.value, places, times);
   conditions.temperature = finiteValue(temperature.value);
-  if (!temperature.file.empty())
+  if (!temperature.file.empty()) {
+    const int degree = conditions.temperature.degree;
     conditions.temperature = [factor = conditions.temperature,
                               field = NodalField(mesh, temperature.file, temperature.where)](
                                  double x, double y, double t) {
       return factor(x, y, t) * field({x, y});
     };
+    if (degree == 0) conditions.temperature.degree = 1;  // on every triangle
+  }
   conditions.expansion.resize(plane == Plane::stress ? 3 : 4, static_cast<Eigen::Index>(places.size()));
   for (size_t i = 0; i < places.size(); ++i) {
     const MaterialDescription& material =

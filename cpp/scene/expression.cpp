@@ -11,6 +11,7 @@
 #include "base/datum_error.h"
 #include "scene/document.h"
 #include "scene/finite_value.h"
+#include "scene/known_datum.h"
 
 namespace mortier {
 
@@ -91,7 +92,10 @@ double finite(double value, const std::string& where, double x, double y, double
 }  // namespace
 
 Expression constantExpression(double value, std::string where) {
-  return {shortest(value), std::move(where), true, [value](double, double, double) { return value; }, {}};
+  Datum datum = [value](double, double, double) { return value; };
+  datum.degree = 0;
+  datum.inTime = false;
+  return {shortest(value), std::move(where), true, std::move(datum), {}};
 }
 
 Expression tableExpression(const std::vector<double>& times, const std::vector<double>& values,
@@ -104,7 +108,7 @@ Expression tableExpression(const std::vector<double>& times, const std::vector<d
                 shortest(times[i - 1]) + ")) : ");
   }
   text.append(shortest(values.back())).append(times.size(), ')');
-  const Function value = [times, values](double, double, double t) {
+  Datum value = [times, values](double, double, double t) {
     const size_t i = std::upper_bound(times.begin(), times.end(), t) - times.begin();
     if (i == 0 || i == times.size()) {
       return i == 0 ? values.front() : values.back();
@@ -112,14 +116,22 @@ Expression tableExpression(const std::vector<double>& times, const std::vector<d
     const double part = (t - times[i - 1]) / (times[i] - times[i - 1]);
     return (1 - part) * values[i - 1] + part * values[i];
   };
-  return {std::move(text), std::move(where), false, value, times, true};
+  value.degree = 0;
+  return {std::move(text), std::move(where), false, std::move(value), times, true};
 }
 
 Expression negated(Expression expression) {
   expression.text = "-(" + expression.text + ")";
-  expression.value = [value = std::move(expression.value)](double x, double y, double t) {
-    return -value(x, y, t);
-  };
+  const Datum& value = expression.value;
+  Datum opposite = [value = Function(value)](double x, double y, double t) { return -value(x, y, t); };
+  opposite.degree = value.degree;
+  opposite.inTime = value.inTime;
+  if (value.enclosure)
+    opposite.enclosure = [enclosure = value.enclosure](const Box& box) {
+      const Range range = enclosure(box);
+      return Range{-range.largest, -range.least};
+    };
+  expression.value = std::move(opposite);
   return expression;
 }
 
@@ -143,7 +155,10 @@ Expression parseExpression(const std::string& text, std::string where) {
       return result;
     }
     const bool inTime = compiled.inTime();
-    return {text, std::move(where), false, Function(std::move(compiled)), {}, inTime};
+    Datum datum(Function(std::move(compiled)));
+    datum.inTime = inTime;
+    describe(text, datum);
+    return {text, std::move(where), false, std::move(datum), {}, inTime};
   } catch (const mu::Parser::exception_type& error) {
     std::string reason = error.GetMsg();
     reason = reason.substr(0, reason.find_first_of("\r\n"));
@@ -157,10 +172,13 @@ Expression parseExpression(const std::string& text, std::string where) {
   }
 }
 
-Function finiteValue(const Expression& expression) {
-  return [value = expression.value, where = expression.where](double x, double y, double t) {
+Datum finiteValue(const Expression& expression) {
+  Datum datum = expression.value;
+  static_cast<Function&>(datum) = [value = Function(expression.value), where = expression.where](
+                                      double x, double y, double t) {
     return finite(value(x, y, t), where, x, y, t);
   };
+  return datum;
 }
 
 void requireFinite(const Expression& expression, const std::vector<Point>& points,

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/types.h"
+#include "base/datum.h"
 
 namespace mortier {
 
@@ -13,7 +13,7 @@ struct Expression {
   std::string text;       ///< as written, for messages and for FreeFEM
   std::string where;      ///< what a message about it begins with: `scenes/a.toml:14: body upper: ty = "1/t"`
   bool constant = false;  ///< depends on none of x, y, t
-  Function value;         ///< copies are independent: a thread takes its own
+  Datum value;            ///< copies are independent: a thread takes its own
   std::vector<double> breaks = {};  ///< times at which it has kinks, ascending [s]; known of tables only
   bool inTime = false;              ///< depends on t
 };

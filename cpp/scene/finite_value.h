@@ -7,6 +7,6 @@ namespace mortier {
 
 /// The value of the expression. Where that is not finite the function \throws DatumError naming the datum,
 /// the point and the time.
-Function finiteValue(const Expression& expression);
+Datum finiteValue(const Expression& expression);
 
 }  // namespace mortier

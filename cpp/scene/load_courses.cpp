@@ -8,36 +8,11 @@
 #include <utility>
 
 #include "base/error.h"
-#include "mesh/boundary_line.h"
 #include "scene/finite_value.h"
+#include "scene/load_places.h"
 
 namespace mortier {
 namespace {
-
-/// Vertices of a labelled boundary, or of the whole mesh, not too many.
-std::vector<Point> samplePoints(const TriangleMesh& mesh, const int* label) {
-  constexpr size_t enough = 24;
-  std::vector<Point> points;
-  if (label == nullptr) {
-    points = mesh.vertices;
-  } else {
-    for (const auto& [from, to] : edgesOn(mesh, *label)) points.push_back(mesh.vertices[from]);
-  }
-  const size_t stride = 1 + points.size() / enough;
-  std::vector<Point> sample;
-  for (size_t i = 0; i < points.size(); i += stride) sample.push_back(points[i]);
-  return sample;
-}
-
-/// One point is enough where the datum is the same everywhere.
-std::vector<Point> needed(const Expression& expression, const std::vector<Point>& points, double end) {
-  constexpr double times[] = {0, 0.1357, 0.3819, 0.6542, 0.8713, 1};
-  for (const double t : times)
-    for (const Point& p : points)
-      if (expression.value(p[0], p[1], t * end) != expression.value(points[0][0], points[0][1], t * end))
-        return points;
-  return {points[0]};
-}
 
 /// Names and numbers of an expression, and its other characters one by one.
 std::vector<std::string> tokens(const std::string& text) {
@@ -70,26 +45,30 @@ bool proportionalToTime(const std::string& text) {
   return times == 1;
 }
 
-/// Calls work(expression, points) for every datum of the scene.
+/// Calls work(expression, places) for every datum of the scene that changes.
 void forEachDatum(const SceneDescription& scene, const Model& model,
-                  const std::function<void(const Expression&, const std::vector<Point>&)>& work) {
-  const auto call = [&](const Expression& expression, const std::vector<Point>& points) {
-    if (!expression.constant && !points.empty()) work(expression, needed(expression, points, scene.time.end));
+                  const std::function<void(const Expression&, const LoadPlaces&)>& work) {
+  const auto call = [&](const Expression& expression, const TriangleMesh& mesh, const int* label) {
+    if (!expression.inTime) return;
+    const LoadPlaces places = loadPlaces(expression.value, mesh, label, scene.time.end);
+    if (!places.points.empty()) work(expression, places);
   };
   for (size_t b = 0; b < scene.bodies.size(); ++b) {
     const TriangleMesh& mesh = model.bodies[b].mesh();
     for (const ConditionDescription& c : scene.bodies[b].conditions) {
-      call(c.value, c.point ? std::vector<Point>{*c.point} : samplePoints(mesh, &c.label));
+      if (!c.point)
+        call(c.value, mesh, &c.label);
+      else if (c.value.inTime)
+        work(c.value, loadPlaces(c.value.value, *c.point, scene.time.end));
     }
     for (const std::optional<Expression>& force : scene.bodies[b].force)
-      if (force) call(*force, samplePoints(mesh, nullptr));
-    if (const auto& temperature = scene.bodies[b].temperature)
-      call(temperature->value, samplePoints(mesh, nullptr));
+      if (force) call(*force, mesh, nullptr);
+    if (const auto& temperature = scene.bodies[b].temperature) call(temperature->value, mesh, nullptr);
   }
   for (const ContactDescription& contact : scene.contacts)
-    if (contact.gap && contact.gap->inTime)
-      call(*contact.gap, samplePoints(model.bodies[bodyIndex(scene, contact.nonmortar.body)].mesh(),
-                                      &contact.nonmortar.label));
+    if (contact.gap)
+      call(*contact.gap, model.bodies[bodyIndex(scene, contact.nonmortar.body)].mesh(),
+           &contact.nonmortar.label);
 }
 
 std::string text(const char* pattern, double a, double b) {
@@ -98,10 +77,33 @@ std::string text(const char* pattern, double a, double b) {
   return buffer;
 }
 
-Course courseAt(const Expression& expression, const Function& value, const Point& p, double end) {
+/// Found between the times of peaks, at which it has breaks.
+Course resolvedBetween(const std::function<double(double)>& datum, const std::vector<double>& peaks,
+                       double end) {
+  Course course;
+  double from = 0;
+  for (size_t i = 0; i <= peaks.size(); ++i) {
+    const double to = i < peaks.size() ? peaks[i] : end;
+    if (!(to > from)) continue;
+    const Course part = resolve(datum, from, to);
+    course.resolved = course.resolved && part.resolved;
+    course.times.insert(course.times.end(), part.times.begin(), part.times.end());
+    course.values.insert(course.values.end(), part.values.begin(), part.values.end());
+    course.breaks.insert(course.breaks.end(), part.breaks.begin(), part.breaks.end());
+    if (to < end) course.breaks.push_back(to);
+    from = to;
+  }
+  const auto [least, largest] = std::minmax_element(course.values.begin(), course.values.end());
+  course.range = *largest - *least;
+  course.value = datum;
+  return course;
+}
+
+Course courseAt(const Expression& expression, const Function& value, const Point& p,
+                const std::vector<double>& peaks, double end) {
   const auto datum = [value, p](double t) { return value(p[0], p[1], t); };
   if (!expression.breaks.empty()) return tableCourse(datum, expression.breaks, 0, end);
-  Course course = resolve(datum, 0, end);
+  Course course = peaks.empty() ? resolve(datum, 0, end) : resolvedBetween(datum, peaks, end);
   if (!course.resolved)
     throw InputError(expression.where +
                      text(", expected a datum that can be sampled in time: at (%.6g, %.6g) it varies "
@@ -115,9 +117,9 @@ Course courseAt(const Expression& expression, const Function& value, const Point
 LoadCourses loadCourses(const SceneDescription& scene, const Model& model) {
   LoadCourses loads;
   loads.breaks = scene.time.breaks;
-  forEachDatum(scene, model, [&](const Expression& expression, const std::vector<Point>& points) {
-    for (const Point& p : points) {
-      Course course = courseAt(expression, finiteValue(expression), p, scene.time.end);
+  forEachDatum(scene, model, [&](const Expression& expression, const LoadPlaces& places) {
+    for (const Point& p : places.points) {
+      Course course = courseAt(expression, finiteValue(expression), p, places.times, scene.time.end);
       loads.breaks.insert(loads.breaks.end(), course.breaks.begin(), course.breaks.end());
       loads.data.push_back(std::move(course));
     }
@@ -131,12 +133,12 @@ std::vector<std::string> loadsBetweenSteps(const SceneDescription& scene, const 
   constexpr double much = 0.25;
   std::vector<std::string> warnings;
   const double k = scene.time.end / scene.time.steps;
-  forEachDatum(scene, model, [&](const Expression& expression, const std::vector<Point>& points) {
+  forEachDatum(scene, model, [&](const Expression& expression, const LoadPlaces& places) {
     if (proportionalToTime(expression.text)) return;
     double most = much;
     std::string warning;
-    for (const Point& p : points) {
-      const Course course = courseAt(expression, expression.value, p, scene.time.end);
+    for (const Point& p : places.points) {
+      const Course course = courseAt(expression, expression.value, p, places.times, scene.time.end);
       // Of many steps most have no sample inside.
       double last = -1;
       for (const double t : course.times) {

@@ -8,7 +8,6 @@
 
 #include "material/back_stress.h"
 #include "material/stress.h"
-#include "mesh/boundary_line.h"
 #include "time/nodal_forces.h"
 
 namespace mortier {
@@ -287,40 +286,6 @@ double largestPressureError(const Quantity& quantity, const Model& model, const 
   }
   const double spread = state.contactForce[largest.interface][row] / interface.lengths()[row];
   return std::max(std::abs(largest.value - spread), std::abs(largest.value + sum / area));
-}
-
-std::vector<std::pair<int, double>> meanAt(const TriangleMesh& mesh, const Point& point) {
-  constexpr double rounding = 1e-9;  // of a triangle: a point on the boundary is inside
-  const auto cross = [](const Point& u, const Point& v) { return u.x() * v.y() - u.y() * v.x(); };
-  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& corners = mesh.triangles[t];
-    const double area = doubleArea(mesh, static_cast<int>(t));
-    std::vector<std::pair<int, double>> weights;
-    for (int k = 0; k < 3; ++k) {
-      const Point& a = mesh.vertices[corners[(k + 1) % 3]];
-      const Point& b = mesh.vertices[corners[(k + 2) % 3]];
-      weights.emplace_back(corners[k], cross(a - point, b - point) / area);
-    }
-    if (weights[0].second >= -rounding && weights[1].second >= -rounding && weights[2].second >= -rounding)
-      return weights;
-  }
-  return {};
-}
-
-std::vector<std::pair<int, double>> meanOn(const TriangleMesh& mesh, int label, bool axisymmetric) {
-  std::map<int, double> lengths;
-  double sum = 0;
-  for (const auto& [a, b] : edgesOn(mesh, label)) {
-    const double length = (mesh.vertices[b] - mesh.vertices[a]).norm();
-    const double first = axisymmetric ? (2 * mesh.vertices[a].x() + mesh.vertices[b].x()) / 3 : 1;
-    const double second = axisymmetric ? (mesh.vertices[a].x() + 2 * mesh.vertices[b].x()) / 3 : 1;
-    lengths[a] += length / 2 * first;
-    lengths[b] += length / 2 * second;
-    sum += length / 2 * (first + second);
-  }
-  std::vector<std::pair<int, double>> weights;
-  for (const auto& [vertex, length] : lengths) weights.emplace_back(vertex, length / sum);
-  return weights;
 }
 
 }  // namespace mortier

@@ -77,10 +77,16 @@ std::optional<Point> placeOf(const Quantity& quantity, const Model& model, const
 double largestPressureError(const Quantity& quantity, const Model& model, const State& state);
 
 /// The displacement at a point of a mesh as a mean of those of nodes; empty where the point is outside.
+std::vector<std::pair<int, double>> meanAt(const TriangleMesh& mesh, const ElementNodes& nodes,
+                                           const Point& point);
+/// The same of linear displacements.
 std::vector<std::pair<int, double>> meanAt(const TriangleMesh& mesh, const Point& point);
 
 /// The mean displacement of a label in the same way: the integral over its length, or over the surface that
 /// it is as it turns about the axis x = 0.
+std::vector<std::pair<int, double>> meanOn(const TriangleMesh& mesh, const ElementNodes& nodes, int label,
+                                           bool axisymmetric = false);
+/// The same of linear displacements.
 std::vector<std::pair<int, double>> meanOn(const TriangleMesh& mesh, int label, bool axisymmetric = false);
 
 }  // namespace mortier

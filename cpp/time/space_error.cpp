@@ -52,6 +52,7 @@ SpaceErrorEstimator::SpaceErrorEstimator(const Model& model, Threads& threads) :
     };
     lines_.push_back({of(interface.pair().nonmortar), of(interface.pair().mortar)});
   }
+  readData();
 }
 
 SpaceErrorEstimator::Line SpaceErrorEstimator::lineOf(const TriangleMesh& mesh, int label) {
@@ -96,6 +97,7 @@ std::vector<ErrorEstimate> SpaceErrorEstimator::operator()(const State& state, T
   threads.forEach(static_cast<int>(bodies_.size()),
                   [&](int b) { estimates[b] = bodies_[b](state.bodies[b].stress, threads); });
   for (size_t k = 0; k < lines_.size(); ++k) addGaps(k, state, estimates);
+  addData(state, estimates);
   return estimates;
 }
 

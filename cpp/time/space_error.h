@@ -10,7 +10,7 @@
 //
 // h the edge of the nonmortar triangle, to whose error they are added. Where bodies have flowed, the gap
 // closes under less stress: E* is then that of strain over stress, and the energy that of elasticity,
-// K^2/E* in place of E*.
+// K^2/E* in place of E*. Data that the meshes do not resolve come on top: data_error.cpp.
 #pragma once
 
 #include <memory>
@@ -51,10 +51,27 @@ class SpaceErrorEstimator {
   };
   [[nodiscard]] Compliance complianceOf(const State& state, int body, int triangle) const;
 
+  // What data that are not resolved add (data_error.cpp).
+  /// A given distance on a nonmortar edge: |w| |w'| of what the nodes do not see of it [m^2], and the most.
+  struct GivenGap {
+    std::array<int, 2> edge;
+    double square = 0;
+    double most = 0;
+  };
+  void readData();
+  void addData(const State& state, std::vector<ErrorEstimate>& estimates) const;
+  [[nodiscard]] static bool hasRoughData(const Body& body);
+  void addEdgeData(size_t b, const State& state, Vector& error) const;
+  void addTriangleData(size_t b, double t, bool steady, Vector& error) const;
+  [[nodiscard]] std::vector<GivenGap> givenGaps(size_t k, double t) const;
+  void addGivenGaps(size_t k, const State& state, std::vector<ErrorEstimate>& estimates) const;
+
   const Model& model_;
   std::vector<ErrorEstimator> bodies_;
   std::vector<std::array<Line, 2>> lines_;  ///< of each interface, nonmortar and mortar
   std::vector<Vector> compliances_;         ///< 1/E by points [1/Pa]
+  std::vector<Vector> steadyData_;          ///< of each body, by triangles; empty where all are resolved
+  std::vector<std::vector<GivenGap>> givenGaps_;  ///< of each interface; of those that do not move
 };
 
 /// The error of the state that a run is at: estimated when it is first asked for, once for all that ask.

@@ -194,5 +194,43 @@ TEST(Quantity, displacementsAreThoseOfThePoint) {
   EXPECT_LT((mean(meanOn(mesh, 2)) - Point(2, 0.5)).norm(), 1e-14);
 }
 
+// Quadratic fields too where displacements are quadratic, on straight and on curved sides.
+TEST(Quantity, quadraticDisplacementsAreThoseOfThePoint) {
+  TriangleMesh mesh = rectangleMesh({{0, 0}, {2, 1}, 5, 3, Point(0, 0), {3, 2}}, Cut::rising);
+  const ElementNodes nodes = elementNodes(mesh, 2);
+  const auto mean = [&](const std::vector<std::pair<int, double>>& weights, auto field) {
+    double sum = 0;
+    for (const auto& [node, weight] : weights) sum += weight * field(nodes.places[node]);
+    return sum;
+  };
+  const auto square = [](const Point& x) { return x.x() * x.x() - x.x() * x.y(); };
+  constexpr double rounding = 1e-13;
+  for (const Point& p : {Point(0.3, 0.7), Point(0, 0), Point(2, 1), Point(1.1, 0), Point(2, 0.123)})
+    EXPECT_NEAR(mean(meanAt(mesh, nodes, p), square), square(p), rounding);
+  // Of x^2 along y = 0 the mean is 4/3; over the ring, weighted by x, 2.
+  EXPECT_NEAR(mean(meanOn(mesh, nodes, 1), square), 4.0 / 3, rounding);
+  EXPECT_NEAR(mean(meanOn(mesh, nodes, 1, true), square), 2, rounding);
+}
+
+TEST(Quantity, meanOnACurveIsByItsLength) {
+  // A quarter of a circle by one triangle with a curved side: x has the mean 2/pi, up to the parabola.
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0}, {1, 0}, {0, 1}};
+  mesh.triangles = {{0, 1, 2}};
+  mesh.regions = {0};
+  mesh.boundaryEdges = {{1, 2}};
+  mesh.boundaryLabels = {1};
+  mesh.edgeMiddles = {Point(std::sqrt(0.5), std::sqrt(0.5))};
+  const ElementNodes nodes = elementNodes(mesh, 2);
+  const std::vector<std::pair<int, double>> weights = meanOn(mesh, nodes, 1);
+  double x = 0;
+  for (const auto& [node, weight] : weights) x += weight * nodes.places[node].x();
+  EXPECT_NEAR(x, 2 / M_PI, 0.005);
+  // The point is found on the curved triangle.
+  Point found = Point::Zero();
+  for (const auto& [node, weight] : meanAt(mesh, nodes, {0.5, 0.4999})) found += weight * nodes.places[node];
+  EXPECT_LT((found - Point(0.5, 0.4999)).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace mortier

@@ -50,3 +50,13 @@ def _(case):
 def _(case):
     case.replace('"-10*t"', '"-10*t*(1.5+sin(100*pi*t))"')
     case.replace("steps = 100", "steps = 10")
+
+
+@fault("datum-unresolved", "ty = \"-10")
+def _(case):
+    case.replace('"-10*t"', '"-10*t*(2+sin(1e6*x)+sin(7e5*x))"')
+
+
+@fault("datum-between-nodes", "ux = 0", ELASTIC)
+def _(case):
+    case.replace("ux = 0", 'ux = "1e-14*t*sin(20*pi*y)"')

@@ -1,0 +1,34 @@
+// A datum, a function of space and time, with what is known of it everywhere, not at points alone: so it is
+// seen where it cannot vary within an element, and where a narrow peak of it may be.
+#pragma once
+
+#include <utility>
+
+#include "base/types.h"
+
+namespace mortier {
+
+struct Range {
+  double least = 0;
+  double largest = 0;
+};
+
+/// A part of space and time.
+struct Box {
+  Range x, y, t;
+};
+
+struct Datum : Function {
+  static constexpr int anyDegree = 1000;
+
+  using Function::Function;
+  Datum() = default;
+  Datum(Function value) : Function(std::move(value)) {}  // NOLINT: it is a function of which nothing is known
+
+  int degree = anyDegree;  ///< of the polynomial in x and y that it is at every time
+  bool inTime = true;      ///< whether it may change in time
+  /// Holds all values in a box; empty where nothing is known. Copies are independent.
+  std::function<Range(const Box&)> enclosure = {};
+};
+
+}  // namespace mortier

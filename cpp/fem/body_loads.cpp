@@ -1,0 +1,186 @@
+// What the data of a body are to its nodes and points. A datum of so low a degree that the rule of the
+// element integrates it is taken by that; any other is resolved on every edge and triangle
+// (base/adaptive_quadrature.h), once where it does not change.
+#include <Eigen/LU>
+
+#include "fem/body.h"
+#include "fem/data_misfit.h"
+#include "fem/element.h"
+#include "material/stress.h"
+
+namespace mortier {
+namespace {
+
+template <class Element>
+std::vector<Point> placesOf(const ElementNodes& nodes, size_t triangle) {
+  std::vector<Point> x;
+  for (int a = 0; a < Element::nodes; ++a) x.push_back(nodes.places[nodes.of(triangle)[a]]);
+  return x;
+}
+
+template <size_t n>
+Point placeOf(const std::array<double, n>& shapes, const std::array<Point, n>& x) {
+  Point place = Point::Zero();
+  for (size_t a = 0; a < n; ++a) place += shapes[a] * x[a];
+  return place;
+}
+
+template <size_t n>
+bool curved(const std::array<Point, n>& x) {
+  if constexpr (n == 2)
+    return false;
+  else
+    return x[2] != (x[0] + x[1]) / 2;
+}
+
+/// A traction's direction times dx/ds.
+Point directed(int component, const Point& along) {
+  const double length = along.norm();
+  return component == alongX        ? Point(length, 0)
+         : component == alongY      ? Point(0, length)
+         : component == alongNormal ? Point(along.y(), -along.x())
+                                    : along;
+}
+
+}  // namespace
+
+Vector Body::load(double t) const {
+  Vector f = steady_.size() > 0 ? steady_ : Vector::Zero(dofs());
+  addTractions(t, f, false);
+  addForces(t, f, false);
+  return f;
+}
+
+void Body::findSteadyLoads() {
+  const auto steady = [](const auto& each) { return each.value.degree > 1 && !each.value.inTime; };
+  if (std::none_of(conditions_.tractions.begin(), conditions_.tractions.end(), steady) &&
+      std::none_of(conditions_.forces.begin(), conditions_.forces.end(), steady))
+    return;
+  steady_ = Vector::Zero(dofs());
+  addTractions(0, steady_, true);
+  addForces(0, steady_, true);
+}
+
+void Body::addTractions(double t, Vector& f, bool steady) const {
+  withElement(degree(), [&](auto element) {
+    using Element = decltype(element);
+    for (const auto& traction : conditions_.tractions) {
+      const bool isSteady = traction.value.degree > 1 && !traction.value.inTime;
+      if (isSteady != steady) continue;
+      const int exact = Element::edgeExact - (axisymmetric_ ? 1 : 0);
+      for (size_t e = 0; e < mesh_.boundaryEdges.size(); ++e) {
+        if (mesh_.boundaryLabels[e] != traction.label || (!ownEdges_.empty() && ownEdges_[e] == 0)) continue;
+        std::array<int, Element::edgeNodes> nodes;
+        std::array<Point, Element::edgeNodes> x;
+        for (int a = 0; a < Element::edgeNodes; ++a) {
+          nodes[a] = a < 2 ? mesh_.boundaryEdges[e][a] : nodes_.middles[e];
+          x[a] = nodes_.places[nodes[a]];
+        }
+        if (traction.value.degree > (curved(x) ? 1 : exact)) {
+          const ResolvedEdge edge = onEdge(traction.value, {x.begin(), x.end()}, t);
+          for (const auto& [s, weight, value] : edge.samples) {
+            const auto shapes = Element::edgeShapes(s);
+            const Point density = weight * depthAt(placeOf(shapes, x)) * value *
+                                  directed(traction.component, Element::edgeTangent(s, x));
+            for (int a = 0; a < Element::edgeNodes; ++a) f.segment<2>(2 * nodes[a]) += shapes[a] * density;
+          }
+          continue;
+        }
+        std::array<double, Element::edgeNodes> sums{};
+        for (const auto& [s, toNode] : Element::edgeRule()) {
+          const Point at = placeOf(Element::edgeShapes(s), x);
+          const double value = depthAt(at) * traction.value(at.x(), at.y(), t);
+          for (int a = 0; a < Element::edgeNodes; ++a) sums[a] += toNode[a] * value;
+          if (Element::straight && s != Element::edgeRule().back().at) continue;
+          const Point direction = directed(traction.component, Element::edgeTangent(s, x));
+          for (int a = 0; a < Element::edgeNodes; ++a)
+            f.segment<2>(2 * nodes[a]) += sums[a] / Element::edgeDivisor * direction;
+          sums.fill(0);
+        }
+      }
+    }
+  });
+}
+
+void Body::addForces(double t, Vector& f, bool steady) const {
+  withElement(degree(), [&](auto element) {
+    using Element = decltype(element);
+    for (const auto& force : conditions_.forces) {
+      const bool isSteady = force.value.degree > 1 && !force.value.inTime;
+      if (isSteady != steady) continue;
+      const bool exact = force.value.degree <= std::max(1, Element::loadExact - (axisymmetric_ ? 1 : 0));
+      for (size_t tri = 0; tri < mesh_.triangles.size(); ++tri) {
+        const std::vector<Point> places = placesOf<Element>(nodes_, tri);
+        std::array<Point, Element::nodes> x;
+        std::copy(places.begin(), places.end(), x.begin());
+        const auto add = [&](const Barycentric& at, double weight, const auto& toNode, auto value) {
+          const Point place = placeOf(Element::shapes(at), x);
+          const double density = depthAt(place) * Element::areaAt(at, x) * weight * value(place);
+          for (int a = 0; a < Element::nodes; ++a)
+            f[2 * nodes_.of(tri)[a] + force.component] += toNode[a] * density;
+        };
+        if (exact) {
+          for (const auto& [at, toNode] : Element::loadRule())
+            add(at, 1 / Element::loadDivisor, toNode,
+                [&](const Point& place) { return force.value(place.x(), place.y(), t); });
+        } else {
+          for (const auto& [at, weight, sample] : onTriangle(force.value, places, t).samples)
+            add(at, weight, Element::shapes(at), [value = sample](const Point& /*place*/) { return value; });
+        }
+      }
+    }
+  });
+}
+
+Vector Body::atPoints(const Datum& datum, double t) const {
+  Vector values(points());
+  if (datum.degree <= 1) {
+    const std::vector<Point> places = this->places();
+    for (int i = 0; i < points(); ++i) values[i] = datum(places[i].x(), places[i].y(), t);
+    return values;
+  }
+  withElement(degree(), [&](auto element) {
+    using Element = decltype(element);
+    for (size_t tri = 0; tri < mesh_.triangles.size(); ++tri) {
+      const ResolvedTriangle triangle = onTriangle(datum, placesOf<Element>(nodes_, tri), t);
+      const std::vector<double> projected =
+          projection(triangle, degree() - 1, {Element::interior.begin(), Element::interior.end()});
+      for (int i = 0; i < Element::points; ++i)
+        values[static_cast<Eigen::Index>(Element::points * tri + i)] = projected[i];
+    }
+  });
+  return values;
+}
+
+Matrix Body::thermalStrain(double t) const {
+  Matrix strain = Matrix::Zero(material_->components(), points());  // what a law remembers has none
+  strain.topRows(conditions_.expansion.rows()) =
+      conditions_.expansion * atPoints(conditions_.temperature, t).asDiagonal();
+  return strain;
+}
+
+Matrix Body::initialStress() const {
+  const int components = material_->components();
+  // By component, those beyond the plane as far as they are given.
+  Matrix given = Matrix::Zero(components, points());
+  std::vector<char> beyond(points(), 0);
+  for (const auto& [component, region, value] : conditions_.initialStresses) {
+    const Vector values = atPoints(value, 0);
+    for (int i = 0; i < points(); ++i) {
+      const size_t triangle = i / pointsOfTriangle();
+      if (region && mesh_.regions[triangle] != *region) continue;
+      given(component, i) = values[i];
+      if (component == 3) beyond[i] = 1;
+    }
+  }
+  Matrix stress = given;
+  for (int i = 0; i < points(); ++i) {
+    const Eigen::Vector3d pqr = fromCartesian(given.col(i).head<3>());
+    stress.col(i).head<3>() = pqr;
+    if (material_->tensorComponents() > 3 && beyond[i] == 0 && !axisymmetric_)
+      stress(3, i) = material_->outOfPlane(pqr, i);
+  }
+  return stress;
+}
+
+}  // namespace mortier

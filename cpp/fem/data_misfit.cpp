@@ -1,0 +1,174 @@
+#include "fem/data_misfit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/edge_element.h"
+
+namespace mortier {
+namespace {
+
+using Terms = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+
+Terms termsOf(double s, int degree) {
+  Terms terms(degree + 1);
+  for (int k = 0; k <= degree; ++k) terms[k] = k == 0 ? 1 : terms[k - 1] * (2 * s - 1);
+  return terms;
+}
+Terms termsOf(const std::array<double, 3>& b, int degree) {
+  if (degree == 0) return Terms::Ones(1);
+  if (degree == 1) return Terms{{b[0], b[1], b[2]}};
+  return Terms{{b[0] * b[0], b[1] * b[1], b[2] * b[2], b[0] * b[1], b[1] * b[2], b[2] * b[0]}};
+}
+
+template <class Place>
+Eigen::VectorXd projectionOf(const Resolved<Place>& resolved, int degree) {
+  const auto count = static_cast<Eigen::Index>(termsOf(Place{}, degree).size());
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
+  for (const auto& [at, weight, value] : resolved.samples) {
+    const Terms terms = termsOf(at, degree);
+    normal += weight * terms * terms.transpose();
+    right += weight * value * terms;
+  }
+  return normal.ldlt().solve(right);
+}
+
+template <class Place>
+std::vector<double> offProjection(const Resolved<Place>& resolved, int degree) {
+  const Eigen::VectorXd factors = projectionOf(resolved, degree);
+  std::vector<double> off;
+  for (const auto& [at, weight, value] : resolved.samples)
+    off.push_back(value - factors.dot(termsOf(at, degree)));
+  return off;
+}
+
+template <class Place>
+Misfit misfitOf(const Resolved<Place>& resolved, const std::vector<double>& w) {
+  Misfit result;
+  for (size_t i = 0; i < w.size(); ++i) {
+    const auto& [at, weight, value] = resolved.samples[i];
+    result.square += weight * w[i] * w[i];
+    result.size += weight * value * value;
+    result.most = std::max(result.most, std::abs(w[i]));
+  }
+  result.uncertain = resolved.uncertain;
+  return result;
+}
+
+/// With what is known of a function along an edge by its samples in order.
+Misfit alongEdge(const ResolvedEdge& edge, const std::vector<double>& w, bool zeroAtEnds) {
+  Misfit result = misfitOf(edge, w);
+  double before = 0;
+  for (size_t i = 0; i < w.size(); ++i) {
+    const double part = edge.samples[i].weight;
+    const double primitive = before + part * w[i] / 2;
+    result.primitive += part * primitive * primitive;
+    before += part * w[i];
+    const double from = i > 0 ? edge.samples[i - 1].at : 0;
+    const double change = i > 0 ? w[i] - w[i - 1] : zeroAtEnds ? w[i] : 0;
+    if (edge.samples[i].at > from) result.slope += change * change / (edge.samples[i].at - from);
+  }
+  if (zeroAtEnds && !w.empty() && edge.samples.back().at < 1)
+    result.slope += w.back() * w.back() / (1 - edge.samples.back().at);
+  return result;
+}
+
+Box boxOf(const Point& low, const Point& high, double t) {
+  return {{low.x(), high.x()}, {low.y(), high.y()}, {t, t}};
+}
+
+}  // namespace
+
+ResolvedEdge onEdge(const Datum& datum, const std::vector<Point>& nodes, double t) {
+  const Point& a = nodes[0];
+  const Point along = nodes[1] - a;
+  const Point bend = nodes.size() > 2 ? Point(nodes[2] - (a + nodes[1]) / 2) : Point::Zero();
+  const auto placeOf = [&](double s) { return Point(a + s * along + 4 * s * (1 - s) * bend); };
+  const auto value = [&](double s) {
+    const Point place = placeOf(s);
+    return datum(place.x(), place.y(), t);
+  };
+  if (!datum.enclosure) return resolveOnEdge(value);
+  return resolveOnEdge(value, [&](double from, double to) {
+    // A parabola lies within its ends and where the tangents there meet.
+    const Point p = placeOf(from);
+    const Point q = placeOf(to);
+    const Point r = p + (to - from) / 2 * (along + 4 * (1 - 2 * from) * bend);
+    return datum.enclosure(boxOf(p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r), t));
+  });
+}
+
+ResolvedTriangle onTriangle(const Datum& datum, const std::vector<Point>& nodes, double t) {
+  std::array<Point, 3> bend{Point::Zero(), Point::Zero(), Point::Zero()};
+  Point most = Point::Zero();
+  for (size_t k = 3; k < nodes.size(); ++k) {
+    bend[k - 3] = nodes[k] - (nodes[k - 3] + nodes[(k - 2) % 3]) / 2;
+    most += bend[k - 3].cwiseAbs();
+  }
+  const auto onStraight = [&](const std::array<double, 3>& b) {
+    return Point(b[0] * nodes[0] + b[1] * nodes[1] + b[2] * nodes[2]);
+  };
+  const auto value = [&](const std::array<double, 3>& b) {
+    const Point place =
+        onStraight(b) + 4 * (b[0] * b[1] * bend[0] + b[1] * b[2] * bend[1] + b[2] * b[0] * bend[2]);
+    return datum(place.x(), place.y(), t);
+  };
+  if (!datum.enclosure) return resolveOnTriangle(value);
+  return resolveOnTriangle(value, [&](const std::array<std::array<double, 3>, 3>& part) {
+    const Point p = onStraight(part[0]);
+    const Point q = onStraight(part[1]);
+    const Point r = onStraight(part[2]);
+    return datum.enclosure(boxOf(p.cwiseMin(q).cwiseMin(r) - most, p.cwiseMax(q).cwiseMax(r) + most, t));
+  });
+}
+
+std::array<double, 2> linearMoments(const ResolvedEdge& edge) {
+  std::array<double, 2> moments{0, 0};
+  for (const auto& [at, weight, value] : edge.samples) {
+    moments[0] += weight * value * (1 - at);
+    moments[1] += weight * value * at;
+  }
+  return moments;
+}
+
+double mean(const ResolvedEdge& edge) {
+  const auto [first, second] = linearMoments(edge);
+  return first + second;
+}
+
+double mean(const ResolvedTriangle& triangle) {
+  double sum = 0;
+  for (const auto& sample : triangle.samples) sum += sample.weight * sample.value;
+  return sum;
+}
+
+std::vector<double> projection(const ResolvedTriangle& triangle, int degree,
+                               const std::vector<std::array<double, 3>>& places) {
+  const Eigen::VectorXd factors = projectionOf(triangle, degree);
+  std::vector<double> values;
+  for (const auto& place : places) values.push_back(factors.dot(termsOf(place, degree)));
+  return values;
+}
+
+Misfit misfit(const ResolvedEdge& edge, int degree) {
+  return alongEdge(edge, offProjection(edge, degree), false);
+}
+
+Misfit misfit(const ResolvedTriangle& triangle, int degree) {
+  return misfitOf(triangle, offProjection(triangle, degree));
+}
+
+Misfit interpolationMisfit(const ResolvedEdge& edge, const std::array<double, 3>& values, int degree) {
+  std::vector<double> w;
+  for (const auto& [at, weight, value] : edge.samples) {
+    const EdgeValues shapes = edgeShapes(degree, at);
+    double interpolant = 0;
+    for (Eigen::Index k = 0; k < shapes.size(); ++k) interpolant += shapes[k] * values[k];
+    w.push_back(value - interpolant);
+  }
+  return alongEdge(edge, w, true);
+}
+
+}  // namespace mortier

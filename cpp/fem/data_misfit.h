@@ -1,0 +1,46 @@
+// What the discrete problem makes of a datum against the datum as it was written: nodal loads are integrals
+// of it, and the rest is orthogonal to the trial functions or lies between the nodes.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/adaptive_quadrature.h"
+#include "base/datum.h"
+
+namespace mortier {
+
+/// A datum at a time on an edge. \param nodes  both ends, and of a quadratic edge the middle
+ResolvedEdge onEdge(const Datum& datum, const std::vector<Point>& nodes, double t);
+/// The same on a triangle. \param nodes  of the element: 3, or 6
+ResolvedTriangle onTriangle(const Datum& datum, const std::vector<Point>& nodes, double t);
+
+/// Integrals of the datum times the linear functions that are 1 at the first and at the second end, over the
+/// length.
+std::array<double, 2> linearMoments(const ResolvedEdge& edge);
+double mean(const ResolvedEdge& edge);
+double mean(const ResolvedTriangle& triangle);
+
+/// The L2 projection onto polynomials of a degree (0, 1, 2) at some places.
+std::vector<double> projection(const ResolvedTriangle& triangle, int degree,
+                               const std::vector<std::array<double, 3>>& places);
+
+/// The part of a datum that the discrete problem does not see: w = f - (projection or interpolant). All
+/// integrals are of an edge or triangle of measure 1; by length or area they are those of the real one.
+struct Misfit {
+  double square = 0;     ///< integral of w^2
+  double size = 0;       ///< integral of f^2
+  double most = 0;       ///< largest |w| at a sample
+  double primitive = 0;  ///< edges: integral of W^2, W' = w; by length^3. W = 0 at both ends if w has no mean
+  double slope = 0;      ///< edges: integral of w'^2; over the length. Infinite where w jumps
+  double uncertain = 0;  ///< mean of |w| beyond that at the samples: sqrt(square) may be that much larger,
+                         ///< times (largest |f| over its mean)^(1/2)
+};
+
+/// w of the L2 projection onto polynomials of a degree (0, 1, 2).
+Misfit misfit(const ResolvedEdge& edge, int degree);
+Misfit misfit(const ResolvedTriangle& triangle, int degree);
+/// w of the interpolant through the ends (degree 1), and the middle (degree 2).
+Misfit interpolationMisfit(const ResolvedEdge& edge, const std::array<double, 3>& values, int degree);
+
+}  // namespace mortier

@@ -1,0 +1,87 @@
+#include "scene/load_places.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mesh/generate.h"
+#include "scene/expression.h"
+#include "scene/load_courses.h"
+#include "unit/scene_folder.h"
+
+namespace mortier {
+namespace {
+
+constexpr double end = 1;
+constexpr int top = 3;
+
+LoadPlaces placesOf(const std::string& text, const int* label = &top) {
+  const TriangleMesh mesh = crissCrossMesh({{0, 0}, {1, 1}, 6, 6});
+  return loadPlaces(parseExpression(text, "test").value, mesh, label, end);
+}
+
+/// The largest value over the places and the times, beside those of a run in 500 equal parts.
+double largest(const std::string& text, const int* label = &top) {
+  const Datum datum = parseExpression(text, "test").value;
+  const LoadPlaces places = placesOf(text, label);
+  std::vector<double> times = places.times;
+  for (int i = 0; i <= 500; ++i) times.push_back(end * i / 500);
+  double most = 0;
+  for (const Point& p : places.points)
+    for (const double t : times) most = std::max(most, datum(p.x(), p.y(), t));
+  return most;
+}
+
+TEST(LoadPlaces, oneWhereAllCoursesAreAlike) {
+  EXPECT_EQ(placesOf("-10*t").points.size(), 1);
+  EXPECT_EQ(placesOf("-10*t*(1+x^2)").points.size(), 1);
+  EXPECT_EQ(placesOf("x*t+y*t^2", nullptr).points.size(), 2);
+}
+
+TEST(LoadPlaces, partsOfAnEdgeAreSeen) {
+  EXPECT_GT(largest("20*(x<0.1)*(0.05+exp(-((t-0.3717171)/0.004)^2))"), 19);
+  EXPECT_GT(largest("(x<1e-4)*exp(-((t-0.3717171)/0.004)^2)"), 0.9);
+  EXPECT_GT(largest("(x>0.52)*(x<0.5201)*t"), 0.9);
+  EXPECT_GT(largest("(x-0.5)*(2/3-x)*t*(x>0.5)*(x<0.6667)*144"), 0.9);
+}
+
+TEST(LoadPlaces, forcesOnAPartOfACellAreSeen) {
+  EXPECT_GT(largest("(x>0.52)*(x<0.53)*(y<0.03)*exp(-((t-0.3717171)/0.004)^2)", nullptr), 0.9);
+}
+
+TEST(LoadPlaces, peaksOfAnyLengthAreSeen) {
+  EXPECT_GT(largest("exp(-((t-0.3717171)/1e-6)^2)"), 0.9);
+  EXPECT_GT(largest("t+(x<0.1)*(t>0.6123)*(t<0.61231)*7"), 6);
+  EXPECT_TRUE(placesOf("sin(20*t)*(1+x)").times.empty());
+}
+
+class LoadCoursesOfParts : public SceneFolder {
+ protected:
+  LoadCoursesOfParts() : SceneFolder("load_places") {}
+};
+
+TEST_F(LoadCoursesOfParts, haveTheBreaksOfPeaks) {
+  write(R"toml([[body]]
+name = "upper"
+mesh = { shape = "rectangle", cells = [3, 3], lower = [0, 0], upper = [1, 1] }
+material = { young = 1, poisson = 0.3 }
+boundary = [{ label = 3, ty = "-t-exp(-((t-0.7654321)/1e-6)^2)*(x<0.1)" }]
+[[body]]
+name = "lower"
+mesh = { shape = "rectangle", cells = [3, 3], lower = [0, -1], upper = [1, 0] }
+material = { young = 1, poisson = 0.3 }
+boundary = [{ label = 1, ux = 0, uy = 0 }]
+)toml" + std::string(contactOfTwoBlocks) +
+        "steps = 1\n");
+  const SceneDescription scene = readScene(path());
+  const LoadCourses courses = loadCourses(scene, modelOf(scene));
+  double least = 0;
+  for (const Course& course : courses.data)
+    least = std::min(least, *std::min_element(course.values.begin(), course.values.end()));
+  EXPECT_LT(least, -1.9);
+  ASSERT_FALSE(courses.breaks.empty());
+  EXPECT_NEAR(courses.breaks.front(), 0.7654321, 1e-5);
+}
+
+}  // namespace
+}  // namespace mortier
