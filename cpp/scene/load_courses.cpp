@@ -98,10 +98,11 @@ std::string text(const char* pattern, double a, double b) {
   return buffer;
 }
 
-Course courseAt(const Expression& expression, const Function& value, const Point& p, double end) {
+Course courseAt(const Expression& expression, const Function& value, const Point& p, double end,
+                int fine = 0) {
   const auto datum = [value, p](double t) { return value(p[0], p[1], t); };
   if (!expression.breaks.empty()) return tableCourse(datum, expression.breaks, 0, end);
-  Course course = resolve(datum, 0, end);
+  Course course = resolve(datum, 0, end, fine);
   if (!course.resolved)
     throw InputError(expression.where +
                      text(", expected a datum that can be sampled in time: at (%.6g, %.6g) it varies "
@@ -113,11 +114,14 @@ Course courseAt(const Expression& expression, const Function& value, const Point
 }  // namespace
 
 LoadCourses loadCourses(const SceneDescription& scene, const Model& model) {
+  constexpr size_t finest = 100000;      // samples in time at a point
+  constexpr size_t affordable = 200000;  // of a datum, at all its points
   LoadCourses loads;
   loads.breaks = scene.time.breaks;
   forEachDatum(scene, model, [&](const Expression& expression, const std::vector<Point>& points) {
+    const auto fine = static_cast<int>(std::min(finest, affordable / points.size()));
     for (const Point& p : points) {
-      Course course = courseAt(expression, finiteValue(expression), p, scene.time.end);
+      Course course = courseAt(expression, finiteValue(expression), p, scene.time.end, fine);
       loads.breaks.insert(loads.breaks.end(), course.breaks.begin(), course.breaks.end());
       loads.data.push_back(std::move(course));
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 #include <utility>
 
@@ -47,6 +48,16 @@ double Controller::nextTime(double t, double k) const {
 
 double Controller::worst() const {
   return relative(memory_.controller.worst, memory_.controller.largest);
+}
+
+std::string Controller::shortfall() const {
+  if (worst() <= plan_.tolerance) return "";
+  const ControllerMemory& own = memory_.controller;
+  std::ostringstream text;
+  text << std::setprecision(2) << "estimated error " << worst() << " above tolerance " << plan_.tolerance
+       << " after " << own.trial << (own.trial == 1 ? " trial" : " trials");
+  if (own.hopeless) text << ": the shortest step that doubles resolve is not accurate enough";
+  return text.str();
 }
 
 void Controller::pilot(StepTaker& taker, State& state) {
@@ -111,7 +122,7 @@ bool Controller::beginAgain(State& state) {
   constexpr double least = 1e-4;  // by which the error of a step changes at once
   ControllerMemory& own = memory_.controller;
   const double foreseen = std::exchange(own.scale, own.largest).friction;
-  if (worst() <= plan_.tolerance || own.trial >= trials) return false;
+  if (worst() <= plan_.tolerance || own.hopeless || own.trial >= trials) return false;
   // Where friction is what counts, errors were too small for their scale, and by as much fewer steps will do.
   if (own.worst.friction > 0 && relative({0, 0, own.worst.friction}, own.scale) >= worst())
     own.local = std::min(own.local * foreseen / own.scale.friction, aim * plan_.tolerance);
@@ -128,21 +139,25 @@ bool Controller::beginAgain(State& state) {
 /// Adds the error of the step to what has been carried to its end. Flow does not amplify errors: where the
 /// linearised step does, points that flow and points that do not lie side by side, and the error is taken on
 /// as it was.
-void Controller::add(StepTaker& taker, std::vector<Matrix> local, double size, const SlipAndWork& missed) {
+void Controller::add(StepTaker& taker, StepError local, double size, const SlipAndWork& missed) {
   ControllerMemory& own = memory_.controller;
-  const std::vector<Matrix> before = std::exchange(own.strain, std::move(local));
-  std::vector<Matrix> carried;
-  if (!before.empty()) carried = taker.carried(before);
-  for (size_t b = 0; b < before.size(); ++b) own.strain[b] += carried[b];
+  const std::vector<Matrix> before = std::exchange(own.strain, std::move(local.strain));
+  std::vector<Response>& response = local.response;
+  StepError carried;
+  if (!before.empty()) {
+    carried = taker.carried(before);
+    addTo(response, carried.response);
+  }
+  for (size_t b = 0; b < before.size(); ++b) own.strain[b] += carried.strain[b];
   addTo(own.slip, 1, missed);
   if (!missed.slip.empty()) size += sizeOf(taker, missed);
-  const std::vector<Response> response = taker.response(own.strain, own.slip.slip);
+  if (!own.slip.slip.empty()) addTo(response, taker.responseTo(own.slip.slip));
   if (rough_) own.slip.slip = taker.slipOf(response);  // what slips does not keep an error of its own
   ErrorNorms error = measure_.sizeOf(response);
   error.friction = std::abs(own.slip.work);
   const double bound = relative(own.error, own.scale) + size;
   if (!before.empty() && !(relative(error, own.scale) <= bound))
-    for (size_t b = 0; b < before.size(); ++b) own.strain[b] += before[b] - carried[b];
+    for (size_t b = 0; b < before.size(); ++b) own.strain[b] += before[b] - carried.strain[b];
   own.error = {std::min(std::max(error.stress, size * own.scale.stress), bound * own.scale.stress),
                std::min(error.displacement, bound * own.scale.displacement), error.friction};
   own.worst = larger(own.worst, own.error);
@@ -150,15 +165,17 @@ void Controller::add(StepTaker& taker, std::vector<Matrix> local, double size, c
 
 Controller::Judgement Controller::judge(StepTaker& taker, double t0, double t1) const {
   Judgement result{taker.localError()};
-  // In the middle of a loading most of the error of an overstress is forgotten in the next step;
-  // at a stop it is there.
-  ErrorNorms norms = measure_.sizeOf(t1 < stopAfter(t0) ? taker.response(result.strain) : taker.errorAtEnd());
+  ErrorNorms norms = measure_.sizeOf(result.local.response);
   // Stages miss what the flow, and so the stress, changes by between them.
   double change = 0;
   for (size_t i = 0; i < taker.stages(); ++i)
     change = std::max(change, measure_.sizeOf(taker.change(i)).stress);
   if (norms.stress > change) {
-    for (Matrix& strain : result.strain) strain *= change / norms.stress;
+    for (Matrix& strain : result.local.strain) strain *= change / norms.stress;
+    for (Response& response : result.local.response) {
+      response.displacement *= change / norms.stress;
+      response.stress *= change / norms.stress;
+    }
     norms.stress = change;
   }
   const ControllerMemory& own = memory_.controller;
@@ -275,7 +292,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     }
     failures = 0;
     // No trial makes the shortest steps more accurate.
-    if (judgement.good && judgement.size > plan_.tolerance) own.trial = std::max(own.trial, trials);
+    if (judgement.good && judgement.size > plan_.tolerance) own.hopeless = true;
     double factor = judgement.factor;
     const auto reject = [&] {
       ++report.rejections;
@@ -288,7 +305,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     std::optional<StepTaker::Kept> kept;
     if (step.beginsPair) kept = taker.kept();
     if (outcome.rung != Rung::rest)
-      add(taker, std::move(step.judgement.strain), judgement.size,
+      add(taker, std::move(step.judgement.local), judgement.size,
           second ? std::exchange(own.missed, {}) : SlipAndWork());
     taker.commit();
     if (step.beginsPair && !completePair(taker, step, end, report, factor)) {

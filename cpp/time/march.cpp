@@ -197,8 +197,11 @@ RunReport march(const Model& model, State& state, MarchMemory& memory, const Tim
     StepTaker taker(model, state, memory, plan.scheme, options, countsWork);
     memory.run.solveSeconds += secondsSince(begin);
     go(model, state, memory, plan, taker, controller, observer);
-    if (!controlled || memory.run.status != Status::converged || !controller.beginAgain(state))
+    if (!controlled || memory.run.status != Status::converged) return memory.run;
+    if (!controller.beginAgain(state)) {
+      memory.run.shortfall = controller.shortfall();
       return memory.run;
+    }
     reportStart(model, state, memory, plan, observer);
   }
 }
