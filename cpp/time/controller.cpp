@@ -207,6 +207,16 @@ bool Controller::turnsTooFar(const StepTaker& taker) const {
   return measure_.sizeOf(taker.turn()).stress > own.local * own.scale.stress;
 }
 
+/// Error of the step of length k that ended at t, relative, as the step after shows it. Where contact closes
+/// shortly before the end of a step, the stress that follows at once has hardly begun there, and neither the
+/// step nor its stages show by how much more it grows.
+double Controller::lateness(StepTaker& taker, double t, double k) const {
+  const double end = std::min(t + k, stopAfter(t));
+  const StepOutcome outcome = taker.attempt(end, Effort::little);
+  if (!outcome.converged() || outcome.rung == Rung::rest) return 0;
+  return relative(measure_.sizeOf(taker.lagAtStart()), memory_.controller.scale);
+}
+
 StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort effort, int onsets,
                                 Judgement& judgement) {
   constexpr double early = 0.05;  // parts of a step: it ends on the onset of flow between them
@@ -303,7 +313,9 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
       continue;
     }
     std::optional<StepTaker::Kept> kept;
-    if (step.beginsPair) kept = taker.kept();
+    const bool looksOn = !rough_ && outcome.rung != Rung::rest && t1 < stopAfter(state.time) &&
+                         !isShortest(state.time, k) && taker.closes() && taker.flowingAtEnd() > 0;
+    if (step.beginsPair || looksOn) kept = taker.kept();
     if (outcome.rung != Rung::rest)
       add(taker, std::move(step.judgement.local), judgement.size,
           second ? std::exchange(own.missed, {}) : SlipAndWork());
@@ -312,6 +324,15 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
       taker.goBack(std::move(*kept));
       reject();
       continue;
+    }
+    if (looksOn) {
+      const double late = lateness(taker, t1, k) / own.local;
+      if (late > 1) {
+        taker.goBack(std::move(*kept));
+        factor = std::clamp(safety / late, leastFactor, safety);
+        reject();
+        continue;
+      }
     }
     // A step that was only shortened to end on a stop tells nothing against a longer one.
     const bool shortened = k < own.timeStep && factor >= 1;

@@ -143,28 +143,70 @@ StepError StepTaker::atEnd(std::vector<Matrix> strain) {
 /// stage the error of the stress is F^2 k a_ss (p' - G_s) / (E^-1 + k a_ss J), F = k a_ss J/(E^-1 + k a_ss J):
 /// nothing of a short step.
 void StepTaker::addLag(const Fields& rates, std::vector<Response>& error) {
-  constexpr int filters = 2;
-  const Stage& first = tableau_.stages[0];
   const Stage& last = tableau_.stages[1];
   const double k = t1_ - state_.time;
   std::vector<Matrix> strain;
-  for (size_t b = 0; b < error.size(); ++b) {
-    const Matrix& g = rates[0][b];
-    const Matrix mean = first.diagonal / first.time * g;  // up to the first stage
-    const Matrix all = last.before[0] * g + last.diagonal * rates[1][b];
-    const Matrix bend = (all - first.diagonal * g) / (1 - first.time) - mean;
-    strain.push_back(k * last.diagonal * (rates[1][b] - mean - (2 - first.time) * bend));
-  }
-  if (!model_.any(!noneHere(strain))) return;
+  for (size_t b = 0; b < error.size(); ++b)
+    strain.push_back(k * last.diagonal * (rates[1][b] - rateOf(rates, b, 1)));
+  if (model_.any(!noneHere(strain))) addTo(error, lag(std::move(strain)));
+}
+
+/// The rate at 0 or 1 of the polynomial through what flowed up to the stages.
+Matrix StepTaker::rateOf(const Fields& rates, size_t body, double fraction) const {
+  const Stage& first = tableau_.stages[0];
+  const Matrix& g = rates[0][body];
+  const Matrix mean = first.diagonal / first.time * g;
+  if (rates.size() == 1) return mean;
+  const Stage& last = tableau_.stages[1];
+  const Matrix all = last.before[0] * g + last.diagonal * rates[1][body];
+  return mean + (2 * fraction - first.time) * ((all - first.diagonal * g) / (1 - first.time) - mean);
+}
+
+/// What relaxes of a stress twice, where it would by a strain k a_ss G that the flow misses.
+std::vector<Response> StepTaker::lag(std::vector<Matrix> strain) {
+  constexpr int filters = 2;
   std::vector<Response> lag = response(strain);
   for (int i = 0; i < filters; ++i) {
     std::vector<Matrix> flow = flowOf(strain, lag);
     for (size_t b = 0; b < flow.size(); ++b) flow[b] = strain[b] - flow[b];
-    onlyWhereItFlows(1, flow);
+    onlyWhereItFlows(tableau_.stages.size() - 1, flow);
     strain = std::move(flow);
     lag = response(strain);
   }
-  addTo(error, lag);
+  return lag;
+}
+
+bool StepTaker::closes() const {
+  bool any = false;
+  for (size_t k = 0; k < state_.contactForce.size(); ++k) {
+    const auto& now = solutions_.back().contactForce[k].array();
+    any = any || (state_.contactForce[k].array() <= 0 && now > 0).any();
+  }
+  return any;
+}
+
+std::vector<Response> StepTaker::lagAtStart() {
+  const double k = t1_ - state_.time;
+  const std::vector<Matrix> start = startingRates();
+  const Fields rates = stageRates();
+  const double part = tableau_.stages.size() == 1 ? 0.5 : 1;  // of one stage the rate is that of the middle
+  std::vector<Matrix> strain;
+  for (size_t b = 0; b < start.size(); ++b)
+    strain.push_back(part * k * tableau_.stages.back().diagonal * (start[b] - rateOf(rates, b, 0)));
+  return lag(std::move(strain));
+}
+
+/// By stage and body.
+StepTaker::Fields StepTaker::stageRates() const {
+  Fields rates;
+  for (size_t i = 0; i < tableau_.stages.size(); ++i) {
+    std::vector<Matrix>& own = rates.emplace_back(model_.bodies.size());
+    for (size_t b = 0; b < own.size(); ++b) {
+      const Matrix strain = strainWithin(b, tableau_.stages[i].time);
+      model_.bodies[b].material().viscoplasticRate(solutions_[i].bodies[b].stress, own[b], &strain);
+    }
+  }
+  return rates;
 }
 
 /// Where some points flow and others do not, stresses turn sharply between the stages and the polynomial
@@ -187,19 +229,13 @@ void StepTaker::limit(const Fields& rates, Fields& missed) const {
 
 StepError StepTaker::localError() {
   const size_t stages = tableau_.stages.size();
-  Fields rates(stages);
+  const Fields rates = stageRates();
   Fields missed(stages);
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
-    std::vector<Matrix> own(stages);
-    for (size_t i = 0; i < stages; ++i) {
-      const Matrix strain = strainWithin(b, tableau_.stages[i].time);
-      model_.bodies[b].material().viscoplasticRate(solutions_[i].bodies[b].stress, own[i], &strain);
-    }
+    std::vector<Matrix> own;
+    for (const std::vector<Matrix>& stage : rates) own.push_back(stage[b]);
     std::vector<Matrix> r = defects(b, own);
-    for (size_t i = 0; i < stages; ++i) {
-      rates[i].push_back(std::move(own[i]));
-      missed[i].push_back(std::move(r[i]));
-    }
+    for (size_t i = 0; i < stages; ++i) missed[i].push_back(std::move(r[i]));
   }
   limit(rates, missed);
   StepError error = atEnd(throughStages(missed));

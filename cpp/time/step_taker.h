@@ -41,6 +41,11 @@ class StepTaker {
   StepError localError();
   /// What an error of the viscoplastic strain at the start of the attempt has become at its end.
   StepError carried(const std::vector<Matrix>& strain);
+  /// Whether a contact closes in the last attempt.
+  [[nodiscard]] bool closes() const;
+  /// The error of the state from which the last attempt begins, as far as its stresses relax within the
+  /// attempt: its flow is not that with which the attempt begins.
+  std::vector<Response> lagAtStart();
   /// What displacement and stress make of an error of the viscoplastic strain at the end of the attempt, and
   /// of the slip of the nodes that stick there.
   std::vector<Response> response(const std::vector<Matrix>& strain, const std::vector<Vector>& slip = {});
@@ -97,6 +102,9 @@ class StepTaker {
   StepError atEnd(std::vector<Matrix> strain);
   void onlyWhereItFlows(size_t stage, std::vector<Matrix>& flow) const;
   void addLag(const Fields& rates, std::vector<Response>& response);
+  [[nodiscard]] Fields stageRates() const;
+  [[nodiscard]] Matrix rateOf(const Fields& rates, size_t body, double fraction) const;
+  std::vector<Response> lag(std::vector<Matrix> strain);
   [[nodiscard]] Matrix stressWithin(size_t body, double fraction) const;
   [[nodiscard]] Matrix strainWithin(size_t body, double fraction) const;
   [[nodiscard]] double turnedShare() const;
