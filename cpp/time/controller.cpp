@@ -138,7 +138,7 @@ bool Controller::beginAgain(State& state) {
 
 /// Adds the error of the step to what has been carried to its end. Flow does not amplify errors: where the
 /// linearised step does, points that flow and points that do not lie side by side, and the error is taken on
-/// as it was.
+/// as it was. A contact that closes does amplify them: an error of the displacement becomes one of the stress.
 void Controller::add(StepTaker& taker, StepError local, double size, const SlipAndWork& missed) {
   ControllerMemory& own = memory_.controller;
   const std::vector<Matrix> before = std::exchange(own.strain, std::move(local.strain));
@@ -156,6 +156,11 @@ void Controller::add(StepTaker& taker, StepError local, double size, const SlipA
   ErrorNorms error = measure_.sizeOf(response);
   error.friction = std::abs(own.slip.work);
   const double bound = relative(own.error, own.scale) + size;
+  if (taker.closes()) {
+    own.error = error;
+    own.worst = larger(own.worst, own.error);
+    return;
+  }
   if (!before.empty() && !(relative(error, own.scale) <= bound))
     for (size_t b = 0; b < before.size(); ++b) own.strain[b] += before[b] - carried.strain[b];
   own.error = {std::min(std::max(error.stress, size * own.scale.stress), bound * own.scale.stress),
@@ -210,9 +215,11 @@ bool Controller::turnsTooFar(const StepTaker& taker) const {
 /// Error of the step of length k that ended at t, relative, as the step after shows it. Where contact closes
 /// shortly before the end of a step, the stress that follows at once has hardly begun there, and neither the
 /// step nor its stages show by how much more it grows.
-double Controller::lateness(StepTaker& taker, double t, double k) const {
+double Controller::lateness(StepTaker& taker, double t, double k, StepReport& report) const {
   const double end = std::min(t + k, stopAfter(t));
   const StepOutcome outcome = taker.attempt(end, Effort::little);
+  report.iterations += outcome.iterations;
+  report.factorisations += outcome.factorisations;
   if (!outcome.converged() || outcome.rung == Rung::rest) return 0;
   return relative(measure_.sizeOf(taker.lagAtStart()), memory_.controller.scale);
 }
@@ -326,7 +333,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
       continue;
     }
     if (looksOn) {
-      const double late = lateness(taker, t1, k) / own.local;
+      const double late = lateness(taker, t1, k, report) / own.local;
       if (late > 1) {
         taker.goBack(std::move(*kept));
         factor = std::clamp(safety / late, leastFactor, safety);

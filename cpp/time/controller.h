@@ -76,7 +76,7 @@ class Controller {
   /// \returns whether it is good \param factor  by which the next pair may be longer
   bool completePair(StepTaker& taker, const Attempt& first, double end, StepReport& report, double& factor);
   [[nodiscard]] bool inPair(double t) const { return memory_.controller.pairEnd > t; }
-  [[nodiscard]] double lateness(StepTaker& taker, double t, double k) const;
+  [[nodiscard]] double lateness(StepTaker& taker, double t, double k, StepReport& report) const;
   [[nodiscard]] bool turnsTooFar(const StepTaker& taker) const;
   /// What that is of what is computed, relative.
   [[nodiscard]] double sizeOf(StepTaker& taker, const SlipAndWork& missed) const;
