@@ -141,6 +141,7 @@ Solution solveScene(const Scene& scene, const RunOptions& options,
   } else {
     attempt = std::move(first);
     solveIt(*attempt, {});
+    shortfall = attempt->solved.report.shortfall;
   }
 
   Solution solution;

@@ -84,10 +84,14 @@ Ending endingOf(const Attempt& attempt, const std::string& shortfall, const std:
                 std::to_string(attempt.solved.last.step) + " is in " +
                 (folder.empty() ? "memory" : folder + ", which mortier plot draws")};
   if (shortfall.empty()) return {};
-  return {exitFailed, scene.path + ": accuracy " + shortest(scene.accuracy.asked()) +
-                          (scene.accuracy.quantity.empty() ? "" : " of " + scene.accuracy.quantity) +
-                          " not reached: " + shortfall + "; the best result is in " +
-                          (folder.empty() ? "memory" : folder)};
+  const AccuracyGoal& goal = scene.accuracy;
+  const bool inRounds = goal.asked() > 0;
+  return {exitFailed, scene.path + ": " +
+                          (inRounds ? "accuracy " + shortest(goal.asked())
+                                    : "time.tolerance " + shortest(scene.time.tolerance)) +
+                          (goal.quantity.empty() ? "" : " of " + goal.quantity) +
+                          " not reached: " + shortfall + "; the " + (inRounds ? "best" : "last") +
+                          " result is in " + (folder.empty() ? "memory" : folder)};
 }
 
 }  // namespace mortier

@@ -147,8 +147,10 @@ int run(RunCommand command) {
   std::string shortfall;  // why the accuracy is not reached
   if (rounds)
     shortfall = solveRounds(*rounds, attempt, options, temporary, log, solveIt);
-  else
+  else {
     solveIt(*attempt, {});
+    shortfall = attempt->solved.report.shortfall;
+  }
 
   if (!ranks.first()) return endingOf(*attempt, shortfall, "").code;
 

@@ -44,8 +44,8 @@ MORTIER_MEMBERS(TwoPartVector, high, low)
 MORTIER_MEMBERS(BodyIncrement, displacement, stress)
 MORTIER_MEMBERS(ErrorNorms, stress, displacement, friction)
 MORTIER_MEMBERS(SlipAndWork, slip, work)
-MORTIER_MEMBERS(ControllerMemory, trial, start, timeStep, scale, largest, local, strain, error, worst, slip,
-                missed, pairEnd)
+MORTIER_MEMBERS(ControllerMemory, trial, hopeless, start, timeStep, scale, largest, local, strain, error,
+                worst, slip, missed, pairEnd)
 MORTIER_MEMBERS(SolverMemory, libraries, elasticFactors)
 MORTIER_MEMBERS(MarchMemory, begin, run, increments, timeStep, solver, controller)
 MORTIER_MEMBERS(Checkpoint, identity, empty, files, last, state, memory, accuracy)
@@ -55,13 +55,13 @@ MORTIER_MEMBERS(Checkpoint, identity, empty, files, last, state, memory, accurac
 /// A run of which there is a checkpoint is not stuck.
 template <class Archive>
 void visitMembers(Archive& archive, RunReport& whole) {
-  auto& [status, reason, stuck, steps, iterations, maxIterationsInAStep, factorisations, pilotIterations,
-         rejected, timeError, guarded, solveSeconds, special, worst, peaks, quantities, rungs, ambiguousSteps,
-         several] = whole;
+  auto& [status, reason, shortfall, stuck, steps, iterations, maxIterationsInAStep, factorisations,
+         pilotIterations, rejected, timeError, guarded, solveSeconds, special, worst, peaks, quantities,
+         rungs, ambiguousSteps, several] = whole;
   static_cast<void>(stuck);
-  archive(status, reason, steps, iterations, maxIterationsInAStep, factorisations, pilotIterations, rejected,
-          timeError, guarded, solveSeconds, special, worst, peaks, quantities, rungs, ambiguousSteps,
-          several);
+  archive(status, reason, shortfall, steps, iterations, maxIterationsInAStep, factorisations, pilotIterations,
+          rejected, timeError, guarded, solveSeconds, special, worst, peaks, quantities, rungs,
+          ambiguousSteps, several);
 }
 
 }  // namespace mortier

@@ -291,7 +291,7 @@ std::string logTimeError(const RunFacts& facts, const RunReport& report) {
   return format(
       "accuracy   estimated error in time of displacement and stress, worst step: %.2g (tolerance %.2g%s)\n",
       report.timeError, facts.tolerance,
-      report.timeError > facts.tolerance ? ", which could not be met" : "");
+      report.timeError > facts.tolerance ? ", not reached" : "");
 }
 
 std::string logSpecial(const SpecialConditions& special) {

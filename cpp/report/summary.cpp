@@ -273,6 +273,8 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
   json["status"] = word(report.status);
   if (report.status != Status::converged) {
     json["reason"] = report.reason;
+  } else if (!report.shortfall.empty() && !(facts.accuracy > 0)) {
+    json["reason"] = report.shortfall;
   }
   if (report.stuck) json["stuck"] = jsonOf(*report.stuck, facts, model);
   json["contact"] = facts.contact;
@@ -328,7 +330,10 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
   for (size_t i = 0; accuracy.bound && i < values.size(); ++i)
     json["quantities"][facts.quantities[i].name]["bound"] = jsonOf(*accuracy.bound, i, values[i]);
   json["accuracy"] = jsonOf(facts, model, accuracy);
-  if (facts.tolerance > 0) json["accuracy"]["time"] = report.timeError;
+  if (facts.tolerance > 0) {
+    json["accuracy"]["time"] = report.timeError;
+    json["accuracy"]["time_reached"] = report.status == Status::converged && report.shortfall.empty();
+  }
   if (facts.accuracy > 0) {
     json["accuracy"]["asked"] = facts.accuracy;
     if (!facts.aim.empty()) json["accuracy"]["quantity"] = facts.aim;

@@ -79,13 +79,13 @@ std::string text(const char* pattern, double a, double b) {
 
 /// Found between the times of peaks, at which it has breaks.
 Course resolvedBetween(const std::function<double(double)>& datum, const std::vector<double>& peaks,
-                       double end) {
+                       double end, int fine) {
   Course course;
   double from = 0;
   for (size_t i = 0; i <= peaks.size(); ++i) {
     const double to = i < peaks.size() ? peaks[i] : end;
     if (!(to > from)) continue;
-    const Course part = resolve(datum, from, to);
+    const Course part = resolve(datum, from, to, fine);
     course.resolved = course.resolved && part.resolved;
     course.times.insert(course.times.end(), part.times.begin(), part.times.end());
     course.values.insert(course.values.end(), part.values.begin(), part.values.end());
@@ -100,10 +100,10 @@ Course resolvedBetween(const std::function<double(double)>& datum, const std::ve
 }
 
 Course courseAt(const Expression& expression, const Function& value, const Point& p,
-                const std::vector<double>& peaks, double end) {
+                const std::vector<double>& peaks, double end, int fine = 0) {
   const auto datum = [value, p](double t) { return value(p[0], p[1], t); };
   if (!expression.breaks.empty()) return tableCourse(datum, expression.breaks, 0, end);
-  Course course = peaks.empty() ? resolve(datum, 0, end) : resolvedBetween(datum, peaks, end);
+  Course course = peaks.empty() ? resolve(datum, 0, end, fine) : resolvedBetween(datum, peaks, end, fine);
   if (!course.resolved)
     throw InputError(expression.where +
                      text(", expected a datum that can be sampled in time: at (%.6g, %.6g) it varies "
@@ -115,11 +115,14 @@ Course courseAt(const Expression& expression, const Function& value, const Point
 }  // namespace
 
 LoadCourses loadCourses(const SceneDescription& scene, const Model& model) {
+  constexpr size_t finest = 100000;      // samples in time at a point
+  constexpr size_t affordable = 200000;  // of a datum, at all its points
   LoadCourses loads;
   loads.breaks = scene.time.breaks;
   forEachDatum(scene, model, [&](const Expression& expression, const LoadPlaces& places) {
+    const auto fine = static_cast<int>(std::min(finest, affordable / places.points.size()));
     for (const Point& p : places.points) {
-      Course course = courseAt(expression, finiteValue(expression), p, places.times, scene.time.end);
+      Course course = courseAt(expression, finiteValue(expression), p, places.times, scene.time.end, fine);
       loads.breaks.insert(loads.breaks.end(), course.breaks.begin(), course.breaks.end());
       loads.data.push_back(std::move(course));
     }

@@ -18,8 +18,11 @@ constexpr size_t mostSamples = 500000;
 
 class BreakFinder {
  public:
-  BreakFinder(std::function<double(double)> datum, double begin, double end) : begin_(begin), end_(end) {
+  BreakFinder(std::function<double(double)> datum, double begin, double end, int fine)
+      : begin_(begin), end_(end) {
     course_.value = std::move(datum);
+    for (int i = 0; fine > 0 && i <= fine; ++i)
+      fine_.push_back(course_.value(begin + (end - begin) * i / fine));
   }
 
   Course find() {
@@ -27,6 +30,8 @@ class BreakFinder {
     for (int i = 0; i <= firstIntervals; ++i)
       if (const double f = std::abs(course_.value(begin_ + width * i)); std::isfinite(f))
         size_ = std::max(size_, f);
+    for (const double f : fine_)
+      if (std::isfinite(f)) size_ = std::max(size_, std::abs(f));
     for (int i = 0; i < firstIntervals; ++i)
       search(begin_ + width * i, std::min(end_, begin_ + width * (i + 1 + overlap)));
     for (const auto& [a, b] : brackets_) locate(a, b);
@@ -61,10 +66,11 @@ class BreakFinder {
     search(a + (0.5 - overlap) * (b - a), b);
   }
 
-  /// Whether the cubic through every other of seven points meets those between. They are samples then, or
-  /// where no interval is narrower.
+  /// Whether the cubic through every other of seven points meets those between, and the fine ones. The seven
+  /// are samples then, or where no interval is narrower.
   [[nodiscard]] bool smooth(double a, double b) {
     constexpr double close = 1e-4;      // of the variation
+    constexpr double between = 0.5;     // a cubic is off by so much more between the points than at them
     constexpr double rounding = 1e-13;  // of the values
     std::array<double, 7> f{};
     std::array<double, 7> t{};
@@ -72,11 +78,23 @@ class BreakFinder {
       t[i] = a + (b - a) * i / 6;
       f[i] = course_.value(t[i]);
     }
-    const double error = std::max({std::abs(f[1] - (5 * f[0] + 15 * f[2] - 5 * f[4] + f[6]) / 16),
-                                   std::abs(f[3] - (-f[0] + 9 * f[2] + 9 * f[4] - f[6]) / 16),
-                                   std::abs(f[5] - (f[0] - 5 * f[2] + 15 * f[4] + 5 * f[6]) / 16)});
-    const auto [least, largest] = std::minmax_element(f.begin(), f.end());
-    const bool isSmooth = !(error > close * (*largest - *least) && error > rounding * size_);
+    double error = std::max({std::abs(f[1] - (5 * f[0] + 15 * f[2] - 5 * f[4] + f[6]) / 16),
+                             std::abs(f[3] - (-f[0] + 9 * f[2] + 9 * f[4] - f[6]) / 16),
+                             std::abs(f[5] - (f[0] - 5 * f[2] + 15 * f[4] + 5 * f[6]) / 16)});
+    double least = *std::min_element(f.begin(), f.end());
+    double largest = *std::max_element(f.begin(), f.end());
+    const double perTime = fine_.empty() ? 0 : (static_cast<double>(fine_.size()) - 1) / (end_ - begin_);
+    const double last = (b - begin_) * perTime;
+    for (double i = std::ceil((a - begin_) * perTime); perTime > 0 && i <= last; ++i) {
+      const double value = fine_[static_cast<size_t>(i)];
+      const double x = 6 * (begin_ + i / perTime - a) / (b - a);
+      const double cubic = f[0] * (x - 2) * (x - 4) * (x - 6) / -48 + f[2] * x * (x - 4) * (x - 6) / 16 -
+                           f[4] * x * (x - 2) * (x - 6) / 16 + f[6] * x * (x - 2) * (x - 4) / 48;
+      error = std::max(error, between * std::abs(value - cubic));
+      least = std::min(least, value);
+      largest = std::max(largest, value);
+    }
+    const bool isSmooth = !(error > close * (largest - least) && error > rounding * size_);
     if (isSmooth || b - a <= narrow * (end_ - begin_))
       for (int i = 0; i < 7; ++i)
         if (std::isfinite(f[i])) samples_.emplace_back(t[i], f[i]);
@@ -119,6 +137,7 @@ class BreakFinder {
   Course course_;
   double begin_;
   double end_;
+  std::vector<double> fine_;     ///< values at equal distances
   double size_ = 0;              ///< of the values
   double searched_ = -INFINITY;  ///< no further search before this time
   std::vector<std::pair<double, double>> brackets_;
@@ -127,8 +146,8 @@ class BreakFinder {
 
 }  // namespace
 
-Course resolve(std::function<double(double)> datum, double begin, double end) {
-  return BreakFinder(std::move(datum), begin, end).find();
+Course resolve(std::function<double(double)> datum, double begin, double end, int fine) {
+  return BreakFinder(std::move(datum), begin, end, fine).find();
 }
 
 Course tableCourse(std::function<double(double)> datum, const std::vector<double>& times, double begin,

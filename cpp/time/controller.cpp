@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 #include <utility>
 
@@ -47,6 +48,16 @@ double Controller::nextTime(double t, double k) const {
 
 double Controller::worst() const {
   return relative(memory_.controller.worst, memory_.controller.largest);
+}
+
+std::string Controller::shortfall() const {
+  if (worst() <= plan_.tolerance) return "";
+  const ControllerMemory& own = memory_.controller;
+  std::ostringstream text;
+  text << std::setprecision(2) << "estimated error " << worst() << " above tolerance " << plan_.tolerance
+       << " after " << own.trial << (own.trial == 1 ? " trial" : " trials");
+  if (own.hopeless) text << ": the shortest step that doubles resolve is not accurate enough";
+  return text.str();
 }
 
 void Controller::pilot(StepTaker& taker, State& state) {
@@ -111,7 +122,7 @@ bool Controller::beginAgain(State& state) {
   constexpr double least = 1e-4;  // by which the error of a step changes at once
   ControllerMemory& own = memory_.controller;
   const double foreseen = std::exchange(own.scale, own.largest).friction;
-  if (worst() <= plan_.tolerance || own.trial >= trials) return false;
+  if (worst() <= plan_.tolerance || own.hopeless || own.trial >= trials) return false;
   // Where friction is what counts, errors were too small for their scale, and by as much fewer steps will do.
   if (own.worst.friction > 0 && relative({0, 0, own.worst.friction}, own.scale) >= worst())
     own.local = std::min(own.local * foreseen / own.scale.friction, aim * plan_.tolerance);
@@ -127,22 +138,31 @@ bool Controller::beginAgain(State& state) {
 
 /// Adds the error of the step to what has been carried to its end. Flow does not amplify errors: where the
 /// linearised step does, points that flow and points that do not lie side by side, and the error is taken on
-/// as it was.
-void Controller::add(StepTaker& taker, std::vector<Matrix> local, double size, const SlipAndWork& missed) {
+/// as it was. A contact that closes does amplify them: an error of the displacement becomes one of the stress.
+void Controller::add(StepTaker& taker, StepError local, double size, const SlipAndWork& missed) {
   ControllerMemory& own = memory_.controller;
-  const std::vector<Matrix> before = std::exchange(own.strain, std::move(local));
-  std::vector<Matrix> carried;
-  if (!before.empty()) carried = taker.carried(before);
-  for (size_t b = 0; b < before.size(); ++b) own.strain[b] += carried[b];
+  const std::vector<Matrix> before = std::exchange(own.strain, std::move(local.strain));
+  std::vector<Response>& response = local.response;
+  StepError carried;
+  if (!before.empty()) {
+    carried = taker.carried(before);
+    addTo(response, carried.response);
+  }
+  for (size_t b = 0; b < before.size(); ++b) own.strain[b] += carried.strain[b];
   addTo(own.slip, 1, missed);
   if (!missed.slip.empty()) size += sizeOf(taker, missed);
-  const std::vector<Response> response = taker.response(own.strain, own.slip.slip);
+  if (!own.slip.slip.empty()) addTo(response, taker.responseTo(own.slip.slip));
   if (rough_) own.slip.slip = taker.slipOf(response);  // what slips does not keep an error of its own
   ErrorNorms error = measure_.sizeOf(response);
   error.friction = std::abs(own.slip.work);
   const double bound = relative(own.error, own.scale) + size;
+  if (taker.closes()) {
+    own.error = error;
+    own.worst = larger(own.worst, own.error);
+    return;
+  }
   if (!before.empty() && !(relative(error, own.scale) <= bound))
-    for (size_t b = 0; b < before.size(); ++b) own.strain[b] += before[b] - carried[b];
+    for (size_t b = 0; b < before.size(); ++b) own.strain[b] += before[b] - carried.strain[b];
   own.error = {std::min(std::max(error.stress, size * own.scale.stress), bound * own.scale.stress),
                std::min(error.displacement, bound * own.scale.displacement), error.friction};
   own.worst = larger(own.worst, own.error);
@@ -150,15 +170,17 @@ void Controller::add(StepTaker& taker, std::vector<Matrix> local, double size, c
 
 Controller::Judgement Controller::judge(StepTaker& taker, double t0, double t1) const {
   Judgement result{taker.localError()};
-  // In the middle of a loading most of the error of an overstress is forgotten in the next step;
-  // at a stop it is there.
-  ErrorNorms norms = measure_.sizeOf(t1 < stopAfter(t0) ? taker.response(result.strain) : taker.errorAtEnd());
+  ErrorNorms norms = measure_.sizeOf(result.local.response);
   // Stages miss what the flow, and so the stress, changes by between them.
   double change = 0;
   for (size_t i = 0; i < taker.stages(); ++i)
     change = std::max(change, measure_.sizeOf(taker.change(i)).stress);
   if (norms.stress > change) {
-    for (Matrix& strain : result.strain) strain *= change / norms.stress;
+    for (Matrix& strain : result.local.strain) strain *= change / norms.stress;
+    for (Response& response : result.local.response) {
+      response.displacement *= change / norms.stress;
+      response.stress *= change / norms.stress;
+    }
     norms.stress = change;
   }
   const ControllerMemory& own = memory_.controller;
@@ -188,6 +210,18 @@ bool Controller::turnsTooFar(const StepTaker& taker) const {
   if (flowing == 0 || flowing > most) return false;
   const ControllerMemory& own = memory_.controller;
   return measure_.sizeOf(taker.turn()).stress > own.local * own.scale.stress;
+}
+
+/// Error of the step of length k that ended at t, relative, as the step after shows it. Where contact closes
+/// shortly before the end of a step, the stress that follows at once has hardly begun there, and neither the
+/// step nor its stages show by how much more it grows.
+double Controller::lateness(StepTaker& taker, double t, double k, StepReport& report) const {
+  const double end = std::min(t + k, stopAfter(t));
+  const StepOutcome outcome = taker.attempt(end, Effort::little);
+  report.iterations += outcome.iterations;
+  report.factorisations += outcome.factorisations;
+  if (!outcome.converged() || outcome.rung == Rung::rest) return 0;
+  return relative(measure_.sizeOf(taker.lagAtStart()), memory_.controller.scale);
 }
 
 StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort effort, int onsets,
@@ -275,7 +309,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     }
     failures = 0;
     // No trial makes the shortest steps more accurate.
-    if (judgement.good && judgement.size > plan_.tolerance) own.trial = std::max(own.trial, trials);
+    if (judgement.good && judgement.size > plan_.tolerance) own.hopeless = true;
     double factor = judgement.factor;
     const auto reject = [&] {
       ++report.rejections;
@@ -286,15 +320,26 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
       continue;
     }
     std::optional<StepTaker::Kept> kept;
-    if (step.beginsPair) kept = taker.kept();
+    const bool looksOn = !rough_ && outcome.rung != Rung::rest && t1 < stopAfter(state.time) &&
+                         !isShortest(state.time, k) && taker.closes() && taker.flowingAtEnd() > 0;
+    if (step.beginsPair || looksOn) kept = taker.kept();
     if (outcome.rung != Rung::rest)
-      add(taker, std::move(step.judgement.strain), judgement.size,
+      add(taker, std::move(step.judgement.local), judgement.size,
           second ? std::exchange(own.missed, {}) : SlipAndWork());
     taker.commit();
     if (step.beginsPair && !completePair(taker, step, end, report, factor)) {
       taker.goBack(std::move(*kept));
       reject();
       continue;
+    }
+    if (looksOn) {
+      const double late = lateness(taker, t1, k, report) / own.local;
+      if (late > 1) {
+        taker.goBack(std::move(*kept));
+        factor = std::clamp(safety / late, leastFactor, safety);
+        reject();
+        continue;
+      }
     }
     // A step that was only shortened to end on a stop tells nothing against a longer one.
     const bool shortened = k < own.timeStep && factor >= 1;

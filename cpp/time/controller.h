@@ -14,6 +14,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "solver/model.h"
@@ -41,6 +42,8 @@ class Controller {
   bool beginAgain(State& state);
   /// The error of the worst step so far over the largest displacement and stress so far.
   [[nodiscard]] double worst() const;
+  /// Why the run as it ended does not meet the tolerance; empty where it does.
+  [[nodiscard]] std::string shortfall() const;
 
  private:
   static constexpr double safety = 0.9;
@@ -50,7 +53,7 @@ class Controller {
   static constexpr int trials = 5;
   /// What is known of an attempt that converged.
   struct Judgement {
-    std::vector<Matrix> strain;     ///< its error (StepTaker::localError)
+    StepError local;                ///< its error
     double size = 0;                ///< of that, relative
     double factor = largestFactor;  ///< by which the next step may be longer
     bool good = true;
@@ -73,6 +76,7 @@ class Controller {
   /// \returns whether it is good \param factor  by which the next pair may be longer
   bool completePair(StepTaker& taker, const Attempt& first, double end, StepReport& report, double& factor);
   [[nodiscard]] bool inPair(double t) const { return memory_.controller.pairEnd > t; }
+  [[nodiscard]] double lateness(StepTaker& taker, double t, double k, StepReport& report) const;
   [[nodiscard]] bool turnsTooFar(const StepTaker& taker) const;
   /// What that is of what is computed, relative.
   [[nodiscard]] double sizeOf(StepTaker& taker, const SlipAndWork& missed) const;
@@ -81,7 +85,7 @@ class Controller {
   [[nodiscard]] bool crawls(double t, double k) const;
   [[nodiscard]] double nextTime(double t, double k) const;
   [[nodiscard]] double stopAfter(double t) const;
-  void add(StepTaker& taker, std::vector<Matrix> local, double size, const SlipAndWork& missed);
+  void add(StepTaker& taker, StepError local, double size, const SlipAndWork& missed);
 
   const TimePlan& plan_;
   MarchMemory& memory_;

@@ -27,6 +27,13 @@ void addTo(SlipAndWork& sum, double factor, const SlipAndWork& part) {
   sum.work += factor * part.work;
 }
 
+void addTo(std::vector<Response>& sum, const std::vector<Response>& part) {
+  for (size_t b = 0; b < sum.size(); ++b) {
+    sum[b].displacement += part[b].displacement;
+    sum[b].stress += part[b].stress;
+  }
+}
+
 ErrorMeasure::ErrorMeasure(const Model& model) : model_(model), rough_(anyRough(model)) {
   for (const Body& body : model.bodies) {
     for (const double weight : body.weights()) area_ += weight;

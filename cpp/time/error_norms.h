@@ -19,6 +19,8 @@ double relative(const ErrorNorms& error, const ErrorNorms& scale);
 /// sum += factor part
 void addTo(SlipAndWork& sum, double factor, const SlipAndWork& part);
 
+void addTo(std::vector<Response>& sum, const std::vector<Response>& part);
+
 class ErrorMeasure {
  public:
   explicit ErrorMeasure(const Model& model);

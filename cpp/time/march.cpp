@@ -234,8 +234,11 @@ RunReport march(const Model& model, State& state, MarchMemory& memory, const Tim
   Controller controller(model, plan, memory);
   while (true) {
     go(model, state, memory, plan, *taker, controller, observer);
-    if (!controlled || memory.run.status != Status::converged || !controller.beginAgain(state))
+    if (!controlled || memory.run.status != Status::converged) return memory.run;
+    if (!controller.beginAgain(state)) {
+      memory.run.shortfall = controller.shortfall();
       return memory.run;
+    }
     reportStart(model, state, taker->threads(), memory, plan, observer);
     makeTaker();
   }

@@ -32,6 +32,7 @@ struct SlipAndWork {
 /// Of steps chosen by their error.
 struct ControllerMemory {
   int trial = 0;               ///< runs begun; 0: the march has not begun
+  bool hopeless = false;       ///< a step is wrong by more than the tolerance and cannot be shorter
   State start;                 ///< of each
   double timeStep = 0;         ///< to try next [s]
   ErrorNorms scale;            ///< by which errors of steps are measured

@@ -57,6 +57,7 @@ struct SeveralSolutions {
 struct RunReport {
   Status status = Status::converged;
   std::string reason;               ///< one line when the status is not converged
+  std::string shortfall;            ///< why a complete run does not meet its tolerance; empty where it does
   std::optional<StuckPlace> stuck;  ///< of the step that failed, where that can be said
   int steps = 0;                    ///< completed
   int iterations = 0;

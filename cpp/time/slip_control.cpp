@@ -24,7 +24,7 @@ Controller::Attempt Controller::attemptOfPair(StepTaker& taker, double t0, doubl
     step.judgement.good = true;  // as it was when the pair was begun
     return step;
   }
-  if (rough_) {
+  if (rough_ && !isShortest(t0, end - t0)) {  // no time lies within a jump
     step.outcome = taker.attempt(end, effort);
     if (!step.outcome.converged() || step.outcome.rung == Rung::rest) return step;
     addTo(step.missed, -1, taker.slip());
@@ -53,7 +53,7 @@ bool Controller::completePair(StepTaker& taker, const Attempt& first, double end
     const double fits = safety * std::pow(size / own.local, -0.5);  // a pair misses k^2
     factor = std::min({factor, second.judgement.factor, std::clamp(fits, leastFactor, largest)});
     good = size <= own.local || isShortest(first.t1, end - first.t1);
-    if (good && size > plan_.tolerance) own.trial = std::max(own.trial, trials);
+    if (good && size > plan_.tolerance) own.hopeless = true;
     own.missed = std::move(missed);
   } else {
     factor = second.outcome.converged() ? second.judgement.factor : failureFactor;

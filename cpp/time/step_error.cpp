@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "solver/total_strain.h"
+#include "time/error_norms.h"
 #include "time/step_taker.h"
 
 namespace mortier {
@@ -113,16 +114,40 @@ std::vector<Matrix> StepTaker::throughStages(const std::vector<std::vector<Matri
     error = flowOf(shift, reached_);
     if (i + 1 == tableau_.stages.size()) break;
     std::vector<Matrix> flow = error;
-    for (size_t b = 0; b < flow.size(); ++b) {
-      flow[b] = (flow[b] - shift[b]) / stage.diagonal;
-      const Matrix total = strainWithin(b, stage.time);
-      for (int p = 0; p < model_.bodies[b].points(); ++p)
-        if (!model_.bodies[b].material().flows(solutions_[i].bodies[b].stress, p, &total))
-          flow[b].col(p).setZero();
-    }
+    for (size_t b = 0; b < flow.size(); ++b) flow[b] = (flow[b] - shift[b]) / stage.diagonal;
+    onlyWhereItFlows(i, flow);
     flows.push_back(std::move(flow));
   }
   return error;
+}
+
+void StepTaker::onlyWhereItFlows(size_t stage, std::vector<Matrix>& flow) const {
+  for (size_t b = 0; b < flow.size(); ++b) {
+    const Matrix total = strainWithin(b, tableau_.stages[stage].time);
+    for (int p = 0; p < model_.bodies[b].points(); ++p)
+      if (!model_.bodies[b].material().flows(solutions_[stage].bodies[b].stress, p, &total))
+        flow[b].col(p).setZero();
+  }
+}
+
+/// Displacement and stress of the strain that throughStages() found. Its elastic response is exact for one
+/// stage. Of two stages what relaxes within the step is wrong in it, and taken from lag() instead.
+StepError StepTaker::atEnd(std::vector<Matrix> strain) {
+  std::vector<Response> at = tableau_.stages.size() == 1 ? std::move(reached_) : response(strain);
+  return {std::move(strain), std::move(at)};
+}
+
+/// By stage and body.
+StepTaker::Fields StepTaker::stageRates() const {
+  Fields rates;
+  for (size_t i = 0; i < tableau_.stages.size(); ++i) {
+    std::vector<Matrix>& own = rates.emplace_back(model_.bodies.size());
+    for (size_t b = 0; b < own.size(); ++b) {
+      const Matrix strain = strainWithin(b, tableau_.stages[i].time);
+      model_.bodies[b].material().viscoplasticRate(solutions_[i].bodies[b].stress, own[b], &strain);
+    }
+  }
+  return rates;
 }
 
 /// Where some points flow and others do not, stresses turn sharply between the stages and the polynomial
@@ -143,28 +168,24 @@ void StepTaker::limit(const Fields& rates, Fields& missed) const {
     }
 }
 
-std::vector<Matrix> StepTaker::localError() {
+StepError StepTaker::localError() {
   const size_t stages = tableau_.stages.size();
-  Fields rates(stages);
+  const Fields rates = stageRates();
   Fields missed(stages);
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
-    std::vector<Matrix> own(stages);
-    for (size_t i = 0; i < stages; ++i) {
-      const Matrix strain = strainWithin(b, tableau_.stages[i].time);
-      model_.bodies[b].material().viscoplasticRate(solutions_[i].bodies[b].stress, own[i], &strain);
-    }
+    std::vector<Matrix> own;
+    for (const std::vector<Matrix>& stage : rates) own.push_back(stage[b]);
     std::vector<Matrix> r = defects(b, own);
-    for (size_t i = 0; i < stages; ++i) {
-      rates[i].push_back(std::move(own[i]));
-      missed[i].push_back(std::move(r[i]));
-    }
+    for (size_t i = 0; i < stages; ++i) missed[i].push_back(std::move(r[i]));
   }
   limit(rates, missed);
-  return throughStages(missed);
+  StepError error = atEnd(throughStages(missed));
+  if (stages > 1) addLag(rates, error.response);
+  return error;
 }
 
-std::vector<Matrix> StepTaker::carried(const std::vector<Matrix>& strain) {
-  return throughStages(std::vector<std::vector<Matrix>>(tableau_.stages.size(), strain));
+StepError StepTaker::carried(const std::vector<Matrix>& strain) {
+  return atEnd(throughStages(std::vector<std::vector<Matrix>>(tableau_.stages.size(), strain)));
 }
 
 std::vector<Response> StepTaker::response(const std::vector<Matrix>& strain,

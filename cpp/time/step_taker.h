@@ -14,6 +14,12 @@
 
 namespace mortier {
 
+/// An error (exact less computed) at the end of a step.
+struct StepError {
+  std::vector<Matrix> strain;      ///< of the viscoplastic strain, per body
+  std::vector<Response> response;  ///< of displacement and stress
+};
+
 class StepTaker {
  public:
   /// \param countsWork  whether commit() adds to the work done on bodies (count_work.cpp)
@@ -34,14 +40,15 @@ class StepTaker {
   StepOutcome guard(const StepOutcome& before, Effort effort = Effort::usual);
   /// Whether that was done.
   [[nodiscard]] bool guarded() const { return guarded_; }
-  /// Error of the viscoplastic strain (exact less computed, per body) that the last attempt makes on its way
-  /// from the state (step_error.cpp).
-  std::vector<Matrix> localError();
-  /// Displacement and stress of it at the end of the attempt,
-  /// the overstress included that later steps forget.
-  [[nodiscard]] const std::vector<Response>& errorAtEnd() const { return reached_; }
+  /// The error that the last attempt makes on its way from the state (step_error.cpp).
+  StepError localError();
   /// What an error of the viscoplastic strain at the start of the attempt has become at its end.
-  std::vector<Matrix> carried(const std::vector<Matrix>& strain);
+  StepError carried(const std::vector<Matrix>& strain);
+  /// Whether a contact closes in the last attempt.
+  [[nodiscard]] bool closes() const;
+  /// The error of the state from which the last attempt begins, as far as its stresses relax within the
+  /// attempt: its flow is not that with which the attempt begins.
+  std::vector<Response> lagAtStart();
   /// What displacement and stress make of an error of the viscoplastic strain at the end of the attempt, and
   /// of the slip of the nodes that stick there.
   std::vector<Response> response(const std::vector<Matrix>& strain, const std::vector<Vector>& slip = {});
@@ -97,6 +104,12 @@ class StepTaker {
   [[nodiscard]] std::vector<Matrix> defects(size_t body, const std::vector<Matrix>& rates) const;
   using Fields = std::vector<std::vector<Matrix>>;  ///< by stage and body
   void limit(const Fields& rates, Fields& missed) const;
+  StepError atEnd(std::vector<Matrix> strain);
+  void onlyWhereItFlows(size_t stage, std::vector<Matrix>& flow) const;
+  void addLag(const Fields& rates, std::vector<Response>& response);
+  [[nodiscard]] Fields stageRates() const;
+  [[nodiscard]] Matrix rateOf(const Fields& rates, size_t body, double fraction) const;
+  std::vector<Response> lag(std::vector<Matrix> strain);
   [[nodiscard]] Matrix stressWithin(size_t body, double fraction) const;
   [[nodiscard]] Matrix strainWithin(size_t body, double fraction) const;
   [[nodiscard]] double turnedShare() const;
