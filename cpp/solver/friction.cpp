@@ -12,11 +12,12 @@ namespace {
 
 /// From the solution of Tresca's law under the bounds of the pressure without friction.
 std::optional<FrictionSets> fromFixedBounds(FrictionSystem& system) {
+  constexpr int most = 50;  // where it takes more, the path is shorter
   const auto& [node, law] = system.problem().rows;
   FrictionSets sets = system.allHeld();
   Vector limit = law.limit;
   for (int repetition = 0; repetition < 2; ++repetition) {
-    const std::optional<FrictionSolution> solution = system.bounded(limit, std::move(sets));
+    const std::optional<FrictionSolution> solution = system.bounded(limit, std::move(sets), most);
     if (!solution) return std::nullopt;
     sets = solution->sets;
     for (size_t k = 0; k < node.size(); ++k) {
@@ -36,7 +37,8 @@ FrictionSolution solveIndependent(const FrictionProblem& problem, const Vector& 
   const auto good = [](const std::optional<FrictionSolution>& found) { return found && found->index > 0; };
   std::optional<FrictionSolution> found = system.newton(problem.rows.law, first);
   const auto goesOn = [&] { return !good(found) && !(endWhereSingular && system.singular()); };
-  if (goesOn()) found = system.newton(problem.rows.law, system.allHeld());
+  if (const FrictionSets held = system.allHeld(); goesOn() && !(first == held))
+    found = system.newton(problem.rows.law, held);
   if (goesOn()) {
     std::optional<FrictionSets> nearby = fromFixedBounds(system);
     if (nearby) found = system.newton(problem.rows.law, std::move(*nearby));

@@ -7,14 +7,17 @@
 #include <vector>
 
 #include "base/interrupt.h"
+#include "base/two_part_sums.h"
 
 namespace mortier {
 namespace {
 
-/// All forces at once: the equations are rows of W where a condition acts, else those of a force that is
-/// given,
-///   closed: (W x)_i = -q_i,   open: p_i = 0,   stuck: (W x)_k = -q_k,   slipping: t_k -+ mu p = +-c.
-/// The inverse is kept, and changed by rank one with every equation.
+/// All forces and rigid motions at once: the equations are rows of W where a condition acts, else those of a
+/// force that is given,
+///   closed: (W x - G z)_i = -q_i,   open: p_i = 0,   stuck: (W x - G z)_k = -q_k,   slipping: t_k -+ mu p = +-c.
+/// The inverse is kept, and changed by rank one with every equation. What is solved with it is corrected by
+/// residuals in twice the working precision: where W is that of thin or of stiff bodies, the next event is
+/// found otherwise by rounding.
 class Path {
  public:
   Path(const FrictionSystem& system, FrictionSets sets)
@@ -22,16 +25,14 @@ class Path {
         W_(system.problem().W),
         law_(system.problem().rows.law),
         node_(system.problem().rows.node),
+        free_(system.problem().motions),
         n_(system.normals()),
+        motions_(free_ != nullptr ? free_->G.cols() : 0),
         sets_(std::move(sets)),
         d_(Vector::Zero(W_.rows())),
         unit_(W_.diagonal().cwiseInverse()) {
-    constexpr double turn = 0.618033988749895;  // different for all, so that events come one by one
-    for (Eigen::Index i = 0; i < W_.rows(); ++i) {
-      if (system.idle(i)) unit_[i] = 1;
-      const double place = turn * static_cast<double>(i);
-      if (i < n_) d_[i] = system.idle(i) ? 0 : (1 + 0.3 * (place - std::floor(place))) / unit_[i];
-    }
+    if (motions_ > 0) scale_ = 1 / (unit_.minCoeff() * free_->G.cwiseAbs().maxCoeff());
+    openBy();
   }
 
   /// \param beyond  how far below 0 tau goes, over the largest |q|/d
@@ -40,30 +41,25 @@ class Path {
     const Eigen::Index most = 200 + 40 * W_.rows();
     constexpr int fresh = 50;
     std::vector<FrictionSets> passages;
-    if (!invert()) return passages;
-    locate();
+    if (!invert() || !locate(0)) return passages;
     double tau = 0;
     double largest = 0;
     for (Eigen::Index i = 0; i < n_; ++i) {
       if (!(d_[i] > 0)) continue;
-      tau = std::max(tau, -motion0_[i] / d_[i]);
-      largest = std::max(largest, std::abs(motion0_[i] / d_[i]));
+      tau = std::max(tau, -here_.motion[i] / d_[i]);
+      largest = std::max(largest, std::abs(here_.motion[i] / d_[i]));
     }
     for (Eigen::Index event = 0; event < most; ++event) {
       stopIfInterrupted();
-      if (event > 0 && event % fresh == 0) {
-        if (!invert()) return passages;
-        locate();
-      }
+      if ((event > 0 && event % fresh == 0 && !invert()) || !locate(tau)) return passages;
       const double direction = sign_ > 0 ? -1 : 1;
-      const Event next = nextEvent(tau, direction);
+      const Event next = nextEvent(direction);
       if (direction * tau <= 0 && next.step >= -direction * tau) passages.push_back(sets_);
       const bool ends = direction < 0 ? next.step >= tau + beyond * largest : !std::isfinite(next.step);
       if (ends || (beyond == 0 && !passages.empty())) return passages;
       tau += direction * next.step;
       ++events;
-      if (!change(next, tau)) return passages;
-      locate();
+      if (!change(next, direction * next.step) && !invert()) return passages;
     }
     return passages;
   }
@@ -79,32 +75,71 @@ class Path {
     return system_.sticks(law_, sets_, static_cast<size_t>(k));
   }
 
+  /// d: gaps as uniform forces open them, that forces of the path are of their size; a little different for
+  /// all, so that events come one by one.
+  void openBy() {
+    constexpr double turn = 0.618033988749895;
+    constexpr double least = 0.1;
+    Vector forces = Vector::Zero(n_);
+    for (Eigen::Index i = 0; i < n_; ++i) {
+      const double place = turn * static_cast<double>(i);
+      if (!system_.idle(i)) forces[i] = 1 + 0.3 * (place - std::floor(place));
+    }
+    d_.head(n_) = W_.topLeftCorner(n_, n_) * forces;
+    double short_ = 0;
+    for (Eigen::Index i = 0; i < n_; ++i)
+      if (!system_.idle(i)) short_ = std::max(short_, least - d_[i] * unit_[i]);
+    for (Eigen::Index i = 0; i < W_.rows(); ++i) {
+      if (system_.idle(i)) {
+        unit_[i] = 1;
+        d_[i] = 0;
+      } else if (i < n_) {
+        d_[i] += short_ * forces[i] / unit_[i];
+      }
+    }
+  }
+
+  /// Whether its row of W is an equation of a condition on the sets.
+  [[nodiscard]] bool acts(Eigen::Index condition) const {
+    return condition < n_ ? sets_.closed[condition] != 0 : sticks(condition - n_);
+  }
+
   /// The equation of a condition on the sets.
   [[nodiscard]] Vector equation(Eigen::Index condition) const {
-    const Eigen::Index k = condition - n_;
-    if (k < 0 ? sets_.closed[condition] != 0 : sticks(k))
-      return unit_[condition] * W_.row(condition).transpose();
-    Vector row = Vector::Unit(W_.rows(), condition);
-    if (k >= 0 && !system_.idle(condition)) row[node_[k]] = -sets_.slip[k] * law_.coefficient[k];
+    Vector row = Vector::Zero(W_.rows() + motions_);
+    if (acts(condition)) {
+      row.head(W_.rows()) = unit_[condition] * W_.row(condition).transpose();
+      if (motions_ > 0) row.tail(motions_) = -unit_[condition] * scale_ * free_->G.row(condition).transpose();
+      return row;
+    }
+    row[condition] = 1;
+    if (condition >= n_ && !system_.idle(condition))
+      row[node_[condition - n_]] = -sets_.slip[condition - n_] * law_.coefficient[condition - n_];
     return row;
   }
 
   /// The inverse of all equations, and the sign of their determinant.
   bool invert() {
     const Eigen::Index size = W_.rows();
-    Matrix A(size, size);
+    Matrix A(size + motions_, size + motions_);
     for (Eigen::Index i = 0; i < size; ++i) A.row(i) = equation(i).transpose();
+    if (motions_ > 0) {
+      A.bottomLeftCorner(motions_, size) = balanceUnit() * free_->G.transpose();
+      A.bottomRightCorner(motions_, motions_) =
+          balanceUnit() * scale_ * free_->spring * Matrix::Identity(motions_, motions_);
+    }
     DenseFactor factor;
     if (!factor.factorise(std::move(A), false)) return false;
-    inverse_ = Matrix::Identity(size, size);
+    inverse_ = Matrix::Identity(size + motions_, size + motions_);
     factor.solve(inverse_);
     sign_ = factor.sign();
     return true;
   }
+  [[nodiscard]] double balanceUnit() const { return 1 / free_->G.cwiseAbs().maxCoeff(); }
 
   /// Puts the present equation of a condition in place of the one before.
   bool replace(Eigen::Index condition) {
-    constexpr double negligible = 1e-13;
+    constexpr double negligible = 1e-8;  // less is left to an inverse that is made anew
     Eigen::RowVectorXd along = equation(condition).transpose() * inverse_;
     const double pivot = along[condition];
     if (!(std::abs(pivot) > negligible * along.cwiseAbs().maxCoeff())) return false;
@@ -115,32 +150,62 @@ class Path {
     return true;
   }
 
-  /// Forces and motions as functions of tau: force0 + tau force1.
-  void locate() {
-    Vector right0 = Vector::Zero(W_.rows());
-    Vector right1 = right0;
-    for (Eigen::Index i = 0; i < W_.rows(); ++i) {
-      const Eigen::Index k = i - n_;
-      if (k < 0 ? sets_.closed[i] != 0 : sticks(k)) {
-        right0[i] = -unit_[i] * system_.q()[i];
-        right1[i] = -unit_[i] * d_[i];
-      } else if (k >= 0 && !system_.idle(i)) {
-        right0[i] = sets_.slip[k] * law_.limit[k];
+  /// Forces and motions, or how they change with tau.
+  struct Place {
+    Vector force;
+    Vector motion;
+  };
+
+  /// Solves the equations with q * part + d * tau.
+  bool solve(double part, double tau, Place& place) const {
+    const Eigen::Index size = W_.rows();
+    TwoPartVector x = TwoPartVector::zero(size);
+    TwoPartVector z = TwoPartVector::zero(motions_);
+    std::optional<Corrections> corrections;
+    Vector rest(size + motions_);
+    TwoPartSums start(part * system_.q());
+    start.add(d_, {Vector::Constant(1, tau), Vector::Zero(1)});
+    while (true) {
+      place.motion = system_.motionOf(start, x, z);
+      for (Eigen::Index i = 0; i < size; ++i) {
+        if (acts(i)) {
+          rest[i] = -unit_[i] * place.motion[i];
+        } else {
+          const Eigen::Index k = i - n_;
+          const bool slips = k >= 0 && !system_.idle(i);
+          rest[i] = slips ? part * sets_.slip[k] * law_.limit[k] : 0;
+          if (slips) rest[i] += sets_.slip[k] * law_.coefficient[k] * x.high[node_[k]];
+          rest[i] -= x.high[i];
+          if (slips) rest[i] += sets_.slip[k] * law_.coefficient[k] * x.low[node_[k]];
+          rest[i] -= x.low[i];
+        }
       }
+      if (motions_ > 0) rest.tail(motions_) = balanceUnit() * system_.unbalanced(part, x, z);
+      const Vector change = inverse_ * rest;
+      if (!corrections) corrections.emplace((inverse_.cwiseAbs() * rest.cwiseAbs()).head(size).maxCoeff());
+      x += change.head(size);
+      z += scale_ * change.tail(motions_);
+      place.force = x.value();
+      if (!corrections->goOn(change.head(size).lpNorm<Eigen::Infinity>(),
+                             place.force.lpNorm<Eigen::Infinity>()))
+        break;
     }
-    force0_ = inverse_ * right0;
-    force1_ = inverse_ * right1;
-    motion0_ = system_.q() + W_ * force0_;
-    motion1_ = d_ + W_ * force1_;
+    place.motion = system_.motionOf(start, x, z);
+    return !corrections->failed();
+  }
+
+  bool locate(double tau) {
+    if (solve(1, tau, here_) && solve(0, 1, slope_)) return true;
+    return invert() && solve(1, tau, here_) && solve(0, 1, slope_);
   }
 
   /// Where the first value that must not be negative ends on the way of tau.
-  [[nodiscard]] Event nextEvent(double tau, double direction) const {
+  [[nodiscard]] Event nextEvent(double direction) const {
     Event next;
-    const auto consider = [&](double at0, double at1, Eigen::Index condition, int slip) {
-      const double slope = direction * at1;
+    const auto consider = [&](double at, double along, Eigen::Index condition, int slip) {
+      const double slope = direction * along;
       if (!(slope < 0)) return;
-      const double step = std::max(at0 + tau * at1, 0.0) / -slope;
+      const double step = std::max(at, 0.0) / -slope;
       if (step < next.step) next = {step, condition, slip};
     };
     // Bounds first: a node that sticks reaches one before its pressure ends.
@@ -150,23 +215,23 @@ class Path {
       if (sticks(k)) {
         const double mu = law_.coefficient[k];
         for (const int slip : {-1, 1})
-          consider(mu * force0_[i] + law_.limit[k] - slip * force0_[row],
-                   mu * force1_[i] - slip * force1_[row], row, slip);
+          consider(mu * here_.force[i] + law_.limit[k] - slip * here_.force[row],
+                   mu * slope_.force[i] - slip * slope_.force[row], row, slip);
       } else if (!system_.idle(row) && (sets_.closed[i] != 0 || law_.limit[k] > 0)) {
-        consider(-sets_.slip[k] * motion0_[row] * unit_[row], -sets_.slip[k] * motion1_[row] * unit_[row],
-                 row, 0);
+        consider(-sets_.slip[k] * here_.motion[row] * unit_[row],
+                 -sets_.slip[k] * slope_.motion[row] * unit_[row], row, 0);
       }
     }
     for (Eigen::Index i = 0; i < n_; ++i) {
       if (sets_.closed[i] != 0)
-        consider(force0_[i], force1_[i], i, 0);
+        consider(here_.force[i], slope_.force[i], i, 0);
       else if (!system_.idle(i))
-        consider(motion0_[i] * unit_[i], motion1_[i] * unit_[i], i, 0);
+        consider(here_.motion[i] * unit_[i], slope_.motion[i] * unit_[i], i, 0);
     }
     return next;
   }
 
-  bool change(const Event& event, double tau) {
+  bool change(const Event& event, double moved) {
     if (event.condition >= n_) {
       sets_.slip[event.condition - n_] = static_cast<signed char>(event.slip);
       return replace(event.condition);
@@ -177,7 +242,7 @@ class Path {
       const auto row = n_ + static_cast<Eigen::Index>(k);
       if (node_[k] != event.condition || law_.limit[row - n_] > 0 || system_.idle(row)) continue;
       if (sets_.closed[event.condition] != 0)
-        sets_.slip[k] = motion0_[row] + tau * motion1_[row] > 0 ? -1 : 1;
+        sets_.slip[k] = here_.motion[row] + moved * slope_.motion[row] > 0 ? -1 : 1;
       if (!replace(row)) return false;
     }
     return replace(event.condition);
@@ -187,14 +252,17 @@ class Path {
   const Matrix& W_;
   const FrictionLaw& law_;
   const std::vector<int>& node_;
+  const FreeMotions* free_;
   Eigen::Index n_;
+  Eigen::Index motions_;
   FrictionSets sets_;
   Vector d_;
-  Vector unit_;  ///< by which equations in lengths become forces
+  Vector unit_;       ///< by which equations in lengths become forces
+  double scale_ = 1;  ///< of rigid motions
   Matrix inverse_;
   int sign_ = 1;
-  Vector force0_, force1_;
-  Vector motion0_, motion1_;
+  Place here_;
+  Place slope_;
 };
 
 }  // namespace

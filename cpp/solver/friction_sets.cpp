@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/interrupt.h"
+#include "base/two_part_sums.h"
 
 namespace mortier {
 namespace {
@@ -76,10 +77,18 @@ FrictionSets FrictionSystem::allHeld() const {
   return sets;
 }
 
-Vector FrictionSystem::motionOf(const Trial& trial) const {
-  Vector motion = q_ + problem_.W * trial.force;
-  if (problem_.motions != nullptr) motion -= problem_.motions->G * trial.rigid;
-  return motion;
+Vector FrictionSystem::motionOf(TwoPartSums start, const TwoPartVector& x, const TwoPartVector& z) const {
+  start.add(problem_.W, x);
+  if (const FreeMotions* free = problem_.motions) start.add(-free->G, z);
+  return start.value();
+}
+
+Vector FrictionSystem::unbalanced(double part, const TwoPartVector& x, const TwoPartVector& z) const {
+  const FreeMotions& free = *problem_.motions;
+  TwoPartSums sums(part * (free.load + free.spring * free.z0));
+  sums.add(-free.G.transpose(), x);
+  sums.add(-free.spring * Matrix::Identity(free.G.cols(), free.G.cols()), z);
+  return sums.value();
 }
 
 bool FrictionSystem::solveOn(const FrictionLaw& law, const FrictionSets& sets, Trial& trial) {
@@ -91,11 +100,12 @@ bool FrictionSystem::solveOn(const FrictionLaw& law, const FrictionSets& sets, T
   for (Eigen::Index i = 0; i < n; ++i)
     if (sets.closed[i] != 0) rows.push_back(i);
   const auto slips = [&](size_t k) { return !sticks(law, sets, k); };
-  trial.force.setZero(q_.size());
+  TwoPartVector x = TwoPartVector::zero(q_.size());
+  TwoPartVector z{free != nullptr ? free->z0 : Vector(), Vector::Zero(free != nullptr ? free->G.cols() : 0)};
   for (size_t k = 0; k < sets.slip.size(); ++k) {
     const auto row = n + static_cast<Eigen::Index>(k);
     if (sticks(law, sets, k)) rows.push_back(row);
-    if (slips(k)) trial.force[row] = sets.slip[k] * law.limit[row - n];
+    if (slips(k)) x.high[row] = sets.slip[k] * law.limit[row - n];
   }
   // t = +-(mu p + c) of nodes that slip follows p. The motions come last, in a unit in which G is as W.
   const auto held = static_cast<Eigen::Index>(rows.size());
@@ -107,7 +117,6 @@ bool FrictionSystem::solveOn(const FrictionLaw& law, const FrictionSets& sets, T
     A.topRightCorner(held, motions) = -unit * free->G(rows, Eigen::all);
     A.bottomLeftCorner(motions, held) = unit * free->G(rows, Eigen::all).transpose();
     A.bottomRightCorner(motions, motions) = unit * unit * free->spring * Matrix::Identity(motions, motions);
-    trial.rigid = free->z0;
   }
   std::vector<Eigen::Index> columnOf(n, -1);
   for (size_t j = 0; j < rows.size() && rows[j] < n; ++j) columnOf[rows[j]] = static_cast<Eigen::Index>(j);
@@ -123,8 +132,9 @@ bool FrictionSystem::solveOn(const FrictionLaw& law, const FrictionSets& sets, T
     A.col(column).head(held) += part * problem_.W(rows, row);
     if (motions > 0) A.col(column).tail(motions) += part * unit * free->G.row(row).transpose();
   });
-  trial.motion = motionOf(trial);
   trial.index = 1;
+  trial.force = x.value();
+  trial.motion = motionOf(TwoPartSums(q_), x, z);
   if (A.rows() == 0) return true;
   ++solves_;
   DenseFactor factor;
@@ -134,20 +144,34 @@ bool FrictionSystem::solveOn(const FrictionLaw& law, const FrictionSets& sets, T
   }
   trial.index = factor.sign();
   ambiguous_ = ambiguous_ || trial.index < 0;
-  for (int repetition = 0; repetition < 2 + (motions > 0 ? 2 : 0); ++repetition) {  // rounding goes away
+  // Corrections go on until they are nothing beside the forces: signs that rounding decides are not those of
+  // one problem.
+  Corrections corrections(q_.cwiseQuotient(compliance_).lpNorm<Eigen::Infinity>());
+  while (true) {
     Matrix change(held + motions, 1);
     change.topRows(held) = -trial.motion(rows);
-    if (motions > 0)
-      change.bottomRows(motions) =
-          unit * (free->load - free->G.transpose() * trial.force - free->spring * (trial.rigid - free->z0));
+    if (motions > 0) change.bottomRows(motions) = unit * unbalanced(1, x, z);
     factor.solve(change);
-    trial.force(rows) += change.col(0).head(held);
-    if (motions > 0) trial.rigid += unit * change.col(0).tail(motions);
+    Vector all = Vector::Zero(q_.size());
+    all(rows) = change.col(0).head(held);
+    x += all;
+    z += unit * change.col(0).tail(motions);
     forEachFollower([&](Eigen::Index row, Eigen::Index column, double part) {
-      trial.force[row] += part * change(column, 0);
+      const double limit = sets.slip[row - n] * law.limit[row - n];
+      const DoubleDouble bound = DoubleDouble::product(part, x.high[rows[column]]);
+      const DoubleDouble sum = DoubleDouble::sum(limit, bound.high);
+      x.high[row] = sum.high;
+      x.low[row] = sum.low + bound.low + part * x.low[rows[column]];
     });
-    trial.motion = motionOf(trial);
+    trial.force = x.value();
+    trial.motion = motionOf(TwoPartSums(q_), x, z);
+    if (!corrections.goOn(all.lpNorm<Eigen::Infinity>(), trial.force.lpNorm<Eigen::Infinity>())) break;
   }
+  if (corrections.failed()) {
+    singular_ = true;
+    return false;
+  }
+  trial.rigid = z.value();
   return trial.force.allFinite();
 }
 
@@ -221,27 +245,35 @@ FrictionSolution FrictionSystem::solution(const FrictionLaw& law, const Friction
 }
 
 std::optional<FrictionSolution> FrictionSystem::newton(const FrictionLaw& law, FrictionSets sets) {
-  constexpr size_t most = 20;
+  constexpr int patience = 20;
   std::vector<FrictionSets> before;
+  int fewest = std::numeric_limits<int>::max();
+  double least = std::numeric_limits<double>::infinity();
   holdIdle(sets);
-  while (before.size() < most && std::find(before.begin(), before.end(), sets) == before.end()) {
+  for (int left = patience; left > 0 && std::find(before.begin(), before.end(), sets) == before.end();
+       --left) {
     Trial trial;
     if (!solveOn(law, sets, trial)) return std::nullopt;
     FrictionSets following = next(law, sets, trial);
     if (following == sets || residual(law, trial) <= rounding) return solution(law, sets, trial);
+    const int wrong = distance(sets, following);
+    const double off = residual(law, trial);
+    if (wrong < fewest || off < least) left = patience;
+    fewest = std::min(fewest, wrong);
+    least = std::min(least, off);
     before.push_back(std::exchange(sets, std::move(following)));
   }
   return std::nullopt;
 }
 
-std::optional<FrictionSolution> FrictionSystem::bounded(const Vector& limit, FrictionSets sets) {
+std::optional<FrictionSolution> FrictionSystem::bounded(const Vector& limit, FrictionSets sets,
+                                                        Eigen::Index most) {
   constexpr int patience = 10;
-  constexpr int most = 100;  // per condition
   const FrictionLaw law{Vector::Zero(limit.size()), limit};
   holdIdle(sets);
   int best = std::numeric_limits<int>::max();
   int left = patience;
-  for (Eigen::Index solve = 0; solve < most * (q_.size() + 1); ++solve) {
+  for (Eigen::Index solve = 0; solve < most; ++solve) {
     Trial trial;
     if (!solveOn(law, sets, trial)) return std::nullopt;
     FrictionSets following = next(law, sets, trial);

@@ -4,12 +4,44 @@
 // where Newton's method goes round, as W is a P-matrix (Murty 1974).
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 
+#include "base/two_part_sums.h"
 #include "solver/dense_factor.h"
 #include "solver/friction.h"
 
 namespace mortier {
+
+/// Corrections of a solution by residuals in twice the working precision.
+class Corrections {
+ public:
+  /// \param cancels  the size of what cancels in the solution.
+  explicit Corrections(double cancels = 0) : largest_(cancels) {}
+
+  /// Takes the size of one and that of the solution. \returns whether another one is worth while.
+  bool goOn(double change, double size) {
+    constexpr double enough = 1e-10;  // each is less by the square of that
+    constexpr double zero = 1e-26;
+    largest_ = std::max(largest_, size);
+    if (!(change > std::max(enough * size, zero * largest_))) return false;
+    if (!(change < before_ / 2)) {
+      failed_ = true;
+      return false;
+    }
+    before_ = std::isinf(before_) ? std::max(change, largest_) : change;
+    return true;
+  }
+  /// Whether they do not become less: the matrix is singular to rounding.
+  [[nodiscard]] bool failed() const { return failed_; }
+
+ private:
+  double largest_ = 0;
+  double before_ = std::numeric_limits<double>::infinity();
+  bool failed_ = false;
+};
 
 class FrictionSystem {
  public:
@@ -29,10 +61,14 @@ class FrictionSystem {
   /// Everything closed and stuck.
   [[nodiscard]] FrictionSets allHeld() const;
 
+  /// start + W x - G z, and part (load + spring z0) - G' x - spring z.
+  [[nodiscard]] Vector motionOf(TwoPartSums start, const TwoPartVector& x, const TwoPartVector& z) const;
+  [[nodiscard]] Vector unbalanced(double part, const TwoPartVector& x, const TwoPartVector& z) const;
+
   /// Newton's method from `sets`. \returns the solution, or nothing where sets come back.
   std::optional<FrictionSolution> newton(const FrictionLaw& law, FrictionSets sets);
-  /// Under fixed bounds |t| <= limit.
-  std::optional<FrictionSolution> bounded(const Vector& limit, FrictionSets sets);
+  /// Under fixed bounds |t| <= limit, in as many solves at most.
+  std::optional<FrictionSolution> bounded(const Vector& limit, FrictionSets sets, Eigen::Index most);
 
   [[nodiscard]] int solves() const { return solves_; }
   [[nodiscard]] bool singular() const { return singular_; }
@@ -47,7 +83,6 @@ class FrictionSystem {
     Vector rigid = {};
   };
   bool solveOn(const FrictionLaw& law, const FrictionSets& sets, Trial& trial);
-  [[nodiscard]] Vector motionOf(const Trial& trial) const;
   [[nodiscard]] FrictionSets next(const FrictionLaw& law, const FrictionSets& sets, const Trial& trial) const;
   [[nodiscard]] double residual(const FrictionLaw& law, const Trial& trial) const;
   [[nodiscard]] FrictionSolution solution(const FrictionLaw& law, const FrictionSets& sets,

@@ -11,6 +11,7 @@ namespace {
 
 /// The sets with which the path begins: everything is open, and t is what the limits c hold.
 std::optional<FrictionSets> allOpen(const FrictionSystem& system) {
+  constexpr int most = 100;  // solves a condition
   const Matrix& W = system.problem().W;
   const auto& [node, law] = system.problem().rows;
   const Eigen::Index n = system.normals();
@@ -20,7 +21,7 @@ std::optional<FrictionSets> allOpen(const FrictionSystem& system) {
   far.head(n) = W.topRightCorner(n, law.limit.size()).cwiseAbs() * law.limit;
   far.head(n) += W.diagonal().head(n) * far.head(n).maxCoeff() / W.diagonal().maxCoeff();
   FrictionSystem apart(system.problem(), far);
-  const std::optional<FrictionSolution> held = apart.bounded(law.limit, open);
+  const std::optional<FrictionSolution> held = apart.bounded(law.limit, open, most * (far.size() + 1));
   if (!held) return std::nullopt;
   return held->sets;
 }
@@ -29,25 +30,14 @@ std::optional<FrictionSets> allOpen(const FrictionSystem& system) {
 template <class OnPath>
 void followNearby(const FrictionSystem& system, OnPath onPath) {
   constexpr double turn = 0.754877666246693;
-  constexpr double strong = 1e-5;
-  // Springs on free motions become a part of W, strong enough to leave its digits there.
-  Matrix sprung;
-  Vector at = system.q();
-  if (const FreeMotions* free = system.problem().motions) {
-    const double spring = std::max(free->spring, strong * free->stiffness);
-    sprung = system.problem().W + free->G * free->G.transpose() / spring;
-    at -= free->G * (free->z0 + free->load / spring);
-  }
-  const FrictionProblem problem{system.problem().motions != nullptr ? sprung : system.problem().W,
-                                system.problem().rows};
   for (const double nearby : {0.0, 1e-9, 1e-7}) {
-    Vector q = at;
+    Vector q = system.q();
     const double largest = q.lpNorm<Eigen::Infinity>();
     for (Eigen::Index i = 0; i < q.size(); ++i) {
       const double place = turn * static_cast<double>(i + 1);
       q[i] += nearby * largest * (place - std::floor(place) - 0.5);
     }
-    const FrictionSystem moved(problem, q);
+    const FrictionSystem moved(system.problem(), q);
     std::optional<FrictionSets> first = allOpen(moved);
     if (first && onPath(moved, std::move(*first))) return;
   }
