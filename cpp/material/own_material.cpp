@@ -57,13 +57,18 @@ class OwnMaterial final : public Material {
 
   LawReport linearise(const MaterialStep& step, const Matrix& stress, Linearisation& result, int begin,
                       int end) const override {
+    constexpr double farthest = 1e4;  // of strains: no iterate that is near a solution has more
     const Local local = solve(step, stress, 1, begin, end);
     Worst change;
     for (int i = begin; i < end; ++i) {
       const Solved& at = local.solved[i - begin];
       const Vec predictor = local.points.stress.col(i - begin) + at.direction;
       change.add(Vector(predictor - stress.col(i)));
-      if (!isOnLaw(local, i - begin)) change.add(Vector(at.direction));
+      if (!isOnLaw(local, i - begin)) {
+        // Residuals are told over the stresses of an iterate, and those of such a strain hide that it has none.
+        const bool lost = !(step.strain.col(i).norm() <= farthest);
+        change.add(lost ? std::numeric_limits<double>::quiet_NaN() : at.direction.norm());
+      }
       result.predictor.col(i) = predictor;
       store(at.moduli, i, result);
     }

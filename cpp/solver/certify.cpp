@@ -77,9 +77,12 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
     static_assert(sizeof(Largest) == 8 * sizeof(double));
     model_.largest(&of.now, 8);
     for (const double each : {of.now, of.before, of.load, of.loose}) force.add(each);
-    // A body that moves without any load has forces that are nothing but rounding, unless it is beyond yield.
-    if (bodies_[b].elastic() || body.material().stressScale() <= 0)
-      force.add(roundingOfMotion * bodies_[b].largestModulus() * of.increment * of.depth);
+    // A body that moves without any load, or touches another without any, has forces that are nothing but the
+    // rounding of its motion, and of distances, unless it is beyond yield.
+    if (bodies_[b].elastic() || body.material().stressScale() <= 0) {
+      const double rounded = model_.interfaces.empty() ? of.increment : std::max(of.increment, body.extent());
+      force.add(roundingOfMotion * bodies_[b].largestModulus() * rounded * of.depth);
+    }
     length.add(body.extent());
     length.add(of.displacement);
     rounding.add(of.rounded);
