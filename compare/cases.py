@@ -127,7 +127,8 @@ LAWS = {"elastic": "", "Perzyna": "viscosity=1, yield_stress=1",
         "plastic": 'law="viscoplastic", yield_stress=1, viscosity=0, kinematic_hardening=5, '
                    'isotropic_hardening=10',
         "power": 'law="viscoplastic", yield_stress=1, reference_stress=2, reference_rate=0.5, exponent=4',
-        "own": 'law="expression", rate11="0.01*s11*abs(s11)", rate22="0.02*s22", rate12="0.03*s12"'}
+        "own": 'law="expression", rate11="0.01*s11*abs(s11)", rate22="0.02*s22", rate12="0.03*s12", '
+               'rate33="0.02*s33"'}
 
 
 def beside(upper, lower, young=100):
@@ -140,7 +141,8 @@ STIFF = ("time.steps=3", "body.upper.material={young=3e11, poisson=0.3, law=\"vi
          "yield_stress=1}")
 # What is there at t = 0 acts at once.
 AT_ONCE = {
-    "supports": ("body.lower.boundary=[{label=1, ux=0, uy=0}]", "body.upper.boundary=[{label=3, uy=-0.02}]"),
+    "supports": ("body.lower.boundary=[{label=1, ux=0, uy=0}]",
+                 "body.upper.boundary=[{label=3, ux=0.004, uy=-0.02}]"),
     "loads": ("body.upper.boundary=[{label=4, ux=0}, {label=3, ty=-2}]", "body.lower.force.y=-1",
               "body.lower.boundary.2.tx=-1"),
     "distances": ("body.upper.boundary=[{label=4, ux=0}, {label=3, uy=0}]", "contact.gap=-0.01*(1+x)",

@@ -1,9 +1,10 @@
 """What is there at t = 0 acts at once: elastically, then the bodies flow from there. docs/scene.md."""
+import itertools
 import math
 import unittest
 
-from results import kept_steps, read_history, read_mortier
 from support import OfScene
+from results import kept_steps, read_history, read_mortier  # behind support: it is in compare/
 
 STATIC = """\
 {plane}
@@ -105,8 +106,9 @@ class JumpAtStart(OfScene):
                 self.assertLess(abs(a - b).max(), 1e-12*abs(b).max(), field)
 
     def test_constant_data_are_a_static_analysis(self):
+        sections = itertools.cycle((("stress", 1), ("strain", 2), ("axisymmetric", 1), ("stress", 2)))
         for what, data in DRIVES.items():
-            for plane, degree in (("stress", 1), ("stress", 2), ("strain", 1), ("axisymmetric", 2)):
+            for plane, degree in (next(sections), next(sections)):
                 with self.subTest(what, plane=plane, degree=degree):
                     text = STATIC.format(plane=f'plane = "{plane}"', degree=degree, data=data)
                     ramp = self.ends_of(text.replace("{}", "*t"))
@@ -114,9 +116,9 @@ class JumpAtStart(OfScene):
                     self.assertGreater(abs(jump.bodies["block"].stress).max(), 1e3)
                     self.same(jump, ramp)
                     history = read_history(self.folder / "out")
-                    mises = history["von_mises[Pa]"] if "von_mises[Pa]" in history else None
-                    if mises is not None:
-                        self.assertAlmostEqual(mises[0]/mises[-1], 1, delta=1e-12)
+                    mises = history["von_mises_max[Pa]"]
+                    self.assertEqual(list(history["step"]), [0, 1])
+                    self.assertAlmostEqual(mises[0]/mises[-1], 1, delta=1e-12)
                     found = jump.summary["quantities"]
                     stored = found["stored"]["value"]
                     for when in ("value", "start"):
@@ -134,27 +136,25 @@ class JumpAtStart(OfScene):
         drives = [('uy = "-0.01{}"', ""), ('ty = "-2{}"', ""), ("uy = 0", 'gap = "-0.01{}"'),
                   ('uy = "-0.01{}"', "gap = 0.004"), ('ux = "0.002{}", uy = "-0.01{}"', "friction = 0.3"),
                   ("uy = 0", 'gap = "-0.01{}"\nfriction = 0.3')]
-        for drive, contact in drives:
-            for variant, plane, degree in (("mortar", "stress", 1), ("interpolation", "strain", 1),
-                                           ("weighted", "axisymmetric", 2)):
-                with self.subTest(drive, contact=contact, variant=variant):
-                    if plane == "axisymmetric" and "ux" in drive:
-                        continue
-                    text = CONTACT.format(plane=f'plane = "{plane}"', degree=degree, variant=variant,
-                                          drive=drive, contact=contact)
-                    if "ux" in drive:
-                        text = text.replace("{ label = 4, ux = 0 }, ", "")
-                    jump = self.ends_of(text.replace("{}", ""))
-                    kept = read_history(self.folder / "out")
-                    ramp = self.ends_of(text.replace("{}", "*t"), "time.steps=1")
-                    self.same(jump, ramp)
-                    self.assertGreater(jump.scalars["contact_force"], 0)
-                    force = next(values for name, values in kept.items() if name.startswith("contact_force"))
-                    self.assertAlmostEqual(force[0]/force[-1], 1, delta=1e-12)
+        ways = itertools.cycle((("mortar", "stress", 1), ("interpolation", "strain", 1),
+                                ("weighted", "axisymmetric", 2), ("mortar", "strain", 2)))
+        for (drive, contact), (variant, plane, degree) in zip(drives, ways):
+            with self.subTest(drive, contact=contact, variant=variant):
+                text = CONTACT.format(plane=f'plane = "{plane}"', degree=degree, variant=variant,
+                                      drive=drive, contact=contact)
+                if "ux" in drive:
+                    text = text.replace("{ label = 4, ux = 0 }, ", "")
+                jump = self.ends_of(text.replace("{}", ""))
+                kept = read_history(self.folder / "out")
+                ramp = self.ends_of(text.replace("{}", "*t"), "time.steps=1")
+                self.same(jump, ramp)
+                self.assertGreater(jump.scalars["contact_force"], 0)
+                force = next(values for name, values in kept.items() if name.startswith("contact_force"))
+                self.assertAlmostEqual(force[0]/force[-1], 1, delta=1e-12)
 
     def shear(self, material, scheme, steps, plane="stress"):
         """s12 of all steps, and the energies at the end."""
-        time = f'steps = {steps}' if steps else "tolerance = 1e-4"
+        time = f'steps = {steps}' if steps else "tolerance = 1e-2"
         text = SHEARED.format(plane=f'plane = "{plane}"', material=material, x=f"{2*STRAIN}*y",
                               time=f'scheme = "{scheme}"\n{time}')
         summary = self.run_it(text)
@@ -166,12 +166,12 @@ class JumpAtStart(OfScene):
         modulus = 1000/2.5
         for material, left in ((MAXWELL, 0), (SOLID, 0.3)):
             for scheme, decay in DECAY.items():
-                for plane in ("stress", "strain"):
-                    with self.subTest(material, scheme=scheme, plane=plane):
-                        shear, _ = self.shear(material, scheme, 4, plane)
-                        for n, (_, value) in enumerate(shear):
-                            exact = 2*modulus*STRAIN*(left + (1 - left)*decay(0.25/0.5)**n)
-                            self.assertAlmostEqual(value/exact, 1, delta=1e-10)
+                plane = "strain" if scheme == "sdirk2" else "stress"
+                with self.subTest(material, scheme=scheme, plane=plane):
+                    shear, _ = self.shear(material, scheme, 4, plane)
+                    for n, (_, value) in enumerate(shear):
+                        exact = 2*modulus*STRAIN*(left + (1 - left)*decay(0.25/0.5)**n)
+                        self.assertAlmostEqual(value/exact, 1, delta=1e-10)
 
     def test_with_steps_chosen_by_their_error(self):
         for material, left in ((MAXWELL, 0), (SOLID, 0.3)):
@@ -179,38 +179,37 @@ class JumpAtStart(OfScene):
                 shear, _ = self.shear(material, scheme, 0)
                 for time, value in shear:
                     exact = left + (1 - left)*math.exp(-time/0.5)
-                    self.assertAlmostEqual(value/8, exact, delta=2e-4)
+                    self.assertAlmostEqual(value/8, exact, delta=1.5e-2)
 
     def test_perzyna_relaxes_to_yield(self):
         flowing = '{ young = 1000, poisson = 0.25, viscosity = 1, yield_stress = 3 }'
         shear, _ = self.shear(flowing, "backward-euler", 0)
         self.assertAlmostEqual(shear[0][1]/8, 1, delta=1e-12)
-        self.assertAlmostEqual(math.sqrt(3)*shear[-1][1], 3, delta=1e-3)
+        self.assertAlmostEqual(math.sqrt(3)*shear[-1][1], 3, delta=1e-2)
 
     def test_energies_add_up(self):
         """To the order of the scheme, and what is lost never comes back."""
         for material in (MAXWELL, SOLID, '{ young = 1000, poisson = 0.25, law = "norton", '
-                         'reference_stress = 5, reference_rate = 0.01, exponent = 3 }'):
-            for scheme, order in (("backward-euler", 1), ("crank-nicolson", 2), ("sdirk2", 2)):
-                for plane in ("stress", "strain"):
-                    off = []
-                    for steps in (16, 32):
-                        _, found = self.shear(material, scheme, steps, plane)
-                        work, stored, lost = (found[name]["value"] for name in ("work", "stored", "lost"))
-                        self.assertAlmostEqual(work, 0.5*8*2*STRAIN, delta=1e-12)  # that of the jump alone
-                        self.assertEqual(found["lost"]["largest"]["value"], lost)
-                        off.append(abs(work - stored - lost)/work)
-                    with self.subTest(material, scheme=scheme, plane=plane, off=off):
-                        self.assertLess(off[1], 0.02)
-                        self.assertGreater(math.log2(off[0]/off[1]), order - 0.25)
+                         'reference_stress = 5, reference_rate = 1e-4, exponent = 3 }'):
+            for scheme, order, plane in (("backward-euler", 1, "stress"), ("crank-nicolson", 2, "strain"),
+                                         ("sdirk2", 2, "stress")):
+                off = []
+                for steps in (16, 32):
+                    _, found = self.shear(material, scheme, steps, plane)
+                    work, stored, lost = (found[name]["value"] for name in ("work", "stored", "lost"))
+                    self.assertAlmostEqual(work, 0.5*8*2*STRAIN, delta=1e-12)  # that of the jump alone
+                    self.assertEqual(found["lost"]["largest"]["value"], lost)
+                    off.append(abs(work - stored - lost)/work)
+                with self.subTest(material, scheme=scheme, plane=plane, off=off):
+                    self.assertLess(off[1], 0.03)
+                    self.assertGreater(math.log2(off[0]/off[1]), order - 0.1)
 
     def test_a_load_that_nothing_holds_ends_the_run_before_its_first_step(self):
         text = CONTACT.format(plane="", degree=1, variant="mortar", drive="ty = 2", contact="")
         self.write(text)
         errors = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=3).stderr
         self.assertIn("at t = 0: ", errors)
-        history = read_history(self.folder / "out.failed")
-        self.assertEqual(len(history["step"]), 1)
+        self.assertEqual(read_history(self.folder / "out.failed"), {})
 
 
 if __name__ == "__main__":
