@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "mesh/edge_element.h"
 
@@ -61,15 +62,18 @@ Misfit misfitOf(const Resolved<Place>& resolved, const std::vector<double>& w) {
 Misfit alongEdge(const ResolvedEdge& edge, const std::vector<double>& w, bool zeroAtEnds) {
   Misfit result = misfitOf(edge, w);
   double before = 0;
+  double meanPrimitive = 0;
   for (size_t i = 0; i < w.size(); ++i) {
     const double part = edge.samples[i].weight;
     const double primitive = before + part * w[i] / 2;
     result.primitive += part * primitive * primitive;
+    meanPrimitive += part * primitive;
     before += part * w[i];
     const double from = i > 0 ? edge.samples[i - 1].at : 0;
     const double change = i > 0 ? w[i] - w[i - 1] : zeroAtEnds ? w[i] : 0;
     if (edge.samples[i].at > from) result.slope += change * change / (edge.samples[i].at - from);
   }
+  result.primitive = std::max(0.0, result.primitive - meanPrimitive * meanPrimitive);
   if (zeroAtEnds && !w.empty() && edge.samples.back().at < 1)
     result.slope += w.back() * w.back() / (1 - edge.samples.back().at);
   return result;
@@ -158,6 +162,56 @@ Misfit misfit(const ResolvedEdge& edge, int degree) {
 
 Misfit misfit(const ResolvedTriangle& triangle, int degree) {
   return misfitOf(triangle, offProjection(triangle, degree));
+}
+
+std::vector<std::array<double, 3>> lineProjection(const std::vector<LineEdge>& edges, int degree) {
+  constexpr double enough = 1e-10;  // of the right hand side
+  constexpr int most = 200;
+  const int n = degree + 1;
+  std::map<int, Eigen::Index> numbers;
+  for (const LineEdge& edge : edges)
+    for (int a = 0; a < n; ++a) numbers.emplace(edge.nodes[a], static_cast<Eigen::Index>(numbers.size()));
+  const auto size = static_cast<Eigen::Index>(numbers.size());
+  Vector right = Vector::Zero(size);
+  Vector diagonal = Vector::Zero(size);
+  // Of an edge of length 1: of the ends, then the middle.
+  Eigen::Matrix3d mass{{4, -1, 2}, {-1, 4, 2}, {2, 2, 16}};
+  mass /= 30;
+  if (degree == 1) mass.topLeftCorner<2, 2>() << 1.0 / 3, 1.0 / 6, 1.0 / 6, 1.0 / 3;
+  const auto at = [&](const LineEdge& edge, int a) { return numbers.at(edge.nodes[a]); };
+  for (const LineEdge& edge : edges)
+    for (int a = 0; a < n; ++a) {
+      for (const auto& [s, weight, value] : edge.datum.samples)
+        right[at(edge, a)] += edge.length * weight * value * edgeShapes(degree, s)[a];
+      diagonal[at(edge, a)] += edge.length * mass(a, a);
+    }
+  const auto times = [&](const Vector& x) {
+    Vector product = Vector::Zero(size);
+    for (const LineEdge& edge : edges)
+      for (int a = 0; a < n; ++a)
+        for (int b = 0; b < n; ++b) product[at(edge, a)] += edge.length * mass(a, b) * x[at(edge, b)];
+    return product;
+  };
+  // Conjugate gradients: scaled by its diagonal the mass matrix has a small condition on any line.
+  Vector x = Vector::Zero(size);
+  Vector left = right;
+  Vector direction = left.cwiseQuotient(diagonal);
+  double square = left.dot(direction);
+  const double small = enough * enough * square;
+  for (int i = 0; i < most && square > small; ++i) {
+    const Vector product = times(direction);
+    const double step = square / direction.dot(product);
+    x += step * direction;
+    left -= step * product;
+    const Vector scaled = left.cwiseQuotient(diagonal);
+    const double next = left.dot(scaled);
+    direction = scaled + next / square * direction;
+    square = next;
+  }
+  std::vector<std::array<double, 3>> values(edges.size());
+  for (size_t e = 0; e < edges.size(); ++e)
+    for (int a = 0; a < n; ++a) values[e][a] = x[at(edges[e], a)];
+  return values;
 }
 
 Misfit interpolationMisfit(const ResolvedEdge& edge, const std::array<double, 3>& values, int degree) {

@@ -31,7 +31,7 @@ struct Misfit {
   double square = 0;     ///< integral of w^2
   double size = 0;       ///< integral of f^2
   double most = 0;       ///< largest |w| at a sample
-  double primitive = 0;  ///< edges: integral of W^2, W' = w; by length^3. W = 0 at both ends if w has no mean
+  double primitive = 0;  ///< edges: integral of W^2, W' = w, the mean of W being 0; by length^3
   double slope = 0;      ///< edges: integral of w'^2; over the length. Infinite where w jumps
   double uncertain = 0;  ///< mean of |w| beyond that at the samples: sqrt(square) may be that much larger,
                          ///< times (largest |f| over its mean)^(1/2)
@@ -40,6 +40,16 @@ struct Misfit {
 /// w of the L2 projection onto polynomials of a degree (0, 1, 2).
 Misfit misfit(const ResolvedEdge& edge, int degree);
 Misfit misfit(const ResolvedTriangle& triangle, int degree);
+/// An edge of a line: a datum on it, its nodes (both ends, of a quadratic one the middle) and its length.
+struct LineEdge {
+  ResolvedEdge datum;
+  std::array<int, 3> nodes{-1, -1, -1};
+  double length = 0;
+};
+/// The L2 projection of a datum onto the continuous functions of a degree on all edges together, by nodal
+/// values of each: nodal loads say no more of a traction. What alternates from edge to edge is not in it.
+std::vector<std::array<double, 3>> lineProjection(const std::vector<LineEdge>& edges, int degree);
+
 /// w of the interpolant through the ends (degree 1), and the middle (degree 2).
 Misfit interpolationMisfit(const ResolvedEdge& edge, const std::array<double, 3>& values, int degree);
 

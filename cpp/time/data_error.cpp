@@ -2,7 +2,7 @@
 // the trial functions nor the recovered stress can follow. Of waves of wave number k on the edge of a half
 // plane
 //
-//   tractions        2/E |w|_-1/2^2,      |w|_-1/2^2 ~ |W| |w|,    W' = w off the L2 projection,
+//   tractions        2/E |w|_-1/2^2,      |w|_-1/2^2 ~ |W| |w|,    W' = w off the L2 projection onto traces,
 //   displacements    E/2 |w|_1/2^2,       |w|_1/2^2  ~ |w| |w'|,   w off the interpolant,
 //   distances        E*/2 |w|_1/2^2,      1/E* = 1/E1 + 1/E2,      where the bodies press,
 //
@@ -64,29 +64,43 @@ bool SpaceErrorEstimator::hasRoughData(const Body& body) {
 void SpaceErrorEstimator::addEdgeData(size_t b, const State& state, Vector& error) const {
   const Body& body = model_.bodies[b];
   const TriangleMesh& mesh = body.mesh();
-  const auto forEachEdge = [&](int label, const auto& add) {
-    const Line line = lineOf(mesh, label);
-    for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
-      if (mesh.boundaryLabels[e] != label) continue;
-      const std::vector<Point> places = placesOf(body, e);
-      const int triangle = line.triangleOf(mesh.boundaryEdges[e]);
-      const double depth = body.depthAt((places[0] + places[1]) / 2);
-      error[triangle] += depth * add(places, complianceOf(state, static_cast<int>(b), triangle));
-    }
+  const auto forEachEdge = [&](int label, const auto& work) {
+    for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
+      if (mesh.boundaryLabels[e] == label) work(e, placesOf(body, e));
   };
-  for (const Traction& traction : body.conditions().tractions)
-    if (unresolved(body, traction.value))
-      forEachEdge(traction.label, [&](const std::vector<Point>& places, const Compliance& compliance) {
-        const Misfit w = misfit(onEdge(traction.value, places, state.time), body.degree());
-        return 2 * compliance.elastic * (places[1] - places[0]).squaredNorm() *
-               std::sqrt(w.primitive * w.square);
-      });
-  for (const PrescribedDisplacement& held : body.conditions().displacements)
-    if (!held.point && !held.onAxis && unresolved(body, held.value))
-      forEachEdge(held.label, [&](const std::vector<Point>& places, const Compliance& compliance) {
-        const double stiffness = compliance.elastic / (compliance.all * compliance.all);
-        return stiffness / 2 * halfNorm(offInterpolant(body, held.value, places, state.time));
-      });
+  const auto add = [&](const Line& line, size_t e, double energy, bool ofStrain) {
+    const int triangle = line.triangleOf(mesh.boundaryEdges[e]);
+    const Compliance compliance = complianceOf(state, static_cast<int>(b), triangle);
+    const std::vector<Point> places = placesOf(body, e);
+    error[triangle] +=
+        body.depthAt((places[0] + places[1]) / 2) * energy *
+        (ofStrain ? compliance.elastic / (compliance.all * compliance.all) : compliance.elastic);
+  };
+  for (const Traction& traction : body.conditions().tractions) {
+    if (!unresolved(body, traction.value)) continue;
+    std::vector<LineEdge> edges;
+    std::vector<size_t> numbers;
+    forEachEdge(traction.label, [&](size_t e, const std::vector<Point>& places) {
+      const auto& [from, to] = mesh.boundaryEdges[e];
+      edges.push_back({onEdge(traction.value, places, state.time),
+                       {from, to, body.degree() > 1 ? body.elementNodes().middles[e] : -1},
+                       (places[1] - places[0]).norm()});
+      numbers.push_back(e);
+    });
+    const std::vector<std::array<double, 3>> seen = lineProjection(edges, body.degree());
+    const Line line = lineOf(mesh, traction.label);
+    for (size_t i = 0; i < edges.size(); ++i) {
+      const Misfit w = interpolationMisfit(edges[i].datum, seen[i], body.degree());
+      add(line, numbers[i], 2 * edges[i].length * edges[i].length * std::sqrt(w.primitive * w.square), false);
+    }
+  }
+  for (const PrescribedDisplacement& held : body.conditions().displacements) {
+    if (held.point || held.onAxis || !unresolved(body, held.value)) continue;
+    const Line line = lineOf(mesh, held.label);
+    forEachEdge(held.label, [&](size_t e, const std::vector<Point>& places) {
+      add(line, e, halfNorm(offInterpolant(body, held.value, places, state.time)) / 2, true);
+    });
+  }
 }
 
 void SpaceErrorEstimator::addTriangleData(size_t b, double t, bool steady, Vector& error) const {

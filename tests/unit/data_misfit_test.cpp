@@ -118,11 +118,36 @@ TEST(Misfit, ofAWaveIsItsSize) {
   const Misfit w = misfit(wave, 0);
   EXPECT_NEAR(w.square, 0.5, 1e-8);
   EXPECT_NEAR(w.size, 0.5, 1e-8);
-  // W = (1 - cos)/k on the edge, of length 1/2
-  EXPECT_NEAR(w.primitive, 1.5 / (k / 2 * k / 2), 0.05 * w.primitive);
+  // W = -cos/k on the edge, of length 1/2
+  EXPECT_NEAR(w.primitive, 0.5 / (k / 2 * k / 2), 0.05 * w.primitive);
   EXPECT_NEAR(interpolationMisfit(wave, {0, 0, 0}, 1).slope, k * k / 4 / 2, 0.02 * k * k);
   EXPECT_LT(misfit(onEdge(unit([](double x) { return 1 - x + x * x; }), {{0, 0}, {2, 0}}, 0), 2).square,
             1e-25);
+}
+
+TEST(Misfit, ofALineSeesWhatAlternates) {
+  // Half a wave an edge: no continuous linear function has a part of it, though each mean is 2/pi.
+  for (const int degree : {1, 2}) {
+    std::vector<LineEdge> edges;
+    const double k = degree * 8 * pi;
+    for (int e = 0; e < 8; ++e)
+      edges.push_back(
+          {onEdge(unit([k](double x) { return std::sin(k * x); }), {{e / 8.0, 0}, {(e + 1) / 8.0, 0}}, 0),
+           {e, e + 1, degree > 1 ? 100 + e : -1},
+           0.125});
+    const auto seen = lineProjection(edges, degree);
+    // Away from the ends of the line.
+    for (const int e : {3, 4})
+      EXPECT_LT(std::abs(seen[e][0]) + std::abs(seen[e][1]), degree == 1 ? 0.03 : 0.1) << degree;
+  }
+  // What is continuous is seen whole.
+  std::vector<LineEdge> edges;
+  const auto bent = [](double x) { return std::abs(x - 0.5) - x; };
+  for (int e = 0; e < 4; ++e)
+    edges.push_back({onEdge(unit(bent), {{e / 4.0, 0}, {(e + 1) / 4.0, 0}}, 0), {e, e + 1, -1}, 0.25});
+  const auto seen = lineProjection(edges, 1);
+  for (int e = 0; e < 4; ++e)
+    for (const int end : {0, 1}) EXPECT_NEAR(seen[e][end], bent((e + end) / 4.0), 1e-8);
 }
 
 /// Two triangles on the unit square, label 3 on top.
