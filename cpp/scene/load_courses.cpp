@@ -12,7 +12,6 @@
 #include "scene/finite_value.h"
 
 namespace mortier {
-Course resolve(std::function<double(double)> datum, double begin, double end, int fine);
 namespace {
 
 /// Vertices of a labelled boundary, or of the whole mesh, not too many.

@@ -146,8 +146,6 @@ class BreakFinder {
 
 }  // namespace
 
-Course resolve(std::function<double(double)> datum, double begin, double end) { return BreakFinder(std::move(datum), begin, end, 0).find(); }
-Course resolve(std::function<double(double)> datum, double begin, double end, int fine);
 Course resolve(std::function<double(double)> datum, double begin, double end, int fine) {
   return BreakFinder(std::move(datum), begin, end, fine).find();
 }

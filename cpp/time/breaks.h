@@ -20,8 +20,9 @@ struct Course {
 
 /// An interval is smooth where a cubic through four of its points meets others; what is not is halved, down
 /// to 1e-7 of the whole, and the number with the fewest digits taken for a kink. The first intervals are
-/// 1/499 of the whole: a pulse shorter than 1/3000 of it may be missed.
-Course resolve(std::function<double(double)> datum, double begin, double end);
+/// 1/499 of the whole: a pulse shorter than 1/3000 of it may be missed, or with `fine` further samples at
+/// equal distances one shorter than such a distance.
+Course resolve(std::function<double(double)> datum, double begin, double end, int fine = 0);
 
 /// A datum that is linear between the times of a table and constant outside.
 Course tableCourse(std::function<double(double)> datum, const std::vector<double>& times, double begin,

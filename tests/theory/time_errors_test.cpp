@@ -70,7 +70,7 @@ TEST(TimeErrors, theStressOfASteadyMotionIsSeen) {
 // Contact that closes just before a step ends has hardly any stress there, and a moment later all of it.
 TEST(TimeErrors, contactThatClosesLateInAStepIsSeen) {
   const auto material = perzynaMaterial({3e4, 0.3}, {2, 1, Projection::frobenius});
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 5; ++i) {
     const double rate = 3 + 0.11 * i;
     const auto path = [rate](double t) { return -0.05 * std::sin(rate * 3.14159 * t) - 0.01 * t; };
     expectAccurate(blocks(material, true, path, Scheme::sdirk2, 1e-2), "rate " + std::to_string(rate), 6000);
@@ -106,9 +106,9 @@ TEST(TimeErrors, aLoadThatJumpsIsPassedWithFriction) {
 TEST(TimeErrors, randomRunsAreAsAccurateAsTheySay) {
   int good = 0;
   int runs = 0;
-  for (unsigned seed = 0; seed < 40; ++seed) {
+  for (unsigned seed = 0; seed < 24; ++seed) {
     const Case of = randomCase(seed);
-    const Outcome outcome = outcomeOf(of, 1000, of.plan);
+    const Outcome outcome = outcomeOf(of, 500, of.plan);
     if (outcome.run.status != Status::converged || !outcome.run.shortfall.empty()) continue;
     const double error = std::max(outcome.stress, outcome.displacement);
     ++runs;
@@ -116,7 +116,7 @@ TEST(TimeErrors, randomRunsAreAsAccurateAsTheySay) {
     EXPECT_LE(error, 3) << of.name << ", seed " << seed;
   }
   std::cout << good << " of " << runs << " within " << allowed << " tolerances\n";
-  EXPECT_GE(runs, 36);
+  EXPECT_GE(runs, 22);
   EXPECT_GE(good, 0.95 * runs);
 }
 
