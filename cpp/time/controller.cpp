@@ -25,6 +25,7 @@ Controller::Controller(const Model& model, const TimePlan& plan, MarchMemory& me
   stops_.push_back(plan.end);
   for (const Stage& stage : tableau(plan.scheme).stages) nodes_.push_back(stage.time);
   unseen_ = unseenPart * std::sqrt(plan.tolerance);
+  for (const Body& body : model.bodies) flows_ = flows_ || !body.material().linear();
 }
 
 double Controller::stopAfter(double t) const {
@@ -175,14 +176,16 @@ Controller::Judgement Controller::judge(StepTaker& taker, double t0, double t1) 
   double change = 0;
   for (size_t i = 0; i < taker.stages(); ++i)
     change = std::max(change, measure_.sizeOf(taker.change(i)).stress);
-  if (norms.stress > change) {
+  const ErrorNorms& scale = memory_.controller.scale;
+  const bool ofStress = relative({norms.stress, 0, 0}, scale) > relative({0, norms.displacement, 0}, scale);
+  if (norms.stress > change && ofStress) {
     for (Matrix& strain : result.local.strain) strain *= change / norms.stress;
     for (Response& response : result.local.response) {
       response.displacement *= change / norms.stress;
       response.stress *= change / norms.stress;
     }
-    norms.stress = change;
   }
+  norms.stress = std::min(norms.stress, change);
   const ControllerMemory& own = memory_.controller;
   result.size = relative(norms, own.scale);
   const double error = result.size / own.local;
@@ -210,18 +213,6 @@ bool Controller::turnsTooFar(const StepTaker& taker) const {
   if (flowing == 0 || flowing > most) return false;
   const ControllerMemory& own = memory_.controller;
   return measure_.sizeOf(taker.turn()).stress > own.local * own.scale.stress;
-}
-
-/// Error of the step of length k that ended at t, relative, as the step after shows it. Where contact closes
-/// shortly before the end of a step, the stress that follows at once has hardly begun there, and neither the
-/// step nor its stages show by how much more it grows.
-double Controller::lateness(StepTaker& taker, double t, double k, StepReport& report) const {
-  const double end = std::min(t + k, stopAfter(t));
-  const StepOutcome outcome = taker.attempt(end, Effort::little);
-  report.iterations += outcome.iterations;
-  report.factorisations += outcome.factorisations;
-  if (!outcome.converged() || outcome.rung == Rung::rest) return 0;
-  return relative(measure_.sizeOf(taker.lagAtStart()), memory_.controller.scale);
 }
 
 StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort effort, int onsets,
@@ -320,8 +311,8 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
       continue;
     }
     std::optional<StepTaker::Kept> kept;
-    const bool looksOn = !rough_ && outcome.rung != Rung::rest && t1 < stopAfter(state.time) &&
-                         !isShortest(state.time, k) && taker.closes() && taker.flowingAtEnd() > 0;
+    const bool looksOn =
+        !rough_ && outcome.rung != Rung::rest && !isShortest(state.time, k) && flows_ && taker.closes();
     if (step.beginsPair || looksOn) kept = taker.kept();
     if (outcome.rung != Rung::rest)
       add(taker, std::move(step.judgement.local), judgement.size,
@@ -333,10 +324,11 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
       continue;
     }
     if (looksOn) {
-      const double late = lateness(taker, t1, k, report) / own.local;
-      if (late > 1) {
+      double off = offHalfSteps(taker, *kept, state, report);
+      if (off <= own.local) off = std::max(off, lateness(taker, t1, k, report));
+      if (off > own.local) {
         taker.goBack(std::move(*kept));
-        factor = std::clamp(safety / late, leastFactor, safety);
+        factor = std::clamp(safety * own.local / off, leastFactor, safety);
         reject();
         continue;
       }

@@ -77,6 +77,7 @@ class Controller {
   bool completePair(StepTaker& taker, const Attempt& first, double end, StepReport& report, double& factor);
   [[nodiscard]] bool inPair(double t) const { return memory_.controller.pairEnd > t; }
   [[nodiscard]] double lateness(StepTaker& taker, double t, double k, StepReport& report) const;
+  double offHalfSteps(StepTaker& taker, const StepTaker::Kept& start, const State& state, StepReport& report);
   [[nodiscard]] bool turnsTooFar(const StepTaker& taker) const;
   /// What that is of what is computed, relative.
   [[nodiscard]] double sizeOf(StepTaker& taker, const SlipAndWork& missed) const;
@@ -94,6 +95,7 @@ class Controller {
   std::vector<double> stops_;  ///< breaks and the end
   double unseen_ = 0;          ///< part of a datum's range that a step may miss
   bool rough_ = false;         ///< whether there is friction
+  bool flows_ = false;         ///< whether any body can flow
   /// The second step of a pair whose first one has been taken: solved, not committed.
   std::optional<Attempt> second_;
 };

@@ -1,4 +1,5 @@
 // The error of a step, by what its stages miss of the flow in between.
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -151,9 +152,10 @@ StepTaker::Fields StepTaker::stageRates() const {
 }
 
 /// Where some points flow and others do not, stresses turn sharply between the stages and the polynomial
-/// through them is no guide: no point misses more than a part of what it flows.
+/// through them is no guide: no point misses more than a part of what it flows. That through one stage is a
+/// line, and of a step that begins before yield it may miss all of it.
 void StepTaker::limit(const Fields& rates, Fields& missed) const {
-  constexpr double largest = 0.3;
+  const double largest = tableau_.stages.size() == 1 ? 1 : 0.3;
   const double k = t1_ - state_.time;
   const std::vector<Matrix> start = startingRates();
   if (noneHere(start) && std::all_of(rates.begin(), rates.end(), noneHere)) return;
@@ -190,7 +192,38 @@ StepError StepTaker::carried(const std::vector<Matrix>& strain) {
 
 std::vector<Response> StepTaker::response(const std::vector<Matrix>& strain,
                                           const std::vector<Vector>& slip) {
-  return system_.respond(strain, solutions_.back(), slip);
+  std::vector<Matrix> felt;
+  for (size_t b = 0; b < strain.size(); ++b) felt.push_back(feltStrain(b, strain[b]));
+  return system_.respond(felt, solutions_.back(), slip);
+}
+
+/// A law of the strain flows less where more has flowed. Its tangent knows strains that are prescribed:
+/// an error x of the flow is to it the strain y with (1 - k a_ss dG/deps) y = x.
+Matrix StepTaker::feltStrain(size_t body, const Matrix& strain) const {
+  constexpr double little = 1e-6;
+  const Material& material = model_.bodies[body].material();
+  if (!material.ofStrain() || strain.isZero(0)) return strain;
+  const double weight = (t1_ - state_.time) * tableau_.stages.back().diagonal;
+  const Matrix& stress = solutions_.back().bodies[body].stress;
+  const Matrix total = strainWithin(body, 1);
+  const double h = little * std::max(total.cwiseAbs().maxCoeff(), strain.cwiseAbs().maxCoeff());
+  Matrix before;
+  material.viscoplasticRate(stress, before, &total);
+  std::vector<Matrix> slopes(strain.rows());  // k a_ss dG/deps, by component of the strain
+  for (Eigen::Index c = 0; c < strain.rows(); ++c) {
+    Matrix changed = total;
+    changed.row(c).array() += h;
+    material.viscoplasticRate(stress, slopes[c], &changed);
+    slopes[c] = weight / h * (slopes[c] - before);
+  }
+  Matrix felt = strain;
+  Matrix system(strain.rows(), strain.rows());
+  for (Eigen::Index i = 0; i < strain.cols(); ++i) {
+    for (Eigen::Index c = 0; c < strain.rows(); ++c) system.col(c) = -slopes[c].col(i);
+    system.diagonal().array() += 1;
+    felt.col(i) = system.partialPivLu().solve(strain.col(i));
+  }
+  return felt;
 }
 
 std::vector<Response> StepTaker::responseTo(const std::vector<Vector>& slip) {

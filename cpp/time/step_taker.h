@@ -105,6 +105,7 @@ class StepTaker {
   using Fields = std::vector<std::vector<Matrix>>;  ///< by stage and body
   void limit(const Fields& rates, Fields& missed) const;
   StepError atEnd(std::vector<Matrix> strain);
+  [[nodiscard]] Matrix feltStrain(size_t body, const Matrix& strain) const;
   void onlyWhereItFlows(size_t stage, std::vector<Matrix>& flow) const;
   void addLag(const Fields& rates, std::vector<Response>& response);
   [[nodiscard]] Fields stageRates() const;

@@ -39,6 +39,30 @@ class DataInTime(OfTwoBlocks):
         self.undefined(7e-5, 8e-5, time='steps = 4000\nscheme = "sdirk2"\ntolerance = 1e-2')
         self.assertLess(self.failed("ty", "7.32233047033631")["newton_iterations"], 100)
 
+    def test_a_tolerance_that_is_not_reached(self):
+        """The top jumps, and the stress relaxes in less than doubles tell two times apart by."""
+        text = TWO_BLOCKS.replace('ty = "-10*t"', 'uy = "t < 0.5 ? 0 : -1e-12"')
+        text = text.replace("young = 3e11", "young = 3e15", 1)
+        self.write(text.replace("steps = 4", 'scheme = "sdirk2"\ntolerance = 1e-3'))
+        done = self.mortier("run", "scene.toml", "--out", "out", code=1)
+        why = r"estimated error \S+ above tolerance 0.001 after \d trial"
+        self.assertRegex(done.stderr.splitlines()[-1],
+                         rf"scene.toml: time.tolerance 0.001 not reached: {why}.*; the last result is in out$")
+        self.assertIn("(tolerance 0.001, not reached)", done.stdout)
+        self.assertEqual(self.names("."), ["lower.mesh", "out", "scene.toml", "upper.mesh"])
+        summary = json.loads(self.read("out/summary.json"))
+        self.assertEqual(summary["status"], "converged")
+        self.assertRegex(summary["reason"], why)
+        self.assertFalse(summary["accuracy"]["time_reached"])
+        self.assertGreater(summary["accuracy"]["time"], 1e-3)
+
+    def test_a_tolerance_that_is_reached(self):
+        self.write(TWO_BLOCKS.replace("steps = 4", 'scheme = "sdirk2"\ntolerance = 1e-3'))
+        self.mortier("run", "scene.toml", "--out", "out")
+        summary = json.loads(self.read("out/summary.json"))
+        self.assertTrue(summary["accuracy"]["time_reached"])
+        self.assertNotIn("reason", summary)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -116,6 +116,7 @@ TEST(ErrorControl, whatTimeDoesNotResolveIsNotTriedAgain) {
   std::cout << ", estimate " << run.timeError << "\n";
   EXPECT_EQ(run.status, Status::converged) << run.reason;
   EXPECT_GT(run.timeError, tolerance);  // which is told
+  EXPECT_NE(run.shortfall.find("above tolerance 0.001"), std::string::npos) << run.shortfall;
   EXPECT_EQ(begun, 1);
   EXPECT_LE(run.steps, 300);
 }

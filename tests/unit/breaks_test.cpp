@@ -89,6 +89,18 @@ TEST(Courses, dataThatCannotBeSampledAreTold) {
   EXPECT_FALSE(resolve([](double t) { return std::sin(3e5 * t) > 0 ? 1.0 : 0.0; }, 0, 1).resolved);
 }
 
+TEST(Courses, aPulseAsShortAsTheFineSamplesIsSeen) {
+  constexpr int fine = 100000;
+  for (const double width : {1e-4, 1e-5})
+    for (int i = 0; i < 20; ++i) {
+      const double at = 0.0371 + 0.0467 * i;
+      const auto pulse = [=](double t) { return t + std::exp(-std::pow((t - at) / width, 2)); };
+      const Course course = resolve(pulse, 0, 1, fine);
+      EXPECT_TRUE(course.resolved);
+      EXPECT_GT(unseen(course, {0.3, 1}, at - 1e-3, at + 1e-3), 0.3) << width << " at " << at;
+    }
+}
+
 TEST(Courses, ofATableEveryPulseIsSeen) {
   const std::vector<double> times{0, 0.3, 0.3000001, 0.3000002, 2};
   const auto pulse = [](double t) { return std::max(0.0, 1 - std::abs(t - 0.3000001) / 1e-7); };

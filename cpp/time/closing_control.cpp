@@ -1,0 +1,46 @@
+// Steps chosen by their error in which contact closes (controller.h).
+#include <algorithm>
+#include <utility>
+
+#include "time/controller.h"
+
+namespace mortier {
+
+/// Error of the step of length k that ended at t, relative, as the step after shows it. Where contact closes
+/// shortly before the end of a step, the stress that follows at once has hardly begun there, and neither the
+/// step nor its stages show by how much more it grows.
+double Controller::lateness(StepTaker& taker, double t, double k, StepReport& report) const {
+  if (std::binary_search(stops_.begin(), stops_.end(), t)) return 0;  // what comes after is another load
+  const double end = std::min(t + k, stopAfter(t));
+  const StepOutcome outcome = taker.attempt(end, Effort::little);
+  report.iterations += outcome.iterations;
+  report.factorisations += outcome.factorisations;
+  if (!outcome.converged() || outcome.rung == Rung::rest) return 0;
+  return relative(measure_.sizeOf(taker.lagAtStart()), memory_.controller.scale);
+}
+
+/// By how much two half steps from where the step began end elsewhere, relative. Where contact closes within
+/// a step, and perhaps opens again, stages see little of it. Leaves the state as it is.
+double Controller::offHalfSteps(StepTaker& taker, const StepTaker::Kept& start, const State& state,
+                                StepReport& report) {
+  StepTaker::Kept end = taker.kept();
+  const State& reached = end.first;
+  taker.goBack(start);
+  bool solved = true;
+  for (const double t1 : {start.first.time + (reached.time - start.first.time) / 2, reached.time}) {
+    const StepOutcome outcome = solved ? taker.attempt(t1) : StepOutcome{};
+    report.iterations += outcome.iterations;
+    report.factorisations += outcome.factorisations;
+    solved = solved && outcome.converged();
+    if (solved) taker.commit();
+  }
+  std::vector<Response> off;
+  for (size_t b = 0; b < state.bodies.size(); ++b)
+    off.push_back({state.bodies[b].displacement - reached.bodies[b].displacement,
+                   state.bodies[b].stress - reached.bodies[b].stress});
+  const double size = solved ? relative(measure_.sizeOf(off), memory_.controller.scale) : 0;
+  taker.goBack(std::move(end));
+  return size;
+}
+
+}  // namespace mortier

@@ -1,0 +1,124 @@
+// Random runs with steps chosen by their error, however driven, are as accurate as they say.
+#include "theory/time_errors.h"
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include "theory/controlled_runs.h"
+
+namespace mortier {
+namespace {
+
+using namespace timeerrors;
+
+constexpr double allowed = 1.5;  // tolerances
+
+/// Two blocks, the upper one moved or pressed from above.
+Case blocks(std::shared_ptr<const Material> material, bool moved, const std::function<double(double)>& path,
+            Scheme scheme, double tolerance, double friction = 0) {
+  Case of;
+  const Function datum = [path](double, double, double t) { return path(t); };
+  Conditions upper{{{left, 0, constant(0)}}, {}, {}};
+  if (moved)
+    upper.displacements.push_back({top, 1, datum});
+  else
+    upper.tractions.push_back({top, 1, datum});
+  Body first("upper", square(0, 2), material, upper);
+  Body second("lower", square(-1, 3), material, {{{left, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}});
+  InterfaceOptions options;
+  options.friction.coefficient = friction;
+  of.model = contactModel(std::move(first), std::move(second), CouplingKind::mortar, upperBody, options);
+  of.tolerance = tolerance;
+  of.plan = controlled(1, tolerance, scheme);
+  of.plan.maxSteps = 3000;
+  of.plan.data = {resolve(path, 0, 1)};
+  of.plan.breaks = of.plan.data[0].breaks;
+  return of;
+}
+
+void expectAccurate(const Case& of, const std::string& name, int fine = 4000) {
+  const Outcome outcome = outcomeOf(of, fine, of.plan);
+  const double error = std::max(outcome.stress, outcome.displacement);
+  print(name, outcome.run);
+  std::cout << ", error " << error << " tolerances at " << outcome.at << ", estimate "
+            << outcome.run.timeError / of.tolerance << "\n";
+  EXPECT_EQ(outcome.run.status, Status::converged) << outcome.run.reason;
+  EXPECT_EQ(outcome.run.shortfall, "");
+  EXPECT_LE(error, allowed) << name;
+  EXPECT_GE(outcome.run.timeError / of.tolerance, 0.5 * error) << name;
+}
+
+// Stresses follow the rate of the motion within steps that are far longer than the relaxation.
+TEST(TimeErrors, theStressOfMovedBodiesIsSeen) {
+  const auto path = [](double t) { return -0.1 * (0.2 * t + 0.8 * t * t * t); };
+  for (const double young : {1e2, 1e4, 1e6}) {
+    const auto material = perzynaMaterial({young, 0.3}, {10, 1, Projection::frobenius});
+    expectAccurate(blocks(material, true, path, Scheme::sdirk2, 1e-3), "sdirk2, E " + std::to_string(young));
+    expectAccurate(blocks(material, true, path, Scheme::backwardEuler, 1e-2),
+                   "Euler, E " + std::to_string(young));
+  }
+}
+
+// The rate is constant: only the beginning is wrong.
+TEST(TimeErrors, theStressOfASteadyMotionIsSeen) {
+  const auto material = perzynaMaterial({100, 0.3}, {1, 1, Projection::frobenius});
+  const auto path = [](double t) { return -0.1 * t; };
+  expectAccurate(blocks(material, true, path, Scheme::backwardEuler, 1e-2), "ramp");
+}
+
+// Contact that closes just before a step ends has hardly any stress there, and a moment later all of it.
+TEST(TimeErrors, contactThatClosesLateInAStepIsSeen) {
+  const auto material = perzynaMaterial({3e4, 0.3}, {2, 1, Projection::frobenius});
+  for (int i = 0; i < 5; ++i) {
+    const double rate = 3 + 0.11 * i;
+    const auto path = [rate](double t) { return -0.05 * std::sin(rate * 3.14159 * t) - 0.01 * t; };
+    expectAccurate(blocks(material, true, path, Scheme::sdirk2, 1e-2), "rate " + std::to_string(rate), 6000);
+  }
+}
+
+// The displacement of a standard solid goes on under a constant load.
+TEST(TimeErrors, creepUnderAConstantLoadIsSeen) {
+  for (const double time : {1e-3, 1e-2, 1e-1}) {
+    const auto material = viscoelasticMaterial({100, 0.3}, {time, 0.05}, Plane::stress);
+    const auto load = [](double) { return -1.0; };
+    expectAccurate(blocks(material, false, load, Scheme::sdirk2, 1e-3), "sdirk2 " + std::to_string(time));
+    expectAccurate(blocks(material, false, load, Scheme::backwardEuler, 1e-2),
+                   "Euler " + std::to_string(time));
+  }
+}
+
+// No pair of steps lies within the two neighbouring numbers of a jump.
+TEST(TimeErrors, aLoadThatJumpsIsPassedWithFriction) {
+  const auto material = perzynaMaterial({100, 0.3}, {1, 1, Projection::frobenius});
+  const auto jump = [](double t) { return t < 0.41425 ? -0.4 : -1.8; };
+  for (const Scheme scheme : {Scheme::sdirk2, Scheme::backwardEuler}) {
+    Case of = blocks(material, false, jump, scheme, 1e-2, 0.3);
+    State state = initialState(of.model);
+    const RunReport run = runWith(of.model, state, of.plan);
+    print("jump", run);
+    std::cout << "\n";
+    EXPECT_EQ(run.status, Status::converged) << run.reason;
+    EXPECT_LE(run.rejected, 200);
+  }
+}
+
+TEST(TimeErrors, randomRunsAreAsAccurateAsTheySay) {
+  int good = 0;
+  int runs = 0;
+  for (unsigned seed = 0; seed < 24; ++seed) {
+    const Case of = randomCase(seed);
+    const Outcome outcome = outcomeOf(of, 500, of.plan);
+    if (outcome.run.status != Status::converged || !outcome.run.shortfall.empty()) continue;
+    const double error = std::max(outcome.stress, outcome.displacement);
+    ++runs;
+    good += error <= allowed ? 1 : 0;
+    EXPECT_LE(error, 3) << of.name << ", seed " << seed;
+  }
+  std::cout << good << " of " << runs << " within " << allowed << " tolerances\n";
+  EXPECT_GE(runs, 22);
+  EXPECT_GE(good, 0.95 * runs);
+}
+
+}  // namespace
+}  // namespace mortier
