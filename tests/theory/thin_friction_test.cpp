@@ -50,7 +50,8 @@ TEST(ThinFriction, beltsOnStiffDrumsSlip) {
             << result.report.reason << ", mu " << mu << ", E " << young << ", thickness " << thickness;
         const double exact = std::exp(mu * std::numbers::pi) - 1;
         const double grip = std::abs(result.state.frictionForce[0].sum());
-        // Its bending stiffness keeps the belt off the drum over the lengths (EI/T)^1/2 at its ends; it is loaded at half its thickness.
+        // Its bending stiffness keeps the belt off the drum over the lengths (EI/T)^1/2 at its ends; it is
+        // loaded at half its thickness.
         const double bending = 1e5 * std::pow(thickness, 3) / 12;
         const double off = std::sqrt(bending) * (1 + 1 / std::sqrt(1 + exact));
         EXPECT_LE(grip, (1.001 + thickness) * exact)
