@@ -141,7 +141,6 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
 }
 
 double StepSystem::opened(const Step& step, const Iterate& iterate) const {
-  if (rough()) return 0;
   const Vector compliance = sparse() ? sparse_->compliance() : Vector(contact_.W.diagonal());
   const std::vector<Vector> gap = gaps(model_, step.state0, iterate);
   double largest = 0;

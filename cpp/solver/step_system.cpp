@@ -242,7 +242,8 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
                                    StepOutcome& outcome) && {
   if (contact.outcome == ContactSolution::Outcome::cycled)
     return outcome.fail(Reason::contact,
-                        "no solution of the contact problem of the linearised step was found");
+                        "no solution of the contact problem of the linearised step was found; another side "
+                        "as nonmortar (swap) or other factors (solver.linear) may lead to one");
   if (contact.outcome == ContactSolution::Outcome::dependent)
     return outcome.fail(Reason::contact, "with friction, contact conditions that depend on each other");
   if (contact.outcome == ContactSolution::Outcome::capped)
@@ -312,7 +313,8 @@ void StepSystem::resume(const SolverMemory& memory) {
       bodies_[b].useLibraries();
       if (sparse()) sparse_->useLibraries();
     }
-    if (memory.elasticFactors[b] != 0) bodies_[b].elasticFactorsWereCounted();
+    // Without reductions factors are made and counted in every solve.
+    if (memory.elasticFactors[b] != 0 && options_.reduce) bodies_[b].elasticFactorsWereCounted();
   }
 }
 
