@@ -49,7 +49,7 @@ StepOutcome StepTaker::guard(const StepOutcome& before, Effort effort) {
 StepOutcome StepTaker::hold(StepOutcome outcome) {
   if (const std::string motion = outcome.converged() ? system_.looseMotion(state_, solutions_.back()) : "";
       !motion.empty())
-    outcome.fail(Reason::unheld, "no contact is closed that would hold " + motion);
+    outcome.fail(Reason::unheld, "no closed contact holds " + motion);
   if (!outcome.converged()) memory_.increments.clear();
   memory_.solver = system_.memory();
   return outcome;
