@@ -28,7 +28,8 @@ def rectangle(lower, upper, cells):
 
 
 def ring(inner, outer, cells):
-    return f'shape = "annulus", inner = {inner}, outer = {outer}, cells = {cells}, span = "quarter"'
+    return (f'shape = "annulus", inner = {inner}, outer = {outer}, cells = {cells}, span = "quarter", '
+            'cut = "rising"')
 
 
 def elastic(young, poisson=0.3):

@@ -76,9 +76,8 @@ struct Made {
 
 Made make(const MeshCommand& command) {
   const auto [cells1, cells2] = parsePair<int>("--cells", command.cells, true);
-  const std::string word = !command.cut.empty()               ? command.cut
-                           : command.family.ends_with("disc") ? "both"
-                                                              : "rising";
+  const bool curved = command.family == "annulus" || command.family.ends_with("disc");
+  const std::string word = !command.cut.empty() ? command.cut : curved ? "both" : "rising";
   const Cut cut = parseWord<Cut>("--cut", word,
                                  {{"rising", Cut::rising}, {"falling", Cut::falling}, {"both", Cut::both}});
   if (command.family == "quadrilateral") {

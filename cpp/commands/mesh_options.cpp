@@ -17,7 +17,7 @@ CLI::App* addFamily(CLI::App& mesh, MeshCommand& command, const std::string& nam
   if (name != "crisscross")
     family->add_option("--cut", command.cut,
                        std::string("diagonals of the cells: rising, falling, both (default ") +
-                           (name.ends_with("disc") ? "both)" : "rising)"));
+                           (name == "annulus" || name.ends_with("disc") ? "both)" : "rising)"));
   family->add_option("FILE", command.file, "Medit .mesh file to write")->required();
   family->footer("Boundary labels: " + labels + ".");
   family->callback([&command, name] { command.family = name; });

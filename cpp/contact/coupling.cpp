@@ -226,12 +226,17 @@ Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mor
                 const DistanceAt& distance, const std::vector<char>& merged, bool axisymmetric) {
   const Rows rows(kind, part, mortar, merged);
   const Eigen::Index n = rows.count();
-  std::vector<Point> own;  // directions at the nodes
+  std::vector<Sighting> atRows;  // what their nodes see
+  std::vector<Point> own;        // directions there
   Triplets ownMotion;
+  Vector distances(n);
   if (kind != CouplingKind::weighted)
     for (int i = 0; i < n; ++i) {
-      own.push_back(seeFrom(part, mortar, rows.nodes()[i]).sight.normal);
+      atRows.push_back(seeFrom(part, mortar, rows.nodes()[i]));
+      const auto& [sight, place] = atRows.back();
+      own.push_back(sight.normal);
       addEntries(i, EdgeNodes{{rows.nodes()[i]}}, EdgeValues::Ones(1), own.back(), ownMotion);
+      distances[i] = distance(place.nonmortar, place.begin, sight);
     }
   const auto matrix = [n](const ElementLine& line, const Triplets& entries) {
     return assembled(n, 2 * static_cast<Eigen::Index>(line.traceNodes()), entries);
@@ -241,6 +246,7 @@ Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mor
 
   Coupling result;
   result.nodes = rows.nodes();
+  result.distance = distances;
   result.lengths = integrals.lengths;
   result.mass = assembled(n, n, integrals.mass);
   result.C1 = matrix(part, ownMotion);
@@ -249,12 +255,9 @@ Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mor
   result.N = assembled(n, part.traceNodes(), kind == CouplingKind::weighted ? integrals.N : atNodes);
   if (kind == CouplingKind::interpolation) {
     Triplets seen;
-    result.distance = Vector::Zero(n);
-    for (int i = 0; i < n; ++i) {
-      const auto [sight, place] = seeFrom(part, mortar, rows.nodes()[i]);
-      addEntries(i, mortar.nodesOf(place.mortar), -sight.psi, sight.normal, seen);
-      result.distance[i] = distance(place.nonmortar, place.begin, sight);
-    }
+    for (int i = 0; i < n; ++i)
+      addEntries(i, mortar.nodesOf(atRows[i].place.mortar), -atRows[i].sight.psi, atRows[i].sight.normal,
+                 seen);
     result.C2 = matrix(mortar, seen);
   } else if (kind == CouplingKind::mortar) {
     constexpr Eigen::Index longLine = 512;
@@ -264,7 +267,6 @@ Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mor
     };
     result.C1 += project(matrix(part, integrals.D));
     result.C2 = project(matrix(mortar, integrals.M));
-    result.distance = mass.solve(integrals.distance);
   } else {
     const Vector w = result.mass * Vector::Ones(n);
     const auto lumped = w.asDiagonal();

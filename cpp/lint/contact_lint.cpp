@@ -2,13 +2,14 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "contact/interface.h"
+#include "contact/sliding.h"
 #include "lint/held_dofs.h"
 #include "lint/lint.h"
 #include "mesh/boundary_line.h"
 #include "plan/estimate_doubts.h"
 #include "scene/build_contact.h"
 #include "scene/memory_need.h"
+#include "scene/sides.h"
 
 namespace mortier {
 namespace {
@@ -136,8 +137,8 @@ EdgeLengths edgeLengths(const Side& side) {
   return {side.length / std::max(1, side.edges), side.edges};
 }
 
-void compareMeshes(const ContactDescription& contact, const Side& one, const Side& two,
-                   const std::string& length, Faults& faults) {
+void compareMeshes(const SceneDescription& scene, const ContactDescription& contact, const Side& one,
+                   const Side& two, Faults& faults) {
   constexpr double different = 10;
   constexpr double coarser = 4;
   const EdgeLengths h1 = edgeLengths(one);
@@ -148,22 +149,22 @@ void compareMeshes(const ContactDescription& contact, const Side& one, const Sid
   const double ratio = h1.mean / h2.mean;
   if (std::max(ratio, 1 / ratio) > different)
     faults.add("contact-size-ratio", contact.where,
-               "edges of " + name(one) + " are " + shortest(h1.mean) + " " + length + " long, those of " +
-                   name(two) + " " + shortest(h2.mean) + " " + length);
-  else if (ratio > coarser)
+               "edges of " + name(one) + " are " + shortest(h1.mean) + " " + scene.units.length +
+                   " long, those of " + name(two) + " " + shortest(h2.mean) + " " + scene.units.length);
+  else if (ratio > coarser && !farStiffer(scene, contact, contact.mortar, contact.nonmortar))
     faults.add("nonmortar-coarser", contact.nonmortar.where,
                "edges of the nonmortar side are " + shortest(std::round(10 * ratio) / 10) +
                    " times as long as those of the mortar side");
 }
 
-void compareStiffness(const LintInput& input, const ContactDescription& contact, const Side& one,
-                      const Side& two, Faults& faults) {
-  constexpr double stiffer = 100;
-  const double e1 = input.scene.bodies[one.body].material.elasticity.young;
-  const double e2 = input.scene.bodies[two.body].material.elasticity.young;
-  if (e1 > stiffer * e2)
-    faults.add("nonmortar-stiffer", contact.nonmortar.where,
-               "the nonmortar body has young = " + shortest(e1) + ", the mortar body " + shortest(e2));
+void compareStiffness(const LintInput& input, const ContactDescription& contact, Faults& faults) {
+  if (!farStiffer(input.scene, contact, contact.nonmortar, contact.mortar)) return;
+  const auto young = [&](const SideDescription& side) {
+    return shortest(input.scene.bodies[bodyIndex(input.scene, side.body)].material.elasticity.young);
+  };
+  faults.add("nonmortar-stiffer", contact.nonmortar.where,
+             "the nonmortar body has young = " + young(contact.nonmortar) + ", the mortar body " +
+                 young(contact.mortar));
 }
 
 /// Of random sheared blocks with mu up to 1 none has several solutions, of those above a few in a thousand.
@@ -238,6 +239,65 @@ void checkInterface(const ContactDescription& contact, const Side& one, const Si
                "interpolation on meshes that do not match has an error of order one along the contact line");
 }
 
+/// The displacement along an axis that supports give a body at a time, the least and the largest [m]; none
+/// where none does.
+std::optional<std::array<double, 2>> movedTo(const LintInput& input, const SideDescription& side, int axis,
+                                             double t) {
+  const auto body = static_cast<size_t>(bodyIndex(input.scene, side.body));
+  std::optional<std::array<double, 2>> range;
+  for (const ConditionDescription& c : input.scene.bodies[body].conditions) {
+    if (c.kind != ConditionDescription::Kind::displacement || c.component != axis || c.onAxis) continue;
+    std::vector<Point> points;
+    if (c.point) points.push_back(*c.point);
+    for (const int v : c.point ? std::vector<int>() : verticesOn(*input.meshes[body], c.label))
+      points.push_back(input.meshes[body]->vertices[v]);
+    for (const Point& x : points) {
+      const double u = c.value.value(x.x(), x.y(), t);
+      if (!range) range = {u, u};
+      range = {std::min((*range)[0], u), std::max((*range)[1], u)};
+    }
+  }
+  return range;
+}
+
+/// Whether supports slide bodies that touch along each other by more than contact sees. What they move both
+/// bodies by at least is taken as a rigid motion of the nonmortar one.
+void checkSliding(const LintInput& input, const ContactDescription& contact, const Side& one, const Side& two,
+                  const ContactInterface& interface, Faults& faults) {
+  constexpr double touching = 1e-9;
+  constexpr double noticeable = 0.5;  // as the log says it
+  const ElementNodes nodes1 = elementNodes(*one.mesh, 1);
+  const ElementNodes nodes2 = elementNodes(*two.mesh, 1);
+  const Vector still = Vector::Zero(interface.C2().cols());
+  Sliding worst;
+  for (const double t : trialTimes(input.scene.time)) {
+    Point by(0, 0);
+    for (const int axis : {0, 1}) {
+      const auto first = movedTo(input, contact.nonmortar, axis, t);
+      const auto second = movedTo(input, contact.mortar, axis, t);
+      if (!first || !second) continue;
+      const double least = (*first)[0] - (*second)[1];
+      const double most = (*first)[1] - (*second)[0];
+      by[axis] = least > 0 ? least : std::min(most, 0.0);
+    }
+    if (by.isZero(0)) continue;
+    const Vector u = by.replicate(interface.C1().cols() / 2, 1);
+    Vector gap = interface.jump(u, still);
+    if (contact.initial != InitialGap::close) gap -= interface.initialDistance();
+    const Vector pressed = (gap.array() >= -touching * one.length).cast<double>();
+    const Sliding here = slidingOf(interface, {*one.mesh, nodes1}, {*two.mesh, nodes2}, u, still, pressed);
+    if (here.edges > worst.edges) worst = here;
+  }
+  const bool past = worst.past >= 0 && !contact.slidingAllowed;
+  if (!past && !(worst.edges > noticeable)) return;
+  faults.add(
+      "contact-slides", contact.where,
+      "supports move " + name(one) + " by " + shortest(worst.slip) + " " + input.scene.units.length +
+          " along " + name(two) +
+          (past ? std::string(", past its end")
+                : ", " + shortest(std::round(10 * worst.edges) / 10) + " times the length of an edge"));
+}
+
 }  // namespace
 
 void lintContacts(const LintInput& input, Faults& faults) {
@@ -253,8 +313,8 @@ void lintContacts(const LintInput& input, Faults& faults) {
     const Side one = sideOf(input, contact.nonmortar, contact.nonmortar.label);
     const Side two = sideOf(input, contact.mortar, contact.mortar.label);
     if (one.edges == 0 || two.edges == 0) continue;  // named elsewhere
-    if (!refinesMeshes(input.scene)) compareMeshes(contact, one, two, input.scene.units.length, faults);
-    compareStiffness(input, contact, one, two, faults);
+    if (!refinesMeshes(input.scene)) compareMeshes(input.scene, contact, one, two, faults);
+    compareStiffness(input, contact, faults);
     const ContactPair pair{{0, contact.nonmortar.label}, {1, contact.mortar.label}, contact.variant};
     checkFriction(contact, faults);
     const MemoryNeed need = memoryNeed({one.mesh, two.mesh}, {pair}, input.scene.degree,
@@ -265,6 +325,7 @@ void lintContacts(const LintInput& input, Faults& faults) {
       checkInterface(contact, one, two, interface, std::min(extent(*one.mesh), extent(*two.mesh)),
                      input.scene.units.length, faults);
       checkConditions(input, contact, interface, faults);
+      checkSliding(input, contact, one, two, interface, faults);
     } catch (const InputError& error) {
       diagnose(input, contact, one, two, error.what(), faults);
     }

@@ -103,6 +103,11 @@ const std::vector<FaultKind>& faultKinds() {
        "sides"},
       {"gap-large", warning, "the sides are further apart than half the smaller body",
        "move the meshes together, or check their units"},
+      {"contact-slides", warning, "supports slide bodies along each other by more than contact sees",
+       "draw the bodies where they are to touch: slips are taken as small here, and a run ends where a node "
+       "passes the end of the line that it touches (contact.sliding)"},
+      {"free-rotation", warning, "nothing holds a roller against turning about its centre",
+       "hold a point of it (body.point), or give its contact friction; loads that turn it are not balanced"},
       {"contact-side-twice", warning, "a label is a side of two contacts",
        "give each contact its own part of the boundary"},
       {"contact-one-edge", warning, "a side of a contact is one edge long", "refine the mesh there"},

@@ -13,6 +13,7 @@
 #include "scene/memory_need.h"
 #include "scene/overrides.h"
 #include "scene/resolve.h"
+#include "solver/free_rotation.h"
 #include "solver/solve_step.h"
 #include "time/initial_balance.h"
 
@@ -105,7 +106,7 @@ void requireHeld(const SceneDescription& scene, const Model& model) {
     const std::string loose = outcome.converged() && i == 0 ? system.looseMotion(begin, iterate) : "";
     const std::string reason = outcome.unheld() ? outcome.detail
                                : loose.empty()  ? ""
-                                                : "no contact is closed that would hold " + loose;
+                                                : "no closed contact holds " + loose;
     if (!reason.empty())
       throw UnheldBodyError("t = " + shortest(time) + " " + scene.units.time + ": " + reason);
   }
@@ -206,6 +207,11 @@ Faults lintResolved(const ResolvedScene& resolved, const std::vector<std::string
 
 void lintModel(const SceneDescription& scene, const Model& model, Faults& faults) {
   lintData(scene, model, faults);
+  for (size_t b = 0; b < model.bodies.size(); ++b)
+    if (const auto centre = freeRotation(model, static_cast<int>(b)))
+      faults.add("free-rotation", scene.bodies[b].where,
+                 "body " + scene.bodies[b].name + " may turn about " + shortest(*centre) +
+                     ": neither its supports nor contact without friction hold it");
   if (scene.time.controlled()) return;  // steps see what there is
   for (const std::string& warning : loadsBetweenSteps(scene, model)) {
     const auto [place, text] = splitPlace(warning);

@@ -242,6 +242,13 @@ std::string logPeaks(const Peaks& peaks, const StepReport& last, const Units& un
   add("contact force", peaks.contactForce, last.contactForce, units.forcePerDepth());
   add("displacement", peaks.displacement, last.displacement, units.length);
   if (!text.empty()) text += "\n";
+  constexpr double noticeable = 0.5;
+  if (peaks.sliding.value > noticeable)
+    text += format(
+        "warning    bodies slide along each other by up to %.3g edges at t = %.5g %s; slips are taken as "
+        "small "
+        "here\n",
+        peaks.sliding.value, peaks.sliding.time, units.time.c_str());
   if (peaks.motion.value > 1)
     text += format(
         "warning    displacements reach %.2g times the size of a body at t = %.5g %s; they are taken as "

@@ -48,6 +48,7 @@ Json interfaces(const RunFacts& facts, const Model& model, const State& state) {
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
     const Point force = resultant(model, state, k);
+    const Sliding sliding = slidingOf(model, state, k);
     list.push_back({{"variant", facts.variants[k]},
                     {"nonmortar", model.bodies[interface.pair().nonmortar.body].name()},
                     {"mortar", model.bodies[interface.pair().mortar.body].name()},
@@ -56,6 +57,7 @@ Json interfaces(const RunFacts& facts, const Model& model, const State& state) {
                     {"overlap", interface.overlap()},
                     {"sagitta", interface.sagitta()},
                     {"resultant", {force[0], force[1]}},
+                    {"sliding", {{"slip", sliding.slip}, {"edges", sliding.edges}}},
                     {"held_ends", interface.heldEnds()}});
     if (!interface.rough()) continue;
     list.back()["friction_work"] = state.frictionWorkOf[k];
@@ -98,11 +100,9 @@ Json finalState(const Model& model, const State& state, const StepReport& last) 
 
 Json jsonOf(const Peaks& peaks) {
   const auto of = [](const Peak& peak) { return Json{{"value", peak.value}, {"time", peak.time}}; };
-  return {{"von_mises", of(peaks.vonMises)},
-          {"pressure", of(peaks.pressure)},
-          {"contact_force", of(peaks.contactForce)},
-          {"displacement", of(peaks.displacement)},
-          {"elastic_energy", of(peaks.energy)}};
+  return {{"von_mises", of(peaks.vonMises)},         {"pressure", of(peaks.pressure)},
+          {"contact_force", of(peaks.contactForce)}, {"displacement", of(peaks.displacement)},
+          {"elastic_energy", of(peaks.energy)},      {"sliding", of(peaks.sliding)}};
 }
 
 Json jsonOf(const QuantityRange& range) {

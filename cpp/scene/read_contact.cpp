@@ -89,6 +89,7 @@ ContactDescription readContact(const Node& node, const SceneDescription& scene) 
     }
   }
   contact.friction = readFriction(table, scene);
+  contact.slidingAllowed = table.oneOf("sliding", slidingWords, 0) == 1;
   if (table.boolean("swap", false)) {
     contact.otherSide = !contact.sidesGiven;
     if (contact.sidesGiven) {

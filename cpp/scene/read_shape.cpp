@@ -59,7 +59,8 @@ MeshShape readShape(const TableReader& table) {
   const auto cells1 = static_cast<int>(cells.x());
   const auto cells2 = static_cast<int>(cells.y());
   MeshShape shape;
-  shape.cut = static_cast<Cut>(table.oneOf("cut", cutWords, word.ends_with("disc") ? 2 : 0));
+  const bool curved = word == "annulus" || word.ends_with("disc");
+  shape.cut = static_cast<Cut>(table.oneOf("cut", cutWords, curved ? 2 : 0));
   const auto point = [&](const char* key, const Point& fallback) {
     return table.find(key) != nullptr ? table.point(key) : fallback;
   };

@@ -199,6 +199,8 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   for (const Node* quantity : root.tables("quantity")) {
     scene.quantities.push_back(readQuantity(*quantity, scene));
   }
+  for (const ContactDescription& contact : scene.contacts)
+    scene.time.slidingAllowed.push_back(contact.slidingAllowed);
   requireAboutAxis(root, scene);
   requireAim(scene);
   return scene;

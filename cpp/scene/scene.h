@@ -120,6 +120,7 @@ struct ContactDescription {
   InitialGap initial = InitialGap::asMeshed;
   std::optional<Expression> gap;  ///< [m]
   Friction friction;
+  bool slidingAllowed = false;  ///< past the end of the line that is touched
   std::string where;
 };
 

@@ -22,21 +22,36 @@ std::optional<double> meanEdge(const SceneDescription& scene, const SideDescript
 
 }  // namespace
 
+bool farStiffer(const SceneDescription& scene, const ContactDescription& contact, const SideDescription& one,
+                const SideDescription& other) {
+  constexpr double far = 100;
+  const auto young = [&](const SideDescription& side) {
+    return scene.bodies[bodyIndex(scene, side.body)].material.elasticity.young;
+  };
+  return contact.variant != CouplingKind::interpolation && young(one) > far * young(other);
+}
+
 void decideSides(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes) {
   constexpr double equal = 1e-9;  // then the side named first
   for (ContactDescription& contact : scene.contacts) {
     if (contact.sidesGiven || !contact.choice.empty()) continue;
-    const auto first = meanEdge(scene, contact.nonmortar, meshes);
-    const auto second = meanEdge(scene, contact.mortar, meshes);
-    if (!first || !second) continue;
-    const bool secondIsFiner = *second < (1 - equal) * *first;
-    const bool alike = !secondIsFiner && *second <= (1 + equal) * *first;
+    const auto edge1 = meanEdge(scene, contact.nonmortar, meshes);
+    const auto edge2 = meanEdge(scene, contact.mortar, meshes);
+    if (!edge1 || !edge2) continue;
+    const bool secondIsFiner = *edge2 < (1 - equal) * *edge1;
+    const bool alike = !secondIsFiner && *edge2 <= (1 + equal) * *edge1;
     contact.choice =
         alike ? "both meshes are as fine, nonmortar is the side named first" : "nonmortar is the finer mesh";
-    if (contact.otherSide)
+    const bool firstIsStiffer = farStiffer(scene, contact, contact.nonmortar, contact.mortar);
+    const bool secondIsStiffer = farStiffer(scene, contact, contact.mortar, contact.nonmortar);
+    const bool second = firstIsStiffer || (secondIsFiner && !secondIsStiffer);
+    if (firstIsStiffer || secondIsStiffer)
+      contact.choice =
+          contact.otherSide ? "nonmortar is the far stiffer body (swap)" : "nonmortar is the far softer body";
+    else if (contact.otherSide)
       contact.choice = alike ? "both meshes are as fine, nonmortar is the side named last (swap)"
                              : "nonmortar is the coarser mesh (swap)";
-    if (secondIsFiner != contact.otherSide) std::swap(contact.nonmortar, contact.mortar);
+    if (second != contact.otherSide) std::swap(contact.nonmortar, contact.mortar);
   }
 }
 

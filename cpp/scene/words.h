@@ -8,9 +8,10 @@
 
 namespace mortier {
 
-inline const Keys planeWords{"stress", "strain", "axisymmetric"};                           // Plane
-inline const Keys couplingWords{"interpolation", "mortar", "weighted"};                     // CouplingKind
-inline const Keys initialWords{"as-meshed", "close", "reject"};                             // InitialGap
+inline const Keys planeWords{"stress", "strain", "axisymmetric"};        // Plane
+inline const Keys couplingWords{"interpolation", "mortar", "weighted"};  // CouplingKind
+inline const Keys initialWords{"as-meshed", "close", "reject"};          // InitialGap
+inline const Keys slidingWords{"refuse", "allow"};                       // whether past the end
 inline const Keys projectionWords(std::begin(projectionNames), std::end(projectionNames));  // Projection
 inline const Keys schemeWords{"backward-euler", "crank-nicolson", "sdirk2"};                // Scheme
 inline const Keys methodWords{"newton", "penalty-duality"};                                 // Method

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "fem/rigid_modes.h"
+#include "solver/free_rotation.h"
 #include "solver/step_system.h"
 
 namespace mortier {
@@ -47,8 +48,17 @@ std::string StepSystem::looseMotion(const State& state0, const Iterate& solution
   const std::vector<int> slipping = freeAlong(solution);
   for (const int row : slipping) closed.row(row).setZero();
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(closed.transpose() * closed);
-  if (eigen.eigenvalues()[0] > heldFraction * contact_.G.squaredNorm()) return "";
-  const Vector z = eigen.eigenvectors().col(0);
+  const auto loose = (eigen.eigenvalues().array() <= heldFraction * contact_.G.squaredNorm()).count();
+  Eigen::Index which = 0;
+  const auto turns = [&](const Vector& z) {
+    for (size_t b = 0; b < bodies_.size(); ++b)
+      if (const Vector part = motionOf(z, b); part.norm() > negligibleMotion)
+        if (!turnsInItself(model_, static_cast<int>(b), bodies_[b].contact().motions * part)) return false;
+    return true;
+  };
+  while (which < loose && turns(eigen.eigenvectors().col(which))) ++which;
+  if (which == loose) return "";
+  const Vector z = eigen.eigenvectors().col(which);
   // Where some nodes would go on to slip and others back, those stick in the end, whichever way it goes.
   double onwards = 0;
   double back = 0;

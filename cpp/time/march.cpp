@@ -73,6 +73,29 @@ double secondsSince(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
+/// Why the run cannot go on where a node has slid past the end of the line that it touches; empty where none
+/// has.
+std::string followSliding(const Model& model, const State& state, const TimePlan& plan, RunReport& run) {
+  std::string why;
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    const Sliding sliding = slidingOf(model, state, k);
+    run.peaks.sliding.raise(sliding.edges, state.time);
+    const bool allowed = k < plan.slidingAllowed.size() && plan.slidingAllowed[k];
+    if (sliding.past < 0 || allowed || !why.empty()) continue;
+    const ContactPair& pair = model.interfaces[k].pair();
+    const Body& body = model.bodies[pair.nonmortar.body];
+    const Point& at = body.elementNodes().places[sliding.past];
+    std::ostringstream reason;
+    reason << "step " << run.steps << " at t = " << state.time << ": contact of label "
+           << pair.nonmortar.label << " of body " << body.name() << ": the node at (" << at.x() << ", "
+           << at.y() << ") slides by " << sliding.pastBy << ", past the end of label " << pair.mortar.label
+           << " of body " << model.bodies[pair.mortar.body].name()
+           << ", and would go on to touch it: slips are taken as small (contact.sliding = \"allow\" goes on)";
+    why = reason.str();
+  }
+  return why;
+}
+
 /// Steps to the end, or to the first that cannot be taken.
 void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& plan, StepTaker& taker,
         Controller& controller, const Observer& observer) {
@@ -112,10 +135,14 @@ void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& p
     if (report.solutions.listed.size() > 1)
       run.several.push_back({report.step, report.time, report.solutions.listed});
     raise(run.peaks, report);
+    const std::string slid = followSliding(model, state, plan, run);
     report.quantities = evaluate(plan.quantities, model, state);
     for (size_t i = 0; i < report.quantities.size(); ++i)
       run.quantities[i].add(report.quantities[i], report.time);
     observer(state, report);
+    if (slid.empty()) continue;
+    run.status = Status::failed;
+    run.reason = slid;
   }
 }
 

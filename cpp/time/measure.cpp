@@ -114,6 +114,18 @@ void raise(Peaks& peaks, const StepReport& report) {
   peaks.energy.raise(report.energy, report.time);
 }
 
+Sliding slidingOf(const Model& model, const State& state, size_t interface) {
+  const ContactInterface& of = model.interfaces[interface];
+  const auto side = [&](const ContactSide& each) {
+    const Body& body = model.bodies[each.body];
+    return ContactMesh{body.mesh(), body.elementNodes()};
+  };
+  const ContactPair& pair = of.pair();
+  return slidingOf(of, side(pair.nonmortar), side(pair.mortar),
+                   state.bodies[pair.nonmortar.body].displacement,
+                   state.bodies[pair.mortar.body].displacement, state.contactForce[interface]);
+}
+
 Point resultant(const Model& model, const State& state, size_t interface) {
   const ContactInterface& of = model.interfaces[interface];
   Point sum = Point::Zero();

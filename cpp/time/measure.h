@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/parallel.h"
+#include "contact/sliding.h"
 #include "solver/iterate.h"
 #include "solver/model.h"
 #include "solver/state.h"
@@ -14,6 +15,9 @@ void measure(const Model& model, const State& state, Threads& threads, StepRepor
 
 /// Raises the peaks of a run to those of a step.
 void raise(Peaks& peaks, const StepReport& report);
+
+/// How far the bodies of an interface have slid along each other.
+Sliding slidingOf(const Model& model, const State& state, size_t interface);
 
 /// Resultant of nodal contact forces on the nonmortar body [N/m].
 Point resultant(const Model& model, const State& state, size_t interface);

@@ -45,6 +45,7 @@ struct QuantityRange {
 /// Of what a StepReport says of the state at its end.
 struct Peaks {
   Peak vonMises, pressure, contactForce, displacement, motion, energy;
+  Peak sliding;  ///< over the edges beside the node (contact/sliding.h)
 };
 
 /// A step of which several solutions were found.

@@ -87,7 +87,7 @@ StepOutcome StepTaker::hold(StepOutcome outcome) {
     outcome.fail(Reason::unconverged, residual);
   const bool asked = outcome.converged() && t1_ > state_.time;
   if (const std::string motion = asked ? system_.looseMotion(state_, solutions_.back()) : ""; !motion.empty())
-    outcome.fail(Reason::unheld, "no contact is closed that would hold " + motion);
+    outcome.fail(Reason::unheld, "no closed contact holds " + motion);
   if (!outcome.converged()) memory_.increments.clear();
   memory_.solver = system_.memory();
   return outcome;

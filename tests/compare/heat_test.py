@@ -206,7 +206,7 @@ class Heat(OfScene):
         self.assertGreater(self.value(self.run_it(free), "pressure"), 0)
         self.write(free.replace("60*t", "-60*t"))
         errors = self.mortier("run", "scene.toml", "--quiet", "--out", "free", code=3).stderr
-        self.assertIn("no contact is closed that would hold body shaft: ", errors)
+        self.assertIn("no closed contact holds body shaft: ", errors)
 
 
 class Distance(OfScene):

@@ -94,9 +94,10 @@ FAULTS = [
      "mortar held", ""),
     ("no conditions at held ends", "coupling", '(variant != "interpolation" || mortarHeld)', "true", "stack",
      "interpolation held", ""),
-    ("given distance not read", "coupling", 'given(c) && variant != "weighted" ? givenGap(c, vn(first + r)) '
-                                            ': R(r, last)', "R(r, last)", "sloped", "parted",
-     "displacement"),
+    ("given distance not read", "coupling", "given(c) > 0 ? givenGap(c, vn(first + r)) : delta", "delta",
+     "sloped", "parted", "displacement"),
+    ("distance projected", "coupling", 'if (variant != "weighted") {', 'if (variant == "interpolation") {',
+     "hertz", "mortar as it stands", "displacement"),
     ("given distance not in the interpenetration", "coupling", "cutGap(cuts) += N1(k)*givenGap(c, node)",
      "cutGap(cuts) += 0*givenGap(c, node)", "sloped", "parted", "interpenetration"),
     ("held points do not move", "supports", "= w[](theirs(pointDof(pointCount)/2))",

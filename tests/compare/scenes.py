@@ -202,6 +202,7 @@ nonmortar = { body = "plate", label = 1 }
 mortar = { body = "upper", label = 3 }
 variant = "weighted"
 shear_limit = 0.5
+sliding = "allow"
 [[quantity]]
 name = "rubbed"
 friction_work = { body = "upper", label = 1 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <iostream>
 #include <random>
 
@@ -198,6 +199,60 @@ TEST(Coupling, quadraticTracesReproduceQuadraticFunctions) {
         const Vector jump = coupling.B * valuesOn(nonmortar, f) - coupling.A * valuesOn(mortar, f);
         ASSERT_LE(jump.cwiseAbs().maxCoeff(), 10 * reproduced) << static_cast<int>(kind) << " " << power;
       }
+  }
+}
+
+/// Distances whose least value is 0: smooth, with kinks, with a step.
+using Drawn = std::function<double(double)>;
+
+std::vector<Drawn> drawnDistances(double at) {
+  return {[at](double s) { return (s - at) * (s - at); },
+          [at](double s) { return std::abs(s - at); },
+          [at](double s) { return std::max(0.0, s - at); },
+          [at](double s) { return s < at         ? 1.0
+                                  : s < at + 0.1 ? 1 - (s - at) / 0.1
+                                                 : 0.0; },
+          [at](double s) { return 1 - std::cos(40 * (s - at)); },
+          [at](double s) { return std::min(1.0, 30 * std::abs(s - at)); }};
+}
+
+Vector distancesOf(CouplingKind kind, const Trace& nonmortar, const Trace& mortar, int degree,
+                   const Drawn& drawn) {
+  return couple(kind, straightPart(nonmortar, degree), straightFacing(mortar, degree),
+                [&](int, double s, const Sight&) { return drawn(s); })
+      .distance;
+}
+
+// Bodies that only touch do not press each other, whatever they look like: no row has a distance below the
+// least one that its row function sees. The L2 projection of a convex distance would.
+TEST(Coupling, noDistanceIsBelowTheLeastThatItsFunctionSees) {
+  std::mt19937 random(11);
+  std::uniform_int_distribution<int> elements(1, 30);
+  std::uniform_real_distribution<double> place(0, 1);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Trace nonmortar = randomTrace(random, elements(random), 0, 1, 10);
+    const Trace mortar = randomTrace(random, elements(random), -0.1, 1.1, 10);
+    for (const Drawn& drawn :
+         drawnDistances(trial % 2 == 0 ? nonmortar[nonmortar.size() / 2] : place(random)))
+      for (const CouplingKind kind :
+           {CouplingKind::interpolation, CouplingKind::mortar, CouplingKind::weighted})
+        for (const int degree : {1, 2})
+          ASSERT_GE(distancesOf(kind, nonmortar, mortar, degree, drawn).minCoeff(), 0)
+              << static_cast<int>(kind) << ", degree " << degree;
+  }
+}
+
+// ... while the distances of bodies that are drawn into each other, and linear ones, are what they are.
+TEST(Coupling, linearDistancesAreKept) {
+  std::mt19937 random(12);
+  std::uniform_int_distribution<int> elements(1, 30);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Trace nonmortar = randomTrace(random, elements(random), 0, 1, 100);
+    const Trace mortar = randomTrace(random, elements(random), 0, 1, 100);
+    for (const CouplingKind kind : kinds) {
+      const Vector distance = distancesOf(kind, nonmortar, mortar, 1, [](double s) { return 0.25 - s; });
+      ASSERT_LE((distance.array() - 0.25 + asVector(nonmortar).array()).abs().maxCoeff(), reproduced);
+    }
   }
 }
 

@@ -62,8 +62,10 @@ class MemoryNeed(InFolder):
 
     def test_two_dofs_a_node(self):
         # On a ring no line is parallel to an axis: both components of its nodes take part.
-        self.mortier("mesh", "annulus", "--cells", "700,8", "--inner", "1", "--outer", "1.01", "upper.mesh")
-        self.mortier("mesh", "annulus", "--cells", "630,8", "--inner", "0.99", "--outer", "1", "lower.mesh")
+        self.mortier("mesh", "annulus", "--cut", "rising", "--cells", "700,8", "--inner", "1",
+                     "--outer", "1.01", "upper.mesh")
+        self.mortier("mesh", "annulus", "--cut", "rising", "--cells", "630,8", "--inner", "0.99",
+                     "--outer", "1", "lower.mesh")
         loads = re.compile(r"(?<=young = 1e3, poisson = 0.3 }\n)boundary = .*label = 3.*")
         scene = loads.sub('boundary = [ { label = 2, pressure = "t", ut = 0 } ]', SCENE, 1)
         self.write(scene.replace("label = 3", "label = 2"))

@@ -15,9 +15,9 @@ class MeshCommand(OfTwoBlocks):
                  [1, 2, 3, 4]),
                 (["quadrilateral", "--cells", "3,2", "--corners", "0,0", "48,44", "48,60", "0,44"], 12,
                  [1, 2, 3, 4]),
-                (["annulus", "--cells", "8,2", "--span", "half", "--inner", "0.5", "--centre", "1,0"], 32,
+                (["annulus", "--cells", "8,2", "--span", "half", "--inner", "0.5", "--centre", "1,0"], 64,
                  [1, 2, 3, 4]),
-                (["annulus", "--cells", "8,2"], 32, [1, 2]),
+                (["annulus", "--cells", "8,2", "--cut", "rising"], 32, [1, 2]),
                 (["halfdisc", "--cells", "3", "--radius", "50", "--core", "10", "--lowest", "0,1"],
                  4 * (2 * 9 + 12 * 6), [1, 2, 3])]:
             with self.subTest(arguments=arguments):

@@ -53,6 +53,46 @@ def _(case):
     case.lower.move(lambda x, y: (x, y - 5))
 
 
+@fault("contact-slides", "[contact]")
+def _(case):
+    case.replace("label = 4\nux = 0\n[[body.boundary]]\nlabel = 3", 'label = 4\nux = "0.15*t"\n'
+                 "[[body.boundary]]\nlabel = 3")
+
+
+# A ring between two blocks, held by a point that it may turn about its centre with.
+ROLLER = """\
+[[body]]
+name = "roller"
+mesh = { shape = "annulus", centre = [0, 1], inner = 0.5, outer = 1, cells = [32, 4] }
+material = { young = 1e3, poisson = 0.3 }
+point = [ { at = [0.5, 1], ux = 0 } ]
+[[body]]
+name = "table"
+mesh = { shape = "rectangle", lower = [-1, -1], upper = [1, 0], cells = [16, 6] }
+material = { young = 1e3, poisson = 0.3 }
+boundary = [ { label = 1, ux = 0, uy = 0 } ]
+[[body]]
+name = "plate"
+mesh = { shape = "rectangle", lower = [-1, 2], upper = [1, 2.5], cells = [16, 4] }
+material = { young = 1e3, poisson = 0.3 }
+boundary = [ { label = 3, ux = 0, uy = "-1e-3*t" } ]
+[[contact]]
+nonmortar = { body = "table", label = 3 }
+mortar = { body = "roller", label = 2 }
+[[contact]]
+nonmortar = { body = "plate", label = 1 }
+mortar = { body = "roller", label = 2 }
+[time]
+end = 1
+steps = 1
+"""
+
+
+@fault("free-rotation", "scene.toml:1")
+def _(case):
+    case.scene = ROLLER
+
+
 @fault("contact-side-twice", "mortar = { body = \"upper\", label = 1 }\nnonmortar")
 def _(case):
     case.third = Mesh(1.5, -1, 2.5, 0, 8, 8)

@@ -1,0 +1,22 @@
+// Rollers: bodies whose contact nodes lie on circles about one centre. Without friction no contact holds them
+// against turning about it, whatever nodes near a flat side seem to resist, and nothing else depends on that
+// motion.
+#pragma once
+
+#include <optional>
+
+#include "solver/model.h"
+
+namespace mortier {
+
+/// The centre of the circles; none where the contact nodes of the body are on none, or where there is
+/// friction.
+std::optional<Point> centreOfRoller(const Model& model, int body);
+
+/// The same where the supports leave the rotation about it free, too.
+std::optional<Point> freeRotation(const Model& model, int body);
+
+/// Whether a rigid motion (by dofs) is such a rotation.
+bool turnsInItself(const Model& model, int body, const Vector& motion);
+
+}  // namespace mortier
