@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bound/admissible.h"
+#include "bound/quantity_bound.h"
 
 namespace mortier {
 
@@ -14,14 +15,15 @@ double EnergyBound::relative() const {
 
 namespace {
 
-EnergyBound boundOf(const Model& model, const State& state, const std::vector<Functional>& functionals) {
+EnergyBound boundOf(const Model& model, const State& state, const std::vector<Functional>& functionals,
+                    const std::vector<Function>& gaps) {
   EnergyBound result;
   for (const Body& body : model.bodies)
     if (body.degree() == 1 && !body.material().linear()) {
       result.obstacle = body.name() + " is viscoplastic";
       return result;
     }
-  const Admissible pair(model, state);
+  const Admissible pair(model, state, gaps);
   result.obstacle = pair.obstacle;
   result.imbalance = pair.strictness.imbalance;
   result.mismatch = pair.strictness.mismatch;
@@ -29,27 +31,37 @@ EnergyBound boundOf(const Model& model, const State& state, const std::vector<Fu
   if (!result.obstacle.empty()) return result;
   double stress = 0;
   double norm = 0;
-  for (const LoadedBody& body : pair.bodies) {
-    stress += body.energies().sum();
+  double lifts = 0;
+  double data = 0;
+  // With what the data leave in a triangle: by Minkowski's inequality.
+  const auto squares = [](const Vector& energies, const Vector& rest) {
+    return (energies.cwiseMax(0).cwiseSqrt() + rest).squaredNorm();
+  };
+  for (size_t b = 0; b < pair.bodies.size(); ++b) {
+    const LoadedBody& body = pair.bodies[b];
+    const BodyData& rest = body.data();
+    stress += squares(body.energies(), rest.carried);
+    lifts += squares(pair.lifting.energies[b], rest.strained);
+    data += rest.carried.squaredNorm() + rest.strained.squaredNorm();
     norm += body.norm();
   }
-  double lifts = 0;
-  for (const Vector& energies : pair.lifting.energies) lifts += energies.sum();
-  result.stress = std::sqrt(stress);
+  result.stress = std::sqrt(stress) + pair.defect;
   result.lift = std::sqrt(lifts);
   result.gap = pair.lifting.gap;
   result.leastGap = pair.lifting.leastGap;
   result.norm = std::sqrt(norm);
-  result.oscillation = pair.oscillation.relative();
-  result.bound = std::sqrt(stress + lifts + 2 * pair.lifting.gap);
-  result.quantities = enclose({model, pair.meshes, pair.bodies, pair.spread, pair.lifting}, functionals);
+  result.oscillation = norm > 0 ? std::sqrt(data / norm) : 0;
+  result.bound = std::sqrt(result.stress * result.stress + lifts + 2 * pair.lifting.gap);
+  result.quantities =
+      enclose({model, pair.meshes, pair.bodies, pair.spread, pair.lifting, pair.opens}, functionals);
   return result;
 }
 
 }  // namespace
 
-EnergyBound energyBound(const Model& model, const State& state, const std::vector<Functional>& functionals) {
-  EnergyBound result = boundOf(model, state, functionals);
+EnergyBound energyBound(const Model& model, const State& state, const std::vector<Functional>& functionals,
+                        const std::vector<Function>& gaps) {
+  EnergyBound result = boundOf(model, state, functionals, gaps);
   if (!result.obstacle.empty()) result.quantities.assign(functionals.size(), {result.obstacle});
   return result;
 }

@@ -40,7 +40,7 @@ struct FlowBound {
   double factor = 1;      ///< of both, whatever contact does; infinite where there is no such bound
   double strainNorm = 0;  ///< ||eps_p,h|| [m]
   double stressNorm = 0;  ///< |s| [sqrt(J/m)]
-  double data = 0;        ///< how far loads and supports are from linear in a step, over the largest [-]
+  double data = 0;        ///< how far loads and supports are from linear in a step: rounding [-]
 };
 
 /// How the steps are made.
@@ -55,21 +55,26 @@ class FlowBoundRecord {
   /// Whether any body flows.
   static bool applies(const Model& model);
   /// \param memory  of an earlier part of the run, which ended in the state; kept up to date
-  FlowBoundRecord(const Model& model, Steps steps, const State& state, FlowBoundMemory& memory);
+  /// \param gaps  as those of energyBound()
+  FlowBoundRecord(const Model& model, Steps steps, const State& state, FlowBoundMemory& memory,
+                  std::vector<Function> gaps = {});
   /// The state at the end of a step; that of step 0 begins anew.
   void add(const State& state, const StepReport& report);
   [[nodiscard]] FlowBound atEnd(const State& state) const;
 
  private:
+  void addStep(const State& state, const StepReport& report);
   void begin(const State& state);
   void keep(const State& state);
   [[nodiscard]] double misfitTo(const State& state) const;
   void addContact(const State& state);
   void addData(double t);
+  [[nodiscard]] std::string curvedIn(double t0, double t1) const;
 
   const Model& model_;
   Steps steps_;
   FlowBoundMemory& memory_;
+  std::vector<Function> gaps_;
   State before_;                     ///< without displacements
   std::vector<double> viscosities_;  ///< lambda, the least of each body; 0 where none flows [Pa s]
   double rounding_ = 0;              ///< a gap that coordinates leave [m]

@@ -8,11 +8,12 @@
 
 namespace mortier {
 
-StepBound stepBound(const Model& model, const State& state, double weight) {
+StepBound stepBound(const Model& model, const State& state, double weight,
+                    const std::vector<Function>& gaps) {
   StepBound result;
   result.obstacle = FlowPotential::obstacleOf(model);
   if (!result.obstacle.empty()) return result;
-  const Admissible pair(model, state, weight);
+  const Admissible pair(model, state, gaps, weight);
   result.obstacle = pair.obstacle;
   if (!result.obstacle.empty()) return result;
   FlowMisfit all;
@@ -42,7 +43,6 @@ StepBound stepBound(const Model& model, const State& state, double weight) {
   result.bound = std::sqrt(all.stress + all.flow + all.lift + 2 * pair.lifting.gap);
   result.strain = std::sqrt(weight * all.fluidity) * result.bound + std::sqrt(all.shift);
   result.strainNorm = std::sqrt(all.strain);
-  result.oscillation = pair.oscillation.relative();
   return result;
 }
 

@@ -1,4 +1,4 @@
-#include "bound/total_bound.h"
+#include "bound/total_bound_record.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,8 @@
 #include <new>
 #include <utility>
 
+#include "base/interrupt.h"
+#include "bound/bound_failure.h"
 #include "bound/flow_potential.h"
 #include "bound/pressures.h"
 
@@ -33,8 +35,9 @@ std::string inStep(int number) {
 
 }  // namespace
 
-TotalBoundRecord::TotalBoundRecord(const Model& model, const State& state, TotalBoundMemory& memory)
-    : model_(model), memory_(memory), first_(state) {
+TotalBoundRecord::TotalBoundRecord(const Model& model, const State& state, TotalBoundMemory& memory,
+                                   std::vector<Function> gaps)
+    : model_(model), memory_(memory), gaps_(std::move(gaps)), first_(state) {
   for (const Body& body : model.bodies) {
     bodies_.emplace_back(body);
     for (const Point& x : body.mesh().vertices) extent_ = std::max(extent_, x.cwiseAbs().maxCoeff());
@@ -87,7 +90,7 @@ TotalBoundRecord::Moment TotalBoundRecord::begin(const State& state, TotalBoundM
     memory.any.growth = model_.interfaces.empty() ? 1 : 0;
     return rest(state, memory);
   }
-  const Admissible pair(model_, state);
+  const Admissible pair(model_, state, gaps_);
   memory.obstacle = pair.obstacle;
   if (!memory.obstacle.empty()) return {};
   Moment moment{state, {}, contactOf(pair), pair.spread};
@@ -96,7 +99,6 @@ TotalBoundRecord::Moment TotalBoundRecord::begin(const State& state, TotalBoundM
     memory.fixed.misfit += bodies_[b].misfit(moment.bodies[b], pair.bodies[b]) / 2;
   }
   memory.any.misfit = memory.fixed.misfit + pair.lifting.gap;
-  memory.oscillation = pair.oscillation.relative();
   return moment;
 }
 
@@ -164,7 +166,7 @@ TotalBoundRecord::Moment TotalBoundRecord::step(const State& state, int number,
   }
   const double timeStep = state.time - now_->state.time;
   memory.earlier = {};
-  auto found = std::make_unique<const Admissible>(model_, state, weightAt(state.time));
+  auto found = std::make_unique<const Admissible>(model_, state, gaps_, weightAt(state.time));
   memory.obstacle = found->obstacle;
   if (!memory.obstacle.empty()) {
     memory.obstacle += inStep(number);
@@ -178,7 +180,8 @@ TotalBoundRecord::Moment TotalBoundRecord::step(const State& state, int number,
       (closes(moment.contact) || pressesAnew(moment.contact))) {
     for (const Contact& each : now_->contact) memory.earlier.gaps.push_back(each.gap);
     memory.earlier.pressures = now_->pressures;
-    auto other = std::make_unique<const Admissible>(model_, state, weightAt(state.time), memory.earlier);
+    auto other =
+        std::make_unique<const Admissible>(model_, state, gaps_, weightAt(state.time), memory.earlier);
     if (other->obstacle.empty()) {
       found = std::move(other);
       moment.contact = contactOf(*found);
@@ -225,7 +228,6 @@ TotalBoundRecord::Moment TotalBoundRecord::step(const State& state, int number,
     memory.closes = "bodies flow in the first step";
   if (!memory.moved.empty() && !memory.closes.empty())
     memory.obstacle = memory.moved == memory.closes ? memory.moved : memory.moved + ", " + memory.closes;
-  memory.oscillation = std::max(memory.oscillation, pair.oscillation.relative());
   return moment;
 }
 
@@ -236,7 +238,7 @@ void TotalBoundRecord::goOn() {
     now_ = begin(first_, memory);
     return;
   }
-  const Admissible pair(model_, first_, weightAt(first_.time), memory_.earlier);
+  const Admissible pair(model_, first_, gaps_, weightAt(first_.time), memory_.earlier);
   now_ = {first_, {}, contactOf(pair), pair.spread};
   for (size_t b = 0; b < bodies_.size(); ++b) {
     now_->bodies.push_back(bodies_[b].fields(first_.bodies[b], pair.bodies[b], pair.lifting.displacements[b],
@@ -252,9 +254,16 @@ void TotalBoundRecord::look(const State& state, int number) {
   try {
     if (number > 0 && !now_) goOn();
     next_ = number == 0 ? begin(state, nextMemory_) : step(state, number, nextMemory_);
-  } catch (const std::bad_alloc&) {
-    nextMemory_.obstacle = "there is no memory for it";
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::exception& error) {
+    nextMemory_.obstacle = reasonOf(error);
   }
+  const auto lost = [](const ErrorCourse& course) {
+    return std::isnan(course.misfit) || std::isnan(course.drift) || std::isnan(course.growth);
+  };
+  if (nextMemory_.obstacle.empty() && (lost(nextMemory_.fixed) || lost(nextMemory_.any)))
+    nextMemory_.obstacle = "it is not finite" + inStep(number);
 }
 
 void TotalBoundRecord::add(const std::string& obstacle) {
@@ -273,7 +282,6 @@ TotalBound TotalBoundRecord::atEnd(const State& state, const FlowBound& steps) c
   if (!result.obstacle.empty()) return result;
   result.moved = memory_.moved;
   result.closes = memory_.closes;
-  result.oscillation = memory_.oscillation;
   result.data = steps.data;
   result.strainNorm = steps.strainNorm;
   result.stressNorm = steps.stressNorm;

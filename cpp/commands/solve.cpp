@@ -6,6 +6,8 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/ranks.h"
+#include "bound/total_bound_record.h"
+#include "commands/bound_of.h"
 #include "report/checkpoint_files.h"
 #include "report/clock.h"
 #include "solver/threads_for.h"
@@ -94,8 +96,8 @@ Solved solve(Solving solving) {
   std::optional<TotalBoundRecord> total;
   if (scene.accuracy.bound && FlowBoundRecord::applies(model)) {
     flow.emplace(model, Steps{scene.time.scheme == Scheme::backwardEuler, scene.time.controlled()}, state,
-                 accuracySoFar.flow);
-    total.emplace(model, state, accuracySoFar.total);
+                 accuracySoFar.flow, gapsOf(scene));
+    total.emplace(model, state, accuracySoFar.total, gapsOf(scene));
   }
 
   Threads threads(threadsFor(model, facts.threads));
@@ -198,8 +200,8 @@ Solved solve(Solving solving) {
   solved.files = files->close(state, last.step);
   solved.accuracy = accuracies.atEnd(report.peaks);
   if (flow) {
-    solved.accuracy.flow = flow->atEnd(state);
-    solved.accuracy.total = total->atEnd(state, *solved.accuracy.flow);
+    solved.accuracy.flow = flowBoundOf(*flow, state);
+    solved.accuracy.total = totalBoundOf(*total, state, *solved.accuracy.flow);
   }
   return solved;
 }

@@ -10,6 +10,7 @@
 
 #include "base/datum_error.h"
 #include "scene/document.h"
+#include "scene/enclosed_formula.h"
 #include "scene/finite_value.h"
 
 namespace mortier {
@@ -158,9 +159,11 @@ Expression parseExpression(const std::string& text, std::string where) {
 }
 
 Function finiteValue(const Expression& expression) {
-  return [value = expression.value, where = expression.where](double x, double y, double t) {
+  const auto value = [value = expression.value, where = expression.where](double x, double y, double t) {
     return finite(value(x, y, t), where, x, y, t);
   };
+  return KnownFunction{value, [text = expression.text] { return enclosed(text); }, expression.constant,
+                       expression.inTime};
 }
 
 void requireFinite(const Expression& expression, const std::vector<Point>& points,

@@ -81,6 +81,10 @@ class Formulas {
     double number = 0;           ///< of a constant; of a power whose exponent is one
   };
 
+  /// In the order in which they are to be done; the number of the one that is result i.
+  [[nodiscard]] const std::vector<Operation>& operations() const { return operations_; }
+  [[nodiscard]] int result(size_t i) const { return results_[i]; }
+
  private:
   friend class FormulaReader;
   /// The number of this operation, or of the same one before, or of the constant that it is.
