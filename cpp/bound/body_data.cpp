@@ -77,12 +77,17 @@ double diameter(const std::array<Point, 3>& x) {
 double carriesForce(const std::array<Point, 3>& x, const Eigen::Matrix3d& compliance) {
   return diameter(x) / std::numbers::pi * std::sqrt(korn(x) * largestEigenvalue(compliance));
 }
-/// The same of a traction on a side.
-double carriesTraction(const Fan& fan, const Eigen::Matrix3d& compliance) {
-  const double poincare = diameter(fan.corners()) / std::numbers::pi;
-  const double reach = std::max((fan.p - fan.c).norm(), (fan.q - fan.c).norm());
-  return std::sqrt(2 / fan.height() * poincare * (poincare + reach) * korn(fan.corners()) *
-                   largestEigenvalue(compliance));
+/// The same of a traction on a side, in the best of some triangles over it inside of this one.
+double carriesTraction(Fan fan, const Eigen::Matrix3d& compliance) {
+  const Point middle = (fan.p + fan.q) / 2;
+  double least = infinity;
+  do {
+    const double poincare = diameter(fan.corners()) / std::numbers::pi;
+    const double reach = std::max((fan.p - fan.c).norm(), (fan.q - fan.c).norm());
+    least = std::min(least, 2 / fan.height() * poincare * (poincare + reach) * korn(fan.corners()));
+    fan.c = (fan.c + middle) / 2;
+  } while (4 * fan.height() > fan.length());
+  return std::sqrt(least * largestEigenvalue(compliance));
 }
 
 class Reading {

@@ -9,11 +9,23 @@
 namespace mortier {
 
 double EnergyBound::relative() const {
+  if (obstacle.empty() && bound == 0) return 0;
   if (!obstacle.empty() || !(bound < norm)) return std::numeric_limits<double>::infinity();
   return bound / (norm - bound);
 }
 
 namespace {
+
+/// |s|^2 of the stresses that roundings of the displacements make [J/m].
+double roundingOf(const LoadedBody& body) {
+  constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();
+  const double moved = body.lifted().displacement.lpNorm<Eigen::Infinity>();
+  const double strain = roundings * moved * body.body().largestGradient();
+  double sum = 0;
+  for (size_t t = 0; t < body.parents().size(); ++t)
+    sum += body.body().weights()[t] * strain * strain * body.lifted().moduli[t].norm();
+  return sum;
+}
 
 EnergyBound boundOf(const Model& model, const State& state, const std::vector<Functional>& functionals,
                     const std::vector<Function>& gaps) {
@@ -52,6 +64,9 @@ EnergyBound boundOf(const Model& model, const State& state, const std::vector<Fu
   result.norm = std::sqrt(norm);
   result.oscillation = norm > 0 ? std::sqrt(data / norm) : 0;
   result.bound = std::sqrt(result.stress * result.stress + lifts + 2 * pair.lifting.gap);
+  double rounding = 0;
+  for (const LoadedBody& body : pair.bodies) rounding += roundingOf(body);
+  if (result.bound * result.bound <= rounding) result.bound = result.stress = result.lift = result.gap = 0;
   result.quantities =
       enclose({model, pair.meshes, pair.bodies, pair.spread, pair.lifting, pair.opens}, functionals);
   return result;

@@ -108,31 +108,27 @@ class Resolving {
   double t_;
 };
 
-/// Halves the pieces that weigh most until the weights of all sum to less than `enough()`.
+/// Halves the pieces that weigh most until the weights of all sum to no more than `enough()`.
 template <class Weight, class Enough>
 void refine(const Resolving& function, std::vector<Piece>& pieces, Weight weight, Enough enough) {
   std::priority_queue<std::pair<double, size_t>> worst;
-  double sum = 0;
-  int endless = 0;
-  const auto count = [&](size_t i, int sign) {
-    const double by = weight(pieces[i]);
-    if (std::isfinite(by))
-      sum += sign * by;
-    else
-      endless += sign;
-    if (sign > 0) worst.push({by, i});
+  for (size_t i = 0; i < pieces.size(); ++i) worst.push({weight(pieces[i]), i});
+  const auto sum = [&] {
+    double all = 0;
+    for (const Piece& piece : pieces) all += weight(piece);
+    return all;
   };
-  for (size_t i = 0; i < pieces.size(); ++i) count(i, 1);
-  while (pieces.size() < budget && !worst.empty() && (endless > 0 || !(sum <= enough()))) {
+  for (int round = 0; !worst.empty() && pieces.size() < budget; ++round) {
+    constexpr int often = 8;
+    if (round % often == 0 && sum() <= enough()) return;
     const size_t i = worst.top().second;
     worst.pop();
     if (pieces[i].width() < narrowest) continue;
-    count(i, -1);
     const double middle = (pieces[i].begin + pieces[i].end) / 2;
     pieces.push_back(function.piece(middle, pieces[i].end));
     pieces[i] = function.piece(pieces[i].begin, middle);
-    count(i, 1);
-    count(pieces.size() - 1, 1);
+    worst.push({weight(pieces[i]), i});
+    worst.push({weight(pieces.back()), pieces.size() - 1});
   }
 }
 
@@ -146,7 +142,11 @@ SideDatum onSide(const Function& datum, const Point& first, const Point& last, d
   const auto* known = datum.target<KnownFunction>();
   if (known != nullptr && known->constant) {
     const double value = datum(first.x(), first.y(), t);
-    return {{value, value}, {value / 2, value / 2}, 0, std::abs(value)};
+    SideDatum result;
+    result.ends = {value, value};
+    result.moments = {value / 2, value / 2};
+    result.size = std::abs(value);
+    return result;
   }
   const Resolving function(datum, known != nullptr && known->along ? known->along() : KnownFunction::Along(),
                            first, last, t);
