@@ -2,8 +2,10 @@
 // seen where it cannot vary within an element, and where a narrow peak of it may be.
 #pragma once
 
+#include <functional>
 #include <utility>
 
+#include "base/taylor.h"
 #include "base/types.h"
 
 namespace mortier {
@@ -19,6 +21,8 @@ struct Box {
 };
 
 struct Datum : Function {
+  /// With x, y and t along a piece of a line.
+  using Along = std::function<Taylor(const Taylor& x, const Taylor& y, const Taylor& t)>;
   static constexpr int anyDegree = 1000;
 
   using Function::Function;
@@ -29,6 +33,10 @@ struct Datum : Function {
   bool inTime = true;      ///< whether it may change in time
   /// Holds all values in a box; empty where nothing is known. Copies are independent.
   std::function<Range(const Box&)> enclosure = {};
+  /// Enclosures along lines; empty where nothing is known. Each call reads the formula anew.
+  std::function<Along()> along = {};
+
+  [[nodiscard]] bool constant() const { return degree == 0 && !inTime; }
 };
 
 }  // namespace mortier

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
 
 #include "bound/pressures.h"
 
@@ -51,14 +54,35 @@ std::string Admissible::construct(const Model& model, const State& state, double
     for (const PrescribedDisplacement& held : body.conditions().displacements)
       if (held.point) return body.name() + " is held at a point";
   }
-  meshes = matchedMeshes(model);
+  const bool flows = std::any_of(model.bodies.begin(), model.bodies.end(),
+                                 [](const Body& body) { return !body.material().linear(); });
+  meshes = matchedMeshes(model, flows ? std::nullopt : std::optional(state.time));
   if (!meshes.obstacle.empty()) return meshes.obstacle;
 
   bodies.reserve(model.bodies.size());
   for (size_t b = 0; b < model.bodies.size(); ++b)
     bodies.emplace_back(model, state, meshes.bodies[b], static_cast<int>(b), weight);
-  for (size_t b = 0; b < bodies.size(); ++b)
-    if (bodies[b].hasCurvedSupport()) return model.bodies[b].name() + " is held along a curve";
+  for (size_t b = 0; b < bodies.size(); ++b) {
+    if (bodies[b].data().curvedSupport) return model.bodies[b].name() + " is held along a curve";
+    if (!bodies[b].data().obstacle.empty()) return bodies[b].data().obstacle;
+    if (beyondLinear.empty()) beyondLinear = bodies[b].data().beyond;
+  }
+  const bool given = std::any_of(model.interfaces.begin(), model.interfaces.end(),
+                                 [](const ContactInterface& each) { return bool(each.given()); });
+  std::vector<SideDatum> distances(given ? meshes.pieces.size() : 0);
+  for (size_t k = 0; k < distances.size(); ++k) {
+    MatchedPiece& piece = meshes.pieces[k];
+    const Datum& gap = model.interfaces[piece.interface].given();
+    if (!gap) continue;
+    const auto& x = bodies[model.interfaces[piece.interface].pair().nonmortar.body].mesh().vertices;
+    distances[k] = onSide(gap, x[piece.vertices[0][0]], x[piece.vertices[0][1]], state.time);
+    if (!distances[k].known || !std::isfinite(distances[k].slope))
+      return "the gap is not known to be continuous";
+    piece.distance = distances[k].ends;
+    if (!distances[k].linear() && beyondLinear.empty())
+      beyondLinear = "the gap is not linear on pieces of the contact line";
+  }
+  if (flows && !beyondLinear.empty()) return beyondLinear;
 
   spread = spreadPressures(model, state, meshes);
   if (!fits(earlier, meshes, spread)) return "contact of the step before is of other meshes";
@@ -83,15 +107,14 @@ std::string Admissible::construct(const Model& model, const State& state, double
     const auto [worst, size] = body.imbalance();
     strictness.imbalance = std::max(strictness.imbalance, worst);
     largest = std::max(largest, size);
-    oscillation.add(body.oscillation());
     lifted.push_back(body.lifted());
   }
   for (const MatchedPiece& piece : meshes.pieces) {
     const auto& [nonmortar, mortar, coupling] = model.interfaces[piece.interface].pair();
     strictness.mismatch =
         std::max(strictness.mismatch, mismatchOf(piece, pressures[&piece - meshes.pieces.data()],
-                                                 bodies[nonmortar.body].momentsBetween(piece.vertices[0]),
-                                                 bodies[mortar.body].momentsBetween(piece.vertices[1])));
+                                                 bodies[nonmortar.body].asPressed(piece.vertices[0]),
+                                                 bodies[mortar.body].asPressed(piece.vertices[1])));
   }
   if (largest > 0) {
     strictness.imbalance /= largest;
@@ -101,7 +124,60 @@ std::string Admissible::construct(const Model& model, const State& state, double
   lifting = lift(lifted, model, meshes.pieces, pressures, earlier.gaps);
   if (!lifting.obstacle.empty()) return lifting.obstacle;
   strictness.leastGap = leastGapOf(model, meshes.pieces, lifting.displacements);
-  return strictness.broken();
+  if (!strictness.broken().empty()) return strictness.broken();
+  addDefect();
+  return moveGaps(model, distances);
+}
+
+/// Where the gap is not linear on a piece one of the bodies takes up the rest, unless nothing presses there
+/// and the piece stays open without.
+std::string Admissible::moveGaps(const Model& model, const std::vector<SideDatum>& distances) {
+  for (size_t k = 0; k < distances.size(); ++k) {
+    if (distances[k].linear()) continue;
+    const MatchedPiece& piece = meshes.pieces[k];
+    const auto [first, last] = lifting.facingOfPiece[k];
+    const auto pressure = pressureOn(piece, spread);
+    const double gap = std::min(lifting.facing[first].gap, lifting.facing[last].gap);
+    if (std::max(pressure[0], pressure[1]) == 0 && gap > 0 && -distances[k].least <= gap / 2) {
+      opens = std::min(opens, 1 + distances[k].least / gap);
+      continue;
+    }
+    const auto& [nonmortar, mortar, coupling] = model.interfaces[piece.interface].pair();
+    const std::array<int, 2> sides{nonmortar.body, mortar.body};
+    const std::array<Point, 2> along{piece.normal, -piece.normal};
+    int best = -1;
+    double least = std::numeric_limits<double>::infinity();
+    for (int side = 0; side < 2; ++side) {
+      const LoadedBody& body = bodies[sides[side]];
+      if (!body.isFree(piece.vertices[side])) continue;
+      const double energy = body.movedEnergy(piece.vertices[side], along[side], distances[k]);
+      if (energy < least) best = side;
+      least = std::min(least, energy);
+    }
+    if (best < 0) return "supports hold both sides where the gap is not linear";
+    bodies[sides[best]].move(piece.vertices[best], along[best], distances[k]);
+  }
+  return "";
+}
+
+/// Forces that rounding leaves in triangles, and at contact lines whose points are not quite the same: each
+/// is carried by a body as compliant as the run's loads show.
+void Admissible::addDefect() {
+  double left = 0;
+  double moved = 0;
+  double force = 0;
+  double triangles = 0;
+  for (size_t b = 0; b < bodies.size(); ++b) {
+    left = std::max(left, bodies[b].imbalance().worst);
+    moved = std::max(moved, bodies[b].lifted().displacement.lpNorm<Eigen::Infinity>());
+    force = std::max(force, bodies[b].imbalance().largest);
+    triangles += static_cast<double>(bodies[b].mesh().triangles.size());
+  }
+  double pressed = 0;
+  for (const Vector& each : spread) pressed = std::max(pressed, each.size() > 0 ? each.maxCoeff() : 0);
+  const double all =
+      std::sqrt(triangles) * left + static_cast<double>(meshes.pieces.size()) * meshes.apart * pressed;
+  if (force > 0) defect = all * std::sqrt(moved / force);
 }
 
 }  // namespace mortier

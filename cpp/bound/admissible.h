@@ -8,18 +8,12 @@
 #include <vector>
 
 #include "bound/checks.h"
+#include "bound/earlier_contact.h"
 #include "bound/lift.h"
 #include "bound/loaded_body.h"
 #include "bound/matched_meshes.h"
 
 namespace mortier {
-
-/// Contact at an earlier time, which has to go on: no gap may be smaller, nothing may press that did not.
-/// Empty where it need not.
-struct EarlierContact {
-  std::vector<std::array<double, 2>> gaps;  ///< at begin and end of each piece [m]
-  std::vector<Vector> pressures;            ///< coefficients of p^
-};
 
 /// Its members refer to each other.
 struct Admissible {
@@ -29,7 +23,9 @@ struct Admissible {
   std::vector<Vector> spread;      ///< coefficients of p^ (pressures.h)
   Lift lifting;                    ///< u^
   Strictness strictness;
-  DataOscillation oscillation;
+  std::string beyondLinear;  ///< the first of the data that is not linear on sides, or constant on triangles
+  double opens = 1;          ///< G of u^ is at least this part of the linear one
+  double defect = 0;  ///< bound of the energy norm of stresses that carry what rounding leaves [sqrt(J/m)]
 
   /// \param weight  time step times the scheme's diagonal coefficient, of bodies that flow [s]
   /// \throws Interrupted
@@ -39,6 +35,8 @@ struct Admissible {
 
  private:
   std::string construct(const Model& model, const State& state, double weight, const EarlierContact& earlier);
+  std::string moveGaps(const Model& model, const std::vector<SideDatum>& distances);
+  void addDefect();
 };
 
 }  // namespace mortier

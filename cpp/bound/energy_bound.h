@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "bound/quantity_bound.h"
+#include "bound/functional.h"
 #include "solver/model.h"
 #include "solver/state.h"
 
@@ -27,8 +27,7 @@ struct EnergyBound {
   double lift = 0;    ///< |E eps(u^) - s|
   double gap = 0;     ///< integral of p^ G(u^) [J/m]
   double norm = 0;    ///< |s| [sqrt(J/m)]
-  /// Norm of what tractions and body forces are beside linear functions on sides and constants on triangles,
-  /// over all of them [-]: with data that are not, the bound is one for data that are nearest.
+  /// What data that are not linear on sides, or constant on triangles, have in the bound, over the norm [-].
   double oscillation = 0;
   /// What makes the bound strict, to rounding: the largest force that is left over in a triangle, and the
   /// largest shear or difference of normal tractions of a contact side, over the largest moment of a side

@@ -1,10 +1,14 @@
 #include "bound/flow_bound.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
-#include "base/datum_error.h"
+#include "base/datum.h"
+#include "base/interrupt.h"
+#include "bound/bound_failure.h"
 #include "bound/flow_potential.h"
 
 namespace mortier {
@@ -20,6 +24,28 @@ std::string obstacleOf(const Model& model, const Steps& steps) {
 
 double largestOf(const Vector& v) {
   return v.size() == 0 ? 0 : v.cwiseAbs().maxCoeff();
+}
+
+/// Whether a datum is linear in time between two times, anywhere in a box.
+bool isLinearInTime(const Datum& datum, const Point& least, const Point& largest, double t0, double t1) {
+  constexpr double rounding = 1e-12;  // over the values; of the step: a kink at its end is none in it
+  if (!datum.inTime) return true;
+  const double k = t1 - t0;
+  // At both ends, and where no formula is known at a few times: at corners.
+  for (const Point& x : {least, largest, Point(least.x(), largest.y()), Point(largest.x(), least.y())}) {
+    const std::array ends{datum(x.x(), x.y(), t0), datum(x.x(), x.y(), t1)};
+    for (const double part : {0.25, 0.5, 0.75}) {
+      const double value = datum(x.x(), x.y(), t0 + part * k);
+      const double size = std::max({std::abs(ends[0]), std::abs(ends[1]), std::abs(value)});
+      if (!(std::abs(value - (1 - part) * ends[0] - part * ends[1]) <= 100 * rounding * size)) return false;
+    }
+  }
+  const Datum::Along along = datum.along ? datum.along() : Datum::Along();
+  if (!along) return true;
+  const Taylor f =
+      along(Taylor::constant({least.x(), largest.x()}), Taylor::constant({least.y(), largest.y()}),
+            Taylor::linear(t0, 1, {rounding * k, (1 - rounding) * k}));
+  return k * k * f.c[2].magnitude() <= rounding * f.c[0].magnitude();
 }
 
 /// Of the forces that no support takes up, over the largest.
@@ -137,6 +163,8 @@ void FlowBoundRecord::addData(double t) {
     all = std::max({all, largestOf(a), largestOf(m), largestOf(b)});
     off = std::max(off, largestOf(m - (a + b) / 2));
   };
+  if (const std::string curved = curvedIn(before_.time, t); !curved.empty())
+    memory_.obstacle = curved + " is not linear in time within a step";
   for (const Body& body : model_.bodies) {
     compare(body.load(before_.time), body.load(middle), body.load(t), memory_.load, memory_.loadOff);
     const auto prescribed = [&](double when) {
@@ -148,20 +176,53 @@ void FlowBoundRecord::addData(double t) {
   }
 }
 
+/// The first of the data that is not known to be linear in time between two times; empty where all are.
+std::string FlowBoundRecord::curvedIn(double t0, double t1) const {
+  for (const Body& body : model_.bodies) {
+    const std::vector<Point>& x = body.mesh().vertices;
+    Point least = x.front();
+    Point largest = x.front();
+    for (const Point& each : x) {
+      least = least.cwiseMin(each);
+      largest = largest.cwiseMax(each);
+    }
+    const auto curved = [&](const Datum& value) { return !isLinearInTime(value, least, largest, t0, t1); };
+    const Conditions& conditions = body.conditions();
+    for (const PrescribedDisplacement& held : conditions.displacements)
+      if (curved(held.value)) return "a displacement prescribed of " + body.name();
+    for (const Traction& traction : conditions.tractions)
+      if (curved(traction.value))
+        return "the traction on label " + std::to_string(traction.label) + " of " + body.name();
+    for (const BodyForce& force : conditions.forces)
+      if (curved(force.value)) return "the body force of " + body.name();
+    if (body.heated() && curved(conditions.temperature)) return "the temperature of " + body.name();
+    for (const ContactInterface& interface : model_.interfaces)
+      if (interface.given() && curved(interface.given())) return "the gap";
+  }
+  return "";
+}
+
 void FlowBoundRecord::add(const State& state, const StepReport& report) {
+  try {
+    addStep(state, report);
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::exception& error) {
+    memory_.obstacle = reasonOf(error);
+  }
+}
+
+void FlowBoundRecord::addStep(const State& state, const StepReport& report) {
   if (report.step == 0) begin(state);
   if (report.step > 0 && memory_.obstacle.empty()) {
     const double misfit = misfitTo(state);
+    // Before the first flow too: a peak within a step may be the first.
+    addData(state.time);
     if (memory_.misfit == 0 && misfit == 0) {
       memory_.begin = state.time;
     } else {
       memory_.misfit += misfit;
       addContact(state);
-      try {
-        addData(state.time);
-      } catch (const DatumError& error) {
-        memory_.obstacle = std::string("between the steps, ") + error.what();
-      }
       if (!steps_.chosen && report.rejections > 0)
         memory_.obstacle = "step " + std::to_string(report.step) + " was cut into parts";
     }

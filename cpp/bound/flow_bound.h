@@ -40,7 +40,7 @@ struct FlowBound {
   double factor = 1;      ///< of both, whatever contact does; infinite where there is no such bound
   double strainNorm = 0;  ///< ||eps_p,h|| [m]
   double stressNorm = 0;  ///< |s| [sqrt(J/m)]
-  double data = 0;        ///< how far loads and supports are from linear in a step, over the largest [-]
+  double data = 0;        ///< how far loads and supports are from linear in a step: rounding [-]
 };
 
 /// How the steps are made.
@@ -61,11 +61,13 @@ class FlowBoundRecord {
   [[nodiscard]] FlowBound atEnd(const State& state) const;
 
  private:
+  void addStep(const State& state, const StepReport& report);
   void begin(const State& state);
   void keep(const State& state);
   [[nodiscard]] double misfitTo(const State& state) const;
   void addContact(const State& state);
   void addData(double t);
+  [[nodiscard]] std::string curvedIn(double t0, double t1) const;
 
   const Model& model_;
   Steps steps_;

@@ -147,6 +147,7 @@ class Misfits {
     const PointMatrix half = fluidity / 2 * PointMatrix::Identity(state_.stress.rows(), state_.stress.rows());
     const Candidate* best = nullptr;
     double least = 0;
+    double flow = 0;
     for (const Candidate& each : candidates) {
       const double D = fluidity == 0
                            ? 0
@@ -156,10 +157,11 @@ class Misfits {
       if (best != nullptr && !(all < least)) continue;
       best = &each;
       least = all;
+      flow = 2 * weight_ * D;
     }
     result_.stress += integral(compliance, PointVector::Zero(stress.size()));
     result_.lift += area * best->lift;
-    result_.flow += least - area * best->lift;
+    result_.flow += flow;
     result_.shift += area * weight_ * weight_ * (best->rate - rate).squaredNorm();
     result_.norm += area * stress.dot(compliance * stress);
     result_.strain += area * weight_ * weight_ * rate.squaredNorm();

@@ -8,17 +8,12 @@
 #include "base/interrupt.h"
 #include "bound/relaxation.h"
 #include "bound/strip_balance.h"
-#include "fem/data_misfit.h"
-#include "fem/element.h"
 #include "fem/rigid_modes.h"
 #include "linear/condensing_solver.h"
 #include "material/stress.h"
 
 namespace mortier {
 namespace {
-
-/// Directions that make a smaller angle are one [rad].
-constexpr double same = 1e-9;
 
 /// The bodies of a model with fewer triangles are solved as a whole for what is out of balance.
 constexpr size_t many = 10000;
@@ -31,17 +26,6 @@ Eigen::Matrix3d toBasis() {
   Eigen::Matrix3d B;
   for (int c = 0; c < 3; ++c) B.col(c) = fromCartesian(Eigen::Vector3d::Unit(c));
   return B;
-}
-
-bool isAlong(const Point& a, const Point& b) {
-  return std::abs(a.x() * b.y() - a.y() * b.x()) <= same * a.norm() * b.norm();
-}
-/// Takes a direction from those in which the traction is known.
-void hold(KnownTraction& known, const Point& direction) {
-  if (known.count == 2)
-    known = {1, {Point(-direction.y(), direction.x()), Point(0, 0)}, known.moments};
-  else if (known.count == 1 && std::abs(known.known[0].dot(direction)) > 1e-9)
-    known.count = 0;
 }
 
 /// What forces that are out of balance are measured against [N/m].
@@ -62,12 +46,12 @@ Linearisation linearisedLaw(const Body& body, const Matrix& stress, double weigh
 
 LoadedBody::LoadedBody(const Model& model, const State& state, const CutMesh& cut, int index, double weight)
     : cut_(cut),
+      own_(&model.bodies[index]),
       body_(model.bodies[index].name(), cut.mesh,
             std::shared_ptr<const Material>(std::shared_ptr<void>(), &model.bodies[index].material()),
             model.bodies[index].conditions()),
       sides_(cut.mesh),
       displacement_(cut.displacement(state.bodies[index].displacement)),
-      load_(body_.load(state.time)),
       modes_(rigidModes(body_)) {
   const Linearisation law = linearisedLaw(model.bodies[index], state.bodies[index].stress, weight);
   size_t triangles = 0;
@@ -78,7 +62,6 @@ LoadedBody::LoadedBody(const Model& model, const State& state, const CutMesh& cu
   moduli_.reserve(cut_.parents.size());
   compliances_.reserve(cut_.parents.size());
   stress_.reserve(cut_.parents.size());
-  forces_.reserve(cut_.parents.size());
   for (size_t t = 0; t < cut_.parents.size(); ++t) {
     const int parent = cut_.parents[t];
     moduli_.emplace_back(Eigen::Map<const Eigen::Matrix3d>(moduliAt(law.moduli, parent).data()));
@@ -88,8 +71,15 @@ LoadedBody::LoadedBody(const Model& model, const State& state, const CutMesh& cu
       compliances_.emplace_back(B.transpose() * moduli_.back().inverse() * B);
     stress_.emplace_back(toCartesian(state.bodies[index].stress.col(parent).head<3>()));
   }
-  readForces(state.time);
-  readBoundary(state.time);
+  data_ = readData(place(), displacement_, state.time);
+}
+
+void LoadedBody::move(const std::array<int, 2>& vertices, const Point& along, const SideDatum& datum) {
+  moveSide(place(), sideBetween(vertices), along, datum, data_);
+}
+double LoadedBody::movedEnergy(const std::array<int, 2>& vertices, const Point& along,
+                               const SideDatum& datum) const {
+  return mortier::movedEnergy(place(), sideBetween(vertices), along, datum);
 }
 
 void LoadedBody::press(const std::array<int, 2>& vertices, const Point& outward,
@@ -97,8 +87,8 @@ void LoadedBody::press(const std::array<int, 2>& vertices, const Point& outward,
   const int e = sideBetween(vertices);
   const int first = sides_.all()[e].vertices[0] == vertices[0] ? 0 : 1;
   for (int end = 0; end < 2; ++end) {
-    known_[e].moments[end == 0 ? first : 1 - first] -= moments[end] * outward;
-    load_.segment<2>(2 * vertices[end]) -= moments[end] * outward;
+    data_.known[e].moments[end == 0 ? first : 1 - first] -= moments[end] * outward;
+    data_.load.segment<2>(2 * vertices[end]) -= moments[end] * outward;
   }
 }
 int LoadedBody::sideBetween(const std::array<int, 2>& vertices) const {
@@ -109,15 +99,16 @@ int LoadedBody::sideBetween(const std::array<int, 2>& vertices) const {
 
 bool LoadedBody::balance() {
   const auto relaxed = [&](const std::vector<Stress>& stress) {
-    moments_ = balancedMoments(mesh(), sides_, stress, forces_, known_);
-    Relaxation relaxation(mesh(), sides_, compliances_, stress_, forces_, known_, moments_);
+    moments_ = balancedMoments(mesh(), sides_, stress, data_.forces, data_.known);
+    Relaxation relaxation(mesh(), sides_, compliances_, stress_, data_.forces, data_.known, moments_);
     if (!(flows_ && coarse_ && relaxation.minimise())) relaxation.relax();
     energies_ = relaxation.energies();
   };
   std::vector<Stress> stress = stress_;
-  if (!coarse_) {
-    Vector left = leftOver(load_, stress);
-    const double size = sizeOf(body_, load_, left);
+  // Other data than those of the run are out of balance everywhere.
+  if (!coarse_ && data_.linear()) {
+    Vector left = leftOver(data_.load, stress);
+    const double size = sizeOf(body_, data_.load, left);
     if (const std::optional<double> far = balanceStrip(body_, sides_, moduli_, size, left, stress)) {
       relaxed(stress);
       if (*far <= little * energies_.sum()) return true;
@@ -140,92 +131,32 @@ std::array<Point, 2> LoadedBody::momentsBetween(const std::array<int, 2>& vertic
   if (sides_.all()[e].vertices[0] != vertices[0]) std::swap(moments[0], moments[1]);
   return moments;
 }
+std::array<Point, 2> LoadedBody::asPressed(const std::array<int, 2>& vertices) const {
+  const int e = sideBetween(vertices);
+  std::array<Point, 2> moments = moments_[e];
+  const KnownTraction& known = data_.known[e];
+  for (int end = 0; end < 2; ++end) {
+    const Point off = moments[end] - known.moments[end];
+    moments[end] = known.moments[end];
+    for (int i = 0; i < known.count; ++i) moments[end] += known.known[i].dot(off) * known.known[i];
+  }
+  if (sides_.all()[e].vertices[0] != vertices[0]) std::swap(moments[0], moments[1]);
+  return moments;
+}
 Imbalance LoadedBody::imbalance() const {
-  return imbalanceOf(mesh(), sides_, moments_, forces_, known_);
-}
-
-void LoadedBody::readForces(double t) {
-  for (size_t k = 0; k < mesh().triangles.size(); ++k) {
-    const auto& v = mesh().triangles[k];
-    Point sum(0, 0);
-    for (const BodyForce& force : body_.conditions().forces) {
-      std::array<double, 3> values{};
-      for (int i = 0; i < 3; ++i) {
-        const Point at = (mesh().vertices[v[i]] + mesh().vertices[v[(i + 1) % 3]]) / 2;
-        values[i] = force.value(at.x(), at.y(), t);
-      }
-      double mean = (values[0] + values[1] + values[2]) / 3;
-      if (force.value.degree > LinearTriangle::loadExact)
-        mean = mortier::mean(onTriangle(
-            force.value, {mesh().vertices[v[0]], mesh().vertices[v[1]], mesh().vertices[v[2]]}, t));
-      sum += mean * Point::Unit(force.component);
-      for (const double value : values) oscillation_.forces.add(body_.weights()[k], value - mean, value);
-    }
-    forces_.push_back(sum);
-  }
-}
-
-void LoadedBody::readBoundary(double t) {
-  known_.resize(sides_.count());
-  for (int e = 0; e < sides_.count(); ++e) {
-    const Side& side = sides_.all()[e];
-    if (side.triangles[1] >= 0) continue;
-    known_[e].count = 2;
-    known_[e].known = {Point(1, 0), Point(0, 1)};
-    if (side.boundary < 0) continue;
-    const int label = mesh().boundaryLabels[side.boundary];
-    const Point a = mesh().vertices[side.vertices[0]];
-    const Point along = mesh().vertices[side.vertices[1]] - a;
-    const auto direction = [&](int component) -> Point {
-      const Point tangent = along.normalized();
-      return component == alongX        ? Point(1, 0)
-             : component == alongY      ? Point(0, 1)
-             : component == alongNormal ? Point(tangent.y(), -tangent.x())
-                                        : tangent;
-    };
-    for (const PrescribedDisplacement& held : body_.conditions().displacements) {
-      if (held.label != label) continue;
-      hold(known_[e], direction(held.component));
-      if (!holds(side, direction(held.component))) curvedSupport_ = true;
-      oscillation_.displacements.addLinear(along.norm(), [&](double s) {
-        return held.value(a.x() + s * along.x(), a.y() + s * along.y(), t);
-      });
-    }
-    for (const Traction& traction : body_.conditions().tractions) {
-      if (traction.label != label) continue;
-      const auto value = [&](double s) {
-        return traction.value(a.x() + s * along.x(), a.y() + s * along.y(), t);
-      };
-      oscillation_.tractions.addLinear(along.norm(), value);
-      // As nodal loads are found (fem/body_loads.cpp).
-      const Point d = along.norm() / 6 * direction(traction.component);
-      std::array<double, 2> moments{value(0) + 2 * value(0.5), 2 * value(0.5) + value(1)};
-      if (traction.value.degree > LinearTriangle::edgeExact) {
-        moments = linearMoments(onEdge(traction.value, {a, a + along}, t));
-        for (double& moment : moments) moment *= 6;
-      }
-      for (int end = 0; end < 2; ++end) known_[e].moments[end] += moments[end] * d;
-    }
-  }
-}
-/// Whether the supports of both ends of a side hold it along a direction.
-bool LoadedBody::holds(const Side& side, const Point& direction) const {
-  const std::vector<NodeSupport>& supports = body_.supports().nodes();
-  return std::all_of(side.vertices.begin(), side.vertices.end(), [&](int vertex) {
-    const auto at = std::lower_bound(supports.begin(), supports.end(), vertex,
-                                     [](const NodeSupport& each, int node) { return each.node < node; });
-    if (at == supports.end() || at->node != vertex) return false;
-    return at->count == 2 || isAlong(at->directions[0], direction);
-  });
+  Imbalance result = imbalanceOf(mesh(), sides_, moments_, data_.forces, data_.known);
+  result.worst = std::max(result.worst, data_.error);
+  return result;
 }
 
 LoadedBody LoadedBody::unloaded(const Vector& near) const {
   LoadedBody result = *this;
   result.displacement_ = near;
   result.stress_ = stressOf(near);
-  result.load_.setZero();
-  for (Point& force : result.forces_) force.setZero();
-  for (KnownTraction& known : result.known_) known.moments = {Point(0, 0), Point(0, 0)};
+  result.data_.load.setZero();
+  result.data_.error = 0;
+  for (Point& force : result.data_.forces) force.setZero();
+  for (KnownTraction& known : result.data_.known) known.moments = {Point(0, 0), Point(0, 0)};
   return result;
 }
 
@@ -236,16 +167,16 @@ void LoadedBody::pull(int label, const Point& traction) {
     const auto& [a, b] = side.vertices;
     const Point moment = (mesh().vertices[b] - mesh().vertices[a]).norm() / 2 * traction;
     for (int end = 0; end < 2; ++end) {
-      known_[e].moments[end] += moment;
-      load_.segment<2>(2 * side.vertices[end]) += moment;
+      data_.known[e].moments[end] += moment;
+      data_.load.segment<2>(2 * side.vertices[end]) += moment;
     }
   }
 }
 
 void LoadedBody::push(int triangle, const Point& force) {
-  forces_[triangle] += force;
+  data_.forces[triangle] += force;
   for (const int v : mesh().triangles[triangle])
-    load_.segment<2>(2 * v) += body_.weights()[triangle] / 3 * force;
+    data_.load.segment<2>(2 * v) += body_.weights()[triangle] / 3 * force;
 }
 
 CompositeTriangle LoadedBody::elementOf(int triangle) const {
@@ -307,8 +238,8 @@ std::vector<double> LoadedBody::tangent() const {
 bool LoadedBody::equilibrate(std::vector<Stress>& stress) const {
   constexpr int most = 4;
   constexpr double enough = 1e-10;  // of the largest force
-  const Vector left = leftOver(load_, stress);
-  const double size = sizeOf(body_, load_, left);
+  const Vector left = leftOver(data_.load, stress);
+  const double size = sizeOf(body_, data_.load, left);
   std::vector<double> values = tangent();
   pin(values);
   auto solver = multifrontalSolver(body_.pattern(), {});
@@ -322,7 +253,7 @@ bool LoadedBody::equilibrate(std::vector<Stress>& stress) const {
     solver->expand(x);
     const std::vector<Stress> more = stressOf(body_.spread(x));
     for (size_t t = 0; t < stress.size(); ++t) stress[t] += more[t];
-    x = body_.gather(leftOver(load_, stress));
+    x = body_.gather(leftOver(data_.load, stress));
     if (!(x.lpNorm<Eigen::Infinity>() > enough * size)) break;
   }
   return true;

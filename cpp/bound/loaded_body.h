@@ -3,10 +3,9 @@
 #pragma once
 
 #include <array>
-#include <cmath>
-#include <functional>
 #include <vector>
 
+#include "bound/body_data.h"
 #include "bound/checks.h"
 #include "bound/lift.h"
 #include "bound/matched_meshes.h"
@@ -14,44 +13,6 @@
 #include "solver/state.h"
 
 namespace mortier {
-
-/// How far data of one kind are from linear functions on sides, or constants on triangles.
-struct Oscillation {
-  double off = 0;
-  double all = 0;
-  void add(double weight, double deviation, double value) {
-    off += weight * deviation * deviation;
-    all += weight * value * value;
-  }
-  /// Of a function on a side.
-  void addLinear(double length, const std::function<double(double)>& value) {
-    const double first = value(0);
-    const double last = value(1);
-    for (const double s : {0.25, 0.5, 0.75}) {
-      const double v = value(s);
-      add(length, v - ((1 - s) * first + s * last), std::max({std::abs(v), std::abs(first), std::abs(last)}));
-    }
-  }
-  void add(const Oscillation& other) {
-    off += other.off;
-    all += other.all;
-  }
-  [[nodiscard]] double relative() const { return all > 0 ? std::sqrt(off / all) : 0; }
-};
-
-/// What is prescribed of a body, by kinds: each has its own unit.
-struct DataOscillation {
-  Oscillation displacements, tractions, forces;
-  void add(const DataOscillation& other) {
-    displacements.add(other.displacements);
-    tractions.add(other.tractions);
-    forces.add(other.forces);
-  }
-  /// The worst of them.
-  [[nodiscard]] double relative() const {
-    return std::max({displacements.relative(), tractions.relative(), forces.relative()});
-  }
-};
 
 /// The law of a body, linearised at its stresses. \param weight  time step times the scheme's diagonal
 /// coefficient; 0 for elasticity [s]
@@ -69,11 +30,15 @@ class LoadedBody {
   /// Rigid motions that its supports leave free (fem/rigid_modes.h).
   [[nodiscard]] const Matrix& modes() const { return modes_; }
   /// Nodal forces of loads and of the pressures so far [N/m].
-  [[nodiscard]] const Vector& load() const { return load_; }
+  [[nodiscard]] const Vector& load() const { return data_.load; }
   [[nodiscard]] LiftedBody lifted() const { return {body_, parents(), sides_, moduli_, displacement_}; }
-  [[nodiscard]] const DataOscillation& oscillation() const { return oscillation_; }
-  /// Whether supports act along the normals or tangents of a curve: those of sides are not those of nodes.
-  [[nodiscard]] bool hasCurvedSupport() const { return curvedSupport_; }
+  /// What linear data leave. Supports along the normals or tangents of a curve (`curvedSupport`) are not
+  /// those of nodes.
+  [[nodiscard]] const BodyData& data() const { return data_; }
+  /// Adds a displacement on a side between two vertices (body_data.h), or only tells its energy norm.
+  void move(const std::array<int, 2>& vertices, const Point& along, const SideDatum& datum);
+  [[nodiscard]] double movedEnergy(const std::array<int, 2>& vertices, const Point& along,
+                                   const SideDatum& datum) const;
 
   /// A pressure on the side between two vertices, by its moments at the first and at the second [N/m].
   void press(const std::array<int, 2>& vertices, const Point& outward, const std::array<double, 2>& moments);
@@ -85,6 +50,12 @@ class LoadedBody {
   [[nodiscard]] double norm() const;                                  ///< |s|^2 [J/m]
   /// Moments of the traction on this body at the side between two vertices, at the first and the second.
   [[nodiscard]] std::array<Point, 2> momentsBetween(const std::array<int, 2>& vertices) const;
+  /// The same with what is pressed in the directions in which supports hold the side: they take the rest.
+  [[nodiscard]] std::array<Point, 2> asPressed(const std::array<int, 2>& vertices) const;
+  /// Whether no support holds the side between two vertices.
+  [[nodiscard]] bool isFree(const std::array<int, 2>& vertices) const {
+    return data_.known[sideBetween(vertices)].count == 2;
+  }
   [[nodiscard]] Imbalance imbalance() const;
 
   // What a problem with other data needs of it.
@@ -111,29 +82,24 @@ class LoadedBody {
     return mortier::momentsOf(sides_, moments_, triangle);
   }
   [[nodiscard]] CompositeTriangle elementOf(int triangle) const;
-  [[nodiscard]] const Point& forceOn(int triangle) const { return forces_[triangle]; }
+  [[nodiscard]] const Point& forceOn(int triangle) const { return data_.forces[triangle]; }
 
  private:
-  void readForces(double t);
-  void readBoundary(double t);
+  [[nodiscard]] DataPlace place() const { return {*own_, body_, cut_, sides_, moduli_, compliances_}; }
   [[nodiscard]] int sideBetween(const std::array<int, 2>& vertices) const;
-  [[nodiscard]] bool holds(const Side& side, const Point& direction) const;
   [[nodiscard]] Point gradient(int t, int i) const;
   bool equilibrate(std::vector<Stress>& stress) const;
   void pin(std::vector<double>& values) const;
 
   const CutMesh& cut_;
+  const Body* own_;  ///< on its own mesh
   Body body_;
   Sides sides_;
   Vector displacement_;
-  Vector load_;
   Matrix modes_;
   std::vector<Eigen::Matrix3d> moduli_, compliances_;
   std::vector<Stress> stress_;  ///< s, that of the finite elements
-  std::vector<Point> forces_;
-  std::vector<KnownTraction> known_;
-  DataOscillation oscillation_;
-  bool curvedSupport_ = false;
+  BodyData data_;
   bool flows_ = false;   ///< its tangents may differ by many orders: iterations would not see the stiff part
   bool coarse_ = false;  ///< the model is: solutions of whole bodies cost little
   SideMoments moments_;

@@ -6,13 +6,19 @@
 #include <set>
 #include <string>
 
+#include "bound/side_datum.h"
+
 namespace mortier {
 namespace {
 
 /// Points of an edge that are closer than this part of it are one.
-constexpr double samePoint = 1e-9;
-/// Lines that make a smaller angle are parallel [rad].
+constexpr double samePoint = 1e-6;
+/// Lines that make a smaller angle are parallel [rad], and those whose ends are off by less, over the largest
+/// coordinate.
 constexpr double parallel = 1e-9;
+constexpr double rounding = 1e-14;
+/// Pieces of a side whose tractions are not linear.
+constexpr int pieces = 4;
 
 using Edge = std::array<int, 2>;
 
@@ -143,12 +149,50 @@ int rowAt(const ContactInterface& interface, int vertex, const Point& normal) {
 /// What is wrong with a piece for tractions that are equal on both sides; empty where nothing is.
 std::string faultOf(const RefinedPiece& piece, const TriangleMesh& nonmortar, const TriangleMesh& mortar) {
   const auto across = [&](const TriangleMesh& mesh, const Edge& edge) {
-    const Point along = mesh.vertices[edge[1]] - mesh.vertices[edge[0]];
-    return std::abs(along.dot(piece.normals[0])) <= parallel * along.norm();
+    const Point& first = mesh.vertices[edge[0]];
+    const Point along = mesh.vertices[edge[1]] - first;
+    return std::abs(along.dot(piece.normals[0])) <=
+           parallel * along.norm() + rounding * first.cwiseAbs().maxCoeff();
   };
   if ((piece.normals[0] - piece.normals[1]).norm() > parallel || !across(nonmortar, piece.nonmortar))
     return "is not straight";
   return across(mortar, piece.mortar) ? "" : "is not parallel on both sides";
+}
+
+/// Cuts sides under tractions that are not linear, at jumps and between: what the pieces leave is smaller.
+void cutLoaded(const Body& body, double t, Cuts& cuts) {
+  const TriangleMesh& mesh = body.mesh();
+  const auto& conditions = body.conditions();
+  for (const Traction& traction : conditions.tractions)
+    for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
+      const int label = mesh.boundaryLabels[e];
+      if (label != traction.label ||
+          std::any_of(conditions.displacements.begin(), conditions.displacements.end(),
+                      [&](const PrescribedDisplacement& held) { return held.actsOn(label); }))
+        continue;
+      const auto& [a, b] = mesh.boundaryEdges[e];
+      const SideDatum datum = onSide(traction.value, mesh.vertices[a], mesh.vertices[b], t);
+      if (datum.linear() || !datum.known) continue;
+      for (const double jump : datum.jumps) cuts.add({a, b}, jump);
+      for (int i = 1; i < pieces; ++i) cuts.add({a, b}, static_cast<double>(i) / pieces);
+    }
+}
+
+/// How far the ends of a piece are from the vertices that stand for them.
+double apartIn(const RefinedPiece& piece, const TriangleMesh& nonmortar, const TriangleMesh& mortar) {
+  const auto off = [](double part) {
+    const double from = std::min(part, 1 - part);
+    return from <= samePoint ? std::abs(from) : 0;
+  };
+  double most = 0;
+  for (int end = 0; end < 2; ++end) {
+    const auto lengthOf = [](const TriangleMesh& mesh, const Edge& edge) {
+      return (mesh.vertices[edge[1]] - mesh.vertices[edge[0]]).norm();
+    };
+    most = std::max({most, off(piece.nonmortarAt[end]) * lengthOf(nonmortar, piece.nonmortar),
+                     off(piece.mortarAt[end]) * lengthOf(mortar, piece.mortar)});
+  }
+  return most;
 }
 
 }  // namespace
@@ -163,14 +207,17 @@ Vector CutMesh::displacement(const Vector& u) const {
   return result;
 }
 
-MatchedMeshes matchedMeshes(const Model& model) {
+MatchedMeshes matchedMeshes(const Model& model, std::optional<double> loadsAt) {
   MatchedMeshes result;
   std::vector<Cuts> cuts(model.bodies.size());
+  for (size_t b = 0; loadsAt && b < model.bodies.size(); ++b) cutLoaded(model.bodies[b], *loadsAt, cuts[b]);
   std::vector<std::vector<RefinedPiece>> pieces;
   for (const ContactInterface& interface : model.interfaces) {
     const auto& [nonmortar, mortar, coupling] = interface.pair();
     pieces.push_back(interface.pieces());
     for (const RefinedPiece& piece : pieces.back()) {
+      result.apart = std::max(result.apart, apartIn(piece, model.bodies[nonmortar.body].mesh(),
+                                                    model.bodies[mortar.body].mesh()));
       const std::string fault =
           faultOf(piece, model.bodies[nonmortar.body].mesh(), model.bodies[mortar.body].mesh());
       if (!fault.empty()) {
@@ -207,7 +254,9 @@ MatchedMeshes matchedMeshes(const Model& model) {
       // A vertex without a row of its own is merged into its neighbour.
       for (int end = 0; end < 2; ++end)
         if (matched.rows[end] < 0) matched.rows[end] = matched.rows[1 - end];
-      if (matched.vertices[0][0] != matched.vertices[0][1]) result.pieces.push_back(matched);
+      if (matched.vertices[0][0] != matched.vertices[0][1] &&
+          matched.vertices[1][0] != matched.vertices[1][1])
+        result.pieces.push_back(matched);
     }
   }
   for (Cutter& cutter : cutters) result.bodies.push_back(cutter.take());

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,10 +44,12 @@ struct MatchedPiece {
 struct MatchedMeshes {
   std::vector<CutMesh> bodies;
   std::vector<MatchedPiece> pieces;
-  /// Why there are none: a line that is not straight, or whose sides are not parallel.
+  double apart = 0;  ///< points that are one in them are no farther apart [m]
+  /// Why there are none: a line that is not straight, or whose sides are not parallel, to rounding.
   std::string obstacle;
 };
 
-MatchedMeshes matchedMeshes(const Model& model);
+/// \param loadsAt  a time at which sides are cut whose tractions are not linear, too
+MatchedMeshes matchedMeshes(const Model& model, std::optional<double> loadsAt = std::nullopt);
 
 }  // namespace mortier

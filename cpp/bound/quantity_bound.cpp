@@ -8,6 +8,7 @@
 
 #include "bound/glued_bodies.h"
 #include "bound/pressures.h"
+#include "material/stress.h"
 
 namespace mortier {
 namespace {
@@ -59,7 +60,9 @@ class Enclosing {
         const Moments load = element.loadProduct(f);
         products_[b].emplace_back(element.energy() * d + load);
         sizes_[b].emplace_back(roundings * (element.energy().cwiseAbs() * d.cwiseAbs() + load.cwiseAbs()));
-        misfits_[b][t] = (d.dot(products_[b][t]) + d.dot(load) + element.loadEnergy(f)) / 4;
+        const double square = d.dot(products_[b][t]) + d.dot(load) + element.loadEnergy(f);
+        const double data = body.data().carried[t] + body.data().strained[t];
+        misfits_[b][t] = data > 0 ? std::pow(std::sqrt(std::max(square, 0.0)) + data, 2) / 4 : square / 4;
       }
       lifted_.push_back(std::move(lifted));
       Q_ += misfits_[b].sum();
@@ -185,7 +188,7 @@ class Enclosing {
     if (!glued) return std::nullopt;
     const auto& z = glued->solution.displacements;
     Trial trial;
-    trial.c = glued->c;
+    trial.c = glued->c / pair_.opens;
     std::vector<LoadedBody> bodies;
     bodies.reserve(pair_.bodies.size());
     for (size_t b = 0; b < pair_.bodies.size(); ++b) bodies.push_back(pair_.bodies[b].unloaded(z[b]));
@@ -224,6 +227,7 @@ class Enclosing {
       trial.centre += goal.loads[b].dot(pair_.lifting.displacements[b]) + workIn(b, z[b], bodies[b]);
     }
     trial.misfit = std::sqrt(std::max(misfit, 0.0));
+    for (size_t b = 0; b < bodies.size(); ++b) addData(b, functional, goal, z[b], trial);
     trial.rounding = triangles_ * (left * moved_ + unbalanced_ * moved) + glued->off * pressed;
     for (size_t b = 0; b < bodies.size(); ++b)
       for (size_t t = 0; t < sizes_[b].size(); ++t)
@@ -244,6 +248,25 @@ class Enclosing {
       if (!adjoint.forceOn(t).isZero(0)) twice += loadProduct(b, t, adjoint.forceOn(t));
     }
     return twice / 2;
+  }
+  /// What s_D and s_W, that of w and of initial stresses, have in the sums: (s_D - s_W, eps z), l(w), and half
+  /// of (|s_D| + |s_W|) |t - E eps z|.
+  void addData(size_t b, const Functional& functional, const Goal& goal, const Vector& z,
+               Trial& trial) const {
+    const BodyData& data = pair_.bodies[b].data();
+    if (data.linear() && data.moved.empty()) return;
+    for (int t = 0; t < static_cast<int>(data.forces.size()); ++t) {
+      if (data.carried[t] + data.strained[t] == 0) continue;
+      const Eigen::Vector3d strain = toCartesian(pair_.bodies[b].strainIn(t, z));
+      const Stress mean = data.meanCarried[t] - data.meanStrained[t];
+      trial.centre += mean[0] * strain[0] + mean[1] * strain[1] + 2 * mean[2] * strain[2];
+      trial.rounding +=
+          (data.carried[t] + data.strained[t]) * std::sqrt(std::max(trial.misfits[b][t], 0.0)) / 2;
+    }
+    if (functional.kind == Functional::Kind::displacement && functional.body == static_cast<int>(b) &&
+        goal.triangle < 0)
+      for (const BodyData::Moved& each : data.moved)
+        if (each.label == functional.label) trial.centre += goal.traction.dot(each.integral);
   }
   /// What a body force of the adjoint adds to (s^ - s(u^), E^-1 t) beside the moments of t.
   [[nodiscard]] double loadProduct(size_t b, int t, const Point& f) const {

@@ -12,26 +12,11 @@
 //   Q = |s^ - s(u^)|^2/4 + integral of p^ G(u^).
 #pragma once
 
-#include <algorithm>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "bound/quantity_goal.h"
 
 namespace mortier {
-
-struct Enclosure {
-  std::string obstacle;  ///< why there is none; empty where there is
-  double lower = 0;      ///< the exact value is not below
-  double upper = 0;      ///< and not above
-  /// What each triangle of the bodies' own meshes adds to the half of upper - lower, nearly.
-  std::vector<Vector> parts = {};
-  std::optional<double> estimate = {};  ///< of an error of which nothing is proved
-
-  /// Of a computed value, at most.
-  [[nodiscard]] double error(double value) const { return std::max({value - lower, upper - value, 0.0}); }
-};
 
 /// The largest |R|. \param misfit  |E eps z - t|
 double largestRemainder(double Q, double misfit, double c);

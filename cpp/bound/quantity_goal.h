@@ -2,41 +2,15 @@
 // z, the load l of t, and the jump r that [z.n] shall have.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "bound/functional.h"
 #include "bound/lift.h"
 #include "bound/loaded_body.h"
 #include "bound/matched_meshes.h"
-#include "mesh/line_part.h"
 
 namespace mortier {
-
-/// A number of the exact solution, of one label of a body.
-struct Functional {
-  enum class Kind {
-    reaction,      ///< integral of e . (traction that the supports of the label exert)
-    contactForce,  ///< integral of e . (traction that the other side of contact exerts)
-    displacement,  ///< mean of e . u
-    meanPressure   ///< of the contact pressure over a part of the label
-  };
-  Kind kind = Kind::reaction;
-  int body = 0;
-  int label = 0;
-  Point direction{0, 0};  ///< e = direction + turn J (x - about), J a quarter turn counterclockwise
-  double turn = 0;
-  Point about{0, 0};                  ///< [m]
-  std::string obstacle = {};          ///< why there is no bound of it at all
-  std::optional<LinePart> part = {};  ///< of a mean pressure
-  /// Of a displacement, in place of the label: l would not be bounded, so the mean of the triangle in which
-  /// it is stands for it, and what comes of it is an estimate [m]
-  std::optional<Point> point = {};
-
-  [[nodiscard]] Point at(const Point& x) const {
-    return direction + turn * Point(about.y() - x.y(), x.x() - about.x());
-  }
-};
 
 struct AdmissiblePair {
   const Model& model;
@@ -44,6 +18,7 @@ struct AdmissiblePair {
   const std::vector<LoadedBody>& bodies;  ///< balanced: they have s^
   const std::vector<Vector>& spread;      ///< coefficients of p^ (pressures.h)
   const Lift& lifting;                    ///< u^
+  double opens = 1;                       ///< G of u^ is at least this part of that in `lifting`
 };
 
 /// What is asked of z and t.

@@ -42,7 +42,6 @@ StepBound stepBound(const Model& model, const State& state, double weight) {
   result.bound = std::sqrt(all.stress + all.flow + all.lift + 2 * pair.lifting.gap);
   result.strain = std::sqrt(weight * all.fluidity) * result.bound + std::sqrt(all.shift);
   result.strainNorm = std::sqrt(all.strain);
-  result.oscillation = pair.oscillation.relative();
   return result;
 }
 

@@ -1,4 +1,4 @@
-#include "bound/total_bound.h"
+#include "bound/total_bound_record.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,8 @@
 #include <new>
 #include <utility>
 
+#include "base/interrupt.h"
+#include "bound/bound_failure.h"
 #include "bound/flow_potential.h"
 #include "bound/pressures.h"
 
@@ -96,7 +98,6 @@ TotalBoundRecord::Moment TotalBoundRecord::begin(const State& state, TotalBoundM
     memory.fixed.misfit += bodies_[b].misfit(moment.bodies[b], pair.bodies[b]) / 2;
   }
   memory.any.misfit = memory.fixed.misfit + pair.lifting.gap;
-  memory.oscillation = pair.oscillation.relative();
   return moment;
 }
 
@@ -225,7 +226,6 @@ TotalBoundRecord::Moment TotalBoundRecord::step(const State& state, int number,
     memory.closes = "bodies flow in the first step";
   if (!memory.moved.empty() && !memory.closes.empty())
     memory.obstacle = memory.moved == memory.closes ? memory.moved : memory.moved + ", " + memory.closes;
-  memory.oscillation = std::max(memory.oscillation, pair.oscillation.relative());
   return moment;
 }
 
@@ -252,9 +252,16 @@ void TotalBoundRecord::look(const State& state, int number) {
   try {
     if (number > 0 && !now_) goOn();
     next_ = number == 0 ? begin(state, nextMemory_) : step(state, number, nextMemory_);
-  } catch (const std::bad_alloc&) {
-    nextMemory_.obstacle = "there is no memory for it";
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::exception& error) {
+    nextMemory_.obstacle = reasonOf(error);
   }
+  const auto lost = [](const ErrorCourse& course) {
+    return std::isnan(course.misfit) || std::isnan(course.drift) || std::isnan(course.growth);
+  };
+  if (nextMemory_.obstacle.empty() && (lost(nextMemory_.fixed) || lost(nextMemory_.any)))
+    nextMemory_.obstacle = "it is not finite" + inStep(number);
 }
 
 void TotalBoundRecord::add(const std::string& obstacle) {
@@ -273,7 +280,6 @@ TotalBound TotalBoundRecord::atEnd(const State& state, const FlowBound& steps) c
   if (!result.obstacle.empty()) return result;
   result.moved = memory_.moved;
   result.closes = memory_.closes;
-  result.oscillation = memory_.oscillation;
   result.data = steps.data;
   result.strainNorm = steps.strainNorm;
   result.stressNorm = steps.stressNorm;

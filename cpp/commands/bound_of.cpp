@@ -1,9 +1,10 @@
 #include "commands/bound_of.h"
 
+#include <cmath>
 #include <functional>
-#include <new>
 
 #include "base/interrupt.h"
+#include "bound/bound_failure.h"
 #include "time/scheme.h"
 
 namespace mortier {
@@ -39,10 +40,37 @@ Bound found(const std::function<Bound()>& find) {
     return find();
   } catch (const Interrupted&) {
     none.obstacle = "interrupted";
-  } catch (const std::bad_alloc&) {
-    none.obstacle = "there is no memory for it";
+  } catch (const std::exception& error) {
+    none.obstacle = reasonOf(error);
   }
   return none;
+}
+
+/// Nothing that is not finite may end the run: it is no bound.
+void requireFinite(EnergyBound& bound) {
+  for (const double each : {bound.bound, bound.stress, bound.lift, bound.gap, bound.norm, bound.oscillation})
+    if (!std::isfinite(each)) bound.obstacle = "it is not finite";
+  for (Enclosure& each : bound.quantities) {
+    if (each.obstacle.empty() && !(std::isfinite(each.lower) && std::isfinite(each.upper)))
+      each.obstacle = "it is not finite";
+    if (each.estimate && !std::isfinite(*each.estimate)) each.estimate.reset();
+    if (!bound.obstacle.empty()) each = {bound.obstacle};
+  }
+}
+void requireFinite(StepBound& bound) {
+  for (const double each : {bound.bound, bound.stress, bound.flow, bound.lift, bound.gap, bound.norm,
+                            bound.strain, bound.strainNorm})
+    if (!std::isfinite(each)) bound.obstacle = "it is not finite";
+}
+
+void requireFinite(FlowBound& bound) {
+  for (const double each : {bound.strain, bound.stress, bound.strainNorm, bound.stressNorm, bound.data})
+    if (!std::isfinite(each)) bound.obstacle = "it is not finite";
+}
+void requireFinite(TotalBound& bound) {
+  for (const double each : {bound.fixed.strain, bound.fixed.stress, bound.any.strain, bound.any.stress,
+                            bound.lifted, bound.strainNorm, bound.stressNorm, bound.data})
+    if (!std::isfinite(each)) bound.obstacle = "it is not finite";
 }
 
 }  // namespace
@@ -59,6 +87,7 @@ EnergyBound boundOf(const Attempt& attempt) {
       if (quantities[i].kind == Quantity::Kind::largestPressure)
         bound.quantities[i].estimate =
             largestPressureError(quantities[i], *attempt.model, attempt.solved.state);
+    requireFinite(bound);
     return bound;
   });
 }
@@ -73,7 +102,26 @@ StepBound stepBoundOf(const Attempt& attempt) {
       return none;
     }
     const Tableau steps = last.guarded ? twoHalfSteps() : tableau(time.scheme);
-    return stepBound(*attempt.model, attempt.solved.state, steps.stages.back().diagonal * last.timeStep);
+    StepBound bound =
+        stepBound(*attempt.model, attempt.solved.state, steps.stages.back().diagonal * last.timeStep);
+    requireFinite(bound);
+    return bound;
+  });
+}
+
+FlowBound flowBoundOf(const FlowBoundRecord& record, const State& state) {
+  return found<FlowBound>([&] {
+    FlowBound bound = record.atEnd(state);
+    requireFinite(bound);
+    return bound;
+  });
+}
+
+TotalBound totalBoundOf(const TotalBoundRecord& record, const State& state, const FlowBound& steps) {
+  return found<TotalBound>([&] {
+    TotalBound bound = record.atEnd(state, steps);
+    requireFinite(bound);
+    return bound;
   });
 }
 

@@ -2,12 +2,15 @@
 // the meshes do to its last step (bound/step_bound.h).
 #pragma once
 
+#include "bound/total_bound_record.h"
 #include "commands/attempt.h"
 
 namespace mortier {
 
-/// What stops them, an interruption or a lack of memory, is their obstacle: it does not take the result away.
+/// Whatever goes wrong in them is their obstacle: it does not take the result away.
 EnergyBound boundOf(const Attempt& attempt);
 StepBound stepBoundOf(const Attempt& attempt);
+FlowBound flowBoundOf(const FlowBoundRecord& record, const State& state);
+TotalBound totalBoundOf(const TotalBoundRecord& record, const State& state, const FlowBound& steps);
 
 }  // namespace mortier

@@ -6,6 +6,8 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/ranks.h"
+#include "bound/total_bound_record.h"
+#include "commands/bound_of.h"
 #include "report/checkpoint_files.h"
 #include "report/clock.h"
 #include "solver/threads_for.h"
@@ -203,8 +205,8 @@ Solved solve(Solving solving) {
   if (files) solved.files = files->close(state, last.step);
   solved.accuracy = accuracies.atEnd(report.peaks);
   if (flow) {
-    solved.accuracy.flow = flow->atEnd(state);
-    solved.accuracy.total = total->atEnd(state, *solved.accuracy.flow);
+    solved.accuracy.flow = flowBoundOf(*flow, state);
+    solved.accuracy.total = totalBoundOf(*total, state, *solved.accuracy.flow);
   }
   return solved;
 }

@@ -127,9 +127,6 @@ std::string logVerification(const Certificate& w) {
       w.rounding);
 }
 
-/// Data that are off linear functions by no more are linear [-].
-constexpr double linear = 1e-9;
-
 std::string logBound(const EnergyBound& bound) {
   if (!bound.obstacle.empty()) return "           no guaranteed bound: " + bound.obstacle + "\n";
   const double relative = bound.relative();
@@ -138,8 +135,8 @@ std::string logBound(const EnergyBound& bound) {
   constexpr double rounding = 1e-12;
   if (bound.bound <= rounding * bound.norm) return "           guaranteed: below rounding\n";
   std::string text = format("           guaranteed: at most %.2g %%", 100 * relative);
-  if (bound.oscillation > linear)
-    text += format(", for data that are linear on sides; these are off by %.1g %%", 100 * bound.oscillation);
+  if (bound.oscillation > rounding)
+    text += format(", %.1g %% of it for data between the nodes", 100 * bound.oscillation);
   return text + "\n";
 }
 
@@ -153,8 +150,6 @@ std::string logFlow(const FlowBound& bound) {
   std::string text = format("           guaranteed in time: viscoplastic strain to %.2g %%",
                             error > 0 ? 100 * error / (bound.strainNorm - error) : 0);
   if (!any && !(bound.factor <= 1)) text += ", contact closed and open as in the run";
-  if (bound.data > linear)
-    text += format(", for data that are linear within steps; these are off by %.1g %%", 100 * bound.data);
   return text + "\n";
 }
 
@@ -172,8 +167,6 @@ std::string logTotal(const TotalBound& bound) {
       text += format("; to %.2g %% whatever contact does",
                      100 * bound.any.strain / (bound.strainNorm - bound.any.strain));
   }
-  if (const double off = std::max(bound.oscillation, bound.data); off > linear)
-    text += format(", for data that are linear; these are off by %.1g %%", 100 * off);
   return text + "\n";
 }
 
@@ -190,8 +183,6 @@ std::string logStep(const StepBound& bound) {
   add("stress", bound.bound, bound.norm);
   if (parts.empty()) return none + "nothing below 100 %, the meshes are too coarse\n";
   std::string text = "           guaranteed in the last step: " + parts;
-  if (bound.oscillation > linear)
-    text += format(", for data that are linear on sides; these are off by %.1g %%", 100 * bound.oscillation);
   return text + "\n";
 }
 
@@ -271,8 +262,7 @@ std::string logQuantities(const RunFacts& facts, const Model& model, const State
     if (!bound || bound->quantities.empty()) continue;
     const Enclosure& enclosure = bound->quantities[i];
     if (enclosure.obstacle.empty())
-      text += format(" +- %.2g (guaranteed%s)", enclosure.error(values[i]),
-                     bound->oscillation > linear ? " for linear data" : "");
+      text += format(" +- %.2g (guaranteed)", enclosure.error(values[i]));
     else if (enclosure.estimate)
       text += format(" +- %.2g (an estimate)", *enclosure.estimate);
     else if (bound->obstacle.empty())
@@ -297,8 +287,7 @@ std::string logTimeError(const RunFacts& facts, const RunReport& report) {
   if (!(facts.tolerance > 0)) return "";
   return format(
       "accuracy   estimated error in time of displacement and stress, worst step: %.2g (tolerance %.2g%s)\n",
-      report.timeError, facts.tolerance,
-      report.timeError > facts.tolerance ? ", not reached" : "");
+      report.timeError, facts.tolerance, report.timeError > facts.tolerance ? ", not reached" : "");
 }
 
 std::string logSpecial(const SpecialConditions& special) {

@@ -10,6 +10,7 @@
 
 #include "base/datum_error.h"
 #include "scene/document.h"
+#include "scene/enclosed_formula.h"
 #include "scene/finite_value.h"
 #include "scene/known_datum.h"
 
@@ -131,6 +132,10 @@ Expression negated(Expression expression) {
       const Range range = enclosure(box);
       return Range{-range.largest, -range.least};
     };
+  if (value.along)
+    opposite.along = [along = value.along] {
+      return [f = along()](const Taylor& x, const Taylor& y, const Taylor& t) { return -f(x, y, t); };
+    };
   expression.value = std::move(opposite);
   return expression;
 }
@@ -158,6 +163,7 @@ Expression parseExpression(const std::string& text, std::string where) {
     Datum datum(Function(std::move(compiled)));
     datum.inTime = inTime;
     describe(text, datum);
+    datum.along = [text] { return enclosed(text); };
     return {text, std::move(where), false, std::move(datum), {}, inTime};
   } catch (const mu::Parser::exception_type& error) {
     std::string reason = error.GetMsg();

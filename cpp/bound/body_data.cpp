@@ -1,0 +1,374 @@
+#include "bound/body_data.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/datum.h"
+#include "bound/loaded_body.h"
+#include "bound/triangle_datum.h"
+#include "material/stress.h"
+
+namespace mortier {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Directions that make a smaller angle are one [rad], and displacements that differ by less, over the
+/// largest.
+constexpr double same = 1e-9;
+
+bool isAlong(const Point& a, const Point& b) {
+  return std::abs(a.x() * b.y() - a.y() * b.x()) <= same * a.norm() * b.norm();
+}
+/// Takes a direction from those in which the traction is known.
+void hold(KnownTraction& known, const Point& direction) {
+  if (known.count == 2)
+    known = {1, {Point(-direction.y(), direction.x()), Point(0, 0)}, known.moments};
+  else if (known.count == 1 && std::abs(known.known[0].dot(direction)) > 1e-9)
+    known.count = 0;
+}
+
+/// (p, q, r) of sym(v (x) g).
+Eigen::Vector3d strainOf(const Point& v, const Point& g) {
+  return fromCartesian({v.x() * g.x(), v.y() * g.y(), (v.x() * g.y() + v.y() * g.x()) / 2});
+}
+
+/// A triangle with a side from p to q, the body to the left, and the vertex c opposite.
+struct Fan {
+  Point p, q, c;
+
+  Fan(const TriangleMesh& mesh, const Side& side)
+      : p(mesh.vertices[side.vertices[0]]), q(mesh.vertices[side.vertices[1]]) {
+    for (const int v : mesh.triangles[side.triangles[0]])
+      if (v != side.vertices[0] && v != side.vertices[1]) c = mesh.vertices[v];
+  }
+  [[nodiscard]] Point along() const { return q - p; }
+  [[nodiscard]] Point outward() const { return Point(along().y(), -along().x()).normalized(); }
+  [[nodiscard]] double length() const { return along().norm(); }
+  [[nodiscard]] double height() const { return (p - c).dot(outward()); }
+  [[nodiscard]] std::array<Point, 3> corners() const { return {p, q, c}; }
+};
+
+double largestEigenvalue(const Eigen::Matrix3d& compliance) {
+  // s : E^-1 s over s : s, s : s = s11^2 + s22^2 + 2 s12^2
+  const Eigen::Vector3d root(1, 1, std::numbers::sqrt2 / 2);
+  const Eigen::Matrix3d scaled = root.asDiagonal() * compliance * root.asDiagonal();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[2];
+}
+
+/// Of |grad v| over |eps v| for displacements without mean rotation (Korn), squared: 1 + 2/beta^2 with
+/// beta >= sin(least angle/4) in a triangle (Costabel and Dauge 2015).
+double korn(const std::array<Point, 3>& x) {
+  double least = std::numbers::pi;
+  for (int i = 0; i < 3; ++i) {
+    const Point a = (x[(i + 1) % 3] - x[i]).normalized();
+    const Point b = (x[(i + 2) % 3] - x[i]).normalized();
+    least = std::min(least, std::atan2(std::abs(a.x() * b.y() - a.y() * b.x()), a.dot(b)));
+  }
+  const double beta = std::sin(least / 4);
+  return 1 + 2 / (beta * beta);
+}
+double diameter(const std::array<Point, 3>& x) {
+  return std::max({(x[1] - x[0]).norm(), (x[2] - x[1]).norm(), (x[0] - x[2]).norm()});
+}
+
+/// |s_D| of a force per area that works on no linear displacement, over its norm.
+double carriesForce(const std::array<Point, 3>& x, const Eigen::Matrix3d& compliance) {
+  return diameter(x) / std::numbers::pi * std::sqrt(korn(x) * largestEigenvalue(compliance));
+}
+/// The same of a traction on a side, in the best of some triangles over it inside of this one.
+double carriesTraction(Fan fan, const Eigen::Matrix3d& compliance) {
+  const Point middle = (fan.p + fan.q) / 2;
+  double least = infinity;
+  do {
+    const double poincare = diameter(fan.corners()) / std::numbers::pi;
+    const double reach = std::max((fan.p - fan.c).norm(), (fan.q - fan.c).norm());
+    least = std::min(least, 2 / fan.height() * poincare * (poincare + reach) * korn(fan.corners()));
+    fan.c = (fan.c + middle) / 2;
+  } while (4 * fan.height() > fan.length());
+  return std::sqrt(least * largestEigenvalue(compliance));
+}
+
+class Reading {
+ public:
+  Reading(const DataPlace& place, const Vector& displacement, double t)
+      : place_(place), mesh_(place.cut.mesh), displacement_(displacement), t_(t) {
+    const auto triangles = static_cast<Eigen::Index>(mesh_.triangles.size());
+    data_.forces.assign(triangles, Point(0, 0));
+    data_.known.resize(place.sides.count());
+    data_.load = Vector::Zero(place.body.dofs());
+    data_.carried = data_.strained = Vector::Zero(triangles);
+    data_.meanCarried.assign(triangles, Stress::Zero());
+    data_.meanStrained = data_.meanCarried;
+  }
+
+  BodyData read() {
+    readForces();
+    for (int e = 0; e < place_.sides.count(); ++e)
+      if (place_.sides.all()[e].triangles[1] < 0) readSide(e);
+    readStresses();
+    return std::move(data_);
+  }
+
+ private:
+  [[nodiscard]] std::string ofBody(const std::string& what) const {
+    return what + " of " + place_.own.name();
+  }
+  void refuse(const std::string& why) {
+    if (data_.obstacle.empty()) data_.obstacle = why;
+  }
+  void isBeyond(const std::string& what) {
+    if (data_.beyond.empty()) data_.beyond = what;
+  }
+  [[nodiscard]] std::array<Point, 3> cornersOf(int t) const {
+    const auto& v = mesh_.triangles[t];
+    return {mesh_.vertices[v[0]], mesh_.vertices[v[1]], mesh_.vertices[v[2]]};
+  }
+
+  void readForces() {
+    const std::vector<BodyForce>& forces = place_.body.conditions().forces;
+    if (forces.empty()) return;
+    const int triangles = static_cast<int>(mesh_.triangles.size());
+    std::vector<Datum> values;
+    for (const BodyForce& force : forces) values.push_back(force.value);
+    DataOnTriangles data(values, t_, triangles);
+    for (int t = 0; t < triangles; ++t) {
+      const std::array<Point, 3> x = cornersOf(t);
+      const double area = doubleArea(mesh_, t) / 2;
+      Eigen::Matrix<double, 2, 3> linear = Eigen::Matrix<double, 2, 3>::Zero();
+      double rest = 0;
+      bool known = true;
+      for (size_t i = 0; i < forces.size(); ++i) {
+        const TriangleDatum datum = data.on(static_cast<int>(i), x);
+        for (int k = 0; k < 3; ++k) linear(forces[i].component, k) += datum.linear[k];
+        rest += datum.rest * std::sqrt(area);
+        known = known && datum.known;
+      }
+      if (!known) refuse(ofBody("the body force") + " is not known to be bounded");
+      data_.forces[t] = linear.rowwise().mean();
+      addLinearForce(t, x, area, linear.colwise() - data_.forces[t]);
+      if (rest > same * same * linear.norm() * std::sqrt(area)) {
+        isBeyond(ofBody("the body force") + " is not constant on triangles");
+        data_.carried[t] += rest * carriesForce(x, place_.compliances[t]);
+      }
+      for (const int v : mesh_.triangles[t]) data_.load.segment<2>(2 * v) += area / 3 * data_.forces[t];
+    }
+  }
+
+  /// A force that is linear and has no mean: sum of c_k (l_i - l_j) t_k, t_k the sides, which l_i l_j t_k (x)
+  /// t_k carry without tractions, where it has no couple.
+  void addLinearForce(int t, const std::array<Point, 3>& x, double area,
+                      const Eigen::Matrix<double, 2, 3>& values) {
+    if (!(values.norm() > 1e-13 * data_.forces[t].norm())) return;
+    isBeyond(ofBody("the body force") + " is not constant on triangles");
+    Eigen::Matrix<double, 6, 3> fields;
+    std::array<Point, 3> along;
+    for (int k = 0; k < 3; ++k) {
+      const int i = (k + 1) % 3;
+      const int j = (k + 2) % 3;
+      along[k] = x[j] - x[i];
+      Eigen::Matrix<double, 2, 3> at = Eigen::Matrix<double, 2, 3>::Zero();
+      at.col(i) = along[k];
+      at.col(j) = -along[k];
+      fields.col(k) = Eigen::Map<const Eigen::Matrix<double, 6, 1>>(at.data());
+    }
+    const Eigen::Map<const Eigen::Matrix<double, 6, 1>> wanted(values.data());
+    const Eigen::Vector3d c = fields.colPivHouseholderQr().solve(-wanted);
+    const double left = (fields * c + wanted).norm();
+    if (left > same * (values.norm() + data_.forces[t].norm()))
+      refuse(ofBody("the body force") + " varies across its direction, so that it turns triangles");
+    Eigen::Matrix3d stresses;
+    for (int k = 0; k < 3; ++k)
+      stresses.col(k) = c[k] * Stress(along[k].x() * along[k].x(), along[k].y() * along[k].y(),
+                                      along[k].x() * along[k].y());
+    // Integrals of (l_i l_j)^2 and of (l_i l_j)(l_i l_k): area/90 and area/180.
+    const Stress sum = stresses.rowwise().sum();
+    double energy = sum.dot(place_.compliances[t] * sum) * area / 180;
+    for (int k = 0; k < 3; ++k)
+      energy += stresses.col(k).dot(place_.compliances[t] * stresses.col(k)) * area / 180;
+    data_.carried[t] += std::sqrt(energy);
+    data_.meanCarried[t] += area / 12 * sum;
+  }
+
+  void readSide(int e) {
+    const Side& side = place_.sides.all()[e];
+    KnownTraction& known = data_.known[e];
+    known.count = 2;
+    known.known = {Point(1, 0), Point(0, 1)};
+    if (side.boundary < 0) return;
+    const int label = mesh_.boundaryLabels[side.boundary];
+    const Fan fan(mesh_, side);
+    const auto direction = [&](int component) -> Point {
+      return component == alongX        ? Point(1, 0)
+             : component == alongY      ? Point(0, 1)
+             : component == alongNormal ? fan.outward()
+                                        : Point(fan.along().normalized());
+    };
+    for (const PrescribedDisplacement& held : place_.body.conditions().displacements) {
+      if (held.label != label) continue;
+      hold(known, direction(held.component));
+      if (!holds(side, direction(held.component))) data_.curvedSupport = true;
+      readDisplacement(e, direction(held.component), held.value);
+    }
+    for (const Traction& traction : place_.body.conditions().tractions)
+      if (traction.label == label) readTraction(e, fan, direction(traction.component), traction.value);
+  }
+
+  void readDisplacement(int e, const Point& direction, const Datum& value) {
+    const Side& side = place_.sides.all()[e];
+    const SideDatum datum =
+        onSide(value, mesh_.vertices[side.vertices[0]], mesh_.vertices[side.vertices[1]], t_);
+    const std::string what =
+        ofBody("the displacement prescribed on label " + std::to_string(mesh_.boundaryLabels[side.boundary]));
+    const double size = std::max(datum.size, displacement_.lpNorm<Eigen::Infinity>());
+    for (int end = 0; end < 2; ++end)
+      if (std::abs(direction.dot(displacement_.segment<2>(2 * side.vertices[end])) - datum.ends[end]) >
+          same * size)
+        return datum.linear() && side.vertices[end] < place_.own.nodes()
+                   ? refuse(what + " is not that of its nodes")
+                   : refuse(what + " is not linear beside contact or loads on the same label");
+    if (datum.linear()) return;
+    if (!datum.known) return refuse(what + " is not known to be bounded");
+    if (!std::isfinite(datum.slope)) return refuse(what + " is not known to be continuous");
+    isBeyond(what + " is not linear on sides");
+    moveSide(place_, e, direction, datum, data_);
+  }
+
+  void readTraction(int e, const Fan& fan, const Point& direction, const Datum& value) {
+    const Side& side = place_.sides.all()[e];
+    const SideDatum datum = onSide(value, fan.p, fan.q, t_);
+    const double length = fan.length();
+    for (int end = 0; end < 2; ++end) {
+      const Point moment = length * datum.moments[end] * direction;
+      data_.known[e].moments[end] += moment;
+      data_.load.segment<2>(2 * side.vertices[end]) += moment;
+    }
+    data_.error = std::max(data_.error, length * datum.momentError);
+    if (datum.linear()) return;
+    const std::string what =
+        ofBody("the traction on label " + std::to_string(mesh_.boundaryLabels[side.boundary]));
+    if (!datum.known) return refuse(what + " is not known to be bounded");
+    isBeyond(what + " is not linear on sides");
+    const int t = side.triangles[0];
+    data_.carried[t] += datum.off * std::sqrt(length) * carriesTraction(fan, place_.compliances[t]);
+  }
+
+  /// Whether the supports of both ends of a side hold it along a direction.
+  [[nodiscard]] bool holds(const Side& side, const Point& direction) const {
+    const std::vector<NodeSupport>& supports = place_.body.supports().nodes();
+    return std::all_of(side.vertices.begin(), side.vertices.end(), [&](int vertex) {
+      const auto at = std::lower_bound(supports.begin(), supports.end(), vertex,
+                                       [](const NodeSupport& each, int node) { return each.node < node; });
+      if (at == supports.end() || at->node != vertex) return false;
+      return at->count == 2 || isAlong(at->directions[0], direction);
+    });
+  }
+
+  /// What initial and thermal stresses are beside those at the points of the body.
+  void readStresses() {
+    const Conditions& conditions = place_.own.conditions();
+    std::vector<Datum> values;
+    for (const InitialStress& each : conditions.initialStresses) values.push_back(each.value);
+    if (place_.own.heated()) values.push_back(conditions.temperature);
+    const auto varies = [](const Datum& value) { return !value.constant(); };
+    if (std::none_of(values.begin(), values.end(), varies)) return;
+    const int triangles = static_cast<int>(mesh_.triangles.size());
+    DataOnTriangles data(values, place_.own.heated() ? t_ : 0, triangles);
+    DataOnTriangles atStart(values, 0, triangles);
+    const Matrix given = place_.own.initialStress();
+    const Matrix heat = place_.own.heated() ? place_.own.thermalStrain(t_) : Matrix();
+    const Matrix none = Matrix::Zero(place_.own.material().components(), place_.own.points());
+    const Linearisation elastic = linearisedLaw(place_.own, none, 0);
+    for (int t = 0; t < triangles; ++t) {
+      const int parent = place_.cut.parents[t];
+      const std::array<Point, 3> x = cornersOf(t);
+      const Stress centre = toCartesian(given.col(parent).head<3>());
+      // Later ones replace earlier ones.
+      std::array<int, 3> of{-1, -1, -1};
+      for (size_t i = 0; i < conditions.initialStresses.size(); ++i) {
+        const InitialStress& each = conditions.initialStresses[i];
+        if (each.component < 3 && (!each.region || mesh_.regions[t] == *each.region))
+          of[each.component] = static_cast<int>(i);
+      }
+      Stress off = Stress::Zero();  // root of mean squares
+      Stress mean = Stress::Zero();
+      bool known = true;
+      const double area = doubleArea(mesh_, t) / 2;
+      const auto add = [&](DataOnTriangles& from, int i, double centreValue, const Stress& per) {
+        const TriangleDatum datum = from.on(i, x);
+        known = known && datum.known;
+        off += datum.distanceTo(centreValue) * per.cwiseAbs();
+        mean += ((datum.linear[0] + datum.linear[1] + datum.linear[2]) / 3 - centreValue) * per;
+      };
+      for (int c = 0; c < 3; ++c)
+        if (of[c] >= 0) add(atStart, of[c], centre[c], Stress::Unit(c));
+      if (place_.own.heated()) {
+        const Vector& perKelvin = conditions.expansion.col(parent);
+        PointVector strain = PointVector::Zero(none.rows());
+        strain.head(perKelvin.size()) = perKelvin;
+        const Stress stress = -toCartesian(stressOf(elastic, strain, parent).head<3>());
+        Eigen::Index at = 0;
+        perKelvin.cwiseAbs().maxCoeff(&at);
+        const double degrees = perKelvin[at] != 0 ? heat(at, parent) / perKelvin[at] : 0;
+        add(data, static_cast<int>(values.size()) - 1, degrees, stress);
+      }
+      if (!known) refuse(ofBody("the initial stress or temperature") + " is not known to be bounded");
+      if (!(off.norm() > 1e-13 * centre.norm())) continue;
+      isBeyond(ofBody("the initial stress or temperature") + " is not constant on triangles");
+      data_.strained[t] += std::sqrt(area * off.dot(place_.compliances[t].cwiseAbs() * off));
+      data_.meanStrained[t] += area * mean;
+    }
+  }
+
+  const DataPlace& place_;
+  const TriangleMesh& mesh_;
+  const Vector& displacement_;
+  double t_;
+  BodyData data_;
+};
+
+}  // namespace
+
+double movedEnergy(const DataPlace& place, int side, const Point& along, const SideDatum& datum) {
+  const Fan fan(place.cut.mesh, place.sides.all()[side]);
+  const int t = place.sides.all()[side].triangles[0];
+  const Eigen::Matrix3d& E = place.moduli[t];
+  const double twiceArea = fan.length() * fan.height();
+  const auto energy = [&](const Point& g) {
+    const Eigen::Vector3d strain = strainOf(along, g);
+    return strain.dot(E * strain);
+  };
+  // x = c + rho (p + s (q - p) - c): grad rho = m, grad s = g(s)/rho, g linear in s.
+  const Point m = fan.outward() / fan.height();
+  const auto g = [&](const Point& end) -> Point {
+    const Point d = end - fan.c;
+    return Point(-d.y(), d.x()) / twiceArea;
+  };
+  const double bySlope = std::max(energy(g(fan.p)), energy(g(fan.q)));
+  const double byValue = energy(m);
+  double least = infinity;
+  for (double depth = 1; depth > 1e-3; depth /= 2) {
+    const double r = 1 - depth;  // w = datum (rho - r)/(1 - r) where rho is larger
+    const double inner = r > 0 ? r * r * std::log(1 / r) : 0;
+    const double slopes = ((1 - r * r) / 2 - 2 * r * (1 - r) + inner) / (depth * depth);
+    const double values = (1 - r * r) / 2 / (depth * depth);
+    const double root =
+        datum.slope * std::sqrt(bySlope * std::max(slopes, 0.0)) + datum.off * std::sqrt(byValue * values);
+    least = std::min(least, std::sqrt(twiceArea) * root);
+  }
+  return least;
+}
+
+void moveSide(const DataPlace& place, int side, const Point& along, const SideDatum& datum, BodyData& data) {
+  const Fan fan(place.cut.mesh, place.sides.all()[side]);
+  const int t = place.sides.all()[side].triangles[0];
+  data.strained[t] += movedEnergy(place, side, along, datum);
+  const double integral =
+      fan.length() * (datum.moments[0] + datum.moments[1] - (datum.ends[0] + datum.ends[1]) / 2);
+  data.moved.push_back({place.cut.mesh.boundaryLabels[place.sides.all()[side].boundary], integral * along});
+  // Integral of E eps(w): w vanishes on the other sides.
+  data.meanStrained[t] += toCartesian(place.moduli[t] * strainOf(along, fan.outward())) * integral;
+}
+
+}  // namespace mortier

@@ -1,0 +1,29 @@
+// A datum on a straight side, s from 0 to 1: its moments, and bounds of what it is beside the linear function
+// between its values at the ends. Pieces of the side are halved, the worst first, until an enclosure of the
+// datum and of its derivatives on each (base/taylor.h) leaves little; no quadrature point has to meet a peak.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/datum.h"
+
+namespace mortier {
+
+struct SideDatum {
+  std::array<double, 2> ends{};     ///< values
+  std::array<double, 2> moments{};  ///< integrals of it times 1 - s, and times s
+  double momentError = 0;           ///< of these, at most
+  double size = 0;                  ///< the largest value known
+  double off = 0;                   ///< at least: square root of the integral of (f - linear)^2
+  double slope = 0;                 ///< the same of the derivative of f - linear by s; infinite at a jump
+  double least = 0, largest = 0;    ///< bounds of f - linear
+  std::vector<double> jumps;        ///< where it nearly is a jump
+  bool known = true;                ///< whether it is enclosed: of other functions a few values are known
+
+  [[nodiscard]] bool linear() const;
+};
+
+SideDatum onSide(const Datum& datum, const Point& first, const Point& last, double t);
+
+}  // namespace mortier

@@ -1,0 +1,205 @@
+#include "scene/enclosed_formula.h"
+
+#include <algorithm>
+#include <memory>
+#include <numbers>
+
+#include "base/error.h"
+#include "scene/formulas.h"
+
+namespace mortier {
+namespace {
+
+using Op = Formulas::Op;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Interval range(double a, double b) {
+  return std::isnan(a) || std::isnan(b) ? Interval::anything() : Interval{std::min(a, b), std::max(a, b)};
+}
+Interval widened(const Interval& a) {
+  return a + Interval{-4 * std::numeric_limits<double>::epsilon() * a.magnitude(),
+                      4 * std::numeric_limits<double>::epsilon() * a.magnitude()};
+}
+/// Whether it does not change along the line.
+bool steady(const Taylor& u) {
+  return std::all_of(u.c.begin() + 1, u.c.end(), [](const Interval& each) { return each.isZero(); });
+}
+Taylor truth(bool always, bool never, const Taylor& a, const Taylor& b) {
+  const Interval value{always ? 1.0 : 0.0, never ? 0.0 : 1.0};
+  return always || never || (steady(a) && steady(b)) ? Taylor::constant(value) : Taylor::within(value);
+}
+/// One of two.
+Taylor either(const Taylor& condition, const Taylor& u, const Taylor& v) {
+  if (!steady(condition)) return Taylor::within(hull(u.c[0], v.c[0]));
+  Taylor result;
+  for (int k = 0; k <= Taylor::order; ++k) result.c[k] = hull(u.c[k], v.c[k]);
+  return result;
+}
+Taylor one() {
+  return Taylor::constant({1, 1});
+}
+
+Taylor absolute(const Taylor& u) {
+  if (u.c[0].least >= 0) return u;
+  if (u.c[0].largest <= 0) return -u;
+  if (steady(u)) return Taylor::constant({0, u.c[0].magnitude()});
+  Taylor result = Taylor::within({0, u.c[0].magnitude()});
+  result.c[1] = hull(u.c[1], -u.c[1]);
+  return result;
+}
+Taylor least(const Taylor& u, const Taylor& v) {
+  if (u.c[0].largest <= v.c[0].least) return u;
+  if (v.c[0].largest <= u.c[0].least) return v;
+  const Interval values{std::min(u.c[0].least, v.c[0].least), std::min(u.c[0].largest, v.c[0].largest)};
+  if (steady(u) && steady(v)) return Taylor::constant(values);
+  Taylor result = Taylor::within(values);
+  result.c[1] = hull(u.c[1], v.c[1]);
+  return result;
+}
+/// A function that has steps: constant where its values do not change.
+Taylor stepwise(const Taylor& u, double first, double last) {
+  return first == last || steady(u) ? Taylor::constant(range(first, last))
+                                    : Taylor::within(range(first, last));
+}
+Taylor hyperbolic(const Taylor& u, double sign) {
+  return (exp(u) + Taylor::constant({sign, sign}) * exp(-u)) * Taylor::constant({0.5, 0.5});
+}
+
+template <class Function>
+Taylor inverse(const Taylor& u, const Taylor& q, double lowest, double highest, Function function) {
+  const Interval values = widened(range(function(std::clamp(u.c[0].least, lowest, highest)),
+                                        function(std::clamp(u.c[0].largest, lowest, highest))));
+  return integrated(u, q, values);
+}
+
+Taylor power(const Formulas::Operation& operation, const Taylor& u, const Taylor& v) {
+  if (operation.number != 0) return pow(u, operation.number);
+  return u.c[0].least > 0 ? exp(v * log(u)) : Taylor::within(Interval::anything());
+}
+
+Taylor apply(const Formulas::Operation& operation, const Taylor& a, const Taylor& b, const Taylor& c) {
+  const Interval& u = a.c[0];
+  const Interval& v = b.c[0];
+  const bool yes = !u.holds(0);
+  const bool otherYes = !v.holds(0);
+  switch (operation.op) {
+    case Op::number:
+      return Taylor::constant({operation.number, operation.number});
+    case Op::variable:
+      return a;
+    case Op::negate:
+      return -a;
+    case Op::add:
+      return a + b;
+    case Op::subtract:
+      return operation.a == operation.b ? Taylor() : a - b;
+    case Op::multiply: {
+      Taylor result = a * b;
+      if (operation.a == operation.b) result.c[0].least = std::max(result.c[0].least, 0.0);
+      return result;
+    }
+    case Op::divide:
+      return a / b;
+    case Op::power:
+      return power(operation, a, b);
+    case Op::less:
+      return truth(u.largest < v.least, u.least >= v.largest, a, b);
+    case Op::lessOrEqual:
+      return truth(u.largest <= v.least, u.least > v.largest, a, b);
+    case Op::equal:
+    case Op::notEqual: {
+      const bool same = u.least == u.largest && v.least == v.largest && u.least == v.least;
+      const bool other = u.largest < v.least || u.least > v.largest;
+      return operation.op == Op::equal ? truth(same, other, a, b) : truth(other, same, a, b);
+    }
+    case Op::both:
+      return truth(yes && otherYes, u.isZero() || v.isZero(), a, b);
+    case Op::either:
+      return truth(yes || otherYes, u.isZero() && v.isZero(), a, b);
+    case Op::choose:
+      return yes ? b : u.isZero() ? c : either(a, b, c);
+    case Op::min:
+      return least(a, b);
+    case Op::max:
+      return -least(-a, -b);
+    case Op::atan2:
+      if (v.least > 0)
+        return inverse(a / b, one() + a / b * (a / b), -infinity, infinity,
+                       [](double x) { return std::atan(x); });
+      return Taylor::within({-std::numbers::pi, std::numbers::pi});
+    case Op::sin:
+      return sinAndCos(a)[0];
+    case Op::cos:
+      return sinAndCos(a)[1];
+    case Op::tan: {
+      const auto [s, k] = sinAndCos(a);
+      return s / k;
+    }
+    case Op::asin:
+      return inverse(a, pow(one() - a * a, 0.5), -1, 1, [](double x) { return std::asin(x); });
+    case Op::acos:
+      return inverse(a, -pow(one() - a * a, 0.5), -1, 1, [](double x) { return std::acos(x); });
+    case Op::atan:
+      return inverse(a, one() + a * a, -infinity, infinity, [](double x) { return std::atan(x); });
+    case Op::sinh:
+      return hyperbolic(a, -1);
+    case Op::cosh:
+      return hyperbolic(a, 1);
+    case Op::tanh: {
+      Taylor result = one() - Taylor::constant({2, 2}) / (one() + exp(a + a));
+      result.c[0] = widened(range(std::tanh(u.least), std::tanh(u.largest)));
+      return result;
+    }
+    case Op::asinh:
+      return inverse(a, pow(one() + a * a, 0.5), -infinity, infinity, [](double x) { return std::asinh(x); });
+    case Op::acosh:
+      return inverse(a, pow(a * a - one(), 0.5), 1, infinity, [](double x) { return std::acosh(x); });
+    case Op::atanh:
+      return inverse(a, one() - a * a, -1, 1, [](double x) { return std::atanh(x); });
+    case Op::exp:
+      return exp(a);
+    case Op::log:
+      return log(a);
+    case Op::log10:
+      return log(a) / Taylor::constant(widened({std::numbers::ln10, std::numbers::ln10}));
+    case Op::log2:
+      return log(a) / Taylor::constant(widened({std::numbers::ln2, std::numbers::ln2}));
+    case Op::sqrt:
+      return pow(a, 0.5);
+    case Op::abs:
+      return absolute(a);
+    case Op::sign: {
+      const auto sign = [](double x) { return static_cast<double>((x > 0) - (x < 0)); };
+      return stepwise(a, sign(u.least), sign(u.largest));
+    }
+    case Op::rint:
+      return stepwise(a, std::floor(u.least + 0.5), std::floor(u.largest + 0.5));
+  }
+  return Taylor::within(Interval::anything());
+}
+
+}  // namespace
+
+Datum::Along enclosed(const std::string& text) {
+  const auto formulas = std::make_shared<Formulas>(std::vector<std::string>{"x", "y", "t"},
+                                                   std::map<std::string, Formulas::Text>{});
+  try {
+    formulas->add({text, ""});
+  } catch (const InputError&) {
+    return {};  // words that formulas do not have
+  }
+  return [formulas](const Taylor& x, const Taylor& y, const Taylor& t) {
+    const std::array<Taylor, 3> variables{x, y, t};
+    const std::vector<Formulas::Operation>& operations = formulas->operations();
+    std::vector<Taylor> work(operations.size());
+    for (size_t i = 0; i < operations.size(); ++i) {
+      const Formulas::Operation& each = operations[i];
+      const auto of = [&](int k) -> const Taylor& { return work[std::max(k, 0)]; };
+      work[i] = apply(each, each.op == Op::variable ? variables[each.a] : of(each.a), of(each.b), of(each.c));
+    }
+    return work[formulas->result(0)];
+  };
+}
+
+}  // namespace mortier

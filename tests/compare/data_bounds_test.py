@@ -1,0 +1,91 @@
+"""Bounds of scenes whose data are not linear on sides, or constant on triangles (data_bounds.py)."""
+import json
+import statistics
+import unittest
+
+import data_bounds
+from support import InFolder
+
+BLOCKS = """\
+[[body]]
+name = "u"
+mesh = {{ shape = "rectangle", cells = [2, 2], lower = [0, 0], upper = [1, 1] }}
+material = {{ young = 1, poisson = 0.3 }}
+boundary = [{{ label = 3, {top} }}, {{ label = 4, ux = 0 }}{more}]
+{body}
+[[body]]
+name = "l"
+mesh = {{ shape = "rectangle", cells = [4, 4], lower = [0, -1], upper = [1, 0] }}
+material = {{ young = 2, poisson = 0.2 }}
+boundary = [{{ label = 1, ux = 0, uy = "{bottom}" }}]
+[contact]
+nonmortar = {{ body = "u", label = 1 }}
+mortar = {{ body = "l", label = 3 }}
+{contact}
+[time]
+end = 1
+steps = 1
+[accuracy]
+bound = true
+[[quantity]]
+name = "f"
+contact_force = {{ body = "l", label = 3 }}
+component = "y"
+"""
+
+
+class DataBounds(InFolder):
+    def bound(self, top, more="", body="", contact="", bottom="0", settings=()):
+        self.write(BLOCKS.format(top=top, more=more, body=body, contact=contact, bottom=bottom))
+        self.mortier("run", "scene.toml", "--quiet", "--out", "out", *settings)
+        summary = json.loads(self.read("out/summary.json"))
+        return summary["accuracy"]["bound"], summary["quantities"]["f"]
+
+    def test_what_lies_between_the_nodes_is_in_the_bound(self):
+        # True errors, and the force, of meshes 32 times finer.
+        for least, given in (
+                (0.66, dict(top='ty = "-0.01*t*(1 + 5*sin(8*pi*x))"')),
+                (0.166, dict(top='ux = 0, uy = "-0.02*t"', contact='gap = "0.002*sin(4*pi*x)"')),
+                (0.36, dict(top='ty = "-0.01*t"', more=", { label = 2, ux = 0 }",
+                            body='initial_stress = { s11 = "-0.1*cos(pi*y)", s22 = 0, s12 = 0 }')),
+                (0.99, dict(top='uy = "t*(-10 - 0.01*sin(4*pi*x))"', bottom="-10*t + 0.001*t"))):
+            with self.subTest(least=least):
+                bound, _ = self.bound(**given)
+                self.assertNotIn("reason", bound)
+                self.assertTrue(bound["energy_error"] is None or bound["energy_error"] > least, bound)
+        bound, force = self.bound('uy = "-0.02*t"', contact='gap = "0.01*x^2"')
+        self.assertTrue(force["bound"]["lower"] < 0.01113 < force["bound"]["upper"], force)
+        self.assertLess(force["bound"]["error"], 0.1 * force["value"])
+        bound, force = self.bound('ty = "-0.01*t"', body='force = { x = 0, y = "-0.01*t*(1 + y)" }')
+        self.assertTrue(0 < bound["energy_error"] < 0.5, bound)
+        self.assertTrue(force["bound"]["lower"] < 0.025 < force["bound"]["upper"], force)
+
+    def test_rounds_end_when_the_data_are_small_too(self):
+        bound, _ = self.bound('ty = "-0.01*t*(1 + 5*sin(8*pi*x))"',
+                              settings=("--set", "accuracy.energy=0.2"))
+        self.assertLess(bound["energy_error"], 0.2)
+
+    def test_what_cannot_be_bounded_is_named(self):
+        for reason, given in (
+                ("not known to be continuous", dict(top='uy = "x < 0.3 ? -0.01*t : -0.02*t"')),
+                ("gap is not known to be continuous", dict(top='uy = "-0.02*t"',
+                                                           contact='gap = "x < 0.3 ? 0 : 0.001"')),
+                ("varies across its direction", dict(top='ty = "-0.01*t"',
+                                                     body='force = { x = 0, y = "-0.01*t*(1 + x)" }'))):
+            bound, _ = self.bound(**given)
+            self.assertIn(reason, bound["reason"])
+
+    def test_random_scenes(self):
+        counts = {"linear": 6, "natural": 12, "hostile": 4}
+        ratios, faults, refused, quantities = data_bounds.survey(counts, 0, 4, 2)
+        print(refused)
+        self.assertEqual(faults, [])
+        self.assertGreater(quantities, 40)
+        for kind in counts:
+            print(kind, statistics.median(ratios[kind]))
+            self.assertGreater(len(ratios[kind]), counts[kind] // 2)
+            self.assertLess(statistics.median(ratios[kind]), 4)
+
+
+if __name__ == "__main__":
+    unittest.main()
