@@ -11,6 +11,7 @@ import collections
 import concurrent.futures
 import csv
 import os
+import re
 import resource
 import subprocess
 import sys
@@ -69,17 +70,21 @@ def run(program, folder, scene, turned, options, patience):
     return done.returncode, columns, done.stderr
 
 
-def scales(columns):
-    """The largest of the run: pressures and forces that are rounding beside the stress are compared with it."""
+def scales(scene, columns):
+    """The largest of the run: pressures and forces that are rounding beside the stress are compared with it, and
+    stresses that are rounding of displacements with what is known of them to as many digits."""
+    known = 1e-16 / TOLERANCE * 10
     largest = {name: max(map(abs, values), default=0) for name, values in columns.items()}
-    stress = max(largest["von_mises_max"], largest["max_pressure"])
+    young = max(float(number) for number in re.findall(r"young1? = ([^,]+)", "\n".join(scene.text)))
+    stress = max(largest["von_mises_max"], largest["max_pressure"], known * young * largest["displacement_max"])
     return {**largest, "max_pressure": stress, "von_mises_max": stress,
-            "contact_force": max(largest["contact_force"], stress)}
+            "contact_force": max(largest["contact_force"], stress),
+            "elastic_energy": max(largest["elastic_energy"], stress**2 / young)}
 
 
-def differences(columns, other):
+def differences(scene, columns, other):
     """Column: the largest difference over its scale; infinite where the steps are others."""
-    scale = scales(columns)
+    scale = scales(scene, columns)
     return {name: float("inf") if len(values) != len(other[name]) else
             max((abs(a - b) for a, b in zip(values, other[name])), default=0) / (scale[name] or 1)
             for name, values in columns.items()}
@@ -100,7 +105,7 @@ def compare(program, seed, patience):
             if again != code:
                 found.append((way, f"exit code {code}, {again}: {told.strip()[-200:]}", float("inf")))
                 continue
-            name, worst = max(differences(columns, others).items(), key=lambda item: item[1])
+            name, worst = max(differences(scene, columns, others).items(), key=lambda item: item[1])
             found.append((way, name, worst))
         return seed, code, found
 
