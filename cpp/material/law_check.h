@@ -12,8 +12,8 @@
 
 namespace mortier {
 
-/// A rate is usable where it is finite and has a norm: a step is cut back from a stress where it has none. The
-/// rate is tried at multiples of the samples too, up to the stress of an elastic strain of 1.
+/// A rate is usable where it is finite and has a norm: a step is cut back from a stress where it has none.
+/// The rate is tried at multiples of the samples too, up to the stress of an elastic strain of 1.
 struct LawRange {
   double stress = 0;  ///< largest size of a stress [Pa]; the least is a thousandth of it
   double strain = 0;  ///< of a strain [-]

@@ -65,7 +65,7 @@ class OwnMaterial final : public Material {
       const Vec predictor = local.points.stress.col(i - begin) + at.direction;
       change.add(Vector(predictor - stress.col(i)));
       if (!isOnLaw(local, i - begin)) {
-        // Residuals are told over the stresses of an iterate, and those of such a strain hide that it has none.
+        // Residuals are relative to the stresses of an iterate: those of such a strain hide that it has none.
         const bool lost = !(step.strain.col(i).norm() <= farthest);
         change.add(lost ? std::numeric_limits<double>::quiet_NaN() : at.direction.norm());
       }

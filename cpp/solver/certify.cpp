@@ -20,6 +20,7 @@ double depthOf(const Body& body) {
 
 Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double materialResidual) const {
   constexpr double roundingOfMotion = 1e-15;
+  constexpr double farBelowYield = 1e-6;  // of the force of a triangle as large as the body
   Worst force;
   Worst length;  // gaps are differences of displacements
   Worst rounding;
@@ -79,7 +80,9 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
     for (const double each : {of.now, of.before, of.load, of.loose}) force.add(each);
     // A body that moves without any load, or touches another without any, has forces that are nothing but the
     // rounding of its motion, and of distances, unless it is beyond yield.
-    if (bodies_[b].elastic() || body.material().stressScale() <= 0) {
+    const double yieldStress = body.material().stressScale();
+    const bool far = of.now <= farBelowYield * yieldStress * body.extent() * of.depth;
+    if (bodies_[b].elastic() || yieldStress <= 0 || far) {
       const double rounded = model_.interfaces.empty() ? of.increment : std::max(of.increment, body.extent());
       force.add(roundingOfMotion * bodies_[b].largestModulus() * rounded * of.depth);
     }

@@ -31,6 +31,33 @@ steps = 1
 energy = 0.15
 """
 
+BETWEEN = """\
+[[body]]
+name = "b0"
+mesh = { shape = "rectangle", lower = [0, 0], upper = [1, 1], cells = 2 }
+material = { young = 1e3, poisson = 0.3 }
+boundary = [ { label = 1, ux = 0, uy = 0 } ]
+[[body]]
+name = "b1"
+mesh = { shape = "rectangle", lower = [0, 1.000001], upper = [1, 2], cells = 3 }
+material = { young = 1e3, poisson = 0.3, viscosity = 0.02, yield_stress = 0.05 }
+boundary = [ { label = 4, ux = 0 } ]
+[[body]]
+name = "b2"
+mesh = { shape = "rectangle", lower = [0, 2.000001], upper = [1, 3], cells = 2 }
+material = { young = 17, poisson = 0 }
+boundary = [ { label = 3, DRIVE }, { label = 4, ux = 0 } ]
+[[contact]]
+nonmortar = { body = "b1", label = 1 }
+mortar = { body = "b0", label = 3 }
+[[contact]]
+nonmortar = { body = "b2", label = 1 }
+mortar = { body = "b1", label = 3 }
+[time]
+end = 1
+steps = 1
+"""
+
 FLOWING = """\
 [[body]]
 name = "block"
@@ -299,6 +326,19 @@ steps = 1
         for name in ("history.csv", "contact.csv", "punch.mesh", "block.mesh"):
             self.assertEqual(self.read(f"out/{name}"), self.read(f"whole/{name}"))
         self.assertEqual(self.names("."), ["out", "scene.toml", "whole"])
+
+    def test_a_free_motion_is_named_as_without_an_accuracy(self):
+        """A body between two others, next to both: what little it moves makes forces of rounding alone."""
+        for drive in ("uy = -1e-4", 'uy = "-1e-4*(1 - 2*t)"', "uy = 0", 'uy = "1e-4*t"'):
+            with self.subTest(drive):
+                self.write(BETWEEN.replace("DRIVE", drive))
+                ends = []
+                for options in ([], ["--accuracy", "0.06"], ["--set", "time.tolerance=0.1"]):
+                    done = subprocess.run([PROGRAM, "run", "scene.toml", "--quiet", "--out", "out", *options],
+                                          cwd=self.folder, capture_output=True, text=True)
+                    self.assertIn(done.returncode, (0, 3), done.stderr)
+                    ends.append((done.returncode, re.findall("body .*: translation along", done.stderr)))
+                self.assertEqual(ends, ends[:1] * 3)
 
 
 if __name__ == "__main__":

@@ -203,7 +203,8 @@ steps = 1
                 "solver.method=penalty-duality": "solver.method = penalty-duality",
                 "accuracy.bound=true": "accuracy.bound"}.items():
             with self.subTest(setting):
-                self.reject(f"{here}{what} does not support friction", "run", "scene.toml", "--quiet", "--out", "out", "--set", setting)
+                self.reject(f"{here}{what} does not support friction", "run", "scene.toml", "--quiet",
+                            "--out", "out", "--set", setting)
         for scene, what in {
                 FRICTION_KEYS.replace("friction = 0.3", "friction = 0.3\nshear_limit = 1"):
                     r"contact: shear_limit = 1, expected friction or shear_limit",

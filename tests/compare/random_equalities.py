@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Random scenes of random_choices.py in other words, which must change nothing: units whose factors are no powers
-of two, x and y turned by a right angle, the bodies in the reverse order, two threads, without `solver.reduce`,
-with SuiteSparse. Histories are compared step by step, over the largest stress, force, energy and displacement of
-the run.
+"""Random scenes of random_choices.py in other words, which must change nothing: units whose factors are no
+powers of two, x and y turned by a right angle, the bodies in the reverse order, two threads, without
+`solver.reduce`, with SuiteSparse. Histories are compared step by step, over the largest stress, force, energy
+and displacement of the run.
 
 Usage: random_equalities.py [--count 100] [--seed 0] [--patience 20] [--jobs 1] [--mortier build/mortier]
 """
@@ -11,6 +11,7 @@ import collections
 import concurrent.futures
 import csv
 import os
+import re
 import resource
 import subprocess
 import sys
@@ -29,8 +30,8 @@ WAYS = {
     "SuiteSparse": ({}, ["--set", "solver.linear=suitesparse"]),
 }
 #: column of history.csv: powers of the units of stress, length (with one depth more about an axis) and time
-COLUMNS = {"time": (0, 0, 1), "contact_force": (1, 1, 0), "max_pressure": (1, 0, 0), "von_mises_max": (1, 0, 0),
-           "elastic_energy": (1, 2, 0), "displacement_max": (0, 1, 0)}
+COLUMNS = {"time": (0, 0, 1), "contact_force": (1, 1, 0), "max_pressure": (1, 0, 0),
+           "von_mises_max": (1, 0, 0), "elastic_energy": (1, 2, 0), "displacement_max": (0, 1, 0)}
 TOLERANCE = 1e-8
 
 
@@ -69,24 +70,29 @@ def run(program, folder, scene, turned, options, patience):
     return done.returncode, columns, done.stderr
 
 
-def scales(columns):
-    """The largest of the run: pressures and forces that are rounding beside the stress are compared with it."""
+def scales(scene, columns):
+    """The largest of the run: pressures and forces that are rounding beside the stress are compared with it,
+    and stresses that are rounding of displacements with what is known of them to as many digits."""
+    known = 1e-16 / TOLERANCE * 10
     largest = {name: max(map(abs, values), default=0) for name, values in columns.items()}
-    stress = max(largest["von_mises_max"], largest["max_pressure"])
+    young = max(float(number) for number in re.findall(r"young1? = ([^,]+)", "\n".join(scene.text)))
+    stress = max(largest["von_mises_max"], largest["max_pressure"],
+                 known * young * largest["displacement_max"])
     return {**largest, "max_pressure": stress, "von_mises_max": stress,
-            "contact_force": max(largest["contact_force"], stress)}
+            "contact_force": max(largest["contact_force"], stress),
+            "elastic_energy": max(largest["elastic_energy"], stress**2 / young)}
 
 
-def differences(columns, other):
+def differences(scene, columns, other):
     """Column: the largest difference over its scale; infinite where the steps are others."""
-    scale = scales(columns)
+    scale = scales(scene, columns)
     return {name: float("inf") if len(values) != len(other[name]) else
             max((abs(a - b) for a, b in zip(values, other[name])), default=0) / (scale[name] or 1)
             for name, values in columns.items()}
 
 
 def compare(program, seed, patience):
-    """(way, column, difference) of all ways that are not equal, and the exit code as it stands."""
+    """The seed, the exit code as it stands, and (way, column, difference) of all ways."""
     with tempfile.TemporaryDirectory(prefix=f"equal-{seed}-") as name:
         folder = Path(name)
         scene = WideScene(seed)
@@ -100,13 +106,14 @@ def compare(program, seed, patience):
             if again != code:
                 found.append((way, f"exit code {code}, {again}: {told.strip()[-200:]}", float("inf")))
                 continue
-            name, worst = max(differences(columns, others).items(), key=lambda item: item[1])
+            name, worst = max(differences(scene, columns, others).items(), key=lambda item: item[1])
             found.append((way, name, worst))
         return seed, code, found
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--mortier", default=os.environ.get("MORTIER", "build/mortier"))
     parser.add_argument("--count", type=int, default=100)
     parser.add_argument("--seed", type=int, default=0)
