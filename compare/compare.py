@@ -122,7 +122,10 @@ def compare(first, second, within=None):
               "contact_force": (force, FORCE),
               "interpenetration": (length * np.ptp(second.contact.position), DISPLACEMENT),
               "steps": (1, 0), "active_nodes": (1, 0), "time": (1, 1e-14)}
+    pressed = max(np.abs(run.contact.force).max(initial=0) for run in (first, second)) > FORCE*force
     for key, a in first.scalars.items():
+        if key == "active_nodes" and force > 0 and not pressed:
+            continue  # nodes that carry no force: rounding says which of them are closed
         scale, tolerance = scales.get(key, (length, DISPLACEMENT))
         b = second.scalars[key]
         differences.append(Difference(key, relative(a, b, scale), tolerance, a, b))

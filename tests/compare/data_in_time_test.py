@@ -1,9 +1,10 @@
 """Loads and supports that are not finite at some time inside a run are named, with point and time."""
 import json
+import math
 import unittest
 
 from scenes import TWO_BLOCKS
-from support import OfTwoBlocks
+from support import InFolder, OfTwoBlocks
 
 
 
@@ -62,6 +63,47 @@ class DataInTime(OfTwoBlocks):
         summary = json.loads(self.read("out/summary.json"))
         self.assertTrue(summary["accuracy"]["time_reached"])
         self.assertNotIn("reason", summary)
+
+
+# A square turned by `angle`: its left side rolls, its top is moved along it by a course that passes zero.
+TURNED = """\
+[[body]]
+name = "a"
+mesh = {{ shape = "quadrilateral", cells = 2, corners = [{corners}] }}
+material = {{ young = 1000, poisson = 0.3 }}
+[[body.boundary]]
+label = 4
+un = 0
+[[body.boundary]]
+label = 1
+ux = 0
+uy = 0
+[[body.boundary]]
+label = 3
+ux = {{ time = [0, 0.3, 0.6, 1], value = [{x}] }}
+uy = {{ time = [0, 0.3, 0.6, 1], value = [{y}] }}
+[time]
+end = 1
+steps = 2
+"""
+
+
+class OneDisplacement(InFolder):
+    def turned(self, angle, off=0.0):
+        c, s = math.cos(angle), math.sin(angle)
+        corners = ", ".join(f"[{c*x - s*y!r}, {s*x + c*y!r}]" for x, y in ((0, 0), (1, 0), (1, 1.1), (0, 1.1)))
+        course = (0.0, 6e-4, -3e-4, 1.8e-4)
+        self.write(TURNED.format(corners=corners, x=", ".join(repr(s*v + off*v) for v in course),
+                                 y=", ".join(repr(-c*v) for v in course)))
+
+    def test_supports_agree_to_rounding_of_the_whole_course(self):
+        for i in range(5):
+            self.turned(0.1 + 0.7*i)
+            self.mortier("run", "scene.toml", "--quiet", "--out", f"out{i}")
+
+    def test_what_differs_is_refused(self):
+        self.turned(0.1, 1e-6)
+        self.assertIn("label 3", self.mortier("run", "scene.toml", "--out", "out", code=2).stderr)
 
 
 if __name__ == "__main__":
