@@ -113,19 +113,21 @@ void Body::addForces(double t, Vector& f, bool steady) const {
         const std::vector<Point> places = placesOf<Element>(nodes_, tri);
         std::array<Point, Element::nodes> x;
         std::copy(places.begin(), places.end(), x.begin());
-        const auto add = [&](const Barycentric& at, double weight, const auto& toNode, auto value) {
-          const Point place = placeOf(Element::shapes(at), x);
-          const double density = depthAt(place) * Element::areaAt(at, x) * weight * value(place);
+        const auto add = [&](const Barycentric& at, const auto& toNode, auto density) {
+          const double value = density(placeOf(Element::shapes(at), x), Element::areaAt(at, x));
           for (int a = 0; a < Element::nodes; ++a)
-            f[2 * nodes_.of(tri)[a] + force.component] += toNode[a] * density;
+            f[2 * nodes_.of(tri)[a] + force.component] += toNode[a] * value;
         };
         if (exact) {
-          for (const auto& [at, toNode] : Element::loadRule())
-            add(at, 1 / Element::loadDivisor, toNode,
-                [&](const Point& place) { return force.value(place.x(), place.y(), t); });
+          for (const auto& point : Element::loadRule())
+            add(point.at, point.toNode, [&](const Point& place, double area) {
+              return depthAt(place) * area / Element::loadDivisor * force.value(place.x(), place.y(), t);
+            });
         } else {
-          for (const auto& [at, weight, sample] : onTriangle(force.value, places, t).samples)
-            add(at, weight, Element::shapes(at), [value = sample](const Point& /*place*/) { return value; });
+          for (const auto& sample : onTriangle(force.value, places, t).samples)
+            add(sample.at, Element::shapes(sample.at), [&](const Point& place, double area) {
+              return depthAt(place) * area * sample.weight * sample.value;
+            });
         }
       }
     }

@@ -18,7 +18,7 @@ std::vector<std::string> estimateDoubts(const SceneDescription& scene, const Mod
 /// infinite there, so its error does not fall.
 std::vector<std::string> pointForceDoubts(const Model& model, const State& state);
 
-/// Whether every nonmortar node lies on a mortar node.
+/// Whether every nonmortar node lies on a mortar node, and the mortar nodes between them on nonmortar ones.
 bool meshesMatch(const ContactInterface& interface);
 
 }  // namespace mortier

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "fem/element.h"
 #include "linear/condensing_solver.h"
@@ -139,6 +140,46 @@ TEST(DataError, forcesAndInitialStressesThatJump) {
   stressed.initialStresses.push_back(
       {0, std::nullopt, of([](double x, double) { return x < 0.43 ? 1 : 0; })});
   expectSeen(stressed, 0.8, 1.7);
+}
+
+// A whole wave on each nonmortar edge, of which the nodes see nothing: E*/2 k a^2/2, E* = 2/3.
+TEST(DataError, distancesOfShortWavesWhereBodiesPress) {
+  constexpr double amplitude = 0.002;
+  const Datum wave = of([](double x, double) { return amplitude * std::sin(4 * pi * x); });
+  for (const int degree : {1, 2}) {
+    Model model;
+    for (const auto& [lower, cells, young] : {std::tuple(0.0, 2, 1.0), std::tuple(-1.0, 4, 2.0)})
+      model.bodies.emplace_back("square", crissCrossMesh({{0, lower}, {1, lower + 1}, cells, cells}),
+                                elasticMaterial({young, 0.3}), Conditions{}, degree);
+    const auto meshOf = [&](int b) {
+      return ContactMesh{model.bodies[b].mesh(), model.bodies[b].elementNodes()};
+    };
+    InterfaceOptions options;
+    options.gap = [&](const Point& x) { return wave(x.x(), x.y(), 0); };
+    model.interfaces.emplace_back(ContactPair{{0, 1}, {1, 3}}, meshOf(0), meshOf(1), options);
+    State state;
+    for (const Body& body : model.bodies) {
+      const Matrix none = Matrix::Zero(3, body.points());
+      state.bodies.push_back({Vector::Zero(body.dofs()), none, none});
+    }
+    const auto estimated = [&](double force) {
+      state.contactForce = {Vector::Constant(model.interfaces[0].rows(), force)};
+      return SpaceErrorEstimator(model)(state)[0].error.sum();
+    };
+    const double before = estimated(1);
+    const double apart = estimated(0);
+    Datum given = wave;
+    given.inTime = degree == 2;  // found once, or at every time
+    model.interfaces[0].setGiven(given);
+    const double expected = 4 * pi * amplitude * amplitude / 6;
+    if (degree == 1) {
+      EXPECT_NEAR(estimated(1) - before, expected, 0.02 * expected);
+    }
+    EXPECT_GT(estimated(1) - before, 0.2 * expected);
+    EXPECT_LT(estimated(1) - before, 2 * expected);
+    // Nodes that touch without pressing: the wave between them would penetrate.
+    EXPECT_GT(estimated(0) - apart, 0.2 * expected);
+  }
 }
 
 TEST(DataError, smoothDataAddLittle) {

@@ -171,6 +171,9 @@ TEST_F(PlanFiles, estimatesThatAreKnownToBeWrongAreNamed) {
   }
   grid("upper.mesh", 0, 2, Cut::rising);
   EXPECT_TRUE(doubts({"contact.variant=interpolation"}).empty());  // meshes that match
+  EXPECT_EQ(doubts({"body.material.poisson=0.49", "plane=strain", "degree=2"}).size(), 2u);
+  grid("lower.mesh", -1, 8, Cut::rising);  // every nonmortar node lies on a mortar node
+  EXPECT_EQ(doubts({"contact.variant=interpolation"}).size(), 1u);
 }
 
 }  // namespace
