@@ -139,7 +139,7 @@ bool Controller::beginAgain(State& state) {
 
 /// Adds the error of the step to what has been carried to its end. Flow does not amplify errors: where the
 /// linearised step does, points that flow and points that do not lie side by side, and the error is taken on
-/// as it was. A contact that closes does amplify them: an error of the displacement becomes one of the stress.
+/// as it was. A contact that closes does amplify them: errors of displacements become errors of stresses.
 void Controller::add(StepTaker& taker, StepError local, double size, const SlipAndWork& missed) {
   ControllerMemory& own = memory_.controller;
   const std::vector<Matrix> before = std::exchange(own.strain, std::move(local.strain));

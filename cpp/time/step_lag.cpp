@@ -1,4 +1,6 @@
 // The error of a stress that relaxes within a step.
+#include <algorithm>
+
 #include "time/error_norms.h"
 #include "time/step_taker.h"
 
@@ -44,10 +46,16 @@ std::vector<Response> StepTaker::lag(std::vector<Matrix> strain) {
 }
 
 bool StepTaker::closes() const {
+  constexpr double rounding = 1e-9;  // over the displacements, of a contact that touches
+  double largest = 0;
+  for (const BodyState& body : state_.bodies)
+    if (body.displacement.size() > 0)
+      largest = std::max(largest, body.displacement.lpNorm<Eigen::Infinity>());
+  largest = model_.largest(largest);
   bool any = false;
   for (size_t k = 0; k < state_.contactForce.size(); ++k) {
-    const auto& now = solutions_.back().contactForce[k].array();
-    any = any || (state_.contactForce[k].array() <= 0 && now > 0).any();
+    const auto open = state_.contactForce[k].array() <= 0 && state_.gap[k].array() < -rounding * largest;
+    any = any || (open && solutions_.back().contactForce[k].array() > 0).any();
   }
   return any;
 }

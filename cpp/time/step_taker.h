@@ -44,7 +44,7 @@ class StepTaker {
   StepError localError();
   /// What an error of the viscoplastic strain at the start of the attempt has become at its end.
   StepError carried(const std::vector<Matrix>& strain);
-  /// Whether a contact closes in the last attempt.
+  /// Whether a contact that was open is closed at the end of the last attempt.
   [[nodiscard]] bool closes() const;
   /// The error of the state from which the last attempt begins, as far as its stresses relax within the
   /// attempt: its flow is not that with which the attempt begins.

@@ -48,7 +48,8 @@ class DataInTime(OfTwoBlocks):
         done = self.mortier("run", "scene.toml", "--out", "out", code=1)
         why = r"estimated error \S+ above tolerance 0.001 after \d trial"
         self.assertRegex(done.stderr.splitlines()[-1],
-                         rf"scene.toml: time.tolerance 0.001 not reached: {why}.*; the last result is in out$")
+                         rf"scene.toml: time.tolerance 0.001 not reached: {why}.*; "
+                         "the last result is in out$")
         self.assertIn("(tolerance 0.001, not reached)", done.stdout)
         self.assertEqual(self.names("."), ["lower.mesh", "out", "scene.toml", "upper.mesh"])
         summary = json.loads(self.read("out/summary.json"))

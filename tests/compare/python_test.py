@@ -258,9 +258,9 @@ class Errors(OfTwoBlocks):
         self.assertFalse(error.run.summary["accuracy"]["reached"])
 
     def test_a_tolerance_that_is_not_reached(self):
-        error = self.as_the_program(mortier.StepError, "body.upper.boundary.3={label=3,uy=\"t<0.5?0:-1e-12\"}",
-                                    "body.upper.material.young=3e15", 'time.scheme="sdirk2"',
-                                    "time.tolerance=1e-3")
+        moved = 'body.upper.boundary=[{label=4,ux=0},{label=3,uy="t<0.5?0:-1e-12"}]'
+        error = self.as_the_program(mortier.StepError, moved, "body.upper.material.young=3e15",
+                                    'time.scheme="sdirk2"', "time.tolerance=1e-3")
         self.assertFalse(error.run.summary["accuracy"]["time_reached"])
 
     def test_a_folder_that_cannot_be_written(self):
