@@ -182,7 +182,10 @@ class Path {
       }
       if (motions_ > 0) rest.tail(motions_) = balanceUnit() * system_.unbalanced(part, x, z);
       const Vector change = inverse_ * rest;
-      if (!corrections) corrections.emplace((inverse_.cwiseAbs() * rest.cwiseAbs()).head(size).maxCoeff());
+      if (!corrections) {
+        const Vector cancels = inverse_.cwiseAbs() * rest.cwiseAbs();
+        corrections.emplace(std::max(cancels.head(size).maxCoeff(), rest.lpNorm<Eigen::Infinity>()));
+      }
       x += change.head(size);
       z += scale_ * change.tail(motions_);
       place.force = x.value();

@@ -111,7 +111,7 @@ class Scene:
         thickness = 10 ** rng.uniform(-2.7, -1)
         around = rng.choice([12, 24, 36])
         if self.degree == 2:  # curved sides do not turn triangles inside out
-            around = max(around // 2, math.ceil(3 / math.sqrt(thickness)))
+            around = max(around // 2, math.ceil(5 / math.sqrt(thickness)))
         other = around if rng.random() < 0.5 else around + rng.randint(-4, 8)
         self.body("belt", self.annulus(1, 1 + thickness, around, 2), 1e5,
                   [f"{{ label = 3, ty = {number(-1 / thickness)} }}",
@@ -127,7 +127,7 @@ class Scene:
         thickness = 10 ** rng.uniform(-2, -0.3)
         middle, outer = 1.0, 1 + thickness
         if self.degree == 2:
-            around = max(around, math.ceil(3 / math.sqrt(thickness)))
+            around = max(around, math.ceil(5 / math.sqrt(thickness)))
         turn = number(10 ** rng.uniform(-4, -2))
         time = self.in_time()
         self.body("outer", self.annulus(middle, outer, around, 2), 1e3 * self.ratio,

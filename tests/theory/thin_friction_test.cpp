@@ -19,7 +19,8 @@ InterfaceOptions rough(double mu) {
 }
 
 /// A belt half round a drum of radius 1, drawn at one end and loaded by 1 at the other.
-Result capstan(double mu, double young, double thickness, CouplingKind coupling, bool swap) {
+Result capstan(double mu, double young, double thickness, CouplingKind coupling, bool swap, double end = 1,
+               int steps = 3) {
   constexpr int drumBody = 1;
   constexpr int inside = 1;
   constexpr int outside = 2;
@@ -37,7 +38,7 @@ Result capstan(double mu, double young, double thickness, CouplingKind coupling,
   const ContactSide belt{0, inside};
   const ContactSide drum{drumBody, outside};
   addInterface(model, {swap ? drum : belt, swap ? belt : drum, coupling}, rough(mu));
-  return run(model, 1, 3);
+  return run(model, end, steps);
 }
 
 // Euler 1769, Eytelwein 1808: the tensions at the ends of a belt that slips differ by exp(mu pi).
@@ -58,6 +59,17 @@ TEST(ThinFriction, beltsOnStiffDrumsSlip) {
             << "mu " << mu << ", E " << young << ", thickness " << thickness;
         EXPECT_GE(grip, (1 - 1.2 * mu * off - 0.005) * exact)
             << "mu " << mu << ", E " << young << ", thickness " << thickness;
+      }
+}
+
+// Zones of slip begin at the ends.
+TEST(ThinFriction, beltsAreDrawnInShortSteps) {
+  for (const double mu : {0.3, 1.0, 2.0})
+    for (const double young : {1e7, 1e8})
+      for (const double thickness : {0.002, 0.005}) {
+        const Result result = capstan(mu, young, thickness, CouplingKind::mortar, false, 2 / 60.0, 2);
+        EXPECT_EQ(result.report.status, Status::converged)
+            << result.report.reason << ", mu " << mu << ", E " << young << ", thickness " << thickness;
       }
 }
 
