@@ -61,7 +61,7 @@ class Roller(InFolder):
                     self.assertLess(quantities["sinks"]["value"], 0)
                     force.append(quantities["force"]["value"]/load)
         for each in force:
-            self.assertAlmostEqual(each/force[0], 1, delta=2e-3)  # the areas of the polygons differ
+            self.assertAlmostEqual(each/force[0], 1, delta=6e-3)  # the area of the polygon
 
     def test_between_plates(self):
         for degree in (1, 2):
