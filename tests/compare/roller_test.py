@@ -1,5 +1,5 @@
-"""Rollers without friction may turn about their centre: they are solved where the loads do not turn them, by both
-degrees alike, and the free rotation is named."""
+"""Rollers without friction may turn about their centre: they are solved where the loads do not turn them, by
+both degrees alike, and the free rotation is named."""
 import json
 import unittest
 
@@ -56,7 +56,8 @@ class Roller(InFolder):
         for degree in (1, 2):
             for load in (1e-5, 1):
                 with self.subTest(degree=degree, load=load):
-                    summary = self.result(IN_GROOVE.replace("DEGREE", str(degree)).replace("LOAD", repr(load)))
+                    text = IN_GROOVE.replace("DEGREE", str(degree)).replace("LOAD", repr(load))
+                    summary = self.result(text)
                     quantities = summary["quantities"]
                     self.assertLess(quantities["sinks"]["value"], 0)
                     force.append(quantities["force"]["value"]/load)
