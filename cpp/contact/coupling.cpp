@@ -1,8 +1,10 @@
 #include "contact/coupling.h"
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "mesh/axis.h"
@@ -106,6 +108,7 @@ struct Integrals {
   Triplets M;
   Triplets N;  ///< of the shape functions themselves
   Vector distance;
+  Vector least;  ///< distance at a Gauss point of the row [m]
   Vector lengths;
 };
 
@@ -114,6 +117,7 @@ Integrals integrate(const SmoothPart& part, const FacingLine& mortar, const Dist
                     const Rows& rows, const std::vector<Point>& own, bool axisymmetric) {
   Integrals result;
   result.distance = Vector::Zero(rows.count());
+  result.least = Vector::Constant(rows.count(), std::numeric_limits<double>::infinity());
   result.lengths = Vector::Zero(rows.count());
   atGaussPoints(
       part, mortar, rows,
@@ -139,6 +143,7 @@ Integrals integrate(const SmoothPart& part, const FacingLine& mortar, const Dist
           for (Eigen::Index k = 0; k < nodes.size(); ++k)
             result.N.emplace_back(row[i], nodes[k], w * sight.phi[k]);
           result.distance[row[i]] += w * g0;
+          result.least[row[i]] = std::min(result.least[row[i]], g0);
         }
       });
   return result;
@@ -220,6 +225,15 @@ Sparse projected(const Sparse& Phi, const Sparse& B) {
   return assembled(B.rows(), B.cols(), entries);
 }
 
+/// The projection of a distance is below a convex one by h^2/12 times its second derivative, and bodies that
+/// touch would press each other. It is moved up, by the same number at all rows, until none is below the
+/// least distance that its function sees; but by no more than twice the way to the distance at the node, so
+/// that kinks and steps move the rows beside them alone.
+Vector lifted(const Vector& projected, const Vector& atNodes, const Vector& least) {
+  const double by = std::max(0.0, (least.cwiseMin(atNodes) - projected).maxCoeff());
+  return projected + (2 * (atNodes - projected)).cwiseMax(0).cwiseMin(by);
+}
+
 }  // namespace
 
 Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
@@ -267,6 +281,7 @@ Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mor
     };
     result.C1 += project(matrix(part, integrals.D));
     result.C2 = project(matrix(mortar, integrals.M));
+    result.distance = lifted(mass.solve(integrals.distance), distances, integrals.least);
   } else {
     const Vector w = result.mass * Vector::Ones(n);
     const auto lumped = w.asDiagonal();

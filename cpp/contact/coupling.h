@@ -14,9 +14,8 @@
 // the shape functions phi; with `weighted` they are the hat functions of the vertices, whatever the degree,
 // and p >= 0 says that the pressure is so at every point.
 //
-// The distance g0 of a row is that at its node, with `weighted` the mean: never below the least distance on
-// the support of chi_i. The projection of a distance that is convex would be, by h^2/12 times its second
-// derivative, and bodies that touch would press each other.
+// The distance g0 is seen by the same rows. With mortar it is moved up where the projection of a convex
+// distance would be below the least one that a row function sees (coupling.cpp).
 //
 // Integrals are Gauss's on the common refinement, exact where the part is straight (quadrature on the
 // elements of one side would fail the patch test). Where only one vertex of an element has a row (the mortar
@@ -55,8 +54,8 @@ struct Coupling {
   Eigen::SparseMatrix<double> mass;  ///< Phi, or w as a diagonal, rows x rows [m]
   Eigen::SparseMatrix<double> C1;    ///< rows x 2 (trace nodes of the part): columns 2 node + component
   Eigen::SparseMatrix<double> C2;    ///< rows x 2 (trace nodes of the facing line)
-  Vector distance;                   ///< g0 [m]
-  Eigen::SparseMatrix<double> N;     ///< rows x trace nodes: g0 of a distance by its values at the nodes
+  Vector distance;                   ///< g0, as the rows see it [m]
+  Eigen::SparseMatrix<double> N;     ///< rows x trace nodes: g0 of a distance that is given at the nodes
   Vector lengths;                    ///< int chi ds, by rows [m]
 };
 

@@ -209,7 +209,11 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
         gap += sight.phi[j] * options.gap(nonmortarMesh.nodes.places[part.number(nodes[j])]);
       return gap;
     };
-    const Coupling coupling = couple(pair_.coupling, part, facing[k], distance, merged, axisymmetric_);
+    Coupling coupling = couple(pair_.coupling, part, facing[k], distance, merged, axisymmetric_);
+    if (options.gap && pair_.coupling != CouplingKind::weighted)  // what is given holds at the nodes
+      for (size_t i = 0; i < coupling.nodes.size(); ++i)
+        coupling.distance[static_cast<Eigen::Index>(i)] =
+            options.gap(nonmortarMesh.nodes.places[part.number(coupling.nodes[i])]);
     const auto firstRow = static_cast<int>(nonmortarNodes_.size());
     scatter(coupling.C1, part, firstRow, rows1);
     scatter(coupling.C2, facing[k], firstRow, rows2);

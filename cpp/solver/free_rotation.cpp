@@ -73,7 +73,8 @@ bool turnsInItself(const Model& model, int body, const Vector& motion) {
   const std::optional<Point> centre = centreOfRoller(model, body);
   if (!centre) return false;
   const Vector turn = rotationAbout(*centre, model.bodies[body]);
-  return (motion - turn * (turn.dot(motion) / turn.squaredNorm())).norm() <= same * motion.norm();
+  constexpr double nearly = 0.3;  // closed nodes of a polygon lie beside the points where the circle touches
+  return (motion - turn * (turn.dot(motion) / turn.squaredNorm())).norm() <= nearly * motion.norm();
 }
 
 }  // namespace mortier

@@ -143,7 +143,7 @@ class Drawing:
         kind = rng.choice(["curves"]*6 + ["shapes", "geometry", "pin", "gap"])
         meshes, far = getattr(self, "draw_" + kind)()
         self.shows = f"{kind} {self.what}, degree {self.degree}, {self.variant or 'default'}, {self.plane}"
-        moved = rng.choice(["0", '"0.02*t"'])
+        moved = rng.choice(["0", '"0.02*t"']) if kind != "pin" else "0"
         bodies = [("upper", meshes[0], far[0], moved), ("lower", meshes[1], far[1], "0")]
         sides = [f'{{ body = "{name}", label = {near} }}' for name, near in
                  (("upper", self.near[0]), ("lower", self.near[1]))]

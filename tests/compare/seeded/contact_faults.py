@@ -75,7 +75,7 @@ boundary = [ { label = 1, ux = 0, uy = 0 } ]
 name = "plate"
 mesh = { shape = "rectangle", lower = [-1, 2], upper = [1, 2.5], cells = [16, 4] }
 material = { young = 1e3, poisson = 0.3 }
-boundary = [ { label = 3, ux = 0, uy = "-1e-3*t" } ]
+boundary = [ { label = 3, ux = 0, uy = "-2e-2*t" } ]
 [[contact]]
 nonmortar = { body = "table", label = 3 }
 mortar = { body = "roller", label = 2 }
