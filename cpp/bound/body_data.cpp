@@ -333,6 +333,10 @@ class Reading {
 
 }  // namespace
 
+BodyData readData(const DataPlace& place, const Vector& displacement, double t) {
+  return Reading(place, displacement, t).read();
+}
+
 double movedEnergy(const DataPlace& place, int side, const Point& along, const SideDatum& datum) {
   const Fan fan(place.cut.mesh, place.sides.all()[side]);
   const int t = place.sides.all()[side].triangles[0];
