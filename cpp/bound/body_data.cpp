@@ -177,7 +177,7 @@ class Reading {
     const Eigen::Vector3d c = fields.colPivHouseholderQr().solve(-wanted);
     const double left = (fields * c + wanted).norm();
     if (left > same * (values.norm() + data_.forces[t].norm()))
-      refuse(ofBody("the body force") + " varies across its direction, so that it turns triangles");
+      refuse(ofBody("the body force") + " is not constant and has couples in triangles");
     Eigen::Matrix3d stresses;
     for (int k = 0; k < 3; ++k)
       stresses.col(k) = c[k] * Stress(along[k].x() * along[k].x(), along[k].y() * along[k].y(),
@@ -329,6 +329,10 @@ class Reading {
 };
 
 }  // namespace
+
+BodyData readData(const DataPlace& place, const Vector& displacement, double t) {
+  return Reading(place, displacement, t).read();
+}
 
 double movedEnergy(const DataPlace& place, int side, const Point& along, const SideDatum& datum) {
   const Fan fan(place.cut.mesh, place.sides.all()[side]);

@@ -21,15 +21,16 @@
 namespace mortier {
 
 struct StepBound {
-  std::string obstacle;   ///< why there is none; empty where there is
-  double bound = 0;       ///< the square root of the right-hand side [sqrt(J/m)]
-  double stress = 0;      ///< |s^ - s|
-  double flow = 0;        ///< the square root of what D is in it
-  double lift = 0;        ///< |a - s|
-  double gap = 0;         ///< integral of p^ G(u^) [J/m]
-  double norm = 0;        ///< |s|
-  double strain = 0;      ///< bound of the error of the viscoplastic strain of the step, k G(s), in L^2 [m]
-  double strainNorm = 0;  ///< of k G(s) [m]
+  std::string obstacle;    ///< why there is none; empty where there is
+  double bound = 0;        ///< the square root of the right-hand side [sqrt(J/m)]
+  double stress = 0;       ///< |s^ - s|
+  double flow = 0;         ///< the square root of what D is in it
+  double lift = 0;         ///< |a - s|
+  double gap = 0;          ///< integral of p^ G(u^) [J/m]
+  double norm = 0;         ///< |s|
+  double strain = 0;       ///< bound of the error of the viscoplastic strain of the step, k G(s), in L^2 [m]
+  double strainNorm = 0;   ///< of k G(s) [m]
+  double oscillation = 0;  ///< of the data on the meshes: others than linear ones have an obstacle
 };
 
 /// \param weight  k [s]

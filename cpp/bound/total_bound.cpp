@@ -280,6 +280,7 @@ TotalBound TotalBoundRecord::atEnd(const State& state, const FlowBound& steps) c
   if (!result.obstacle.empty()) return result;
   result.moved = memory_.moved;
   result.closes = memory_.closes;
+  result.oscillation = memory_.oscillation;
   result.data = steps.data;
   result.strainNorm = steps.strainNorm;
   result.stressNorm = steps.stressNorm;

@@ -19,9 +19,10 @@ namespace mortier {
 
 /// The sums of a run so far.
 struct TotalBoundMemory {
-  std::string obstacle;  ///< why there is no bound
-  std::string moved;     ///< why contact is not closed and open as in the run
-  std::string closes;    ///< why there is no bound whatever contact does
+  std::string obstacle;    ///< why there is no bound
+  std::string moved;       ///< why contact is not closed and open as in the run
+  std::string closes;      ///< why there is no bound whatever contact does
+  double oscillation = 0;  ///< of the data on the meshes: others than linear ones have an obstacle
   ErrorCourse fixed, any;
   std::vector<char> contact;   ///< of the pieces of contact lines: Touch
   std::vector<Matrix> stress;  ///< s~ by bodies
@@ -37,10 +38,11 @@ struct TotalBound {
     double stress = 0;  ///< |s - sigma| [sqrt(J/m)]
   };
   Errors fixed, any;
-  double lifted = 0;      ///< ||eps^_p - eps_p,h||, which is in both [m]
-  double strainNorm = 0;  ///< ||eps_p,h|| [m]
-  double stressNorm = 0;  ///< |s| [sqrt(J/m)]
-  double data = 0;        ///< how far data are from linear within steps (flow_bound.h)
+  double lifted = 0;       ///< ||eps^_p - eps_p,h||, which is in both [m]
+  double strainNorm = 0;   ///< ||eps_p,h|| [m]
+  double stressNorm = 0;   ///< |s| [sqrt(J/m)]
+  double oscillation = 0;  ///< of the data on the meshes: others than linear ones have an obstacle
+  double data = 0;         ///< how far data are from linear within steps (flow_bound.h)
 };
 
 }  // namespace mortier

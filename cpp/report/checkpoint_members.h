@@ -34,7 +34,7 @@ MORTIER_MEMBERS(FlowBoundMemory, obstacle, moved, begin, misfit, opening, growth
                 motionOff)
 MORTIER_MEMBERS(ErrorCourse, growth, misfit, drift, lengths, sums)
 MORTIER_MEMBERS(EarlierContact, gaps, pressures)
-MORTIER_MEMBERS(TotalBoundMemory, obstacle, moved, closes, fixed, any, contact, stress, earlier)
+MORTIER_MEMBERS(TotalBoundMemory, obstacle, moved, closes, oscillation, fixed, any, contact, stress, earlier)
 MORTIER_MEMBERS(AccuracyMemory, energy, error, time, flow, total)
 MORTIER_MEMBERS(WorkDone, external, contact, dissipated, thermal)
 MORTIER_MEMBERS(BodyState, displacement, stress, viscoplasticStrain, work, thermalStrain)

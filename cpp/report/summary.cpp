@@ -198,7 +198,7 @@ Json jsonOf(const TotalBound& bound) {
   else
     json["any_contact"]["reason"] = bound.closes;
   json["lift"] = over(bound.lifted, bound.strainNorm);
-  json["data"] = bound.data;
+  json["data"] = std::max(bound.oscillation, bound.data);
   return json;
 }
 
@@ -211,7 +211,8 @@ Json jsonOf(const StepBound& bound) {
           {"stress", bound.stress},
           {"flow", bound.flow},
           {"lift", bound.lift},
-          {"gap", std::sqrt(2 * bound.gap)}};
+          {"gap", std::sqrt(2 * bound.gap)},
+          {"data", bound.oscillation}};
 }
 
 Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy) {

@@ -166,6 +166,7 @@ component = "y"
             self.assertTrue(1e-3 < strain < 0.5, strain)
             parts = found["stress"] ** 2 + found["flow"] ** 2 + found["lift"] ** 2 + found["gap"] ** 2
             self.assertAlmostEqual(found["absolute"] ** 2, parts, delta=1e-12 * parts)
+            self.assertLess(found["data"], 1e-12)
         _, other = self.bound(flowing.replace("3e11", "30").replace("-10*t", "-1e-9*t")
                               .replace("viscosity = 10", "viscosity = 1e-9")
                               .replace("yield_stress = 1", "yield_stress = 1e-10"),

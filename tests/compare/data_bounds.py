@@ -159,7 +159,8 @@ def measure(kind, number, finer):
             if each["bound"]["error"] is None or other["error"] is None:
                 continue
             enclosed += 1
-            if each["bound"]["lower"] > other["upper"] or other["lower"] > each["bound"]["upper"]:
+            rounding = 1e-9 * abs(each["value"])
+            if max(each["bound"]["lower"] - other["upper"], other["lower"] - each["bound"]["upper"]) > rounding:
                 faults.append(f"{name}: {each['bound']} and {other} do not meet")
         return kind, number, bound["absolute"] / off, "; ".join(faults), enclosed
     except (RuntimeError, subprocess.TimeoutExpired, results.ResultError) as error:

@@ -70,7 +70,7 @@ class DataBounds(InFolder):
                 ("not known to be continuous", dict(top='uy = "x < 0.3 ? -0.01*t : -0.02*t"')),
                 ("gap is not known to be continuous", dict(top='uy = "-0.02*t"',
                                                            contact='gap = "x < 0.3 ? 0 : 0.001"')),
-                ("varies across its direction", dict(top='ty = "-0.01*t"',
+                ("has couples in triangles", dict(top='ty = "-0.01*t"',
                                                      body='force = { x = 0, y = "-0.01*t*(1 + x)" }'))):
             bound, _ = self.bound(**given)
             self.assertIn(reason, bound["reason"])

@@ -111,6 +111,7 @@ TEST(TotalBound, isAboveAndNearTheErrorOfTheNotesTest) {
       EXPECT_LE(bound.any.strain, 1.3 * bound.fixed.strain);
     }
     EXPECT_LE(bound.data, 1e-12);
+    EXPECT_LE(bound.oscillation, 1e-12);
     if (coupling == CouplingKind::mortar) {
       EXPECT_LE(bound.lifted, 1e-9 * error);
     }
