@@ -4,7 +4,8 @@
     compare/compare.py OUT_MORTIER OUT_FREEFEM [--json FILE] [--quiet]
 
 Displacement by vertex, stress by triangle, contact forces and gaps by node, scalars: largest difference over
-the largest value, of the whole run where one of the two tells it. Exit code 1 when one is beyond its tolerance, 2 when a run cannot be read.
+the largest value, of the whole run where one of the two tells it. Exit code 1 when one is beyond its
+tolerance, 2 when a run cannot be read.
 """
 import json
 import sys

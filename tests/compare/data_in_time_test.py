@@ -92,7 +92,8 @@ steps = 2
 class OneDisplacement(InFolder):
     def turned(self, angle, off=0.0):
         c, s = math.cos(angle), math.sin(angle)
-        corners = ", ".join(f"[{c*x - s*y!r}, {s*x + c*y!r}]" for x, y in ((0, 0), (1, 0), (1, 1.1), (0, 1.1)))
+        corners = ", ".join(f"[{c*x - s*y!r}, {s*x + c*y!r}]"
+                            for x, y in ((0, 0), (1, 0), (1, 1.1), (0, 1.1)))
         course = (0.0, 6e-4, -3e-4, 1.8e-4)
         self.write(TURNED.format(corners=corners, x=", ".join(repr(s*v + off*v) for v in course),
                                  y=", ".join(repr(-c*v) for v in course)))
