@@ -81,7 +81,8 @@ class Scene:
         most = 30 if self.degree == 1 else 16
         held = rng.choice(["{ label = 4, ux = 0 }", "{ label = 4, ux = 0, uy = 0 }"])
         left = rng.uniform(-0.9, 0.9 - width)
-        self.body("upper", self.rectangle(left, 0, width, height, most, 2), 1e3 * self.ratio, [held, self.drawn(2, width), f'{{ label = 3, ty = "-{self.in_time()}" }}'])
+        self.body("upper", self.rectangle(left, 0, width, height, most, 2), 1e3 * self.ratio,
+                  [held, self.drawn(2, width), f'{{ label = 3, ty = "-{self.in_time()}" }}'])
         self.body("lower", self.rectangle(-1, -1, 2, 1, most, 6), 1e3, ["{ label = 1, ux = 0, uy = 0 }"])
         self.contacts = [('{ body = "upper", label = 1 }', '{ body = "lower", label = 3 }')]
 
