@@ -14,7 +14,8 @@ namespace {
 
 /// All forces and rigid motions at once: the equations are rows of W where a condition acts, else those of a
 /// force that is given,
-///   closed: (W x - G z)_i = -q_i,   open: p_i = 0,   stuck: (W x - G z)_k = -q_k,   slipping: t_k -+ mu p = +-c.
+///   closed: (W x - G z)_i = -q_i,   stuck: (W x - G z)_k = -q_k,   open: p_i = 0,
+///   slipping: t_k -+ mu p = +-c.
 /// The inverse is kept, and changed by rank one with every equation. What is solved with it is corrected by
 /// residuals in twice the working precision: where W is that of thin or of stiff bodies, the next event is
 /// found otherwise by rounding.

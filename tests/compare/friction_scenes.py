@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Random scenes with friction: thin, stacked, curved and stiff bodies, and how the program ends on each.
 
-Stiffness ratios to 1e6, mu from 0 to 3, degree 1 and 2, all couplings, either side nonmortar; loads that press,
-draw, turn round and lift. Exit code 0 is asked for, or 3 where contact alone holds a body. Scenes that end with
-1 are run again with `solver.linear = "suitesparse"` and with the sides exchanged: none may be solved so.
+Stiffness ratios to 1e6, mu from 0 to 3, degree 1 and 2, all couplings, either side nonmortar; loads that
+press, draw, turn round and lift. Exit code 0 is asked for, or 3 where contact alone holds a body. Scenes that
+end with 1 are run again with `solver.linear = "suitesparse"` and with the sides exchanged: none may be solved
+so.
 
 Usage: friction_scenes.py [--count 100] [--seed 0] [--patience 60] [--jobs 1] [--mortier build/mortier]
 Scene N is the same on every machine: friction_scenes.py --seed N --count 1 --show prints it.
@@ -79,8 +80,9 @@ class Scene:
         width = rng.uniform(0.5, 1.6)
         most = 30 if self.degree == 1 else 16
         held = rng.choice(["{ label = 4, ux = 0 }", "{ label = 4, ux = 0, uy = 0 }"])
-        self.body("upper", self.rectangle(rng.uniform(-0.9, 0.9 - width), 0, width, height, most, 2),
-                  1e3 * self.ratio, [held, self.drawn(2, width), f'{{ label = 3, ty = "-{self.in_time()}" }}'])
+        left = rng.uniform(-0.9, 0.9 - width)
+        self.body("upper", self.rectangle(left, 0, width, height, most, 2), 1e3 * self.ratio,
+                  [held, self.drawn(2, width), f'{{ label = 3, ty = "-{self.in_time()}" }}'])
         self.body("lower", self.rectangle(-1, -1, 2, 1, most, 6), 1e3, ["{ label = 1, ux = 0, uy = 0 }"])
         self.contacts = [('{ body = "upper", label = 1 }', '{ body = "lower", label = 3 }')]
 
