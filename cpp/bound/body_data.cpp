@@ -368,9 +368,11 @@ void moveSide(const DataPlace& place, int side, const Point& along, const SideDa
   const Fan fan(place.cut.mesh, place.sides.all()[side]);
   const int t = place.sides.all()[side].triangles[0];
   data.strained[t] += movedEnergy(place, side, along, datum);
+  constexpr double rounding = 1e-14;
   const double integral =
       fan.length() * (datum.moments[0] + datum.moments[1] - (datum.ends[0] + datum.ends[1]) / 2);
-  data.moved.push_back({place.cut.mesh.boundaryLabels[place.sides.all()[side].boundary], integral * along});
+  data.moved.push_back({place.cut.mesh.boundaryLabels[place.sides.all()[side].boundary], integral * along,
+                        fan.length() * (2 * datum.momentError + rounding * datum.size)});
   // Integral of E eps(w): w vanishes on the other sides.
   data.meanStrained[t] += toCartesian(place.moduli[t] * strainOf(along, fan.outward())) * integral;
 }

@@ -23,6 +23,7 @@ struct BodyData {
   struct Moved {
     int label = 0;
     Point integral{0, 0};
+    double error = 0;  ///< of it
   };
 
   std::string obstacle;              ///< data that are not bounded

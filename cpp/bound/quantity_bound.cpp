@@ -266,7 +266,10 @@ class Enclosing {
     if (functional.kind == Functional::Kind::displacement && functional.body == static_cast<int>(b) &&
         goal.triangle < 0)
       for (const BodyData::Moved& each : data.moved)
-        if (each.label == functional.label) trial.centre += goal.traction.dot(each.integral);
+        if (each.label == functional.label) {
+          trial.centre += goal.traction.dot(each.integral);
+          trial.rounding += goal.traction.norm() * each.error;
+        }
   }
   /// What a body force of the adjoint adds to (s^ - s(u^), E^-1 t) beside the moments of t.
   [[nodiscard]] double loadProduct(size_t b, int t, const Point& f) const {
