@@ -127,7 +127,7 @@ struct EdgePart {
   [[nodiscard]] double place(double at) const { return begin + (end - begin) * at; }
   [[nodiscard]] bool divisible() const { return middle() > begin && middle() < end; }
   [[nodiscard]] std::array<EdgePart, 2> halves() const { return {{{begin, middle()}, {middle(), end}}}; }
-  [[nodiscard]] Range enclosed(const std::function<Range(double, double)>& enclosure) const {
+  [[nodiscard]] Interval enclosed(const std::function<Interval(double, double)>& enclosure) const {
     return enclosure(begin, end);
   }
 };
@@ -161,13 +161,13 @@ struct TrianglePart {
              {{ca, bc, c}, area / 4},
              {{ab, bc, ca}, area / 4}}};
   }
-  [[nodiscard]] Range enclosed(const std::function<Range(const Corners&)>& enclosure) const {
+  [[nodiscard]] Interval enclosed(const std::function<Interval(const Corners&)>& enclosure) const {
     return enclosure(corners);
   }
 };
 
 /// By how much values that are enclosed are beyond those at the points, more than these vary.
-double hidden(const Range& enclosed, const Range& seen) {
+double hidden(const Interval& enclosed, const Interval& seen) {
   if (!std::isfinite(enclosed.least) || !std::isfinite(enclosed.largest)) return 0;
   const double beyond = std::max(enclosed.largest - seen.largest, seen.least - enclosed.least);
   return std::max(0.0, beyond - 2 * (seen.largest - seen.least));
@@ -217,7 +217,7 @@ Resolved<Place> resolved(const Value& value, const Enclosure& enclosure, std::ve
 }  // namespace
 
 ResolvedEdge resolveOnEdge(const std::function<double(double)>& value,
-                           const std::function<Range(double, double)>& enclosure) {
+                           const std::function<Interval(double, double)>& enclosure) {
   constexpr double uneven = 0.4384;  // no period of what people write
   ResolvedEdge edge =
       resolved<EdgePart, double>(value, enclosure, std::vector<EdgePart>{{0, uneven}, {uneven, 1}});
@@ -227,7 +227,7 @@ ResolvedEdge resolveOnEdge(const std::function<double(double)>& value,
 }
 
 ResolvedTriangle resolveOnTriangle(const std::function<double(const Barycentric&)>& value,
-                                   const std::function<Range(const Corners&)>& enclosure) {
+                                   const std::function<Interval(const Corners&)>& enclosure) {
   return resolved<TrianglePart, Barycentric>(value, enclosure, std::vector<TrianglePart>{{}});
 }
 

@@ -38,11 +38,11 @@ using ResolvedTriangle = Resolved<std::array<double, 3>>;
 
 /// \param enclosure  of the values between two parts; may be empty
 ResolvedEdge resolveOnEdge(const std::function<double(double)>& value,
-                           const std::function<Range(double, double)>& enclosure = {});
+                           const std::function<Interval(double, double)>& enclosure = {});
 
 /// \param enclosure  of the values on the triangle of three points; may be empty
 ResolvedTriangle resolveOnTriangle(
     const std::function<double(const std::array<double, 3>&)>& value,
-    const std::function<Range(const std::array<std::array<double, 3>, 3>&)>& enclosure = {});
+    const std::function<Interval(const std::array<std::array<double, 3>, 3>&)>& enclosure = {});
 
 }  // namespace mortier

@@ -10,14 +10,9 @@
 
 namespace mortier {
 
-struct Range {
-  double least = 0;
-  double largest = 0;
-};
-
 /// A part of space and time.
 struct Box {
-  Range x, y, t;
+  Interval x, y, t;
 };
 
 struct Datum : Function {
@@ -32,7 +27,7 @@ struct Datum : Function {
   int degree = anyDegree;  ///< of the polynomial in x and y that it is at every time
   bool inTime = true;      ///< whether it may change in time
   /// Holds all values in a box; empty where nothing is known. Copies are independent.
-  std::function<Range(const Box&)> enclosure = {};
+  std::function<Interval(const Box&)> enclosure = {};
   /// Enclosures along lines; empty where nothing is known. Each call reads the formula anew.
   std::function<Along()> along = {};
 

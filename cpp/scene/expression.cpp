@@ -129,8 +129,8 @@ Expression negated(Expression expression) {
   opposite.inTime = value.inTime;
   if (value.enclosure)
     opposite.enclosure = [enclosure = value.enclosure](const Box& box) {
-      const Range range = enclosure(box);
-      return Range{-range.largest, -range.least};
+      const Interval range = enclosure(box);
+      return Interval{-range.largest, -range.least};
     };
   if (value.along)
     opposite.along = [along = value.along] {

@@ -15,46 +15,47 @@ using Op = Formulas::Op;
 using Operation = Formulas::Operation;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr Range anything{-infinity, infinity};
+constexpr Interval anything{-infinity, infinity};
 
-Range of(double a, double b) {
-  return std::isnan(a) || std::isnan(b) ? anything : Range{std::min(a, b), std::max(a, b)};
+Interval of(double a, double b) {
+  return std::isnan(a) || std::isnan(b) ? anything : Interval{std::min(a, b), std::max(a, b)};
 }
-bool holds(const Range& range, double value) {
+bool holds(const Interval& range, double value) {
   return range.least <= value && value <= range.largest;
 }
-Range both(const Range& a, const Range& b) {
+Interval both(const Interval& a, const Interval& b) {
   return {std::min(a.least, b.least), std::max(a.largest, b.largest)};
 }
-Range truth(bool always, bool never) {
+Interval truth(bool always, bool never) {
   return {always ? 1.0 : 0.0, never ? 0.0 : 1.0};
 }
 
 template <class Function>
-Range atCorners(const Range& a, const Range& b, Function function) {
+Interval atCorners(const Interval& a, const Interval& b, Function function) {
   return both(of(function(a.least, b.least), function(a.least, b.largest)),
               of(function(a.largest, b.least), function(a.largest, b.largest)));
 }
 
 /// An even function that ascends from 0.
 template <class Function>
-Range even(const Range& a, Function function) {
-  Range range = of(function(a.least), function(a.largest));
+Interval even(const Interval& a, Function function) {
+  Interval range = of(function(a.least), function(a.largest));
   if (holds(a, 0)) range.least = function(0.0);
   return range;
 }
 
 /// A function that ascends on [least, largest] and is defined there alone.
 template <class Function>
-Range ascending(const Range& a, Function function, double least = -infinity, double largest = infinity) {
+Interval ascending(const Interval& a, Function function, double least = -infinity,
+                   double largest = infinity) {
   return of(function(std::clamp(a.least, least, largest)), function(std::clamp(a.largest, least, largest)));
 }
 
 /// sin(x + shift)
-Range sine(const Range& a, double shift) {
+Interval sine(const Interval& a, double shift) {
   constexpr double pi = std::numbers::pi;
   if (!(a.largest - a.least < 2 * pi)) return {-1, 1};
-  Range range = of(std::sin(a.least + shift), std::sin(a.largest + shift));
+  Interval range = of(std::sin(a.least + shift), std::sin(a.largest + shift));
   const auto passes = [&](double angle) {
     return std::floor((a.largest + shift - angle) / (2 * pi)) >
            std::floor((a.least + shift - angle) / (2 * pi));
@@ -64,7 +65,7 @@ Range sine(const Range& a, double shift) {
   return range;
 }
 
-Range power(const Operation& operation, const Range& a, const Range& b) {
+Interval power(const Operation& operation, const Interval& a, const Interval& b) {
   const auto pow = [](double x, double y) { return std::pow(x, y); };
   if (a.least >= 0 && !(a.least == 0 && b.least < 0)) return atCorners(a, b, pow);
   const double n = operation.number;
@@ -73,7 +74,7 @@ Range power(const Operation& operation, const Range& a, const Range& b) {
   return of(std::pow(a.least, n), std::pow(a.largest, n));
 }
 
-Range apply(const Operation& operation, const Range& a, const Range& b, const Range& c) {
+Interval apply(const Operation& operation, const Interval& a, const Interval& b, const Interval& c) {
   constexpr double pi = std::numbers::pi;
   const bool zero = a.least == 0 && a.largest == 0;
   const bool notZero = !holds(a, 0);
@@ -214,8 +215,8 @@ void describe(const std::string& text, Datum& datum) {
   }
   datum.degree = degrees[formulas.result(0)];
   datum.enclosure = [operations, result = formulas.result(0),
-                     work = std::vector<Range>(operations.size())](const Box& box) mutable {
-    const std::array<Range, 3> variables{box.x, box.y, box.t};
+                     work = std::vector<Interval>(operations.size())](const Box& box) mutable {
+    const std::array<Interval, 3> variables{box.x, box.y, box.t};
     for (size_t i = 0; i < operations.size(); ++i) {
       const Operation& each = operations[i];
       const auto of = [&](int k) { return work[std::max(k, 0)]; };

@@ -17,7 +17,7 @@ constexpr size_t mostCandidates = 3000;
 struct Cell {
   Point from, to;
   bool rectangle = false;
-  Range time;
+  Interval time;
   double beyond = 0;
   [[nodiscard]] Point middle() const { return (from + to) / 2; }
   [[nodiscard]] Box box() const {
@@ -31,7 +31,7 @@ struct Cell {
 /// Looks for values beyond those that are known.
 class Search {
  public:
-  Search(const Datum& datum, Range known, double end) : datum_(datum), known_(known), end_(end) {}
+  Search(const Datum& datum, Interval known, double end) : datum_(datum), known_(known), end_(end) {}
 
   /// Places and times with values that are far beyond.
   void in(Cell whole, std::vector<Point>& places, std::vector<double>& times) {
@@ -65,7 +65,7 @@ class Search {
     return beyond > part * (known_.largest - known_.least) && beyond > 0;
   }
   [[nodiscard]] double beyond(const Cell& cell) const {
-    const Range enclosed = datum_.enclosure(cell.box());
+    const Interval enclosed = datum_.enclosure(cell.box());
     const double result = std::max(enclosed.largest - known_.largest, known_.least - enclosed.least);
     return std::isfinite(result) ? result : 0;
   }
@@ -84,7 +84,7 @@ class Search {
   }
 
   const Datum& datum_;
-  Range known_;
+  Interval known_;
   double end_;
 };
 
@@ -120,7 +120,7 @@ LoadPlaces found(const Datum& datum, std::vector<Point> candidates, const std::v
   std::vector<double> times = trialTimes(end);
   LoadPlaces result;
   if (datum.enclosure && datum.inTime) {
-    Range known{INFINITY, -INFINITY};
+    Interval known{INFINITY, -INFINITY};
     for (const Point& p : candidates)
       for (const double t : times) {
         const double value = datum(p.x(), p.y(), t);

@@ -65,7 +65,7 @@ TEST(Datum, enclosureHoldsAllValues) {
     for (int i = 0; i < 8; ++i)
       for (int j = 0; j < 8; ++j) {
         const Box box{{i / 8.0, (i + 1) / 8.0}, {j / 8.0, (j + 1) / 8.0}, {0, 0.5}};
-        const Range range = datum.enclosure(box);
+        const Interval range = datum.enclosure(box);
         for (int k = 0; k <= 4; ++k)
           for (int l = 0; l <= 4; ++l) {
             const double value = datum((i + k / 4.0) / 8, (j + l / 4.0) / 8, k / 8.0);
