@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "bound/matched_meshes.h"
 #include "report/checkpoint.h"
 #include "report/checkpoint_files.h"
 
