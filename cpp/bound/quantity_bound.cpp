@@ -249,8 +249,8 @@ class Enclosing {
     }
     return twice / 2;
   }
-  /// What s_D and s_W, that of w and of initial stresses, have in the sums: (s_D - s_W, eps z), l(w), and half
-  /// of (|s_D| + |s_W|) |t - E eps z|.
+  /// What s_D and s_W, that of w and of initial stresses, have in the sums: (s_D - s_W, eps z), l(w), and
+  /// half of (|s_D| + |s_W|) |t - E eps z|.
   void addData(size_t b, const Functional& functional, const Goal& goal, const Vector& z,
                Trial& trial) const {
     const BodyData& data = pair_.bodies[b].data();

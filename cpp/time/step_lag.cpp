@@ -9,8 +9,8 @@ namespace mortier {
 /// Where stresses relax within the step, the flow of a stage is the mean over a part of the step and not that
 /// of its end: the stages are of order one. The strains that flowed are right to order two there, and so is
 /// the rate at the end of the quadratic through them, p. With the part F of a stress that relaxes in the last
-/// stage the error of the stress is F^2 k a_ss (p' - G_s) / (E^-1 + k a_ss J), F = k a_ss J/(E^-1 + k a_ss J):
-/// nothing of a short step.
+/// stage the error of the stress is F^2 k a_ss (p' - G_s) / (E^-1 + k a_ss J), where
+/// F = k a_ss J/(E^-1 + k a_ss J): nothing of a short step.
 void StepTaker::addLag(const Fields& rates, std::vector<Response>& error) {
   const Stage& last = tableau_.stages[1];
   const double k = t1_ - state_.time;

@@ -76,8 +76,8 @@ std::string beyond(const Certificate& found, double most) {
 
 }  // namespace
 
-/// Refuses a solution whose residuals are no rounding, and one that could be anywhere along a motion. In a jump
-/// the next step may hold it.
+/// Refuses a solution whose residuals are no rounding, and one that could be anywhere along a motion. In a
+/// jump the next step may hold it.
 StepOutcome StepTaker::hold(StepOutcome outcome) {
   constexpr double rounding = 1e-8;  // residuals of solutions are 1e-10 and less
   if (const std::string residual =

@@ -84,8 +84,8 @@ def scene(kind, number, finer=1):
                                                ("lower", [[lower[0], -1], [lower[1], 0]], bottom))):
         across = cells[i] * finer
         along = across * (2 if wide and i == 1 else 1)
-        text += (f'[[body]]\nname = "{name}"\nmesh = {{ shape = "rectangle", cut = "{cut}", lower = {box[0]}, '
-                 f'upper = {box[1]}, cells = [{along}, {across}] }}\n'
+        text += (f'[[body]]\nname = "{name}"\nmesh = {{ shape = "rectangle", cut = "{cut}", '
+                 f'lower = {box[0]}, upper = {box[1]}, cells = [{along}, {across}] }}\n'
                  f"material = {{ young = {young[i]}, poisson = {poisson[i]} }}\n"
                  f"boundary = [{boundary}]\n{extra[i]}")
     sides = [('body = "upper", label = 1', 'body = "lower", label = 3')]
@@ -103,7 +103,8 @@ def scene(kind, number, finer=1):
 def run(text, folder):
     (folder / "scene.toml").write_text(text)
     done = subprocess.run([PROGRAM, "run", "scene.toml", "--quiet", "--out", "out", "--threads", "1"],
-                          cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=600)
+                          cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          timeout=600)
     if done.returncode != 0:
         raise RuntimeError(f"exit {done.returncode}: {done.stdout.strip()[-300:]}")
     return results.read_mortier(folder / "out"), json.loads((folder / "out" / "summary.json").read_text())
@@ -160,7 +161,8 @@ def measure(kind, number, finer):
                 continue
             enclosed += 1
             rounding = 1e-9 * abs(each["value"])
-            if max(each["bound"]["lower"] - other["upper"], other["lower"] - each["bound"]["upper"]) > rounding:
+            ours = each["bound"]
+            if max(ours["lower"] - other["upper"], other["lower"] - ours["upper"]) > rounding:
                 faults.append(f"{name}: {each['bound']} and {other} do not meet")
         return kind, number, bound["absolute"] / off, "; ".join(faults), enclosed
     except (RuntimeError, subprocess.TimeoutExpired, results.ResultError) as error:

@@ -35,11 +35,11 @@ class Script(support.OfTwoBlocks):
         return self.read("scene.edp").splitlines()
 
     def test_two_blocks(self):
-        text = self.script("contact.swap=true", "body.upper.force.x=3/2*ln(2)*x^2")
+        text = self.script("contact.swap=true", "body.upper.force.x=3/2*ln(2)*x")
         for line in ["macro eachBody(what) what(1) what(2) //", "string name1 = \"upper\";",
                      "real lambda1 = 10, sigmaY1 = 1;  // viscosity [Pa s] (0: elastic body), "
                      "yield stress [Pa]",
-                     "macro loads1 + simpson(1, 3, (-10.*t)*v2) + midpoints(1, (3./2.*log(2.)*x^2.)*v1) //",
+                     "macro loads1 + simpson(1, 3, (-10.*t)*v2) + midpoints(1, (3./2.*log(2.)*x)*v1) //",
                      "macro supports2 + on(4, u1 = 0.) + on(1, u2 = 0.) //",
                      "macro loads2 + int2d(Body2)(0.*v2) //",
                      "int[int, int] contact = [[2, 3, 1, 1]];", "string variant = \"mortar\";",
@@ -48,6 +48,11 @@ class Script(support.OfTwoBlocks):
             self.assertIn(line, text)
         self.assertNotIn("rollers", "".join(text))
         self.assertNotIn("distances", "".join(text))
+
+    def test_loads_that_the_rules_of_elements_do_not_integrate(self):
+        text = self.script("body.upper.force.x=exp(x)", "body.upper.boundary.3.ty=-t*exp(x)")
+        self.assertIn("macro loads1 + int1d(Body1, 3, qfe = qf5pE)((-t*exp(x))*v2) "
+                      "+ int2d(Body1, qft = qf9pT)((exp(x))*v1) //", text)
 
     def test_rollers_and_distances(self):
         text = self.script("body.upper.boundary.4.un=0", "body.lower.boundary.1.ut=x*t", "contact.gap=x/10")
@@ -72,8 +77,13 @@ class Script(support.OfTwoBlocks):
                  "(t < 0. ? (1.) : ((t < 2. ? (1. + (2.)*(t - (0.))) : (5.))))")):
             with self.subTest(data):
                 text = self.script(f"body.lower.force.x={data}", f"body.upper.boundary.3.ty={data}")
-                self.assertIn(f"macro loads2 + midpoints(2, ({freefem})*v1) //", text)
-                self.assertIn(f"macro loads1 + simpson(1, 3, ({freefem})*v2) //", text)
+                places = "x" in data
+                self.assertIn("macro loads2 + int2d(Body2, qft = qf9pT)((" if places else
+                              "macro loads2 + midpoints(2, (", "\n".join(text))
+                self.assertIn(f"({freefem})*v1) //", "\n".join(text))
+                self.assertIn("macro loads1 + int1d(Body1, 3, qfe = qf5pE)((" if places else
+                              "macro loads1 + simpson(1, 3, (", "\n".join(text))
+                self.assertIn(f"({freefem})*v2) //", "\n".join(text))
 
     def test_what_is_not_known(self):
         for setting, message in (

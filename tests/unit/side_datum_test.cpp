@@ -1,5 +1,5 @@
-// Data on sides and triangles: moments, and bounds of what is beside linear functions, whatever is between the
-// points of a quadrature.
+// Data on sides and triangles: moments, and bounds of what is beside linear functions, whatever is between
+// the points of a quadrature.
 #include <gtest/gtest.h>
 
 #include <cmath>
