@@ -10,7 +10,8 @@ from support import InFolder, mortier
 DEGREE = ["degree=2"]
 ACCURACY = ["degree=2", "accuracy.energy=0.05"]
 # What the run will change by itself: faults of the meshes, and of steps where bodies flow.
-OF_FIRST_MESHES = {"mesh-coarse", "contact-one-edge", "contact-size-ratio", "nonmortar-coarser"}
+OF_FIRST_MESHES = {"mesh-coarse", "contact-one-edge", "contact-size-ratio", "nonmortar-coarser",
+                   "datum-between-nodes"}
 OF_EQUAL_STEPS = {"few-steps-across-yield", "yields-at-once", "viscosity-small", "kink-between-steps",
                   "load-between-steps", "output-every", "output-large"}
 # Not with quadratic displacements: no triangle is locked, and an edge between held ones has a free middle.
