@@ -80,7 +80,7 @@ std::string followSliding(const Model& model, const State& state, const TimePlan
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const Sliding sliding = slidingOf(model, state, k);
     run.peaks.sliding.raise(sliding.edges, state.time);
-    const bool allowed = k < plan.slidingAllowed.size() && plan.slidingAllowed[k];
+    const bool allowed = k >= plan.slidingAllowed.size() || plan.slidingAllowed[k];
     if (sliding.past < 0 || allowed || !why.empty()) continue;
     const ContactPair& pair = model.interfaces[k].pair();
     const Body& body = model.bodies[pair.nonmortar.body];

@@ -105,6 +105,8 @@ def run(text, folder):
     done = subprocess.run([PROGRAM, "run", "scene.toml", "--quiet", "--out", "out", "--threads", "1"],
                           cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                           timeout=600)
+    if done.returncode == 3:
+        raise RuntimeError("refused: loads pull the bodies apart")
     if done.returncode != 0:
         raise RuntimeError(f"exit {done.returncode}: {done.stdout.strip()[-300:]}")
     return results.read_mortier(folder / "out"), json.loads((folder / "out" / "summary.json").read_text())

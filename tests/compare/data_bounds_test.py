@@ -54,7 +54,7 @@ class DataBounds(InFolder):
                 self.assertNotIn("reason", bound)
                 self.assertTrue(bound["energy_error"] is None or bound["energy_error"] > least, bound)
         bound, force = self.bound('uy = "-0.02*t"', contact='gap = "0.01*x^2"')
-        self.assertTrue(force["bound"]["lower"] < 0.01113 < force["bound"]["upper"], force)
+        self.assertTrue(force["bound"]["lower"] < -0.01113 < force["bound"]["upper"], force)
         self.assertLess(force["bound"]["error"], 0.1 * force["value"])
         bound, force = self.bound('ty = "-0.01*t"', body='force = { x = 0, y = "-0.01*t*(1 + y)" }')
         self.assertTrue(0 < bound["energy_error"] < 0.5, bound)

@@ -42,6 +42,7 @@ class Scene:
         for upper, lower in self.contacts:
             self.text += ["[[contact]]", f"nonmortar = {upper}", f"mortar = {lower}",
                           f"friction = {number(self.friction)}", f'variant = "{self.variant}"',
+                          'sliding = "allow"',
                           f"swap = {str(self.swap).lower()}"]
         self.text += ["[time]", "end = 1", f"steps = {rng.choice([1, 3, 6])}"]
 

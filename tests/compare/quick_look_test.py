@@ -4,8 +4,8 @@ import re
 import subprocess
 import unittest
 
-from codes import FREEFEM
 from support import ROOT, InFolder
+from codes import FREEFEM
 
 SCRIPT = ROOT / "freefem" / "quick.edp"
 NUMBER = r"(-?[\d.]+(?:e-?\d+)?)"

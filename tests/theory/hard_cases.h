@@ -212,7 +212,7 @@ inline void addGeometry(std::vector<HardCase>& cases) {
 inline Model eccentric(Projection projection, bool heldByContactOnly) {
   using namespace scenes;
   const auto material = perzynaMaterial(noteElasticity, noteLaw(projection));
-  const Function load = [](double x, double, double t) { return x < 0.4 ? -10 * t : 0; };
+  const Function load = [](double x, double, double t) { return x < 0.36 ? -10 * t : 0; };
   TriangleMesh above = crissCrossMesh({{0, 0}, {1, 1}, 10, 10});
   TriangleMesh below = crissCrossMesh({{-1, -1}, {2, 0}, 24, 8});
   // Rollers on the contact line itself leave the rotation to the contact.

@@ -56,7 +56,7 @@ Solved solve(double angle, unsigned seed, Projection projection, CouplingKind co
   const Numbering numberings[] = {shuffled(upper, seed), shuffled(lower, seed)};
   const Function load = [angle](double x, double y, double t) {
     const Point before = Eigen::Rotation2D<double>(-angle) * Point(x, y);
-    return before.x() < 0.49 ? -10 * t : 3 * t;
+    return before.x() < 0.45 ? -10 * t : 3 * t;
   };
   Body upperBlock("upper", changed(upper, numberings[0], angle), material,
                   {{{left, alongNormal, constant(0)}}, {{top, alongNormal, load}}, {}});

@@ -106,8 +106,12 @@ TEST_P(SceneBalance, ofForcesAndEnergies) {
   double largestForce = 0;
   std::vector<double> flow(bodies, 0.0);   // means of the stress times viscoplastic strains
   std::vector<double> euler(bodies, 0.0);  // the stress at the ends times those
-  std::vector<double> start(bodies);
+  std::vector<double> start(bodies);  // before anything acts
   std::vector<double> stored(bodies);
+  const auto energyOf = [&](int b, const State& of) {
+    return evaluate({{"energy", Kind::storedEnergy, b}}, model, of)[0];
+  };
+  for (int b = 0; b < bodies; ++b) start[b] = energyOf(b, state);
   double energies = 0;
   double worstGain = 0;  // from flow, which takes energy: not more than the law is off
   State before = state;
@@ -117,11 +121,8 @@ TEST_P(SceneBalance, ofForcesAndEnergies) {
         double sum = 0;
         double size = 0;
         for (int b = 0; b < bodies; ++b) {
-          stored[b] = evaluate({{"energy", Kind::storedEnergy, b}}, model, now)[0];
-          if (step.step == 0) {
-            start[b] = stored[b];
-            continue;
-          }
+          stored[b] = energyOf(b, now);
+          if (step.step == 0) continue;
           sum = std::max(sum, outOfBalance(model, now, b, contacts, size));
           const BodyState& begin = before.bodies[b];
           const BodyState& end = now.bodies[b];

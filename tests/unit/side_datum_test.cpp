@@ -13,7 +13,7 @@
 namespace mortier {
 namespace {
 
-Function formula(const std::string& text) {
+Datum formula(const std::string& text) {
   return finiteValue(parseExpression(text, "here"));
 }
 SideDatum unit(const std::string& text) {
