@@ -72,7 +72,7 @@ def text_of(source):
     if source.suffix == ".md":
         # Pandoc knows no numbers of formulas.
         return "gfm+tex_math_dollars", re.sub(r"\\tag\{(\w+)\}", r"\\qquad\\text{(\1)}", text)
-    fence = "`" * (1 + max(map(len, re.findall("`+", text)), default=2))
+    fence = "`" * (1 + max([2, *map(len, re.findall("`+", text))]))
     return "gfm", f"# {source}\n\n{fence} {source.suffix[1:]}\n{text}\n{fence}\n"
 
 

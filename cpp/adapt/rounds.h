@@ -5,7 +5,7 @@
 //   k = max(1, round(log E / log 4))   rounds are to come, each of which divides it by  min(E^(1/k), 8):
 //
 // equal reaches avoid the dear case, a mesh that misses by a little and is solved again at the same size.
-// Where bodies flow a part of what is asked is that of the steps in time (0.2 of degree 1, 0.3 of degree 2);
+// Where bodies flow a part of what is asked is that of the steps in time (0.2 of degree 1, 0.25 of degree 2);
 // before the last round steps are as good as the meshes deserve. One round of refinement is made at least,
 // which is to halve the error: on the first meshes an estimate is not trusted, and no rate is known. Where
 // stresses are unbounded what it does not see is added before it is believed (adapt/adapted_meshes.h).

@@ -125,9 +125,19 @@ Taylor log(const Taylor& u) {
 }
 
 Taylor pow(const Taylor& u, double a) {
+  constexpr double largestProduct = 64;
   if (!(u.c[0].least > 0)) {
-    if (!(u.c[0].least >= 0 && a > 0)) return Taylor::within(Interval::anything());
-    return Taylor::within(ascending(u.c[0], [&](double x) { return std::pow(x, a); }));
+    if (a == std::floor(a) && std::abs(a) <= largestProduct) {
+      const Taylor one = Taylor::constant({1, 1});
+      Taylor product = one;
+      for (int i = 0; i < std::abs(a); ++i) product = product * u;
+      if (std::fmod(a, 2) == 0) product.c[0].least = std::max(product.c[0].least, 0.0);
+      return a < 0 ? one / product : product;
+    }
+    // What is below 0 is rounding of the enclosure: the power has no values there.
+    if (!(a > 0 && u.c[0].largest >= 0)) return Taylor::within(Interval::anything());
+    return Taylor::within(
+        ascending({std::max(u.c[0].least, 0.0), u.c[0].largest}, [&](double x) { return std::pow(x, a); }));
   }
   Taylor w;
   const double ends[] = {std::pow(u.c[0].least, a), std::pow(u.c[0].largest, a)};

@@ -22,7 +22,7 @@ bool stepsMatter(const SceneDescription& scene) {
 
 double stepTolerance(const SceneDescription& scene) {
   if (!(scene.accuracy.energy > 0) || !stepsMatter(scene)) return scene.time.tolerance;
-  const double share = (scene.degree == 1 ? 0.2 : 0.3) * scene.accuracy.energy;
+  const double share = (scene.degree == 1 ? 0.2 : 0.25) * scene.accuracy.energy;
   return scene.time.controlled() ? std::min(share, scene.time.tolerance) : share;
 }
 

@@ -1,6 +1,7 @@
 #include "time/step_taker.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -131,15 +132,26 @@ std::optional<StuckPlace> StepTaker::stuck() {
 
 std::string StepTaker::stressAt(const StuckPlace& place) const {
   const Body& body = model_.bodies[place.body];
-  if (!unsolved_ || model_.inParts()) return "";
-  const int first = place.triangle * body.pointsOfTriangle();
-  int point = first;
-  while (point + 1 < first + body.pointsOfTriangle() && body.places()[point] != place.at) ++point;
+  if (!unsolved_) return "";
+  int triangle = place.triangle;
+  if (model_.inParts()) {
+    const std::vector<int>& own = model_.parts[place.body].cut.triangles;
+    const auto at = std::lower_bound(own.begin(), own.end(), triangle);
+    triangle = at != own.end() && *at == triangle ? static_cast<int>(at - own.begin()) : -1;
+  }
   const Matrix& stress = unsolved_->second.bodies[place.body].stress;
-  const Eigen::Vector3d s = toCartesian(stress.col(point).head<3>());
+  std::array<double, 4> s{};  // of the rank that has the triangle
+  if (triangle >= 0) {
+    const int first = triangle * body.pointsOfTriangle();
+    int point = first;
+    while (point + 1 < first + body.pointsOfTriangle() && body.places()[point] != place.at) ++point;
+    const Eigen::Vector3d plane = toCartesian(stress.col(point).head<3>());
+    s = {plane[0], plane[1], plane[2], stress.rows() > 3 ? stress(3, point) : 0};
+  }
+  model_.sum(s.data(), s.size());
   std::ostringstream text;
   text << ", at the stress s11 = " << s[0] << ", s22 = " << s[1] << ", s12 = " << s[2];
-  if (stress.rows() > 3) text << ", s33 = " << stress(3, point);
+  if (stress.rows() > 3) text << ", s33 = " << s[3];
   return text.str();
 }
 

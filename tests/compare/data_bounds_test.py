@@ -55,8 +55,8 @@ class DataBounds(InFolder):
                 self.assertTrue(bound["energy_error"] is None or bound["energy_error"] > least, bound)
         bound, force = self.bound('uy = "-0.02*t"', contact='gap = "0.01*x^2"')
         self.assertTrue(force["bound"]["lower"] < -0.01113 < force["bound"]["upper"], force)
-        self.assertLess(force["bound"]["error"], 0.1 * force["value"])
-        bound, force = self.bound('ty = "-0.01*t"', body='force = { x = 0, y = "-0.01*t*(1 + y)" }')
+        self.assertLess(force["bound"]["error"], 0.1 * abs(force["value"]))
+        bound, force = self.bound('ty = "-0.01*t"', body='force = { x = 0, y = "-0.01*t" }')
         self.assertTrue(0 < bound["energy_error"] < 0.5, bound)
         self.assertTrue(force["bound"]["lower"] < 0.025 < force["bound"]["upper"], force)
 
@@ -84,7 +84,7 @@ class DataBounds(InFolder):
         for kind in counts:
             print(kind, statistics.median(ratios[kind]))
             self.assertGreater(len(ratios[kind]), counts[kind] // 2)
-            self.assertLess(statistics.median(ratios[kind]), 4)
+            self.assertLess(statistics.median(ratios[kind]), 15 if kind == "hostile" else 2)
 
 
 if __name__ == "__main__":

@@ -259,7 +259,7 @@ class Errors(OfTwoBlocks):
 
     def test_a_tolerance_that_is_not_reached(self):
         moved = 'body.upper.boundary=[{label=4,ux=0},{label=3,uy="t<0.5?0:-1e-12"}]'
-        error = self.as_the_program(mortier.StepError, moved, "body.upper.material.young=3e15",
+        error = self.as_the_program(mortier.StepError, moved, "body.material.young=3e15",
                                     'time.scheme="sdirk2"', "time.tolerance=1e-3")
         self.assertFalse(error.run.summary["accuracy"]["time_reached"])
 

@@ -175,7 +175,7 @@ class WideScene:
         rng = self.rng
         sides = [f'{{ body = "{upper}", label = 1 }}', f'{{ body = "{lower}", label = 3 }}']
         variants = ["weighted"] if self.accuracy else ["mortar", "interpolation", "weighted"]
-        self.text += ["[[contact]]", f'variant = "{rng.choice(variants)}"']
+        self.text += ["[[contact]]", f'variant = "{rng.choice(variants)}"', 'sliding = "allow"']
         # The outer part of a round line faces nothing.
         if self.curved or rng.random() < 0.3:
             self.text.append(f"sides = [ {sides[0]}, {sides[1]} ]")

@@ -144,7 +144,7 @@ class Scene:
             sides = [f'{{ body = "{upper}", label = 1 }}', f'{{ body = "{lower}", label = 3 }}']
             variant = rng.choice(["mortar", "mortar", "interpolation"])
             self.classes["variant"] = variant
-            self.text += ["[[contact]]", f'variant = "{variant}"']
+            self.text += ["[[contact]]", f'variant = "{variant}"', 'sliding = "allow"']
             # A nonmortar line with one cell may have no node that the narrow body faces.
             if overlap != "narrow" and rng.random() < 0.3:
                 self.text += [f"sides = [ {sides[0]}, {sides[1]} ]"]
