@@ -9,7 +9,7 @@ from compare import compare
 import results
 
 
-def compare_runs(folder, settings, scene=COMPRESSION):
+def compare_runs(folder, settings, scene=COMPRESSION, within=None):
     """What is to be told of a scene in both codes; where one of them fails, only that."""
     try:
         ours = run_mortier(folder / "mortier", settings, scene)
@@ -18,7 +18,7 @@ def compare_runs(folder, settings, scene=COMPRESSION):
         theirs = run_freefem(folder / "freefem", settings, scene, steps_of=steps_of)
     except (RunError, results.ResultError) as error:
         return {"agree": False, "verdict": f"FAILED: {error}"}
-    verdict = compare(ours, theirs)
+    verdict = compare(ours, theirs, within)
     return {"agree": verdict.agrees, "verdict": str(verdict), "displacement": verdict.norm("displacement "),
             "stress": verdict.norm("stress"), "force": verdict.norm("contact force"),
             "gap": verdict.norm("contact gap"),

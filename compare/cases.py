@@ -78,6 +78,10 @@ class SceneCase:
     def settings(self):
         return [f"contact.variant={self.variant}", *self.changes]
 
+    @property
+    def within(self):
+        return QUADRATURE.get(self.name)
+
 
 # The scenes that FreeFEM solves as they stand, or with these settings.
 SCENES = {
@@ -85,6 +89,8 @@ SCENES = {
     "eccentric-punch": (), "receding": (), "turned": (), "cut-ring": (), "hertz": (), "ring": (),
     "sphere": (), "thick-cylinder": (), "open-close": ("time.scheme=backward-euler",),
 }
+# Where FreeFEM's rule of degree 9 is further off the integrals of the tractions than the tolerances.
+QUADRATURE = {"edge": 1e-8}
 # Those that it does not, and why (the beginning of what mortier freefem says behind the scene's name).
 UNKNOWN_TO_FREEFEM = {"cook": "no contact interface"}
 HELD = ("body.top.boundary.4.uy=-1e-4*t", "body.middle.boundary.4.uy=-1e-4*t*(1+y)",
@@ -210,9 +216,10 @@ def scene_cases():
         SceneCase("stack", "mortar", "held on the left up to the contact lines", HELD),
         SceneCase("stack", "interpolation", "held on the left, but for the bottom", HELD[:2]),
         SceneCase("turned", "mortar", "sheared by a tangential motion",
-                  (SOFT, "contact.swap=true", "body.lower.boundary.4.ut=-0.02*t*(y+0.8)")),
+                  (SOFT, "contact.swap=true", "contact.sliding=allow",
+                   "body.lower.boundary.4.ut=-0.02*t*(y+0.8)")),
         SceneCase("turned", "interpolation", "a bent roller, body forces",
-                  (SOFT, "body.lower.boundary.1.un=0.1*t*(x-0.6)", "body.lower.force.x=x^2*t",
+                  (SOFT, "body.lower.boundary.1.un=0.1*t*(x-0.6)", "body.lower.force.x=x*t",
                    "body.upper.force.y=-3*sin(x)*t")),
         SceneCase("sloped", "interpolation", "Norton creep", (*NORTON, "time.steps=3")),
         SceneCase("turned", "mortar", "Norton creep, plane strain", (*NORTON, 'plane="strain"')),
@@ -267,7 +274,8 @@ def scene_cases():
         SceneCase("sloped", "weighted", "linear, parted by a parabola", ("contact.gap=1e-5*x^2+2e-6",)),
         SceneCase("stack", "weighted", "linear, held on the left up to the contact lines", HELD),
         # Laws beside each other
-        *(SceneCase("sloped", variant, f"{upper} on {lower}", (*beside(upper, lower), "time.steps=3", *more))
+        *(SceneCase("sloped", variant, f"{upper} on {lower}",
+                    (*beside(upper, lower), "time.steps=3", "contact.sliding=allow", *more))
           for (upper, lower), (variant, *more) in zip(
               zip(LAWS, [*LAWS][3:] + [*LAWS][:3]),
               itertools.cycle([("mortar",), ("interpolation", 'plane="strain"'), ("weighted", "degree=2")]))),

@@ -17,7 +17,7 @@ HEADER = (f"{'scene':<15} {'variant':<13} {'what':<42} {'displacement':>12} {'st
 
 
 def compare_case(case, folder):
-    return {"case": str(case)} | compare_runs(folder, case.settings, case.scene)
+    return {"case": str(case)} | compare_runs(folder, case.settings, case.scene, case.within)
 
 
 def row_text(case, row):

@@ -156,8 +156,10 @@ Vector Body::atPoints(const Datum& datum, double t) const {
 
 Matrix Body::thermalStrain(double t) const {
   Matrix strain = Matrix::Zero(material_->components(), points());  // what a law remembers has none
-  strain.topRows(conditions_.expansion.rows()) =
-      conditions_.expansion * atPoints(conditions_.temperature, t).asDiagonal();
+  const std::vector<Point> places = this->places();
+  for (int i = 0; i < points(); ++i)
+    strain.col(i).head(conditions_.expansion.rows()) =
+        conditions_.expansion.col(i) * conditions_.temperature(places[i].x(), places[i].y(), t);
   return strain;
 }
 

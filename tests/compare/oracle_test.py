@@ -104,7 +104,7 @@ FAULTS = [
      "= 0*w[](theirs(pointDof(pointCount)/2))", "stack", "interpolation held at points", "displacement"),
     ("the vertex furthest from a held point", "supports", "< (xv(nearest) - (a))^2",
      "> (xv(nearest) - (a))^2", "stack", "interpolation held at points", "displacement"),
-    ("another rule for tractions", "supports", "qf1pElump", "qf1pE", "exact-contact", "as it stands",
+    ("another rule for tractions", "supports", "qf1pElump", "qf1pE", "eccentric-punch", "as it stands",
      "displacement"),
     ("another rule for body forces", "supports", "qf2pT)(depth*(load))", "qf1pT)(depth*(load))", "turned",
      "bent", "displacement"),

@@ -51,7 +51,7 @@ TEST(Axisymmetric, uniformStatesAreExact) {
         const Model model = section(uniform, inner, degree);
         const auto [state, report] = run(model, 1, 1);
         ASSERT_EQ(report.status, Status::converged) << report.reason;
-        EXPECT_EQ(report.iterations, 1);
+        EXPECT_LE(report.iterations, 2);  // the jump at the start, and a step after it
         worst = std::max(worst,
                          errorOfUniform(state.bodies[0].stress,
                                         ringStress(uniform.across(), uniform.along(), 0, uniform.across())));

@@ -60,12 +60,12 @@ class LoadCoursesOfParts : public SceneFolder {
   LoadCoursesOfParts() : SceneFolder("load_places") {}
 };
 
-TEST_F(LoadCoursesOfParts, haveTheBreaksOfPeaks) {
+TEST_F(LoadCoursesOfParts, seePeaksInsideAnEdge) {
   write(R"toml([[body]]
 name = "upper"
 mesh = { shape = "rectangle", cells = [3, 3], lower = [0, 0], upper = [1, 1] }
 material = { young = 1, poisson = 0.3 }
-boundary = [{ label = 3, ty = "-t-exp(-((t-0.7654321)/1e-6)^2)*(x<0.1)" }]
+boundary = [{ label = 3, ty = "-0.1*t-exp(-((t-0.7654321)/1e-3)^2)*(abs(x-0.1)<0.05)" }]
 [[body]]
 name = "lower"
 mesh = { shape = "rectangle", cells = [3, 3], lower = [0, -1], upper = [1, 0] }
@@ -78,9 +78,7 @@ boundary = [{ label = 1, ux = 0, uy = 0 }]
   double least = 0;
   for (const Course& course : courses.data)
     least = std::min(least, *std::min_element(course.values.begin(), course.values.end()));
-  EXPECT_LT(least, -1.9);
-  ASSERT_FALSE(courses.breaks.empty());
-  EXPECT_NEAR(courses.breaks.front(), 0.7654321, 1e-5);
+  EXPECT_LT(least, -0.9);
 }
 
 }  // namespace
