@@ -20,7 +20,7 @@ struct TimePlan {
   /// Data in time: no step chosen by its error jumps over a part of one.
   std::vector<Course> data = {};
   std::vector<Quantity> quantities = {};  ///< that are evaluated at the end of every step
-  /// By interfaces, whether a node may slide past the end of the line that it touches; empty: none may.
+  /// By interfaces, whether a node may slide past the end of the line that it touches; others may.
   std::vector<bool> slidingAllowed = {};
   /// Whether steps are chosen by their error; otherwise they are equal.
   [[nodiscard]] bool controlled() const { return tolerance > 0; }
