@@ -3,7 +3,7 @@
 // triangle there are
 //
 //   a stress s_D that carries the tractions and forces that are left, without tractions on other sides,
-//   a displacement w, zero on other sides, that takes up what is left of prescribed displacements and gaps,
+//   a displacement w, zero on other sides, the remainder of prescribed displacements and gaps,
 //
 // so that s^ + s_D and u^ + w are admissible for the data as given (docs/bounds.md has the proofs).
 #pragma once
