@@ -102,8 +102,9 @@ Rounds::Verdict Rounds::goOn(const RoundResult& result, double before, double of
   constexpr double stalled = 0.9;
   constexpr int often = 2;
   constexpr double first = 0.5;
-  // On coarse meshes a round may fall short and go on all the same.
-  const bool fell = meshError_ < stalled * before;
+  // On coarse meshes a round may fall short and go on all the same, and so it may where the error is larger
+  // than the solution: bodies that touch between their nodes do so on finer meshes only.
+  const bool fell = meshError_ < stalled * before || meshError_ > 1;
   shortfalls_ = aim_ > 0 && meshError_ > short_ * aim_ && !fell ? shortfalls_ + 1 : 0;
   if (shortfalls_ >= often) return stop("the error does not fall as it should");
   const double excess = trusted_ / (careful / least * ofMeshes);
