@@ -22,6 +22,7 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "compare"))
 from accuracies import (cases, first_meshes, fitted, flow_orders, measured,  # noqa: E402
                         random_case)
+import results  # noqa: E402
 
 
 def orders():
@@ -37,7 +38,8 @@ def orders():
 
 
 def rows_of_random(first, last, finer, meshes):
-    print(f"{'seed':>5} {'asked':>8} {'unknowns':>9} {'error/asked':>12} {'estimate/error':>15} {'overhead':>9}")
+    print(f"{'seed':>5} {'asked':>8} {'unknowns':>9} {'error/asked':>12} {'estimate/error':>15} "
+          f"{'overhead':>9}")
     errors, luck = [], []
     for seed in range(first, last):
         scene, bodies, accuracy, degree = random_case(seed)
@@ -46,7 +48,11 @@ def rows_of_random(first, last, finer, meshes):
             luck.append(most / least)
             print(f"{seed:5} {accuracy:8.3g} {least:9} to {most}: {luck[-1]:.2f}", flush=True)
             continue
-        unknowns, error, estimate, overhead, reached = measured(scene, bodies, accuracy, degree, finer)
+        try:
+            unknowns, error, estimate, overhead, reached = measured(scene, bodies, accuracy, degree, finer)
+        except results.ResultError as failure:
+            print(f"{seed:5} {accuracy:8.3g} no result: {failure}", flush=True)
+            continue
         if reached:
             errors.append(error / accuracy)
         print(f"{seed:5} {accuracy:8.3g} {unknowns:9} {error / accuracy:12.3g} {estimate / error:15.2f} "
