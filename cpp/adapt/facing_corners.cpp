@@ -80,7 +80,7 @@ std::vector<Point> cornersOf(const TriangleMesh& mesh, int label) {
     }
     const Point before = line.points[i] - line.points[i == 0 ? n - 2 : i - 1];
     const Point after = line.points[i + 1] - line.points[i];
-    const double turn = std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after));
+    const double turn = std::atan2(cross(before, after), before.dot(after));
     if (std::abs(turn) > sharpTurn) corners.push_back(line.points[i]);
   }
   return corners;

@@ -30,7 +30,7 @@ Imbalance imbalanceOf(const TriangleMesh& mesh, const Sides& sides, const SideMo
         const Point b = m.segment<2>(4 * k + 2 * end);
         const Point arm = x[(k + end) % 3] - centre;
         force += b;
-        couple += arm.x() * b.y() - arm.y() * b.x();
+        couple += cross(arm, b);
         size = std::max(size, arm.norm());
       }
     const CompositeTriangle element(x, Eigen::Matrix3d::Identity());

@@ -11,7 +11,7 @@ namespace {
 
 /// Force and couple of a force along a normal.
 Eigen::Vector3d resultant(const Point& x, const Point& force) {
-  return {force.x(), force.y(), x.x() * force.y() - x.y() * force.x()};
+  return {force.x(), force.y(), cross(x, force)};
 }
 
 /// Gives the pressures of an interface the force and the couple of its nodal forces, by factors 1 + a + b x,

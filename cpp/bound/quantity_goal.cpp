@@ -108,7 +108,6 @@ void weighPart(const AdmissiblePair& pair, const Functional& functional, Against
 
 /// The first triangle in which a point is; -1 for none.
 int triangleAt(const TriangleMesh& mesh, const Point& x) {
-  const auto cross = [](const Point& u, const Point& v) { return u.x() * v.y() - u.y() * v.x(); };
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& v = mesh.triangles[t];
     bool inside = true;

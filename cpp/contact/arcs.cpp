@@ -10,10 +10,6 @@ constexpr double fit = 1e-6;
 /// Nodes of the shortest run that tells more than that three points lie on a circle.
 constexpr int fewest = 4;
 
-double cross(const Point& a, const Point& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// Of the circle through three points, in their order.
 double curvatureThrough(const Point& a, const Point& b, const Point& c) {
   const double product = (b - a).norm() * (c - b).norm() * (c - a).norm();

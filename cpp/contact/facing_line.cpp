@@ -15,10 +15,6 @@ constexpr double sameEnd = 1e-9;
 /// Places on an element that differ by less are one.
 constexpr double sameSight = 4e-16;
 
-double cross(const Point& a, const Point& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// The point of the part that sees x.
 struct Foot {
   double s = 0;

@@ -159,10 +159,6 @@ class ContactInterface {
   [[nodiscard]] double interpenetration(const Vector& uNonmortar, const Vector& uMortar, double t = 0) const {
     return penetration_.of(uNonmortar, uMortar, nodalGap(t));
   }
-  /// The largest depth to which the bodies overlap at a point [m]. The rows see means.
-  [[nodiscard]] double deepestOverlap(const Vector& uNonmortar, const Vector& uMortar) const {
-    return penetration_.deepest(uNonmortar, uMortar);
-  }
   /// What nodal forces p [N/m] leave of the gap between the nodes: its square where they press, that of the
   /// overlap elsewhere.
   [[nodiscard]] std::vector<GapSquare> gapSquares(const Vector& p, const Vector& uNonmortar,

@@ -128,12 +128,6 @@ double PenetrationIntegral::of(const Vector& uNonmortar, const Vector& uMortar, 
   return integral;
 }
 
-double PenetrationIntegral::deepest(const Vector& uNonmortar, const Vector& uMortar) const {
-  double depth = 0;
-  for (const Place& place : places_) depth = std::max(depth, place.jump(uNonmortar, uMortar));
-  return depth;
-}
-
 std::vector<GapSquare> PenetrationIntegral::squares(const Vector& uNonmortar, const Vector& uMortar,
                                                     const std::function<bool(int)>& pressed,
                                                     const Vector& given) const {

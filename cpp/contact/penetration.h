@@ -39,9 +39,6 @@ class PenetrationIntegral {
   /// Displacements by dofs of the two bodies [m]. \returns [m^2], in the plane of the mesh whatever turns
   /// \param gap  by node of the nonmortar mesh, in place of the distance that was added; or empty [m]
   [[nodiscard]] double of(const Vector& uNonmortar, const Vector& uMortar, const Vector& gap = {}) const;
-  /// The largest jump at a point of the common refinement or in the middle between two,
-  /// 0 where all are negative [m].
-  [[nodiscard]] double deepest(const Vector& uNonmortar, const Vector& uMortar) const;
   /// The integral of the squared jump where a vertex of the nonmortar element is `pressed`, of its squared
   /// positive part elsewhere.
   [[nodiscard]] std::vector<GapSquare> squares(const Vector& uNonmortar, const Vector& uMortar,

@@ -7,10 +7,6 @@
 namespace mortier {
 namespace {
 
-double cross(const Point& a, const Point& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// Displacements turned by -90 degrees: C of them is T of what they were.
 Vector turned(const Vector& u) {
   Vector result(u.size());

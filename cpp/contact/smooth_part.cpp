@@ -9,10 +9,6 @@ namespace {
 /// A part whose nodes lie on its chord up to this part of its length is straight.
 constexpr double straightness = 1e-9;
 
-double cross(const Point& a, const Point& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// Perpendicular to a direction, away from the body on its left.
 Point outward(const Point& t) {
   return {t.y(), -t.x()};

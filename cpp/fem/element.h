@@ -45,7 +45,7 @@ struct LinearTriangle {
   static Tabulation tabulate(const std::array<Point, nodes>& x) {
     const Point e1 = x[1] - x[0];
     const Point e2 = x[2] - x[0];
-    const double twiceArea = e1.x() * e2.y() - e1.y() * e2.x();
+    const double twiceArea = cross(e1, e2);
     Tabulation result;
     result.weights[0] = twiceArea / 2;
     auto& gradients = result.gradients[0];

@@ -26,10 +26,6 @@ struct Side {
 
 using SidesOfNodes = std::map<int, std::vector<Side>>;
 
-double cross(const Point& a, const Point& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 bool parallel(const Point& a, const Point& b) {
   return std::abs(cross(a, b)) < sameDirection;
 }

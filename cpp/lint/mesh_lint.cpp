@@ -131,10 +131,6 @@ void findHangingNodes(const TriangleMesh& mesh, const Topology& topology, Faults
                  at(mesh.vertices[hanging.front()]));
 }
 
-double cross(const Point& a, const Point& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 void findCrossings(const TriangleMesh& mesh, const Topology& topology, Faults& faults) {
   const SegmentGrid grid = boundaryGrid(mesh, topology);
   const auto crosses = [](const std::array<Point, 2>& s, const std::array<Point, 2>& r) {

@@ -23,7 +23,6 @@ Point crossing(const TriangleMesh& mesh, const std::array<int, 4>& corners) {
   constexpr double rounding = 1e-12;
   const auto corner = [&](int i) -> const Point& { return mesh.vertices[corners[i]]; };
   const auto middle = [&](int i, int j) -> Point { return corner(i) + (corner(j) - corner(i)) / 2; };
-  const auto cross = [](const Point& u, const Point& v) { return u.x() * v.y() - u.y() * v.x(); };
   Point mean = (middle(0, 2) + middle(1, 3)) / 2;
   const Point first = corner(2) - corner(0);
   const Point second = corner(3) - corner(1);

@@ -56,7 +56,7 @@ TriangleMesh quadrilateralMesh(const Quadrilateral& q, Cut cut) {
   for (int k = 0; k < 4; ++k) {
     const Point along = q.corners[(k + 1) % 4] - q.corners[k];
     const Point next = q.corners[(k + 2) % 4] - q.corners[(k + 1) % 4];
-    if (!(along.x() * next.y() - along.y() * next.x() > 0))
+    if (!(cross(along, next) > 0))
       throw InputError(name + ": corner " + std::to_string((k + 1) % 4 + 1) +
                        ", expected finite corners of a convex quadrilateral, counterclockwise");
   }

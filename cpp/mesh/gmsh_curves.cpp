@@ -160,7 +160,7 @@ bool isStraight(const SampledCurve& curve) {
   const Point chord = curve.points.back() - a;
   return std::all_of(curve.points.begin(), curve.points.end(), [&](const Point& x) {
     const Point from = x - a;
-    return std::abs(chord.x() * from.y() - chord.y() * from.x()) <= straight * chord.squaredNorm();
+    return std::abs(cross(chord, from)) <= straight * chord.squaredNorm();
   });
 }
 

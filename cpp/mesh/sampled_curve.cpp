@@ -9,10 +9,6 @@ namespace {
 
 constexpr int degree = 8;
 
-double cross(const Point& a, const Point& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// The place in [0, 1] at a part of the angle between two neighbours; at whole j, those of the points.
 double chebyshevPlace(double j) {
   const double sine = std::sin(M_PI * j / (2 * degree));

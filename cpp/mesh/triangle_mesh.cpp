@@ -237,7 +237,7 @@ class Validator {
 double doubleArea(const TriangleMesh& mesh, int t) {
   const auto& [a, b, c] = mesh.triangles[t];
   const Point u = mesh.vertices[b] - mesh.vertices[a], v = mesh.vertices[c] - mesh.vertices[a];
-  return u.x() * v.y() - u.y() * v.x();
+  return cross(u, v);
 }
 
 double extent(const TriangleMesh& mesh) {

@@ -80,13 +80,23 @@ Json rounds(const RunFacts& facts) {
 }
 
 Json finalState(const Model& model, const State& state, const StepReport& last) {
-  const Extremes e = extremes(model, state);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Point vonMises(infinity, -infinity);
+  Point least = Point::Constant(infinity);
+  Point largest = -least;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Vector ofBody = cellFields(model.bodies[b], state.bodies[b]).vonMises;
+    vonMises = {std::min(vonMises[0], ofBody.minCoeff()), std::max(vonMises[1], ofBody.maxCoeff())};
+    const Eigen::Map<const Matrix> u(state.bodies[b].displacement.data(), 2, model.bodies[b].nodes());
+    least = least.cwiseMin(u.rowwise().minCoeff());
+    largest = largest.cwiseMax(u.rowwise().maxCoeff());
+  }
   Json json = {{"time", state.time},
-               {"von_mises_min", e.vonMisesMin},
-               {"von_mises_max", e.vonMisesMax},
+               {"von_mises_min", vonMises[0]},
+               {"von_mises_max", vonMises[1]},
                {"interpenetration", last.penetration},
-               {"displacement_min", {e.displacementMin[0], e.displacementMin[1]}},
-               {"displacement_max", {e.displacementMax[0], e.displacementMax[1]}},
+               {"displacement_min", {least[0], least[1]}},
+               {"displacement_max", {largest[0], largest[1]}},
                {"contact_force", last.contactForce},
                {"contact_resultant", {last.resultantX, last.resultantY}},
                {"elastic_energy", last.energy},
@@ -232,20 +242,6 @@ Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy)
 }
 
 }  // namespace
-
-Extremes extremes(const Model& model, const State& state) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Extremes e{infinity, -infinity, Point::Constant(infinity), Point::Constant(-infinity)};
-  for (size_t b = 0; b < model.bodies.size(); ++b) {
-    const Vector vonMises = cellFields(model.bodies[b], state.bodies[b]).vonMises;
-    const Eigen::Map<const Matrix> u(state.bodies[b].displacement.data(), 2, model.bodies[b].nodes());
-    e.vonMisesMin = std::min(e.vonMisesMin, vonMises.minCoeff());
-    e.vonMisesMax = std::max(e.vonMisesMax, vonMises.maxCoeff());
-    e.displacementMin = e.displacementMin.cwiseMin(u.rowwise().minCoeff());
-    e.displacementMax = e.displacementMax.cwiseMax(u.rowwise().maxCoeff());
-  }
-  return e;
-}
 
 std::string summaryText(const std::string& path, const RunFacts& facts, const Model& model,
                         const State& state, const StepReport& last, const RunReport& report,

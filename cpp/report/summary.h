@@ -10,15 +10,6 @@
 
 namespace mortier {
 
-/// Extremes of the fields of one state, over all bodies.
-struct Extremes {
-  double vonMisesMin = 0;  ///< [Pa]
-  double vonMisesMax = 0;
-  Point displacementMin{0, 0};  ///< component by component [m]
-  Point displacementMax{0, 0};
-};
-Extremes extremes(const Model& model, const State& state);
-
 /// The text of summary.json; `last` is the report of the step that led to `state`.
 /// \param path  for messages
 /// \throws OutputError when a number is not finite.

@@ -1,10 +1,17 @@
 // The contact problem of a linear solve without friction, and for long lines.
 #include <algorithm>
+#include <utility>
 
 #include "solver/sparse_sets.h"
 #include "solver/step_system.h"
 
 namespace mortier {
+
+bool StepSystem::Factorised::solve(const Step& step, Iterate& iterate, StepOutcome& outcome) const {
+  Condensed condensed = condense(step, iterate);
+  const ContactSolution contact = condensed.solveContact();
+  return std::move(condensed).expand(contact, iterate, outcome);
+}
 
 ContactSolution StepSystem::Condensed::solveContact() const {
   if (system_->rough()) return solveFriction();

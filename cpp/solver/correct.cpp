@@ -17,9 +17,7 @@ std::optional<Certificate> corrected(StepSystem& system, const StepSystem::Linea
                                      Iterate& iterate) {
   Iterate next = iterate;
   StepOutcome outcome;
-  StepSystem::Condensed condensed = linearised.keepFactors().condense(step, next);
-  const ContactSolution contact = condensed.solveContact();
-  if (!std::move(condensed).expand(contact, next, outcome)) return std::nullopt;
+  if (!linearised.keepFactors().solve(step, next, outcome)) return std::nullopt;
   const double residual = system.linearise(step, next, weight, limits.anticipate).residual();
   if (!(residual <= limits.tolerance)) return std::nullopt;
   if (!(system.opened(step, next) < system.opened(step, iterate))) return std::nullopt;

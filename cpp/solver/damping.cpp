@@ -61,10 +61,7 @@ bool advance(StepSystem& system, const Step& step, const Damper& damper, double 
       return false;
     ++total.iterations;
     const std::optional<StepSystem::Factorised> factorised = linearised.factorise(total);
-    if (!factorised) return false;
-    StepSystem::Condensed condensed = factorised->condense(step, next);
-    const ContactSolution contact = condensed.solveContact();
-    if (!std::move(condensed).expand(contact, next, total)) return false;
+    if (!factorised || !factorised->solve(step, next, total)) return false;
     for (size_t b = 0; b < next.bodies.size(); ++b) {
       updateStrain(damper.model, step, b, next);
       next.bodies[b].stress -= damper.stress(b, next.bodies[b].strain, delta);

@@ -89,9 +89,7 @@ class Curve {
       const std::optional<StepSystem::Factorised> tangent = linearised.factorise(total);
       if (!tangent) return result;
       Place before = place;
-      StepSystem::Condensed condensed = tangent->condense(step_, place.iterate);
-      const ContactSolution contact = condensed.solveContact();
-      if (!std::move(condensed).expand(contact, place.iterate, total)) return result;
+      if (!tangent->solve(step_, place.iterate, total)) return result;
       before.iterate.active = place.iterate.active;
       before.iterate.slipping = place.iterate.slipping;
       result.direction = directionWith(*tangent, before, along);

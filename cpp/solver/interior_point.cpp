@@ -85,11 +85,8 @@ StepOutcome interiorPoint(StepSystem& system, const Step& step, int maxIteration
     });
     const std::optional<StepSystem::Factorised> factorised =
         correct ? linearised.keepFactors() : linearised.factorise(total);
-    if (!factorised) return std::nullopt;
     next = iterate;
-    StepSystem::Condensed condensed = factorised->condense(step, iterate);
-    const ContactSolution contact = condensed.solveContact();
-    if (!std::move(condensed).expand(contact, next, total)) return std::nullopt;
+    if (!factorised || !factorised->solve(step, next, total)) return std::nullopt;
     double largest = 1 / toBoundary;
     for (size_t b = 0; b < model.bodies.size(); ++b) {
       updateStrain(model, step, b, next);

@@ -39,11 +39,7 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
     }
     ++outcome.iterations;
     const std::optional<StepSystem::Factorised> factorised = linearised.factorise(outcome);
-    if (!factorised) return outcome;
-    StepSystem::Condensed condensed = factorised->condense(step, iterate);
-    const ContactSolution contact = condensed.solveContact();
-    if (!std::move(condensed).expand(contact, iterate, outcome)) return outcome;
-
+    if (!factorised || !factorised->solve(step, iterate, outcome)) return outcome;
     linearised = system.linearise(step, iterate, weight, limits.anticipate);
     // A stress that was far off the law has come back by cancellation. What that rounds stays in stiff
     // triangles, unseen by the residual, until an iteration has nothing to cancel.

@@ -12,8 +12,9 @@
 // with (contact) kept as it is: each body is condensed to its contact dofs, and the complementarity problem
 // is solved there. A linear solve goes from one type to the next, and only so:
 //
-//   StepSystem -linearise-> Linearised -factorise-> Factorised -condense-> Condensed -solveContact,
-//   expand-> iterate
+//   StepSystem -linearise-> Linearised -factorise-> Factorised -solve-> iterate
+//
+// where solve() is condense -> Condensed -solveContact, expand.
 //
 // Each is good until the next linearise().
 #pragma once
@@ -186,6 +187,9 @@ class StepSystem::Linearised {
 class StepSystem::Factorised {
  public:
   Factorised(StepSystem& system, Key /*key*/) : system_(&system) {}
+  /// The linear solve: condenses, solves the contact problem and moves the iterate to its solution.
+  /// \returns false where there is none; `outcome` then has the reason.
+  bool solve(const Step& step, Iterate& iterate, StepOutcome& outcome) const;
   /// Condenses the forces that are out of balance to the contact conditions.
   [[nodiscard]] Condensed condense(const Step& step, const Iterate& iterate) const;
   [[nodiscard]] const ContactProblem& contact() const { return system_->contact_; }

@@ -20,7 +20,7 @@ struct Wrench {
 
   void add(const Point& at, const Point& by) {
     force += by;
-    moment += at.x() * by.y() - at.y() * by.x();
+    moment += cross(at, by);
   }
 };
 
