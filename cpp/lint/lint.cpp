@@ -11,7 +11,7 @@
 #include "scene/initial_equilibrium.h"
 #include "scene/load_courses.h"
 #include "scene/memory_need.h"
-#include "scene/overrides.h"
+#include "scene/readers.h"
 #include "scene/resolve.h"
 #include "solver/free_rotation.h"
 #include "solver/solve_step.h"

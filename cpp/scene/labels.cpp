@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "mesh/boundary_line.h"
 #include "scene/document.h"
-#include "scene/schema.h"
+#include "scene/keys.h"
 
 namespace mortier {
 

@@ -8,8 +8,7 @@
 #include "mesh/generate.h"
 #include "scene/document.h"
 #include "scene/load_courses.h"
-#include "scene/overrides.h"
-#include "scene/schema.h"
+#include "scene/keys.h"
 #include "unit/messages.h"
 #include "unit/scene_folder.h"
 
