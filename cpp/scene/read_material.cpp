@@ -68,6 +68,8 @@ MaterialDescription readMaterial(const Node& node, const std::string& path, cons
   MaterialDescription material;
   readElasticity(table, material);
   material.flow = readFlow(table);
+  if (!material.flows() && table.has("projection"))
+    material.unusedProjection = table.find("projection")->where;
   requireTakesElasticity(table, material);
   return material;
 }

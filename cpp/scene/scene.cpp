@@ -137,13 +137,17 @@ void readOptions(const TableReader& root, SceneDescription& scene) {
 }  // namespace
 
 SceneDescription readScene(const std::string& path, const std::vector<std::string>& settings) {
-  Node document = readDocument(path);
-  for (const std::string& setting : settings) applyOverride(document, setting);
   SceneDescription scene;
+  scene.path = path;
+  scene.settings = settings;
+  scene.text = readSceneText(path);
+  const auto read = std::make_shared<Node>(readDocument(path, scene.text));
+  scene.document = read;
+  Node& document = *read;
+  for (const std::string& setting : settings) applyOverride(document, setting);
   scene.units = readUnits(document);
   convertMeasures(document, scene.units);
   const TableReader root(document, "", "");
-  scene.path = path;
   scene.title = root.string("title", "");
   scene.plane = root.choice<Plane>("plane");
   scene.units.wholeRing = scene.plane == Plane::axisymmetric;
