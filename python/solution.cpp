@@ -9,8 +9,8 @@
 #include "commands/solve_rounds.h"
 #include "report/clock.h"
 #include "report/summary.h"
-#include "scene/document.h"
 #include "scene/build.h"
+#include "scene/document.h"
 
 namespace mortier::python {
 
@@ -38,7 +38,7 @@ struct Output {
   bool inRounds;
   std::string again;
 
-  Output(const Scene& scene, const RunOptions& options, const Attempt& first)
+  Output(const RunOptions& options, const Attempt& first)
       : folder(options.out.empty() ? nullptr : std::make_unique<OutputFolder>(options.out)),
         temporary(folder ? folder->temporary() : ""),
         checkpoints(temporary, options.checkpoint,
@@ -98,7 +98,7 @@ Solution solveScene(const Scene& scene, const RunOptions& options,
   const AttemptOptions forAttempt{options.threads};
   auto first = std::make_unique<Attempt>(std::move(resolved), forAttempt);
   findInitialEquilibrium(first->scene(), *first->model, first->state);
-  Output output(scene, options, *first);
+  Output output(options, *first);
 
   std::shared_ptr<Attempt> attempt;
   std::map<const Attempt*, Record> records;
