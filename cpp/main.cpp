@@ -22,13 +22,15 @@
 #include "commands/version.h"
 #include "commands/views.h"
 #include "linear/dense_kernels.h"
+#include "scene/keys.h"
 
 using namespace mortier;
 
 namespace {
 
 constexpr const char* settingsHelp =
-    "change a key of the scene, e.g. time.steps=20, contact.variant=interpolation, body.upper.mesh=FILE";
+    "change a key of the scene, e.g. time.steps=20, contact.variant=interpolation, body.upper.mesh=FILE "
+    "(mortier keys lists them)";
 
 int dispatch(int argc, char** argv) {
   CLI::App app(
@@ -62,29 +64,35 @@ int dispatch(int argc, char** argv) {
       })
       ->type_name("SECONDS");
   runApp->add_option("--set", runCommand.settings, settingsHelp)->type_name("KEY=VALUE");
-  const auto addGoal = [&](const char* flag, const char* key, const char* help, const char* type) {
+  const auto addGoal = [&](const char* flag, const char* key, const char* type) {
+    const Key& known = keyAt("accuracy", key);
     runApp
         ->add_option_function<std::string>(
             flag,
             [&runCommand, key](const std::string& value) {
               runCommand.settings.push_back(std::string("accuracy.") + key + "=" + value);
             },
-            help)
+            helpOf(known) + (known.range.holds(std::atof(known.fallback.c_str()))
+                                 ? " (default " + known.fallback + ")"
+                                 : ""))
         ->type_name(type);
   };
-  addGoal("--accuracy", "energy", "refine meshes and steps until the relative error in energy is less", "E");
-  addGoal("--max-unknowns", "max_unknowns", "end with what is reached before a round has more (default 1e6)",
-          "N");
-  addGoal("--max-seconds", "max_seconds", "end with what is reached before it takes longer", "SECONDS");
+  addGoal("--accuracy", "energy", "E");
+  addGoal("--max-unknowns", "max_unknowns", "N");
+  addGoal("--max-seconds", "max_seconds", "SECONDS");
   runApp->add_option("--threads", runCommand.threads, "threads (default 1)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
   runApp->add_flag_callback(
       "--list-solutions", [&runCommand] { runCommand.settings.emplace_back("solver.list_solutions=true"); },
-      "with friction, look for other solutions of every step");
+      helpOf(keyAt("solver", "list_solutions")));
   runApp->add_flag("--quiet", runCommand.quiet, "no log and no progress bar");
 
   const std::function<int()> meshCommand = addMeshCommand(app);
+
+  bool documented = false;
+  CLI::App* keysApp = app.add_subcommand("keys", "all keys of a scene, a line each (docs/scene.md)");
+  keysApp->add_flag("--markdown", documented, "as the table of docs/scene.md");
 
   CheckCommand checkCommand;
   CLI::App* checkApp = app.add_subcommand(
@@ -202,6 +210,10 @@ int dispatch(int argc, char** argv) {
       giveBackScene(checkCommand.settings, checkCommand.scene);
     }
     return check(checkCommand);
+  }
+  if (*keysApp) {
+    std::fputs((documented ? documentedKeys() : listedKeys()).c_str(), stdout);
+    return exitDone;
   }
   if (*freefemApp) {
     giveBackScene(freefemCommand.settings, freefemCommand.scene);

@@ -19,6 +19,12 @@ function __mortier_complete
             __fish_complete_directories $current
             return
     end
+    # Keys of a scene stand behind --set, one or more.
+    set -l options (string match -- '--*' $words)
+    if test "$options[-1]" = --set; and not string match -q -- '-*' $current
+        $program keys | string replace \t =\t
+        return
+    end
     set -l commands (__mortier_commands $text)
     if string match -q -- '-*' $current
         string match -rg '^ +(?:-h,)?(--[a-z-]+)' -- $text

@@ -97,12 +97,6 @@ py::tuple check(const std::string& path, const std::vector<std::string>& setting
 
 }  // namespace
 
-Scene::Scene(std::string file, std::vector<std::string> changes)
-    : path(std::move(file)),
-      settings(std::move(changes)),
-      text(readSceneText(path)),
-      resolved(resolveScene(readScene(path, settings))) {}
-
 void bindScene(py::module_& module) {
   py::class_<Scene>(module, "Scene")
       .def(py::init([](const std::string& path, const std::vector<std::string>& settings) {
@@ -110,9 +104,10 @@ void bindScene(py::module_& module) {
         interruptibly([&] { scene = std::make_unique<Scene>(path, settings); });
         return scene;
       }))
-      .def_readonly("path", &Scene::path)
-      .def_readonly("settings", &Scene::settings)
-      .def_readonly("text", &Scene::text)
+      .def_property_readonly("path", [](const Scene& scene) { return scene.resolved.description.path; })
+      .def_property_readonly("settings",
+                             [](const Scene& scene) { return scene.resolved.description.settings; })
+      .def_property_readonly("text", [](const Scene& scene) { return scene.resolved.description.text; })
       .def_property_readonly("title", [](const Scene& scene) { return scene.resolved.description.title; })
       .def_property_readonly("is_adaptive", [](const Scene& scene) {
         const SceneDescription& of = scene.resolved.description;

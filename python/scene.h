@@ -9,12 +9,10 @@
 namespace mortier::python {
 
 struct Scene {
-  std::string path;
-  std::vector<std::string> settings;  ///< key=value
-  std::string text;                   ///< of the file
   ResolvedScene resolved;
   /// \throws InputError
-  Scene(std::string path, std::vector<std::string> settings);
+  Scene(const std::string& path, const std::vector<std::string>& settings)
+      : resolved(resolveScene(readScene(path, settings))) {}
 };
 
 }  // namespace mortier::python

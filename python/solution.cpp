@@ -9,8 +9,8 @@
 #include "commands/solve_rounds.h"
 #include "report/clock.h"
 #include "report/summary.h"
+#include "scene/build.h"
 #include "scene/document.h"
-#include "scene/initial_equilibrium.h"
 
 namespace mortier::python {
 
@@ -38,23 +38,15 @@ struct Output {
   bool inRounds;
   std::string again;
 
-  Output(const Scene& scene, const RunOptions& options, const Attempt& first)
+  Output(const RunOptions& options, const Attempt& first)
       : folder(options.out.empty() ? nullptr : std::make_unique<OutputFolder>(options.out)),
         temporary(folder ? folder->temporary() : ""),
-        checkpoints(temporary, options.checkpoint, folder ? identityOf(scene, first) : RunIdentity()),
+        checkpoints(temporary, options.checkpoint,
+                    folder ? identityOf(first.scene(), *first.model) : RunIdentity()),
         quiet(true, first.scene().time.end),
         inRounds(first.scene().accuracy.asked() > 0),
         again("; mortier run --restart " + options.out +
               (inRounds ? " begins the rounds again" : " goes on")) {}
-
-  static RunIdentity identityOf(const Scene& scene, const Attempt& first) {
-    RunCommand command;
-    command.scene = scene.path;
-    command.settings = scene.settings;
-    RunIdentity identity = mortier::identityOf(command);
-    addFiles(first.scene(), *first.model, identity);
-    return identity;
-  }
 
   Solved solve(Attempt& attempt, const Observer& observe) {
     return mortier::solve({attempt.scene(),
@@ -103,10 +95,10 @@ Solution solveScene(const Scene& scene, const RunOptions& options,
   beginClock();
   ResolvedScene resolved = scene.resolved;
   std::optional<Rounds> rounds = beginRounds(resolved);
-  const AttemptOptions forAttempt{scene.settings, options.threads, scene.text};
+  const AttemptOptions forAttempt{options.threads};
   auto first = std::make_unique<Attempt>(std::move(resolved), forAttempt);
   findInitialEquilibrium(first->scene(), *first->model, first->state);
-  Output output(scene, options, *first);
+  Output output(options, *first);
 
   std::shared_ptr<Attempt> attempt;
   std::map<const Attempt*, Record> records;

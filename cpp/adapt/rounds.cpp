@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "base/counted.h"
+#include "base/digits.h"
 #include "mesh/element_nodes.h"
 #include "plan/steps.h"
 
@@ -21,13 +21,6 @@ int nodesOf(const AdaptedMeshes& meshes, size_t bodies, int degree) {
   int nodes = 0;
   for (size_t b = 0; b < bodies; ++b) nodes += elementNodes(meshes.mesh(b), degree).count();
   return nodes;
-}
-
-std::string percent(double part) {
-  std::ostringstream text;
-  text.precision(2);
-  text << 100 * part << " %";
-  return text.str();
 }
 
 }  // namespace
@@ -68,7 +61,8 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
   // The steps alone are too long.
   const bool lastSteps = timeTolerance_ <= timeShare();
   if (done_ > 1 && trusted_ <= ofMeshes) {
-    if (lastSteps) return stop("the error of the steps, " + percent(result.time) + ", does not fall");
+    if (lastSteps)
+      return stop("the error of the steps, " + digits(100 * result.time) + " %" + ", does not fall");
     timeTolerance_ = timeShare();
     return Verdict::goOn;
   }

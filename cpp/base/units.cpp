@@ -4,9 +4,9 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
+#include "base/digits.h"
 #include "base/error.h"
 
 namespace mortier {
@@ -162,10 +162,8 @@ Units Units::from(const std::string& text) {
   if (!seen[0] || !seen[1] || !seen[2]) throw InputError(expected);
   const double ratio = units.in(*stress);
   if (!(std::abs(ratio - 1) <= rounding)) {
-    char number[32];
-    std::snprintf(number, sizeof number, "%.4g", ratio);
-    throw InputError("expected a consistent set: 1 " + units.stress + " is " + number + " " + units.force +
-                     "/" + units.area());
+    throw InputError("expected a consistent set: 1 " + units.stress + " is " + digits(ratio, 4) + " " +
+                     units.force + "/" + units.area());
   }
   return units;
 }

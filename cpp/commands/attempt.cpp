@@ -8,7 +8,6 @@
 #include "linear/versions.h"
 #include "plan/loads.h"
 #include "scene/build.h"
-#include "scene/build_quantities.h"
 #include "scene/load_courses.h"
 #include "scene/versions.h"
 
@@ -27,14 +26,14 @@ std::string joinedOnce(std::vector<std::string> words) {
 
 RunFacts factsOf(const SceneDescription& scene, const AttemptOptions& options) {
   RunFacts facts;
-  facts.sceneText = options.sceneText;
+  facts.sceneText = scene.text;
   facts.accuracy = scene.accuracy.asked();
   facts.aim = scene.accuracy.quantity;
   facts.scene = scene.path;
   facts.title = scene.title;
   facts.units = scene.units;
   facts.plane = word(scene.plane);
-  facts.settings = options.settings;
+  facts.settings = scene.settings;
   facts.scheme = word(scene.time.scheme);
   facts.plannedSteps = scene.time.steps;
   facts.tolerance = scene.time.tolerance;

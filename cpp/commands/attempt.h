@@ -12,9 +12,7 @@
 namespace mortier {
 
 struct AttemptOptions {
-  std::vector<std::string> settings;  ///< key=value
   int threads = 1;
-  std::string sceneText;
   bool share = false;  ///< whether ranks may share it
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/digits.h"
 #include "base/error.h"
 #include "base/printable.h"
 #include "commands/exit_code.h"
@@ -10,7 +11,6 @@
 #include "material/stress.h"
 #include "plan/loads.h"
 #include "scene/build.h"
-#include "scene/build_body.h"
 #include "scene/document.h"
 
 namespace mortier {
@@ -26,17 +26,12 @@ double stressOfData(const SceneDescription& scene, const Model& model) {
   return largest;
 }
 
-std::string digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
 std::string atStress(const Vector& stress, const std::string& unit) {
   if (stress.size() == 0) return "";
   const Eigen::Vector3d s = toCartesian(stress.head<3>());
-  std::string text = " at s11 = " + digits(s[0]) + ", s22 = " + digits(s[1]) + ", s12 = " + digits(s[2]);
-  if (stress.size() > 3) text += ", s33 = " + digits(stress[3]);
+  std::string text =
+      " at s11 = " + digits(s[0], 3) + ", s22 = " + digits(s[1], 3) + ", s12 = " + digits(s[2], 3);
+  if (stress.size() > 3) text += ", s33 = " + digits(stress[3], 3);
   return text + " " + unit;
 }
 
@@ -70,32 +65,32 @@ void judge(const LawCheck& check, const Material& material, bool isotropic, cons
     return;
   }
   verdicts.line("tangent", check.tangent <= tangentIsRight,
-                digits(check.tangent) + " off differences, over ten decades of the step" +
+                digits(check.tangent, 3) + " off differences, over ten decades of the step" +
                     (check.tangent <= tangentIsRight ? "" : "," + atStress(check.worstTangent, unit)));
   const bool turned = check.turning <= turns;
   verdicts.line("isotropy", turned || !isotropic,
-                digits(check.turning) +
+                digits(check.turning, 3) +
                     (turned ? " off when axes turn" : " off when axes turn: it is not isotropic") +
                     (isotropic ? "" : ", and not said to be"));
   const bool dissipates = check.dissipation >= makesEnergy;
   verdicts.line("dissipation", dissipates || material.ofStrain(),
-                "s : G is at least " + digits(check.dissipation) + " |s| |G|" +
+                "s : G is at least " + digits(check.dissipation, 3) + " |s| |G|" +
                     (dissipates            ? ""
                      : material.ofStrain() ? ": it gives back what the strain has stored"
                                            : ": it makes energy"));
   const bool anyStep = check.monotone() && !material.ofStrain();
   verdicts.line("monotone", true,
-                std::string(check.monotone() ? "yes" : "no") + ", least slope " + digits(check.monotony) +
+                std::string(check.monotone() ? "yes" : "no") + ", least slope " + digits(check.monotony, 3) +
                     " of the largest");
   const double longest = scene.time.end / scene.time.steps;
   const double limit = 1 / check.lipschitz;
-  std::string steps = "steps below " + digits(limit) + " s have one solution (Proposition 1)";
+  std::string steps = "steps below " + digits(limit, 3) + " s have one solution (Proposition 1)";
   if (anyStep)
     steps += ", and all others, as it is monotone";
   else if (!scene.time.controlled() && longest >= limit)
-    steps += "; those of the scene are " + digits(longest / limit) + " times as long";
+    steps += "; those of the scene are " + digits(longest / limit, 3) + " times as long";
   verdicts.line("Lipschitz", std::isfinite(check.lipschitz),
-                digits(check.lipschitz) + " 1/" + scene.units.time + atStress(check.steepest, unit));
+                digits(check.lipschitz, 3) + " 1/" + scene.units.time + atStress(check.steepest, unit));
   verdicts.line("steps", true, steps);
 }
 
@@ -121,8 +116,8 @@ int tryLaws(const LawCommand& command) {
         if (region.material && &*region.material == description)
           name += " region " + std::to_string(region.label);
       std::printf("%s: %s, plane %s, stresses up to %s %s\n", printable(name).c_str(),
-                  material->laws().front().text().c_str(), word(scene.plane).c_str(), digits(stress).c_str(),
-                  scene.units.stress.c_str());
+                  material->laws().front().text().c_str(), word(scene.plane).c_str(),
+                  digits(stress, 3).c_str(), scene.units.stress.c_str());
       if (!description->flows())
         std::puts("  elastic");
       else

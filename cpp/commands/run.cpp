@@ -18,7 +18,7 @@
 #include "commands/solve.h"
 #include "commands/solve_rounds.h"
 #include "lint/lint.h"
-#include "scene/initial_equilibrium.h"
+#include "scene/build.h"
 #include "scene/memory_need.h"
 
 namespace mortier {
@@ -77,20 +77,20 @@ int run(RunCommand command) {
     if (command.scene.empty()) askAgain(stopped->checkpoint.identity, command);
     command.out = command.restart;
   }
-  RunIdentity identity = identityOf(command);
   ResolvedScene resolved = resolveScene(readScene(command.scene, command.settings));
-  Faults doubts = lintResolved(resolved, command.settings);
+  Faults doubts = lintResolved(resolved);
   std::optional<Rounds> rounds = beginRounds(resolved);
-  const AttemptOptions options{command.settings, command.threads, identity.text, ranks.shared()};
+  const AttemptOptions options{command.threads, ranks.shared()};
   auto attempt = std::make_unique<Attempt>(std::move(resolved), options);
   std::optional<Alone> alone;
   if (!attempt->alone.empty()) {
     if (!ranks.first()) return exitDone;  // it waits for the first
     alone.emplace();
   }
+  RunIdentity identity;
   if (ranks.first()) {
     lintModel(attempt->resolved.description, *attempt->model, doubts);
-    addFiles(attempt->resolved.description, *attempt->model, identity);
+    identity = identityOf(attempt->resolved.description, *attempt->model);
   }
   if (stopped && ranks.first()) {
     requireSame(stopped->checkpoint.identity, identity, stopped->folder);

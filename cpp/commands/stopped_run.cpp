@@ -7,7 +7,6 @@
 
 #include "base/checksum.h"
 #include "base/error.h"
-#include "scene/document.h"
 
 namespace mortier {
 
@@ -45,16 +44,12 @@ void askAgain(const RunIdentity& stored, RunCommand& command) {
   command.settings = stored.settings;
 }
 
-RunIdentity identityOf(const RunCommand& command) {
+RunIdentity identityOf(const SceneDescription& scene, const Model& model) {
   RunIdentity identity;
   identity.workingFolder = fs::current_path().string();
-  identity.scene = command.scene;
-  identity.settings = command.settings;
-  identity.text = readSceneText(command.scene);
-  return identity;
-}
-
-void addFiles(const SceneDescription& scene, const Model& model, RunIdentity& identity) {
+  identity.scene = scene.path;
+  identity.settings = scene.settings;
+  identity.text = scene.text;
   for (const Body& body : model.bodies) {
     identity.files.push_back("the mesh " + body.mesh().name);
     identity.fileHashes.push_back(hashOf(body.mesh()));
@@ -67,6 +62,7 @@ void addFiles(const SceneDescription& scene, const Model& model, RunIdentity& id
     identity.files.push_back("the file " + body.temperature->file);
     identity.fileHashes.push_back(checksum.value);
   }
+  return identity;
 }
 
 }  // namespace mortier

@@ -25,9 +25,7 @@ std::optional<StoppedRun> findStoppedRun(const std::string& path);
 /// Goes to the folder in which the run was begun, and asks for what it was asked for.
 void askAgain(const RunIdentity& stored, RunCommand& command);
 
-/// \throws InputError
-RunIdentity identityOf(const RunCommand& command);
-/// Meshes, and files of temperatures.
-void addFiles(const SceneDescription& scene, const Model& model, RunIdentity& identity);
+/// With the hashes of meshes and of files of temperatures.
+RunIdentity identityOf(const SceneDescription& scene, const Model& model);
 
 }  // namespace mortier

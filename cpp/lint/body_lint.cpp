@@ -97,7 +97,7 @@ void comparePair(const LintInput& input, size_t i, size_t j, Faults& faults) {
                    length + " wide");
   const double young = one.material.elasticity.young / two.material.elasticity.young;
   if (std::max(young, 1 / young) >= units)
-    faults.add("stiffness-ratio", input.whereInBody(young < 1 ? i : j, {"material", "young"}),
+    faults.add("stiffness-ratio", input.where({"body", "material", "young"}, young < 1 ? i : j),
                both + " have young = " + shortest(one.material.elasticity.young) + " " + stress + " and " +
                    shortest(two.material.elasticity.young) + " " + stress);
   if (sameMesh(one.mesh, two.mesh)) {

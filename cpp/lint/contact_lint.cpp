@@ -7,9 +7,9 @@
 #include "lint/lint.h"
 #include "mesh/boundary_line.h"
 #include "plan/estimate_doubts.h"
-#include "scene/build_contact.h"
+#include "scene/build.h"
 #include "scene/memory_need.h"
-#include "scene/sides.h"
+#include "scene/resolve.h"
 
 namespace mortier {
 namespace {

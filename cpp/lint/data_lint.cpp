@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/digits.h"
 #include "fem/data_misfit.h"
 #include "lint/lint.h"
 #include "scene/document.h"
@@ -11,9 +12,7 @@ namespace {
 constexpr size_t mostTriangles = 2000;
 
 std::string percent(double part) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g %%", 100 * std::min(part, 1.0));
-  return text;
+  return digits(100 * std::min(part, 1.0)) + " %";
 }
 
 /// What a datum is off, summed over the places where it acts, and where most.

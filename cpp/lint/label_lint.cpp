@@ -7,7 +7,7 @@
 #include "lint/held_dofs.h"
 #include "lint/lint.h"
 #include "mesh/boundary_line.h"
-#include "scene/labels.h"
+#include "scene/resolve.h"
 
 namespace mortier {
 namespace {

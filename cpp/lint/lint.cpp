@@ -7,11 +7,8 @@
 #include "contact/interface.h"
 #include "plan/steps.h"
 #include "scene/build.h"
-#include "scene/build_quantities.h"
-#include "scene/initial_equilibrium.h"
 #include "scene/load_courses.h"
 #include "scene/memory_need.h"
-#include "scene/overrides.h"
 #include "scene/resolve.h"
 #include "solver/free_rotation.h"
 #include "solver/solve_step.h"
@@ -32,22 +29,6 @@ void addError(const InputError& error, const std::string& id, Faults& faults) {
   const auto* own = dynamic_cast<const FaultError*>(&error);
   const auto [place, text] = splitPlace(error.what());
   faults.add(own != nullptr ? own->id() : id, place, text);
-}
-
-Node documentOf(const std::string& path, const std::vector<std::string>& settings) {
-  Node document = readDocument(path);
-  for (const std::string& setting : settings) applyOverride(document, setting);
-  return document;
-}
-
-std::string whereIn(const Node& node, const std::vector<std::string>& keys) {
-  const Node* at = &node;
-  for (const std::string& key : keys) {
-    const Node* next = at->isTable() ? at->find(key) : nullptr;
-    if (next == nullptr) break;
-    at = next;
-  }
-  return at->where;
 }
 
 /// How deep the bodies of a contact overlap, as meshed or as its gap says:
@@ -120,9 +101,8 @@ SceneDescription asSolved(SceneDescription scene) {
 }
 
 /// The input of the checks, with what several of them use.
-LintInput inputOf(const SceneDescription& scene, std::vector<const TriangleMesh*> meshes,
-                  const Node& document) {
-  LintInput input{{scene, std::move(meshes)}, document, {}};
+LintInput inputOf(const SceneDescription& scene, std::vector<const TriangleMesh*> meshes) {
+  LintInput input{{scene, std::move(meshes)}, {}};
   for (const TriangleMesh* mesh : input.meshes)
     input.topologies.push_back(mesh != nullptr ? topologyOf(*mesh) : Topology());
   for (const ContactDescription& contact : scene.contacts)
@@ -149,27 +129,19 @@ void build(ResolvedScene resolved, LintReport& report) {
 
 }  // namespace
 
-const Node* LintInput::bodyNode(size_t body) const {
-  const Node* bodies = document.find("body");
-  if (bodies == nullptr) return nullptr;
-  if (bodies->isTable()) return bodies;
-  return body < bodies->elements.size() ? &bodies->elements[body] : nullptr;
-}
-
-std::string LintInput::where(const std::vector<std::string>& keys) const {
-  return whereIn(document, keys);
-}
-
-std::string LintInput::whereInBody(size_t body, const std::vector<std::string>& keys) const {
-  const Node* node = bodyNode(body);
-  return node == nullptr ? document.where : whereIn(*node, keys);
+std::string LintInput::where(const std::vector<std::string>& keys, size_t body) const {
+  const Node* at = scene.document.get();
+  for (const std::string& key : keys) {
+    const Node* next = at->isTable() ? at->find(key) : nullptr;
+    if (next == nullptr) break;
+    at = key == "body" && keys.size() > 1 && next->isArray() ? &next->elements[body] : next;
+  }
+  return at->where;
 }
 
 LintReport lint(const std::string& path, const std::vector<std::string>& settings) {
   LintReport report;
-  Node document;
   try {
-    document = documentOf(path, settings);
     report.scene = readScene(path, settings);
   } catch (const InputError& error) {
     addError(error, "scene", report.faults);
@@ -190,18 +162,17 @@ LintReport lint(const std::string& path, const std::vector<std::string>& setting
   }
   resolveWhatCanBe(scene, known);
   const SceneDescription solved = asSolved(scene);
-  runChecks(inputOf(solved, known, document), report.faults);
+  runChecks(inputOf(solved, known), report.faults);
   if (report.faults.count(Severity::error) == 0) build({scene, std::move(meshes)}, report);
   return report;
 }
 
-Faults lintResolved(const ResolvedScene& resolved, const std::vector<std::string>& settings) {
+Faults lintResolved(const ResolvedScene& resolved) {
   const SceneDescription scene = asSolved(resolved.description);
   std::vector<const TriangleMesh*> meshes;
   for (const TriangleMesh& mesh : resolved.meshes) meshes.push_back(&mesh);
-  const Node document = documentOf(scene.path, settings);
   Faults faults(scene.allowed);
-  runChecks(inputOf(scene, std::move(meshes), document), faults);
+  runChecks(inputOf(scene, std::move(meshes)), faults);
   return faults;
 }
 

@@ -9,7 +9,6 @@
 #include "lint/fault.h"
 #include "lint/topology.h"
 #include "plan/loads.h"
-#include "scene/document.h"
 #include "scene/resolve.h"
 #include "solver/model.h"
 
@@ -17,17 +16,13 @@ namespace mortier {
 
 /// What the checks look at.
 struct LintInput : MeshedScene {
-  const Node& document;
   std::vector<Topology> topologies;  ///< of the meshes
   std::vector<double> interference =
       {};  ///< of each contact: how deep the bodies overlap in it, 0 where they do not [m]
 
-  /// The table of a body; nullptr where there is none.
-  [[nodiscard]] const Node* bodyNode(size_t body) const;
-  /// `file:line` of a key of the scene, or of the innermost table above it.
-  [[nodiscard]] std::string where(const std::vector<std::string>& keys) const;
-  /// The same for a key of the body with this index.
-  [[nodiscard]] std::string whereInBody(size_t body, const std::vector<std::string>& keys) const;
+  /// `file:line` of a key of the scene, or of the innermost table above it; `body`: of the first key, body,
+  /// that with this index.
+  [[nodiscard]] std::string where(const std::vector<std::string>& keys, size_t body = 0) const;
 };
 
 struct LintReport {
@@ -41,12 +36,12 @@ LintReport lint(const std::string& scene, const std::vector<std::string>& settin
 
 /// The faults of a resolved scene that are found without building or solving anything; `lint` reports the
 /// same ones, word for word.
-Faults lintResolved(const ResolvedScene& resolved, const std::vector<std::string>& settings);
+Faults lintResolved(const ResolvedScene& resolved);
 
 /// The faults that only the model shows.
 void lintModel(const SceneDescription& scene, const Model& model, Faults& faults);
 
-/// The message of the initial equilibrium, if any (scene/initial_equilibrium.h).
+/// The message of the initial equilibrium, if any (scene/build.h).
 void lintSettling(const SceneDescription& scene, const std::string& doubt, Faults& faults);
 
 /// Whether the meshes of the scene are first ones, which the run refines until an accuracy is reached: how

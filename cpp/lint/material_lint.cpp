@@ -20,7 +20,7 @@ std::vector<PlacedMaterial> placedMaterials(const LintInput& input, size_t b) {
   const BodyDescription& body = input.scene.bodies[b];
   std::vector<PlacedMaterial> materials{
       {body.material, "body " + body.name + ": ", [&input, b](const std::string& key) {
-         return input.whereInBody(b, {"material", key});
+         return input.where({"body", "material", key}, b);
        }}};
   for (const RegionDescription& region : body.regions)
     if (region.material)
@@ -229,10 +229,8 @@ void lintMaterials(const LintInput& input, Faults& faults) {
       stiffest = std::max(stiffest, time.end / time.steps / (4 * flow->viscosity) *
                                         relaxingModulus(material.description.elasticity, input.scene.plane));
     }
-    const Node* body = input.bodyNode(b);
-    const Node* table = body == nullptr ? nullptr : body->find("material");
-    if (!input.scene.bodies[b].material.flows() && table != nullptr && table->find("projection") != nullptr)
-      faults.add("projection-unused", table->find("projection")->where,
+    if (const std::string& place = input.scene.bodies[b].material.unusedProjection; !place.empty())
+      faults.add("projection-unused", place,
                  "body " + input.scene.bodies[b].name + " is elastic, projection has no meaning in it");
   }
   constexpr double ringing = 10;

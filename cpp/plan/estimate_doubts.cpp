@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 #include <utility>
 
+#include "base/digits.h"
 #include "plan/loads.h"
 #include "scene/document.h"
 #include "time/quantity.h"
@@ -25,12 +25,6 @@ bool crossed(const TriangleMesh& mesh) {
   };
   const auto count = std::count_if(mesh.triangles.begin(), mesh.triangles.end(), inCell);
   return static_cast<double>(count) > most * static_cast<double>(mesh.triangles.size());
-}
-
-std::string twoDigits(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", x);
-  return text;
 }
 
 /// The bodies that flow and touch one that is much softer, each once.
@@ -128,7 +122,7 @@ std::vector<std::string> pointForceDoubts(const Model& model, const State& state
       const double size = std::hypot(force[0], force[1]);
       if (size > noticeable * largest)
         doubts.push_back("body " + body.name() + " is held at " + shortest(*held.point) + " by a force of " +
-                         twoDigits(size) + (body.axisymmetric() ? " N" : " N/m") +
+                         digits(size) + (body.axisymmetric() ? " N" : " N/m") +
                          ", whose energy at a point is infinite");
     }
   }

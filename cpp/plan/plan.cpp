@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <set>
 
 #include "base/counted.h"
+#include "base/digits.h"
 #include "plan/steps.h"
 #include "scene/document.h"
 #include "scene/memory_need.h"
@@ -72,15 +72,18 @@ class Planner {
     }
     std::string projection;
     double yieldStress = INFINITY;
-    std::string always;  // laws that flow at any stress
-    constexpr const char* withYieldStress[] = {"elastic", "Perzyna", "viscoplastic", "plastic"};
-    for (const LawDescription& law : body.material().laws()) {
-      if (!law.variant.empty()) projection = law.variant;
-      for (const LawDescription::Parameter& parameter : law.parameters)
-        if (parameter.name == "yield_stress") yieldStress = std::min(yieldStress, parameter.value);
-      if (std::none_of(std::begin(withYieldStress), std::end(withYieldStress),
-                       [&](const char* name) { return law.name == name; }))
-        always = law.text();
+    std::string always;                                               // laws that flow at any stress
+    const std::vector<LawDescription> laws = body.material().laws();  // in the order of materials
+    size_t next = 0;
+    for (const MaterialDescription* material : materialsOf(scene_.bodies[b])) {
+      const LawDescription& named = laws[std::min(next++, laws.size() - 1)];
+      if (!named.variant.empty()) projection = named.variant;
+      if (const auto* perzyna = material->as<Viscoplasticity>())
+        yieldStress = std::min(yieldStress, perzyna->yieldStress);
+      else if (const auto* overstress = material->as<Overstress>())
+        yieldStress = std::min(yieldStress, overstress->yieldStress);
+      else if (material->flows())
+        always = named.text();
     }
     const std::string law = !symmetric && projection.empty() ? "its tangent is unsymmetric"
                             : scene_.plane != Plane::stress
@@ -97,7 +100,7 @@ class Planner {
       return;
     }
     add(part, false, "a new factor while nothing in it flows", "its tangent is that of elasticity");
-    const std::string loads = "loads of the order of " + twoDigits(largest_) + " " + scene_.units.stress +
+    const std::string loads = "loads of the order of " + digits(largest_) + " " + scene_.units.stress +
                               ", yield_stress " + shortest(yieldStress) + " " + scene_.units.stress;
     if (largest_ < yieldStress)
       add(part, false, "flow, as none is expected", loads);
@@ -177,12 +180,6 @@ class Planner {
     if (tolerance > 0 && !time.controlled())
       add("time", false, "the scene's " + equal,
           "beside an accuracy the steps of bodies that flow are chosen by their error");
-  }
-
-  static std::string twoDigits(double x) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.2g", x);
-    return text;
   }
 
   const SceneDescription& scene_;

@@ -40,6 +40,21 @@ std::string polygon(const ContactInterface& interface) {
                 interface.polygonTurn() * 180 / M_PI);
 }
 
+/// A line for each law of a body, with its parameters.
+std::string materials(const Body& body, const Units& units) {
+  std::string text;
+  for (const LawDescription& law : body.material().laws()) {
+    text += "material   " + body.name() + " " + law.text();
+    for (const auto& [name, value, unit] : law.parameters) {
+      const auto known = unitOf(unit);
+      text += format(", %s %.6g", name.c_str(), value) +
+              (known ? " " + units.nameOf(known->dimension) : std::string());
+    }
+    text += "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string logHeader(const RunFacts& facts, const Model& model) {
@@ -50,6 +65,7 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
             lawsOf(body.material());
   }
   text += "; plane " + facts.plane + "\n";
+  for (const Body& body : model.bodies) text += materials(body, facts.units);
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
     const double least = interface.initialDistance().size() > 0 ? interface.initialDistance().minCoeff() : 0;

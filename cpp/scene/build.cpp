@@ -1,8 +1,5 @@
 #include "scene/build.h"
 
-#include "scene/build_body.h"
-#include "scene/build_contact.h"
-
 namespace mortier {
 
 namespace {

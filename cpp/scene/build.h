@@ -1,6 +1,7 @@
 // From a resolved scene to what is solved: conditions checked against the meshes, bodies and interfaces made.
 #pragma once
 
+#include "fem/body.h"
 #include "scene/resolve.h"
 #include "time/march.h"
 
@@ -10,5 +11,34 @@ namespace mortier {
 /// \throws InputError with one line that names the scene's file and line (or the mesh's): data that are not
 /// finite somewhere, corners with two displacements, bodies that do not face each other.
 Model buildModel(ResolvedScene& scene);
+
+/// What a resolved scene asks for. \throws InputError with file and line: a label without supports has no
+/// reaction, one that is no side of contact no contact force, and a point outside of its body no
+/// displacement.
+std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model& model);
+
+/// How far initial stresses are from equilibrium with what acts at t = 0.
+/// \returns what a user may not have meant: by how much the initial stresses of `state` change at t = 0
+/// (time/initial_balance.h); empty where they are in equilibrium. \throws InputError, UnheldBodyError
+std::string findInitialEquilibrium(const SceneDescription& scene, const Model& model, State state);
+
+/// In words, with what it does: distances that are not larger than what polygons are off the curves behind
+/// them. Empty where there is nothing to say.
+std::string doubtOfPolygons(const ContactInterface& interface, const std::string& length);
+
+// Parts of a model. \throws InputError
+/// \param places  the points of the material, which an angle of its axes may depend on.
+std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description, Plane plane,
+                                              const std::vector<Point>& places);
+/// Data are tried at `times` [s].
+Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescription& scene,
+               const std::vector<double>& times);
+/// Adds the temperature to the conditions, and by `places`, the stress points of the mesh, what a kelvin
+/// strains there.
+void addTemperature(const BodyDescription& body, const TriangleMesh& mesh, Plane plane,
+                    const std::vector<Point>& places, const std::vector<double>& times,
+                    Conditions& conditions);
+/// Adds the interface to the model, which has its bodies.
+void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model);
 
 }  // namespace mortier

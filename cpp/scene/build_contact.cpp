@@ -1,9 +1,8 @@
-#include "scene/build_contact.h"
+#include "scene/build.h"
 
-#include <iomanip>
-#include <sstream>
 #include <utility>
 
+#include "base/digits.h"
 #include "base/fault_error.h"
 #include "mesh/boundary_line.h"
 #include "scene/finite_value.h"
@@ -11,23 +10,13 @@
 
 namespace mortier {
 
-namespace {
-
-std::string twoDigits(double x) {
-  std::ostringstream text;
-  text << std::setprecision(2) << x;
-  return text.str();
-}
-
-}  // namespace
-
 std::string doubtOfPolygons(const ContactInterface& interface, const std::string& length) {
   constexpr double noticeable = 0.02;  // of the pressure, where that is in proportion to the distance
   const double distance = interface.initialDistance().cwiseAbs().mean();
   if (!(interface.sagitta() > noticeable * distance)) return "";
-  return "no circle fits the nodes to 1e-6, so the distance is that of the polygons, " + twoDigits(distance) +
+  return "no circle fits the nodes to 1e-6, so the distance is that of the polygons, " + digits(distance) +
          " " + length + " in the mean; they are off the curves behind them by up to " +
-         twoDigits(interface.sagitta()) + " " + length + ", and pressures are wrong in that ratio";
+         digits(interface.sagitta()) + " " + length + ", and pressures are wrong in that ratio";
 }
 
 void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model) {

@@ -1,4 +1,4 @@
-#include "scene/build_quantities.h"
+#include "scene/build.h"
 
 #include <algorithm>
 

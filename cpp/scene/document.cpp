@@ -145,9 +145,8 @@ std::string readSceneText(const std::string& path) {
   throw InputError(path + ": cannot be read, expected a scene (TOML file)");
 }
 
-Node readDocument(const std::string& path) {
+Node readDocument(const std::string& path, const std::string& text) {
   try {
-    const std::string text = readSceneText(path);
     requireShortKeys(text, path);
     const toml::table table = toml::parse(text, path);
     return convert(table, {path, false});

@@ -37,8 +37,8 @@ struct Node {
 /// The text of a scene. \throws InputError when it cannot be read.
 std::string readSceneText(const std::string& path);
 
-/// Reads a TOML file. \throws InputError `file:line: ...` when it cannot be read or is not TOML.
-Node readDocument(const std::string& path);
+/// The TOML text of a file. \throws InputError `file:line: ...` when it is not TOML.
+Node readDocument(const std::string& path, const std::string& text);
 
 /// A value as given to --set: TOML where it is TOML (6, true, "a", { x = 0 }), otherwise the text as a
 /// string.

@@ -1,8 +1,8 @@
-#include "scene/initial_equilibrium.h"
+#include "scene/build.h"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "base/digits.h"
 #include "base/error.h"
 #include "time/initial_balance.h"
 
@@ -19,12 +19,10 @@ std::string findInitialEquilibrium(const SceneDescription& scene, const Model& m
     throw InputError(scene.path + ": " + error.what());
   }
   if (change <= noticeable) return "";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", change);
   return "the initial stress is not in equilibrium with the loads at t = 0; the bodies settled elastically, "
          "which "
          "changed it by up to " +
-         std::string(text) + " of the largest stress";
+         digits(change) + " of the largest stress";
 }
 
 }  // namespace mortier

@@ -1,15 +1,15 @@
-#include "scene/labels.h"
+#include "scene/resolve.h"
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <limits>
 #include <set>
 
+#include "base/digits.h"
 #include "base/error.h"
 #include "mesh/boundary_line.h"
 #include "scene/document.h"
-#include "scene/schema.h"
+#include "scene/keys.h"
 
 namespace mortier {
 
@@ -28,12 +28,6 @@ int numberOf(const std::map<std::string, int>& names, const std::string& name, c
                    (words.empty()
                         ? "the mesh " + mesh.name + " has no names of " + what
                         : "expected one of " + joined(words) + " (" + what + " of " + mesh.name + ")"));
-}
-
-std::string threeDigits(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", x);
-  return text;
 }
 
 template <class Labels>
@@ -88,7 +82,7 @@ Point vertexPoint(const TriangleMesh& mesh, const Point& point, const std::strin
   if (!(distance(nearest) <= near * shortestEdge))
     throw InputError(place + ": point = " + shortest(point) + ", expected a vertex of " + mesh.name +
                      ": the nearest one is at " + shortest(mesh.vertices[nearest]) + ", " +
-                     threeDigits(distance(nearest)) + " m away");
+                     digits(distance(nearest), 3) + " m away");
   for (int v = 0; v < static_cast<int>(mesh.vertices.size()); ++v)
     if (v != nearest && distance(v) <= near * shortestEdge)
       throw InputError(place + ": point = " + shortest(point) + ", expected one vertex of " + mesh.name +

@@ -1,60 +1,8 @@
-#include "scene/measures.h"
-
-#include <map>
-#include <optional>
-#include <utility>
-#include <vector>
-
 #include "base/error.h"
+#include "scene/readers.h"
 
 namespace mortier {
 namespace {
-
-/// What keys of the schema mean; data have their dimension at all times.
-const Dimension* dimensionOf(const std::string& path) {
-  static const std::map<std::string, std::pair<Dimension, std::vector<const char*>>> tables = {
-      {"body.mesh.",
-       {dimensions::length,
-        {"size", "lower", "upper", "focus", "corners", "centre", "inner", "outer", "lowest", "radius",
-         "core"}}},
-      {"body.initial_stress.", {dimensions::stress, {"s11", "s22", "s12", "s33"}}},
-      {"body.region.initial_stress.", {dimensions::stress, {"s11", "s22", "s12", "s33"}}},
-      {"body.force.", {dimensions::bodyForce, {"x", "y"}}},
-      {"body.boundary.", {dimensions::length, {"ux", "uy", "un", "ut"}}},
-      {"contact.", {dimensions::length, {"gap"}}},
-      {"quantity.",
-       {dimensions::length,
-        {"about", "displacement.point", "mean_pressure.from", "mean_pressure.to", "mean_pressure.margin"}}},
-      {"time.", {dimensions::time, {"end", "breaks"}}}};
-  static const std::pair<const char*, Dimension> materials[] = {{"young", dimensions::stress},
-                                                                {"yield_stress", dimensions::stress},
-                                                                {"viscosity", dimensions::viscosity},
-                                                                {"reference_stress", dimensions::stress},
-                                                                {"kinematic_hardening", dimensions::stress},
-                                                                {"isotropic_hardening", dimensions::stress},
-                                                                {"young1", dimensions::stress},
-                                                                {"young2", dimensions::stress},
-                                                                {"young3", dimensions::stress},
-                                                                {"shear12", dimensions::stress},
-                                                                {"stiffness", dimensions::stress},
-                                                                {"reference_rate", dimensions::rate},
-                                                                {"relaxation_time", dimensions::time}};
-  static const std::map<std::string, Dimension> keys = [] {
-    std::map<std::string, Dimension> all{{"body.boundary.tx", dimensions::stress},
-                                         {"body.boundary.ty", dimensions::stress},
-                                         {"body.boundary.pressure", dimensions::stress},
-                                         {"contact.shear_limit", dimensions::stress},
-                                         {"accuracy.max_seconds", dimensions::time}};
-    for (const auto& [table, of] : tables)
-      for (const char* key : of.second) all[table + key] = of.first;
-    for (const auto& [key, dimension] : materials)
-      for (const char* table : {"body.material.", "body.region.material."})
-        all[std::string(table) + key] = dimension;
-    return all;
-  }();
-  const auto found = keys.find(path);
-  return found == keys.end() ? nullptr : &found->second;
-}
 
 /// A difference of temperatures in K; its inverse. None of other units.
 std::optional<double> kelvins(const std::string& unit) {
@@ -77,12 +25,15 @@ class Converter {
   void convertTable(Node& table, const std::string& path) const {
     for (Node& member : table.members) {
       const std::string at = path + (path.empty() ? "" : ".") + member.key;
-      if (at == "body.temperature" && member.find("file") == nullptr) {
-        convertHeat(member, member.key, "K", kelvins);
-      } else if (at == "body.material.expansion" || at == "body.region.material.expansion") {
-        convertHeat(member, member.key, "1/K", perKelvin);
-      } else if (const Dimension* dimension = dimensionOf(at)) {
-        convert(member, member.key, *dimension, at == "accuracy.max_seconds" ? ofTheClock_ : units_);
+      const Key* key = findKey(path, member.key);
+      const bool isTable =
+          !keysOf(at).empty() && (at != "body.temperature" || member.find("file") != nullptr);
+      if (key != nullptr && !isTable && key->unit == "K") {
+        convertHeat(member, member.key, key->unit, kelvins);
+      } else if (key != nullptr && !isTable && key->unit == "1/K") {
+        convertHeat(member, member.key, key->unit, perKelvin);
+      } else if (key != nullptr && !isTable && key->dimension) {
+        convert(member, member.key, *key->dimension, at == "accuracy.max_seconds" ? ofTheClock_ : units_);
       } else {
         convertTable(member, at);
         for (Node& element : member.elements) convertTable(element, at);

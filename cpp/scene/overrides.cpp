@@ -1,11 +1,9 @@
-#include "scene/overrides.h"
-
 #include <algorithm>
 #include <charconv>
 
 #include "base/error.h"
 #include "base/printable.h"
-#include "scene/schema.h"
+#include "scene/readers.h"
 
 namespace mortier {
 
@@ -75,7 +73,7 @@ void setInArray(Node& array, const Setting& setting, size_t depth, const std::st
     return set(array.elements[index], setting, depth + 1, schemaPath);
   }
   const Keys& keys = keysOf(schemaPath);
-  if (std::find(keys.begin(), keys.end(), word) == keys.end()) {
+  if (!isOneOf(word, keys)) {
     handles.erase(std::remove(handles.begin(), handles.end(), ""), handles.end());
     throw InputError(setting.where + ": no " + word + " in " + schemaPath + ", expected " +
                      (handles.empty() ? "" : "one of " + joined(handles) + ", or ") +
@@ -92,7 +90,7 @@ void set(Node& table, const Setting& setting, size_t depth, const std::string& s
   // By the geometry or the law, not by the schema.
   const bool named = schemaPath == "body.mesh.parameters" || schemaPath == "body.material.parameters" ||
                      schemaPath == "body.region.material.parameters";
-  if (!table.isTable() || (!named && std::find(keys.begin(), keys.end(), word) == keys.end())) {
+  if (!table.isTable() || (!named && !isOneOf(word, keys))) {
     const std::string guess = nearest(word, keys);
     throw InputError(
         setting.where + ": no " + word + " in " + (schemaPath.empty() ? "the scene" : schemaPath) +

@@ -1,13 +1,7 @@
-#include "scene/read_body.h"
-
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "base/error.h"
-#include "scene/read_material.h"
-#include "scene/read_shape.h"
-#include "scene/table_reader.h"
+#include "scene/readers.h"
 
 namespace mortier {
 
@@ -29,57 +23,44 @@ void addCondition(BodyDescription& body, const ConditionDescription& added) {
 void readBoundary(const Node& node, BodyDescription& body) {
   const TableReader table(node, "body.boundary", "body " + body.name);
   using Kind = ConditionDescription::Kind;
-  const auto [label, labelName] = table.label("label");
+  const TableReader::Label label = table.label("label");
   const size_t before = body.conditions.size();
-  const struct {
-    const char* key;
-    Kind kind;
-    int component;
-  } data[] = {{"ux", Kind::displacement, alongX},      {"uy", Kind::displacement, alongY},
-              {"un", Kind::displacement, alongNormal}, {"ut", Kind::displacement, alongTangent},
-              {"tx", Kind::traction, alongX},          {"ty", Kind::traction, alongY}};
-  for (const auto& [key, kind, component] : data) {
-    if (const Node* value = table.find(key)) {
-      addCondition(body, {kind, label, labelName, component, table.expression(key), value->where});
-    }
-  }
-  if (const Node* value = table.find("pressure")) {
-    addCondition(body, {Kind::traction, label, labelName, alongNormal, negated(table.expression("pressure")),
-                        value->where});
-  }
-  if (body.conditions.size() == before) {
-    throw InputError(table.message(
-        node.where, "boundary label " + (labelName.empty() ? std::to_string(label) : labelName) +
-                        " has no condition, expected one of ux, uy, un, ut, tx, ty, pressure"));
-  }
+  const auto add = [&](const std::string& key, Kind kind, int component) {
+    if (std::optional<Expression> datum = table.datum(key))
+      addCondition(
+          body, {kind, label.number, label.name, component,
+                 key == "pressure" ? negated(std::move(*datum)) : std::move(*datum), table.find(key)->where});
+  };
+  add("ux", Kind::displacement, alongX);
+  add("uy", Kind::displacement, alongY);
+  add("un", Kind::displacement, alongNormal);
+  add("ut", Kind::displacement, alongTangent);
+  add("tx", Kind::traction, alongX);
+  add("ty", Kind::traction, alongY);
+  add("pressure", Kind::traction, alongNormal);
+  if (body.conditions.size() == before)
+    table.refuse(node, "boundary label " + label.text() +
+                           " has no condition, expected one of ux, uy, un, ut, tx, ty, pressure");
 }
 
 void readPoint(const Node& node, BodyDescription& body) {
   const TableReader table(node, "body.point", "body " + body.name);
   const Point at = table.point("at");
-  const size_t before = body.conditions.size();
-  const std::pair<const char*, int> data[] = {{"ux", alongX}, {"uy", alongY}};
-  for (const auto& [key, component] : data)
-    if (table.find(key) != nullptr)
-      addCondition(body, {ConditionDescription::Kind::displacement, 0, "", component, table.expression(key),
+  if (!table.has("ux") && !table.has("uy"))
+    table.refuse(node, "point " + shortest(at) + " has no condition, expected one of ux, uy");
+  for (const int component : {alongX, alongY})
+    if (const auto datum = table.datum(component == alongX ? "ux" : "uy"))
+      addCondition(body, {ConditionDescription::Kind::displacement, 0, "", component, *datum,
                           table.find("at")->where, at});
-  if (body.conditions.size() == before)
-    throw InputError(
-        table.message(node.where, "point " + shortest(at) + " has no condition, expected one of ux, uy"));
 }
 
 StressDescription readInitialStress(const TableReader& owner, const std::string& path,
                                     const std::string& subject) {
   StressDescription stress;
-  if (const Node* node = owner.find("initial_stress")) {
-    const TableReader table(*node, path, subject);
-    const std::string keys[] = {"s11", "s22", "s12", "s33"};
-    for (size_t c = 0; c < stress.size(); ++c) {
-      if (table.find(keys[c]) != nullptr) {
-        stress[c] = table.expression(keys[c]);
-      }
-    }
-  }
+  if (!owner.has("initial_stress")) return stress;
+  const TableReader table(*owner.find("initial_stress"), path, subject);
+  const std::string keys[] = {"s11", "s22", "s12", "s33"};
+  for (size_t c = 0; c < stress.size(); ++c) stress[c] = table.datum(keys[c]);
   return stress;
 }
 
@@ -87,25 +68,19 @@ void readRegion(const Node& node, BodyDescription& body) {
   const std::string subject = "body " + body.name;
   const TableReader table(node, "body.region", subject);
   RegionDescription region;
-  const auto [label, labelName] = table.label("label");
-  region.label = label;
-  region.labelName = labelName;
+  const TableReader::Label label = table.label("label");
+  region.label = label.number;
+  region.labelName = label.name;
   region.where = table.find("label")->where;
-  for (const RegionDescription& other : body.regions) {
-    if (other.label == region.label && other.labelName == region.labelName) {
+  for (const RegionDescription& other : body.regions)
+    if (other.label == region.label && other.labelName == region.labelName)
       table.reject("label", "a region of its own, there is one at " + other.where);
-    }
-  }
-  const std::string shown = labelName.empty() ? std::to_string(label) : labelName;
-  const std::string here = subject + ", region " + shown;
-  if (const Node* material = table.find("material")) {
+  const std::string here = subject + ", region " + label.text();
+  if (const Node* material = table.find("material"))
     region.material = readMaterial(*material, "body.region.material", here);
-  }
   region.initialStress = readInitialStress(table, "body.region.initial_stress", here);
-  if (!region.material && table.find("initial_stress") == nullptr) {
-    throw InputError(table.message(
-        node.where, "region label " + shown + " says nothing, expected material or initial_stress"));
-  }
+  if (!region.material && table.find("initial_stress") == nullptr)
+    table.refuse(node, "region label " + label.text() + " says nothing, expected material or initial_stress");
   body.regions.push_back(std::move(region));
 }
 
@@ -123,12 +98,12 @@ TemperatureDescription readTemperature(const TableReader& owner, const std::stri
                                        const std::string& subject) {
   const Node& node = *owner.find("temperature");
   const std::string where = node.where + ": " + subject;
-  if (!node.isTable() || node.find("file") == nullptr) return {owner.expression("temperature"), "", where};
+  if (!node.isTable() || node.find("file") == nullptr) return {*owner.datum("temperature"), "", where};
   const TableReader table(node, "body.temperature", subject + ": temperature");
   static_cast<void>(table.string("file"));
   const Node& file = *table.find("file");
-  return {table.find("factor") != nullptr ? table.expression("factor")
-                                          : constantExpression(1, table.message(file.where, "factor = 1")),
+  const std::optional<Expression> factor = table.datum("factor");
+  return {factor ? *factor : constantExpression(1, table.message(file.where, "factor = 1")),
           pathOf(file, scenePath), where};
 }
 
@@ -136,8 +111,7 @@ TemperatureDescription readTemperature(const TableReader& owner, const std::stri
 void requireFileKeys(const TableReader& table) {
   const Keys known{"file", "region", "size", "parameters"};
   for (const Node& member : table.table().members)
-    if (std::find(known.begin(), known.end(), member.key) == known.end())
-      table.reject(member.key, "it beside shape; of a file " + joined(known));
+    if (!isOneOf(member.key, known)) table.reject(member.key, "it beside shape; of a file " + joined(known));
 }
 
 /// A path, or a table with what is to be made of the file, or of what shape the mesh is.
@@ -158,14 +132,13 @@ void readMeshSource(const TableReader& owner, const std::string& scenePath, Body
     static_cast<void>(table.string("file"));
     body.mesh.path = pathOf(*table.find("file"), scenePath);
     body.mesh.regions = table.labels("region");
-    if (table.find("size") != nullptr) body.mesh.size = table.number("size", above(0));
+    if (table.find("size") != nullptr) body.mesh.size = table.number("size");
     if (const Node* parameters = table.find("parameters")) {
       if (!parameters->isTable()) table.reject("parameters", "a table of numbers, { R = 8, ... }");
       for (const Node& parameter : parameters->members) {
         if (!parameter.isNumeric() || !std::isfinite(parameter.value))
-          throw InputError(table.message(
-              parameter.where,
-              "parameters." + parameter.key + " = " + parameter.quoted() + ", expected a finite number"));
+          table.refuse(parameter, "parameters." + parameter.key + " = " + parameter.quoted() +
+                                      ", expected a finite number");
         body.mesh.parameters[parameter.key] = parameter.value;
       }
     }
@@ -183,30 +156,20 @@ BodyDescription readBody(const Node& node, const std::string& scenePath, size_t 
   BodyDescription body;
   body.where = node.where;
   body.name = table.string("name");
-  if (!isName(body.name)) {
-    table.reject("name", "letters, digits, _ and -");
-  }
+  if (!isName(body.name)) table.reject("name", "letters, digits, _ and -");
   const std::string subject = "body " + body.name;
   readMeshSource(table, scenePath, body);
   body.material =
       readMaterial(table.require("material", "{ young = ..., poisson = ... }"), "body.material", subject);
   body.initialStress = readInitialStress(table, "body.initial_stress", subject);
-  for (const Node* region : table.tables("region")) {
-    readRegion(*region, body);
-  }
+  for (const Node* region : table.tables("region")) readRegion(*region, body);
   if (const Node* force = table.find("force")) {
     const TableReader components(*force, "body.force", subject);
-    for (const int c : {0, 1}) {
-      const std::string key = c == 0 ? "x" : "y";
-      if (components.find(key) != nullptr) {
-        body.force[c] = components.expression(key);
-      }
-    }
+    body.force[0] = components.datum("x");
+    body.force[1] = components.datum("y");
   }
   if (table.find("temperature") != nullptr) body.temperature = readTemperature(table, scenePath, subject);
-  for (const Node* boundary : table.tables("boundary")) {
-    readBoundary(*boundary, body);
-  }
+  for (const Node* boundary : table.tables("boundary")) readBoundary(*boundary, body);
   for (const Node* point : table.tables("point")) readPoint(*point, body);
   return body;
 }

@@ -1,11 +1,7 @@
-#include "scene/read_contact.h"
-
-#include <algorithm>
 #include <utility>
 
 #include "base/fault_error.h"
-#include "scene/table_reader.h"
-#include "scene/words.h"
+#include "scene/readers.h"
 
 namespace mortier {
 
@@ -15,15 +11,7 @@ SideDescription readSide(const Node& node, const std::string& key, const SceneDe
   const TableReader table(node, "contact." + key,
                           key == "sides" ? "side of contact" : key + " side of contact");
   const auto [label, labelName] = table.label("label");
-  SideDescription side{table.string("body"), label, labelName, table.find("label")->where};
-  if (bodyIndex(scene, side.body) < 0) {
-    Keys names;
-    for (const BodyDescription& body : scene.bodies) {
-      names.push_back(body.name);
-    }
-    table.reject("body", "one of " + joined(names));
-  }
-  return side;
+  return {nameOfBody(table, scene), label, labelName, table.find("label")->where};
 }
 
 /// `nonmortar` and `mortar`, or `sides` in any order.
@@ -36,12 +24,10 @@ void readSides(const TableReader& table, const SceneDescription& scene, ContactD
     contact.mortar = readSide(table.require("mortar", example), "mortar", scene);
     return;
   }
-  for (const char* other : {"nonmortar", "mortar"}) {
-    if (const Node* node = table.find(other)) {
-      throw InputError(table.message(
-          node->where, std::string(other) + " beside sides, expected either sides or nonmortar and mortar"));
-    }
-  }
+  for (const char* other : {"nonmortar", "mortar"})
+    if (const Node* node = table.find(other))
+      table.refuse(*node,
+                   std::string(other) + " beside sides, expected either sides or nonmortar and mortar");
   if (sides.size() != 2) {
     table.reject("sides", std::string("two tables [") + example + ", " + example + "]");
   }
@@ -51,11 +37,7 @@ void readSides(const TableReader& table, const SceneDescription& scene, ContactD
 
 /// \throws InputError  where friction stands together with what does not support it
 Friction readFriction(const TableReader& table, const SceneDescription& scene) {
-  const Range notNegative{[](double x) { return x >= 0; },
-                          [](const std::string& key) { return key + " >= 0"; }};
-  Friction friction;
-  friction.coefficient = table.number("friction", notNegative, 0);
-  friction.limit = table.number("shear_limit", notNegative, 0);
+  Friction friction{table.number("friction"), table.number("shear_limit")};
   if (!friction.any()) return friction;
   const char* key = friction.coefficient > 0 ? "friction" : "shear_limit";
   if (friction.coefficient > 0 && friction.limit > 0) table.reject("shear_limit", "friction or shear_limit");
@@ -76,26 +58,18 @@ ContactDescription readContact(const Node& node, const SceneDescription& scene) 
   contact.where = node.where;
   readSides(table, scene, contact);
   const auto variant = scene.degree == 1 ? CouplingKind::mortar : CouplingKind::weighted;
-  contact.variant =
-      static_cast<CouplingKind>(table.oneOf("variant", couplingWords, static_cast<int>(variant)));
-  contact.initial = static_cast<InitialGap>(table.oneOf("initial", initialWords, 0));
-  if (const Node* gap = table.find("gap")) {
-    contact.gap = table.expression("gap");
-    if (contact.gap->inTime && scene.accuracy.bound) {
-      table.reject("gap", "a distance that does not change in time beside accuracy.bound");
-    }
-    if (table.find("initial") != nullptr) {
-      throw InputError(table.message(gap->where, "gap beside initial, expected one of them"));
-    }
-  }
+  contact.variant = table.choice<CouplingKind>("variant", variant);
+  contact.initial = table.choice<InitialGap>("initial");
+  contact.gap = table.datum("gap");
+  if (contact.gap && contact.gap->inTime && scene.accuracy.bound)
+    table.reject("gap", "a distance that does not change in time beside accuracy.bound");
+  if (contact.gap && table.has("initial"))
+    table.refuse(*table.find("gap"), "gap beside initial, expected one of them");
   contact.friction = readFriction(table, scene);
-  contact.slidingAllowed = table.oneOf("sliding", slidingWords, 0) == 1;
-  if (table.boolean("swap", false)) {
-    contact.otherSide = !contact.sidesGiven;
-    if (contact.sidesGiven) {
-      std::swap(contact.nonmortar, contact.mortar);
-    }
-  }
+  contact.slidingAllowed = table.choice<bool>("sliding");
+  const bool swap = table.boolean("swap");
+  contact.otherSide = swap && !contact.sidesGiven;
+  if (swap && contact.sidesGiven) std::swap(contact.nonmortar, contact.mortar);
   if (contact.nonmortar.body == contact.mortar.body) {
     throw FaultError(table.message(contact.mortar.where,
                                    "both sides are body " + contact.mortar.body + ", expected two bodies"),

@@ -1,40 +1,16 @@
-#include "scene/read_elasticity.h"
-
-#include <cmath>
-
 #include "base/error.h"
+#include "scene/readers.h"
 
 namespace mortier {
 namespace {
 
 enum Kind { isotropic, orthotropic, general };
-const Keys kinds{"isotropic", "orthotropic", "general"};
-const Keys keysOfKind[] = {
-    {"young", "poisson"},
-    {"young1", "young2", "young3", "poisson12", "poisson13", "poisson23", "shear12", "angle"},
-    {"stiffness", "angle"}};
-
-void requireKeysOf(int kind, const TableReader& table) {
-  for (size_t other = 0; other < kinds.size(); ++other)
-    for (const std::string& key : keysOfKind[other]) {
-      if (key == "angle" ? kind != isotropic : static_cast<int>(other) == kind) continue;
-      if (table.find(key) == nullptr) continue;
-      const std::string beside = key == "angle" ? "\"orthotropic\" or \"general\"" : '"' + kinds[other] + '"';
-      table.reject(key, "it beside elasticity = " + beside + " only");
-    }
-}
 
 /// NaN where it is not given: plane strain asks for it then.
-double ifGiven(const TableReader& table, const std::string& key, const Range& range) {
-  return table.find(key) == nullptr ? NAN : table.number(key, range);
-}
-
 Orthotropy readOrthotropy(const TableReader& table) {
-  return {{table.number("young1", above(0)), table.number("young2", above(0)),
-           ifGiven(table, "young3", above(0))},
-          {table.number("poisson12", anyNumber()), ifGiven(table, "poisson13", anyNumber()),
-           ifGiven(table, "poisson23", anyNumber())},
-          table.number("shear12", above(0))};
+  return {{table.number("young1"), table.number("young2"), table.number("young3", NAN)},
+          {table.number("poisson12"), table.number("poisson13", NAN), table.number("poisson23", NAN)},
+          table.number("shear12")};
 }
 
 Matrix readStiffness(const TableReader& table) {
@@ -48,8 +24,8 @@ Matrix readStiffness(const TableReader& table) {
     if (!row.isArray() || row.elements.size() != n) table.reject("stiffness", expected);
     for (size_t j = 0; j < n; ++j) {
       if (!row.elements[j].isNumeric() || !std::isfinite(row.elements[j].value))
-        throw InputError(table.message(row.elements[j].where, "stiffness has " + row.elements[j].quoted() +
-                                                                  ", expected finite numbers"));
+        table.refuse(row.elements[j],
+                     "stiffness has " + row.elements[j].quoted() + ", expected finite numbers");
       stiffness(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = row.elements[j].value;
     }
   }
@@ -57,10 +33,8 @@ Matrix readStiffness(const TableReader& table) {
 }
 
 void readExpansion(const TableReader& table, MaterialDescription& material) {
-  const Node* node = table.find("expansion");
-  if (node == nullptr) return;
-  if (!node->isArray()) {
-    material.expansion.fill(table.number("expansion", anyNumber()));
+  if (!table.has("expansion") || !table.find("expansion")->isArray()) {
+    material.expansion.fill(table.number("expansion"));
     return;
   }
   const std::vector<double> values = table.numbers("expansion");
@@ -87,10 +61,13 @@ Anisotropy AnisotropyDescription::in(Plane plane) const {
 }
 
 void readElasticity(const TableReader& table, MaterialDescription& material) {
-  const int kind = table.oneOf("elasticity", kinds, isotropic);
-  requireKeysOf(kind, table);
+  const Keys& kinds = keyAt("body.material", "elasticity").words;
+  const auto kind = table.choice<Kind>("elasticity");
+  table.requireBeside("elasticity", kinds[kind]);
+  if (kind != isotropic)
+    table.rejectIfGiven({"young", "poisson"}, "it beside elasticity = \"isotropic\" only");
   if (kind == isotropic) {
-    material.elasticity = {table.number("young", above(0)), table.number("poisson", between(-1, 0.5))};
+    material.elasticity = {table.number("young"), table.number("poisson")};
   } else {
     AnisotropyDescription& own = material.anisotropy.emplace();
     own.where = table.message(table.find("elasticity")->where, "elasticity = \"" + kinds[kind] + '"');
@@ -101,10 +78,8 @@ void readElasticity(const TableReader& table, MaterialDescription& material) {
       own.moduli = readStiffness(table);
       material.elasticity.young = std::get<Matrix>(own.moduli).cwiseAbs().maxCoeff();
     }
-    if (table.find("angle") != nullptr) {
-      own.angle = table.expression("angle");
-      if (own.angle->inTime) table.reject("angle", "an angle in x and y, the same at all times");
-    }
+    own.angle = table.datum("angle");
+    if (own.angle && own.angle->inTime) table.reject("angle", "an angle in x and y, the same at all times");
   }
   readExpansion(table, material);
 }

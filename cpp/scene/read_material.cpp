@@ -1,98 +1,75 @@
-#include "scene/read_material.h"
-
-#include <algorithm>
-
 #include "base/error.h"
-#include "scene/read_elasticity.h"
-#include "scene/read_own_law.h"
-#include "scene/words.h"
+#include "scene/readers.h"
+#include "scene/registered_laws.h"
 
 namespace mortier {
 namespace {
 
-/// Laws and their keys beside young and poisson.
-enum Law { elastic, perzyna, norton, maxwell, standardSolid, viscoplastic, expression, registered };
-const Keys lawWords{"elastic",        "perzyna",      "norton",    "maxwell",
-                    "standard-solid", "viscoplastic", "expression"};
-const Keys keysOfLaw[] = {{},
-                          {"viscosity", "yield_stress", "projection"},
-                          {"reference_stress", "reference_rate", "exponent"},
-                          {"relaxation_time"},
-                          {"relaxation_time", "relaxed_fraction"},
-                          {"yield_stress", "viscosity", "reference_stress", "reference_rate", "exponent",
-                           "kinematic_hardening", "isotropic_hardening"},
-                          {"rate11", "rate22", "rate12", "rate33", "parameters", "isotropic"},
-                          {"parameters", "isotropic"}};
-
-bool has(const Keys& keys, const std::string& key) {
-  return std::find(keys.begin(), keys.end(), key) != keys.end();
-}
-
-/// Without `law` it is Perzyna's where a key of that says so.
-int lawOf(const TableReader& table) {
-  if (isRegistered(table)) return registered;
-  const bool flows = table.find("viscosity") != nullptr || table.find("yield_stress") != nullptr;
-  return table.oneOf("law", withRegistered(lawWords), flows ? perzyna : elastic);
-}
-
-void requireKeysOf(int law, const TableReader& table) {
-  const bool given = table.find("law") != nullptr;
-  for (size_t other = 0; other < std::size(keysOfLaw); ++other)
-    for (const std::string& key : keysOfLaw[other]) {
-      // An elastic body may keep the projection it had when it flowed; the linter names it.
-      if (table.find(key) == nullptr || has(keysOfLaw[law], key) || (!given && key == "projection")) continue;
-      std::string laws;
-      for (size_t l = 0; l < lawWords.size(); ++l)
-        if (has(keysOfLaw[l], key)) laws += (laws.empty() ? "\"" : " or \"") + lawWords[l] + '"';
-      table.reject(key, "it beside law = " + laws + " only");
-    }
-}
+/// As the words of the key.
+enum Law { elastic, perzyna, norton, maxwell, standardSolid, viscoplastic, expression };
 
 /// By a viscosity, or a power of the overstress.
 Overstress readOverstress(const TableReader& table) {
   Overstress law;
-  law.yieldStress = table.number("yield_stress", above(0));
-  if (table.find("viscosity") != nullptr) {
-    for (const char* key : {"reference_stress", "reference_rate", "exponent"})
-      if (table.find(key) != nullptr) table.reject(key, "either viscosity or a power of the overstress");
-    law.setViscosity(table.number("viscosity", atLeast(0)));
+  law.yieldStress = table.number("yield_stress");
+  if (table.has("viscosity")) {
+    table.rejectIfGiven({"reference_stress", "reference_rate", "exponent"},
+                        "either viscosity or a power of the overstress");
+    law.setViscosity(table.number("viscosity", {}, ">= 0"));
   } else {
-    law.referenceStress = table.number("reference_stress", above(0));
-    law.referenceRate = table.number("reference_rate", above(0));
-    law.exponent = table.number("exponent", atLeast(1));
+    law.referenceStress = table.number("reference_stress");
+    law.referenceRate = table.number("reference_rate");
+    law.exponent = table.number("exponent");
   }
-  law.kinematicHardening = table.number("kinematic_hardening", atLeast(0), 0);
-  law.isotropicHardening = table.number("isotropic_hardening", atLeast(0), 0);
+  law.kinematicHardening = table.number("kinematic_hardening");
+  law.isotropicHardening = table.number("isotropic_hardening");
   return law;
 }
 
-}  // namespace
-
-const Keys& lawsOfMortier() {
-  return lawWords;
+FlowLaw readFlow(const TableReader& table) {
+  const Node* named = table.find("law");
+  if (named != nullptr && named->isString() && registeredLaw(named->text)) {
+    table.requireBeside("law", "expression");
+    table.rejectIfGiven({"rate11", "rate22", "rate12", "rate33"}, "it beside law = \"expression\" only");
+    return readRegisteredLaw(table);
+  }
+  Keys words = keyAt("body.material", "law").words;
+  const Keys registered = registeredLaws();
+  words.insert(words.end(), registered.begin(), registered.end());
+  // Without `law` it is Perzyna's where a key of that says so.
+  const bool flows = table.has("viscosity") || table.has("yield_stress");
+  const int law = table.oneOf("law", words, flows ? perzyna : elastic);
+  const auto projection = table.choice<Projection>("projection");
+  // An elastic body may keep the projection it had when it flowed; the linter names it.
+  table.requireBeside("law", words[law], named == nullptr ? "projection" : "");
+  switch (law) {
+    case perzyna:
+      return Viscoplasticity{table.number("viscosity"), table.number("yield_stress"), projection};
+    case norton:
+      return NortonCreep{table.number("reference_stress"), table.number("reference_rate"),
+                         table.number("exponent")};
+    case maxwell:
+      return Viscoelasticity{table.number("relaxation_time"), 0};
+    case standardSolid:
+      return Viscoelasticity{table.number("relaxation_time"), table.number("relaxed_fraction")};
+    case viscoplastic:
+      return readOverstress(table);
+    case expression:
+      return readExpressionLaw(table);
+    default:
+      return {};
+  }
 }
+
+}  // namespace
 
 MaterialDescription readMaterial(const Node& node, const std::string& path, const std::string& subject) {
   const TableReader table(node, path, subject);
   MaterialDescription material;
   readElasticity(table, material);
-  const auto projection = static_cast<Projection>(table.oneOf("projection", projectionWords, 1));
-  const int law = lawOf(table);
-  requireKeysOf(law, table);
-  if (law == perzyna)
-    material.flow = Viscoplasticity{table.number("viscosity", above(0)),
-                                    table.number("yield_stress", above(0)), projection};
-  if (law == norton)
-    material.flow =
-        NortonCreep{table.number("reference_stress", above(0)), table.number("reference_rate", above(0)),
-                    table.number("exponent", atLeast(1))};
-  if (law == maxwell) material.flow = Viscoelasticity{table.number("relaxation_time", above(0)), 0};
-  if (law == standardSolid)
-    material.flow = Viscoelasticity{table.number("relaxation_time", above(0)),
-                                    table.number("relaxed_fraction", between(0, 1))};
-  if (law == viscoplastic) material.flow = readOverstress(table);
-  if (law == expression) material.flow = readExpressionLaw(table);
-  if (law == registered) material.flow = readRegisteredLaw(table);
+  material.flow = readFlow(table);
+  if (!material.flows() && table.has("projection"))
+    material.unusedProjection = table.find("projection")->where;
   requireTakesElasticity(table, material);
   return material;
 }

@@ -1,10 +1,9 @@
-#include "scene/read_own_law.h"
-
 #include <cctype>
 #include <cmath>
 
 #include "base/error.h"
 #include "scene/formulas.h"
+#include "scene/readers.h"
 #include "scene/registered_laws.h"
 
 namespace mortier {
@@ -57,8 +56,7 @@ std::map<std::string, const Node*> parametersOf(const TableReader& table) {
   if (!parameters->isTable()) table.reject("parameters", "a table, { eta = 10, ... }");
   for (const Node& each : parameters->members) {
     if (!isWord(each.key))
-      throw InputError(
-          table.message(each.where, "parameters." + each.key + ", expected a name of letters, digits and _"));
+      table.refuse(each, "parameters." + each.key + ", expected a name of letters, digits and _");
     result[each.key] = &each;
   }
   return result;
@@ -66,27 +64,15 @@ std::map<std::string, const Node*> parametersOf(const TableReader& table) {
 
 }  // namespace
 
-bool isRegistered(const TableReader& table) {
-  const Node* law = table.find("law");
-  return law != nullptr && law->isString() && registeredLaw(law->text);
-}
-
-Keys withRegistered(Keys words) {
-  for (const std::string& name : registeredLaws()) words.push_back(name);
-  return words;
-}
-
 OwnLaw readExpressionLaw(const TableReader& table) {
   OwnLaw own;
   own.name = "expression";
   own.texts.emplace();
   std::map<std::string, Formulas::Text> named;
   for (const auto& [name, node] : parametersOf(table)) {
-    for (const std::string& component : components)
-      if (name == component || Formulas::isWord(name))
-        throw InputError(table.message(
-            node->where,
-            "parameters." + name + ", expected another name than those of components and functions"));
+    if (isOneOf(name, components) || Formulas::isWord(name))
+      table.refuse(*node,
+                   "parameters." + name + ", expected another name than those of components and functions");
     named[name] = textOf(table, "parameters." + name, *node);
     own.texts->named[name] = named[name].text;
     if (node->isNumeric()) own.parameters[name] = node->value;
@@ -107,7 +93,7 @@ OwnLaw readExpressionLaw(const TableReader& table) {
   Formulas all = rates;
   for (const auto& [name, text] : named) all.add({name, text.where});
   own.law = std::make_shared<ExpressionLaw>(std::move(rates));
-  own.isotropic = table.boolean("isotropic", false);
+  own.isotropic = table.boolean("isotropic");
   const Node& first = table.require("rate11", "");
   own.where = table.message(first.where, "law = \"expression\"");
   return own;
@@ -125,7 +111,7 @@ OwnLaw readRegisteredLaw(const TableReader& table) {
   const LawParameters parameters(own.parameters, own.where);
   own.law = registeredLaw(own.name)(parameters);
   parameters.requireAllUsed();
-  own.isotropic = table.boolean("isotropic", false);
+  own.isotropic = table.boolean("isotropic");
   return own;
 }
 

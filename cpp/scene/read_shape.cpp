@@ -1,29 +1,13 @@
-#include "scene/read_shape.h"
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-
-#include "base/error.h"
+#include "scene/readers.h"
 
 namespace mortier {
 namespace {
 
-const Keys shapeWords{"rectangle", "quadrilateral", "annulus", "halfdisc", "quarterdisc"};
-const Keys cutWords{"rising", "falling", "both"};  // as Cut
-const Keys spanWords{"quarter", "half", "full"};
-
-const std::map<std::string, Keys> keysOfShape{{"rectangle", {"lower", "upper", "focus", "grading"}},
-                                              {"quadrilateral", {"corners"}},
-                                              {"annulus", {"centre", "inner", "outer", "span"}},
-                                              {"halfdisc", {"lowest", "radius", "core"}},
-                                              {"quarterdisc", {"lowest", "radius", "core"}}};
-
 /// N or [N, M], such as "cells" and "grading" are.
-Point pairOf(const TableReader& table, const std::string& key, double fallback, bool whole) {
-  const Node* node = table.find(key);
-  if (node == nullptr) return {fallback, fallback};
-  const Point pair = node->isNumeric() ? Point(node->value, node->value) : table.point(key);
+Point pairOf(const TableReader& table, const std::string& key, bool whole) {
+  if (!table.has(key)) return {1, 1};
+  const Node& node = *table.find(key);
+  const Point pair = node.isNumeric() ? Point(node.value, node.value) : table.point(key);
   constexpr double most = 1e8;
   const auto good = [&](double x) { return x >= 1 && x <= most && (!whole || x == std::floor(x)); };
   if (!good(pair.x()) || !good(pair.y()))
@@ -47,43 +31,40 @@ std::array<Point, 4> cornersOf(const TableReader& table) {
 }  // namespace
 
 MeshShape readShape(const TableReader& table) {
-  const std::string word = shapeWords[static_cast<size_t>(table.oneOf("shape", shapeWords))];
-  for (const Node& member : table.table().members) {
-    if (member.key == "shape" || member.key == "cells" || member.key == "cut") continue;
-    const Keys& known = keysOfShape.at(word);
-    if (std::find(known.begin(), known.end(), member.key) == known.end())
-      table.reject(member.key, "of a mesh of shape " + word + " cells, cut, " + joined(known));
-  }
+  enum Family { rectangle, quadrilateral, annulus, halfDisc, quarterDisc };
+  const auto family = table.choice<Family>("shape");
+  const std::string word = table.string("shape");
+  Keys known{"shape", "cells", "cut"};
+  for (const std::string& key : keysOf("body.mesh"))
+    if (isOneOf(word, keyAt("body.mesh", key).besideWords)) known.push_back(key);
+  for (const Node& member : table.table().members)
+    if (!isOneOf(member.key, known))
+      table.reject(member.key, "of a mesh of shape " + word + " " + joined({known.begin() + 1, known.end()}));
   static_cast<void>(table.require("cells", "N or [N, M], integers >= 1"));
-  const Point cells = pairOf(table, "cells", 1, true);
+  const Point cells = pairOf(table, "cells", true);
   const auto cells1 = static_cast<int>(cells.x());
   const auto cells2 = static_cast<int>(cells.y());
   MeshShape shape;
-  const bool curved = word == "annulus" || word.ends_with("disc");
-  shape.cut = static_cast<Cut>(table.oneOf("cut", cutWords, curved ? 2 : 0));
-  const auto point = [&](const char* key, const Point& fallback) {
-    return table.find(key) != nullptr ? table.point(key) : fallback;
-  };
-  if (word == "rectangle") {
-    Rectangle rectangle{point("lower", {0, 0}), point("upper", {1, 1}), cells1, cells2};
-    if (table.find("focus") != nullptr) rectangle.focus = table.point("focus");
-    if (table.find("grading") != nullptr && !rectangle.focus) table.reject("grading", "it beside focus");
-    rectangle.grading = pairOf(table, "grading", 1, false);
-    shape.of = rectangle;
-  } else if (word == "quadrilateral") {
+  shape.cut = table.choice<Cut>("cut", family < annulus ? Cut::rising : Cut::both);
+  if (family == rectangle) {
+    Rectangle of{table.point("lower", Point(0, 0)), table.point("upper", Point(1, 1)), cells1, cells2};
+    if (table.has("focus")) of.focus = table.point("focus");
+    if (!of.focus) table.rejectIfGiven({"grading"}, "it beside focus");
+    of.grading = pairOf(table, "grading", false);
+    shape.of = of;
+  } else if (family == quadrilateral) {
     shape.of = Quadrilateral{cornersOf(table), cells1, cells2};
-  } else if (word == "annulus") {
-    constexpr std::array quarters{1, 2, 4};
-    shape.of = Annulus{point("centre", {0, 0}),
-                       table.number("inner", above(0), 1),
-                       table.number("outer", above(0), 2),
-                       quarters[static_cast<size_t>(table.oneOf("span", spanWords, 2))],
+  } else if (family == annulus) {
+    shape.of = Annulus{table.point("centre", Point(0, 0)),
+                       table.number("inner"),
+                       table.number("outer"),
+                       1 << table.choice<int>("span"),  // quarters
                        cells1,
                        cells2};
   } else {
     if (cells1 != cells2) table.reject("cells", "N, on half the width of the core");
-    shape.of = HalfDisc{point("lowest", {0, 0}), table.number("radius", above(0), 1),
-                        table.number("core", above(0), 0.1), cells1, word == "quarterdisc"};
+    shape.of = HalfDisc{table.point("lowest", Point(0, 0)), table.number("radius"), table.number("core"),
+                        cells1, family == quarterDisc};
   }
   return shape;
 }

@@ -1,10 +1,7 @@
-#include "scene/read_time.h"
-
 #include <algorithm>
 
 #include "base/error.h"
-#include "scene/table_reader.h"
-#include "scene/words.h"
+#include "scene/readers.h"
 
 namespace mortier {
 
@@ -12,19 +9,13 @@ namespace {
 
 std::vector<double> readBreaks(const TableReader& time, double end) {
   std::vector<double> breaks;
-  const Node* node = time.find("breaks");
-  if (node == nullptr) {
-    return breaks;
-  }
+  if (!time.has("breaks")) return breaks;
+  const Node& node = *time.find("breaks");
   const std::string expected = "an array of times between 0 and end = " + shortest(end);
-  if (!node->isArray()) {
-    time.reject("breaks", expected);
-  }
-  for (const Node& element : node->elements) {
-    if (!element.isNumeric() || !(element.value > 0 && element.value < end)) {
-      throw InputError(
-          time.message(element.where, "breaks has " + element.quoted() + ", expected " + expected));
-    }
+  if (!node.isArray()) time.reject("breaks", expected);
+  for (const Node& element : node.elements) {
+    if (!element.isNumeric() || !(element.value > 0 && element.value < end))
+      time.refuse(element, "breaks has " + element.quoted() + ", expected " + expected);
     breaks.push_back(element.value);
   }
   std::sort(breaks.begin(), breaks.end());
@@ -36,24 +27,19 @@ std::vector<double> readBreaks(const TableReader& time, double end) {
 TimePlan readTime(const Node& node) {
   const TableReader time(node, "time", "time");
   TimePlan plan;
-  plan.end = time.number("end", above(0));
-  plan.scheme = static_cast<Scheme>(time.oneOf("scheme", schemeWords, 0));
-  if (time.find("tolerance") == nullptr) {
-    plan.steps = time.integer("steps", 1);
-    for (const char* key : {"max_steps", "breaks"}) {
-      if (time.find(key) != nullptr) {
-        time.reject(key, "it only beside tolerance: without, steps are equal");
-      }
-    }
+  plan.end = time.number("end");
+  plan.scheme = time.choice<Scheme>("scheme");
+  if (!time.has("tolerance")) {
+    plan.steps = time.integer("steps");
+    time.rejectIfGiven({"max_steps", "breaks"}, "it only beside tolerance: without, steps are equal");
     return plan;
   }
-  plan.tolerance = time.number("tolerance", between(0, 1));
-  plan.steps = time.integer("steps", 1, 0);
-  plan.maxSteps = time.integer("max_steps", 1, plan.maxSteps);
+  plan.tolerance = time.number("tolerance");
+  plan.steps = time.integer("steps", 0);
+  plan.maxSteps = time.integer("max_steps");
   plan.breaks = readBreaks(time, plan.end);
-  if (plan.scheme == Scheme::crankNicolson) {
+  if (plan.scheme == Scheme::crankNicolson)
     time.reject("scheme", "sdirk2 or backward-euler beside tolerance: crank-nicolson has no error estimate");
-  }
   return plan;
 }
 

@@ -1,10 +1,9 @@
 #include "scene/registered_laws.h"
 
-#include <algorithm>
 #include <mutex>
 
 #include "base/error.h"
-#include "scene/read_material.h"
+#include "scene/scene.h"
 
 namespace mortier {
 namespace {
@@ -51,9 +50,9 @@ void LawParameters::requireAllUsed() const {
 }
 
 void registerLaw(const std::string& name, LawMaker make) {
-  const Keys& own = lawsOfMortier();
+  const Keys& own = keyAt("body.material", "law").words;
   if (!isName(name)) throw InputError("law \"" + name + "\", expected a name of letters, digits, _ and -");
-  if (std::find(own.begin(), own.end(), name) != own.end())
+  if (isOneOf(name, own))
     throw InputError("law \"" + name +
                      "\", expected another name than those of mortier's own: " + joined(own));
   const std::scoped_lock locked(registry().mutex);

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "material/rate_law.h"
-#include "scene/schema.h"
+#include "scene/keys.h"
 
 namespace mortier {
 

@@ -4,8 +4,6 @@
 
 #include "base/error.h"
 #include "mesh/read.h"
-#include "scene/labels.h"
-#include "scene/sides.h"
 
 namespace mortier {
 namespace {

@@ -27,4 +27,33 @@ ResolvedScene resolveScene(SceneDescription scene);
 /// that is no vertex stay as they were written.
 void resolveWhatCanBe(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes);
 
+// Parts of it.
+
+/// The number of a label of the boundary that a scene gives as a number or, unless `name` is empty, as a
+/// name.
+/// \throws InputError, headed by `place` ("scene.toml:9: body upper"), with the labels that the mesh has.
+int boundaryLabel(const TriangleMesh& mesh, int label, const std::string& name, const std::string& place);
+
+/// The same for a label of a region.
+int regionLabel(const TriangleMesh& mesh, int label, const std::string& name, const std::string& place);
+
+/// Where the vertex lies that a scene means by a point: the nearest one, no further off than a thousandth of
+/// the shortest edge there.
+/// \throws InputError, headed by `place`, with that vertex and its distance.
+Point vertexPoint(const TriangleMesh& mesh, const Point& point, const std::string& place);
+
+// Which side of a contact is nonmortar where the scene leaves it open (`sides`): the one with the finer mesh
+// along the contact, measured by bench/nonmortar_side. A body that is far stiffer than the other is mortar
+// (but with interpolation): a soft body cannot tell the nodes of a finer stiff one apart, and nodal pressures
+// alternate.
+
+/// Whether one body of a contact is so much stiffer than the other that it is to be mortar.
+bool farStiffer(const SceneDescription& scene, const ContactDescription& contact, const SideDescription& one,
+                const SideDescription& other);
+
+/// Puts the chosen side first in every contact that leaves the choice open, and says why in `choice`; labels
+/// are numbers (scene/resolve.h). A second call changes nothing. Contacts with a mesh that is missing
+/// (nullptr) or a label that the mesh lacks stay as they are.
+void decideSides(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes);
+
 }  // namespace mortier

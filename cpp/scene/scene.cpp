@@ -3,16 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "scene/document.h"
-#include "scene/measures.h"
-#include "scene/overrides.h"
-#include "scene/read_body.h"
-#include "scene/read_contact.h"
-#include "scene/read_material.h"
-#include "scene/read_quantity.h"
-#include "scene/read_time.h"
-#include "scene/table_reader.h"
-#include "scene/words.h"
+#include "scene/readers.h"
 
 namespace mortier {
 
@@ -55,28 +46,24 @@ void requireKnownTo(const SceneDescription& scene, const BodyDescription& body) 
 }
 
 void readAccuracy(const TableReader& accuracy, SceneDescription& scene) {
-  scene.accuracy.bound = accuracy.boolean("bound", false);
+  AccuracyGoal& goal = scene.accuracy;
+  goal.bound = accuracy.boolean("bound");
   if (const Node* quantity = accuracy.find("quantity")) {
-    if (accuracy.find("energy") != nullptr) accuracy.reject("quantity", "either energy or quantity");
-    if (accuracy.find("bound") != nullptr && !scene.accuracy.bound)
-      accuracy.reject("bound", "true beside quantity, whose error is bounded");
-    scene.accuracy.bound = true;
-    scene.accuracy.quantity = accuracy.string("quantity");
-    scene.accuracy.where = quantity->where;
-    scene.accuracy.tolerance = accuracy.number("tolerance", between(0, 1));
+    if (accuracy.has("energy")) accuracy.reject("quantity", "either energy or quantity");
+    if (!goal.bound) accuracy.rejectIfGiven({"bound"}, "true beside quantity, whose error is bounded");
+    goal.bound = true;
+    goal.quantity = accuracy.string("quantity");
+    goal.where = quantity->where;
+    goal.tolerance = accuracy.number("tolerance");
   } else {
-    if (accuracy.find("tolerance") != nullptr) accuracy.reject("tolerance", "it only beside quantity");
-    scene.accuracy.energy = scene.accuracy.bound ? accuracy.number("energy", between(0, 1), 0)
-                                                 : accuracy.number("energy", between(0, 1));
+    accuracy.rejectIfGiven({"tolerance"}, "it only beside quantity");
+    goal.energy = accuracy.number("energy", goal.bound ? std::optional<double>(0) : std::nullopt);
   }
-  if (scene.accuracy.asked() == 0) {
-    for (const char* key : {"max_unknowns", "max_seconds"})
-      if (accuracy.find(key) != nullptr) accuracy.reject(key, "it only beside energy or quantity");
-    return;
-  }
-  scene.accuracy.maxUnknowns = accuracy.number("max_unknowns", above(0), scene.accuracy.maxUnknowns);
-  scene.accuracy.maxSeconds = accuracy.number("max_seconds", above(0), scene.accuracy.maxSeconds);
-  if (!scene.accuracy.quantity.empty()) return;
+  if (goal.asked() == 0)
+    return accuracy.rejectIfGiven({"max_unknowns", "max_seconds"}, "it only beside energy or quantity");
+  goal.maxUnknowns = accuracy.number("max_unknowns");
+  goal.maxSeconds = accuracy.number("max_seconds", INFINITY);
+  if (!goal.quantity.empty()) return;
   if (scene.time.scheme == Scheme::crankNicolson)
     accuracy.reject("energy", "it only beside time.scheme = sdirk2 or backward-euler, whose error is known");
   if (scene.solver.method != Method::newton)
@@ -126,22 +113,21 @@ void readOptions(const TableReader& root, SceneDescription& scene) {
   scene.time = readTime(root.require("time", "a table [time] with end, steps"));
   if (const Node* node = root.find("solver")) {
     const TableReader solver(*node, "solver", "solver");
-    scene.solver.tolerance = solver.number("tolerance", between(0, 1), scene.solver.tolerance);
-    scene.solver.method = static_cast<Method>(solver.oneOf("method", methodWords, 0));
-    if (scene.time.controlled() && scene.solver.method != Method::newton) {
+    scene.solver.tolerance = solver.number("tolerance");
+    scene.solver.method = solver.choice<Method>("method");
+    if (scene.time.controlled() && scene.solver.method != Method::newton)
       solver.reject("method", "newton beside time.tolerance: the error is estimated with its tangent");
-    }
-    scene.solver.maxIterations = solver.integer("max_iterations", 1, defaultIterations(scene.solver.method));
-    scene.solver.linear = static_cast<LinearEngine>(solver.oneOf("linear", linearWords, 0));
-    scene.solver.distributedFrom = solver.integer("distributed_from", 1, scene.solver.distributedFrom);
-    scene.solver.reduce = solver.boolean("reduce", scene.solver.reduce);
-    scene.solver.listSolutions = solver.boolean("list_solutions", false);
+    scene.solver.maxIterations = solver.integer("max_iterations", defaultIterations(scene.solver.method));
+    scene.solver.linear = solver.choice<LinearEngine>("linear");
+    scene.solver.distributedFrom = solver.integer("distributed_from");
+    scene.solver.reduce = solver.boolean("reduce");
+    scene.solver.listSolutions = solver.boolean("list_solutions");
   }
   if (const Node* node = root.find("accuracy")) {
     readAccuracy(TableReader(*node, "accuracy", "accuracy"), scene);
   }
   if (const Node* node = root.find("output")) {
-    scene.every = TableReader(*node, "output", "output").integer("every", 0, 0);
+    scene.every = TableReader(*node, "output", "output").integer("every");
   }
   if (const Node* node = root.find("check")) {
     scene.allowed = TableReader(*node, "check", "check").strings("allow");
@@ -151,19 +137,21 @@ void readOptions(const TableReader& root, SceneDescription& scene) {
 }  // namespace
 
 SceneDescription readScene(const std::string& path, const std::vector<std::string>& settings) {
-  Node document = readDocument(path);
-  for (const std::string& setting : settings) {
-    applyOverride(document, setting);
-  }
   SceneDescription scene;
+  scene.path = path;
+  scene.settings = settings;
+  scene.text = readSceneText(path);
+  const auto read = std::make_shared<Node>(readDocument(path, scene.text));
+  scene.document = read;
+  Node& document = *read;
+  for (const std::string& setting : settings) applyOverride(document, setting);
   scene.units = readUnits(document);
   convertMeasures(document, scene.units);
   const TableReader root(document, "", "");
-  scene.path = path;
   scene.title = root.string("title", "");
-  scene.plane = static_cast<Plane>(root.oneOf("plane", planeWords, 0));
+  scene.plane = root.choice<Plane>("plane");
   scene.units.wholeRing = scene.plane == Plane::axisymmetric;
-  scene.degree = root.integer("degree", 1, scene.degree);
+  scene.degree = root.integer("degree");
   if (scene.degree > 2) root.reject("degree", "1 or 2");
   readOptions(root, scene);
   const std::vector<const Node*> bodies = root.tables("body");
@@ -213,16 +201,24 @@ std::string nameOfPlace(const ConditionDescription& condition) {
 }
 
 std::string word(Plane plane) {
-  return planeWords[static_cast<size_t>(plane)];
+  return keyAt("", "plane").words[static_cast<size_t>(plane)];
 }
 std::string word(CouplingKind kind) {
-  return couplingWords[static_cast<size_t>(kind)];
+  return keyAt("contact", "variant").words[static_cast<size_t>(kind)];
 }
 std::string word(Projection projection) {
-  return projectionWords[static_cast<size_t>(projection)];
+  return keyAt("body.material", "projection").words[static_cast<size_t>(projection)];
 }
 std::string word(Scheme scheme) {
-  return schemeWords[static_cast<size_t>(scheme)];
+  return keyAt("time", "scheme").words[static_cast<size_t>(scheme)];
+}
+
+std::string nameOfBody(const TableReader& table, const SceneDescription& scene) {
+  std::string name = table.string("body");
+  Keys names;
+  for (const BodyDescription& body : scene.bodies) names.push_back(body.name);
+  if (!isOneOf(name, names)) table.reject("body", "one of " + joined(names));
+  return name;
 }
 
 bool isName(const std::string& text) {

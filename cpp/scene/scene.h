@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -17,6 +18,7 @@
 #include "material/own_material.h"
 #include "material/viscoelastic.h"
 #include "mesh/read.h"
+#include "scene/document.h"
 #include "scene/expression.h"
 #include "time/march.h"
 #include "time/quantity.h"
@@ -42,6 +44,7 @@ struct MaterialDescription {
   FlowLaw flow;
   std::optional<AnisotropyDescription> anisotropy = {};
   std::array<double, 3> expansion{};  ///< thermal strain per kelvin along the axes [1/K]
+  std::string unusedProjection = {};  ///< where an elastic material has one
 
   [[nodiscard]] bool flows() const { return flow.index() > 0; }
   /// The parameters of a law; null where the material follows another.
@@ -113,7 +116,7 @@ struct SideDescription {
 struct ContactDescription {
   SideDescription nonmortar;
   SideDescription mortar;
-  bool sidesGiven = true;  ///< otherwise which one is nonmortar is left to the program (scene/sides.h)
+  bool sidesGiven = true;  ///< otherwise which one is nonmortar is left to the program (scene/resolve.h)
   bool otherSide = false;  ///< where it is left to the program: the one that it would not choose
   std::string choice;      ///< why the nonmortar side is that one, where the program has chosen
   CouplingKind variant = CouplingKind::mortar;  ///< by default `weighted` where displacements are quadratic
@@ -157,9 +160,12 @@ struct AccuracyGoal {
 };
 
 struct SceneDescription {
-  std::string path;   ///< the file
-  std::string title;  ///< may be empty
-  Units units;        ///< of all numbers below
+  std::string path;                      ///< the file
+  std::string text;                      ///< of it
+  std::vector<std::string> settings;     ///< key=value, that were applied
+  std::shared_ptr<const Node> document;  ///< with the settings, for the places of its keys
+  std::string title;                     ///< may be empty
+  Units units;                           ///< of all numbers below
   Plane plane = Plane::stress;
   int degree = 1;  ///< of the displacements: 1 or 2
   std::vector<BodyDescription> bodies;

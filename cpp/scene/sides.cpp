@@ -1,4 +1,4 @@
-#include "scene/sides.h"
+#include "scene/resolve.h"
 
 #include <optional>
 #include <utility>

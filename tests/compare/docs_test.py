@@ -230,6 +230,29 @@ class Scenes(InFolder):
         self.mortier("run", "scene.toml")
 
 
+class Keys(InFolder):
+    """The table of keys is the program's (cpp/scene/key_table.cpp)."""
+
+    def test_the_table_is_that_of_the_program(self):
+        page = (ROOT / "docs" / "scene.md").read_text()
+        told = self.mortier("keys", "--markdown").stdout
+        self.assertGreater(told.count("\n"), 100)
+        self.assertIn("\n\n" + told + "\n", page, "mortier keys --markdown writes another table")
+
+    def test_every_key_that_is_listed_can_be_set(self):
+        """As far as --set goes: what is wrong is the value, or what it stands beside."""
+        self.write("[[body]]\nname = \"a\"\nmesh = \"a.mesh\"\n[time]\nend = 1\nsteps = 1\n")
+        listed = [line.split("\t")[0] for line in self.mortier("keys").stdout.splitlines()]
+        self.assertGreater(len(listed), 120)
+        self.assertEqual(len(listed), len(set(listed)))
+        for key in listed:
+            if key.startswith("body.mesh."):
+                continue  # the scene names a file
+            told = self.mortier("run", "scene.toml", "--set", f"{key}=nonsense", code=2).stderr
+            self.assertNotIn(": no ", told, key)
+            self.assertNotIn("unknown key", told, key)
+
+
 class Meshes(InFolder):
     """The commands of shared-meshes/README.md make the meshes that stand beside it."""
 

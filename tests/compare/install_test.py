@@ -229,6 +229,10 @@ steps = 1
         self.assertEqual(complete("mesh", "cr"), ["crisscross"])
         self.assertEqual(complete("plot", "scene", "--anim"), ["--animate"])
         self.assertEqual(complete("run", "scene.toml", "--che"), ["--checkpoint"])
+        keys = [line.split("\t")[0] for line in output(PROGRAM, "keys").splitlines()]
+        for words in (("--set",), ("--quiet", "--set", "time.steps=2")):
+            self.assertEqual(complete("run", "scene.toml", *words, "time."),
+                             sorted(f"{key}=" for key in keys if key.startswith("time.")))
         for name in ("a.toml", "a.mesh", "a.txt"):
             (self.folder / name).touch()
         self.assertEqual(complete("run", "a"), ["a.mesh", "a.toml"])

@@ -23,7 +23,6 @@
 #include "report/checkpoint.h"
 #include "report/checkpoint_members.h"
 #include "scene/expression.h"
-#include "scene/overrides.h"
 #include "scene/scene.h"
 
 namespace mortier {

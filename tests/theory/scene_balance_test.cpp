@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "scene/build.h"
-#include "scene/initial_equilibrium.h"
 #include "scene/resolve.h"
 #include "time/nodal_forces.h"
 

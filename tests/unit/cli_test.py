@@ -44,6 +44,18 @@ class Cli(OfTwoBlocks):
             self.assertEqual(result.stderr, "")
             self.assertTrue(result.stdout)
 
+    def test_the_log_has_the_parameters_of_laws(self):
+        told = self.mortier("run", "scene.toml", "--set", "units=mm, N, MPa, h").stdout
+        self.assertIn("\nmaterial   upper Perzyna (elasticity), young 3e+11 MPa, poisson 0.3, viscosity 10 "
+                      "MPa h, yield_stress 1 MPa\n", told)
+
+    def test_a_scene_is_read_once(self):
+        text = TWO_BLOCKS.replace('mesh = "', f'mesh = "{self.folder}/')
+        for arguments in (["run", "/dev/stdin", "--out", "piped"], ["check", "/dev/stdin"]):
+            done = mortier(*arguments, cwd=self.folder, input=text)  # a pipe gives its text once
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(json.loads(self.read("piped/summary.json"))["scene_text"], text)
+
     def test_body_that_nothing_holds(self):
         self.write(TWO_BLOCKS.replace("label = 4\nux = 0", "label = 4\ntx = 0", 1))
         errors = self.mortier("run", "scene.toml", "--quiet", code=3).stderr

@@ -5,11 +5,12 @@
 #include <thread>
 
 #include "base/error.h"
+#include "material/perzyna.h"
 #include "mesh/generate.h"
 #include "scene/document.h"
+#include "scene/keys.h"
 #include "scene/load_courses.h"
-#include "scene/overrides.h"
-#include "scene/schema.h"
+#include "scene/table_reader.h"
 #include "unit/messages.h"
 #include "unit/scene_folder.h"
 
@@ -349,6 +350,53 @@ TEST(Expression, rejectsWhatIsNone) {
   for (const char* text :
        {"", "  ", "2*", "z", "1, 2", "x = 3", "sin(", "1/0", "sqrt(-1)", "1e400", "foo(x)", "\"a\""}) {
     EXPECT_THROW(parseExpression(text, "here"), InputError) << text;
+  }
+}
+
+TEST_F(SceneFiles, defaultsOfKeysAreThoseOfTheTypes) {
+  const SceneDescription scene = readScene(
+      path(), {"solver={}", "time={end=1, tolerance=0.1}", "accuracy={energy=0.1}", "contact.swap=false"});
+  const SolverOptions solver;
+  EXPECT_EQ(scene.solver.method, solver.method);
+  EXPECT_EQ(scene.solver.tolerance, solver.tolerance);
+  EXPECT_EQ(scene.solver.maxIterations, solver.maxIterations);
+  EXPECT_EQ(scene.solver.linear, solver.linear);
+  EXPECT_EQ(scene.solver.distributedFrom, solver.distributedFrom);
+  EXPECT_EQ(scene.solver.reduce, solver.reduce);
+  EXPECT_EQ(scene.solver.listSolutions, solver.listSolutions);
+  EXPECT_EQ(scene.time.maxSteps, TimePlan().maxSteps);
+  EXPECT_EQ(scene.time.scheme, TimePlan().scheme);
+  EXPECT_EQ(scene.accuracy.maxUnknowns, AccuracyGoal().maxUnknowns);
+  EXPECT_EQ(scene.accuracy.maxSeconds, AccuracyGoal().maxSeconds);
+  EXPECT_EQ(scene.contacts[0].initial, ContactDescription().initial);
+  EXPECT_EQ(scene.contacts[0].slidingAllowed, ContactDescription().slidingAllowed);
+  EXPECT_EQ(Viscoplasticity().projection,
+            static_cast<Projection>(TableReader(Node(), "body.material", "")
+                                        .oneOf("projection", keyAt("body.material", "projection").words)));
+}
+
+TEST(Schema, everyRangeOfAMaterialIsThatOfItsType) {
+  const auto refused = [](const std::string& key, double value, auto make) {
+    const bool byTable = !keyAt("body.material", key).range.holds(value);
+    bool byType = false;
+    try {
+      make(value);
+    } catch (const InputError&) {
+      byType = true;
+    }
+    EXPECT_EQ(byTable, byType) << key << " = " << value;
+  };
+  for (const double value : {-2.0, -1.0, 0.0, 0.4, 0.5, 1.0, 2.0}) {
+    refused("young", value, [](double x) { elasticMaterial({x, 0.3}); });
+    refused("poisson", value, [](double x) { elasticMaterial({1, x}); });
+    refused("viscosity", value, [](double x) { perzynaMaterial({1, 0.3}, {x, 1}); });
+    refused("yield_stress", value, [](double x) { perzynaMaterial({1, 0.3}, {1, x}); });
+    refused("reference_stress", value, [](double x) { nortonMaterial({1, 0.3}, {x, 1, 1}, Plane::stress); });
+    refused("reference_rate", value, [](double x) { nortonMaterial({1, 0.3}, {1, x, 1}, Plane::stress); });
+    refused("exponent", value, [](double x) { nortonMaterial({1, 0.3}, {1, 1, x}, Plane::stress); });
+    refused("relaxation_time", value, [](double x) {
+      viscoelasticMaterial({1, 0.3}, {x, 0.5}, Plane::stress);
+    });
   }
 }
 

@@ -1,0 +1,243 @@
+#include "scene/keys.h"
+
+// One row a key, name | unit | default | expected | help; several names share a row, indented lines go on.
+// Above the rows stand the tables that they are of, [path path], and the row that documents those. What the
+// reader takes from `expected`: words in quotes, "> 0", ">= 0", "integer >= 1" or "between 0 and 1" at its
+// beginning, and "with KEY = words", of which one must hold (keys.cpp). Rows without help are of tables that
+// another row describes.
+
+namespace mortier {
+
+const char* const keyTable = R"(
+[]
+title | | empty | a string | shown in results
+plane | | `"stress"` | `"stress"`, `"strain"`, `"axisymmetric"` | of all bodies: thin plates (s33 = 0), long
+  bodies with no strain across the plane ([below](#plane-strain)), or bodies that turn about the axis x = 0
+  ([below](#bodies-of-revolution))
+body, contact, quantity, time, solver, output, check
+degree | | 1 | integer >= 1, at most 2 | of the displacements: linear triangles, or quadratic ones (six nodes,
+  stresses at three points); middles of sides lie on the curve where Gmsh knows it
+accuracy
+units | | SI | a length, a force, a stress, and a time if it is not s: `"mm, N, MPa"` | of all numbers; then
+  numbers may have a unit of their own ([below](#units))
+[body] `[[body]]` | | | one or more |
+name | | | letters, digits, `_`, `-`; each once | names files and messages
+mesh | m | | a Medit `.mesh` file, a file for Gmsh (`.msh`, `.geo`, `.step`, ...), or a table | path relative
+  to the scene
+material, force, boundary, region, initial_stress, point
+temperature | K | 0 | datum, or `{ file = "...", factor = datum }` | above that at which nothing is strained;
+  of a file nodal values, a number for each vertex of the mesh in its order, times `factor` (1); needs
+  `expansion` ([below](#temperature))
+[body.mesh]
+file | | | as `mesh` | the file, where more is to be said of it
+region | | all | a region, by number or name, or a list of them | the part of the file that is the body:
+  several bodies may be drawn in one
+size | m | the geometry's own | > 0 | longest edge, where Gmsh meshes a geometry
+parameters | | none | table of numbers, `{ R = 8 }` | constants of a `.geo` that its `DefineConstant[...]`
+  names
+shape | | | `"rectangle"`, `"quadrilateral"`, `"annulus"`, `"halfdisc"`, `"quarterdisc"` | in place of a file,
+  with keys of its own ([below](#meshes))
+cells
+cut | | | "rising", "falling", "both"
+lower, upper, focus | m | | with shape = "rectangle"
+grading | | | with shape = "rectangle"
+corners | m | | with shape = "quadrilateral"
+centre | m | | with shape = "annulus"
+inner | m | 1 | > 0; with shape = "annulus"
+outer | m | 2 | > 0; with shape = "annulus"
+span | | "full" | "quarter", "half", "full"; with shape = "annulus"
+lowest | m | | with shape = "halfdisc", "quarterdisc"
+radius | m | 1 | > 0; with shape = "halfdisc", "quarterdisc"
+core | m | 0.1 | > 0; with shape = "halfdisc", "quarterdisc"
+[body.force]
+x, y | N/m^3 | 0 | datum | body force
+[body.temperature]
+file, factor
+[body.material body.region.material] `material` of a body | | | table | elastic without `law`, `viscosity` and
+  `yield_stress`
+young | Pa | | > 0 | Young's modulus E
+poisson | | | between -1 and 0.5 | Poisson's ratio
+law | | `"perzyna"` with `viscosity` and `yield_stress`, else `"elastic"` | `"elastic"`, `"perzyna"`,
+  `"norton"`, `"maxwell"`, `"standard-solid"`, `"viscoplastic"`, `"expression"`, or a law that a program has
+  registered | what the body does beside elasticity; keys of another law are an error
+viscosity | Pa s | none: elastic | > 0, with `yield_stress`; with law = "perzyna", "viscoplastic", of which
+  the latter takes 0 too | lambda of Perzyna's law; in plane stress not that of three dimensions
+  ([below](#flow-in-plane-stress)) unless `law = "viscoplastic"`
+yield_stress | Pa | none: elastic | > 0, with `viscosity`; with law = "perzyna", "viscoplastic" | von Mises
+  stress at which flow begins
+projection | | `"frobenius"` | `"elasticity"`, `"frobenius"`, `"compliance"`; with law = "perzyna" | norm in
+  which stresses are projected on the elastic domain; without meaning in an elastic body and in plane strain,
+  where all three are one
+reference_stress | Pa | | > 0; with law = "norton", "viscoplastic" | a uniaxial stress ([below](#creep)); of
+  the latter an overstress ([below](#flow-by-the-overstress))
+reference_rate | 1/s | | > 0; with law = "norton", "viscoplastic" | the rate of creep, or of flow, under it
+exponent | | | >= 1; with law = "norton", "viscoplastic" | the power of the stress, or the overstress, with
+  which that grows
+relaxation_time | s | | > 0; with law = "maxwell", "standard-solid" | in which shear relaxes at constant
+  strain ([below](#viscoelasticity))
+relaxed_fraction | | | between 0 and 1; with law = "standard-solid" | the part of the shear modulus that stays
+  after all time
+kinematic_hardening | Pa | 0 | >= 0; with law = "viscoplastic" | stress over plastic strain by which the yield
+  surface moves (Prager)
+isotropic_hardening | Pa | 0 | >= 0; with law = "viscoplastic"; in all regions of a body or in none | the same
+  by which it grows
+rate11, rate22, rate12 | 1/s | | expressions; with law = "expression" | the viscoplastic strain rate
+  ([below](#user-defined-laws))
+rate33 | 1/s | | expression, but for `plane = "stress"`; with law = "expression" | the same across the plane,
+  or around the axis
+parameters | | none | table of numbers and expressions; with law = "expression" | names that the rates may
+  hold; with a registered law numbers only
+isotropic | | false | true, false; with law = "expression" | states that the user-defined law, or the
+  registered one, is isotropic; `mortier law` then checks it
+elasticity | | `"isotropic"` | `"isotropic"`, `"orthotropic"`, `"general"` | the others have keys of their own
+  in place of `young` and `poisson` ([below](#elasticity-with-axes))
+young1, young2, shear12 | Pa | | > 0; with elasticity = "orthotropic" | moduli along the two axes of the plane
+  and of shear between them
+young3 | Pa | | > 0; with elasticity = "orthotropic" | the same of the axis across the plane, or around that
+  of revolution: without effect in plane stress, needed elsewhere
+poisson12 | | | a number; with elasticity = "orthotropic" | contraction along axis 2 over extension along axis
+  1, under a stress along axis 1
+poisson13, poisson23 | | | a number; with elasticity = "orthotropic" | needed where `young3` is
+stiffness | Pa | | rows of numbers; with elasticity = "general" | (s11, s22, s12) of (e11, e22, 2 e12), three
+  by three; but for plane stress four by four, s33 and e33 after them
+angle | rad | 0 | a number or an expression in x, y; with elasticity = "orthotropic", "general" | from the x
+  axis to axis 1, at every point at which stresses are taken
+expansion | 1/K | 0 | a number; beside axes also three, one for each | thermal strain per kelvin of
+  `temperature`
+[body.initial_stress body.region.initial_stress]
+s11, s22, s12 | Pa | 0 | datum | stress at t = 0
+s33 | Pa | nu (s11 + s22); axisymmetric 0 | datum | the same across the plane, or around the axis; not with
+  `plane = "stress"`
+[body.region] `[[body.region]]` | | none | any number | what is different in the triangles of one region
+label | | | a region of the mesh, by number or name, each once | of the region
+material | | that of the body | table as above | elastic and viscoplastic regions may be mixed, and
+  projections
+initial_stress | Pa | that of the body | table as above | component by component
+[body.boundary] `[[body.boundary]]` | | none | any number | conditions on one label; a component not named is
+  free
+label | | | a boundary label of the mesh, by number or name | of the edges
+ux, uy | m | free | datum | prescribed displacement
+un, ut | m | free | datum | prescribed displacement along the outward normal and along the tangent (the body
+  to its left), on sides in any direction: `un = 0` is a roller
+tx, ty | Pa | 0 | datum | traction (force per area); not together with the displacement of the same component
+pressure | Pa | 0 | datum | traction -p n on the sides as meshed, straight or curved; not together with `un`
+[body.point] `[[body.point]]` | | none | any number | what holds one vertex ([below](#supports-at-points))
+at | m | | `[x, y]` | the vertex: to a thousandth of the shortest edge there
+ux, uy | m | free | datum, one of them at least | prescribed displacement
+[contact] `[contact]` or `[[contact]]` | | none | any number | unilateral contact of two bodies, without
+  friction unless it is given
+nonmortar | | | `{ body = "name", label = 1 }` | the side that carries the contact pressure and its conditions
+mortar | | | `{ body = "name", label = 3 }` | the other side
+sides | | | `[{ body = "a", label = 1 }, { body = "b", label = 3 }]` | the two sides in any order, in place of
+  `nonmortar` and `mortar`: the program chooses (below)
+variant | | `"mortar"`, with `degree = 2` `"weighted"` | `"interpolation"`, `"mortar"`, `"weighted"` | what
+  must not become negative, as a gap and as a force: the values of the gap at the nodes, its projection, or
+  its means weighted with the hat functions of the nonmortar vertices, whose pressure is nowhere negative
+  ([theory](theory.md#contact-one-set-of-rows)); each with `degree` 1 or 2
+swap | | false | true, false | exchanges the sides, given or chosen: a short way to try the other one
+initial | | `"as-meshed"` | `"as-meshed"`, `"close"`, `"reject"` | the distance of the bodies as drawn is kept
+  (a penetration of up to a hundredth of the shorter line is a negative distance); or set to zero; or a scene
+  whose bodies do not touch is rejected
+gap | m | as drawn | datum | distance at the nonmortar nodes (`check` warns where it varies between them), in
+  place of that as drawn: positive apart, negative for an interference; one that changes in time does work
+  ([below](#distances-that-change))
+friction | | 0 | >= 0 | Coulomb's coefficient: the shear stress is at most so many times the pressure, and
+  where it is less the bodies stick ([below](#friction))
+shear_limit | Pa | 0 | >= 0, without `friction` | Tresca's law: the shear stress at which the surfaces slip,
+  pressed or not
+sliding | | `"refuse"` | `"refuse"`, `"allow"` | slips are taken as small. Where a node that is pressed slides
+  past the end of the line that it touches, by more than an edge and a tenth of that line, the run ends (exit
+  code 1, with the state so far in `DIR.failed`), or goes on
+[contact.sides contact.nonmortar contact.mortar]
+body, label
+[quantity] `[[quantity]]` | | none | any number | a number of every step, in `history.csv`, the log and
+  `summary.json` ([below](#quantities))
+name | | | letters, digits, `_`, `-`; each once | the column
+reaction | N/m | | `{ body = "name", label = 1 }`, `{ body = "name", point = [x, y] }` | what the supports of
+  the label, or of the point, exert on the body
+contact_force | N/m | | `{ body = "name", label = 1 }` | what contact exerts on the body along the label
+displacement | m | | `{ body = "name", point = [x, y] }` or `{ body = "name", label = 1 }` | at a point (where
+  it was at t = 0), or the mean over a label
+stored_energy | J/m | | `{ body = "name" }` | energy stored in the body: that of elasticity, of kinematic and
+  isotropic hardening and of both springs of a standard solid; of a law of one's own that of elasticity alone
+dissipated_energy | J/m | | `{ body = "name" }` | what the body has turned into heat since the run began: the
+  integral of (s - X) : G, X the back stress of `kinematic_hardening` or of the spring beside the dashpot of a
+  standard solid; all of s : G in a law of one's own
+work | J/m | | `{ body = "name" }` | what all forces have done on the body since then, those of contact
+  included
+external_work | J/m | | `{ body = "name" }` | of it, what loads and supports have done
+thermal_work | J/m | | `{ body = "name" }` | what its thermal strain has done on the body since then
+largest_pressure | Pa | | `{ body = "name", label = 1 }` | the largest contact pressure on the side, and where
+contact_length | m | | `{ body = "name", label = 1 }` | length of the part of the side that is in contact,
+  twice the half-width of a round body; off by half an element at each end
+largest_mises | Pa | | `{ body = "name" }` | the largest von Mises stress in the body, and where
+friction_work | J/m | | `{ body = "name", label = 1 }` | energy dissipated by friction along the side since
+  the run began
+mean_pressure | Pa | | `{ body = "name", label = 1 }`, with `from = [x, y]` and `to = [x, y]`, with `margin` |
+  the mean of the contact pressure over the side, or over the part of it between two points
+  ([below](#quantities))
+component | | | `"x"`, `"y"`, `"moment"` (of forces) | of reactions, contact forces and displacements; moments
+  [N] are counterclockwise
+about | m | [0, 0] | `[x, y]` | the point of a moment
+[quantity.stored_energy quantity.dissipated_energy quantity.work quantity.external_work quantity.thermal_work
+  quantity.largest_mises]
+body
+[quantity.contact_force quantity.largest_pressure quantity.contact_length quantity.friction_work]
+body, label
+[quantity.reaction quantity.displacement]
+body, label
+point | m
+[quantity.mean_pressure]
+body, label
+from, to | m
+margin | m | 0 | >= 0
+[time] `[time]` | | | table |
+end | s | | > 0 | final time T; a run begins at 0
+steps | | | integer >= 1 | equal steps; together with `tolerance` not needed: the first step tried is
+  `end/steps`
+scheme | | `"backward-euler"` | `"backward-euler"`, `"crank-nicolson"`, `"sdirk2"` | orders 1, 2, 2;
+  crank-nicolson rings where steps are longer than the relaxation time (a warning says so), sdirk2 (two stages
+  a step) does not
+tolerance | | none: equal steps | between 0 and 1 | steps chosen by their error (below); with `sdirk2` or
+  `backward-euler`
+max_steps | | 100000 | integer >= 1 | together with `tolerance`: steps tried, rejected ones included, before
+  the run is given up
+breaks | s | none | array of times inside the run | together with `tolerance`: times at which a step must end,
+  besides the points of tables and the kinks and jumps that are found
+[datum]
+time, value
+[solver] `[solver]` | | | table | rarely needed
+method | | `"newton"` | `"newton"`, `"penalty-duality"` | how a step is solved: the second is the note's own
+  algorithm, kept for comparison (docs/theory.md says where it is slow)
+tolerance | | 1e-10 | between 0 and 1 | material residual of a converged step, over the yield stress (or the
+  largest stress of the body, where that is larger)
+max_iterations | | 4000; penalty-duality 5000 | integer >= 1 | linear solves in one step before it is given up
+linear | | `"multifrontal"` | `"multifrontal"`, `"suitesparse"` | our own factorisation (SuiteSparse where it
+  fails), or SuiteSparse only
+distributed_from | | 4000 | integer >= 1 | under `mpirun`: equations between the parts of the processes from
+  which on their factor is distributed ([scaling.md](scaling.md#the-factor-of-the-skeleton))
+reduce | | true | true, false | leave out what changes nothing ([theory.md](theory.md), "What is left out");
+  false factorises in every iteration and solves every step
+list_solutions | | false | true, false | with friction, look for other solutions of every step
+  ([below](#friction))
+[accuracy] `[accuracy]` | | none | table | meshes and steps are refined until the error is small enough; a
+  bound of the error that is proved ([below](#accuracy))
+energy | | | between 0 and 1 | refine meshes and steps until the relative error in energy is less (may be left
+  out together with `bound`); not with `variant = "interpolation"` (at degree 2 with `"weighted"` only),
+  `scheme = "crank-nicolson"` and `method = "penalty-duality"`
+quantity | | | name of a quantity | in place of `energy`: what refinement aims at ([below](#accuracy));
+  elastic bodies, `degree = 1`
+tolerance | | | between 0 and 1 | together with `quantity`: the relative error of its value that is asked for
+max_unknowns | | 1e6 | > 0 | end with what is reached before a round has more
+max_seconds | s | none | > 0 | end with what is reached before it takes longer (wall time); a round that does
+  not end in time is stopped
+bound | | false | true, false | a bound of the error of the stress at the end, proved for elastic bodies
+  ([bounds.md](bounds.md))
+[output] `[output]` | | | table |
+every | | 0 | integer >= 0 | fields and contact are kept for the steps 0, k, 2k, ... and the last one; 0: the
+  last one only
+[check] `[check]` | | | table |
+allow | | none | list of ids | warnings of `mortier check` that are meant as they are ([check.md](check.md))
+)";
+
+}  // namespace mortier
