@@ -28,7 +28,7 @@ struct BodyData {
 
   std::string obstacle;              ///< data that are not bounded
   std::string beyond;                ///< the first that is not linear, or constant; empty where all are
-  std::vector<Point> forces;         ///< by triangles [N/m^3]
+  std::vector<BodyLoad> forces;      ///< by triangles
   std::vector<KnownTraction> known;  ///< by sides
   Vector load;                       ///< nodal forces of these (dofs) [N/m]
   Vector carried;                    ///< |s_D| by triangles, at most [sqrt(J/m)]

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "bound/side_datum.h"
 
@@ -17,8 +18,10 @@ constexpr double samePoint = 1e-6;
 /// coordinate.
 constexpr double parallel = 1e-9;
 constexpr double rounding = 1e-14;
-/// Pieces of a side whose tractions are not linear.
-constexpr int pieces = 4;
+/// Pieces of a side whose tractions are not linear: no more, and until these leave no more than a part of
+/// the tractions.
+constexpr size_t mostPieces = 16;
+constexpr double negligible = 0.003;
 
 using Edge = std::array<int, 2>;
 
@@ -159,7 +162,37 @@ std::string faultOf(const RefinedPiece& piece, const TriangleMesh& nonmortar, co
   return across(mortar, piece.mortar) ? "" : "is not parallel on both sides";
 }
 
-/// Cuts sides under tractions that are not linear, at jumps and between: what the pieces leave is smaller.
+/// Cuts a side from a to b under tractions that are not linear in the middle of the piece that leaves most,
+/// or at a jump: what the pieces leave is smaller, over lengths that are shorter.
+void cutLoaded(const Edge& edge, const Point& a, const Point& b, const Datum& value, double t, Cuts& cuts) {
+  struct Piece {
+    double begin, end;
+    SideDatum datum;
+    [[nodiscard]] double left() const { return datum.off * (end - begin); }
+  };
+  const auto piece = [&](double begin, double end) {
+    return Piece{begin, end, onSide(value, a + begin * (b - a), a + end * (b - a), t)};
+  };
+  std::vector<Piece> pieces{piece(0, 1)};
+  if (pieces[0].datum.linear() || !pieces[0].datum.known) return;
+  while (pieces.size() < mostPieces) {
+    Piece& worst = *std::max_element(pieces.begin(), pieces.end(),
+                                     [](const Piece& u, const Piece& v) { return u.left() < v.left(); });
+    double size = 0;
+    for (const Piece& each : pieces) size = std::max(size, each.datum.size);
+    if (worst.left() <= negligible * size) break;
+    const std::vector<double>& jumps = worst.datum.jumps;
+    double at = worst.begin + (worst.end - worst.begin) * (jumps.empty() ? 0.5 : jumps[jumps.size() / 2]);
+    if (std::min(at - worst.begin, worst.end - at) <= 2 * samePoint) at = (worst.begin + worst.end) / 2;
+    if (worst.end - worst.begin <= 4 * samePoint) break;
+    cuts.add(edge, at);
+    const double end = std::exchange(worst.end, at);
+    worst = piece(worst.begin, at);
+    pieces.push_back(piece(at, end));
+  }
+}
+
+/// All sides of a body that are to be cut so.
 void cutLoaded(const Body& body, double t, Cuts& cuts) {
   const TriangleMesh& mesh = body.mesh();
   const auto& conditions = body.conditions();
@@ -171,10 +204,7 @@ void cutLoaded(const Body& body, double t, Cuts& cuts) {
                       [&](const PrescribedDisplacement& held) { return held.actsOn(label); }))
         continue;
       const auto& [a, b] = mesh.boundaryEdges[e];
-      const SideDatum datum = onSide(traction.value, mesh.vertices[a], mesh.vertices[b], t);
-      if (datum.linear() || !datum.known) continue;
-      for (const double jump : datum.jumps) cuts.add({a, b}, jump);
-      for (int i = 1; i < pieces; ++i) cuts.add({a, b}, static_cast<double>(i) / pieces);
+      cutLoaded({a, b}, mesh.vertices[a], mesh.vertices[b], traction.value, t, cuts);
     }
 }
 

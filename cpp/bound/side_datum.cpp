@@ -139,6 +139,15 @@ bool SideDatum::linear() const {
   return off <= rounding * size;
 }
 
+SideDatum SideDatum::times(double part) const {
+  SideDatum result = *this;
+  for (double* each :
+       {&result.ends[0], &result.ends[1], &result.moments[0], &result.moments[1], &result.momentError,
+        &result.size, &result.off, &result.slope, &result.least, &result.largest})
+    *each *= part;
+  return result;
+}
+
 SideDatum onSide(const Datum& datum, const Point& first, const Point& last, double t) {
   if (datum.constant()) {
     const double value = datum(first.x(), first.y(), t);

@@ -22,6 +22,8 @@ struct SideDatum {
   bool known = true;                ///< whether it is enclosed: of other functions a few values are known
 
   [[nodiscard]] bool linear() const;
+  /// A part of it.
+  [[nodiscard]] SideDatum times(double part) const;
 };
 
 SideDatum onSide(const Datum& datum, const Point& first, const Point& last, double t);

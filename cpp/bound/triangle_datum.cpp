@@ -47,7 +47,7 @@ Interval range(double a, double b, double c) {
 }  // namespace
 
 double TriangleDatum::distanceTo(double value) const {
-  return std::sqrt(meanSquare(Eigen::Vector3d(linear[0], linear[1], linear[2]).array() - value)) + rest;
+  return std::sqrt(variance + (mean - value) * (mean - value)) + off;
 }
 
 DataOnTriangles::DataOnTriangles(const std::vector<Datum>& values, double t, int triangles)
@@ -69,7 +69,8 @@ TriangleDatum DataOnTriangles::on(int datum, const std::array<Point, 3>& corners
     return value(x.x(), x.y(), t_);
   };
   if (value.constant()) {
-    result.linear.fill(at({1, 0, 0}));
+    result.mean = at({1, 0, 0});
+    result.linear.fill(result.mean);
     return result;
   }
   const auto partOf = [&](const Eigen::Matrix3d& c, double share) {
@@ -124,13 +125,17 @@ TriangleDatum DataOnTriangles::on(int datum, const std::array<Point, 3>& corners
     double square = 0;
     double rest = 0;
     double size = 0;
+    result.mean = result.variance = 0;
+    for (const Part& part : parts) result.mean += part.share * part.values.mean();
     for (const Part& part : parts) {
       const Eigen::Vector3d off = part.values - part.corners.transpose() * linear;
       square += part.share * meanSquare(off);
       rest += part.share * part.off * part.off;
+      result.variance += part.share * meanSquare(part.values.array() - result.mean);
       size = std::max(size, part.values.cwiseAbs().maxCoeff());
     }
-    result.rest = std::sqrt(square) + std::sqrt(rest);
+    result.off = std::sqrt(rest);
+    result.rest = std::sqrt(square) + result.off;
     return std::array{square, rest, rounding * rounding * size * size};
   };
   for (int depth = 0; depth < deepest_; ++depth) {
