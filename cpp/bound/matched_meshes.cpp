@@ -23,6 +23,11 @@ constexpr double rounding = 1e-14;
 constexpr size_t mostPieces = 16;
 constexpr double negligible = 0.003;
 
+/// Sides of more pieces than these are cut by triangles that become larger from the side on.
+constexpr size_t fewPieces = 4;
+/// Of these, twice the area over the square of a side.
+constexpr double thinnest = 0.1;
+
 using Edge = std::array<int, 2>;
 
 /// Where edges of a mesh are to be cut, by their vertices in ascending order: parts of the way from the
@@ -105,16 +110,66 @@ class Cutter {
     }
     if (a != edge[0]) std::reverse(chain.begin() + 1, chain.end());
     chain.push_back(b);
+    std::vector<std::array<int, 3>> pieces;
+    while (chain.size() > fewPieces + 1)
+      if (!addRow(chain, c, pieces)) break;
+    for (size_t i = 1; i + 1 < chain.size(); ++i) pieces.push_back({chain[i], chain[i + 1], c});
     mesh.triangles[t] = {a, chain[1], c};
     int last = t;
-    for (size_t i = 1; i + 1 < chain.size(); ++i) {
+    for (const auto& piece : pieces) {
       last = static_cast<int>(mesh.triangles.size());
-      mesh.triangles.push_back({chain[i], chain[i + 1], c});
+      mesh.triangles.push_back(piece);
       mesh.regions.push_back(mesh.regions[t]);
       result_.parents.push_back(result_.parents[t]);
     }
     if (const auto other = triangleOf_.find(sorted(b, c)); other != triangleOf_.end() && other->second == t)
       other->second = last;
+  }
+
+  /// Triangles between a chain of vertices and one of half as many from the same first to the same last
+  /// vertex, as far towards c as its pieces are long. \returns whether none of them or to c is turned over
+  bool addRow(std::vector<int>& chain, int c, std::vector<std::array<int, 3>>& pieces) {
+    TriangleMesh& mesh = result_.mesh;
+    const size_t vertices = mesh.vertices.size();
+    const size_t n = chain.size() - 1;
+    const auto at = [&](int vertex) -> const Point& { return mesh.vertices[vertex]; };
+    std::vector<int> upper{chain[0]};
+    std::vector<std::array<int, 3>> row;
+    for (size_t i = 0; i < n; i += 2) {
+      const size_t end = std::min(i + 2, n);
+      if (end < n) {
+        const Point way = at(c) - at(chain[end]);
+        const double length = (at(chain[std::min(end + 2, n)]) - at(chain[i])).norm() / 4;
+        const double part = std::min(0.5, length / way.norm());
+        upper.push_back(static_cast<int>(mesh.vertices.size()));
+        result_.added.push_back({{chain[end], c}, part});
+        mesh.vertices.emplace_back(at(chain[end]) + part * way);
+      } else {
+        upper.push_back(chain[n]);
+      }
+      const int first = upper[upper.size() - 2];
+      const int last = upper.back();
+      if (first != chain[i]) row.push_back({chain[i], chain[i + 1], first});
+      if (end == i + 2) {
+        row.push_back({chain[i + 1], last, first});
+        if (last != chain[end]) row.push_back({chain[i + 1], chain[end], last});
+      }
+    }
+    std::vector<std::array<int, 3>> all = row;
+    for (size_t i = 0; i + 1 < upper.size(); ++i) all.push_back({upper[i], upper[i + 1], c});
+    const bool good = std::all_of(all.begin(), all.end(), [&](const std::array<int, 3>& v) {
+      const Point p = at(v[1]) - at(v[0]);
+      const Point q = at(v[2]) - at(v[0]);
+      return p.x() * q.y() - p.y() * q.x() > thinnest * p.squaredNorm();
+    });
+    if (!good) {
+      mesh.vertices.resize(vertices);
+      result_.added.resize(result_.added.size() - (upper.size() - 2));
+      return false;
+    }
+    pieces.insert(pieces.end(), row.begin(), row.end());
+    chain = std::move(upper);
+    return true;
   }
 
   void cutBoundary() {
@@ -232,8 +287,8 @@ Vector CutMesh::displacement(const Vector& u) const {
   result.head(u.size()) = u;
   for (size_t i = 0; i < added.size(); ++i)
     result.segment<2>(u.size() + 2 * static_cast<Eigen::Index>(i)) =
-        (1 - added[i].part) * u.segment<2>(2 * added[i].ends[0]) +
-        added[i].part * u.segment<2>(2 * added[i].ends[1]);
+        (1 - added[i].part) * result.segment<2>(2 * added[i].ends[0]) +
+        added[i].part * result.segment<2>(2 * added[i].ends[1]);
   return result;
 }
 
