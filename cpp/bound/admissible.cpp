@@ -170,7 +170,7 @@ void Admissible::addDefect() {
   double force = 0;
   double triangles = 0;
   for (size_t b = 0; b < bodies.size(); ++b) {
-    left = std::max(left, bodies[b].imbalance().worst);
+    left = std::max(left, bodies[b].imbalance().worst + bodies[b].data().error);
     moved = std::max(moved, bodies[b].lifted().displacement.lpNorm<Eigen::Infinity>());
     force = std::max(force, bodies[b].imbalance().largest);
     triangles += static_cast<double>(bodies[b].mesh().triangles.size());

@@ -143,6 +143,7 @@ class Reading {
         const TriangleDatum datum = data.on(static_cast<int>(i), x);
         for (int k = 0; k < 3; ++k) linear(forces[i].component, k) += datum.linear[k];
         rest += datum.rest * std::sqrt(area);
+        data_.error = std::max(data_.error, 2 * area * datum.error);
         known = known && datum.known;
       }
       if (!known) refuse(ofBody("the body force") + " is not known to be bounded");

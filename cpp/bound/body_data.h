@@ -36,7 +36,7 @@ struct BodyData {
   std::vector<Stress> meanCarried;   ///< integrals of what is known of these stresses [N]
   std::vector<Stress> meanStrained;
   std::vector<Moved> moved;
-  double error = 0;  ///< of moments of tractions, at most [N/m]
+  double error = 0;  ///< of moments of tractions and forces, at most [N/m]
   bool curvedSupport = false;
 
   [[nodiscard]] bool linear() const { return beyond.empty(); }

@@ -144,9 +144,7 @@ std::array<Point, 2> LoadedBody::asPressed(const std::array<int, 2>& vertices) c
   return moments;
 }
 Imbalance LoadedBody::imbalance() const {
-  Imbalance result = imbalanceOf(mesh(), sides_, moments_, data_.forces, data_.known);
-  result.worst = std::max(result.worst, data_.error);
-  return result;
+  return imbalanceOf(mesh(), sides_, moments_, data_.forces, data_.known);
 }
 
 LoadedBody LoadedBody::unloaded(const Vector& near) const {

@@ -35,7 +35,7 @@ double workOf(const Moments& m, const std::array<int, 3>& v, const Vector& z) {
 /// What rounding leaves of a force in any triangle, at least of the moments of its sides [N/m].
 double leftOf(const LoadedBody& body) {
   const auto [worst, largest] = body.imbalance();
-  return std::max(worst, std::numeric_limits<double>::epsilon() * largest);
+  return std::max(worst, std::numeric_limits<double>::epsilon() * largest) + body.data().error;
 }
 
 class Enclosing {

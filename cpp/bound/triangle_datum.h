@@ -17,6 +17,7 @@ struct TriangleDatum {
   double mean = 0;
   double variance = 0;
   double off = 0;
+  double error = 0;   ///< of integrals of f - linear times a linear function of size 1, over the area
   bool known = true;  ///< whether the datum is enclosed
 
   /// Root of the mean square of f - value, at most.
