@@ -359,17 +359,9 @@ double movedEnergy(const DataPlace& place, int side, const Point& along, const S
   };
   // The energy of g is convex along the side.
   const double bySlope = datum.slopeMoments[0] * energy(g(fan.p)) + datum.slopeMoments[1] * energy(g(fan.q));
-  const double byValue = energy(m);
-  double least = infinity;
-  for (double depth = 1; depth > 1e-3; depth *= 0.8) {
-    const double r = 1 - depth;  // w = datum (rho - r)/(1 - r) where rho is larger
-    const double inner = r > 0 ? r * r * std::log(1 / r) : 0;
-    const double slopes = ((1 - r * r) / 2 - 2 * r * (1 - r) + inner) / (depth * depth);
-    const double values = (1 - r * r) / 2 / (depth * depth) + 0.5;  // with the product of both parts
-    const double square = bySlope * std::max(slopes, 0.0) + datum.off * datum.off * byValue * values;
-    least = std::min(least, std::sqrt(twiceArea * square));
-  }
-  return least;
+  const double byValue = datum.off * datum.off * energy(m);
+  // w = datum rho^k with the best k; the product of both parts has byValue/2.
+  return std::sqrt(twiceArea * (std::sqrt(bySlope * byValue) + byValue / 2));
 }
 
 void moveSide(const DataPlace& place, int side, const Point& along, const SideDatum& datum, BodyData& data) {

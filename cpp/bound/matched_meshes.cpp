@@ -21,10 +21,10 @@ constexpr double rounding = 1e-14;
 /// Pieces of a side whose tractions are not linear: no more, and until these leave no more than a part of
 /// the tractions.
 constexpr size_t mostPieces = 16;
-constexpr double negligible = 0.0003;
+constexpr double negligible = 0.0001;
 
 /// Sides of more pieces than these are cut by triangles that become larger from the side on.
-constexpr size_t fewPieces = 4;
+constexpr size_t fewPieces = 3;
 /// Of these, twice the area over the square of a side.
 constexpr double thinnest = 0.1;
 
