@@ -3,12 +3,15 @@
 
     bench/accuracy.py [PART ...] [--times 0.5] [--finer 6] [--degree 2]
     bench/accuracy.py --orders
+    bench/accuracy.py --random FROM TO [--first N]
 
 Each scene is solved for an accuracy, and for one that is --finer times better: the true error is the
 difference of the stresses at the end of the run, in the energy norm. A row per scene: unknowns, true error
 over what was asked, estimate over true error, work of all rounds over the last one's (unknowns to the power
 1.2, times steps). With words, only scenes whose names have one. --orders: a thick cylinder of which a part
-flows, on equal cells, by degree: order in unknowns, and what 1e-3 takes.
+flows, on equal cells, by degree: order in unknowns, and what 1e-3 takes. --random: problems whose data,
+materials and first meshes are drawn; a row per seed, which is the same on every machine. With --first each is
+solved from N first meshes: unknowns over those of the best one.
 """
 import argparse
 import statistics
@@ -17,7 +20,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "compare"))
-from accuracies import cases, fitted, flow_orders, measured  # noqa: E402
+from accuracies import (cases, first_meshes, fitted, flow_orders, measured,  # noqa: E402
+                        random_case)
+import results  # noqa: E402
 
 
 def orders():
@@ -32,6 +37,33 @@ def orders():
     print(f"degree 1 over degree 2 at 1e-3: {takes[1] / takes[2]:.0f}")
 
 
+def rows_of_random(first, last, finer, meshes):
+    print(f"{'seed':>5} {'asked':>8} {'unknowns':>9} {'error/asked':>12} {'estimate/error':>15} "
+          f"{'overhead':>9}")
+    errors, luck = [], []
+    for seed in range(first, last):
+        scene, bodies, accuracy, degree = random_case(seed)
+        if meshes:
+            least, most = first_meshes(seed, meshes)
+            luck.append(most / least)
+            print(f"{seed:5} {accuracy:8.3g} {least:9} to {most}: {luck[-1]:.2f}", flush=True)
+            continue
+        try:
+            unknowns, error, estimate, overhead, reached = measured(scene, bodies, accuracy, degree, finer)
+        except results.ResultError as failure:
+            print(f"{seed:5} {accuracy:8.3g} no result: {failure}", flush=True)
+            continue
+        if reached:
+            errors.append(error / accuracy)
+        print(f"{seed:5} {accuracy:8.3g} {unknowns:9} {error / accuracy:12.3g} {estimate / error:15.2f} "
+              f"{overhead:9.2f}{'' if reached else '  not reached'}", flush=True)
+    if meshes:
+        print(f"{len(luck)} problems, {sum(each <= 1.5 for each in luck)} within 1.5, worst {max(luck):.2f}")
+    else:
+        print(f"{len(errors)} reached, {sum(each <= 1 for each in errors)} below what was asked, worst "
+              f"{max(errors):.2f}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("parts", nargs="*")
@@ -40,7 +72,12 @@ def main():
                         help="what the accuracies of the scenes are multiplied by")
     parser.add_argument("--degree", type=int, default=2)
     parser.add_argument("--orders", action="store_true")
+    parser.add_argument("--random", nargs=2, type=int, metavar=("FROM", "TO"))
+    parser.add_argument("--first", type=int, default=0)
     options = parser.parse_args()
+    if options.random:
+        rows_of_random(*options.random, options.finer, options.first)
+        return
     if options.orders:
         orders()
         return

@@ -1,6 +1,7 @@
 """Scenes on which `mortier run --accuracy` is held against far better solutions of the same scenes: the true
 error is the difference of the stresses at the end of the run, in the energy norm.
 """
+import random
 import subprocess
 import sys
 import tempfile
@@ -160,6 +161,43 @@ def cases():
     return found
 
 
+def datum(rng, at, jumps=True):
+    """A function of `at` in [0, 1] of any shape, between 0 and about 4."""
+    a, b = round(rng.uniform(0.3, 0.9), 3), round(rng.uniform(0.1, 0.9), 3)
+    return rng.choice(["1", f"(1 + {a}*{at})", f"(1 - {a}*(2*{at} - 1)^2)",
+                       f"(1 + {a}*sin(2*pi*({at} + {b})))", f"exp({2 * a:.3f}*{at})",
+                       f"({at} < {b} ? 1 : {1 + 3 * a:.3f})" if jumps else "2", f"abs({at} - {b})",
+                       f"(1 + {a}*sin({rng.randint(4, 30)}*pi*{at}))",
+                       f"(1 + {3 * a:.3f}*exp(-(({at} - {b})/{rng.choice([0.3, 0.05, 0.01])})^2))"])
+
+
+def random_case(seed, first=None):
+    """A random problem: its scene, materials, the accuracy and the degree. `first`: a random number for first
+    meshes in place of its own."""
+    rng = random.Random(seed)
+    meshes = random.Random(seed if first is None else f"{seed} {first}")
+    degree = rng.choice([1, 2])
+    cells = [[meshes.randint(1 + 2 * b, 6), meshes.randint(1, 6)] for b in range(2)]
+    young = 10 ** rng.choice([0, rng.uniform(-1, 1), rng.uniform(-4, 4)])
+    poisson = [rng.choice([0.0, 0.3, 0.45, 0.49, 0.499]) for _ in range(2)]
+    drive = rng.choice(["traction", "traction", "force", "displacement", "gap"])
+    wide, start = rng.choice([(1, 0), (1, 0), (3, -1)])
+    size = 0.01 * min(1, young)
+    top = f'{{ label = 3, ty = "-{size!r}*t*{datum(rng, "x")}" }}' if drive in ("traction", "force") else \
+        f'{{ label = 3, uy = "-0.01*t*{datum(rng, "x", False) if drive == "displacement" else "1"}" }}'
+    weight = f'force = {{ y = "-{size!r}*t*{datum(rng, "y")}*{datum(rng, "x")}" }}\n'
+    more = f'gap = "0.003*{datum(rng, "x", False)}"\n' if drive == "gap" else ""
+    cut = f', cut = "{rng.choice(["rising", "both"])}"'
+    scene = (f'plane = "{rng.choice(["stress", "strain"])}"\n' +
+             body("upper", rectangle([0, 0], [1, 1], cells[0]) + cut, elastic(young, poisson[0]),
+                  "{ label = 4, ux = 0 }, " + top) + (weight if drive == "force" else "") +
+             body("lower", rectangle([start, -1], [start + wide, 0], cells[1]) + cut,
+                  elastic(1.0, poisson[1]), HELD) +
+             either(rng.random() < 0.5, ("upper", 1), ("lower", 3), more) + ONE_STEP)
+    accuracy = 10 ** rng.uniform(-1.3, -0.6) if degree == 1 else 10 ** rng.uniform(-2.3, -1)
+    return scene, {"upper": (young, poisson[0]), "lower": (1.0, poisson[1])}, accuracy, degree
+
+
 def solve(scene, folder, accuracy, degree):
     """The result; where the accuracy is not reached too."""
     path = folder.with_suffix(".toml")
@@ -180,6 +218,16 @@ def measured(scene, bodies, accuracy, degree, finer):
     work = [each["steps"] * each["unknowns"]**1.2 for each in rounds]
     reached = told["reached"] and better.summary["accuracy"]["reached"]
     return run.summary["free_dofs"], error, estimate, sum(work) / work[-1], reached
+
+
+def first_meshes(seed, count):
+    """Least and most unknowns that a random problem takes from several first meshes."""
+    unknowns = []
+    for first in range(count):
+        scene, _, accuracy, degree = random_case(seed, first)
+        with tempfile.TemporaryDirectory() as place:
+            unknowns.append(solve(scene, Path(place) / "run", accuracy, degree).summary["free_dofs"])
+    return min(unknowns), max(unknowns)
 
 
 FLOW_STEPS = 20

@@ -42,9 +42,11 @@ double scaleOfSizes(const std::vector<Vector>& errors, double aim, int degree) {
   return low;
 }
 
-/// The fewest triangles that make half of the sum, all bodies together; of equal ones the first.
+/// The fewest triangles that make half of the sum, all bodies together; of those that are equal to six digits
+/// the first, so that units and rotations change nothing.
 std::vector<std::vector<char>> halfOfTheError(const std::vector<Vector>& errors) {
-  constexpr double part = 0.5;
+  constexpr double part = 0.5 - 1e-9;
+  constexpr double digits = 0x1p20;
   std::vector<std::pair<size_t, Eigen::Index>> order;
   std::vector<std::vector<char>> marked;
   double total = 0;
@@ -54,7 +56,9 @@ std::vector<std::vector<char>> halfOfTheError(const std::vector<Vector>& errors)
     for (Eigen::Index t = 0; t < errors[b].size(); ++t) order.emplace_back(b, t);
   }
   const auto of = [&](const auto& which) { return errors[which.first][which.second]; };
-  std::stable_sort(order.begin(), order.end(), [&](const auto& a, const auto& b) { return of(a) > of(b); });
+  const auto rank = [&](const auto& which) { return std::round(digits * std::log2(of(which))); };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](const auto& a, const auto& b) { return rank(a) > rank(b); });
   double sum = 0;
   for (const auto& which : order) {
     if (sum >= part * total) break;
@@ -107,7 +111,10 @@ void AdaptedMeshes::faceSizes(size_t body, int label, size_t otherBody, int othe
 }
 
 void AdaptedMeshes::learn(const std::vector<Vector>& errors) {
-  for (size_t b = 0; b < bodies_.size(); ++b) learnRates(bodies_[b], errors[b]);
+  constexpr double rounding = 1e-20;  // of the squares of errors: a body without stress has no rates
+  double total = 0;
+  for (const Vector& error : errors) total += error.sum();
+  for (size_t b = 0; b < bodies_.size(); ++b) learnRates(bodies_[b], errors[b], rounding * total);
 }
 
 double AdaptedMeshes::unseen() const {
@@ -133,7 +140,7 @@ void AdaptedMeshes::refine(const std::vector<Vector>& errors, double aim) {
   }
 }
 
-void AdaptedMeshes::learnRates(Adapted& body, const Vector& error) const {
+void AdaptedMeshes::learnRates(Adapted& body, const Vector& error, double rounding) const {
   constexpr double changed = 0.7;
   const size_t vertices = body.mesh.vertices.size();
   std::vector<double> sum(vertices, 0);
@@ -143,6 +150,8 @@ void AdaptedMeshes::learnRates(Adapted& body, const Vector& error) const {
       sum[v] += error[static_cast<Eigen::Index>(t)];
       area[v] += doubleArea(body.mesh, static_cast<int>(t)) / 2;
     }
+  for (double& each : sum)
+    if (each < rounding) each = 0;
   for (size_t v = 0; v < body.error.size(); ++v)
     if (area[v] < changed * body.area[v] && sum[v] > 0 && body.error[v] > 0)
       body.rate[v] = std::log(sum[v] / body.error[v]) / std::log(area[v] / body.area[v]);
@@ -168,7 +177,7 @@ void AdaptedMeshes::cutToSize(Adapted& body, const Vector& reduction, std::vecto
   for (size_t t = 0; t < marked.size(); ++t)
     if (marked[t] != 0) own[t] = logOf(t) + 2 * std::log(reduction[static_cast<Eigen::Index>(t)]);
   // A triangle is half as large when it is cut: from there on, cutting it is nearer to what it should be.
-  const double slack = std::log(2.0) / 2;
+  const double slack = std::log(2.0) / 2 + 1e-9;
   for (bool first = true;; first = false) {
     marked.resize(body.mesh.triangles.size(), 0);
     bool any = false;

@@ -56,7 +56,7 @@ class AdaptedMeshes {
     std::vector<double> area;   ///< [m^2]
     std::vector<double> rate;   ///< s; infinite where it is not known
   };
-  void learnRates(Adapted& body, const Vector& error) const;
+  void learnRates(Adapted& body, const Vector& error, double rounding) const;
   /// \returns the triangle of which each new one is a part
   std::vector<int> cut(Adapted& body, const std::vector<char>& marked,
                        std::vector<double>* byVertex = nullptr);

@@ -8,6 +8,7 @@
 
 #include "mesh/boundary_line.h"
 #include "mesh/line_part.h"
+#include "mesh/refine.h"
 
 namespace mortier {
 namespace {
@@ -40,16 +41,6 @@ std::optional<Cut> cutAt(const TriangleMesh& mesh, const CurvedEdges& curves, in
       cut = Cut{e, at};
   }
   return cut;
-}
-
-/// Turned so that its longest side is its base, from the first vertex to the second.
-std::array<int, 3> onItsLongestSide(const TriangleMesh& mesh, std::array<int, 3> triangle) {
-  const auto side = [&](int k) {
-    return (mesh.vertices[triangle[(k + 1) % 3]] - mesh.vertices[triangle[k]]).squaredNorm();
-  };
-  const int longest = side(0) >= side(1) && side(0) >= side(2) ? 0 : (side(1) >= side(2) ? 1 : 2);
-  std::rotate(triangle.begin(), triangle.begin() + longest, triangle.end());
-  return triangle;
 }
 
 void apply(TriangleMesh& mesh, const Cut& cut) {

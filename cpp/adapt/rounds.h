@@ -19,6 +19,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -69,18 +70,19 @@ class Rounds {
   Verdict stop(const std::string& reason);
   [[nodiscard]] bool aims() const { return !description_.accuracy.quantity.empty(); }
   Verdict judgeAim(RoundResult result, double seconds);
-  Verdict goOn(const RoundResult& result, double before, double ofMeshes, double seconds);
+  Verdict goOn(const RoundResult& result, double ofMeshes, double seconds);
   [[nodiscard]] double timeShare() const;
   /// \param cost  what a round on the present meshes takes [s]
   bool refine(const RoundResult& result, double aim, double cost, double seconds);
 
   SceneDescription description_;
   AdaptedMeshes meshes_;
-  double timeTolerance_ = 0;  ///< of the round to come; 0: as the scene says
-  double aim_ = 0;            ///< error that the meshes are to have in it
-  double meshError_ = 0;      ///< as estimated in the last round, relative
-  double trusted_ = 0;        ///< with what that does not see
-  double least_;              ///< part of what is asked for that the estimate has to be below
+  double timeTolerance_ = 0;                                 ///< of the round to come; 0: as the scene says
+  double aim_ = 0;                                           ///< error that the meshes are to have in it
+  double meshError_ = 0;                                     ///< as estimated in the last round, relative
+  double lowest_ = std::numeric_limits<double>::infinity();  ///< of the rounds before
+  double trusted_ = 0;                                       ///< with what that does not see
+  double least_;  ///< part of what is asked for that the estimate has to be below
   int done_ = 0;
   int shortfalls_ = 0;
   std::string reason_;

@@ -295,7 +295,8 @@ void ContactInterface::subtractForces(const Vector& p, Vector& fNonmortar, Vecto
 }
 
 Vector ContactInterface::frictionBound(const Vector& p) const {
-  return friction_.coefficient * p + friction_.limit * (mass_ * Vector::Ones(p.size()));
+  // The weight of a quadratic node on the axis is zero but for rounding.
+  return (friction_.coefficient * p + friction_.limit * (mass_ * Vector::Ones(p.size()))).cwiseMax(0);
 }
 
 void ContactInterface::subtractFriction(const Vector& t, Vector& fNonmortar, Vector& fMortar) const {

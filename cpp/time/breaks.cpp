@@ -106,7 +106,7 @@ class BreakFinder {
     double fa = course_.value(a);
     double fb = course_.value(b);
     if (!(std::abs(fb - fa) > jump * size_)) {
-      add(shortestBetween(a, b));
+      add(kinkBetween(a, b));
       return;
     }
     for (double middle = a + (b - a) / 2; middle > a && middle < b; middle = a + (b - a) / 2) {
@@ -121,6 +121,33 @@ class BreakFinder {
 
   void add(double time) {
     if (time > begin_ && time < end_) course_.breaks.push_back(time);
+  }
+
+  /// Where the parabolas through values on both sides meet, which is known to more digits than the width of
+  /// the bracket has; where they do not meet (a break of a higher derivative), somewhere inside.
+  [[nodiscard]] double kinkBetween(double a, double b) const {
+    constexpr double apart = 50;        // distance of the values, in widths of the bracket
+    constexpr double rounding = 1e-12;  // of the whole: what the parabolas are known to
+    const double h = apart * (b - a);
+    if (a - 2 * h < begin_ || b + 2 * h > end_) return shortestBetween(a, b);
+    const auto parabola = [&](double from, double step) {
+      const double f0 = course_.value(from);
+      const double f1 = course_.value(from + step);
+      const double f2 = course_.value(from + 2 * step);
+      return [=](double t) {
+        const double x = (t - from) / step;
+        return f0 + x * (f1 - f0) + x * (x - 1) / 2 * (f2 - 2 * f1 + f0);
+      };
+    };
+    const auto before = parabola(a, -h);
+    const auto after = parabola(b, h);
+    const auto difference = [&](double t) { return after(t) - before(t); };
+    if (!(difference(a) * difference(b) < 0)) return shortestBetween(a, b);
+    const bool rises = difference(a) < 0;
+    for (double middle = a + (b - a) / 2; middle > a && middle < b; middle = a + (b - a) / 2)
+      ((difference(middle) < 0) == rises ? a : b) = middle;
+    const double known = rounding * (end_ - begin_);
+    return shortestBetween(a - known, a + known);
   }
 
   /// The number with the fewest digits: what the data say is rarely 0.99999999987.

@@ -204,7 +204,7 @@ class WideScene:
     def make_time(self):
         rng = self.rng
         if self.accuracy:
-            self.text += ["[accuracy]", "energy = 0.3", "max_unknowns = 2000"]
+            self.text += ["[accuracy]", "energy = 0.3", "max_unknowns = 50000"]
         self.text += ["[time]", f"end = {self.end!r}", f'scheme = "{self.scheme.split()[0]}"']
         if "error" in self.scheme:
             self.text.append(f"tolerance = {decades(rng, -2.5, -1)!r}")

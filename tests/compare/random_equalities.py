@@ -76,9 +76,11 @@ def scales(scene, columns):
     known = 1e-16 / TOLERANCE * 10
     largest = {name: max(map(abs, values), default=0) for name, values in columns.items()}
     young = max(float(number) for number in re.findall(r"young1? = ([^,]+)", "\n".join(scene.text)))
-    stress = max(largest["von_mises_max"], largest["max_pressure"],
-                 known * young * largest["displacement_max"])
-    return {**largest, "max_pressure": stress, "von_mises_max": stress,
+    # Loads may end at 0, of which what remains is rounding of what was prescribed.
+    moved = max([largest["displacement_max"], *(float(number) for number in
+                                                re.findall(r'uy = "-?([0-9.e-]+)\*', "\n".join(scene.text)))])
+    stress = max(largest["von_mises_max"], largest["max_pressure"], known * young * moved)
+    return {**largest, "displacement_max": max(largest["displacement_max"], known * moved), "max_pressure": stress, "von_mises_max": stress,
             "contact_force": max(largest["contact_force"], stress),
             "elastic_energy": max(largest["elastic_energy"], stress**2 / young)}
 

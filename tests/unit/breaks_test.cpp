@@ -35,7 +35,7 @@ TEST(Breaks, kinksAreFoundAsTheyWereWritten) {
     const double kink = 4.0 * i / 97;
     const Times one = breaksOf([kink](double t) { return std::max(t, kink); });
     ASSERT_EQ(one.size(), 1) << kink;
-    EXPECT_NEAR(one[0], kink, 4e-7);
+    EXPECT_NEAR(one[0], kink, 1e-11);
   }
 }
 
