@@ -39,6 +39,13 @@ Interval sine(const Interval& a, double shift) {
   return range;
 }
 
+/// The last coefficient that is not 0.
+int last(const Taylor& u) {
+  int k = order;
+  while (k > 0 && u.c[k].isZero()) --k;
+  return k;
+}
+
 /// (1/k) times the sum of i u_i w_{k-i} for i = 1 ... last.
 Interval weighted(const Taylor& u, const Taylor& w, int k, int last) {
   Interval sum;
@@ -94,13 +101,17 @@ Taylor operator-(const Taylor& u, const Taylor& v) {
 }
 Taylor operator*(const Taylor& u, const Taylor& v) {
   Taylor result;
-  for (int k = 0; k <= order; ++k)
-    for (int i = 0; i <= k; ++i) result.c[k] = result.c[k] + u.c[i] * v.c[k - i];
+  const int most = last(u);
+  const int other = last(v);
+  for (int k = 0; k <= std::min(order, most + other); ++k)
+    for (int i = std::max(0, k - other); i <= std::min(k, most); ++i)
+      result.c[k] = result.c[k] + u.c[i] * v.c[k - i];
   return result;
 }
 Taylor operator/(const Taylor& u, const Taylor& v) {
   Taylor result;
-  for (int k = 0; k <= order; ++k) {
+  const int most = last(v) > 0 ? order : last(u);
+  for (int k = 0; k <= most; ++k) {
     Interval left = u.c[k];
     for (int i = 1; i <= k; ++i) left = left - v.c[i] * result.c[k - i];
     result.c[k] = left / v.c[0];
@@ -111,7 +122,7 @@ Taylor operator/(const Taylor& u, const Taylor& v) {
 Taylor exp(const Taylor& u) {
   Taylor w;
   w.c[0] = ascending(u.c[0], [](double x) { return std::exp(x); });
-  for (int k = 1; k <= order; ++k) w.c[k] = weighted(u, w, k, k);
+  for (int k = 1; k <= order && last(u) > 0; ++k) w.c[k] = weighted(u, w, k, k);
   return w;
 }
 
@@ -119,6 +130,7 @@ Taylor log(const Taylor& u) {
   const double tiny = std::max(u.c[0].least, 0.0);
   Taylor w = Taylor::within(
       wide(tiny > 0 ? std::log(tiny) : -infinity, u.c[0].largest > 0 ? std::log(u.c[0].largest) : infinity));
+  if (last(u) == 0) return Taylor::constant(w.c[0]);
   if (!(u.c[0].least > 0)) return w;
   for (int k = 1; k <= order; ++k) w.c[k] = (u.c[k] - weighted(w, u, k, k - 1)) / u.c[0];
   return w;
@@ -131,18 +143,21 @@ Taylor pow(const Taylor& u, double a) {
       const Taylor one = Taylor::constant({1, 1});
       Taylor product = one;
       for (int i = 0; i < std::abs(a); ++i) product = product * u;
-      if (std::fmod(a, 2) == 0) product.c[0].least = std::max(product.c[0].least, 0.0);
+      const double ends[] = {std::pow(u.c[0].least, std::abs(a)), std::pow(u.c[0].largest, std::abs(a))};
+      product.c[0] = wide(std::fmod(a, 2) != 0 || u.c[0].largest < 0 ? std::min(ends[0], ends[1]) : 0,
+                          std::max(ends[0], ends[1]));
       return a < 0 ? one / product : product;
     }
     // What is below 0 is rounding of the enclosure: the power has no values there.
     if (!(a > 0 && u.c[0].largest >= 0)) return Taylor::within(Interval::anything());
-    return Taylor::within(
-        ascending({std::max(u.c[0].least, 0.0), u.c[0].largest}, [&](double x) { return std::pow(x, a); }));
+    const Interval values =
+        ascending({std::max(u.c[0].least, 0.0), u.c[0].largest}, [&](double x) { return std::pow(x, a); });
+    return last(u) == 0 ? Taylor::constant(values) : Taylor::within(values);
   }
   Taylor w;
   const double ends[] = {std::pow(u.c[0].least, a), std::pow(u.c[0].largest, a)};
   w.c[0] = wide(std::min(ends[0], ends[1]), std::max(ends[0], ends[1]));
-  for (int k = 1; k <= order; ++k) {
+  for (int k = 1; k <= order && last(u) > 0; ++k) {
     Interval sum;
     for (int i = 1; i <= k; ++i) {
       const double factor = (a * i - (k - i)) / k;
@@ -158,7 +173,7 @@ std::array<Taylor, 2> sinAndCos(const Taylor& u) {
   Taylor c;
   s.c[0] = sine(u.c[0], 0);
   c.c[0] = sine(u.c[0], std::numbers::pi / 2);
-  for (int k = 1; k <= order; ++k) {
+  for (int k = 1; k <= order && last(u) > 0; ++k) {
     s.c[k] = weighted(u, c, k, k);
     c.c[k] = -weighted(u, s, k, k);
   }
@@ -168,7 +183,7 @@ std::array<Taylor, 2> sinAndCos(const Taylor& u) {
 Taylor integrated(const Taylor& u, const Taylor& q, const Interval& values) {
   Taylor w;
   w.c[0] = values;
-  for (int k = 1; k <= order; ++k) w.c[k] = (u.c[k] - weighted(w, q, k, k - 1)) / q.c[0];
+  for (int k = 1; k <= order && last(u) > 0; ++k) w.c[k] = (u.c[k] - weighted(w, q, k, k - 1)) / q.c[0];
   return w;
 }
 

@@ -129,8 +129,8 @@ std::string Admissible::construct(const Model& model, const State& state, double
   return moveGaps(model, distances);
 }
 
-/// Where the gap is not linear on a piece one of the bodies takes up the rest, unless nothing presses there
-/// and the piece stays open without.
+/// Where the gap is not linear on a piece the two bodies take up the rest, unless nothing presses there and
+/// the piece stays open without.
 std::string Admissible::moveGaps(const Model& model, const std::vector<SideDatum>& distances) {
   for (size_t k = 0; k < distances.size(); ++k) {
     if (distances[k].linear()) continue;
@@ -145,17 +145,19 @@ std::string Admissible::moveGaps(const Model& model, const std::vector<SideDatum
     const auto& [nonmortar, mortar, coupling] = model.interfaces[piece.interface].pair();
     const std::array<int, 2> sides{nonmortar.body, mortar.body};
     const std::array<Point, 2> along{piece.normal, -piece.normal};
-    int best = -1;
-    double least = std::numeric_limits<double>::infinity();
+    // Shares that go with the compliances have the least energy.
+    std::array<double, 2> share{};
     for (int side = 0; side < 2; ++side) {
       const LoadedBody& body = bodies[sides[side]];
       if (!body.isFree(piece.vertices[side])) continue;
-      const double energy = body.movedEnergy(piece.vertices[side], along[side], distances[k]);
-      if (energy < least) best = side;
-      least = std::min(least, energy);
+      const double norm = body.movedEnergy(piece.vertices[side], along[side], distances[k]);
+      share[side] = 1 / (norm * norm);
     }
-    if (best < 0) return "supports hold both sides where the gap is not linear";
-    bodies[sides[best]].move(piece.vertices[best], along[best], distances[k]);
+    if (share[0] + share[1] == 0) return "supports hold both sides where the gap is not linear";
+    for (int side = 0; side < 2; ++side)
+      if (share[side] > 0)
+        bodies[sides[side]].move(piece.vertices[side], along[side],
+                                 distances[k].times(share[side] / (share[0] + share[1])));
   }
   return "";
 }
@@ -168,7 +170,7 @@ void Admissible::addDefect() {
   double force = 0;
   double triangles = 0;
   for (size_t b = 0; b < bodies.size(); ++b) {
-    left = std::max(left, bodies[b].imbalance().worst);
+    left = std::max(left, bodies[b].imbalance().worst + bodies[b].data().error);
     moved = std::max(moved, bodies[b].lifted().displacement.lpNorm<Eigen::Infinity>());
     force = std::max(force, bodies[b].imbalance().largest);
     triangles += static_cast<double>(bodies[b].mesh().triangles.size());

@@ -57,7 +57,7 @@ double largestEigenvalue(const Eigen::Matrix3d& compliance) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[2];
 }
 
-/// Of |grad v| over |eps v| for displacements without mean rotation (Korn), squared: 1 + 2/beta^2 with
+/// Of |grad v| over |eps v| for displacements without mean rotation (Korn), squared: 2/beta^2 with
 /// beta >= sin(least angle/4) in a triangle (Costabel and Dauge 2015).
 double korn(const std::array<Point, 3>& x) {
   double least = std::numbers::pi;
@@ -67,7 +67,7 @@ double korn(const std::array<Point, 3>& x) {
     least = std::min(least, std::atan2(std::abs(a.x() * b.y() - a.y() * b.x()), a.dot(b)));
   }
   const double beta = std::sin(least / 4);
-  return 1 + 2 / (beta * beta);
+  return 2 / (beta * beta);
 }
 double diameter(const std::array<Point, 3>& x) {
   return std::max({(x[1] - x[0]).norm(), (x[2] - x[1]).norm(), (x[0] - x[2]).norm()});
@@ -95,7 +95,7 @@ class Reading {
   Reading(const DataPlace& place, const Vector& displacement, double t)
       : place_(place), mesh_(place.cut.mesh), displacement_(displacement), t_(t) {
     const auto triangles = static_cast<Eigen::Index>(mesh_.triangles.size());
-    data_.forces.assign(triangles, Point(0, 0));
+    data_.forces.assign(triangles, BodyLoad::Zero());
     data_.known.resize(place.sides.count());
     data_.load = Vector::Zero(place.body.dofs());
     data_.carried = data_.strained = Vector::Zero(triangles);
@@ -143,41 +143,49 @@ class Reading {
         const TriangleDatum datum = data.on(static_cast<int>(i), x);
         for (int k = 0; k < 3; ++k) linear(forces[i].component, k) += datum.linear[k];
         rest += datum.rest * std::sqrt(area);
+        data_.error = std::max(data_.error, 2 * area * datum.error);
         known = known && datum.known;
       }
       if (!known) refuse(ofBody("the body force") + " is not known to be bounded");
-      data_.forces[t] = linear.rowwise().mean();
-      addLinearForce(t, x, area, linear.colwise() - data_.forces[t]);
+      addForce(t, x, area, linear);
       if (rest > same * same * linear.norm() * std::sqrt(area)) {
         isBeyond(ofBody("the body force") + " is not constant on triangles");
         data_.carried[t] += rest * carriesForce(x, place_.compliances[t]);
       }
-      for (const int v : mesh_.triangles[t]) data_.load.segment<2>(2 * v) += area / 3 * data_.forces[t];
+      const Eigen::Matrix<double, 2, 3> nodal = nodalForces(mesh_, t, data_.forces[t]);
+      for (int k = 0; k < 3; ++k) data_.load.segment<2>(2 * mesh_.triangles[t][k]) += nodal.col(k);
     }
   }
 
-  /// A force that is linear and has no mean: sum of c_k (l_i - l_j) t_k, t_k the sides, which l_i l_j t_k (x)
-  /// t_k carry without tractions, where it has no couple.
-  void addLinearForce(int t, const std::array<Point, 3>& x, double area,
-                      const Eigen::Matrix<double, 2, 3>& values) {
-    if (!(values.norm() > 1e-13 * data_.forces[t].norm())) return;
+  /// A linear force is its mean, a multiple of CompositeTriangle::turningForce(), and sum of c_k (l_i - l_j)
+  /// t_k, t_k the sides, which l_i l_j t_k (x) t_k carry without tractions.
+  void addForce(int t, const std::array<Point, 3>& x, double area,
+                const Eigen::Matrix<double, 2, 3>& values) {
+    const Point mean = values.rowwise().mean();
+    data_.forces[t].head<2>() = mean;
+    const Eigen::Matrix<double, 2, 3> off = values.colwise() - mean;
+    if (!(off.norm() > 1e-13 * mean.norm())) return;
     isBeyond(ofBody("the body force") + " is not constant on triangles");
-    Eigen::Matrix<double, 6, 3> fields;
+    const CompositeTriangle element(x, place_.compliances[t]);
+    Eigen::Matrix<double, 6, 4> fields;
     std::array<Point, 3> along;
-    for (int k = 0; k < 3; ++k) {
-      const int i = (k + 1) % 3;
-      const int j = (k + 2) % 3;
-      along[k] = x[j] - x[i];
-      Eigen::Matrix<double, 2, 3> at = Eigen::Matrix<double, 2, 3>::Zero();
-      at.col(i) = along[k];
-      at.col(j) = -along[k];
+    for (int k = 0; k < 4; ++k) {
+      Eigen::Matrix<double, 2, 3> at = element.turningForce() * area;
+      if (k < 3) {
+        const int i = (k + 1) % 3;
+        const int j = (k + 2) % 3;
+        along[k] = x[j] - x[i];
+        at.setZero();
+        at.col(i) = along[k];
+        at.col(j) = -along[k];
+      }
       fields.col(k) = Eigen::Map<const Eigen::Matrix<double, 6, 1>>(at.data());
     }
-    const Eigen::Map<const Eigen::Matrix<double, 6, 1>> wanted(values.data());
-    const Eigen::Vector3d c = fields.colPivHouseholderQr().solve(-wanted);
-    const double left = (fields * c + wanted).norm();
-    if (left > same * (values.norm() + data_.forces[t].norm()))
-      refuse(ofBody("the body force") + " is not constant and has couples in triangles");
+    const Eigen::Map<const Eigen::Matrix<double, 6, 1>> wanted(off.data());
+    const Eigen::Vector4d c = fields.colPivHouseholderQr().solve(-wanted);
+    data_.forces[t][2] = -area * c[3];
+    data_.carried[t] += area * std::abs(c[3]) * element.restNorm();
+    data_.meanCarried[t] -= area * c[3] * element.restMean();
     Eigen::Matrix3d stresses;
     for (int k = 0; k < 3; ++k)
       stresses.col(k) = c[k] * Stress(along[k].x() * along[k].x(), along[k].y() * along[k].y(),
@@ -349,19 +357,11 @@ double movedEnergy(const DataPlace& place, int side, const Point& along, const S
     const Point d = end - fan.c;
     return Point(-d.y(), d.x()) / twiceArea;
   };
-  const double bySlope = std::max(energy(g(fan.p)), energy(g(fan.q)));
-  const double byValue = energy(m);
-  double least = infinity;
-  for (double depth = 1; depth > 1e-3; depth /= 2) {
-    const double r = 1 - depth;  // w = datum (rho - r)/(1 - r) where rho is larger
-    const double inner = r > 0 ? r * r * std::log(1 / r) : 0;
-    const double slopes = ((1 - r * r) / 2 - 2 * r * (1 - r) + inner) / (depth * depth);
-    const double values = (1 - r * r) / 2 / (depth * depth);
-    const double root =
-        datum.slope * std::sqrt(bySlope * std::max(slopes, 0.0)) + datum.off * std::sqrt(byValue * values);
-    least = std::min(least, std::sqrt(twiceArea) * root);
-  }
-  return least;
+  // The energy of g is convex along the side.
+  const double bySlope = datum.slopeMoments[0] * energy(g(fan.p)) + datum.slopeMoments[1] * energy(g(fan.q));
+  const double byValue = datum.off * datum.off * energy(m);
+  // w = datum rho^k with the best k; the product of both parts has byValue/2.
+  return std::sqrt(twiceArea * (std::sqrt(bySlope * byValue) + byValue / 2));
 }
 
 void moveSide(const DataPlace& place, int side, const Point& along, const SideDatum& datum, BodyData& data) {

@@ -28,7 +28,7 @@ struct BodyData {
 
   std::string obstacle;              ///< data that are not bounded
   std::string beyond;                ///< the first that is not linear, or constant; empty where all are
-  std::vector<Point> forces;         ///< by triangles [N/m^3]
+  std::vector<BodyLoad> forces;      ///< by triangles
   std::vector<KnownTraction> known;  ///< by sides
   Vector load;                       ///< nodal forces of these (dofs) [N/m]
   Vector carried;                    ///< |s_D| by triangles, at most [sqrt(J/m)]
@@ -36,7 +36,7 @@ struct BodyData {
   std::vector<Stress> meanCarried;   ///< integrals of what is known of these stresses [N]
   std::vector<Stress> meanStrained;
   std::vector<Moved> moved;
-  double error = 0;  ///< of moments of tractions, at most [N/m]
+  double error = 0;  ///< of moments of tractions and forces, at most [N/m]
   bool curvedSupport = false;
 
   [[nodiscard]] bool linear() const { return beyond.empty(); }

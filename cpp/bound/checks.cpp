@@ -15,26 +15,28 @@ constexpr double strict = 1e-9;
 }  // namespace
 
 Imbalance imbalanceOf(const TriangleMesh& mesh, const Sides& sides, const SideMoments& moments,
-                      const std::vector<Point>& forces, const std::vector<KnownTraction>& known) {
+                      const std::vector<BodyLoad>& forces, const std::vector<KnownTraction>& known) {
   Imbalance result;
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
     const auto& v = mesh.triangles[t];
     const std::array<Point, 3> x{mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]};
     const Moments m = momentsOf(sides, moments, t);
-    Point force = doubleArea(mesh, t) / 2 * forces[t];
+    Point force(0, 0);
     const Point centre = (x[0] + x[1] + x[2]) / 3;
     double couple = 0;
     double size = 0;
+    const CompositeTriangle element(x, Eigen::Matrix3d::Identity());
+    const bool loaded = !forces[t].isZero(0);
+    const Eigen::Matrix<double, 2, 3> load = element.nodalForces(forces[t]);
     for (int k = 0; k < 3; ++k)
       for (int end = 0; end < 2; ++end) {
-        const Point b = m.segment<2>(4 * k + 2 * end);
-        const Point arm = x[(k + end) % 3] - centre;
+        const int corner = (k + end) % 3;
+        const Point b = m.segment<2>(4 * k + 2 * end) + load.col(corner) / 2;
+        const Point arm = x[corner] - centre;
         force += b;
         couple += cross(arm, b);
         size = std::max(size, arm.norm());
       }
-    const CompositeTriangle element(x, Eigen::Matrix3d::Identity());
-    const bool loaded = forces[t] != Point(0, 0);
     result.worst = std::max({result.worst, force.norm(), std::abs(couple) / size,
                              element.defect(loaded ? Moments(m - element.momentsOfLoad(forces[t])) : m)});
     result.largest = std::max(result.largest, m.cwiseAbs().maxCoeff());

@@ -19,9 +19,9 @@ struct Imbalance {
   double largest = 0;
 };
 
-/// \param forces  body forces by triangles  \param known  tractions by sides; those inside are not read
+/// \param forces  by triangles  \param known  tractions by sides; those inside are not read
 Imbalance imbalanceOf(const TriangleMesh& mesh, const Sides& sides, const SideMoments& moments,
-                      const std::vector<Point>& forces, const std::vector<KnownTraction>& known);
+                      const std::vector<BodyLoad>& forces, const std::vector<KnownTraction>& known);
 
 /// How far the moments of the tractions on both sides of a piece of a contact line are from those of a
 /// pressure: `above` on the body whose outward normal is that of the piece [N/m].

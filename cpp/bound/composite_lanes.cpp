@@ -123,7 +123,7 @@ void CompositeLanes::airyEnergy(std::array<Lanes, 144>& K) const {
   for (int i = 0; i < 12; ++i) toModes(&K[static_cast<size_t>(12) * i], 1);
 }
 
-Lanes CompositeLanes::energyOf(const Twelve& m, const std::array<Lanes, 2>& f) const {
+Lanes CompositeLanes::energyOf(const Twelve& m, const std::array<Lanes, 3>& f) const {
   Twelve moments;
   for (int i = 0; i < 6; ++i) {
     moments[2 * i] = inverse_[0] * m[2 * i] + inverse_[1] * m[2 * i + 1];
@@ -135,6 +135,8 @@ Lanes CompositeLanes::energyOf(const Twelve& m, const std::array<Lanes, 2>& f) c
     values[i] = stresses(i, 0) * moments[0];
     for (int j = 1; j < 12; ++j) values[i] += stresses(i, j) * moments[j];
   }
+  if (any_of(f[2] != 0))
+    for (int i = 0; i < 27; ++i) values[i] += f[2] / J_ * compositeReference().turn[i];
   if (any_of(f[0] != 0 || f[1] != 0))
     for (int corner = 0; corner < 3; ++corner) {
       // The load diag(-f1 y1, -f2 y2), y from the centroid, as J F^-1 s F^-T.

@@ -24,7 +24,7 @@ class CompositeLanes {
   void airyEnergy(std::array<Lanes, 144>& K) const;
   /// The energy of the stress of moments in equilibrium and of the load of a constant body force (x and y),
   /// as CompositeTriangle has it [J/m].
-  [[nodiscard]] Lanes energyOf(const Twelve& m, const std::array<Lanes, 2>& f) const;
+  [[nodiscard]] Lanes energyOf(const Twelve& m, const std::array<Lanes, 3>& f) const;
 
  private:
   [[nodiscard]] std::array<Lanes, 2> sideOf(int k) const {

@@ -17,11 +17,76 @@ constexpr int column(int part, int vertex, int component) {
   return 9 * component + 3 * part + vertex;
 }
 
+const Point centre = (referenceCorners[0] + referenceCorners[1] + referenceCorners[2]) / 3;
+
+std::array<Point, 3> cornersOf(int part) {
+  return {referenceCorners[part], referenceCorners[(part + 1) % 3], centre};
+}
+Point turned(const Point& v) {
+  return {-v.y(), v.x()};
+}
+/// In a part, of no mean over the triangle and with the couple 1.
+Point turningForce(int part) {
+  double couple = 0;
+  for (const Point& x : referenceCorners) couple += (x - centre).squaredNorm() / 54;
+  return turned(cornersOf(part)[0] + cornersOf(part)[1] - 2 * centre) / (3 * couple);
+}
+
+/// Stresses that are quadratic in each part, by their values at corners and middles of sides: those of least
+/// size without tractions on the sides of the triangle that carry a linear force which works on no rigid
+/// motion and is given at the corners of the parts.
+Eigen::Matrix<double, 18, 3> quadraticStress(const std::array<std::array<Point, 3>, 3>& force) {
+  Matrix conditions = Matrix::Zero(54, 54);
+  Vector given = Vector::Zero(54);
+  const auto put = [&](int row, int part, int node, const Eigen::Matrix<double, 2, 3>& matrix) {
+    for (int c = 0; c < 3; ++c) conditions.block<2, 1>(row, 18 * c + 6 * part + node) += matrix.col(c);
+  };
+  int row = 0;
+  for (int e = 0; e < 3; ++e) {
+    const std::array<Point, 3> x = cornersOf(e);
+    for (const int node : {0, 1, 3}) put(2 * row++, e, node, tractionMatrix(acrossFrom(x[0], x[1])));
+    // To the part before: nodes 0, 2 and their middle 5 are its 1, 2 and 4.
+    for (const auto& [own, other] : {std::array{0, 1}, std::array{2, 2}, std::array{5, 4}}) {
+      const auto n = tractionMatrix(acrossFrom(x[0], centre));
+      put(2 * row, e, own, n);
+      put(2 * row++, (e + 2) % 3, other, -n);
+    }
+    for (int at = 0; at < 3; ++at, ++row) {  // divergence there, times the area of the triangle
+      const auto gradient = [&](int k) {
+        return tractionMatrix(-3 * acrossFrom(x[(k + 1) % 3], x[(k + 2) % 3]));
+      };
+      for (int k = 0; k < 3; ++k) {
+        put(2 * row, e, k, (k == at ? 3 : -1) * gradient(k) / 2);
+        const int next = (k + 1) % 3;  // the middle behind corner k has 4 l_k l_next
+        if (k == at) put(2 * row, e, 3 + k, 2 * gradient(next));
+        if (next == at) put(2 * row, e, 3 + k, 2 * gradient(k));
+      }
+      given.segment<2>(2 * row) = -force[e][at] / 2;
+    }
+  }
+  const Vector values = conditions.completeOrthogonalDecomposition().solve(given);
+  return Eigen::Map<const Eigen::Matrix<double, 18, 3>>(values.data());
+}
+
+/// Integrals of products of the quadratic functions of a part.
+Eigen::Matrix<double, 6, 6> quadraticMass() {
+  Eigen::Matrix<double, 6, 6> mass;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) {
+      if (i < 3 && j < 3)
+        mass(i, j) = i == j ? 6 : -1;
+      else if (i < 3 || j < 3)  // the middle 3 + k is opposite to corner k + 2
+        mass(i, j) = std::max(i, j) - 3 == (std::min(i, j) + 1) % 3 ? -4 : 0;
+      else
+        mass(i, j) = i == j ? 32 : 16;
+    }
+  return mass / 180 / 6;
+}
+
 }  // namespace
 
 CompositeReference::CompositeReference() : mass(massMatrix()) {
   Eigen::Matrix<double, 30, 27> conditions = Eigen::Matrix<double, 30, 27>::Zero();
-  const Point centre = (referenceCorners[0] + referenceCorners[1] + referenceCorners[2]) / 3;
   const auto put = [&](int row, int part, int vertex, const Eigen::Matrix<double, 2, 3>& matrix) {
     for (int c = 0; c < 3; ++c)
       for (int i = 0; i < 2; ++i) conditions(row + i, column(part, vertex, c)) += matrix(i, c);
@@ -44,7 +109,7 @@ CompositeReference::CompositeReference() : mass(massMatrix()) {
     row += 4;
   }
   for (int e = 0; e < 3; ++e, row += 2) {  // divergence of part e, times twice its area
-    const std::array<Point, 3> x{referenceCorners[e], referenceCorners[(e + 1) % 3], centre};
+    const std::array<Point, 3> x = cornersOf(e);
     for (int k = 0; k < 3; ++k) put(row, e, k, -tractionMatrix(acrossFrom(x[(k + 1) % 3], x[(k + 2) % 3])));
   }
   Eigen::Matrix<double, 30, 12> given = Eigen::Matrix<double, 30, 12>::Zero();
@@ -52,6 +117,28 @@ CompositeReference::CompositeReference() : mass(massMatrix()) {
   const Eigen::Matrix<double, 27, 12> all =
       Eigen::MatrixXd(conditions).colPivHouseholderQr().solve(Eigen::MatrixXd(given));
   stresses = all;
+  Vector turning = Vector::Zero(18);  // twice the area of a part is 1/3
+  for (int e = 0; e < 3; ++e) turning.segment<2>(12 + 2 * e) = -turningForce(e) / 3;
+  turn = Matrix(conditions.bottomRows<18>()).completeOrthogonalDecomposition().solve(turning);
+  turnMoments = conditions.topRows<12>() * turn;
+  double couple = 0;
+  for (const Point& x : referenceCorners) couple += (x - centre).squaredNorm() / 24;
+  turnForces.setZero();
+  std::array<std::array<Point, 3>, 3> rest;
+  for (int e = 0; e < 3; ++e)
+    for (int k = 0; k < 3; ++k) {
+      // A hat function has 4/9 at the centroids of two parts and 1/9 at that of the one opposite.
+      turnForces.col(k) += (k == (e + 2) % 3 ? 1 : 4) / 54. * turningForce(e);
+      rest[e][k] = turned(cornersOf(e)[k] - centre) / couple - turningForce(e);
+    }
+  const Eigen::Matrix<double, 18, 3> quadratic = quadraticStress(rest);
+  restMean.setZero();
+  restEnergies.setZero();
+  for (int e = 0; e < 3; ++e) {
+    const Eigen::Matrix<double, 6, 3> values = quadratic.middleRows<6>(6 * e);
+    restMean += values.bottomRows<3>().colwise().sum().transpose() / 18;
+    restEnergies += values.transpose() * quadraticMass() * values;
+  }
   const auto of = [&](int component) { return stresses.middleRows<9>(9 * component); };
   defects = conditions * all - given;
   const MomentMatrix airy = momentsOfAiry(referenceCorners);

@@ -16,6 +16,16 @@ struct CompositeReference {
   std::array<MomentMatrix, 6> energies;
   std::array<MomentMatrix, 6> airyEnergies;  ///< the same by Airy modes
   Eigen::Matrix<double, 30, 12> defects;     ///< what is off in the stress of moments
+  /// Values, as above, of a stress whose divergence is constant in each part, of no mean and with the couple
+  /// -1: J(c - centroid), c the centroid of the part, times a factor,
+  Eigen::Matrix<double, 27, 1> turn;
+  Moments turnMoments;  ///< its moments,
+  Eigen::Matrix<double, 2, 3>
+      turnForces;  ///< and minus the integrals of its divergence and the hat functions.
+  /// Of a stress without tractions on the sides that carries what a force J(x - centroid) with the couple 1
+  /// is beside that: integrals of its components, and of their products.
+  Stress restMean;
+  Eigen::Matrix3d restEnergies;
 
   CompositeReference();
 };

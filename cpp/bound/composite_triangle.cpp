@@ -68,7 +68,7 @@ Moments CompositeTriangle::momentsOf(const Stress& stress) const {
   return result;
 }
 
-Moments CompositeTriangle::momentsOfLoad(const Point& f) const {
+Moments CompositeTriangle::momentsOfLoad(const BodyLoad& f) const {
   const Point centre = (x_[0] + x_[1] + x_[2]) / 3;
   Moments result;
   for (int e = 0; e < 3; ++e) {
@@ -80,11 +80,13 @@ Moments CompositeTriangle::momentsOfLoad(const Point& f) const {
     for (int end = 0; end < 2; ++end)
       result.segment<2>(4 * e + 2 * end) = traction(ends[end]) / 3 + traction(ends[1 - end]) / 6;
   }
+  for (int i = 0; i < 6; ++i)
+    result.segment<2>(2 * i) += f[2] / J_ * F_ * reference().turnMoments.segment<2>(2 * i);
   return result;
 }
 
 /// Components of the reference triangle by vertices of the parts.
-Eigen::Matrix<double, 9, 3> CompositeTriangle::loadValues(const Point& f) const {
+Eigen::Matrix<double, 9, 3> CompositeTriangle::loadValues(const BodyLoad& f) const {
   const Point centre = (x_[0] + x_[1] + x_[2]) / 3;
   const Eigen::Matrix3d toReference = fromReference_.inverse();
   Eigen::Matrix<double, 9, 3> values;
@@ -93,10 +95,11 @@ Eigen::Matrix<double, 9, 3> CompositeTriangle::loadValues(const Point& f) const 
       const Point y = k == 2 ? Point(0, 0) : Point(x_[(part + k) % 3] - centre);
       values.row(3 * part + k) = (toReference * Stress(-f.x() * y.x(), -f.y() * y.y(), 0)).transpose();
     }
+  for (int c = 0; c < 3; ++c) values.col(c) += f[2] / J_ * reference().turn.segment<9>(9 * c);
   return values;
 }
 
-Moments CompositeTriangle::loadProduct(const Point& f) const {
+Moments CompositeTriangle::loadProduct(const BodyLoad& f) const {
   const Eigen::Matrix<double, 9, 3> weighted = reference().mass * loadValues(f) * reference_;
   Moments moments = Moments::Zero();
   for (int c = 0; c < 3; ++c)
@@ -106,13 +109,32 @@ Moments CompositeTriangle::loadProduct(const Point& f) const {
   return result;
 }
 
-AiryModes CompositeTriangle::airyLoadProduct(const Point& f) const {
+AiryModes CompositeTriangle::airyLoadProduct(const BodyLoad& f) const {
   return momentsOfAiry(x_).transpose() * loadProduct(f);
 }
 
-double CompositeTriangle::loadEnergy(const Point& f) const {
+double CompositeTriangle::loadEnergy(const BodyLoad& f) const {
   const Eigen::Matrix<double, 9, 3> values = loadValues(f);
   return values.cwiseProduct(reference().mass * values * reference_).sum();
+}
+
+Eigen::Matrix<double, 2, 3> CompositeTriangle::nodalForces(const BodyLoad& f) const {
+  return (f[2] / J_ * F_ * reference().turnForces).colwise() + J_ / 6 * f.head<2>();
+}
+
+Eigen::Matrix<double, 2, 3> CompositeTriangle::turningForce() const {
+  Eigen::Matrix<double, 2, 3> result;  // J(X - centroid) has the couple 1/18 in the reference triangle
+  for (int k = 0; k < 3; ++k) {
+    const Point y = referenceCorners[k] - Point(1, 1) / 3;
+    result.col(k) = 18 / (J_ * J_) * F_ * Point(-y.y(), y.x());
+  }
+  return result;
+}
+double CompositeTriangle::restNorm() const {
+  return std::sqrt(reference_.cwiseProduct(reference().restEnergies).sum()) / J_;
+}
+Stress CompositeTriangle::restMean() const {
+  return fromReference_ * reference().restMean;
 }
 
 Moments CompositeTriangle::momentsInReference(const Moments& m) const {
@@ -121,7 +143,7 @@ Moments CompositeTriangle::momentsInReference(const Moments& m) const {
   return result;
 }
 
-std::array<Stress, 9> CompositeTriangle::stressOf(const Moments& m, const Point& f) const {
+std::array<Stress, 9> CompositeTriangle::stressOf(const Moments& m, const BodyLoad& f) const {
   Eigen::Matrix<double, 9, 3> values = loadValues(f);
   const Moments moments = momentsInReference(m);
   for (int c = 0; c < 3; ++c) values.col(c) += reference().stresses.middleRows<9>(9 * c) * moments;

@@ -20,6 +20,8 @@ using Moments = Eigen::Matrix<double, 12, 1>;
 using MomentMatrix = Eigen::Matrix<double, 12, 12>;
 /// (s11, s22, s12)
 using Stress = Eigen::Vector3d;
+/// A body force: its mean, and its couple about the centroid [N/m^3, N]
+using BodyLoad = Eigen::Vector3d;
 /// Of an Airy function: value and gradient at each corner, the mean derivatives along the outward normals of
 /// the sides (Clough and Tocher's element).
 using AiryModes = Eigen::Matrix<double, 12, 1>;
@@ -33,25 +35,34 @@ class CompositeTriangle {
   [[nodiscard]] MomentMatrix energy() const;
   /// The moments of a constant stress.
   [[nodiscard]] Moments momentsOf(const Stress& stress) const;
-  /// Of a linear stress without shear whose divergence is -f and whose value at the centroid is 0:
-  /// its moments,
-  [[nodiscard]] Moments momentsOfLoad(const Point& f) const;
+  /// Of a stress that carries a body load, constant in each part (linear without shear and 0 at the centroid
+  /// for the mean, CompositeReference::turn for the couple): its moments,
+  [[nodiscard]] Moments momentsOfLoad(const BodyLoad& f) const;
   /// its energy product with the stresses of moments in equilibrium, and of Airy functions,
-  [[nodiscard]] Moments loadProduct(const Point& f) const;
-  [[nodiscard]] AiryModes airyLoadProduct(const Point& f) const;
-  /// and its energy [J/m].
-  [[nodiscard]] double loadEnergy(const Point& f) const;
+  [[nodiscard]] Moments loadProduct(const BodyLoad& f) const;
+  [[nodiscard]] AiryModes airyLoadProduct(const BodyLoad& f) const;
+  /// its energy [J/m],
+  [[nodiscard]] double loadEnergy(const BodyLoad& f) const;
+  /// and the integrals of that force and the hat functions of the corners [N/m].
+  [[nodiscard]] Eigen::Matrix<double, 2, 3> nodalForces(const BodyLoad& f) const;
+
+  /// The linear force that is CompositeReference's J(x - centroid) in the reference triangle, with the couple
+  /// 1: values at the corners; energy norm and integral of a stress without tractions on the sides that
+  /// carries what it is beside the body load with that couple.
+  [[nodiscard]] Eigen::Matrix<double, 2, 3> turningForce() const;
+  [[nodiscard]] double restNorm() const;
+  [[nodiscard]] Stress restMean() const;
 
   /// The stress of moments in equilibrium, and of a load as above, at the vertices of the parts: part e has
   /// the first and last vertex of side e and the centroid.
-  [[nodiscard]] std::array<Stress, 9> stressOf(const Moments& m, const Point& f) const;
+  [[nodiscard]] std::array<Stress, 9> stressOf(const Moments& m, const BodyLoad& f) const;
 
   /// The largest of: divergence, jump of tractions between the parts, and moments that are not these, of the
   /// stress with moments m; [Pa m], for tests and assertions.
   [[nodiscard]] double defect(const Moments& m) const;
 
  private:
-  [[nodiscard]] Eigen::Matrix<double, 9, 3> loadValues(const Point& f) const;
+  [[nodiscard]] Eigen::Matrix<double, 9, 3> loadValues(const BodyLoad& f) const;
   [[nodiscard]] Moments momentsInReference(const Moments& m) const;
 
   std::array<Point, 3> x_;

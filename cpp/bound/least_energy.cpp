@@ -56,7 +56,7 @@ bool Relaxation::minimise() {
     const MomentMatrix ofMoments = element.energy();
     const Matrix energy = effects.transpose() * ofMoments * effects;
     Moments gradient = ofMoments * differenceOf(t, element);
-    if (forces_[t] != Point(0, 0)) gradient += element.loadProduct(forces_[t]);
+    if (!forces_[t].isZero(0)) gradient += element.loadProduct(forces_[t]);
     const Vector by = effects.transpose() * gradient;
     for (size_t i = 0; i < numbers.size(); ++i) {
       slope[numbers[i]] += by[static_cast<Eigen::Index>(i)];

@@ -144,9 +144,7 @@ std::array<Point, 2> LoadedBody::asPressed(const std::array<int, 2>& vertices) c
   return moments;
 }
 Imbalance LoadedBody::imbalance() const {
-  Imbalance result = imbalanceOf(mesh(), sides_, moments_, data_.forces, data_.known);
-  result.worst = std::max(result.worst, data_.error);
-  return result;
+  return imbalanceOf(mesh(), sides_, moments_, data_.forces, data_.known);
 }
 
 LoadedBody LoadedBody::unloaded(const Vector& near) const {
@@ -155,7 +153,7 @@ LoadedBody LoadedBody::unloaded(const Vector& near) const {
   result.stress_ = stressOf(near);
   result.data_.load.setZero();
   result.data_.error = 0;
-  for (Point& force : result.data_.forces) force.setZero();
+  for (BodyLoad& force : result.data_.forces) force.setZero();
   for (KnownTraction& known : result.data_.known) known.moments = {Point(0, 0), Point(0, 0)};
   return result;
 }
@@ -174,7 +172,7 @@ void LoadedBody::pull(int label, const Point& traction) {
 }
 
 void LoadedBody::push(int triangle, const Point& force) {
-  data_.forces[triangle] += force;
+  data_.forces[triangle].head<2>() += force;
   for (const int v : mesh().triangles[triangle])
     data_.load.segment<2>(2 * v) += body_.weights()[triangle] / 3 * force;
 }

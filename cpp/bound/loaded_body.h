@@ -82,7 +82,7 @@ class LoadedBody {
     return mortier::momentsOf(sides_, moments_, triangle);
   }
   [[nodiscard]] CompositeTriangle elementOf(int triangle) const;
-  [[nodiscard]] const Point& forceOn(int triangle) const { return data_.forces[triangle]; }
+  [[nodiscard]] const BodyLoad& forceOn(int triangle) const { return data_.forces[triangle]; }
 
  private:
   [[nodiscard]] DataPlace place() const { return {*own_, body_, cut_, sides_, moduli_, compliances_}; }

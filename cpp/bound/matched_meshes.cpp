@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "bound/side_datum.h"
 
@@ -17,8 +18,15 @@ constexpr double samePoint = 1e-6;
 /// coordinate.
 constexpr double parallel = 1e-9;
 constexpr double rounding = 1e-14;
-/// Pieces of a side whose tractions are not linear.
-constexpr int pieces = 4;
+/// Pieces of a side whose tractions are not linear: no more, and until these leave no more than a part of
+/// the tractions.
+constexpr size_t mostPieces = 16;
+constexpr double negligible = 0.0001;
+
+/// Sides of more pieces than these are cut by triangles that become larger from the side on.
+constexpr size_t fewPieces = 3;
+/// Of these, twice the area over the square of a side.
+constexpr double thinnest = 0.1;
 
 using Edge = std::array<int, 2>;
 
@@ -102,16 +110,66 @@ class Cutter {
     }
     if (a != edge[0]) std::reverse(chain.begin() + 1, chain.end());
     chain.push_back(b);
+    std::vector<std::array<int, 3>> pieces;
+    while (chain.size() > fewPieces + 1)
+      if (!addRow(chain, c, pieces)) break;
+    for (size_t i = 1; i + 1 < chain.size(); ++i) pieces.push_back({chain[i], chain[i + 1], c});
     mesh.triangles[t] = {a, chain[1], c};
     int last = t;
-    for (size_t i = 1; i + 1 < chain.size(); ++i) {
+    for (const auto& piece : pieces) {
       last = static_cast<int>(mesh.triangles.size());
-      mesh.triangles.push_back({chain[i], chain[i + 1], c});
+      mesh.triangles.push_back(piece);
       mesh.regions.push_back(mesh.regions[t]);
       result_.parents.push_back(result_.parents[t]);
     }
     if (const auto other = triangleOf_.find(sorted(b, c)); other != triangleOf_.end() && other->second == t)
       other->second = last;
+  }
+
+  /// Triangles between a chain of vertices and one of half as many from the same first to the same last
+  /// vertex, as far towards c as its pieces are long. \returns whether none of them or to c is turned over
+  bool addRow(std::vector<int>& chain, int c, std::vector<std::array<int, 3>>& pieces) {
+    TriangleMesh& mesh = result_.mesh;
+    const size_t vertices = mesh.vertices.size();
+    const size_t n = chain.size() - 1;
+    const auto at = [&](int vertex) -> const Point& { return mesh.vertices[vertex]; };
+    std::vector<int> upper{chain[0]};
+    std::vector<std::array<int, 3>> row;
+    for (size_t i = 0; i < n; i += 2) {
+      const size_t end = std::min(i + 2, n);
+      if (end < n) {
+        const Point way = at(c) - at(chain[end]);
+        const double length = (at(chain[std::min(end + 2, n)]) - at(chain[i])).norm() / 4;
+        const double part = std::min(0.5, length / way.norm());
+        upper.push_back(static_cast<int>(mesh.vertices.size()));
+        result_.added.push_back({{chain[end], c}, part});
+        mesh.vertices.emplace_back(at(chain[end]) + part * way);
+      } else {
+        upper.push_back(chain[n]);
+      }
+      const int first = upper[upper.size() - 2];
+      const int last = upper.back();
+      if (first != chain[i]) row.push_back({chain[i], chain[i + 1], first});
+      if (end == i + 2) {
+        row.push_back({chain[i + 1], last, first});
+        if (last != chain[end]) row.push_back({chain[i + 1], chain[end], last});
+      }
+    }
+    std::vector<std::array<int, 3>> all = row;
+    for (size_t i = 0; i + 1 < upper.size(); ++i) all.push_back({upper[i], upper[i + 1], c});
+    const bool good = std::all_of(all.begin(), all.end(), [&](const std::array<int, 3>& v) {
+      const Point p = at(v[1]) - at(v[0]);
+      const Point q = at(v[2]) - at(v[0]);
+      return p.x() * q.y() - p.y() * q.x() > thinnest * p.squaredNorm();
+    });
+    if (!good) {
+      mesh.vertices.resize(vertices);
+      result_.added.resize(result_.added.size() - (upper.size() - 2));
+      return false;
+    }
+    pieces.insert(pieces.end(), row.begin(), row.end());
+    chain = std::move(upper);
+    return true;
   }
 
   void cutBoundary() {
@@ -159,7 +217,37 @@ std::string faultOf(const RefinedPiece& piece, const TriangleMesh& nonmortar, co
   return across(mortar, piece.mortar) ? "" : "is not parallel on both sides";
 }
 
-/// Cuts sides under tractions that are not linear, at jumps and between: what the pieces leave is smaller.
+/// Cuts a side from a to b under tractions that are not linear in the middle of the piece that leaves most,
+/// or at a jump: what the pieces leave is smaller, over lengths that are shorter.
+void cutLoaded(const Edge& edge, const Point& a, const Point& b, const Datum& value, double t, Cuts& cuts) {
+  struct Piece {
+    double begin, end;
+    SideDatum datum;
+    [[nodiscard]] double left() const { return datum.off * (end - begin); }
+  };
+  const auto piece = [&](double begin, double end) {
+    return Piece{begin, end, onSide(value, a + begin * (b - a), a + end * (b - a), t)};
+  };
+  std::vector<Piece> pieces{piece(0, 1)};
+  if (pieces[0].datum.linear() || !pieces[0].datum.known) return;
+  while (pieces.size() < mostPieces) {
+    Piece& worst = *std::max_element(pieces.begin(), pieces.end(),
+                                     [](const Piece& u, const Piece& v) { return u.left() < v.left(); });
+    double size = 0;
+    for (const Piece& each : pieces) size = std::max(size, each.datum.size);
+    if (worst.left() <= negligible * size) break;
+    const std::vector<double>& jumps = worst.datum.jumps;
+    double at = worst.begin + (worst.end - worst.begin) * (jumps.empty() ? 0.5 : jumps[jumps.size() / 2]);
+    if (std::min(at - worst.begin, worst.end - at) <= 2 * samePoint) at = (worst.begin + worst.end) / 2;
+    if (worst.end - worst.begin <= 4 * samePoint) break;
+    cuts.add(edge, at);
+    const double end = std::exchange(worst.end, at);
+    worst = piece(worst.begin, at);
+    pieces.push_back(piece(at, end));
+  }
+}
+
+/// All sides of a body that are to be cut so.
 void cutLoaded(const Body& body, double t, Cuts& cuts) {
   const TriangleMesh& mesh = body.mesh();
   const auto& conditions = body.conditions();
@@ -171,10 +259,7 @@ void cutLoaded(const Body& body, double t, Cuts& cuts) {
                       [&](const PrescribedDisplacement& held) { return held.actsOn(label); }))
         continue;
       const auto& [a, b] = mesh.boundaryEdges[e];
-      const SideDatum datum = onSide(traction.value, mesh.vertices[a], mesh.vertices[b], t);
-      if (datum.linear() || !datum.known) continue;
-      for (const double jump : datum.jumps) cuts.add({a, b}, jump);
-      for (int i = 1; i < pieces; ++i) cuts.add({a, b}, static_cast<double>(i) / pieces);
+      cutLoaded({a, b}, mesh.vertices[a], mesh.vertices[b], traction.value, t, cuts);
     }
 }
 
@@ -202,8 +287,8 @@ Vector CutMesh::displacement(const Vector& u) const {
   result.head(u.size()) = u;
   for (size_t i = 0; i < added.size(); ++i)
     result.segment<2>(u.size() + 2 * static_cast<Eigen::Index>(i)) =
-        (1 - added[i].part) * u.segment<2>(2 * added[i].ends[0]) +
-        added[i].part * u.segment<2>(2 * added[i].ends[1]);
+        (1 - added[i].part) * result.segment<2>(2 * added[i].ends[0]) +
+        added[i].part * result.segment<2>(2 * added[i].ends[1]);
   return result;
 }
 

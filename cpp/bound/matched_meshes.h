@@ -13,12 +13,12 @@
 
 namespace mortier {
 
-/// The mesh of a body with its edges cut.
+/// The mesh of a body with edges cut, and triangles over those that are cut often.
 struct CutMesh {
   TriangleMesh mesh;
   std::vector<int> parents;  ///< of each triangle, that of the body's mesh of which it is a part
   struct Added {
-    std::array<int, 2> ends{};  ///< vertices of the body's mesh
+    std::array<int, 2> ends{};  ///< vertices before it
     double part = 0;            ///< of the way from the first to the second
   };
   std::vector<Added> added;  ///< the vertices behind those of the body's mesh

@@ -9,7 +9,7 @@ namespace mortier {
 PartStress addedIn(const LoadedBody& loaded, int triangle, const Linearisation& law,
                    Eigen::Index components) {
   const CompositeTriangle element = loaded.elementOf(triangle);
-  const Point& f = loaded.forceOn(triangle);
+  const BodyLoad& f = loaded.forceOn(triangle);
   const std::array<Stress, 9> plane = element.stressOf(
       loaded.momentsOf(triangle) - element.momentsOf(loaded.stress()[triangle]) - element.momentsOfLoad(f),
       f);

@@ -35,7 +35,7 @@ double workOf(const Moments& m, const std::array<int, 3>& v, const Vector& z) {
 /// What rounding leaves of a force in any triangle, at least of the moments of its sides [N/m].
 double leftOf(const LoadedBody& body) {
   const auto [worst, largest] = body.imbalance();
-  return std::max(worst, std::numeric_limits<double>::epsilon() * largest);
+  return std::max(worst, std::numeric_limits<double>::epsilon() * largest) + body.data().error;
 }
 
 class Enclosing {
@@ -55,7 +55,7 @@ class Enclosing {
       for (int t = 0; t < static_cast<int>(lifted.size()); ++t) {
         lifted[t] += body.stress()[t];
         const CompositeTriangle element = body.elementOf(t);
-        const Point& f = body.forceOn(t);
+        const BodyLoad& f = body.forceOn(t);
         const Moments d = body.momentsOf(t) - element.momentsOf(lifted[t]) - element.momentsOfLoad(f);
         const Moments load = element.loadProduct(f);
         products_[b].emplace_back(element.energy() * d + load);
@@ -242,8 +242,11 @@ class Enclosing {
         2 * body.load().dot(z) + body.leftOver(Vector::Zero(z.size()), lifted_[b]).dot(z);  // -(s(u^), eps z)
     for (int t = 0; t < static_cast<int>(lifted_[b].size()); ++t) {
       const auto& v = body.mesh().triangles[t];
-      const Point mean = (z.segment<2>(2 * v[0]) + z.segment<2>(2 * v[1]) + z.segment<2>(2 * v[2])) / 3;
-      twice -= workOf(body.momentsOf(t), v, z) + body.body().weights()[t] * body.forceOn(t).dot(mean);
+      twice -= workOf(body.momentsOf(t), v, z);
+      if (!body.forceOn(t).isZero(0)) {
+        const Eigen::Matrix<double, 2, 3> forces = nodalForces(body.mesh(), t, body.forceOn(t));
+        for (int k = 0; k < 3; ++k) twice -= forces.col(k).dot(z.segment<2>(2 * v[k]));
+      }
       twice += adjoint.momentsOf(t).dot(products_[b][t]);
       if (!adjoint.forceOn(t).isZero(0)) twice += loadProduct(b, t, adjoint.forceOn(t));
     }
@@ -272,10 +275,10 @@ class Enclosing {
         }
   }
   /// What a body force of the adjoint adds to (s^ - s(u^), E^-1 t) beside the moments of t.
-  [[nodiscard]] double loadProduct(size_t b, int t, const Point& f) const {
+  [[nodiscard]] double loadProduct(size_t b, int t, const BodyLoad& f) const {
     const LoadedBody& body = pair_.bodies[b];
     const CompositeTriangle element = body.elementOf(t);
-    const Point& g = body.forceOn(t);
+    const BodyLoad& g = body.forceOn(t);
     const Moments d = body.momentsOf(t) - element.momentsOf(lifted_[b][t]) - element.momentsOfLoad(g);
     return d.dot(element.loadProduct(f)) - element.momentsOfLoad(f).dot(products_[b][t]) +
            (element.loadEnergy(f + g) - element.loadEnergy(f) - element.loadEnergy(g)) / 2;

@@ -91,7 +91,7 @@ class AiryLanes {
 
 Relaxation::Relaxation(const TriangleMesh& mesh, const Sides& sides,
                        const std::vector<Eigen::Matrix3d>& compliances, const std::vector<Stress>& stress,
-                       const std::vector<Point>& forces, const std::vector<KnownTraction>& known,
+                       const std::vector<BodyLoad>& forces, const std::vector<KnownTraction>& known,
                        SideMoments& moments)
     : mesh_(mesh),
       sides_(sides),
@@ -108,7 +108,7 @@ CompositeTriangle Relaxation::elementOf(int triangle) const {
 
 Moments Relaxation::differenceOf(int triangle, const CompositeTriangle& element) const {
   Moments difference = momentsOf(sides_, moments_, triangle) - element.momentsOf(stress_[triangle]);
-  if (forces_[triangle] != Point(0, 0)) difference -= element.momentsOfLoad(forces_[triangle]);
+  if (!forces_[triangle].isZero(0)) difference -= element.momentsOfLoad(forces_[triangle]);
   return difference;
 }
 
@@ -130,7 +130,7 @@ CompositeLanes Relaxation::elementsOf(const Batch& batch) const {
 CompositeLanes::Twelve Relaxation::differencesOf(const Batch& batch, const CompositeLanes& elements) const {
   CompositeLanes::Twelve result = gathered<12>(batch, [&](int t) -> Moments {
     const Moments all = momentsOf(sides_, moments_, t);
-    if (forces_[t] == Point(0, 0)) return all;
+    if (forces_[t].isZero(0)) return all;
     return all - elementOf(t).momentsOfLoad(forces_[t]);
   });
   const CompositeLanes::Twelve taken =
@@ -145,7 +145,7 @@ Vector Relaxation::energies() const {
   for (int begin = 0; begin < count; begin += laneCount) {
     const Batch batch(begin, count);
     const CompositeLanes elements = elementsOf(batch);
-    const auto forces = gathered<2>(batch, [&](int t) -> const Point& { return forces_[t]; });
+    const auto forces = gathered<3>(batch, [&](int t) -> const BodyLoad& { return forces_[t]; });
     batch.store<1>({elements.energyOf(differencesOf(batch, elements), forces)}, result.data());
   }
   return result;
@@ -196,7 +196,7 @@ bool Relaxation::iterate(double part, int most) {
       MomentMatrix K = lanes.K(lane);
       AiryModes b = lanes.b(lane);
       double energy = lanes.energy(lane);
-      if (forces_[t] != Point(0, 0)) {
+      if (!forces_[t].isZero(0)) {
         const CompositeTriangle element = elementOf(t);
         AiryModes load = element.airyLoadProduct(forces_[t]);
         energy += 2 * load.dot(lanes.off(lane)) + element.loadEnergy(forces_[t]);

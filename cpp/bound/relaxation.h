@@ -26,7 +26,7 @@ class Relaxation {
   /// near
   /// \param moments  in equilibrium; changed
   Relaxation(const TriangleMesh& mesh, const Sides& sides, const std::vector<Eigen::Matrix3d>& compliances,
-             const std::vector<Stress>& stress, const std::vector<Point>& forces,
+             const std::vector<Stress>& stress, const std::vector<BodyLoad>& forces,
              const std::vector<KnownTraction>& known, SideMoments& moments);
 
   /// Lowers the energy, by conjugate gradients or, where it costs little, to the least. \throws Interrupted
@@ -71,7 +71,7 @@ class Relaxation {
   const Sides& sides_;
   const std::vector<Eigen::Matrix3d>& compliances_;
   const std::vector<Stress>& stress_;
-  const std::vector<Point>& forces_;
+  const std::vector<BodyLoad>& forces_;
   const std::vector<KnownTraction>& known_;
   SideMoments& moments_;
 };

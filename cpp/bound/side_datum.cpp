@@ -139,6 +139,16 @@ bool SideDatum::linear() const {
   return off <= rounding * size;
 }
 
+SideDatum SideDatum::times(double part) const {
+  SideDatum result = *this;
+  for (double* each :
+       {&result.ends[0], &result.ends[1], &result.moments[0], &result.moments[1], &result.momentError,
+        &result.size, &result.off, &result.slope, &result.least, &result.largest})
+    *each *= part;
+  for (double& each : result.slopeMoments) each *= part * part;
+  return result;
+}
+
 SideDatum onSide(const Datum& datum, const Point& first, const Point& last, double t) {
   if (datum.constant()) {
     const double value = datum(first.x(), first.y(), t);
@@ -176,7 +186,10 @@ SideDatum onSide(const Datum& datum, const Point& first, const Point& last, doub
     const auto [a, b] = offAt(piece);
     const double w = piece.width();
     squares += std::pow(std::sqrt(w * (a * a + a * b + b * b) / 3) + piece.off * std::sqrt(w), 2);
-    slopes += w * std::pow(std::abs((b - a) / w) + piece.slope, 2);
+    const double steep = w * std::pow(std::abs((b - a) / w) + piece.slope, 2);
+    slopes += steep;
+    result.slopeMoments[0] += (1 - piece.begin) * steep;
+    result.slopeMoments[1] += piece.end * steep;
     result.least = std::min(result.least, std::min(a, b) - piece.off);
     result.largest = std::max(result.largest, std::max(a, b) + piece.off);
     for (int i = 0; i < 2; ++i) result.moments[i] += piece.moments[i];

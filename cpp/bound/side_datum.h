@@ -17,11 +17,15 @@ struct SideDatum {
   double size = 0;                  ///< the largest value known
   double off = 0;                   ///< at least: square root of the integral of (f - linear)^2
   double slope = 0;                 ///< the same of the derivative of f - linear by s; infinite at a jump
-  double least = 0, largest = 0;    ///< bounds of f - linear
-  std::vector<double> jumps;        ///< where it nearly is a jump
-  bool known = true;                ///< whether it is enclosed: of other functions a few values are known
+  /// The same of integrals of the square of the derivative times 1 - s, and times s.
+  std::array<double, 2> slopeMoments{};
+  double least = 0, largest = 0;  ///< bounds of f - linear
+  std::vector<double> jumps;      ///< where it nearly is a jump
+  bool known = true;              ///< whether it is enclosed: of other functions a few values are known
 
   [[nodiscard]] bool linear() const;
+  /// A part of it.
+  [[nodiscard]] SideDatum times(double part) const;
 };
 
 SideDatum onSide(const Datum& datum, const Point& first, const Point& last, double t);

@@ -31,7 +31,7 @@ void listByVertex(size_t vertices, const std::vector<std::array<int, 2>>& pairs,
 class VertexBalance {
  public:
   VertexBalance(const TriangleMesh& mesh, const Sides& sides, const std::vector<Stress>& stress,
-                const std::vector<Point>& forces, const std::vector<KnownTraction>& known,
+                const std::vector<BodyLoad>& forces, const std::vector<KnownTraction>& known,
                 SideMoments& moments)
       : mesh_(mesh), sides_(sides), stress_(stress), forces_(forces), known_(known), moments_(moments) {}
 
@@ -54,8 +54,8 @@ class VertexBalance {
     const int i = cornerAt(triangle, vertex);
     const Point opposite = mesh_.vertices[v[(i + 2) % 3]] - mesh_.vertices[v[(i + 1) % 3]];
     const Point gradient = Point(-opposite.y(), opposite.x()) / 2;  // |K| grad phi
-    Point left =
-        tractionOf(stress_[triangle], gradient) - doubleArea(mesh_, triangle) / 6 * forces_[triangle];
+    Point left = tractionOf(stress_[triangle], gradient);
+    if (!forces_[triangle].isZero(0)) left -= nodalForces(mesh_, triangle, forces_[triangle]).col(i);
     for (const int k : {i, (i + 2) % 3}) {
       const int side = sides_.of(triangle, k);
       left -= (sides_.left(triangle, k) ? 1 : -1) * moments_[side][endAt(side, vertex)];
@@ -139,7 +139,7 @@ class VertexBalance {
   const TriangleMesh& mesh_;
   const Sides& sides_;
   const std::vector<Stress>& stress_;
-  const std::vector<Point>& forces_;
+  const std::vector<BodyLoad>& forces_;
   const std::vector<KnownTraction>& known_;
   SideMoments& moments_;
   std::vector<Change> changes_;
@@ -206,8 +206,15 @@ Sides::Sides(const TriangleMesh& mesh) : ofTriangle_(3 * mesh.triangles.size()) 
   }
 }
 
+Eigen::Matrix<double, 2, 3> nodalForces(const TriangleMesh& mesh, int triangle, const BodyLoad& load) {
+  const auto& v = mesh.triangles[triangle];
+  return CompositeTriangle({mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]},
+                           Eigen::Matrix3d::Identity())
+      .nodalForces(load);
+}
+
 SideMoments balancedMoments(const TriangleMesh& mesh, const Sides& sides, const std::vector<Stress>& stress,
-                            const std::vector<Point>& forces, const std::vector<KnownTraction>& known) {
+                            const std::vector<BodyLoad>& forces, const std::vector<KnownTraction>& known) {
   SideMoments moments(sides.count());
   for (int e = 0; e < sides.count(); ++e) {
     const Side& side = sides.all()[e];

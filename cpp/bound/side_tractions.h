@@ -67,10 +67,13 @@ struct KnownTraction {
 using SideMoments = std::vector<std::array<Point, 2>>;
 
 /// \param stress  (s11, s22, s12) by triangles, in equilibrium with hat functions [Pa]
-/// \param forces  body forces by triangles [N/m^3]
+/// \param forces  by triangles
 /// \param known  by sides; those inside are not read
 SideMoments balancedMoments(const TriangleMesh& mesh, const Sides& sides, const std::vector<Stress>& stress,
-                            const std::vector<Point>& forces, const std::vector<KnownTraction>& known);
+                            const std::vector<BodyLoad>& forces, const std::vector<KnownTraction>& known);
+
+/// Of a body load on a triangle (CompositeTriangle).
+Eigen::Matrix<double, 2, 3> nodalForces(const TriangleMesh& mesh, int triangle, const BodyLoad& load);
 
 /// The moments of the sides of a triangle as it sees them.
 Moments momentsOf(const Sides& sides, const SideMoments& moments, int triangle);

@@ -24,7 +24,8 @@ struct Part {
   Eigen::Matrix3d corners;  ///< columns
   double share = 1;
   Eigen::Vector3d values;
-  double off = 0;  ///< |f - linear between its corners| at most
+  double off = 0;    ///< |f - linear between its corners| at most
+  double error = 0;  ///< the same of f and a polynomial of degree 4, or of what the rule makes of f
 };
 
 std::array<Eigen::Matrix3d, 4> quarters(const Eigen::Matrix3d& c) {
@@ -47,7 +48,7 @@ Interval range(double a, double b, double c) {
 }  // namespace
 
 double TriangleDatum::distanceTo(double value) const {
-  return std::sqrt(meanSquare(Eigen::Vector3d(linear[0], linear[1], linear[2]).array() - value)) + rest;
+  return std::sqrt(variance + (mean - value) * (mean - value)) + off;
 }
 
 DataOnTriangles::DataOnTriangles(const std::vector<Datum>& values, double t, int triangles)
@@ -69,7 +70,8 @@ TriangleDatum DataOnTriangles::on(int datum, const std::array<Point, 3>& corners
     return value(x.x(), x.y(), t_);
   };
   if (value.constant()) {
-    result.linear.fill(at({1, 0, 0}));
+    result.mean = at({1, 0, 0});
+    result.linear.fill(result.mean);
     return result;
   }
   const auto partOf = [&](const Eigen::Matrix3d& c, double share) {
@@ -104,6 +106,14 @@ TriangleDatum DataOnTriangles::on(int datum, const std::array<Point, 3>& corners
         std::max(values.largest - part.values.minCoeff(), part.values.maxCoeff() - values.least);
     part.off = std::min(byValues, 5. / 18 * bend);
     if (std::isnan(part.off)) part.off = infinity;
+    // Along all ways from the centroid at once: Taylor's remainder.
+    const Eigen::Vector2d centre = x.rowwise().mean();
+    Taylor u = Taylor::constant(first);
+    Taylor v = Taylor::constant(second);
+    u.c[1] = {first.least - centre.x(), first.largest - centre.x()};
+    v.c[1] = {second.least - centre.y(), second.largest - centre.y()};
+    const double fifth = along(u, v, Taylor::constant({t_, t_})).c[5].magnitude();
+    part.error = fifth < part.off ? fifth : part.off;
     return part;
   };
   std::vector<Part> parts{partOf(Eigen::Matrix3d::Identity(), 1)};
@@ -124,23 +134,30 @@ TriangleDatum DataOnTriangles::on(int datum, const std::array<Point, 3>& corners
     double square = 0;
     double rest = 0;
     double size = 0;
+    result.mean = result.variance = result.error = 0;
+    for (const Part& part : parts) result.mean += part.share * part.values.mean();
     for (const Part& part : parts) {
       const Eigen::Vector3d off = part.values - part.corners.transpose() * linear;
       square += part.share * meanSquare(off);
       rest += part.share * part.off * part.off;
+      result.error += 2 * part.share * part.error;
+      result.variance += part.share * meanSquare(part.values.array() - result.mean);
       size = std::max(size, part.values.cwiseAbs().maxCoeff());
     }
-    result.rest = std::sqrt(square) + std::sqrt(rest);
-    return std::array{square, rest, rounding * rounding * size * size};
+    result.off = std::sqrt(rest);
+    result.rest = std::sqrt(square) + result.off;
+    return std::array{square, rest, size};
   };
   for (int depth = 0; depth < deepest_; ++depth) {
-    const auto [square, rest, nothing] = project();
+    const auto [square, rest, size] = project();
     constexpr double enough = 0.01;
-    if (rest <= std::max(enough * square, nothing)) break;
+    constexpr double exact = 1e-7;
+    const double nothing = rounding * rounding * size * size;
+    if (rest <= std::max(enough * square, nothing) && result.error <= exact * size) break;
     std::vector<Part> finer;
     const double little = enough / 4 * std::max(square, nothing);
     for (const Part& part : parts) {
-      if (part.off * part.off <= little) {
+      if (part.off * part.off <= little && part.error <= exact / 4 * size) {
         finer.push_back(part);
         continue;
       }

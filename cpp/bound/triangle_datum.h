@@ -12,6 +12,11 @@ namespace mortier {
 struct TriangleDatum {
   std::array<double, 3> linear{};  ///< values of the projection at the corners, nearly
   double rest = 0;                 ///< root of the mean square of f - linear, at most
+  // Of a function that is linear on parts: its mean, the mean square of what it is beside that; and the root
+  // of the mean square of what f is beside the function, at most.
+  double mean = 0;
+  double variance = 0;
+  double off = 0;
   double error = 0;   ///< of integrals of f - linear times a linear function of size 1, over the area
   bool known = true;  ///< whether the datum is enclosed
 

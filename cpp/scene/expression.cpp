@@ -10,7 +10,6 @@
 
 #include "base/datum_error.h"
 #include "scene/document.h"
-#include "scene/enclosed_formula.h"
 #include "scene/finite_value.h"
 #include "scene/known_datum.h"
 
@@ -163,7 +162,6 @@ Expression parseExpression(const std::string& text, std::string where) {
     Datum datum(Function(std::move(compiled)));
     datum.inTime = inTime;
     describe(text, datum);
-    datum.along = [text] { return enclosed(text); };
     return {text, std::move(where), false, std::move(datum), {}, inTime};
   } catch (const mu::Parser::exception_type& error) {
     std::string reason = error.GetMsg();

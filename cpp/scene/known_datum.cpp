@@ -1,8 +1,6 @@
 #include "scene/known_datum.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "base/error.h"
@@ -15,164 +13,181 @@ using Op = Formulas::Op;
 using Operation = Formulas::Operation;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr Interval anything{-infinity, infinity};
 
-Interval of(double a, double b) {
-  return std::isnan(a) || std::isnan(b) ? anything : Interval{std::min(a, b), std::max(a, b)};
+Interval range(double a, double b) {
+  return std::isnan(a) || std::isnan(b) ? Interval::anything() : Interval{std::min(a, b), std::max(a, b)};
 }
-bool holds(const Interval& range, double value) {
-  return range.least <= value && value <= range.largest;
+Interval widened(const Interval& a) {
+  return a + Interval{-4 * std::numeric_limits<double>::epsilon() * a.magnitude(),
+                      4 * std::numeric_limits<double>::epsilon() * a.magnitude()};
 }
-Interval both(const Interval& a, const Interval& b) {
-  return {std::min(a.least, b.least), std::max(a.largest, b.largest)};
+/// Whether it does not change along the line.
+bool steady(const Taylor& u) {
+  return std::all_of(u.c.begin() + 1, u.c.end(), [](const Interval& each) { return each.isZero(); });
 }
-Interval truth(bool always, bool never) {
-  return {always ? 1.0 : 0.0, never ? 0.0 : 1.0};
+Taylor truth(bool always, bool never, const Taylor& a, const Taylor& b) {
+  const Interval value{always ? 1.0 : 0.0, never ? 0.0 : 1.0};
+  return always || never || (steady(a) && steady(b)) ? Taylor::constant(value) : Taylor::within(value);
+}
+/// One of two.
+Taylor either(const Taylor& condition, const Taylor& u, const Taylor& v) {
+  if (!steady(condition)) return Taylor::within(hull(u.c[0], v.c[0]));
+  Taylor result;
+  for (int k = 0; k <= Taylor::order; ++k) result.c[k] = hull(u.c[k], v.c[k]);
+  return result;
+}
+Taylor one() {
+  return Taylor::constant({1, 1});
+}
+
+Taylor absolute(const Taylor& u) {
+  if (u.c[0].least >= 0) return u;
+  if (u.c[0].largest <= 0) return -u;
+  if (steady(u)) return Taylor::constant({0, u.c[0].magnitude()});
+  Taylor result = Taylor::within({0, u.c[0].magnitude()});
+  result.c[1] = hull(u.c[1], -u.c[1]);
+  return result;
+}
+Taylor least(const Taylor& u, const Taylor& v) {
+  if (u.c[0].largest <= v.c[0].least) return u;
+  if (v.c[0].largest <= u.c[0].least) return v;
+  const Interval values{std::min(u.c[0].least, v.c[0].least), std::min(u.c[0].largest, v.c[0].largest)};
+  if (steady(u) && steady(v)) return Taylor::constant(values);
+  Taylor result = Taylor::within(values);
+  result.c[1] = hull(u.c[1], v.c[1]);
+  return result;
+}
+/// A function that has steps: constant where its values do not change.
+Taylor stepwise(const Taylor& u, double first, double last) {
+  return first == last || steady(u) ? Taylor::constant(range(first, last))
+                                    : Taylor::within(range(first, last));
+}
+Taylor hyperbolic(const Taylor& u, double sign) {
+  return (exp(u) + Taylor::constant({sign, sign}) * exp(-u)) * Taylor::constant({0.5, 0.5});
 }
 
 template <class Function>
-Interval atCorners(const Interval& a, const Interval& b, Function function) {
-  return both(of(function(a.least, b.least), function(a.least, b.largest)),
-              of(function(a.largest, b.least), function(a.largest, b.largest)));
+Taylor inverse(const Taylor& u, const Taylor& q, double lowest, double highest, Function function) {
+  const Interval values = widened(range(function(std::clamp(u.c[0].least, lowest, highest)),
+                                        function(std::clamp(u.c[0].largest, lowest, highest))));
+  return integrated(u, q, values);
 }
 
-/// An even function that ascends from 0.
-template <class Function>
-Interval even(const Interval& a, Function function) {
-  Interval range = of(function(a.least), function(a.largest));
-  if (holds(a, 0)) range.least = function(0.0);
-  return range;
-}
-
-/// A function that ascends on [least, largest] and is defined there alone.
-template <class Function>
-Interval ascending(const Interval& a, Function function, double least = -infinity,
-                   double largest = infinity) {
-  return of(function(std::clamp(a.least, least, largest)), function(std::clamp(a.largest, least, largest)));
-}
-
-/// sin(x + shift)
-Interval sine(const Interval& a, double shift) {
-  constexpr double pi = std::numbers::pi;
-  if (!(a.largest - a.least < 2 * pi)) return {-1, 1};
-  Interval range = of(std::sin(a.least + shift), std::sin(a.largest + shift));
-  const auto passes = [&](double angle) {
-    return std::floor((a.largest + shift - angle) / (2 * pi)) >
-           std::floor((a.least + shift - angle) / (2 * pi));
+Taylor power(const Operation& operation, const Taylor& u, const Taylor& v) {
+  if (operation.number != 0) return pow(u, operation.number);
+  if (u.c[0].least > 0) return exp(v * log(u));
+  if (!(u.c[0].least == 0 && v.c[0].least > 0)) return Taylor::within(Interval::anything());
+  const auto most = [&](double x) {
+    return std::max(std::pow(x, v.c[0].least), std::pow(x, v.c[0].largest));
   };
-  if (passes(pi / 2)) range.largest = 1;
-  if (passes(-pi / 2)) range.least = -1;
-  return range;
+  return Taylor::within(widened({0, most(u.c[0].largest)}));
 }
 
-Interval power(const Operation& operation, const Interval& a, const Interval& b) {
-  const auto pow = [](double x, double y) { return std::pow(x, y); };
-  if (a.least >= 0 && !(a.least == 0 && b.least < 0)) return atCorners(a, b, pow);
-  const double n = operation.number;
-  if (n <= 0 || n != std::rint(n)) return anything;
-  if (std::fmod(n, 2) == 0) return even(a, [&](double x) { return std::pow(x, n); });
-  return of(std::pow(a.least, n), std::pow(a.largest, n));
-}
-
-Interval apply(const Operation& operation, const Interval& a, const Interval& b, const Interval& c) {
-  constexpr double pi = std::numbers::pi;
-  const bool zero = a.least == 0 && a.largest == 0;
-  const bool notZero = !holds(a, 0);
-  const bool otherZero = b.least == 0 && b.largest == 0;
-  const bool otherNotZero = !holds(b, 0);
+Taylor apply(const Operation& operation, const Taylor& a, const Taylor& b, const Taylor& c) {
+  const Interval& u = a.c[0];
+  const Interval& v = b.c[0];
+  const bool yes = !u.holds(0);
+  const bool otherYes = !v.holds(0);
   switch (operation.op) {
     case Op::number:
-      return of(operation.number, operation.number);
+      return Taylor::constant({operation.number, operation.number});
     case Op::variable:
       return a;
     case Op::negate:
-      return {-a.largest, -a.least};
+      return -a;
     case Op::add:
-      return of(a.least + b.least, a.largest + b.largest);
+      return a + b;
     case Op::subtract:
-      if (operation.a == operation.b) return {0, 0};
-      return of(a.least - b.largest, a.largest - b.least);
-    case Op::multiply:
-      if (zero || otherZero) return {0, 0};
-      if (operation.a == operation.b) return even(a, [](double x) { return x * x; });
-      return atCorners(a, b, [](double x, double y) { return x * y; });
+      return operation.a == operation.b ? Taylor() : a - b;
+    case Op::multiply: {
+      Taylor result = a * b;
+      if (operation.a == operation.b) result.c[0] = pow(a, 2).c[0];
+      return result;
+    }
     case Op::divide:
-      return otherNotZero ? atCorners(a, b, [](double x, double y) { return x / y; }) : anything;
+      return a / b;
     case Op::power:
       return power(operation, a, b);
     case Op::less:
-      return truth(a.largest < b.least, a.least >= b.largest);
+      return truth(u.largest < v.least, u.least >= v.largest, a, b);
     case Op::lessOrEqual:
-      return truth(a.largest <= b.least, a.least > b.largest);
+      return truth(u.largest <= v.least, u.least > v.largest, a, b);
     case Op::equal:
     case Op::notEqual: {
-      const bool same = a.least == a.largest && b.least == b.largest && a.least == b.least;
-      const bool other = a.largest < b.least || a.least > b.largest;
-      return operation.op == Op::equal ? truth(same, other) : truth(other, same);
+      const bool same = u.least == u.largest && v.least == v.largest && u.least == v.least;
+      const bool other = u.largest < v.least || u.least > v.largest;
+      return operation.op == Op::equal ? truth(same, other, a, b) : truth(other, same, a, b);
     }
     case Op::both:
-      return truth(notZero && otherNotZero, zero || otherZero);
+      return truth(yes && otherYes, u.isZero() || v.isZero(), a, b);
     case Op::either:
-      return truth(notZero || otherNotZero, zero && otherZero);
+      return truth(yes || otherYes, u.isZero() && v.isZero(), a, b);
     case Op::choose:
-      return notZero ? b : zero ? c : both(b, c);
+      return yes ? b : u.isZero() ? c : either(a, b, c);
     case Op::min:
-      return {std::min(a.least, b.least), std::min(a.largest, b.largest)};
+      return least(a, b);
     case Op::max:
-      return {std::max(a.least, b.least), std::max(a.largest, b.largest)};
+      return -least(-a, -b);
     case Op::atan2:
-      return {-pi, pi};
+      if (v.least > 0)
+        return inverse(a / b, one() + a / b * (a / b), -infinity, infinity,
+                       [](double x) { return std::atan(x); });
+      return Taylor::within({-std::numbers::pi, std::numbers::pi});
     case Op::sin:
-      return sine(a, 0);
+      return sinAndCos(a)[0];
     case Op::cos:
-      return sine(a, pi / 2);
-    case Op::tan:
-      if (std::floor(a.least / pi + 0.5) != std::floor(a.largest / pi + 0.5)) return anything;
-      return of(std::tan(a.least), std::tan(a.largest));
+      return sinAndCos(a)[1];
+    case Op::tan: {
+      const auto [s, k] = sinAndCos(a);
+      Taylor result = s / k;
+      if (!k.c[0].holds(0)) result.c[0] = widened(range(std::tan(u.least), std::tan(u.largest)));
+      return result;
+    }
     case Op::asin:
-      return ascending(
-          a, [](double x) { return std::asin(x); }, -1, 1);
+      return inverse(a, pow(one() - a * a, 0.5), -1, 1, [](double x) { return std::asin(x); });
     case Op::acos:
-      return ascending(
-          a, [](double x) { return std::acos(x); }, -1, 1);
+      return inverse(a, -pow(one() - a * a, 0.5), -1, 1, [](double x) { return std::acos(x); });
     case Op::atan:
-      return ascending(a, [](double x) { return std::atan(x); });
+      return inverse(a, one() + a * a, -infinity, infinity, [](double x) { return std::atan(x); });
     case Op::sinh:
-      return ascending(a, [](double x) { return std::sinh(x); });
-    case Op::cosh:
-      return even(a, [](double x) { return std::cosh(x); });
-    case Op::tanh:
-      return ascending(a, [](double x) { return std::tanh(x); });
+      return hyperbolic(a, -1);
+    case Op::cosh: {
+      Taylor result = hyperbolic(a, 1);
+      const Interval ends = range(std::cosh(u.least), std::cosh(u.largest));
+      result.c[0] = widened({u.holds(0) ? 1 : ends.least, ends.largest});
+      return result;
+    }
+    case Op::tanh: {
+      Taylor result = one() - Taylor::constant({2, 2}) / (one() + exp(a + a));
+      result.c[0] = widened(range(std::tanh(u.least), std::tanh(u.largest)));
+      return result;
+    }
     case Op::asinh:
-      return ascending(a, [](double x) { return std::asinh(x); });
+      return inverse(a, pow(one() + a * a, 0.5), -infinity, infinity, [](double x) { return std::asinh(x); });
     case Op::acosh:
-      return ascending(
-          a, [](double x) { return std::acosh(x); }, 1);
+      return inverse(a, pow(a * a - one(), 0.5), 1, infinity, [](double x) { return std::acosh(x); });
     case Op::atanh:
-      return ascending(
-          a, [](double x) { return std::atanh(x); }, -1, 1);
+      return inverse(a, one() - a * a, -1, 1, [](double x) { return std::atanh(x); });
     case Op::exp:
-      return ascending(a, [](double x) { return std::exp(x); });
+      return exp(a);
     case Op::log:
-      return ascending(
-          a, [](double x) { return std::log(x); }, 0);
+      return log(a);
     case Op::log10:
-      return ascending(
-          a, [](double x) { return std::log10(x); }, 0);
+      return log(a) / Taylor::constant(widened({std::numbers::ln10, std::numbers::ln10}));
     case Op::log2:
-      return ascending(
-          a, [](double x) { return std::log2(x); }, 0);
+      return log(a) / Taylor::constant(widened({std::numbers::ln2, std::numbers::ln2}));
     case Op::sqrt:
-      return ascending(
-          a, [](double x) { return std::sqrt(x); }, 0);
+      return pow(a, 0.5);
     case Op::abs:
-      return even(a, [](double x) { return std::abs(x); });
-    case Op::sign:
-      return ascending(a, [](double x) { return double((x > 0) - (x < 0)); });
+      return absolute(a);
+    case Op::sign: {
+      const auto sign = [](double x) { return static_cast<double>((x > 0) - (x < 0)); };
+      return stepwise(a, sign(u.least), sign(u.largest));
+    }
     case Op::rint:
-      return ascending(a, [](double x) { return std::floor(x + 0.5); });
+      return stepwise(a, std::floor(u.least + 0.5), std::floor(u.largest + 0.5));
   }
-  return anything;
+  return Taylor::within(Interval::anything());
 }
 
 /// The degree in x and y of a polynomial whose coefficients depend on t.
@@ -214,16 +229,22 @@ void describe(const std::string& text, Datum& datum) {
     degrees.push_back(degreeOf(each, of(each.a), of(each.b), of(each.c)));
   }
   datum.degree = degrees[formulas.result(0)];
-  datum.enclosure = [operations, result = formulas.result(0),
-                     work = std::vector<Interval>(operations.size())](const Box& box) mutable {
-    const std::array<Interval, 3> variables{box.x, box.y, box.t};
+  const auto enclosed = [operations, result = formulas.result(0),
+                         work = std::vector<Taylor>(operations.size())](
+                            const Taylor& x, const Taylor& y, const Taylor& t) mutable -> const Taylor& {
+    const std::array<const Taylor*, 3> variables{&x, &y, &t};
     for (size_t i = 0; i < operations.size(); ++i) {
       const Operation& each = operations[i];
-      const auto of = [&](int k) { return work[std::max(k, 0)]; };
-      work[i] = apply(each, each.op == Op::variable ? variables[each.a] : of(each.a), of(each.b), of(each.c));
+      const auto of = [&](int k) -> const Taylor& { return work[std::max(k, 0)]; };
+      work[i] =
+          apply(each, each.op == Op::variable ? *variables[each.a] : of(each.a), of(each.b), of(each.c));
     }
     return work[result];
   };
+  datum.enclosure = [values = enclosed](const Box& box) mutable {
+    return values(Taylor::constant(box.x), Taylor::constant(box.y), Taylor::constant(box.t)).c[0];
+  };
+  datum.along = [enclosed] { return enclosed; };
 }
 
 }  // namespace mortier

@@ -1,5 +1,5 @@
 // What the text of an expression in x, y and t says about it without trying it at points: its degree in x
-// and y, and by interval arithmetic (Moore, Interval Analysis, 1966) an enclosure of its values.
+// and y, and enclosures of it and its derivatives (base/taylor.h).
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace mortier {
 
-/// Fills in the degree and the enclosure of a datum of that text; nothing where it is not a formula.
+/// Fills in the degree and the enclosures of a datum of that text; nothing where it is not a formula.
 void describe(const std::string& text, Datum& datum);
 
 }  // namespace mortier

@@ -39,7 +39,7 @@ struct LinearStress {
   std::vector<Eigen::Matrix3d> compliances;
   std::vector<Stress> means;
   std::vector<CompositeTriangle> elements;
-  std::vector<Point> forces;
+  std::vector<BodyLoad> forces;
   std::vector<KnownTraction> known;
   SideMoments moments;
   double best = 0;  ///< energy of the exact stress less its means
@@ -59,7 +59,7 @@ struct LinearStress {
       }
     }
     compliances.assign(means.size(), S);
-    forces.assign(means.size(), Point(0, 0));
+    forces.assign(means.size(), BodyLoad::Zero());
     known.resize(sides.count());
     for (int e = 0; e < sides.count(); ++e) {
       const Side& side = sides.all()[e];

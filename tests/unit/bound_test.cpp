@@ -62,7 +62,7 @@ TEST(CompositeTriangle, hasTheStressOfItsEnergyAndItsLoad) {
   std::mt19937 random(11);
   const Eigen::Matrix3d S = compliance(2, 0.3);
   const CompositeTriangle element(corners, S);
-  const Point f(0.4, -0.9);
+  const BodyLoad f(0.4, -0.9, 0.3);
   const Moments m = balanced(random, corners);
   const std::array<Stress, 9> values = element.stressOf(m, f);
   double energy = 0;
@@ -75,7 +75,7 @@ TEST(CompositeTriangle, hasTheStressOfItsEnergyAndItsLoad) {
   const double expected =
       m.dot(element.energy() * m) + 2 * m.dot(element.loadProduct(f)) + element.loadEnergy(f);
   EXPECT_NEAR(energy, expected, 1e-12 * expected);
-  for (const Stress& value : element.stressOf(element.momentsOf({0.7, -1.1, 0.4}), {0, 0}))
+  for (const Stress& value : element.stressOf(element.momentsOf({0.7, -1.1, 0.4}), BodyLoad::Zero()))
     EXPECT_LE((value - Stress(0.7, -1.1, 0.4)).norm(), 1e-13);
 }
 
@@ -86,11 +86,11 @@ TEST(CompositeTriangle, hasTheSameEnergyByAiryFunctionsInLanes) {
   std::vector<CompositeTriangle> elements;
   std::vector<std::array<Point, 3>> places;
   std::vector<Moments> moments;
-  const Point f(0.4, -0.9);
+  const BodyLoad f(0.4, -0.9, 0.3);
   std::array<Lanes, 6> x;
   std::array<Lanes, 6> S;
   std::array<Lanes, 3> constant;
-  std::array<Lanes, 2> force;
+  std::array<Lanes, 3> force;
   CompositeLanes::Twelve m;
   for (int lane = 0; lane < laneCount; ++lane) {
     std::array<Point, 3> at = corners;
@@ -104,7 +104,7 @@ TEST(CompositeTriangle, hasTheSameEnergyByAiryFunctionsInLanes) {
     const std::array<double, 6> components{C(0, 0), C(1, 1), C(2, 2), C(0, 1), C(0, 2), C(1, 2)};
     for (int i = 0; i < 6; ++i) S[i][lane] = components[i];
     for (int i = 0; i < 3; ++i) constant[i][lane] = 1 + i - 0.3 * lane;
-    for (int i = 0; i < 2; ++i) force[i][lane] = lane < 6 ? f[i] : 0;
+    for (int i = 0; i < 3; ++i) force[i][lane] = lane < 6 ? f[i] : 0;
   }
   const CompositeLanes lanes(x, S);
   const CompositeLanes::Twelve modes = lanes.airyOf(m);
@@ -167,14 +167,14 @@ TEST(CompositeTriangle, hasLinearStressesWithoutDivergence) {
 }
 
 TEST(CompositeTriangle, knowsTheStressOfABodyForce) {
-  const Point f(0.3, -2);
+  const BodyLoad f(0.3, -2, 0);
   const Eigen::Matrix3d S = compliance(1, 0.2);
   const CompositeTriangle element(corners, S);
   // Its forces balance f, and its energy is that of the stress without shear.
   const Moments m = element.momentsOfLoad(f);
   Point sum(0, 0);
   for (int i = 0; i < 6; ++i) sum += m.segment<2>(2 * i);
-  EXPECT_LE((sum + areaOf(corners) * f).norm(), 1e-14);
+  EXPECT_LE((sum + areaOf(corners) * f.head<2>()).norm(), 1e-14);
   const Point centre = (corners[0] + corners[1] + corners[2]) / 3;
   double energy = 0;
   double product = 0;
@@ -187,6 +187,47 @@ TEST(CompositeTriangle, knowsTheStressOfABodyForce) {
   }
   EXPECT_NEAR(element.loadEnergy(f), energy, 1e-13 * energy);
   EXPECT_NEAR(element.loadProduct(f).dot(element.momentsOf(constant)), product, 1e-14);
+}
+
+TEST(CompositeTriangle, carriesCouples) {
+  const CompositeTriangle element(corners, compliance(1, 0.2));
+  const BodyLoad f(0, 0, 0.7);
+  const Moments m = element.momentsOfLoad(f);
+  const Eigen::Matrix<double, 2, 3> forces = element.nodalForces(f);
+  const Eigen::Matrix<double, 2, 3> linear = 0.7 * element.turningForce();
+  const Point centre = (corners[0] + corners[1] + corners[2]) / 3;
+  Point sum(0, 0);
+  std::array<double, 3> couples{};  // of the tractions, of the constant forces, of the linear one
+  const auto couple = [&](const Point& at, const Point& b) {
+    return (at - centre).x() * b.y() - (at - centre).y() * b.x();
+  };
+  for (int k = 0; k < 3; ++k) {
+    for (int end = 0; end < 2; ++end) {
+      sum += m.segment<2>(4 * k + 2 * end);
+      couples[0] += couple(corners[(k + end) % 3], m.segment<2>(4 * k + 2 * end));
+    }
+    couples[1] += couple(corners[k], forces.col(k));
+    couples[2] += couple(corners[k], areaOf(corners) / 12 * linear.col(k));
+  }
+  EXPECT_LE(sum.norm(), 1e-14);
+  EXPECT_LE(forces.rowwise().sum().norm(), 1e-14);
+  EXPECT_NEAR(couples[0], -0.7, 1e-14);
+  EXPECT_NEAR(couples[1], 0.7, 1e-14);
+  EXPECT_NEAR(couples[2], 0.7, 1e-14);
+  // The stress of the rest works on a linear displacement as the rest does.
+  const auto work = [&](const Eigen::Matrix<double, 2, 3>& v) {
+    double rest = -forces.cwiseProduct(v).sum();
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) rest += areaOf(corners) / (i == j ? 6 : 12) * linear.col(i).dot(v.col(j));
+    return rest;
+  };
+  const Stress mean = 0.7 * element.restMean();
+  Eigen::Matrix<double, 2, 3> v;
+  for (int k = 0; k < 3; ++k)
+    v.col(k) = Point(0.3 * corners[k].x() - 0.2 * corners[k].y(), 0.5 * corners[k].y());
+  EXPECT_NEAR(work(v), 0.3 * mean[0] + 0.5 * mean[1] - 0.2 * mean[2], 1e-14);
+  EXPECT_GT(element.restNorm(), 0);
+  EXPECT_LT(element.restNorm(), std::sqrt(element.loadEnergy({0, 0, 1})));
 }
 
 // ---- meshes

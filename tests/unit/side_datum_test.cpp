@@ -58,7 +58,8 @@ TEST(SideDatum, seesPeaksAndJumps) {
 
 TEST(TriangleDatum, projectsAndBoundsTheRest) {
   const std::array<Point, 3> x{Point(0, 0), Point(1, 0), Point(0, 1)};
-  const DataOnTriangles data({formula("1 + 2*x - y"), formula("x^2"), formula("x < 0.25 ? 1 : 0")}, 0, 1);
+  const DataOnTriangles data(
+      {formula("1 + 2*x - y"), formula("x^2"), formula("x < 0.25 ? 1 : 0"), formula("exp(2*x)")}, 0, 1);
   const TriangleDatum linear = data.on(0, x);
   EXPECT_EQ(linear.rest, 0);
   EXPECT_NEAR(linear.linear[1], 3, 1e-13);
@@ -70,6 +71,27 @@ TEST(TriangleDatum, projectsAndBoundsTheRest) {
   EXPECT_GE(square.rest, rest * (1 - 1e-12));
   EXPECT_LE(square.rest, 1.3 * rest);
   EXPECT_GE(data.on(2, x).distanceTo(1), std::sqrt(0.5625) * (1 - 1e-9));
+  // The square of x^2 - 1/9 has the mean 1/15 - 2/54 + 1/81.
+  const double distance = std::sqrt(1. / 15 - 1. / 27 + 1. / 81);
+  EXPECT_GE(square.distanceTo(1. / 9), distance * (1 - 1e-12));
+  EXPECT_LE(square.distanceTo(1. / 9), 1.05 * distance);
+}
+
+TEST(TriangleDatum, boundsTheErrorOfItsIntegrals) {
+  const std::array<Point, 3> x{Point(0, 0), Point(1, 0), Point(0, 1)};
+  const auto missed = [&](const std::string& text, double mean) {
+    const TriangleDatum datum = DataOnTriangles({formula(text)}, 0, 1).on(0, x);
+    const auto& [a, b, c] = datum.linear;
+    EXPECT_LE(std::abs((a + b + c) / 3 - mean), datum.error + 1e-14) << text;
+    return datum.error;
+  };
+  EXPECT_LE(missed("1 + x^4 - x*y^3", 1 + 1. / 15 - 1. / 60), 1e-12);
+  const double exponential = missed("exp(2*x)", (std::exp(2) - 3) / 2);
+  EXPECT_GT(exponential, 0);
+  EXPECT_LE(exponential, 1e-6);
+  EXPECT_LE(missed("x < 0.3 ? 1 : 0", 1 - 0.49), 0.1);
+  // All points of the rule on the whole triangle miss it.
+  missed("exp(-((x - 0.2)^2 + (y - 0.2)^2)/1e-4)", 2 * std::numbers::pi * 1e-4);
 }
 
 }  // namespace

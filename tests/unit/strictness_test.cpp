@@ -17,7 +17,7 @@ constexpr double little = 1e-6;  // of the largest, far above rounding
 struct Stressed {
   TriangleMesh mesh = square(0, 2);
   Sides sides{mesh};
-  std::vector<Point> forces = std::vector<Point>(mesh.triangles.size(), Point(0, 0));
+  std::vector<BodyLoad> forces = std::vector<BodyLoad>(mesh.triangles.size(), BodyLoad::Zero());
   std::vector<KnownTraction> known = std::vector<KnownTraction>(sides.count());
   SideMoments moments;
   Stressed() {
