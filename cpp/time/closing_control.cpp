@@ -27,7 +27,8 @@ double Controller::halve(StepTaker& taker, const StepTaker::Kept& start, const S
   const State& reached = end.first;
   taker.goBack(start);
   for (const double t1 : {start.first.time + (reached.time - start.first.time) / 2, reached.time}) {
-    const StepOutcome outcome = taker.attempt(t1);
+    StepOutcome outcome = taker.attempt(t1);
+    if (outcome.converged() && taker.turned()) outcome = taker.guard(outcome);
     report.iterations += outcome.iterations;
     report.factorisations += outcome.factorisations;
     if (!outcome.converged()) {

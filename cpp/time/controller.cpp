@@ -315,8 +315,8 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     const bool begins =
         state.time == memory_.begin || std::binary_search(stops_.begin(), stops_.end(), state.time);
     const bool closes = outcome.rung != Rung::rest && taker.closes();
-    const bool looksOn =
-        (closes || (begins && !rough_ && outcome.rung != Rung::rest)) && flows_ && !isShortest(state.time, k);
+    const bool looksOn = (closes || taker.guarded() || (begins && !rough_ && outcome.rung != Rung::rest)) &&
+                         flows_ && !isShortest(state.time, k);
     if (step.beginsPair || looksOn) kept = taker.kept();
     if (outcome.rung != Rung::rest)
       add(taker, std::move(step.judgement.local), judgement.size,
@@ -330,7 +330,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     if (looksOn) {
       second_.reset();
       double off = halve(taker, *kept, state, report);
-      if (off <= own.local && closes) off = std::max(off, lateness(taker, t1, k, report));
+      if (off <= own.local && closes) off += lateness(taker, t1, k, report);
       if (off > own.local) {
         taker.goBack(std::move(*kept));
         own.pairEnd = 0;
