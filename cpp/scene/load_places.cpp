@@ -52,10 +52,8 @@ class Search {
         times.push_back(t);
         known_ = {std::min(known_.least, value), std::max(known_.largest, value)};
       }
-      for (Cell half : halves(cell, extent)) {
-        half.beyond = beyond(half);
+      for (const Cell& half : halves(cell, extent))
         if (matters(half.beyond)) cells.push(half);
-      }
     }
   }
 
@@ -69,18 +67,35 @@ class Search {
     const double result = std::max(enclosed.largest - known_.largest, known_.least - enclosed.least);
     return std::isfinite(result) ? result : 0;
   }
+  /// Along what shows most of what is not beyond; where all directions show the same along the longest.
   [[nodiscard]] std::array<Cell, 2> halves(const Cell& cell, double extent) const {
-    std::array<Cell, 2> result{cell, cell};
-    const Point along = cell.to - cell.from;
-    if ((cell.time.largest - cell.time.least) * extent >= end_ * along.norm()) {
-      result[0].time.largest = result[1].time.least = (cell.time.least + cell.time.largest) / 2;
-    } else if (!cell.rectangle) {
-      result[0].to = result[1].from = cell.middle();
-    } else {
-      const int c = std::abs(along.x()) > std::abs(along.y()) ? 0 : 1;
-      result[0].to[c] = result[1].from[c] = cell.middle()[c];
+    const Point along = (cell.to - cell.from).cwiseAbs() * end_;
+    const double inTime = (cell.time.largest - cell.time.least) * extent;
+    std::array<Cell, 2> best;
+    double least = INFINITY;
+    double longest = 0;
+    const auto consider = [&](std::array<Cell, 2> parts, double length) {
+      for (Cell& part : parts) part.beyond = std::max(0.0, beyond(part));
+      const double left = parts[0].beyond + parts[1].beyond;
+      if (left > least || (left == least && length <= longest)) return;
+      best = parts;
+      least = left;
+      longest = length;
+    };
+    std::array<Cell, 2> parts{cell, cell};
+    parts[0].time.largest = parts[1].time.least = (cell.time.least + cell.time.largest) / 2;
+    consider(parts, inTime);
+    if (!cell.rectangle) {
+      parts = {cell, cell};
+      parts[0].to = parts[1].from = cell.middle();
+      consider(parts, along.norm());
     }
-    return result;
+    for (int c = 0; cell.rectangle && c < 2; ++c) {
+      parts = {cell, cell};
+      parts[0].to[c] = parts[1].from[c] = cell.middle()[c];
+      consider(parts, along[c]);
+    }
+    return best;
   }
 
   const Datum& datum_;

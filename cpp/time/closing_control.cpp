@@ -19,28 +19,30 @@ double Controller::lateness(StepTaker& taker, double t, double k, StepReport& re
   return relative(measure_.sizeOf(taker.lagAtStart()), memory_.controller.scale);
 }
 
-/// By how much two half steps from where the step began end elsewhere, relative. Where contact closes within
-/// a step, and perhaps opens again, stages see little of it. Leaves the state as it is.
-double Controller::offHalfSteps(StepTaker& taker, const StepTaker::Kept& start, const State& state,
-                                StepReport& report) {
+/// Repeats the step that ended in the state as two half steps, and keeps these. \returns by how much they end
+/// elsewhere, relative; nothing where they cannot be solved
+double Controller::halve(StepTaker& taker, const StepTaker::Kept& start, const State& state,
+                         StepReport& report) {
   StepTaker::Kept end = taker.kept();
   const State& reached = end.first;
   taker.goBack(start);
-  bool solved = true;
   for (const double t1 : {start.first.time + (reached.time - start.first.time) / 2, reached.time}) {
-    const StepOutcome outcome = solved ? taker.attempt(t1) : StepOutcome{};
+    StepOutcome outcome = taker.attempt(t1);
+    if (outcome.converged() && taker.turned()) outcome = taker.guard(outcome);
     report.iterations += outcome.iterations;
     report.factorisations += outcome.factorisations;
-    solved = solved && outcome.converged();
-    if (solved) taker.commit();
+    if (!outcome.converged()) {
+      taker.goBack(std::move(end));
+      return 0;
+    }
+    taker.commit();
   }
   std::vector<Response> off;
   for (size_t b = 0; b < state.bodies.size(); ++b)
     off.push_back({state.bodies[b].displacement - reached.bodies[b].displacement,
                    state.bodies[b].stress - reached.bodies[b].stress});
-  const double size = solved ? relative(measure_.sizeOf(off), memory_.controller.scale) : 0;
-  taker.goBack(std::move(end));
-  return size;
+  memory_.controller = std::move(end.second.controller);
+  return relative(measure_.sizeOf(off), memory_.controller.scale);
 }
 
 }  // namespace mortier

@@ -311,8 +311,12 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
       continue;
     }
     std::optional<StepTaker::Kept> kept;
-    const bool looksOn =
-        !rough_ && outcome.rung != Rung::rest && !isShortest(state.time, k) && flows_ && taker.closes();
+    // What passes within a step that begins where the data turn its stages do not see either.
+    const bool begins =
+        state.time == memory_.begin || std::binary_search(stops_.begin(), stops_.end(), state.time);
+    const bool closes = outcome.rung != Rung::rest && taker.closes();
+    const bool looksOn = (closes || taker.guarded() || (begins && !rough_ && outcome.rung != Rung::rest)) &&
+                         flows_ && !isShortest(state.time, k);
     if (step.beginsPair || looksOn) kept = taker.kept();
     if (outcome.rung != Rung::rest)
       add(taker, std::move(step.judgement.local), judgement.size,
@@ -324,14 +328,18 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
       continue;
     }
     if (looksOn) {
-      double off = offHalfSteps(taker, *kept, state, report);
-      if (off <= own.local) off = std::max(off, lateness(taker, t1, k, report));
+      second_.reset();
+      double off = halve(taker, *kept, state, report);
+      if (off <= own.local && closes) off += lateness(taker, t1, k, report);
       if (off > own.local) {
         taker.goBack(std::move(*kept));
+        own.pairEnd = 0;
+        own.missed = {};
         factor = std::clamp(safety * own.local / off, leastFactor, safety);
         reject();
         continue;
       }
+      own.worst = larger(own.worst, {own.error.stress + off * own.scale.stress, 0, 0});
     }
     // A step that was only shortened to end on a stop tells nothing against a longer one.
     const bool shortened = k < own.timeStep && factor >= 1;

@@ -77,7 +77,7 @@ class Controller {
   bool completePair(StepTaker& taker, const Attempt& first, double end, StepReport& report, double& factor);
   [[nodiscard]] bool inPair(double t) const { return memory_.controller.pairEnd > t; }
   [[nodiscard]] double lateness(StepTaker& taker, double t, double k, StepReport& report) const;
-  double offHalfSteps(StepTaker& taker, const StepTaker::Kept& start, const State& state, StepReport& report);
+  double halve(StepTaker& taker, const StepTaker::Kept& start, const State& state, StepReport& report);
   [[nodiscard]] bool turnsTooFar(const StepTaker& taker) const;
   /// What that is of what is computed, relative.
   [[nodiscard]] double sizeOf(StepTaker& taker, const SlipAndWork& missed) const;

@@ -112,7 +112,9 @@ void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& p
           controller.advance(taker, state, report);
           run.timeError = controller.worst();
         } else {
-          report.time = memory.begin + (plan.end - memory.begin) * report.step / plan.steps;
+          report.time = report.step == plan.steps
+                            ? plan.end
+                            : memory.begin + (plan.end - memory.begin) * report.step / plan.steps;
           report.timeStep = report.time - state.time;
           advance(taker, state, report.time, report);
         }

@@ -10,8 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "material/anisotropy.h"
 #include "material/norton.h"
 #include "material/overstress.h"
+#include "material/own_material.h"
+#include "material/rate_law.h"
 #include "material/viscoelastic.h"
 #include "theory/scenes.h"
 #include "time/breaks.h"
@@ -25,7 +28,9 @@ enum class Drive { traction, support, distance, temperature };
 constexpr const char* drives[] = {"traction", "support", "distance", "temperature"};
 constexpr const char* shapes[] = {"ramp",  "cubic",  "hold", "waves", "chirp",   "spike",
                                   "table", "reload", "jump", "kinks", "constant"};
-constexpr const char* laws[] = {"perzyna", "hardening", "norton", "solid"};
+constexpr const char* laws[] = {"perzyna", "hardening", "norton",      "solid",      "Maxwell",
+                                "power",   "own",       "own, strain", "orthotropic"};
+constexpr const char* places[] = {"", " on half", " in waves", " times x t", " that moves"};
 
 /// A datum f(t) on [0, 1], of size 1.
 struct Shape {
@@ -104,32 +109,79 @@ struct Case {
   double tolerance = 1e-3;
   Shape shape;
   double size = 1, stiffness = 100, viscosity = 1;
-  int place = 0;  ///< where a traction acts: everywhere, on half of the edge, in waves
+  int place = 0;   ///< of `places`
+  int degree = 1;  ///< of both bodies
+  Plane plane = Plane::stress;
   CouplingKind coupling = CouplingKind::mortar;
   Model model = {};
   TimePlan plan = {};
 };
 
+/// The sinh of the stress less what hardens with the strain.
+template <bool strain>
+struct OwnRate {
+  static constexpr bool ofStrain = strain;
+  double rate = 0, spring = 0;
+  template <class Number>
+  Components<Number> rateOf(const Components<Number>& s, const Components<Number>& e) const {
+    using std::sinh;
+    const Number mean = (s.c11 + s.c22 + s.c33) / 3.0;
+    const auto flow = [&](const Number& deviator, const Number& total) {
+      if constexpr (strain)
+        return Number(rate * sinh(deviator - spring * total));
+      else
+        return Number(rate * sinh(deviator));
+    };
+    return {flow(s.c11 - mean, e.c11), flow(s.c22 - mean, e.c22), flow(s.c12, e.c12),
+            Number(rate * sinh(s.c33 - mean))};
+  }
+};
+
 inline std::shared_ptr<const Material> materialOf(const Case& of, Random& random) {
   const Elasticity elasticity{of.stiffness, 0.3};
+  const auto own = [&](std::shared_ptr<const RateLaw> law) {
+    OwnLaw it;
+    it.name = it.where = "own";
+    it.law = std::move(law);
+    return ownMaterial(elasticity, it, Plane::stress);
+  };
   switch (of.law) {
-    case 1: {
-      Overstress law{.yieldStress = 1, .kinematicHardening = of.stiffness * random.power(1e-3, 0.3)};
-      if (random.below(2) == 0) std::swap(law.kinematicHardening, law.isotropicHardening);
+    case 1:
+    case 5: {
+      Overstress law{.yieldStress = 1};
       law.setViscosity(of.viscosity);
-      return overstressMaterial(elasticity, law, Plane::stress);
+      if (of.law == 5) {
+        law.exponent = random.in(1.5, 4);
+      } else {
+        law.kinematicHardening = of.stiffness * random.power(1e-3, 0.3);
+        if (random.below(2) == 0) std::swap(law.kinematicHardening, law.isotropicHardening);
+      }
+      return overstressMaterial(elasticity, law, of.plane);
     }
     case 2:
-      return nortonMaterial(elasticity, {1, 1 / (3 * of.viscosity), std::floor(random.in(1, 5))},
-                            Plane::stress);
-    case 3: {
+      return nortonMaterial(elasticity, {1, 1 / (3 * of.viscosity), std::floor(random.in(1, 5))}, of.plane);
+    case 3:
+    case 4: {
       Viscoelasticity law;
       law.relaxationTime = 3 * of.viscosity / of.stiffness;
-      law.relaxedFraction = random.in(0, 0.8);
-      return viscoelasticMaterial(elasticity, law, Plane::stress);
+      law.relaxedFraction = of.law == 3 ? random.in(0.05, 0.8) : 0;
+      return viscoelasticMaterial(elasticity, law, of.plane);
     }
-    default:
-      return perzynaMaterial(elasticity, {of.viscosity, 1, Projection::frobenius});
+    case 6:
+      return own(rateLaw(OwnRate<false>{1 / (3 * of.viscosity)}));
+    case 7:
+      return own(rateLaw(OwnRate<true>{1 / (3 * of.viscosity), of.stiffness * random.in(0.01, 0.3)}));
+    case 8: {
+      const double across = of.stiffness * random.in(0.3, 1);
+      return anisotropicMaterial(
+          anisotropyOf({{of.stiffness, across, across}, {0.3, 0.2, 0.2}, 0.35 * of.stiffness}, of.plane),
+          Viscoplasticity{of.viscosity, 1, Projection::frobenius}, of.plane);
+    }
+    default: {
+      const Viscoplasticity law{of.viscosity, 1, Projection::frobenius};
+      return of.plane == Plane::stress ? perzynaMaterial(elasticity, law)
+                                       : planeStrainPerzynaMaterial(elasticity, law);
+    }
   }
 }
 
@@ -147,72 +199,65 @@ inline Case randomCase(unsigned seed) {
   of.coupling = couplings[random.below(2)];
   of.stiffness = random.power(10, 1e5);
   of.viscosity = random.power(0.1, 10);
-  of.place = of.drive == Drive::traction ? random.below(4) : 0;
+  const bool own = of.law == 6 || of.law == 7;
+  of.plane = !own && random.below(2) == 0 ? Plane::strain : Plane::stress;
+  of.place = random.below(static_cast<int>(std::size(places)));
+  of.degree = 1 + (random.below(4) == 0 ? 1 : 0);
   const auto material = materialOf(of, random);
   const double across = random.in(-0.5, 0.5);
   // Stresses of about the yield stress up to some times that, whatever drives.
   const double stress = random.power(0.8, 6);
-  // What flows at that rate of strain has that overstress; less than that is elastic.
-  const double strain = std::max(stress / of.stiffness, stress / (3 * of.viscosity));
-  const auto f = of.shape.value;
+  // What flows at that rate of strain has that overstress; less than that is elastic. sinh grows too fast
+  // for more.
+  const double strain = stress * std::max(1 / of.stiffness, own ? 0 : 1 / (3 * of.viscosity));
+  of.size = of.drive == Drive::traction ? stress : of.drive == Drive::temperature ? strain : 2 * strain;
+  const auto datum = [f = of.shape.value, size = of.size, place = of.place, across,
+                      pressed = of.drive == Drive::traction](double x, double, double t) {
+    const double where = place == 1   ? (x < 0.5 ? 1.0 : 0.2)
+                         : place == 2 ? 1 + 0.8 * std::cos(40 * std::numbers::pi * x)
+                         : place == 3 ? 0.3 + x * t
+                         : place == 4 ? 0.2 + std::exp(-std::pow((x - t) / 0.2, 2))
+                                      : 1 + across * x;
+    return -size * where * (pressed ? 0.05 + std::max(0.0, f(t)) : f(t));
+  };
   Conditions upper{{{left, 0, constant(0)}}, {}, {}};
   InterfaceOptions options;
   if (of.rough) options.friction.coefficient = random.in(0.1, 0.6);
-  std::function<double(double)> datum;
-  switch (of.drive) {
-    case Drive::traction: {
-      of.size = stress;
-      const int place = of.place;
-      const double size = of.size;
-      upper.tractions.push_back({top, 1, [=](double x, double, double t) {
-                                   const double where = place == 1 ? (x < 0.5 ? 1.0 : 0.2)
-                                                        : place == 2
-                                                            ? 1 + 0.8 * std::cos(40 * std::numbers::pi * x)
-                                                        : place == 3 ? 0.3 + x * t
-                                                                     : 1.0;
-                                   return -size * where * (0.05 + std::max(0.0, f(t)));
-                                 }});
-      datum = [=](double t) { return -size * (place == 3 ? 0.3 + t : 1.0) * (0.05 + std::max(0.0, f(t))); };
-      break;
-    }
-    case Drive::support: {
-      const double size = 2 * strain;
-      upper.displacements.push_back(
-          {top, 1, [=](double x, double, double t) { return -size * (1 + across * x) * f(t); }});
-      datum = [=](double t) { return -size * f(t); };
-      break;
-    }
-    case Drive::distance: {
-      const double size = 2 * strain;
-      upper.displacements.push_back({top, 1, constant(0)});
-      options.gapInTime = [=](const Point& x, double t) { return -size * (1 + across * x.x()) * f(t); };
-      options.gap = [g = options.gapInTime](const Point& x) { return g(x, 0); };
-      datum = [=](double t) { return size * f(t); };
-      break;
-    }
-    case Drive::temperature: {
-      const double size = strain;
-      upper.displacements.push_back({top, 1, constant(0)});
-      upper.temperature = [=](double x, double, double t) { return size * (1 + across * x) * f(t); };
-      datum = [=](double t) { return size * f(t); };
-      break;
-    }
+  if (of.drive == Drive::traction)
+    upper.tractions.push_back({top, 1, datum});
+  else
+    upper.displacements.push_back({top, 1, of.drive == Drive::support ? Function(datum) : constant(0)});
+  if (of.drive == Drive::distance) {
+    options.gapInTime = [=](const Point& x, double t) { return datum(x.x(), x.y(), t); };
+    options.gap = [=](const Point& x) { return datum(x.x(), x.y(), 0); };
   }
+  if (of.drive == Drive::temperature)
+    upper.temperature = [=](double x, double y, double t) { return -datum(x, y, t); };
   const TriangleMesh above = square(0, of.coupling == CouplingKind::mortar ? 1 : 2);
   if (upper.temperature) {
-    const auto points = static_cast<Eigen::Index>(above.triangles.size());
-    upper.expansion = Matrix::Zero(3, points);
+    const auto points = static_cast<Eigen::Index>(above.triangles.size()) * (of.degree == 1 ? 1 : 3);
+    upper.expansion = Matrix::Zero(material->components(), points);
     upper.expansion.row(0).setConstant(std::numbers::sqrt2);  // of e11 = e22 = 1 per kelvin
+    if (of.plane == Plane::strain) upper.expansion.row(3).setConstant(1);
   }
-  Body first("upper", above, material, upper);
+  Body first("upper", above, material, upper, of.degree);
   Body second("lower", square(-1, of.coupling == CouplingKind::mortar ? 2 : 3), material,
-              {{{left, 0, constant(0)}, {bottom, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}});
+              {{{left, 0, constant(0)}, {bottom, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}},
+              of.degree);
   of.model = contactModel(std::move(first), std::move(second), of.coupling, upperBody, options);
   of.plan = {.end = 1, .steps = 0, .scheme = of.scheme, .tolerance = of.tolerance, .maxSteps = 30000};
-  of.plan.data = {of.shape.table.empty() ? resolve(datum, 0, 1, 100000)
-                                         : tableCourse(datum, of.shape.table, 0, 1)};
-  of.plan.breaks = of.plan.data[0].breaks;
-  of.name = std::string(drives[seed % 4]) + ", " + shapes[kind] + ", " + laws[of.law] +
+  // Places whose courses are independent (scene/load_places.h).
+  for (int i = 0; i <= (of.place < 3 ? 0 : of.place == 3 ? 1 : 8); ++i) {
+    const auto at = [=, x = of.place == 3 ? i : i / 8.0](double t) { return datum(x, 0, t); };
+    of.plan.data.push_back(of.shape.table.empty() ? resolve(at, 0, 1, 100000)
+                                                  : tableCourse(at, of.shape.table, 0, 1));
+    std::vector<double>& breaks = of.plan.breaks;
+    breaks.insert(breaks.end(), of.plan.data.back().breaks.begin(), of.plan.data.back().breaks.end());
+  }
+  std::sort(of.plan.breaks.begin(), of.plan.breaks.end());
+  of.plan.breaks.erase(std::unique(of.plan.breaks.begin(), of.plan.breaks.end()), of.plan.breaks.end());
+  of.name = std::string(drives[seed % 4]) + places[of.place] + ", " + shapes[kind] + ", " + laws[of.law] +
+            (of.plane == Plane::strain ? ", strain" : "") + (of.degree == 2 ? ", degree 2" : "") +
             (of.rough ? ", rough" : "") + (of.scheme == Scheme::sdirk2 ? ", sdirk2" : ", Euler") + ", " +
             nameOf(of.coupling) + ", E " + std::to_string(of.stiffness) + ", viscosity " +
             std::to_string(of.viscosity);

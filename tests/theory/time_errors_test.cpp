@@ -37,7 +37,8 @@ Case blocks(std::shared_ptr<const Material> material, bool moved, const std::fun
   return of;
 }
 
-void expectAccurate(const Case& of, const std::string& name, int fine = 4000) {
+/// \param seen  part of the error that the estimate is at least
+void expectAccurate(const Case& of, const std::string& name, int fine = 4000, double seen = 0.5) {
   const Outcome outcome = outcomeOf(of, fine, of.plan);
   const double error = std::max(outcome.stress, outcome.displacement);
   print(name, outcome.run);
@@ -46,7 +47,7 @@ void expectAccurate(const Case& of, const std::string& name, int fine = 4000) {
   EXPECT_EQ(outcome.run.status, Status::converged) << outcome.run.reason;
   EXPECT_EQ(outcome.run.shortfall, "");
   EXPECT_LE(error, allowed) << name;
-  EXPECT_GE(outcome.run.timeError / of.tolerance, 0.5 * error) << name;
+  EXPECT_GE(outcome.run.timeError / of.tolerance, seen * error) << name;
 }
 
 // Stresses follow the rate of the motion within steps that are far longer than the relaxation.
@@ -55,10 +56,8 @@ TEST(TimeErrors, theStressOfMovedBodiesIsSeen) {
   for (const double young : {1e2, 1e4, 1e6}) {
     const auto material = perzynaMaterial({young, 0.3}, {10, 1, Projection::frobenius});
     expectAccurate(blocks(material, true, path, Scheme::sdirk2, 1e-3), "sdirk2, E " + std::to_string(young));
-    // Onto yield of harder bodies the first step of backward Euler is 2.1 tolerances off.
-    if (young < 1e5)
-      expectAccurate(blocks(material, true, path, Scheme::backwardEuler, 1e-2),
-                     "Euler, E " + std::to_string(young));
+    expectAccurate(blocks(material, true, path, Scheme::backwardEuler, 1e-2),
+                   "Euler, E " + std::to_string(young), 4000, young > 1e5 ? 0.45 : 0.5);
   }
 }
 

@@ -51,6 +51,10 @@ TEST(LoadPlaces, forcesOnAPartOfACellAreSeen) {
 
 TEST(LoadPlaces, peaksOfAnyLengthAreSeen) {
   EXPECT_GT(largest("exp(-((t-0.3717171)/1e-6)^2)"), 0.9);
+  EXPECT_GT(largest("20*(x<0.1)*(0.05+exp(-((t-0.37)/1e-6)^2))"), 19);
+  EXPECT_GT(largest("(1+x)*exp(-((t-0.37)/1e-6)^2)"), 1.8);
+  EXPECT_GT(largest("exp(-((t-0.3-x/5)/1e-5)^2)"), 0.9);
+  EXPECT_GT(largest("(x>0.52)*(x<0.56)*(y<0.03)*exp(-((t-0.3717171)/1e-6)^2)", nullptr), 0.9);
   EXPECT_GT(largest("t+(x<0.1)*(t>0.6123)*(t<0.61231)*7"), 6);
   EXPECT_TRUE(placesOf("sin(20*t)*(1+x)").times.empty());
 }
@@ -65,7 +69,7 @@ TEST_F(LoadCoursesOfParts, seePeaksInsideAnEdge) {
 name = "upper"
 mesh = { shape = "rectangle", cells = [3, 3], lower = [0, 0], upper = [1, 1] }
 material = { young = 1, poisson = 0.3 }
-boundary = [{ label = 3, ty = "-0.1*t-exp(-((t-0.7654321)/1e-3)^2)*(abs(x-0.1)<0.05)" }]
+boundary = [{ label = 3, ty = "-0.1*t-exp(-((t-0.7654321)/1e-6)^2)*(abs(x-0.1)<0.05)" }]
 [[body]]
 name = "lower"
 mesh = { shape = "rectangle", cells = [3, 3], lower = [0, -1], upper = [1, 0] }
