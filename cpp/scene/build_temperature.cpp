@@ -93,7 +93,6 @@ class NodalField {
   /// The value of the linear function of a triangle, and how far inside the point is (< 0: outside).
   [[nodiscard]] std::pair<double, double> at(int triangle, const Point& x) const {
     const auto& v = mesh.triangles[triangle];
-    const auto cross = [](const Point& u, const Point& w) { return u.x() * w.y() - u.y() * w.x(); };
     const double area = doubleArea(mesh, triangle);
     double value = 0;
     double inside = std::numeric_limits<double>::infinity();

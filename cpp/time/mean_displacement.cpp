@@ -37,7 +37,6 @@ Weights meanAt(const TriangleMesh& mesh, const Point& point) {
 
 Weights meanAt(const TriangleMesh& mesh, const ElementNodes& nodes, const Point& point) {
   constexpr double rounding = 1e-9;  // of a triangle: a point on the boundary is inside
-  const auto cross = [](const Point& u, const Point& v) { return u.x() * v.y() - u.y() * v.x(); };
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& corners = mesh.triangles[t];
     const double area = doubleArea(mesh, static_cast<int>(t));
