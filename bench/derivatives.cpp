@@ -50,7 +50,7 @@ void norton(const Number* s, Number* rate) {
 }
 
 struct Norton {
-  static constexpr bool ofStrain = false;
+  static constexpr bool needsTotalStrain = false;
   template <class Number>
   Components<Number> rateOf(const Components<Number>& s, const Components<Number>&) const {
     const Number in[] = {s.c11, s.c22, s.c12, s.c33};

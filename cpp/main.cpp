@@ -201,13 +201,13 @@ int dispatch(int argc, char** argv) {
   }
   if (*runApp) {
     if (runCommand.restart.empty() || !runCommand.settings.empty()) {
-      giveBackScene(runCommand.settings, runCommand.scene);
+      takeSceneFromSettings(runCommand.settings, runCommand.scene);
     }
     return run(runCommand);
   }
   if (*checkApp) {
     if (!checkCommand.list) {
-      giveBackScene(checkCommand.settings, checkCommand.scene);
+      takeSceneFromSettings(checkCommand.settings, checkCommand.scene);
     }
     return check(checkCommand);
   }
@@ -216,11 +216,11 @@ int dispatch(int argc, char** argv) {
     return exitDone;
   }
   if (*freefemApp) {
-    giveBackScene(freefemCommand.settings, freefemCommand.scene);
+    takeSceneFromSettings(freefemCommand.settings, freefemCommand.scene);
     return writeFreefem(freefemCommand);
   }
   if (*lawApp) {
-    giveBackScene(lawCommand.settings, lawCommand.scene);
+    takeSceneFromSettings(lawCommand.settings, lawCommand.scene);
     return tryLaws(lawCommand);
   }
   if (*studyApp) {
@@ -233,7 +233,7 @@ int dispatch(int argc, char** argv) {
     return report(reportCommand);
   }
   if (*compareApp) {
-    giveBackScene(compareCommand.settings, compareCommand.scene);
+    takeSceneFromSettings(compareCommand.settings, compareCommand.scene);
     return compare(compareCommand);
   }
   if (app.got_subcommand("mesh")) {

@@ -11,7 +11,7 @@
 namespace {
 
 struct SinhCreep {
-  static constexpr bool ofStrain = false;
+  static constexpr bool needsTotalStrain = false;
   double rate;    ///< [1/s]
   double stress;  ///< [Pa]
 

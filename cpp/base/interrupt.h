@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 constexpr Clock::rep never = Clock::time_point::max().time_since_epoch().count();
 inline std::atomic<bool> requested = false;
 inline std::atomic<Clock::rep> deadline = never;
-inline std::atomic<int> deafCalls = 0;
+inline std::atomic<int> uninterruptibleCalls = 0;
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
               "signal handlers use them");
 }  // namespace interruption
@@ -33,21 +33,21 @@ inline void requestInterrupt() {
 
 /// Marks a long call into a library that does not check the flag. No file is being written meanwhile and no
 /// step of a run is finished, so that a signal may end the process.
-struct DeafCall {
-  DeafCall() { ++interruption::deafCalls; }
-  ~DeafCall() { --interruption::deafCalls; }
-  DeafCall(const DeafCall&) = delete;
-  DeafCall& operator=(const DeafCall&) = delete;
+struct UninterruptibleCall {
+  UninterruptibleCall() { ++interruption::uninterruptibleCalls; }
+  ~UninterruptibleCall() { --interruption::uninterruptibleCalls; }
+  UninterruptibleCall(const UninterruptibleCall&) = delete;
+  UninterruptibleCall& operator=(const UninterruptibleCall&) = delete;
 };
 
-inline bool inDeafCall() {
-  return interruption::deafCalls > 0;
+inline bool inUninterruptibleCall() {
+  return interruption::uninterruptibleCalls > 0;
 }
 
 /// While it lives a signal waits for the end of such calls: a run is complete and wants to be kept.
 struct KeepsResult {
-  KeepsResult() { interruption::deafCalls -= many; }
-  ~KeepsResult() { interruption::deafCalls += many; }
+  KeepsResult() { interruption::uninterruptibleCalls -= many; }
+  ~KeepsResult() { interruption::uninterruptibleCalls += many; }
   KeepsResult(const KeepsResult&) = delete;
   KeepsResult& operator=(const KeepsResult&) = delete;
 

@@ -62,7 +62,7 @@ class Ranks {
   virtual bool answer() noexcept { return true; }
   /// To be called where what was whole for a moment (meshes before they are cut, states that were gathered)
   /// is gone: several processes on one machine need the memory.
-  virtual void giveBack() {}
+  virtual void releaseFreeMemory() {}
   /// Values that were sent and received so far [bytes].
   [[nodiscard]] virtual double traffic() const { return 0; }
   /// After end(), when what there was to tell is told: mpirun ends the others when one that failed is gone.
@@ -73,12 +73,12 @@ class Ranks {
 };
 
 /// The first rank goes on alone while it lives; the others wait for the end.
-class Alone {
+class FirstRankOnly {
  public:
-  Alone() : others_(Ranks::all()) { Ranks::use(one_); }
-  Alone(const Alone&) = delete;
-  Alone& operator=(const Alone&) = delete;
-  ~Alone() { Ranks::use(others_); }
+  FirstRankOnly() : others_(Ranks::all()) { Ranks::use(one_); }
+  FirstRankOnly(const FirstRankOnly&) = delete;
+  FirstRankOnly& operator=(const FirstRankOnly&) = delete;
+  ~FirstRankOnly() { Ranks::use(others_); }
 
  private:
   Ranks& others_;

@@ -18,7 +18,7 @@ namespace {
 constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();  // of a sum of a few terms
 
 /// How a piece of a contact line has been so far.
-enum Touch : char { anyhow, closed, open };
+enum Touch : char { unknown, closed, open };
 
 double largestOf(const Vector& v) {
   return v.size() == 0 ? 0 : v.cwiseAbs().maxCoeff();
@@ -140,7 +140,7 @@ double TotalBoundRecord::growthTo(const std::vector<Contact>& contact, int numbe
 
 void TotalBoundRecord::classify(const std::vector<Contact>& contact, int number,
                                 TotalBoundMemory& memory) const {
-  memory.contact.resize(contact.size(), anyhow);
+  memory.contact.resize(contact.size(), unknown);
   double largest = extent_;
   for (const RunFields& body : now_->bodies) largest = std::max(largest, largestOf(body.displacement));
   for (size_t i = 0; i < contact.size() && memory.moved.empty(); ++i) {
@@ -150,7 +150,7 @@ void TotalBoundRecord::classify(const std::vector<Contact>& contact, int number,
     if (presses && gapes) memory.moved = "a pressure and a gap overlap at an end of contact" + inStep(number);
     if (!presses && !gapes) continue;
     const char now = presses ? closed : open;
-    if (memory.contact[i] != anyhow && memory.contact[i] != now)
+    if (memory.contact[i] != unknown && memory.contact[i] != now)
       memory.moved = std::string("contact ") + (presses ? "closes" : "opens") + inStep(number);
     memory.contact[i] = now;
   }

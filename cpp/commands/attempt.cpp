@@ -98,7 +98,7 @@ void Attempt::share() {
     model = std::move(parts);
     error = std::make_unique<CurrentSpaceError>(*model);
   }
-  ranks.giveBack();
+  ranks.releaseFreeMemory();
 }
 
 int Attempt::unknowns() const {

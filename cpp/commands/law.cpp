@@ -73,12 +73,12 @@ void judge(const LawCheck& check, const Material& material, bool isotropic, cons
                     (turned ? " off when axes turn" : " off when axes turn: it is not isotropic") +
                     (isotropic ? "" : ", and not said to be"));
   const bool dissipates = check.dissipation >= makesEnergy;
-  verdicts.line("dissipation", dissipates || material.ofStrain(),
+  verdicts.line("dissipation", dissipates || material.needsTotalStrain(),
                 "s : G is at least " + digits(check.dissipation, 3) + " |s| |G|" +
-                    (dissipates            ? ""
-                     : material.ofStrain() ? ": it gives back what the strain has stored"
-                                           : ": it makes energy"));
-  const bool anyStep = check.monotone() && !material.ofStrain();
+                    (dissipates                    ? ""
+                     : material.needsTotalStrain() ? ": it gives back what the strain has stored"
+                                                   : ": it makes energy"));
+  const bool anyStep = check.monotone() && !material.needsTotalStrain();
   verdicts.line("monotone", true,
                 std::string(check.monotone() ? "yes" : "no") + ", least slope " + digits(check.monotony, 3) +
                     " of the largest");

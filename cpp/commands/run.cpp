@@ -28,7 +28,7 @@ namespace {
 /// The first Ctrl-C ends the run with a checkpoint of its last step; a second one kills, and so does the
 /// first where a library would not hear of it (before the first step).
 void onInterrupt(int signal) {
-  if (inDeafCall()) {
+  if (inUninterruptibleCall()) {
     constexpr char text[] = "mortier: interrupted before the first step; nothing was written\n";
     static_cast<void>(!write(STDERR_FILENO, text, sizeof text - 1));
     _exit(exitFailed);
@@ -82,7 +82,7 @@ int run(RunCommand command) {
   std::optional<Rounds> rounds = beginRounds(resolved);
   const AttemptOptions options{command.threads, ranks.shared()};
   auto attempt = std::make_unique<Attempt>(std::move(resolved), options);
-  std::optional<Alone> alone;
+  std::optional<FirstRankOnly> alone;
   if (!attempt->alone.empty()) {
     if (!ranks.first()) return exitDone;  // it waits for the first
     alone.emplace();
@@ -116,7 +116,7 @@ int run(RunCommand command) {
   Log log(command.quiet, endTime);
   Log rows(command.quiet || rounds, endTime);
   const MemoryNeed need = memoryNeed(*attempt->model, attempt->resolved.description.solver);
-  const std::string part = anyRough(*attempt->model) ? forFriction(need) : "";
+  const std::string part = anyFriction(*attempt->model) ? forFriction(need) : "";
   log.print("memory     " + aboutMemory(need.all) + (part.empty() ? "" : ", " + part) +
             (rounds ? ", first meshes\n" : "\n"));
   if (alone) log.print("ranks      the first one alone: " + attempt->alone + "\n");
@@ -140,7 +140,7 @@ int run(RunCommand command) {
                     {},
                     std::move(alsoObserve)};
     if (goesOn) solving.stopped = std::move(stopped->checkpoint);
-    solving.onlyTheStart = rounds.has_value();
+    solving.checkpointInitialStateOnly = rounds.has_value();
     solving.again = "; mortier run --restart " + path + (rounds ? " begins the rounds again" : " goes on");
     now.solved = solve(std::move(solving));
   };

@@ -6,7 +6,7 @@
 
 namespace mortier {
 
-void giveBackScene(std::vector<std::string>& settings, std::string& scene) {
+void takeSceneFromSettings(std::vector<std::string>& settings, std::string& scene) {
   const auto found = std::find_if(settings.begin(), settings.end(), [](const std::string& each) {
     return each.find('=') == std::string::npos;
   });

@@ -53,7 +53,7 @@ class WholeRun {
   void forget() {
     state_.reset();
     memory_.reset();
-    if (model_.inParts()) model_.ranks->giveBack();
+    if (model_.inParts()) model_.ranks->releaseFreeMemory();
   }
 
  private:
@@ -118,7 +118,8 @@ Solved solve(Solving solving) {
     if (total) total->look(state, report.step);  // what may be interrupted comes first
     const bool again = report.step == 0 && memory.controller.trial > 1;
     const bool kept = scene.every > 0 && report.step % scene.every == 0;
-    const bool mayBeSaved = !solving.onlyTheStart && report.step > 0 && state.time < scene.time.end;
+    const bool mayBeSaved =
+        !solving.checkpointInitialStateOnly && report.step > 0 && state.time < scene.time.end;
     // What the first rank asks of all of them.
     const auto asked = [&](bool own) { return inParts ? numberOfFirst(Ranks::all(), own ? 1 : 0) > 0 : own; };
     if (again) {
@@ -127,7 +128,7 @@ Solved solve(Solving solving) {
       last = report;
       accuracySoFar = {};
       const FilesSoFar written = files ? files->sync() : empty;
-      if (!solving.onlyTheStart) save(empty, state, memory);
+      if (!solving.checkpointInitialStateOnly) save(empty, state, memory);
       files.reset();
       removeFields(folder, written, empty);
       if (toFiles) files.emplace(folder, model, solving.error, scene.every, empty);
@@ -144,7 +145,7 @@ Solved solve(Solving solving) {
     }
     if (!again) {
       if (files && report.step == 0) empty = files->sync();
-      if (report.step == 0 && solving.onlyTheStart && facts.rounds.empty()) {
+      if (report.step == 0 && solving.checkpointInitialStateOnly && facts.rounds.empty()) {
         const FileRecord nothing{0, Checksum().value};  // whatever later rounds write
         save({nothing, nothing, {}}, state, memory);
       }
@@ -169,7 +170,7 @@ Solved solve(Solving solving) {
   const auto saveLast = [&] {
     log.finish();
     const bool begun = last.step > 0 || keptMemory.controller.trial > 1;
-    if (!begun || solving.onlyTheStart || (inParts && !Ranks::all().answer())) return;
+    if (!begun || solving.checkpointInitialStateOnly || (inParts && !Ranks::all().answer())) return;
     save(files ? files->sync() : empty, keptState, keptMemory);
   };
   try {

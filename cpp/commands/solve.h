@@ -51,7 +51,7 @@ struct Solving {
   std::string again;     ///< how a run that is interrupted goes on
   Observer alsoObserve;  ///< called with every state
   /// A run that is stopped begins anew: there is one checkpoint, of the initial state of the first round.
-  bool onlyTheStart = false;
+  bool checkpointInitialStateOnly = false;
 };
 
 struct Solved {

@@ -265,7 +265,7 @@ ContactInterface ContactInterface::renumbered(const std::array<std::vector<int>,
   for (auto& [node, place] : result.gapNodes_) node = nonmortar[node];
   columns(result.C1_, 2, nonmortar, count[0]);
   columns(result.C2_, 2, mortar, count[1]);
-  if (rough()) {
+  if (hasFriction()) {
     columns(result.T1_, 2, nonmortar, count[0]);
     columns(result.T2_, 2, mortar, count[1]);
   }

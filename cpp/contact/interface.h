@@ -113,7 +113,7 @@ class ContactInterface {
   [[nodiscard]] const Friction& friction() const { return friction_; }
   /// Whether there is friction. Then every row of C has one beside it for the slip T u, with the same
   /// weights, along n turned by +90 degrees: the direction of the nonmortar line, with its body to the left.
-  [[nodiscard]] bool rough() const { return friction_.any(); }
+  [[nodiscard]] bool hasFriction() const { return friction_.any(); }
   [[nodiscard]] const ConstraintRows& T1() const {
     return T1_;
   }  ///< on the nonmortar body; no rows if smooth

@@ -100,7 +100,7 @@ std::vector<int> fillReducingOrder(const SparsePattern& pattern, const std::vect
   std::vector<int> permutation;
   if (interior > 0) {
     Columns columns = permuted(pattern, position, interior, interior);
-    const DeafCall deaf;
+    const UninterruptibleCall deaf;
     if (aside && interior >= worthAProcess) permutation = orderAside(columns);
     if (permutation.empty()) {
       const std::lock_guard alone(metisInUse);
@@ -134,7 +134,7 @@ Elimination analyse(const SparsePattern& pattern, const std::vector<int>& kept, 
   common->nrelax[0] = 2;
   common->nrelax[1] = 8;
   common->nrelax[2] = 24;
-  const DeafCall deaf;
+  const UninterruptibleCall deaf;
   Columns columns = permuted(pattern, position, result.size, interior);
   cholmod_sparse A = lowerTriangle(columns.start, columns.rows);
   std::vector<int> identity(result.size);

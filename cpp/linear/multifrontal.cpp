@@ -298,8 +298,8 @@ std::unique_ptr<CondensingSolver> multifrontalSolver(const SparsePattern& patter
   return std::make_unique<Multifrontal>(pattern, kept, false);
 }
 
-std::unique_ptr<CondensingSolver> multifrontalSolverAmongOthers(const SparsePattern& pattern,
-                                                                const std::vector<int>& kept) {
+std::unique_ptr<CondensingSolver> multifrontalSolverOfOneBody(const SparsePattern& pattern,
+                                                              const std::vector<int>& kept) {
   dense::useOneThread();
   return std::make_unique<Multifrontal>(pattern, kept, true);
 }

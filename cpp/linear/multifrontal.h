@@ -6,7 +6,7 @@
 namespace mortier {
 
 /// As multifrontalSolver(); METIS orders each in a process of its own.
-std::unique_ptr<CondensingSolver> multifrontalSolverAmongOthers(const SparsePattern& pattern,
-                                                                const std::vector<int>& kept);
+std::unique_ptr<CondensingSolver> multifrontalSolverOfOneBody(const SparsePattern& pattern,
+                                                              const std::vector<int>& kept);
 
 }  // namespace mortier

@@ -22,7 +22,7 @@ class OfAnyElasticity {
  public:
   static constexpr int components = n;
   static constexpr bool linear = Law::linear;
-  static constexpr bool ofStrain = false;
+  static constexpr bool needsTotalStrain = false;
 
   /// \param law  with the isotropic elasticity of modulus `largest`, the largest eigenvalue of E
   OfAnyElasticity(Law law, const Matrix& E, double largest) : law_(std::move(law)) {

@@ -25,7 +25,7 @@ class ElasticLaw {
  public:
   static constexpr int components = 3;
   static constexpr bool linear = true;
-  static constexpr bool ofStrain = false;
+  static constexpr bool needsTotalStrain = false;
 
   /// \param e  eigenvalues of the elasticity tensor [Pa]
   explicit ElasticLaw(const Pair& e) : e_{e[0], e[1], e[1]} {}

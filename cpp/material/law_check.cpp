@@ -94,7 +94,7 @@ class Trial {
   /// \returns whether they are numbers.
   bool takeSlopes(const Vector& s, const Vector& e) {
     constexpr double part = 1e-6;
-    const int count = material_.ofStrain() ? 2 * n_ : n_;
+    const int count = material_.needsTotalStrain() ? 2 * n_ : n_;
     Matrix slopes(n_, count);
     for (int k = 0; k < count; ++k) {
       const bool byStress = k < n_;

@@ -130,7 +130,7 @@ class Material {
   /// Whether the law is linear: its moduli depend on nothing.
   [[nodiscard]] virtual bool linear() const = 0;
   /// Whether G depends on the total strain: then steps and states must have it.
-  [[nodiscard]] virtual bool ofStrain() const = 0;
+  [[nodiscard]] virtual bool needsTotalStrain() const = 0;
   /// The stress that residuals are measured against [Pa]; 0 where the law has none.
   [[nodiscard]] virtual double stressScale() const = 0;
   /// Viscous over elastic compliance, theta e, for a step of `weight` [-].
@@ -140,7 +140,7 @@ class Material {
   [[nodiscard]] virtual bool flows(const Matrix& stress, int point, const Matrix* strain = nullptr) const = 0;
   /// Whether it is linearised at the stress to which the strain leads (return mapping): Newton's method has
   /// no corner then at which it could turn in circles.
-  [[nodiscard]] virtual bool returns() const { return false; }
+  [[nodiscard]] virtual bool usesReturnMapping() const { return false; }
 
   // Of the points [begin, end); what is filled is sized before.
 

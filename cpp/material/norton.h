@@ -27,7 +27,7 @@ class NortonLaw {
  public:
   static constexpr int components = 3;
   static constexpr bool linear = false;
-  static constexpr bool ofStrain = false;
+  static constexpr bool needsTotalStrain = false;
 
   /// \param e  eigenvalues of the elasticity tensor [Pa]  \param a  of vM^2 [-]
   NortonLaw(const Pair& e, const Pair& a, const NortonCreep& creep);

@@ -11,8 +11,8 @@ class OverstressLaw {
   static constexpr int remembered = isotropic ? 1 : 0;
   static constexpr int components = tensor + remembered;
   static constexpr bool linear = false;
-  static constexpr bool ofStrain = kinematic;
-  static constexpr bool returns = true;
+  static constexpr bool needsTotalStrain = kinematic;
+  static constexpr bool usesReturnMapping = true;
   using Stress = std::array<Lanes, components>;
   using Numbers = std::array<double, components>;
 

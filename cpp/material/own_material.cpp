@@ -44,12 +44,12 @@ class OwnMaterial final : public Material {
   }
   [[nodiscard]] bool symmetricTangent() const override { return false; }
   [[nodiscard]] bool linear() const override { return false; }
-  [[nodiscard]] bool ofStrain() const override { return law_->ofStrain(); }
+  [[nodiscard]] bool needsTotalStrain() const override { return law_->needsTotalStrain(); }
   [[nodiscard]] double stressScale() const override { return 0; }
   /// Not known without a stress.
   [[nodiscard]] double stiffness(double weight) const override { return weight > 0 ? 1 : 0; }
   [[nodiscard]] bool flows(const Matrix& stress, int point, const Matrix* /*strain*/) const override {
-    if (ofStrain()) return true;
+    if (needsTotalStrain()) return true;
     Points at(stress.col(point));
     evaluate(at, nullptr);
     return (at.rate.array() != 0).any();
@@ -96,7 +96,7 @@ class OwnMaterial final : public Material {
   }
   void viscoplasticRate(const MaterialState& state, Matrix& rate, int begin, int end) const override {
     Points at(state.stress.middleCols(begin, end - begin));
-    if (ofStrain()) at.total = state.strain->middleCols(begin, end - begin);
+    if (needsTotalStrain()) at.total = state.strain->middleCols(begin, end - begin);
     evaluate(at, nullptr);
     rate.middleCols(begin, end - begin) = at.rate;
   }
@@ -134,7 +134,7 @@ class OwnMaterial final : public Material {
   void evaluate(Points& at, Matrix* slopes) const {
     const Eigen::Index points = at.stress.cols();
     Matrix strain = Matrix::Zero(4, points);
-    if (ofStrain() && at.total.size() > 0) strain = componentsBy<n>() * at.total;
+    if (needsTotalStrain() && at.total.size() > 0) strain = componentsBy<n>() * at.total;
     if (n == 3) strain.row(3).setConstant(std::numeric_limits<double>::quiet_NaN());
     Matrix rate(4, points);
     if (slopes != nullptr) slopes->resize(law_->slopeRows(), points);
@@ -161,7 +161,7 @@ class OwnMaterial final : public Material {
     const Matrix start = step.stress0.middleCols(begin, count);
     Matrix rhs = step.strain.middleCols(begin, count) + C_ * start;
     if (compliances > 1) rhs += C_ * local.points.stress;
-    if (ofStrain())
+    if (needsTotalStrain())
       local.points.total = step.strain0->middleCols(begin, count) + step.strain.middleCols(begin, count);
     const Problem problem{step.weight, compliances, rhs};
     if (!(step.weight > 0)) {
@@ -200,7 +200,7 @@ class OwnMaterial final : public Material {
           Mat(problem.compliances * C_ + problem.weight * slopesAt(0)).partialPivLu().inverse();
       Solved solved{norm(r), norm(elastic) + norm(flow) + norm(problem.rhs.col(which[k])), inverse * r,
                     inverse};
-      if (ofStrain()) solved.moduli = inverse * (Mat::Identity() - problem.weight * slopesAt(16));
+      if (needsTotalStrain()) solved.moduli = inverse * (Mat::Identity() - problem.weight * slopesAt(16));
       // A rate beyond the square root of the largest number has no norm: such a stress is no iterate.
       if (std::isfinite(solved.size) && solved.direction.allFinite() && solved.moduli.allFinite())
         result[k] = solved;

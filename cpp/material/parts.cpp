@@ -74,8 +74,9 @@ class Parts final : public Material, public BackStress, public Pointwise {
   }
   [[nodiscard]] bool symmetricTangent() const override { return all(&Material::symmetricTangent); }
   [[nodiscard]] bool linear() const override { return all(&Material::linear); }
-  [[nodiscard]] bool ofStrain() const override {
-    return std::any_of(materials_.begin(), materials_.end(), [](const auto& m) { return m->ofStrain(); });
+  [[nodiscard]] bool needsTotalStrain() const override {
+    return std::any_of(materials_.begin(), materials_.end(),
+                       [](const auto& m) { return m->needsTotalStrain(); });
   }
   [[nodiscard]] double stressScale() const override { return stressScale_; }
   [[nodiscard]] double stiffness(double weight) const override {
@@ -96,8 +97,9 @@ class Parts final : public Material, public BackStress, public Pointwise {
   [[nodiscard]] PointVector backStress(const Matrix& viscoplasticStrain, int point) const override {
     return backStressOf(at(point), viscoplasticStrain, point);
   }
-  [[nodiscard]] bool returns() const override {
-    return std::any_of(materials_.begin(), materials_.end(), [](const auto& m) { return m->returns(); });
+  [[nodiscard]] bool usesReturnMapping() const override {
+    return std::any_of(materials_.begin(), materials_.end(),
+                       [](const auto& m) { return m->usesReturnMapping(); });
   }
 
   using Material::choosePenalty, Material::elasticStrain, Material::interiorPath, Material::viscoplasticRate;

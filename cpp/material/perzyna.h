@@ -32,7 +32,7 @@ class PerzynaLaw {
  public:
   static constexpr int components = 3;
   static constexpr bool linear = false;
-  static constexpr bool ofStrain = false;
+  static constexpr bool needsTotalStrain = false;
 
   /// \param e  eigenvalues of the elasticity tensor [Pa]  \param a, w  of the yield function and the norm [-]
   PerzynaLaw(const Pair& e, const Pair& a, const Pair& w, const Viscoplasticity& law);

@@ -67,7 +67,7 @@ class InPlaneStrain {
   using Stress = std::array<Lanes, 4>;
   static constexpr int components = 4;
   static constexpr bool linear = Law::linear;
-  static constexpr bool ofStrain = Law::ofStrain;
+  static constexpr bool needsTotalStrain = Law::needsTotalStrain;
 
   InPlaneStrain(Law deviatoric, const Elasticity& elasticity)
       : law_(std::move(deviatoric)),

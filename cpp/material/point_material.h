@@ -2,7 +2,8 @@
 //
 //   static constexpr int components;              3, on p, q, r (stress.h), or 4, s33 beside them; and those
 //                                                 that it remembers
-//   static constexpr bool linear, ofStrain;       its moduli depend on nothing; G depends on the total strain
+//   static constexpr bool linear, needsTotalStrain;
+//                                                 its moduli depend on nothing; G on the total strain
 //   bool symmetric() const;                       whether its moduli are, whatever the stress
 //   double stressScale() const;                   [Pa], 0 for none
 //   double stiffness(double weight) const;        viscous over elastic compliance [-]
@@ -16,7 +17,7 @@
 //   double outOfPlane(Eigen::Vector3d) const;     where there are 4 components
 //   ConeLaw cone(double weight) const;            where its interior path is known (interior_path.h)
 //   static constexpr int remembered;              how many components, the last, are none of the tensor
-//   static constexpr bool returns;                as in material.h
+//   static constexpr bool usesReturnMapping;      as in material.h
 //   stress backStress(viscoplastic strain) const; where it hardens kinematically
 //
 // E is any symmetric elliptic tensor and G any function: nothing else is assumed of them. Stresses and
@@ -67,7 +68,7 @@ class PointMaterial final : public Material, public BackStress {
   }
   [[nodiscard]] bool symmetricTangent() const override { return law_.symmetric(); }
   [[nodiscard]] bool linear() const override { return Law::linear; }
-  [[nodiscard]] bool ofStrain() const override { return Law::ofStrain; }
+  [[nodiscard]] bool needsTotalStrain() const override { return Law::needsTotalStrain; }
   [[nodiscard]] double stressScale() const override { return law_.stressScale(); }
   [[nodiscard]] double stiffness(double weight) const override { return law_.stiffness(weight); }
   [[nodiscard]] bool flows(const Matrix& stress, int point, const Matrix* strain) const override {
@@ -87,8 +88,8 @@ class PointMaterial final : public Material, public BackStress {
     }
     return back;
   }
-  [[nodiscard]] bool returns() const override {
-    if constexpr (requires { Law::returns; }) return Law::returns;
+  [[nodiscard]] bool usesReturnMapping() const override {
+    if constexpr (requires { Law::usesReturnMapping; }) return Law::usesReturnMapping;
     return false;
   }
 
@@ -135,7 +136,7 @@ class PointMaterial final : public Material, public BackStress {
     for (int i = begin; i < end; i += laneCount) {
       const Batch batch(i, end);
       std::array<Lanes, n> total{};
-      if constexpr (Law::ofStrain) total = batch.load<n>(state.strain->data());
+      if constexpr (Law::needsTotalStrain) total = batch.load<n>(state.strain->data());
       batch.store(law_.rate(batch.load<n>(state.stress.data()), total), rate.data());
     }
   }
@@ -173,7 +174,7 @@ class PointMaterial final : public Material, public BackStress {
     point.stress = batch.load<n>(stress.data());
     point.stress0 = batch.load<n>(step.stress0.data());
     point.strain = batch.load<n>(step.strain.data());
-    if constexpr (Law::ofStrain) {
+    if constexpr (Law::needsTotalStrain) {
       point.total = batch.load<n>(step.strain0->data());
       for (size_t k = 0; k < n; ++k) point.total[k] += point.strain[k];
     }

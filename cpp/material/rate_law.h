@@ -2,7 +2,7 @@
 // small type in C++ it is
 //
 //   struct Creep {
-//     static constexpr bool ofStrain = false;                       whether G depends on eps
+//     static constexpr bool needsTotalStrain = false;                       whether G depends on eps
 //     double rate = 0, stress = 0;
 //     template <class Number>
 //     Components<Number> rateOf(const Components<Number>& s, const Components<Number>& eps) const;
@@ -39,7 +39,7 @@ struct Components {
 class RateLaw {
  public:
   virtual ~RateLaw() = default;
-  [[nodiscard]] virtual bool ofStrain() const = 0;
+  [[nodiscard]] virtual bool needsTotalStrain() const = 0;
   /// Columns are points; `stress` [Pa], `strain` [-], `rate` [1/s] have 4 rows, as Components. `slopes`, if
   /// any, has the 4 x 4 derivatives by the stress [1/(Pa s)], column major, and, where G depends on the
   /// strain, those by it [1/s] after them; no numbers where there are none. Several threads may call it.
@@ -49,7 +49,7 @@ class RateLaw {
   /// \param modulus  what a strain of 1 is as a stress [Pa]
   void takeSlopesBeside(const Matrix& stress, const Matrix& strain, double modulus, Matrix& slopes) const;
   /// Rows of `slopes`.
-  [[nodiscard]] int slopeRows() const { return ofStrain() ? 32 : 16; }
+  [[nodiscard]] int slopeRows() const { return needsTotalStrain() ? 32 : 16; }
 };
 
 /// How many points are evaluated together.
@@ -57,10 +57,10 @@ constexpr int pointsAtOnce = 32;
 
 /// Runs `rateOf(const Number* in, Number* out, int points)` on blocks of points, with double or, for slopes,
 /// Differentiated: in[k pointsAtOnce + i] is component k of stress and strain of a point, out of the rate.
-template <bool ofStrain, class RateOf>
+template <bool needsTotalStrain, class RateOf>
 void evaluateBlocks(const RateOf& rateOf, const Matrix& stress, const Matrix& strain, Matrix& rate,
                     Matrix* slopes) {
-  constexpr int directions = ofStrain ? 8 : 4;
+  constexpr int directions = needsTotalStrain ? 8 : 4;
   const auto run = [&]<class Number>(std::vector<Number> in) {
     std::vector<Number> out(4 * pointsAtOnce, Number(0));
     for (Eigen::Index begin = 0; begin < stress.cols(); begin += pointsAtOnce) {
@@ -97,9 +97,9 @@ template <class Law>
 class TypedRateLaw final : public RateLaw {
  public:
   explicit TypedRateLaw(Law law) : law_(std::move(law)) {}
-  [[nodiscard]] bool ofStrain() const override { return Law::ofStrain; }
+  [[nodiscard]] bool needsTotalStrain() const override { return Law::needsTotalStrain; }
   void evaluate(const Matrix& stress, const Matrix& strain, Matrix& rate, Matrix* slopes) const override {
-    evaluateBlocks<Law::ofStrain>(
+    evaluateBlocks<Law::needsTotalStrain>(
         [this]<class Number>(const Number* in, Number* out, int points) {
           const auto at = [&](int k, int i) { return in[k * pointsAtOnce + i]; };
           for (int i = 0; i < points; ++i) {

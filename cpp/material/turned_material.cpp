@@ -28,11 +28,11 @@ class TurnedMaterial final : public Material, public Pointwise {
   }
   [[nodiscard]] bool symmetricTangent() const override { return inner_->symmetricTangent(); }
   [[nodiscard]] bool linear() const override { return inner_->linear(); }
-  [[nodiscard]] bool ofStrain() const override { return inner_->ofStrain(); }
+  [[nodiscard]] bool needsTotalStrain() const override { return inner_->needsTotalStrain(); }
   [[nodiscard]] double stressScale() const override { return inner_->stressScale(); }
   [[nodiscard]] double stiffness(double weight) const override { return inner_->stiffness(weight); }
   [[nodiscard]] bool flows(const Matrix& stress, int point, const Matrix* strain) const override {
-    const bool known = strain != nullptr && ofStrain();
+    const bool known = strain != nullptr && needsTotalStrain();
     const Matrix own = known ? in(*strain, point, point + 1) : Matrix();
     return inner_->flows(in(stress, point, point + 1), 0, known ? &own : nullptr);
   }
@@ -59,7 +59,7 @@ class TurnedMaterial final : public Material, public Pointwise {
   }
   void viscoplasticRate(const MaterialState& state, Matrix& rate, int begin, int end) const override {
     const Matrix stress = in(state.stress, begin, end);
-    const Matrix strain = ofStrain() ? in(*state.strain, begin, end) : Matrix();
+    const Matrix strain = needsTotalStrain() ? in(*state.strain, begin, end) : Matrix();
     Matrix own(stress.rows(), stress.cols());
     inner_->viscoplasticRate({stress, &strain}, own, 0, end - begin);
     out(own, rate, begin);
@@ -102,7 +102,7 @@ class TurnedMaterial final : public Material, public Pointwise {
   LawReport answered(const MaterialStep& step, int begin, int end, Linearisation& result, Ask ask) const {
     const Matrix stress0 = in(step.stress0, begin, end);
     const Matrix strain = in(step.strain, begin, end);
-    const Matrix strain0 = ofStrain() ? in(*step.strain0, begin, end) : Matrix();
+    const Matrix strain0 = needsTotalStrain() ? in(*step.strain0, begin, end) : Matrix();
     Linearisation answer = inner_->room(end - begin);
     const LawReport report =
         ask(MaterialStep{step.weight, stress0, strain, step.anticipate, &strain0}, answer);

@@ -27,7 +27,7 @@ class ViscoelasticLaw {
  public:
   static constexpr int components = 3;
   static constexpr bool linear = false;
-  static constexpr bool ofStrain = spring;
+  static constexpr bool needsTotalStrain = spring;
 
   /// \param e  eigenvalues of the elasticity tensor [Pa]  \param d  of the deviator [-]
   ViscoelasticLaw(const Pair& e, const Pair& d, const Viscoelasticity& law)

@@ -25,8 +25,8 @@ struct RefinedMesh {
   int offCurve = 0;  ///< new vertices that stayed on the chord: on the curve, a triangle would turn over
 };
 
-/// The triangle turned so that its longest side is the base; of equal ones that with the larger vertex numbers,
-/// so that two triangles choose alike.
+/// The triangle turned so that its longest side is the base; of equal ones that with the larger vertex
+/// numbers, so that two triangles choose alike.
 std::array<int, 3> onItsLongestSide(const TriangleMesh& mesh, std::array<int, 3> triangle);
 
 /// Turns every triangle onto its longest side.

@@ -43,7 +43,7 @@ class Planner {
     if (scene_.plane == Plane::axisymmetric)
       add("scene", true, "bodies of revolution, forces and energies of whole rings",
           "plane = \"axisymmetric\": x is the distance from the axis, s33 the stress around it");
-    if (anyRough(model_))
+    if (anyFriction(model_))
       add("scene", false, "inertia, finite strains and slips", "quasistatic, small strains");
     else
       add("scene", false, "inertia, friction, finite strains and slips",
@@ -147,7 +147,7 @@ class Planner {
   void planMemory() {
     SolverOptions options = scene_.solver;
     const MemoryNeed need = memoryNeed(model_, options);
-    const std::string part = anyRough(model_) ? forFriction(need) : "";
+    const std::string part = anyFriction(model_) ? forFriction(need) : "";
     std::string why = "factors of the bodies, and dense matrices over the contact nodes";
     if (solvesSparse(model_, options)) {
       options.denseWork = std::numeric_limits<double>::infinity();

@@ -20,7 +20,7 @@ std::vector<int> partitionByMetis(const Graph& graph, const std::vector<double>&
   options[METIS_OPTION_SEED] = 1;
   idx_t cut = 0;
   std::vector<int> part(vertices);
-  const DeafCall deaf;
+  const UninterruptibleCall deaf;
   const int code =
       METIS_PartGraphRecursive(&vertices, &constraints, input.start.data(), input.neighbours.data(), nullptr,
                                nullptr, nullptr, &parts, targets.data(), nullptr, options, &cut, part.data());

@@ -88,7 +88,7 @@ void MpiRanks::tellFault() {
   meet(faulty);
 }
 
-void MpiRanks::giveBack() {
+void MpiRanks::releaseFreeMemory() {
   malloc_trim(0);
 }
 

@@ -25,7 +25,7 @@ class MpiRanks final : public Ranks {
   void gather(const std::vector<double>& own, const std::vector<size_t>& sizes, double* all) override;
   void gatherToFirst(const std::vector<double>& own, const std::vector<size_t>& sizes, double* all) override;
   void tellFault() override;
-  void giveBack() override;
+  void releaseFreeMemory() override;
 
   /// Calls work(), in which a library lets the ranks of MPI_COMM_WORLD exchange what it likes; it throws
   /// nothing. It has a thread of its own, which is left to itself where another rank died: what it uses must

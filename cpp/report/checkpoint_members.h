@@ -44,8 +44,8 @@ MORTIER_MEMBERS(TwoPartVector, high, low)
 MORTIER_MEMBERS(BodyIncrement, displacement, stress)
 MORTIER_MEMBERS(ErrorNorms, stress, displacement, friction)
 MORTIER_MEMBERS(SlipAndWork, slip, work)
-MORTIER_MEMBERS(ControllerMemory, trial, hopeless, start, timeStep, scale, largest, local, strain, error,
-                worst, slip, missed, pairEnd)
+MORTIER_MEMBERS(ControllerMemory, trial, shortestInaccurate, start, timeStep, scale, largest, local, strain,
+                error, worst, slip, missed, pairEnd)
 MORTIER_MEMBERS(SolverMemory, libraries, elasticFactors)
 MORTIER_MEMBERS(MarchMemory, begin, run, increments, timeStep, solver, controller)
 MORTIER_MEMBERS(Checkpoint, identity, empty, files, last, state, memory, accuracy)

@@ -19,7 +19,7 @@ ContactFields contactFields(const Model& model, const State& state, size_t inter
                        none,
                        none,
                        std::vector<signed char>(of.rows(), 0)};
-  if (of.rough()) {
+  if (of.hasFriction()) {
     fields.friction = state.frictionForce[interface];
     fields.shear = of.contactPressure(fields.friction);
     fields.slip =
@@ -31,7 +31,7 @@ ContactFields contactFields(const Model& model, const State& state, size_t inter
 }
 
 ContactTable::ContactTable(const std::string& folder, const Model& model)
-    : model_(model), rough_(anyRough(model)), file_(folder + "/contact.csv") {
+    : model_(model), rough_(anyFriction(model)), file_(folder + "/contact.csv") {
   file_ << "step,time,interface,vertex,x,y,gap,force,pressure,active";
   if (rough_) file_ << ",friction,shear,slip,slipping";
   file_ << '\n';

@@ -32,7 +32,7 @@ class ContactTable {
   ContactTable(const std::string& folder, const Model& model);
   /// Goes on after what `keep` records.
   ContactTable(const std::string& folder, const Model& model, const FileRecord& keep)
-      : model_(model), rough_(anyRough(model)), file_(folder + "/contact.csv", keep) {}
+      : model_(model), rough_(anyFriction(model)), file_(folder + "/contact.csv", keep) {}
   void add(const State& state, int step);
   /// Brings everything to the disk. \returns what is written so far.
   FileRecord sync() { return file_.sync(); }

@@ -33,9 +33,9 @@ std::vector<std::string> historyColumns(const Model& model, const std::vector<Qu
                                  "complementarity",
                                  "open_penetration",
                                  "rounding"};
-  if (anyRough(model)) names.emplace_back("ambiguous");
+  if (anyFriction(model)) names.emplace_back("ambiguous");
   for (size_t k = 0; k < model.interfaces.size(); ++k)
-    if (model.interfaces[k].rough())
+    if (model.interfaces[k].hasFriction())
       names.push_back(in("friction_work_" + std::to_string(k), units.energyPerDepth()));
   for (const Quantity& quantity : quantities) names.push_back(in(quantity.name, quantity.unit(units)));
   return names;

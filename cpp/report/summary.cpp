@@ -59,7 +59,7 @@ Json interfaces(const RunFacts& facts, const Model& model, const State& state) {
                     {"resultant", {force[0], force[1]}},
                     {"sliding", {{"slip", sliding.slip}, {"edges", sliding.edges}}},
                     {"held_ends", interface.heldEnds()}});
-    if (!interface.rough()) continue;
+    if (!interface.hasFriction()) continue;
     list.back()["friction_work"] = state.frictionWorkOf[k];
     if (!model.bodies[interface.pair().nonmortar.body].axisymmetric())
       list.back()["couple"] = frictionCouple(model, state, k);
@@ -103,7 +103,7 @@ Json finalState(const Model& model, const State& state, const StepReport& last) 
                {"max_pressure", last.maxPressure},
                {"viscoplastic_fraction", last.viscoplasticFraction},
                {"active_nodes", last.active}};
-  if (anyRough(model)) json["friction_work"] = state.frictionWork;
+  if (anyFriction(model)) json["friction_work"] = state.frictionWork;
   if (anyDistanceMoves(model)) json["gap_work"] = state.gapWork;
   return json;
 }
@@ -309,7 +309,7 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
                           {"sign", report.worst.sign},
                           {"complementarity", report.worst.complementarity},
                           {"rounding", report.worst.rounding}};
-  if (anyRough(model)) {
+  if (anyFriction(model)) {
     json["verification"]["friction"] = report.worst.friction;
     json["ambiguous_steps"] = report.ambiguousSteps;
     if (facts.solver.listSolutions) json["several_solutions"] = jsonOf(report.several);

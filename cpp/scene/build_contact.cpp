@@ -50,7 +50,7 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
   std::vector<bool> rough{contact.friction.any()};
   for (const ContactInterface& interface : model.interfaces) {
     pairs.push_back(interface.pair());
-    rough.push_back(interface.rough());
+    rough.push_back(interface.hasFriction());
   }
   try {
     requireMemory(meshes, pairs, scene.degree, rough, scene.solver);

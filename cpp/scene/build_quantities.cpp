@@ -17,7 +17,7 @@ using Kind = Quantity::Kind;
 bool isInContact(const Model& model, int body, int label, bool rough) {
   return std::any_of(model.interfaces.begin(), model.interfaces.end(),
                      [&](const ContactInterface& interface) {
-                       return isSide(interface, body, label) && (interface.rough() || !rough);
+                       return isSide(interface, body, label) && (interface.hasFriction() || !rough);
                      });
 }
 

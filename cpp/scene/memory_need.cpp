@@ -85,7 +85,7 @@ MemoryNeed memoryNeed(const Model& model, const SolverOptions& options) {
   std::vector<bool> rough;
   for (const ContactInterface& interface : model.interfaces) {
     pairs.push_back(interface.pair());
-    rough.push_back(interface.rough());
+    rough.push_back(interface.hasFriction());
   }
   return memoryNeed(meshes, pairs, model.bodies.front().degree(), rough, options);
 }

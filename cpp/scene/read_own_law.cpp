@@ -15,15 +15,16 @@ const std::vector<std::string> components{"s11", "s22", "s12", "s33", "e11", "e2
 class ExpressionLaw final : public RateLaw {
  public:
   explicit ExpressionLaw(Formulas rates) : rates_(std::move(rates)) {
-    for (int k = strainBegins; k < 2 * strainBegins; ++k) ofStrain_ = ofStrain_ || rates_.dependsOn(k);
+    for (int k = strainBegins; k < 2 * strainBegins; ++k)
+      needsTotalStrain_ = needsTotalStrain_ || rates_.dependsOn(k);
   }
-  [[nodiscard]] bool ofStrain() const override { return ofStrain_; }
+  [[nodiscard]] bool needsTotalStrain() const override { return needsTotalStrain_; }
   void evaluate(const Matrix& stress, const Matrix& strain, Matrix& rate, Matrix* slopes) const override {
     const auto rateOf = [&]<class Number>(const Number* in, Number* out, int points) {
       thread_local std::vector<Number> work;
       rates_.evaluate(in, out, points, work);
     };
-    if (ofStrain_)
+    if (needsTotalStrain_)
       evaluateBlocks<true>(rateOf, stress, strain, rate, slopes);
     else
       evaluateBlocks<false>(rateOf, stress, strain, rate, slopes);
@@ -31,7 +32,7 @@ class ExpressionLaw final : public RateLaw {
 
  private:
   Formulas rates_;
-  bool ofStrain_ = false;
+  bool needsTotalStrain_ = false;
 };
 
 /// Whether an expression may hold it.

@@ -106,7 +106,7 @@ BodyPart partOf(const Body& whole, const std::vector<int>& owner, Ranks& ranks) 
   part.pointsOfTriangle = whole.pointsOfTriangle();
   const ElementNodes& nodes = whole.elementNodes();
   const auto triangles = static_cast<int>(owner.size());
-  // 1. The first rank that has a triangle at a node is responsible for it.
+  // 1. The first rank that has a triangle at a node is owned for it.
   constexpr int several = 1;
   constexpr int mine = 2;
   std::vector<int> first(whole.nodes(), -1);
@@ -136,7 +136,7 @@ BodyPart partOf(const Body& whole, const std::vector<int>& owner, Ranks& ranks) 
       }
       part.cut.nodes.push_back(node);
       part.own.push_back(own ? 1 : 0);
-      part.responsible.push_back(first[node] == ranks.rank() ? 1 : 0);
+      part.owned.push_back(first[node] == ranks.rank() ? 1 : 0);
     }
     if (shared) ++part.placesOfAll;
   }
@@ -163,7 +163,7 @@ void sumAtNodes(const BodyPart& part, Ranks& ranks, Vector& nodal) {
 
 void completeAtNodes(const BodyPart& part, Ranks& ranks, Vector& nodal) {
   for (const int node : part.shared)
-    if (part.responsible[node] == 0) nodal.segment<2>(2 * node).setZero();
+    if (part.owned[node] == 0) nodal.segment<2>(2 * node).setZero();
   sumAtNodes(part, ranks, nodal);
 }
 
@@ -194,9 +194,8 @@ std::vector<double> gathered(Ranks& ranks, const std::vector<double>& own, size_
 
 Vector gatheredNodes(const BodyPart& part, Ranks& ranks, const Vector& nodal) {
   std::vector<double> own;
-  for (size_t node = 0; node < part.responsible.size(); ++node)
-    if (part.responsible[node] != 0)
-      own.insert(own.end(), nodal.data() + 2 * node, nodal.data() + 2 * node + 2);
+  for (size_t node = 0; node < part.owned.size(); ++node)
+    if (part.owned[node] != 0) own.insert(own.end(), nodal.data() + 2 * node, nodal.data() + 2 * node + 2);
   const std::vector<double> whole = gathered(ranks, own, 2, part.nodesOf);
   return Eigen::Map<const Vector>(whole.data(), static_cast<Eigen::Index>(whole.size()));
 }

@@ -18,7 +18,7 @@ struct BodyPart {
   int pointsOfTriangle = 1;
   std::vector<char> own;  ///< by nodes, whether a triangle of this rank has it
   std::vector<char>
-      responsible;  ///< by nodes, whether this rank adds what all know of it: one of those that own it
+      owned;  ///< by nodes, whether this rank adds what all know of it: one of those that own it
   /// Nodes that several ranks have, ascending, and the place of each among those of all ranks: those of
   /// triangles of several, the labelled boundary, and supports.
   std::vector<int> shared;
@@ -29,7 +29,7 @@ struct BodyPart {
   // On the first rank alone.
 
   const Body* whole = nullptr;
-  /// By ranks: the triangles, and the nodes that they are responsible for; numbers in the whole body.
+  /// By ranks: the triangles, and the nodes that they are owned for; numbers in the whole body.
   std::vector<std::vector<int>> trianglesOf = {};
   std::vector<std::vector<int>> nodesOf = {};
 };

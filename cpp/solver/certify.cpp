@@ -104,7 +104,7 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
     const int b2 = interface.pair().mortar.body;
     const Vector& p = iterate.contactForce[k];
     interface.subtractForces(p, residual[b1], residual[b2]);
-    if (interface.rough()) {
+    if (interface.hasFriction()) {
       const Vector& t = iterate.frictionForce[k];
       interface.subtractFriction(t, residual[b1], residual[b2]);
       const Vector bound = interface.frictionBound(p);

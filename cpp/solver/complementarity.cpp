@@ -80,7 +80,7 @@ int dependentConditions(const Matrix& W) {
 ContactSolution solveContact(const ContactProblem& problem, const Vector& fullSlack, const Vector& p0,
                              const Vector& balance, std::vector<char> active) {
   Vector slack = fullSlack;
-  const Vector moved = travelFirst(problem.G, active, slack);
+  const Vector moved = moveRigidBodiesIntoContact(problem.G, active, slack);
   if (slack.size() == 0) {
     ContactSolution solution;
     solution.change = p0;

@@ -47,7 +47,7 @@ CondensedBody::CondensedBody(const Model& model, int body, const std::vector<int
 std::unique_ptr<CondensingSolver> CondensedBody::newSolver() const {
   const bool amongOthers = threads_.count() > 1 && part_ == nullptr;  // bodies are made at once
   const CondensingSolverFactory engine = engine_ == LinearEngine::suitesparse ? suiteSparseSolver
-                                         : amongOthers                        ? multifrontalSolverAmongOthers
+                                         : amongOthers                        ? multifrontalSolverOfOneBody
                                                                               : multifrontalSolver;
   SharedEquations shared;
   for (size_t i = 0; part_ != nullptr && i < part_->shared.size(); ++i)
@@ -184,7 +184,7 @@ void CondensedBody::join(Factors& factors) {
 void CondensedBody::useSchurComplement(Factors& factors) {
   if (!factorised_ && engine_ == LinearEngine::multifrontal && !body_.material().symmetricTangent()) {
     // UMFPACK pivots in the whole matrix.
-    useLibraries();
+    useSuiteSparse();
     factorised_ = solver_->join(solver_->factorise(values_));
   }
   if (!factorised_)
@@ -218,7 +218,7 @@ void CondensedBody::addCompliance(Matrix& W) const {
   });
 }
 
-void CondensedBody::useLibraries() {
+void CondensedBody::useSuiteSparse() {
   if (engine_ == LinearEngine::suitesparse) return;
   engine_ = LinearEngine::suitesparse;
   if (whole_) return;
@@ -242,7 +242,7 @@ void CondensedBody::condense(const Vector& force) {
   if (part_ != nullptr) {
     ownForce_ = -ownForce_;
     for (int node = 0; node < body_.nodes(); ++node)
-      if (part_->responsible[node] != 0) ownForce_.segment<2>(2 * node) += force.segment<2>(2 * node);
+      if (part_->owned[node] != 0) ownForce_.segment<2>(2 * node) += force.segment<2>(2 * node);
   }
   residual_ = body_.gather(part_ != nullptr ? ownForce_ : force);
   solver_->condense(residual_);

@@ -94,12 +94,12 @@ class CondensedBody {
   Vector expand();
 
   /// From now on CHOLMOD or UMFPACK.
-  void useLibraries();
-  [[nodiscard]] bool usesLibraries() const { return engine_ == LinearEngine::suitesparse; }
+  void useSuiteSparse();
+  [[nodiscard]] bool usesSuiteSparse() const { return engine_ == LinearEngine::suitesparse; }
   /// Whether the factors are those of elasticity.
   [[nodiscard]] bool elasticFactors() const { return elasticFactors_; }
   /// Those that the next factorise() makes were counted before a run was interrupted.
-  void elasticFactorsWereCounted() { counted_ = true; }
+  void restoreCount() { counted_ = true; }
 
  private:
   /// What stresses are measured against.

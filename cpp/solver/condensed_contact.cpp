@@ -14,7 +14,7 @@ bool StepSystem::Factorised::solve(const Step& step, Iterate& iterate, StepOutco
 }
 
 ContactSolution StepSystem::Condensed::solveContact() const {
-  if (system_->rough()) return solveFriction();
+  if (system_->hasFriction()) return solveFriction();
   if (system_->sparse()) return solveSparse();
   ContactSolution solution = mortier::solveContact(system_->contact_, slack, p0, balance, active);
   SpecialConditions& special = system_->special_;

@@ -61,7 +61,7 @@ void ContactDofs::findEquations(const Model& model, int body, const std::vector<
     }
     rows = firstRow.back();
     for (const ContactInterface& interface : model.interfaces) {
-      if (!interface.rough()) continue;
+      if (!interface.hasFriction()) continue;
       forEachEntry(interface, body, interface.T1(), interface.T2(), visitParts(rows));
       rows += interface.rows();
     }
@@ -108,7 +108,7 @@ Vector ContactDofs::rigidForce(const Model& model, int body, const Vector& load)
   constexpr double roundingOfSums = 1e-14;
   Vector own = load;
   for (Eigen::Index dof = 0; dof < own.size() && model.inParts(); ++dof)
-    if (model.parts[body].responsible[dof / 2] == 0) own[dof] = 0;
+    if (model.parts[body].owned[dof / 2] == 0) own[dof] = 0;
   const Eigen::Index n = motions.cols();
   Vector sums(2 * n);
   sums.head(n) = motions.transpose() * own;

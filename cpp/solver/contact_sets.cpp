@@ -101,8 +101,8 @@ ContactSolution solveBalanced(ContactSets& contact, const std::vector<char>& act
     z0 = solution.rigid;
     if (repetition > 1 && imbalance > slow) contact.soften();
   }
-  constexpr double hopeless = 1e-6;
-  if (motions > 0 && contact.imbalance(solution, contact.usualForces(solution)) > hopeless)
+  constexpr double mostImbalance = 1e-6;
+  if (motions > 0 && contact.imbalance(solution, contact.usualForces(solution)) > mostImbalance)
     solution.outcome =
         contact.leaves(solution) ? ContactSolution::Outcome::unbalanced : ContactSolution::Outcome::cycled;
   else
@@ -110,7 +110,7 @@ ContactSolution solveBalanced(ContactSets& contact, const std::vector<char>& act
   return solution;
 }
 
-Vector travelFirst(const Matrix& G, const std::vector<char>& active, Vector& slack) {
+Vector moveRigidBodiesIntoContact(const Matrix& G, const std::vector<char>& active, Vector& slack) {
   if (G.cols() == 0 || slack.size() == 0) return Vector::Zero(G.cols());
   std::vector<Eigen::Index> closed;
   for (Eigen::Index i = 0; i < slack.size(); ++i)

@@ -100,7 +100,7 @@ ContactSolution solveBalanced(ContactSets& contact, const std::vector<char>& act
 /// The rigid motions that take away the gaps and overlaps of the conditions to begin with (of all, where
 /// there are none) as far as they can, first: beside stiff bodies these are so many forces that those of the
 /// load would be lost in their rounding. They are taken from the slack.
-Vector travelFirst(const Matrix& G, const std::vector<char>& active, Vector& slack);
+Vector moveRigidBodiesIntoContact(const Matrix& G, const std::vector<char>& active, Vector& slack);
 
 /// Conditions that no free motion can change: both sides are held there.
 std::vector<char> idleConditions(const Vector& diagonal);

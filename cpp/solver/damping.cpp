@@ -42,7 +42,7 @@ bool advance(StepSystem& system, const Step& step, const Damper& damper, double 
              StepOutcome& total) {
   constexpr int most = 3;
   constexpr double roughly = 0.1;  // material residual
-  constexpr double hopeless = 1e3;
+  constexpr double diverged = 1e3;
   const StepSystem::LawOf damped = [&](int b) {
     BodyLaw law = system.law(step, b, step.data.weight, true);
     law.everywhere = [&, b](const BodyIterate& body, Linearisation& result) {
@@ -57,7 +57,7 @@ bool advance(StepSystem& system, const Step& step, const Damper& damper, double 
     const StepSystem::Linearised linearised = system.linearise(step, next, damped);
     const double residual = linearised.residual();
     if (iteration > 0 && residual <= roughly) return true;
-    if (iteration == most || !std::isfinite(residual) || (iteration >= 2 && residual > hopeless))
+    if (iteration == most || !std::isfinite(residual) || (iteration >= 2 && residual > diverged))
       return false;
     ++total.iterations;
     const std::optional<StepSystem::Factorised> factorised = linearised.factorise(total);

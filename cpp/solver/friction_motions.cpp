@@ -17,14 +17,14 @@ LooseFriction solveLooseFriction(const Matrix& W, const FrictionRows& rows, cons
   constexpr double softer = 1e-2;
   constexpr double softest = 1e-4;  // of the springs to begin with
   constexpr double farther = 10;
-  constexpr double hopeless = 1e-9;
+  constexpr double mostImbalance = 1e-9;
   constexpr double roundingOfGaps = 1e-5;  // an imbalance of 1e-9 of that is rounding
 
   // What rigid motions take away is taken first, as in solveContact.
   std::vector<char> closed = first.closed;
   for (size_t k = 0; k < rows.node.size(); ++k)
     closed.push_back(first.slip[k] == 0 && first.closed[rows.node[k]] != 0 ? 1 : 0);
-  const Vector moved = travelFirst(G, closed, q);
+  const Vector moved = moveRigidBodiesIntoContact(G, closed, q);
   FreeMotions motions{G, load, Vector::Zero(G.cols())};
   motions.stiffness = G.squaredNorm() / W.diagonal().maxCoeff();
   motions.spring = weight * motions.stiffness;
@@ -62,7 +62,7 @@ LooseFriction solveLooseFriction(const Matrix& W, const FrictionRows& rows, cons
   result.solution.solves = solves;
   result.solution.events = events;
   result.solution.ambiguous = ambiguous;
-  result.balanced = imbalance <= hopeless * all;
+  result.balanced = imbalance <= mostImbalance * all;
   if (listAll && result.balanced) result.all = solutionsOnPath({W, rows, &motions}, q, result.solution);
   result.rigid = result.balanced ? Vector(result.solution.rigid + moved) : change;
   return result;

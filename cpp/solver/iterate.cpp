@@ -111,7 +111,8 @@ std::vector<Vector> slips(const Model& model, const Iterate& iterate) {
     const TwoPartVector& u1 = iterate.bodies[interface.pair().nonmortar.body].increment;
     const TwoPartVector& u2 = iterate.bodies[interface.pair().mortar.body].increment;
     result.emplace_back();
-    if (interface.rough()) result.back() = interface.slip(u1.high, u2.high) + interface.slip(u1.low, u2.low);
+    if (interface.hasFriction())
+      result.back() = interface.slip(u1.high, u2.high) + interface.slip(u1.low, u2.low);
   }
   return result;
 }

@@ -16,9 +16,9 @@ bool holds(const Body& body, int node, const Point& direction) {
 
 }  // namespace
 
-bool anyRough(const Model& model) {
+bool anyFriction(const Model& model) {
   return std::any_of(model.interfaces.begin(), model.interfaces.end(),
-                     [](const ContactInterface& interface) { return interface.rough(); });
+                     [](const ContactInterface& interface) { return interface.hasFriction(); });
 }
 
 bool anyDistanceMoves(const Model& model) {
@@ -31,7 +31,7 @@ bool solvesSparse(const Model& model, const SolverOptions& options) {
   double equations = 0;
   for (const ContactInterface& interface : model.interfaces) conditions += interface.rows();
   for (const Body& body : model.bodies) equations += body.freeDofs();
-  return solvesSparse(conditions, equations, anyRough(model), options);
+  return solvesSparse(conditions, equations, anyFriction(model), options);
 }
 
 bool solvesSparse(double conditions, double equations, bool rough, const SolverOptions& options) {

@@ -58,7 +58,7 @@ struct Model {
 Model inParts(const Model& whole, Ranks& ranks);
 
 /// Whether any interface has friction.
-bool anyRough(const Model& model);
+bool anyFriction(const Model& model);
 /// Whether the distance of any interface changes in time.
 bool anyDistanceMoves(const Model& model);
 

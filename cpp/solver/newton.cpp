@@ -10,7 +10,7 @@ namespace mortier {
 StepOutcome newton(StepSystem& system, const Step& step, double weight, const NewtonLimits& limits,
                    Iterate& iterate) {
   // Beyond this many times the stresses that are there, or the yield stress, an iterate does not come back.
-  constexpr double hopeless = 1e3;
+  constexpr double diverged = 1e3;
   constexpr double cancelling = 10;
   constexpr int patience = 2;
   // Triangles far from an axis are the stiffest, as theirs are the widest rings, while contact next to it has
@@ -26,7 +26,7 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
       system.linearise(step, iterate, limits.elasticFirst ? 0 : weight, limits.anticipate);
   while (true) {
     const double residual = linearised.residual();
-    const bool far = residual > hopeless;
+    const bool far = residual > diverged;
     if (outcome.iterations == limits.iterations || !std::isfinite(residual) ||
         (far && outcome.iterations >= 2) ||
         (far && outcome.iterations == 1 && limits.turning && flows(system.model(), step.state0))) {
@@ -59,7 +59,7 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
       return outcome;
     }
     // The law holds and equilibrium does not, again and again: the linear solves are to blame.
-    if (++outOfBalance == patience) system.useLibraries();
+    if (++outOfBalance == patience) system.useSuiteSparse();
   }
 }
 

@@ -36,13 +36,13 @@ namespace {
 bool comesDownFromFar(const Model& model) {
   return std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) {
     const Material& material = body.material();
-    return !material.linear() && (material.stressScale() == 0 || material.returns());
+    return !material.linear() && (material.stressScale() == 0 || material.usesReturnMapping());
   });
 }
 
-bool returnsAnywhere(const Model& model) {
+bool anyReturnMapping(const Model& model) {
   return std::any_of(model.bodies.begin(), model.bodies.end(),
-                     [](const Body& body) { return body.material().returns(); });
+                     [](const Body& body) { return body.material().usesReturnMapping(); });
 }
 
 }  // namespace
@@ -71,21 +71,25 @@ StepOutcome solveStep(StepSystem& system, const State& state0, const StepData& d
   plain.turning = true;
   // Before the first solve the strain is that of supports which move alone: a law that is linearised there
   // would flow beside them.
-  plain.elasticFirst = returnsAnywhere(system.model()) && !flows(system.model(), state0);
+  plain.elasticFirst = anyReturnMapping(system.model()) && !flows(system.model(), state0);
   StepOutcome total = newton(system, step, data.weight, plain, guess);
-  const auto climb = [&](Rung rung, StepOutcome next) {
+  const auto tryMethod = [&](Rung rung, StepOutcome next) {
     total.follow(std::move(next));
     total.rung = rung;
   };
-  const auto left = [&](int most) { return std::min(most, options.maxIterations) - total.iterations; };
-  const auto open = [&](int most) { return !total.converged() && !total.unheld() && left(most) > 0; };
+  const auto iterationsLeft = [&](int most) {
+    return std::min(most, options.maxIterations) - total.iterations;
+  };
+  const auto unsolved = [&](int most) {
+    return !total.converged() && !total.unheld() && iterationsLeft(most) > 0;
+  };
   // What flowed may unload.
-  if (open(usualIterations) && flows(system.model(), state0)) {
-    plain.iterations = std::min(plainIterations, left(options.maxIterations));
+  if (unsolved(usualIterations) && flows(system.model(), state0)) {
+    plain.iterations = std::min(plainIterations, iterationsLeft(options.maxIterations));
     plain.turning = false;
     plain.elasticFirst = true;
     Iterate unloaded = startingIterate(state0);
-    climb(Rung::newton, newton(system, step, data.weight, plain, unloaded));
+    tryMethod(Rung::newton, newton(system, step, data.weight, plain, unloaded));
     if (total.converged()) guess = std::move(unloaded);
   }
   // The other methods change the law, which is linear already.
@@ -94,20 +98,22 @@ StepOutcome solveStep(StepSystem& system, const State& state0, const StepData& d
   if (effort == Effort::little || std::all_of(bodies.begin(), bodies.end(), linear)) return total;
   const bool unique = system.uniqueSolutions();
   ViscosityWalk walk(system.model(), step);
-  if (open(usualIterations) && !unique)
-    climb(Rung::continuation,
-          lowerViscosity(system, step, walk, std::min(firstWalk, left(usualIterations)), guess));
-  if (open(usualIterations))
-    climb(Rung::interiorPoint, interiorPoint(system, step, left(usualIterations), guess));
-  if (open(usualIterations)) {
-    const int most = std::min(unique ? usualIterations : secondWalk, left(usualIterations));
-    climb(Rung::continuation, lowerViscosity(system, step, walk, most, guess));
+  if (unsolved(usualIterations) && !unique)
+    tryMethod(
+        Rung::continuation,
+        lowerViscosity(system, step, walk, std::min(firstWalk, iterationsLeft(usualIterations)), guess));
+  if (unsolved(usualIterations))
+    tryMethod(Rung::interiorPoint, interiorPoint(system, step, iterationsLeft(usualIterations), guess));
+  if (unsolved(usualIterations)) {
+    const int most = std::min(unique ? usualIterations : secondWalk, iterationsLeft(usualIterations));
+    tryMethod(Rung::continuation, lowerViscosity(system, step, walk, most, guess));
   }
   const int longest = effort == Effort::all ? options.maxIterations : usualIterations;
-  if (open(longest) && !unique)
-    climb(Rung::path, followCurve(system, step, walk, std::min(longWalk, left(longest)), guess));
-  if (effort == Effort::all && !unique && open(longest))
-    climb(Rung::damping, restOfDampedMotion(system, step, left(longest), guess));
+  if (unsolved(longest) && !unique)
+    tryMethod(Rung::path,
+              followCurve(system, step, walk, std::min(longWalk, iterationsLeft(longest)), guess));
+  if (effort == Effort::all && !unique && unsolved(longest))
+    tryMethod(Rung::damping, restOfDampedMotion(system, step, iterationsLeft(longest), guess));
   return total;
 }
 

@@ -175,7 +175,7 @@ void SparseContact::analyse() {
   solver_->use(threads_);
 }
 
-void SparseContact::useLibraries() {
+void SparseContact::useSuiteSparse() {
   if (engine_ == LinearEngine::suitesparse) return;
   engine_ = LinearEngine::suitesparse;
   active_.clear();
@@ -244,7 +244,7 @@ bool SparseContact::factorise(const std::vector<char>& active) {
   active_ = active;
   if (solver_->factorise(values_)) return true;
   if (!pattern_.symmetric && engine_ == LinearEngine::multifrontal) {
-    useLibraries();  // UMFPACK pivots in the whole matrix
+    useSuiteSparse();  // UMFPACK pivots in the whole matrix
     active_ = active;
     if (solver_->factorise(values_)) return true;
   }

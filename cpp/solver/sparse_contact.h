@@ -33,7 +33,7 @@ class SparseContact {
   /// Factors of H for a set of closed conditions, unless they are there. \returns false where it is singular.
   bool factorise(const std::vector<char>& active);
   /// Uses CHOLMOD or UMFPACK from now on.
-  void useLibraries();
+  void useSuiteSparse();
 
   struct Solution {
     Vector motion;           ///< d without the rigid motions that the springs see, by equations

@@ -157,7 +157,7 @@ ContactSolution solveSparse(SparseContact& matrix, const ContactProblem& problem
                             const Vector& fullSlack, const Vector& p0, const Vector& balance,
                             std::vector<char> active, Vector& motion) {
   Vector slack = fullSlack;
-  const Vector moved = travelFirst(problem.G, active, slack);
+  const Vector moved = moveRigidBodiesIntoContact(problem.G, active, slack);
   const std::vector<char> idle = idleConditions(matrix.compliance());
   for (size_t i = 0; i < idle.size(); ++i)
     if (idle[i] != 0) active[i] = 0;

@@ -26,7 +26,7 @@ void StepSystem::findFriction() {
   std::vector<Vector> limits;
   for (size_t k = 0; k < model_.interfaces.size(); ++k) {
     const ContactInterface& interface = model_.interfaces[k];
-    if (!interface.rough()) continue;
+    if (!interface.hasFriction()) continue;
     for (int i = 0; i < interface.rows(); ++i) friction_.node.push_back(firstRow_[k] + i);
     limits.push_back(interface.frictionBound(Vector::Zero(interface.rows())));
   }
@@ -35,7 +35,7 @@ void StepSystem::findFriction() {
   Eigen::Index row = 0;
   size_t part = 0;
   for (const ContactInterface& interface : model_.interfaces) {
-    if (!interface.rough()) continue;
+    if (!interface.hasFriction()) continue;
     law.coefficient.segment(row, interface.rows()).setConstant(interface.friction().coefficient);
     law.limit.segment(row, interface.rows()) = limits[part++];
     row += interface.rows();

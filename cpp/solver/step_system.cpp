@@ -57,7 +57,7 @@ Step StepSystem::step(const State& state0, const StepData& data) {
   Step step{state0, data, loadsAt(data.time), std::vector<Matrix>(model_.bodies.size())};
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
-    if (!body.material().ofStrain()) continue;
+    if (!body.material().needsTotalStrain()) continue;
     Matrix& strain = step.strains0[b];
     strain = totalStrain(body.material(), state0.bodies[b]);
     if (const Matrix* shift = step.shift(b)) strain += *shift;
@@ -207,12 +207,12 @@ StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const I
     const ContactPair& pair = model.interfaces[k].pair();
     model.interfaces[k].subtractForces(iterate.contactForce[k], force[pair.nonmortar.body],
                                        force[pair.mortar.body]);
-    if (model.interfaces[k].rough())
+    if (model.interfaces[k].hasFriction())
       model.interfaces[k].subtractFriction(iterate.frictionForce[k], force[pair.nonmortar.body],
                                            force[pair.mortar.body]);
   }
   Condensed result(*system_, Key{});
-  if (system_->rough()) {
+  if (system_->hasFriction()) {
     result.slack = -system_->joined(gaps(model, step.state0, iterate), slips(model, iterate));
     result.p0 = system_->joined(iterate.contactForce, iterate.frictionForce);
     result.slipping = joinedSets(iterate.slipping);
@@ -251,8 +251,8 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
                                              counted(contact.pivots, "active set") + ", the work of " +
                                              counted(std::lround(contact.work), "dense factorisation"));
   if (contact.outcome == ContactSolution::Outcome::unbalanced)
-    return outcome.fail(Reason::unheld, (system_->rough() ? "contact and its friction cannot hold "
-                                                          : "contact cannot hold ") +
+    return outcome.fail(Reason::unheld, (system_->hasFriction() ? "contact and its friction cannot hold "
+                                                                : "contact cannot hold ") +
                                             system_->describeRigid(contact.rigid));
   system_->expandBodies(contact, [&](int b, const Vector& d) {
     const Body& body = system_->model_.bodies[b];
@@ -277,7 +277,7 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
   Eigen::Index row = 0;
   for (size_t k = 0; k < iterate.contactForce.size(); ++k) {
     const ContactInterface& interface = system_->model_.interfaces[k];
-    if (!interface.rough()) continue;
+    if (!interface.hasFriction()) continue;
     iterate.frictionForce[k] = (p0 + contact.change).segment(system_->rows() + row, interface.rows());
     const auto first = contact.slipping.begin() + row;
     iterate.slipping[k].assign(first, first + interface.rows());
@@ -293,15 +293,15 @@ bool StepSystem::Condensed::expand(const ContactSolution& contact, Iterate& iter
   return true;
 }
 
-void StepSystem::useLibraries() {
-  for (CondensedBody& body : bodies_) body.useLibraries();
-  if (sparse()) sparse_->useLibraries();
+void StepSystem::useSuiteSparse() {
+  for (CondensedBody& body : bodies_) body.useSuiteSparse();
+  if (sparse()) sparse_->useSuiteSparse();
 }
 
 SolverMemory StepSystem::memory() const {
   SolverMemory memory;
   for (const CondensedBody& body : bodies_) {
-    memory.libraries.push_back(body.usesLibraries() ? 1 : 0);
+    memory.libraries.push_back(body.usesSuiteSparse() ? 1 : 0);
     memory.elasticFactors.push_back(body.elasticFactors() ? 1 : 0);
   }
   return memory;
@@ -310,11 +310,11 @@ SolverMemory StepSystem::memory() const {
 void StepSystem::resume(const SolverMemory& memory) {
   for (size_t b = 0; b < memory.libraries.size(); ++b) {
     if (memory.libraries[b] != 0) {
-      bodies_[b].useLibraries();
-      if (sparse()) sparse_->useLibraries();
+      bodies_[b].useSuiteSparse();
+      if (sparse()) sparse_->useSuiteSparse();
     }
     // Without reductions factors are made and counted in every solve.
-    if (memory.elasticFactors[b] != 0 && options_.reduce) bodies_[b].elasticFactorsWereCounted();
+    if (memory.elasticFactors[b] != 0 && options_.reduce) bodies_[b].restoreCount();
   }
 }
 

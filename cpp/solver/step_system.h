@@ -98,7 +98,7 @@ class StepSystem {
   /// Whether contact is solved without dense matrices over its conditions.
   [[nodiscard]] bool sparse() const { return sparse_ != nullptr; }
   /// Whether any interface has friction.
-  [[nodiscard]] bool rough() const { return !friction_.node.empty(); }
+  [[nodiscard]] bool hasFriction() const { return !friction_.node.empty(); }
   /// Whether every tangent is symmetric: a step minimises a convex energy.
   [[nodiscard]] bool uniqueSolutions() const { return uniqueSolutions_; }
   /// The special contact conditions that were found so far.
@@ -117,7 +117,7 @@ class StepSystem {
   [[nodiscard]] Threads& threads() const { return threads_; }
   void forEachBody(const Threads::Work& work) { threads_.forEach(static_cast<int>(bodies_.size()), work); }
   /// Uses CHOLMOD or UMFPACK from now on.
-  void useLibraries();
+  void useSuiteSparse();
   /// The state of the solver itself that a run needs to resume as if it had not stopped.
   [[nodiscard]] SolverMemory memory() const;
   void resume(const SolverMemory& memory);

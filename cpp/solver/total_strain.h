@@ -16,7 +16,7 @@ inline Matrix totalStrain(const Material& material, const BodyState& state) {
 
 /// That, where the law depends on it; nothing elsewhere.
 inline Matrix strainOfLaw(const Material& material, const BodyState& state) {
-  return material.ofStrain() ? totalStrain(material, state) : Matrix();
+  return material.needsTotalStrain() ? totalStrain(material, state) : Matrix();
 }
 
 }  // namespace mortier

@@ -19,7 +19,7 @@ constexpr double unseenPart = 0.2;  // of the square root of the tolerance
 }  // namespace
 
 Controller::Controller(const Model& model, const TimePlan& plan, MarchMemory& memory)
-    : plan_(plan), memory_(memory), measure_(model), rough_(anyRough(model)) {
+    : plan_(plan), memory_(memory), measure_(model), rough_(anyFriction(model)) {
   for (const double t : plan.breaks)
     if (t > memory.begin && t < plan.end) stops_.push_back(t);
   stops_.push_back(plan.end);
@@ -57,7 +57,7 @@ std::string Controller::shortfall() const {
   std::ostringstream text;
   text << std::setprecision(2) << "estimated error " << worst() << " above tolerance " << plan_.tolerance
        << " after " << own.trial << (own.trial == 1 ? " trial" : " trials");
-  if (own.hopeless) text << ": the shortest step that doubles resolve is not accurate enough";
+  if (own.shortestInaccurate) text << ": the shortest step that doubles resolve is not accurate enough";
   return text.str();
 }
 
@@ -123,7 +123,7 @@ bool Controller::beginAgain(State& state) {
   constexpr double least = 1e-4;  // by which the error of a step changes at once
   ControllerMemory& own = memory_.controller;
   const double foreseen = std::exchange(own.scale, own.largest).friction;
-  if (worst() <= plan_.tolerance || own.hopeless || own.trial >= trials) return false;
+  if (worst() <= plan_.tolerance || own.shortestInaccurate || own.trial >= trials) return false;
   // Where friction is what counts, errors were too small for their scale, and by as much fewer steps will do.
   if (own.worst.friction > 0 && relative({0, 0, own.worst.friction}, own.scale) >= worst())
     own.local = std::min(own.local * foreseen / own.scale.friction, aim * plan_.tolerance);
@@ -244,7 +244,7 @@ StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort e
 
 /// Whether methods fail all the time, and neither steps as those so far nor steps as short as the last
 /// attempt would reach the end. One hard moment in a run that gets on is not meant.
-bool Controller::crawls(double t, double k) const {
+bool Controller::stepsTooSmall(double t, double k) const {
   constexpr int many = 100;
   constexpr int often = 4;  // one step in so many
   const auto cut = memory_.run.rungs.find(nameOf(Rung::cut));
@@ -288,7 +288,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
       // The end of equilibrium is approached as closely as the tolerance asks.
       if (outcome.unheld() && k <= plan_.tolerance * (plan_.end - memory_.begin))
         return giveUp(Status::unheld, t1, outcome.detail);
-      if (crawls(state.time, k))
+      if (stepsTooSmall(state.time, k))
         return giveUp(Status::failed, t1,
                       "at the pace of the steps that can be solved max_steps = " +
                           std::to_string(plan_.maxSteps) + " would not reach the end: " + outcome.detail);
@@ -300,7 +300,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     }
     failures = 0;
     // No trial makes the shortest steps more accurate.
-    if (judgement.good && judgement.size > plan_.tolerance) own.hopeless = true;
+    if (judgement.good && judgement.size > plan_.tolerance) own.shortestInaccurate = true;
     double factor = judgement.factor;
     const auto reject = [&] {
       ++report.rejections;

@@ -83,7 +83,7 @@ class Controller {
   [[nodiscard]] double sizeOf(StepTaker& taker, const SlipAndWork& missed) const;
   [[nodiscard]] double leastStep(double t) const;
   [[nodiscard]] bool isShortest(double t, double k) const;
-  [[nodiscard]] bool crawls(double t, double k) const;
+  [[nodiscard]] bool stepsTooSmall(double t, double k) const;
   [[nodiscard]] double nextTime(double t, double k) const;
   [[nodiscard]] double stopAfter(double t) const;
   void add(StepTaker& taker, StepError local, double size, const SlipAndWork& missed);

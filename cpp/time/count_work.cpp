@@ -19,11 +19,11 @@ namespace mortier {
 namespace {
 
 /// r . du, r the part of `forces` along the directions that supports hold.
-double workOfSupports(const Body& body, const Vector& forces, const std::vector<char>& responsible,
+double workOfSupports(const Body& body, const Vector& forces, const std::vector<char>& owned,
                       const Vector& du) {
   double work = 0;
   for (const NodeSupport& support : body.supports().nodes()) {
-    if (!responsible.empty() && responsible[support.node] == 0) continue;
+    if (!owned.empty() && owned[support.node] == 0) continue;
     const Point force = forces.segment<2>(2 * support.node);
     const Point motion = du.segment<2>(2 * support.node);
     const Point& n = support.directions[0];
@@ -81,11 +81,10 @@ void StepTaker::countWork() {
     const Body& body = model_.bodies[b];
     const int index = static_cast<int>(b);
     // Nodes of which this rank adds what all ranks know.
-    const std::vector<char> responsible =
-        model_.inParts() ? model_.parts[b].responsible : std::vector<char>();
+    const std::vector<char> owned = model_.inParts() ? model_.parts[b].owned : std::vector<char>();
     const auto counted = [&](Vector nodal) {
-      for (size_t node = 0; node < responsible.size(); ++node)
-        if (responsible[node] == 0) nodal.segment<2>(2 * static_cast<Eigen::Index>(node)).setZero();
+      for (size_t node = 0; node < owned.size(); ++node)
+        if (owned[node] == 0) nodal.segment<2>(2 * static_cast<Eigen::Index>(node)).setZero();
       return nodal;
     };
     const Vector du = solutions_.back().bodies[b].increment.value();
@@ -100,7 +99,7 @@ void StepTaker::countWork() {
     after += contact1;
     std::array<double, 4> sums{};
     auto& [external, contact, dissipation, thermal] = sums;
-    external = before.dot(du) + load.dot(du) + workOfSupports(body, after, responsible, du);
+    external = before.dot(du) + load.dot(du) + workOfSupports(body, after, owned, du);
     contact = contact0.dot(du) + counted(contact1).dot(du);
     dissipation = dissipated(b);
     if (body.heated()) {

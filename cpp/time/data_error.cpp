@@ -51,7 +51,7 @@ double halfNorm(const Misfit& w) {
 
 }  // namespace
 
-bool SpaceErrorEstimator::hasRoughData(const Body& body) {
+bool SpaceErrorEstimator::hasVaryingData(const Body& body) {
   const Conditions& data = body.conditions();
   const auto any = [&](const auto& all) {
     return std::any_of(all.begin(), all.end(),
@@ -68,13 +68,13 @@ void SpaceErrorEstimator::addEdgeData(size_t b, const State& state, Vector& erro
     for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
       if (mesh.boundaryLabels[e] == label) work(e, placesOf(body, e));
   };
-  const auto add = [&](const Line& line, size_t e, double energy, bool ofStrain) {
+  const auto add = [&](const Line& line, size_t e, double energy, bool needsTotalStrain) {
     const int triangle = line.triangleOf(mesh.boundaryEdges[e]);
     const Compliance compliance = complianceOf(state, static_cast<int>(b), triangle);
     const std::vector<Point> places = placesOf(body, e);
     error[triangle] +=
         body.depthAt((places[0] + places[1]) / 2) * energy *
-        (ofStrain ? compliance.elastic / (compliance.all * compliance.all) : compliance.elastic);
+        (needsTotalStrain ? compliance.elastic / (compliance.all * compliance.all) : compliance.elastic);
   };
   for (const Traction& traction : body.conditions().tractions) {
     if (!unresolved(body, traction.value)) continue;
@@ -185,7 +185,7 @@ void SpaceErrorEstimator::readData() {
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
     steadyData_.emplace_back();
-    if (!hasRoughData(body)) continue;
+    if (!hasVaryingData(body)) continue;
     steadyData_[b] = Vector::Zero(static_cast<Eigen::Index>(body.mesh().triangles.size()));
     addTriangleData(b, 0, true, steadyData_[b]);
   }

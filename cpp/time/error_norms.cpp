@@ -34,7 +34,7 @@ void addTo(std::vector<Response>& sum, const std::vector<Response>& part) {
   }
 }
 
-ErrorMeasure::ErrorMeasure(const Model& model) : model_(model), rough_(anyRough(model)) {
+ErrorMeasure::ErrorMeasure(const Model& model) : model_(model), rough_(anyFriction(model)) {
   for (const Body& body : model.bodies) {
     for (const double weight : body.weights()) area_ += weight;
     extent_ = std::max(extent_, body.extent());

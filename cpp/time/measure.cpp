@@ -36,7 +36,7 @@ Part partOf(const Body& body, const BodyState& state, Matrix& strain, int begin,
   const Matrix& stress = state.stress;
   material.elasticStrain(stress, strain, begin, end);
   for (int i = begin; i < end; ++i) part.energy += body.weights()[i] / 2 * stress.col(i).dot(strain.col(i));
-  if (material.ofStrain())
+  if (material.needsTotalStrain())
     strain.middleCols(begin, end - begin) += state.viscoplasticStrain.middleCols(begin, end - begin);
   for (int i = begin; i < end; ++i) {
     const double weight = body.weights()[i];
@@ -73,7 +73,7 @@ void measure(const Model& model, const State& state, Threads& threads, StepRepor
     const Point force = resultant(model, state, k);
     report.resultantX += force.x();
     report.resultantY += force.y();
-    if (interface.rough()) report.frictionWork.push_back(state.frictionWorkOf[k]);
+    if (interface.hasFriction()) report.frictionWork.push_back(state.frictionWorkOf[k]);
   }
   Part all;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
@@ -135,7 +135,7 @@ Point resultant(const Model& model, const State& state, size_t interface) {
         sum[dof % 2] -= entry.value() * by[entry.row()];
   };
   subtract(of.C1(), state.contactForce[interface]);
-  if (of.rough()) subtract(of.T1(), state.frictionForce[interface]);
+  if (of.hasFriction()) subtract(of.T1(), state.frictionForce[interface]);
   return sum;
 }
 

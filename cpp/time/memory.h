@@ -31,16 +31,16 @@ struct SlipAndWork {
 
 /// Of steps chosen by their error.
 struct ControllerMemory {
-  int trial = 0;               ///< runs begun; 0: the march has not begun
-  bool hopeless = false;       ///< a step is wrong by more than the tolerance and cannot be shorter
-  State start;                 ///< of each
-  double timeStep = 0;         ///< to try next [s]
-  ErrorNorms scale;            ///< by which errors of steps are measured
-  ErrorNorms largest;          ///< of the run, as far as it is known: by which its error is told
-  double local = 0;            ///< what the error of a step may be, relative
-  std::vector<Matrix> strain;  ///< error of the viscoplastic strain, exact less computed; empty: none
-  ErrorNorms error;            ///< what it makes of stress and displacement
-  ErrorNorms worst;            ///< the largest of any step so far
+  int trial = 0;                    ///< runs begun; 0: the march has not begun
+  bool shortestInaccurate = false;  ///< a step is wrong by more than the tolerance and cannot be shorter
+  State start;                      ///< of each
+  double timeStep = 0;              ///< to try next [s]
+  ErrorNorms scale;                 ///< by which errors of steps are measured
+  ErrorNorms largest;               ///< of the run, as far as it is known: by which its error is told
+  double local = 0;                 ///< what the error of a step may be, relative
+  std::vector<Matrix> strain;       ///< error of the viscoplastic strain, exact less computed; empty: none
+  ErrorNorms error;                 ///< what it makes of stress and displacement
+  ErrorNorms worst;                 ///< the largest of any step so far
   // With friction steps come in pairs, which are compared with one step of twice the length.
   SlipAndWork slip;    ///< of all pairs so far
   SlipAndWork missed;  ///< by the pair whose first step has been taken

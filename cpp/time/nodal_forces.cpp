@@ -16,7 +16,7 @@ Vector contactForces(const Model& model, const std::vector<Vector>& p, const std
     const ContactInterface& interface = model.interfaces[k];
     if (is(interface.pair().nonmortar, body, label)) forces += interface.C1().transpose() * p[k];
     if (is(interface.pair().mortar, body, label)) forces += interface.C2().transpose() * p[k];
-    if (!interface.rough()) continue;
+    if (!interface.hasFriction()) continue;
     if (is(interface.pair().nonmortar, body, label)) forces += interface.T1().transpose() * t[k];
     if (is(interface.pair().mortar, body, label)) forces += interface.T2().transpose() * t[k];
   }

@@ -248,7 +248,7 @@ Quantity ofParts(const Quantity& quantity, const Model& model) {
   for (const auto& [node, weight] : quantity.mean) {
     const auto at = std::lower_bound(part.cut.nodes.begin(), part.cut.nodes.end(), node);
     const auto number = static_cast<int>(at - part.cut.nodes.begin());
-    if (at != part.cut.nodes.end() && *at == node && part.responsible[number] != 0)
+    if (at != part.cut.nodes.end() && *at == node && part.owned[number] != 0)
       own.mean.emplace_back(number, weight);
   }
   return own;

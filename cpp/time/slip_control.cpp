@@ -53,7 +53,7 @@ bool Controller::completePair(StepTaker& taker, const Attempt& first, double end
     const double fits = safety * std::pow(size / own.local, -0.5);  // a pair misses k^2
     factor = std::min({factor, second.judgement.factor, std::clamp(fits, leastFactor, largest)});
     good = size <= own.local || isShortest(first.t1, end - first.t1);
-    if (good && size > plan_.tolerance) own.hopeless = true;
+    if (good && size > plan_.tolerance) own.shortestInaccurate = true;
     own.missed = std::move(missed);
   } else {
     factor = second.outcome.converged() ? second.judgement.factor : failureFactor;

@@ -60,7 +60,7 @@ class SpaceErrorEstimator {
   };
   void readData();
   void addData(const State& state, std::vector<ErrorEstimate>& estimates) const;
-  [[nodiscard]] static bool hasRoughData(const Body& body);
+  [[nodiscard]] static bool hasVaryingData(const Body& body);
   void addEdgeData(size_t b, const State& state, Vector& error) const;
   void addTriangleData(size_t b, double t, bool steady, Vector& error) const;
   [[nodiscard]] std::vector<GivenGap> givenGaps(size_t k, double t) const;

@@ -45,7 +45,7 @@ Matrix StepTaker::stressWithin(size_t body, double fraction) const {
 /// The total strain of a body within the step, likewise; nothing where its law does not depend on it.
 Matrix StepTaker::strainWithin(size_t body, double fraction) const {
   const Body& of = model_.bodies[body];
-  if (!of.material().ofStrain()) return {};
+  if (!of.material().needsTotalStrain()) return {};
   Matrix strain = totalStrain(of.material(), state_.bodies[body]);
   std::vector<double> nodes{0};
   for (const Stage& stage : tableau_.stages) nodes.push_back(stage.time);
@@ -202,7 +202,7 @@ std::vector<Response> StepTaker::response(const std::vector<Matrix>& strain,
 Matrix StepTaker::feltStrain(size_t body, const Matrix& strain) const {
   constexpr double little = 1e-6;
   const Material& material = model_.bodies[body].material();
-  if (!material.ofStrain() || strain.isZero(0)) return strain;
+  if (!material.needsTotalStrain() || strain.isZero(0)) return strain;
   const double weight = (t1_ - state_.time) * tableau_.stages.back().diagonal;
   const Matrix& stress = solutions_.back().bodies[body].stress;
   const Matrix total = strainWithin(body, 1);
@@ -243,7 +243,7 @@ std::vector<Vector> StepTaker::slipOf(const std::vector<Response>& response) con
   for (const ContactInterface& interface : model_.interfaces) {
     const ContactPair& pair = interface.pair();
     result.emplace_back();
-    if (interface.rough())
+    if (interface.hasFriction())
       result.back() =
           interface.slip(response[pair.nonmortar.body].displacement, response[pair.mortar.body].displacement);
   }

@@ -80,7 +80,8 @@ def scales(scene, columns):
     moved = max([largest["displacement_max"], *(float(number) for number in
                                                 re.findall(r'uy = "-?([0-9.e-]+)\*', "\n".join(scene.text)))])
     stress = max(largest["von_mises_max"], largest["max_pressure"], known * young * moved)
-    return {**largest, "displacement_max": max(largest["displacement_max"], known * moved), "max_pressure": stress, "von_mises_max": stress,
+    return {**largest, "displacement_max": max(largest["displacement_max"], known * moved),
+            "max_pressure": stress, "von_mises_max": stress,
             "contact_force": max(largest["contact_force"], stress),
             "elastic_energy": max(largest["elastic_energy"], stress**2 / young)}
 

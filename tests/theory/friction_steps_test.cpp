@@ -12,7 +12,7 @@ using namespace scenes;
 
 constexpr double mu = 0.3;
 
-InterfaceOptions rough() {
+InterfaceOptions hasFriction() {
   InterfaceOptions options;
   options.friction = {mu, 0};
   return options;
@@ -31,7 +31,7 @@ Result pushed(CouplingKind coupling, int nonmortarBody, double shear, double sti
       "upper", crissCrossMesh({.lower = {0, 0}, .upper = {1, 0.4}, .cellsX = 5, .cellsY = 2}),
       elasticMaterial({stiffness, 0.3}),
       {{}, {{top, 0, [=](double, double, double t) { return shear * t; }}, {top, 1, constant(-2)}}, {}});
-  const Model model = contactModel(std::move(block), ground(), coupling, nonmortarBody, rough());
+  const Model model = contactModel(std::move(block), ground(), coupling, nonmortarBody, hasFriction());
   return run(model, 1, 3);
 }
 
@@ -61,7 +61,8 @@ double workOf(Scheme scheme, int steps) {
   const auto down = [](double, double, double t) { return -0.06 * t; };
   Body upper("upper", square(0, 5), perzynaMaterial({100, 0.3}, {1, 1, Projection::frobenius}),
              {{{top, 0, along}, {top, 1, down}}, {}, {}});
-  const Model model = contactModel(std::move(upper), ground(), CouplingKind::mortar, upperBody, rough());
+  const Model model =
+      contactModel(std::move(upper), ground(), CouplingKind::mortar, upperBody, hasFriction());
   State state = initialState(model);
   const RunReport report = march(model, state, {.end = 1, .steps = steps, .scheme = scheme}, {},
                                  [](const State&, const StepReport&) {});

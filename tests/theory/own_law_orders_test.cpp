@@ -26,7 +26,7 @@ int orderOf(Scheme scheme) {
 /// A dashpot of the rate A sinh(x/S) beside a spring K, along y and in shear: x = s - K eps_v. It depends on
 /// the strain, as eps_v = eps - E^-1 s.
 struct SinhDashpot {
-  static constexpr bool ofStrain = true;
+  static constexpr bool needsTotalStrain = true;
   static constexpr double A = 0.01;  // [1/s]
   static constexpr double S = 0.5;   // [Pa]
   static constexpr double K = 15;    // [Pa]

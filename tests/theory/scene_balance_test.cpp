@@ -105,7 +105,7 @@ TEST_P(SceneBalance, ofForcesAndEnergies) {
   double largestForce = 0;
   std::vector<double> flow(bodies, 0.0);   // means of the stress times viscoplastic strains
   std::vector<double> euler(bodies, 0.0);  // the stress at the ends times those
-  std::vector<double> start(bodies);  // before anything acts
+  std::vector<double> start(bodies);       // before anything acts
   std::vector<double> stored(bodies);
   const auto energyOf = [&](int b, const State& of) {
     return evaluate({{"energy", Kind::storedEnergy, b}}, model, of)[0];

@@ -79,7 +79,7 @@ inline Eigen::Vector3d contactWrench(const Model& model, const State& state, siz
   const std::array<int, 2> bodies{interface.pair().nonmortar.body, interface.pair().mortar.body};
   for (const int b : bodies) f.push_back(Vector::Zero(model.bodies[b].dofs()));
   interface.subtractForces(state.contactForce[k], f[0], f[1]);
-  if (interface.rough()) interface.subtractFriction(state.frictionForce[k], f[0], f[1]);
+  if (interface.hasFriction()) interface.subtractFriction(state.frictionForce[k], f[0], f[1]);
   for (size_t side = 0; side < 2; ++side)
     for (int v = 0; v < model.bodies[bodies[side]].nodes(); ++v) {
       const Point& x = model.bodies[bodies[side]].mesh().vertices[v];

@@ -120,7 +120,7 @@ struct Case {
 /// The sinh of the stress less what hardens with the strain.
 template <bool strain>
 struct OwnRate {
-  static constexpr bool ofStrain = strain;
+  static constexpr bool needsTotalStrain = strain;
   double rate = 0, spring = 0;
   template <class Number>
   Components<Number> rateOf(const Components<Number>& s, const Components<Number>& e) const {

@@ -29,7 +29,7 @@ Components<Number> alongDeviator(const Components<Number>& s, const Number& fact
 }
 
 struct OwnNorton {
-  static constexpr bool ofStrain = false;
+  static constexpr bool needsTotalStrain = false;
   NortonCreep creep;
   template <class Number>
   Components<Number> rateOf(const Components<Number>& s, const Components<Number>&) const {
@@ -41,7 +41,7 @@ struct OwnNorton {
 };
 
 struct OwnPerzyna {
-  static constexpr bool ofStrain = false;
+  static constexpr bool needsTotalStrain = false;
   Viscoplasticity law;
   template <class Number>
   Components<Number> rateOf(const Components<Number>& s, const Components<Number>&) const {
@@ -53,7 +53,7 @@ struct OwnPerzyna {
 
 /// In plane strain, where eps33 = 0.
 struct OwnSolid {
-  static constexpr bool ofStrain = true;
+  static constexpr bool needsTotalStrain = true;
   Elasticity elasticity;
   Viscoelasticity law;
   template <class Number>
@@ -250,7 +250,7 @@ TEST(OwnMaterial, pointsAreIndependent) {
 
 /// Flows where the stress is more than 1.
 struct Jump {
-  static constexpr bool ofStrain = false;
+  static constexpr bool needsTotalStrain = false;
   template <class Number>
   Components<Number> rateOf(const Components<Number>& s, const Components<Number>&) const {
     return alongDeviator(s, Number(mises(s) > 1 ? 1e3 : 0.0));
@@ -274,7 +274,7 @@ TEST(OwnMaterial, aJumpIsNotTakenForASolution) {
 }
 
 struct Sinh {
-  static constexpr bool ofStrain = false;
+  static constexpr bool needsTotalStrain = false;
   template <class Number>
   Components<Number> rateOf(const Components<Number>& s, const Components<Number>&) const {
     using std::max;
@@ -305,7 +305,7 @@ TEST(OwnMaterial, oneIterationIsOnTheLawFromStressesAtWhichItsRateOverflows) {
 }
 
 struct Broken {
-  static constexpr bool ofStrain = true;
+  static constexpr bool needsTotalStrain = true;
   template <class Number>
   Components<Number> rateOf(const Components<Number>& s, const Components<Number>& e) const {
     return {s.c11 + e.c33, s.c22, s.c12, s.c33};

@@ -66,7 +66,7 @@ TEST(PointMaterial, lawsWithoutAPathFollowThePathOfOthers) {
   std::mt19937 random(8);
   const auto own = pointMaterial(Relaxing<3>(elliptic<3>(random), elliptic<3>(random), 2), {});
   const auto mixed = materialOfParts({perzynaMaterial({1, 0.3}, {1, 1}), own}, {0, 1});
-  EXPECT_TRUE(mixed->ofStrain());
+  EXPECT_TRUE(mixed->needsTotalStrain());
   const Matrix stress0 = Matrix::Zero(3, 2);
   const Matrix strain0 = Matrix::Constant(3, 2, 0.2);
   const Matrix strain = Matrix::Constant(3, 2, 0.1);

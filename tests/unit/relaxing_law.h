@@ -26,7 +26,7 @@ class Relaxing {
   using Stress = std::array<Lanes, n>;
   static constexpr int components = n;
   static constexpr bool linear = false;
-  static constexpr bool ofStrain = true;
+  static constexpr bool needsTotalStrain = true;
 
   Relaxing(const Square& E, const Square& K, double eta) : C_(E.inverse()), K_(K), eta_(eta) {}
 

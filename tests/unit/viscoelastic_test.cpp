@@ -74,7 +74,7 @@ TEST(Viscoelastic, rejectsWhatDoesNotRelax) {
   };
   EXPECT_EQ(make({1, 0})->laws().front().text(), "Maxwell");
   EXPECT_EQ(make({1, 0.5})->laws().front().text(), "standard linear solid");
-  EXPECT_FALSE(make({1, 0})->ofStrain());
+  EXPECT_FALSE(make({1, 0})->needsTotalStrain());
   for (const Viscoelasticity& law :
        {Viscoelasticity{0, 0}, {-1, 0}, {1, 1}, {1, -0.1}, {1, NAN}, {INFINITY, 0}})
     EXPECT_THROW(make(law), InputError);
