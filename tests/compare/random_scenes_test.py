@@ -9,6 +9,12 @@ from support import PROGRAM
 FIRST, COUNT = 176, 58
 CHOICES = 80
 EQUALITIES = 8
+# Steps end at kinks of data, in three units of time; the second takes another mesh where ties decide.
+KINKS = (15, 32)
+# Bodies touch between the nodes of the first three meshes.
+BETWEEN_NODES = 349
+# A node on the axis, whose share of the surface is zero but for rounding, slips.
+ON_THE_AXIS = 2760
 # A body that was moved before the first step and is free of stress.
 MOVED = 30
 # Crank-Nicolson rings at 1e4 yield stresses: the interior point method must begin beyond them.
@@ -48,12 +54,11 @@ class RandomScenes(unittest.TestCase):
 
     def test_every_choice_of_laws_bodies_and_contact_ends_too(self):
         results = explore(PROGRAM, 0, CHOICES, SECONDS, kind=WideScene)
+        for seed in (BETWEEN_NODES, ON_THE_AXIS):
+            results += explore(PROGRAM, seed, 1, SECONDS, kind=WideScene)
         for result in results:
             with self.subTest(seed=result["seed"]):
-                if result["code"] == 1:
-                    self.assertRegex(result["told"], "accuracy .* not reached")
-                else:
-                    self.assertIn(result["code"], (0, 3), result["told"])
+                self.assertIn(result["code"], (0, 3), result["told"])
                 if result["code"] == 3:
                     self.assertEqual(result["classes"]["held by contact alone"], "yes")
                     self.assertRegex(result["told"], "(hold|holds) (body|its) .*(translation|rotation)")
@@ -61,7 +66,7 @@ class RandomScenes(unittest.TestCase):
 
     def test_other_words_for_a_scene_change_nothing(self):
         """Units, axes, the order of bodies, threads, what is reduced, libraries: random_equalities.py."""
-        for seed in range(EQUALITIES):
+        for seed in (*range(EQUALITIES), *KINKS):
             _, code, found = compare(PROGRAM, seed, SECONDS)
             for way, column, difference in found:
                 with self.subTest(seed=seed, code=code, way=way, column=column):

@@ -36,6 +36,19 @@ TriangleMesh cooksMembrane() {
   return mesh;
 }
 
+// Isosceles triangles have two longest sides but for rounding.
+TEST(Refine, basesDependNeitherOnUnitsNorOnRotations) {
+  TriangleMesh mesh = rectangleMesh({.lower = {0, 0}, .upper = {1.1, 0.7}, .cellsX = 11, .cellsY = 7});
+  for (Point& v : mesh.vertices) v.x() -= v.y() / 2;
+  TriangleMesh other = mesh;
+  const double c = std::cos(0.3);
+  const double s = std::sin(0.3);
+  for (Point& v : other.vertices) v = 0.21 * Point(c * v.x() - s * v.y(), s * v.x() + c * v.y());
+  chooseBases(mesh);
+  chooseBases(other);
+  EXPECT_EQ(mesh.triangles, other.triangles);
+}
+
 std::vector<char> randomMarks(const TriangleMesh& mesh, std::mt19937& random) {
   std::vector<char> marks(mesh.triangles.size());
   for (char& mark : marks) mark = random() % 20 == 0 ? 1 : 0;
