@@ -28,8 +28,10 @@ struct PythonObjects {
 class PythonLaw final : public RateLaw {
  public:
   /// The interpreter lock is held.
-  PythonLaw(PythonObjects objects, bool ofStrain, std::string name)
-      : objects_(new PythonObjects(std::move(objects))), ofStrain_(ofStrain), name_(std::move(name)) {}
+  PythonLaw(PythonObjects objects, bool needsTotalStrain, std::string name)
+      : objects_(new PythonObjects(std::move(objects))),
+        needsTotalStrain_(needsTotalStrain),
+        name_(std::move(name)) {}
   ~PythonLaw() override {
     if (Py_IsInitialized() == 0) return;  // with the interpreter its objects have gone
     const py::gil_scoped_acquire held;
@@ -38,7 +40,7 @@ class PythonLaw final : public RateLaw {
   PythonLaw(const PythonLaw&) = delete;
   PythonLaw& operator=(const PythonLaw&) = delete;
 
-  [[nodiscard]] bool ofStrain() const override { return ofStrain_; }
+  [[nodiscard]] bool needsTotalStrain() const override { return needsTotalStrain_; }
   void evaluate(const Matrix& stress, const Matrix& strain, Matrix& rate, Matrix* slopes) const override {
     const py::gil_scoped_acquire held;
     try {
@@ -126,7 +128,7 @@ class PythonLaw final : public RateLaw {
   }
 
   PythonObjects* objects_;
-  bool ofStrain_;
+  bool needsTotalStrain_;
   std::string name_;
 };
 
@@ -147,7 +149,7 @@ struct Held {
 };
 
 void registerCallable(const std::string& name, const py::object& rate, const py::object& derivative,
-                      bool ofStrain) {
+                      bool needsTotalStrain) {
   const auto heldRate = std::make_shared<Held>(rate);
   const auto heldDerivative = std::make_shared<Held>(derivative);
   registerLaw(name, [=](const LawParameters& parameters) -> std::shared_ptr<const RateLaw> {
@@ -155,7 +157,7 @@ void registerCallable(const std::string& name, const py::object& rate, const py:
     py::dict numbers;
     for (const auto& [key, value] : parameters.all()) numbers[py::str(key)] = value;
     return std::make_shared<PythonLaw>(PythonObjects{heldRate->object, heldDerivative->object, numbers},
-                                       ofStrain, name);
+                                       needsTotalStrain, name);
   });
 }
 
