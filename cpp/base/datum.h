@@ -24,8 +24,9 @@ struct Datum : Function {
   Datum() = default;
   Datum(Function value) : Function(std::move(value)) {}  // NOLINT: it is a function of which nothing is known
 
-  int degree = anyDegree;  ///< of the polynomial in x and y that it is at every time
-  bool inTime = true;      ///< whether it may change in time
+  int degree = anyDegree;        ///< of the polynomial in x and y that it is at every time
+  bool inTime = true;            ///< whether it may change in time
+  int degreeInTime = anyDegree;  ///< of the polynomial in t that it is at every place
   /// Holds all values in a box; empty where nothing is known. Copies are independent.
   std::function<Interval(const Box&)> enclosure = {};
   /// Enclosures along lines; empty where nothing is known. Each call reads the formula anew.

@@ -126,6 +126,7 @@ Expression negated(Expression expression) {
   Datum opposite = [value = Function(value)](double x, double y, double t) { return -value(x, y, t); };
   opposite.degree = value.degree;
   opposite.inTime = value.inTime;
+  opposite.degreeInTime = value.degreeInTime;
   if (value.enclosure)
     opposite.enclosure = [enclosure = value.enclosure](const Box& box) {
       const Interval range = enclosure(box);

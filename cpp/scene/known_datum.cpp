@@ -190,13 +190,13 @@ Taylor apply(const Operation& operation, const Taylor& a, const Taylor& b, const
   return Taylor::within(Interval::anything());
 }
 
-/// The degree in x and y of a polynomial whose coefficients depend on t.
-int degreeOf(const Operation& operation, int a, int b, int c) {
+/// The degree of a polynomial in the variables of these degrees.
+int degreeOf(const Operation& operation, const std::array<int, 3>& variables, int a, int b, int c) {
   constexpr int any = Datum::anyDegree;
   const int most = std::max({a, b, c});
   switch (operation.op) {
     case Op::variable:
-      return operation.a < 2 ? 1 : 0;
+      return variables[operation.a];
     case Op::negate:
     case Op::add:
     case Op::subtract:
@@ -222,13 +222,17 @@ void describe(const std::string& text, Datum& datum) {
     return;  // words that formulas do not have
   }
   const std::vector<Operation>& operations = formulas.operations();
-  std::vector<int> degrees;
-  for (const Operation& each : operations) {
-    const bool variable = each.op == Op::variable;
-    const auto of = [&](int k) { return k < 0 || variable ? 0 : degrees[k]; };
-    degrees.push_back(degreeOf(each, of(each.a), of(each.b), of(each.c)));
-  }
-  datum.degree = degrees[formulas.result(0)];
+  const auto degreeIn = [&](const std::array<int, 3>& variables) {
+    std::vector<int> degrees;
+    for (const Operation& each : operations) {
+      const bool variable = each.op == Op::variable;
+      const auto of = [&](int k) { return k < 0 || variable ? 0 : degrees[k]; };
+      degrees.push_back(degreeOf(each, variables, of(each.a), of(each.b), of(each.c)));
+    }
+    return degrees[formulas.result(0)];
+  };
+  datum.degree = degreeIn({1, 1, 0});
+  datum.degreeInTime = degreeIn({0, 0, 1});
   const auto enclosed = [operations, result = formulas.result(0),
                          work = std::vector<Taylor>(operations.size())](
                             const Taylor& x, const Taylor& y, const Taylor& t) mutable -> const Taylor& {

@@ -132,9 +132,10 @@ std::vector<Point> independent(const Datum& datum, const std::vector<Point>& can
 
 LoadPlaces found(const Datum& datum, std::vector<Point> candidates, const std::vector<Cell>& cells,
                  double end) {
-  std::vector<double> times = trialTimes(end);
+  const bool bends = datum.inTime && datum.degreeInTime > 1;
+  std::vector<double> times = bends ? trialTimes(end) : std::vector<double>{0, end};
   LoadPlaces result;
-  if (datum.enclosure && datum.inTime) {
+  if (datum.enclosure && bends) {
     Interval known{INFINITY, -INFINITY};
     for (const Point& p : candidates)
       for (const double t : times) {

@@ -32,6 +32,31 @@ double largest(const std::string& text, const int* label = &top) {
   return most;
 }
 
+TEST(LoadPlaces, degreesInTimeAreKnown) {
+  const auto degree = [](const std::string& text) {
+    return parseExpression(text, "test").value.degreeInTime;
+  };
+  EXPECT_EQ(degree("t*sqrt(x^2+y^2)"), 1);
+  EXPECT_EQ(degree("-(3*t - 1)*exp(x)/y"), 1);
+  EXPECT_EQ(degree("x*t+y*t*t"), 2);
+  for (const char* text : {"sin(t)", "x/t", "t < 0.5 ? x : 1", "abs(t-x)", "max(t, x)"})
+    EXPECT_GT(degree(text), 2) << text;
+}
+
+// No peak is looked for in a datum that grows along a straight line everywhere.
+TEST(LoadPlaces, dataThatAreLinearInTimeAreReadAtTheirEnds) {
+  int calls = 0;
+  Datum datum = parseExpression("t*sin(20*x)", "test").value;
+  const Function value = datum;
+  static_cast<Function&>(datum) = [&](double x, double y, double t) {
+    ++calls;
+    return value(x, y, t);
+  };
+  const TriangleMesh mesh = crissCrossMesh({{0, 0}, {1, 1}, 6, 6});
+  EXPECT_EQ(loadPlaces(datum, mesh, &top, end).points.size(), 1);
+  EXPECT_LE(calls, 2 * 9 * 6);
+}
+
 TEST(LoadPlaces, oneWhereAllCoursesAreAlike) {
   EXPECT_EQ(placesOf("-10*t").points.size(), 1);
   EXPECT_EQ(placesOf("-10*t*(1+x^2)").points.size(), 1);
