@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Estimated over true error of the stress (energy norm), where the exact stress is known: pure bending, and
-the note's compression with interpolation. The table of docs/theory.md.
+the note's compression with interpolation. The table of docs/measurements.md.
 
     bench/estimate.py
 """

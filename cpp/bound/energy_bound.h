@@ -5,7 +5,7 @@
 //
 //   |s - sigma|^2  <=  |s^ - s|^2 + |E eps(u^) - s|^2 + 2 integral of p^ G(u^)
 //
-// for the exact stress sigma and any stress s, that of the finite elements here (docs/theory.md has the
+// for the exact stress sigma and any stress s, that of the finite elements here (docs/bounds.md has the
 // proof). s^ comes from tractions that are balanced triangle by triangle (side_tractions.h), relaxed by
 // sweeps (relaxation.h), u^ from a lift of the finite element displacement (lift.h).
 #pragma once

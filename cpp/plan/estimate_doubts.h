@@ -1,5 +1,5 @@
 // Where the estimate of the error of the stress (fem/error_estimate.h) is known to be wrong, and by how much:
-// docs/theory.md has the measurements.
+// docs/measurements.md has the ratios.
 #pragma once
 
 #include <string>

@@ -9,7 +9,7 @@
 // backwards (t = b, t = -b): t is what the body that slips exerts on the other, which moves it along. On a
 // set p of the closed and t of the sticking nodes solve one dense unsymmetric system A. Sets are found by
 // Newton's method on them, and where that goes round, by a path that ends (friction_path.h): for every
-// positive definite W there is a solution, whatever mu (docs/theory.md).
+// positive definite W there is a solution, whatever mu (docs/decisions.md).
 #pragma once
 
 #include <vector>
@@ -76,7 +76,7 @@ struct FrictionSolution {
                           ///< where it is solved x is one choice of many
   Vector rigid = {};      ///< z, of free motions [m]
   /// Whether sets with det A < 0 were met: with some other q this problem has several solutions
-  /// (docs/theory.md).
+  /// (docs/decisions.md).
   bool ambiguous = false;
 };
 

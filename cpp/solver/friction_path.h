@@ -3,7 +3,7 @@
 // everything is open for large tau. From there tau falls to 0; where a force, a gap, a slip or what is left
 // of a bound ends, its node changes sets and the path goes on: tau falls where det A(sets) > 0 and rises
 // where it is negative. For W positive definite the only solution of q = 0 is zero, so the path cannot go to
-// infinity; no piece of it comes twice, and so it ends at tau = 0 (docs/theory.md). A solution found so has
+// infinity; no piece of it comes twice, so it ends at tau = 0 (docs/decisions.md). A solution found so has
 // det A > 0.
 #pragma once
 

@@ -1,5 +1,5 @@
 // The solutions of a step for every viscosity, from that of almost elastic bodies to its own. Where a step
-// has several solutions, the one at the end of this curve is taken (docs/theory.md).
+// has several solutions, the one at the end of this curve is taken (docs/decisions.md).
 //
 // The law of the step with 10^decades weight in place of weight has, for decades -> -infinity, the one
 // solution of an elastic step. From there a curve of solutions leads to decades = 0, but `decades` may go up
