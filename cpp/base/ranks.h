@@ -1,6 +1,7 @@
-// Processes that work on one run. All of them go through the same program in the same order and take the same
-// decisions: what these depend on is the same everywhere, bit for bit. The functions here are collective:
-// every rank calls them, in the same order. A run of one process has one rank, for which they do nothing.
+// Processes that share one run. All of them execute the same program in the same order and take the same
+// decisions, which depend only on data that are bitwise identical on all ranks. The functions here are
+// collective: every rank calls them, in the same order. A run of one process has one rank, for which they do
+// nothing.
 #pragma once
 
 #include <cstddef>

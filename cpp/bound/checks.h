@@ -1,6 +1,6 @@
-// What makes a bound strict, read off the finished fields, whatever way led to them: stresses in equilibrium
-// in every part of every triangle and with the loads, the same pressure and no shear on both sides of a
-// contact line, a pressure that is nowhere negative, a displacement that penetrates nowhere.
+// Checks of the conditions of an error bound on the computed fields, independent of their construction:
+// stresses in equilibrium in every part of every triangle and with the loads, the same pressure and no shear
+// on both sides of a contact line, no negative pressure, no penetration.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// The mortar line as a part of the nonmortar line sees it. A point x1(s) of the part sees the point x2 of the
-// mortar line along the direction of contact n,
+// The pairing of a part of the nonmortar line with the mortar line. A point x1(s) of the part faces (code:
+// sees) the point x2 of the mortar line in the contact direction n,
 //
 //   (x1(s) - x2) x n = 0,      n ~ R1 n1(s) - R2 n2(x2),
 //

@@ -1,6 +1,6 @@
-// The parts of a run that several ranks share: every triangle is of one rank, whose model has the part of
-// each body that its triangles make (fem/body.h), with numbers of its own. Nodes that several ranks have are
-// told apart by numbers that all of them know.
+// A run distributed over several ranks: every triangle belongs to one rank, whose model has the part of each
+// body made of its triangles (fem/body.h), with local numbering. Nodes shared by several ranks are identified
+// by global numbers.
 #pragma once
 
 #include <string>

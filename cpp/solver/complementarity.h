@@ -1,7 +1,7 @@
 // The contact problem once everything else is condensed away: the mixed linear complementarity problem
 //   s = s0 + W dp - G z >= 0,   p = p0 + dp >= 0,   p s = 0     (contact)
 //   G' dp = r                                                   (balance of rigid motions)
-// for the change dp of the contact forces and the rigid motions z of bodies that contact alone holds.
+// for the change dp of the contact forces and the rigid motions z of bodies held by contact alone.
 // W = C S^-1 C' is the contact compliance, G = C R the normal motion of the nonmortar nodes under rigid
 // motions, s the slack g0 - C u, r the part of the load that only contact can balance.
 #pragma once

@@ -1,6 +1,6 @@
-// A contact problem (complementarity.h) that is solved on one active set after the other: what principal
-// pivoting needs, whichever way the equations of a set are solved. The balance is held by a proximal term on
-// the rigid motions,
+// A contact problem (complementarity.h) solved for a sequence of active sets: the interface that principal
+// pivoting needs, independent of how the equations of a set are solved. A proximal term on the rigid motions
+// enforces their balance,
 //   s = s0 + W dp - G z,   p = p0 + dp,   G' dp + proximal (z - z0) = r,   s_A = 0,   p = 0 off A.
 #pragma once
 

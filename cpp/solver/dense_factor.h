@@ -1,6 +1,5 @@
-// Factors of a dense matrix, made in its own memory: Cholesky's where it is symmetric, else LU with row
-// interchanges, by panels of columns, so that an interruption is heard between any two blocks of a large
-// matrix.
+// In-place factorisation of a dense matrix: Cholesky if it is symmetric, else LU with row interchanges, by
+// panels of columns; interruptions are checked between any two blocks of a large matrix.
 #pragma once
 
 #include "base/types.h"

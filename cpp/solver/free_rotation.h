@@ -1,6 +1,6 @@
-// Rollers: bodies whose contact nodes lie on circles about one centre. Without friction no contact holds them
-// against turning about it, whatever nodes near a flat side seem to resist, and nothing else depends on that
-// motion.
+// Rollers: bodies whose contact nodes lie on circles about one centre. Frictionless contact does not resist a
+// rotation about this centre, even if the discretised conditions at nodes near a flat side seem to, and the
+// rest of the solution does not depend on it.
 #pragma once
 
 #include <optional>

@@ -5,11 +5,12 @@
 // where g is the gap, v the slip of the step, W = C S^-1 C' the compliance against both, C = [C_n; C_t].
 // c = 0 is Coulomb's law, mu = 0 is Tresca's.
 //
-// Every solution is one of a set: conditions are open or closed, nodes stick (v = 0), or slip forwards or
-// backwards (t = b, t = -b): t is what the body that slips exerts on the other, which moves it along. On a
-// set p of the closed and t of the sticking nodes solve one dense unsymmetric system A. Sets are found by
-// Newton's method on them, and where that goes round, by a path that ends (friction_path.h): for every
-// positive definite W there is a solution, whatever mu (docs/decisions.md).
+// Every solution belongs to a set (contact state): conditions are open or closed, nodes stick (v = 0), or
+// slip forwards or backwards (t = b, t = -b); t is the force of the slipping body on the other one, in the
+// direction of the slip. For a given set, p of the closed and t of the sticking nodes solve one dense
+// unsymmetric system A. Sets are found by Newton's method on sets and, if that cycles, by a path-following
+// method that terminates (friction_path.h): for every positive definite W there is a solution, whatever mu
+// (docs/theory.md).
 #pragma once
 
 #include <vector>

@@ -1,9 +1,9 @@
-// The contact problem with friction (friction.h) of bodies that contact alone holds, z their rigid motions,
+// The contact problem with friction (friction.h) of bodies held by contact alone, with rigid motions z,
 //   w = q + W x - G z,     G' x = f,
-// f the load on the motions. Springs are put on them, G' x + spring (z - z0) = f, and z0 follows z until they
-// carry nothing (a proximal term, as in complementarity.h). To the springs' eyes W is W + G G'/spring, so all
-// that is known of solveFriction holds. Where the balance cannot be met the last change of z is the motion in
-// which bodies slide, tip or leave.
+// and the load f on these motions. A proximal term (as in complementarity.h) acts like springs on them, G' x
+// + spring (z - z0) = f, where z0 is set to z and the problem solved again until the spring forces vanish.
+// Eliminating z replaces W by W + G G'/spring, so solveFriction applies. If equilibrium is impossible, the
+// last change of z is the motion in which bodies slide, tip or separate.
 #pragma once
 
 #include "solver/friction.h"

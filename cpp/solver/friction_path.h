@@ -1,10 +1,10 @@
 // The sets of a contact problem with friction by following a path (Lemke's idea, on sets). With
 //   q(tau) = q + tau d,   d > 0 on gaps, 0 on slips,
-// everything is open for large tau. From there tau falls to 0; where a force, a gap, a slip or what is left
-// of a bound ends, its node changes sets and the path goes on: tau falls where det A(sets) > 0 and rises
-// where it is negative. For W positive definite the only solution of q = 0 is zero, so the path cannot go to
-// infinity; no piece of it comes twice, so it ends at tau = 0 (docs/decisions.md). A solution found so has
-// det A > 0.
+// everything is open for large tau. From there tau decreases to 0; where a force, a gap, a slip or the
+// distance of a shear force from its bound becomes zero, the node changes its state and the path continues:
+// tau decreases where det A(sets) > 0 and increases where it is negative. For W positive definite the only
+// solution of q = 0 is zero, so the path is bounded; no piece of it is visited twice, so it ends at tau = 0
+// (docs/theory.md). The solution found in this way has det A > 0.
 #pragma once
 
 #include <optional>

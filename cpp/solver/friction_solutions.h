@@ -1,6 +1,7 @@
-// The solutions of a contact problem with friction that its path (friction_path.h) meets. Its first passage
-// through tau = 0 is a solution with det A > 0. Where there are others, as those of a wedge that holds, lets
-// go, or is between the two (det A < 0), the path followed on beyond tau = 0 comes back to most of them.
+// The solutions of a contact problem with friction on its path (friction_path.h). The first passage of the
+// path through tau = 0 is a solution with det A > 0. If there are others, as for a wedge that jams, slides,
+// or is in an unstable state in between (det A < 0), the path continued beyond tau = 0 returns to most of
+// them.
 #pragma once
 
 #include <optional>
