@@ -51,7 +51,7 @@ TEST(RoughLines, hydrostaticPressureNeedsNoFriction) {
       for (const Sides sides : {Sides::pressed, Sides::held})
         for (const double angle : {0.0, 1.0}) {
           const Model model = stack({4, 6}, turned(angle, roof(slope)), CouplingKind::mortar, upperNonmortar,
-                                    sides, hasFriction());
+                                    sides, rough());
           const auto [state, report] = run(model, 1, 1);
           ASSERT_EQ(report.status, Status::converged) << report.reason;
           worst = std::max(worst, patchError(model, state));
@@ -131,7 +131,7 @@ TEST(RoughLines, coupleIsForceTimesDistance) {
   for (const bool upperNonmortar : {true, false}) {
     const Function push = [](double, double, double t) { return 0.05 * t; };
     const Function down = [](double, double, double t) { return -0.02 * t; };
-    InterfaceOptions options = hasFriction();
+    InterfaceOptions options = rough();
     options.initial = InitialGap::close;
     const Model model = contactModel(
         {"upper", square(apart, 4), elasticMaterial({100, 0.3}), {{{top, 0, push}, {top, 1, down}}, {}, {}}},
@@ -167,7 +167,7 @@ Model pin(int cells, bool pinNonmortar, double interference) {
   model.bodies.emplace_back("pin", ring(0.5, 1, cells), elasticMaterial({100, 0.3}), std::move(inside));
   model.bodies.emplace_back("ring", ring(1, 2, cells * 5 / 4), elasticMaterial({100, 0.3}),
                             std::move(outside));
-  InterfaceOptions options = hasFriction();
+  InterfaceOptions options = rough();
   options.gap = [=](const Point&) { return -interference; };
   const ContactSide ofPin{0, 2};
   const ContactSide ofRing{1, 1};
@@ -245,7 +245,7 @@ Model cornered(bool blockNonmortar, CouplingKind coupling, bool rigid) {
                             elasticMaterial({200, 0.3}), held(rigid ? all : std::vector<int>{right}));
   const auto add = [&](const ContactSide& ofBlock, const ContactSide& other) {
     addInterface(model, {blockNonmortar ? ofBlock : other, blockNonmortar ? other : ofBlock, coupling},
-                 hasFriction());
+                 rough());
   };
   add({0, bottom}, {1, top});
   add({0, wallSide}, {2, left});
@@ -301,7 +301,7 @@ TEST(RoughLines, blockHeldByABrokenLineAlone) {
     const ContactSide below{1, top};
     addInterface(model,
                  {upperNonmortar ? above : below, upperNonmortar ? below : above, CouplingKind::mortar},
-                 hasFriction());
+                 rough());
     const auto [state, report] = run(model, 1, 2);
     ASSERT_EQ(report.status, Status::converged) << report.reason;
     EXPECT_LE(report.worst.friction, 1e-12);
