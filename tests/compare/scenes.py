@@ -254,6 +254,35 @@ steps = 2
 """
 
 
+LAW_KEYS = """\
+plane = "strain"
+[[body]]
+name = "upper"
+mesh = { shape = "rectangle", lower = [0, 0], upper = [1, 1], cells = [2, 2], cut = "both" }
+boundary = [ { label = 3, ux = 0, uy = "-1e-3*t" } ]
+[body.material]
+young = 10
+poisson = 0.3
+law = "expression"
+rate11 = "a*(s11 - (s11 + s22 + s33)/3)"
+rate22 = "a*(s22 - (s11 + s22 + s33)/3)"
+rate12 = "a*s12"
+rate33 = "a*(s33 - (s11 + s22 + s33)/3)"
+parameters = { a = 0.1 }
+isotropic = true
+[[body]]
+name = "lower"
+mesh = { shape = "rectangle", lower = [0, -1], upper = [1, 0], cells = [3, 2], cut = "both" }
+boundary = [ { label = 1, ux = 0, uy = 0 } ]
+material = { young = 20, poisson = 0.3, law = "standard-solid", relaxation_time = 2, relaxed_fraction = 0.4 }
+[contact]
+sides = [ { body = "upper", label = 1 }, { body = "lower", label = 3 } ]
+[time]
+end = 1
+steps = 2
+"""
+
+
 def lower_heat(count):
     """Nodal temperatures of the lower body: one number a line."""
     return "".join(f"{5 + 0.5*i}\n" for i in range(count))
