@@ -135,7 +135,7 @@ LoadPlaces found(const Datum& datum, std::vector<Point> candidates, const std::v
   const bool bends = datum.inTime && datum.degreeInTime > 1;
   std::vector<double> times = bends ? trialTimes(end) : std::vector<double>{0, end};
   LoadPlaces result;
-  if (datum.enclosure && bends) {
+  if (datum.enclosure && datum.inTime) {
     Interval known{INFINITY, -INFINITY};
     for (const Point& p : candidates)
       for (const double t : times) {
@@ -143,7 +143,10 @@ LoadPlaces found(const Datum& datum, std::vector<Point> candidates, const std::v
         known = {std::min(known.least, value), std::max(known.largest, value)};
       }
     Search search(datum, known, end);
-    for (const Cell& cell : cells) search.in(cell, candidates, result.times);
+    // What is linear in time has no peaks: it is looked for only where the candidates show none of it.
+    const bool hidden = known.least == 0 && known.largest == 0;
+    for (const Cell& cell : cells)
+      if (bends || hidden) search.in(cell, candidates, result.times);
     std::sort(result.times.begin(), result.times.end());
     times.insert(times.end(), result.times.begin(), result.times.end());
   }

@@ -54,7 +54,7 @@ TEST(LoadPlaces, dataThatAreLinearInTimeAreReadAtTheirEnds) {
   };
   const TriangleMesh mesh = crissCrossMesh({{0, 0}, {1, 1}, 6, 6});
   EXPECT_EQ(loadPlaces(datum, mesh, &top, end).points.size(), 1);
-  EXPECT_LE(calls, 2 * 9 * 6);
+  EXPECT_LE(calls, 2 * 2 * 9 * 6);
 }
 
 TEST(LoadPlaces, oneWhereAllCoursesAreAlike) {
