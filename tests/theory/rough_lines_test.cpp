@@ -50,8 +50,8 @@ TEST(RoughLines, hydrostaticPressureNeedsNoFriction) {
     for (const bool upperNonmortar : {true, false})
       for (const Sides sides : {Sides::pressed, Sides::held})
         for (const double angle : {0.0, 1.0}) {
-          const Model model = stack({4, 6}, turned(angle, roof(slope)), CouplingKind::mortar, upperNonmortar,
-                                    sides, rough());
+          const Model model =
+              stack({4, 6}, turned(angle, roof(slope)), CouplingKind::mortar, upperNonmortar, sides, rough());
           const auto [state, report] = run(model, 1, 1);
           ASSERT_EQ(report.status, Status::converged) << report.reason;
           worst = std::max(worst, patchError(model, state));
