@@ -141,8 +141,8 @@ initial | | `"as-meshed"` | `"as-meshed"`, `"close"`, `"reject"` | the distance 
 gap | m | as drawn | datum | distance at the nonmortar nodes (`check` warns where it varies between them), in
   place of that as drawn: positive apart, negative for an interference; one that changes in time does work
   ([below](#distances-that-change))
-friction | | 0 | >= 0 | Coulomb's coefficient: the shear stress is at most so many times the pressure, and
-  where it is less the bodies stick ([below](#friction))
+friction | | 0 | >= 0 | Coulomb's coefficient, the largest ratio of shear stress to pressure: below it
+  the bodies stick ([below](#friction))
 shear_limit | Pa | 0 | >= 0, without `friction` | Tresca's law: the shear stress at which the surfaces slip,
   pressed or not
 sliding | | `"refuse"` | `"refuse"`, `"allow"` | slips are taken as small. Where a node that is pressed slides
@@ -158,11 +158,11 @@ reaction | N/m | | `{ body = "name", label = 1 }`, `{ body = "name", point = [x,
 contact_force | N/m | | `{ body = "name", label = 1 }` | what contact exerts on the body along the label
 displacement | m | | `{ body = "name", point = [x, y] }` or `{ body = "name", label = 1 }` | at a point (where
   it was at t = 0), or the mean over a label
-stored_energy | J/m | | `{ body = "name" }` | energy stored in the body: that of elasticity, of kinematic and
-  isotropic hardening and of both springs of a standard solid; of a law of one's own that of elasticity alone
-dissipated_energy | J/m | | `{ body = "name" }` | what the body has turned into heat since the run began: the
-  integral of (s - X) : G, X the back stress of `kinematic_hardening` or of the spring beside the dashpot of a
-  standard solid; all of s : G in a law of one's own
+stored_energy | J/m | | `{ body = "name" }` | recoverable energy of the body: elastic energy, and that
+  of hardening and of both springs of a standard solid; of a user-defined law the elastic energy alone
+dissipated_energy | J/m | | `{ body = "name" }` | energy turned into heat since the run began: time integral
+  of (s - X) : G, X the back stress of `kinematic_hardening` or of the spring parallel to the dashpot of a
+  standard solid, X = 0 for a user-defined law
 work | J/m | | `{ body = "name" }` | what all forces have done on the body since then, those of contact
   included
 external_work | J/m | | `{ body = "name" }` | of it, what loads and supports have done

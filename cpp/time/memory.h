@@ -36,7 +36,7 @@ struct ControllerMemory {
   State start;                      ///< of each
   double timeStep = 0;              ///< to try next [s]
   ErrorNorms scale;                 ///< by which errors of steps are measured
-  ErrorNorms largest;               ///< of the run, as far as it is known: by which its error is told
+  ErrorNorms largest;               ///< over the run so far: the scale of its relative error
   double local = 0;                 ///< what the error of a step may be, relative
   std::vector<Matrix> strain;       ///< error of the viscoplastic strain, exact less computed; empty: none
   ErrorNorms error;                 ///< what it makes of stress and displacement

@@ -13,8 +13,8 @@ SCHEMES = ("backward-euler", "backward-euler", "sdirk2", "crank-nicolson", "sdir
 class WideScene:
     """Scene number `seed`: its text, its meshes (as arguments of `mortier mesh`) and its classes.
 
-    The same problem in other words, for random_equalities.py: in units in which stresses, lengths and times
-    are so many times as large; with x and y turned by a right angle (the meshes have to be turned, too); with
+    The same problem in other words, for random_equalities.py: with stresses, lengths and times multiplied
+    by the factors `units`; with x and y turned by a right angle (the meshes have to be turned, too); with
     the bodies in the reverse order."""
 
     KINDS = ("plane", "degree", "scheme", "law", "friction", "temperature", "round", "gap", "accuracy",
