@@ -26,6 +26,10 @@ double Controller::halve(StepTaker& taker, const StepTaker::Kept& start, const S
   StepTaker::Kept end = taker.kept();
   const State& reached = end.first;
   taker.goBack(start);
+  if (!end.second.increments.empty()) {  // half of them is a better guess than the step before
+    memory_.increments = end.second.increments;
+    memory_.timeStep = end.second.timeStep;
+  }
   for (const double t1 : {start.first.time + (reached.time - start.first.time) / 2, reached.time}) {
     StepOutcome outcome = taker.attempt(t1);
     if (outcome.converged() && taker.turned()) outcome = taker.guard(outcome);

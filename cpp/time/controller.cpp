@@ -16,6 +16,14 @@ constexpr int mostOnsets = 6;       // attempts that may be told to end on the o
 constexpr double aim = 0.7;         // of the tolerance
 constexpr double unseenPart = 0.2;  // of the square root of the tolerance
 
+void multiply(StepError& error, double factor) {
+  for (Matrix& strain : error.strain) strain *= factor;
+  for (Response& response : error.response) {
+    response.displacement *= factor;
+    response.stress *= factor;
+  }
+}
+
 }  // namespace
 
 Controller::Controller(const Model& model, const TimePlan& plan, MarchMemory& memory)
@@ -178,16 +186,11 @@ Controller::Judgement Controller::judge(StepTaker& taker, double t0, double t1) 
     change = std::max(change, measure_.sizeOf(taker.change(i)).stress);
   const ErrorNorms& scale = memory_.controller.scale;
   const bool ofStress = relative({norms.stress, 0, 0}, scale) > relative({0, norms.displacement, 0}, scale);
-  if (norms.stress > change && ofStress) {
-    for (Matrix& strain : result.local.strain) strain *= change / norms.stress;
-    for (Response& response : result.local.response) {
-      response.displacement *= change / norms.stress;
-      response.stress *= change / norms.stress;
-    }
-  }
+  if (norms.stress > change && ofStress) multiply(result.local, change / norms.stress);
   norms.stress = std::min(norms.stress, change);
   const ControllerMemory& own = memory_.controller;
   result.size = relative(norms, own.scale);
+  result.change = relative({change, 0, 0}, own.scale);
   const double error = result.size / own.local;
   result.factor = std::clamp(safety * std::pow(error, -1.0 / taker.errorOrder()), leastFactor, largestFactor);
   result.good = error <= 1 || isShortest(t0, t1 - t0);
@@ -236,7 +239,8 @@ StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort e
   // What is too long without the guard is too long with it, whose steps are of the first order; but where the
   // data turn to rest they are exact.
   const bool turns = t0 == memory_.begin || std::binary_search(stops_.begin(), stops_.end(), t0);
-  if ((!judgement.good && !turns) || !taker.turned()) return outcome;
+  const bool changes = judgement.change > memory_.controller.local;
+  if (!changes || (!judgement.good && !turns) || !taker.turned()) return outcome;
   outcome = taker.guard(outcome, effort);
   if (outcome.converged()) judgement = judge(taker, t0, t1);
   return outcome;
@@ -318,6 +322,8 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     const bool looksOn = (closes || taker.guarded() || (begins && !rough_ && outcome.rung != Rung::rest)) &&
                          flows_ && !isShortest(state.time, k);
     if (step.beginsPair || looksOn) kept = taker.kept();
+    const double twice = std::exp2(static_cast<double>(nodes_.size()));  // the error of a step twice as long
+    if (looksOn) multiply(step.judgement.local, 1 / twice);
     if (outcome.rung != Rung::rest)
       add(taker, std::move(step.judgement.local), judgement.size,
           second ? std::exchange(own.missed, {}) : SlipAndWork());

@@ -55,6 +55,7 @@ class Controller {
   struct Judgement {
     StepError local;                ///< its error
     double size = 0;                ///< of that, relative
+    double change = 0;              ///< of the stress from the start to a stage, relative
     double factor = largestFactor;  ///< by which the next step may be longer
     bool good = true;
   };

@@ -135,7 +135,7 @@ TEST(ErrorControl, theToleranceIsTheErrorOfEveryStepUnderLoadsOfManyKinds) {
       EXPECT_FALSE(run.told) << run.reason;
       EXPECT_LE(run.error, 1.5 * tolerance);
       EXPECT_GE(run.estimate, 0.3 * run.error - timecases::rounding);
-      EXPECT_LE(run.estimate, std::max(4 * run.error, 0.8 * tolerance));
+      EXPECT_LE(run.estimate, std::max(4 * run.error, 0.5 * tolerance));
     }
   }
 }
