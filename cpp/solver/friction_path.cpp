@@ -21,7 +21,7 @@ namespace {
 /// found otherwise by rounding.
 class Path {
  public:
-  Path(const FrictionSystem& system, FrictionSets sets)
+  explicit Path(const FrictionSystem& system)
       : system_(system),
         W_(system.problem().W),
         law_(system.problem().rows.law),
@@ -29,10 +29,11 @@ class Path {
         free_(system.problem().motions),
         n_(system.normals()),
         motions_(free_ != nullptr ? free_->G.cols() : 0),
-        sets_(std::move(sets)),
+        sets_{std::vector<char>(n_, 0), std::vector<signed char>(node_.size(), 1)},
         d_(Vector::Zero(W_.rows())),
         unit_(W_.diagonal().cwiseInverse()) {
     if (motions_ > 0) scale_ = 1 / (unit_.minCoeff() * free_->G.cwiseAbs().maxCoeff());
+    system.holdIdle(sets_);
     openBy();
   }
 
@@ -45,8 +46,8 @@ class Path {
     if (!invert() || !locate(0)) return passages;
     double tau = 0;
     double largest = 0;
-    for (Eigen::Index i = 0; i < n_; ++i) {
-      if (!(d_[i] > 0)) continue;
+    for (Eigen::Index i = 0; i < W_.rows(); ++i) {
+      if (d_[i] == 0) continue;
       tau = std::max(tau, -here_.motion[i] / d_[i]);
       largest = std::max(largest, std::abs(here_.motion[i] / d_[i]));
     }
@@ -77,7 +78,7 @@ class Path {
   }
 
   /// d: gaps as uniform forces open them, that forces of the path are of their size; a little different for
-  /// all, so that events come one by one.
+  /// all, so that events come one by one. What shear limits hold slips.
   void openBy() {
     constexpr double turn = 0.618033988749895;
     constexpr double least = 0.1;
@@ -96,6 +97,10 @@ class Path {
         d_[i] = 0;
       } else if (i < n_) {
         d_[i] += short_ * forces[i] / unit_[i];
+      } else if (law_.limit[i - n_] > 0) {
+        const int node = node_[i - n_];
+        d_[i] =
+            -0.5 * (system_.idle(node) ? 1 / unit_[i] : d_[node]) / std::max(1.0, law_.coefficient[i - n_]);
       }
     }
   }
@@ -271,15 +276,15 @@ class Path {
 
 }  // namespace
 
-std::optional<FrictionSets> followPath(const FrictionSystem& system, FrictionSets first, int& events) {
-  std::vector<FrictionSets> passages = Path(system, std::move(first)).follow(0, events);
+std::optional<FrictionSets> followPath(const FrictionSystem& system, int& events) {
+  std::vector<FrictionSets> passages = Path(system).follow(0, events);
   if (passages.empty()) return std::nullopt;
   return std::move(passages.front());
 }
 
-std::vector<FrictionSets> followPathBeyond(const FrictionSystem& system, FrictionSets first, int& events) {
+std::vector<FrictionSets> followPathBeyond(const FrictionSystem& system, int& events) {
   constexpr double beyond = 3;
-  return Path(system, std::move(first)).follow(beyond, events);
+  return Path(system).follow(beyond, events);
 }
 
 }  // namespace mortier

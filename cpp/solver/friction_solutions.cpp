@@ -9,24 +9,7 @@
 namespace mortier {
 namespace {
 
-/// The sets with which the path begins: everything is open, and t is what the limits c hold.
-std::optional<FrictionSets> allOpen(const FrictionSystem& system) {
-  constexpr int most = 100;  // solves a condition
-  const Matrix& W = system.problem().W;
-  const auto& [node, law] = system.problem().rows;
-  const Eigen::Index n = system.normals();
-  FrictionSets open{std::vector<char>(n, 0), std::vector<signed char>(node.size(), 1)};
-  if (law.limit.isZero(0)) return open;
-  Vector far = system.q();
-  far.head(n) = W.topRightCorner(n, law.limit.size()).cwiseAbs() * law.limit;
-  far.head(n) += W.diagonal().head(n) * far.head(n).maxCoeff() / W.diagonal().maxCoeff();
-  FrictionSystem apart(system.problem(), far);
-  const std::optional<FrictionSolution> held = apart.bounded(law.limit, open, most * (far.size() + 1));
-  if (!held) return std::nullopt;
-  return held->sets;
-}
-
-/// Calls onPath(problem, first sets) for the problem and for two nearby until it returns true.
+/// Calls onPath(problem) for the problem and for two nearby until it returns true.
 template <class OnPath>
 void followNearby(const FrictionSystem& system, OnPath onPath) {
   constexpr double turn = 0.754877666246693;
@@ -38,8 +21,7 @@ void followNearby(const FrictionSystem& system, OnPath onPath) {
       q[i] += nearby * largest * (place - std::floor(place) - 0.5);
     }
     const FrictionSystem moved(system.problem(), q);
-    std::optional<FrictionSets> first = allOpen(moved);
-    if (first && onPath(moved, std::move(*first))) return;
+    if (onPath(moved)) return;
   }
 }
 
@@ -47,8 +29,8 @@ void followNearby(const FrictionSystem& system, OnPath onPath) {
 
 std::optional<FrictionSolution> firstOnPath(FrictionSystem& system, int& events) {
   std::optional<FrictionSolution> solution;
-  followNearby(system, [&](const FrictionSystem& moved, FrictionSets first) {
-    std::optional<FrictionSets> sets = followPath(moved, std::move(first), events);
+  followNearby(system, [&](const FrictionSystem& moved) {
+    std::optional<FrictionSets> sets = followPath(moved, events);
     if (sets) solution = system.newton(system.problem().rows.law, std::move(*sets));
     if (solution && solution->index < 0) solution.reset();
     return solution.has_value();
@@ -69,8 +51,8 @@ std::vector<FrictionSolution> solutionsOnPath(const FrictionProblem& problem, co
   };
   FrictionSystem system(problem, q);
   int events = 0;
-  followNearby(system, [&](const FrictionSystem& moved, FrictionSets first) {
-    const std::vector<FrictionSets> passages = followPathBeyond(moved, std::move(first), events);
+  followNearby(system, [&](const FrictionSystem& moved) {
+    const std::vector<FrictionSets> passages = followPathBeyond(moved, events);
     for (const FrictionSets& sets : passages)
       if (const std::optional<FrictionSolution> one = system.newton(problem.rows.law, sets);
           one && !isKnown(*one))

@@ -77,7 +77,7 @@ TEST(Friction, agreesWithEnumerationOfAllSets) {
 
       FrictionSystem system(c.problem(), c.q);
       int events = 0;
-      const auto sets = followPath(system, open(n), events);
+      const auto sets = followPath(system, events);
       ASSERT_TRUE(sets.has_value()) << "trial " << trial << ", mu " << mu;
       const auto onPath = system.newton(c.rows.law, *sets);
       ASSERT_TRUE(onPath.has_value());
@@ -157,7 +157,7 @@ TEST(Friction, pathsOfManyNodesAreShort) {
     ASSERT_TRUE(solution.solved);
     FrictionSystem system(c.problem(), c.q);
     int events = 0;
-    const auto sets = followPath(system, open(n), events);
+    const auto sets = followPath(system, events);
     ASSERT_TRUE(sets.has_value()) << mu;
     const auto onPath = system.newton(c.rows.law, *sets);
     ASSERT_TRUE(onPath.has_value());
@@ -201,6 +201,42 @@ TEST(Friction, fixedBoundsHold) {
     ASSERT_TRUE(solution.solved) << trial;
     EXPECT_LE(worstFault(c, solution), 1e-12) << trial;
   }
+}
+
+// A body that nothing but a limit of the shear stress holds along the line, and that expands: nearly all of
+// it slips, to either side. Changes of one condition at a time would take some 2^n solves.
+TEST(Friction, shearLimitsAloneHoldABody) {
+  constexpr int n = 17;
+  Randoms random(10);
+  int paths = 0;
+  for (int trial = 0; trial < problems(60); ++trial) {
+    FrictionCase c = randomFriction(random, n, 0);
+    const double stiffness = 1 / c.W.diagonal().maxCoeff();
+    c.q.head(n).setConstant(1);
+    c.q.tail(n) += Vector::LinSpaced(n, -1, 1);
+    c.rows.law.limit = stiffness / (100 * n) * (Vector::Ones(n) + random.vector(n).cwiseAbs());
+    Matrix G = Matrix::Zero(2 * n, 1);
+    G.bottomRows(n).setOnes();
+    const FreeMotions motion{G, Vector::Zero(1), Vector::Zero(1), 1e-9 * stiffness, stiffness};
+    const FrictionProblem problem{c.W, c.rows, &motion};
+    const FrictionSolution solution = solveFriction(problem, c.q, open(n));
+    ASSERT_TRUE(solution.solved) << trial;
+    EXPECT_LE(std::abs(solution.force.tail(n).sum()), 1e-6 * c.rows.law.limit.sum());
+    paths += solution.events > 0 ? 1 : 0;
+    EXPECT_LE(solution.events, 5 * n);
+
+    FrictionSystem system(problem, c.q);
+    int events = 0;
+    const auto sets = followPath(system, events);
+    ASSERT_TRUE(sets.has_value()) << trial;
+    const auto onPath = system.newton(c.rows.law, *sets);
+    ASSERT_TRUE(onPath.has_value());
+    c.q -= G * solution.rigid;
+    EXPECT_LE(worstFault(c, solution), 1e-12) << trial;
+    EXPECT_LE(worstFault(c, *onPath), 1e-12) << trial;
+  }
+  std::cout << "path taken in " << paths << '\n';
+  EXPECT_GT(paths, 0);
 }
 
 // In other units the same sets come in the same number of solves.
