@@ -202,7 +202,7 @@ Solved solve(Solving solving) {
   keptMemory = {};
   if (inParts) state = gathered(solving.solvedModel, state);
   if (!writes) return solved;
-  solving.error.moveTo(state);
+  if (inParts) solving.error.moveTo(state);  // elsewhere it is at the last step
   if (files) solved.files = files->close(state, last.step);
   solved.accuracy = accuracies.atEnd(report.peaks);
   if (flow) {

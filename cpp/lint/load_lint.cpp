@@ -31,8 +31,7 @@ void checkDatum(const LintInput& input, const SampledDatum& datum, Faults& fault
   const std::string subject = "body " + body.name + ": ";
   const std::string& length = input.scene.units.length;
   if (datum.kind == Kind::displacement) {
-    double most = datum.largest(0);
-    for (const double t : trialTimes(input.scene.time)) most = std::max(most, datum.largest(t));
+    const double most = datum.largestIn(input.scene.time);
     if (most > large * datum.size)
       faults.add("large-displacement", placeOf(*datum.value),
                  subject + "a displacement of " + shortest(most) + " " + length +

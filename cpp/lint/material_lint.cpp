@@ -198,8 +198,7 @@ double yieldTime(const std::vector<SampledDatum>& data, const TimePlan& plan, do
 void lintMaterials(const LintInput& input, Faults& faults) {
   const std::vector<SampledDatum> data = sampledData(input);
   const TimePlan& time = input.scene.time;
-  double largest = 0;
-  for (const double t : trialTimes(time)) largest = std::max(largest, nominalStress(input.scene, data, t));
+  const double largest = nominalStress(input.scene, data);
   const double afterFirstStep =
       time.controlled() ? 0 : nominalStress(input.scene, data, time.end / time.steps);
   double stiffest = 0;
@@ -209,9 +208,7 @@ void lintMaterials(const LintInput& input, Faults& faults) {
       if (datum.body != b ||
           (datum.kind != SampledDatum::Kind::traction && datum.kind != SampledDatum::Kind::force))
         continue;
-      for (const double t : trialTimes(time))
-        onBody =
-            std::max(onBody, datum.largest(t) * (datum.kind == SampledDatum::Kind::force ? datum.size : 1));
+      onBody = std::max(onBody, datum.largestIn(time) * datum.stressOfUnit(input.scene));
     }
     for (const PlacedMaterial& material : placedMaterials(input, b)) {
       checkElasticity(input, material, onBody, faults);

@@ -20,6 +20,21 @@ double SampledDatum::largest(double t) const {
   return result;
 }
 
+double SampledDatum::largestIn(const TimePlan& plan) const {
+  const auto over = [&](const std::vector<double>& times) {
+    double result = 0;
+    for (const double t : times)
+      result = std::max(result, kind == Kind::distance ? change(0, t) : largest(t));
+    return result;
+  };
+  return over(value->value.degreeInTime <= 1 ? std::vector<double>{0, plan.end} : trialTimes(plan));
+}
+
+double SampledDatum::stressOfUnit(const SceneDescription& scene) const {
+  if (kind == Kind::traction) return 1;
+  return kind == Kind::force ? size : scene.bodies[body].material.elasticity.young / size;
+}
+
 double SampledDatum::change(double s, double t) const {
   double result = 0;
   for (const Point& p : points)
@@ -95,25 +110,16 @@ bool changesInTime(const SampledDatum& datum, const TimePlan& plan) {
 double nominalStress(const SceneDescription& scene, const std::vector<SampledDatum>& data, double t) {
   double result = 0;
   for (const SampledDatum& datum : data) {
-    const double young = scene.bodies[datum.body].material.elasticity.young;
-    switch (datum.kind) {
-      case SampledDatum::Kind::traction:
-        result = std::max(result, datum.largest(t));
-        break;
-      case SampledDatum::Kind::force:
-        result = std::max(result, datum.largest(t) * datum.size);
-        break;
-      case SampledDatum::Kind::temperature:
-        result = std::max(result, datum.largest(t) / datum.size * young);
-        break;
-      case SampledDatum::Kind::displacement:
-        result = std::max(result, datum.largest(t) / datum.size * young);
-        break;
-      case SampledDatum::Kind::distance:
-        result = std::max(result, datum.change(0, t) / datum.size * young);
-        break;
-    }
+    const double value = datum.kind == SampledDatum::Kind::distance ? datum.change(0, t) : datum.largest(t);
+    result = std::max(result, value * datum.stressOfUnit(scene));
   }
+  return result;
+}
+
+double nominalStress(const SceneDescription& scene, const std::vector<SampledDatum>& data) {
+  double result = 0;
+  for (const SampledDatum& datum : data)
+    result = std::max(result, datum.largestIn(scene.time) * datum.stressOfUnit(scene));
   return result;
 }
 
@@ -122,11 +128,7 @@ std::string drivingDatum(const MeshedScene& input, double from, double to) {
   const SampledDatum* most = nullptr;
   double largest = 0;
   for (const SampledDatum& datum : data) {
-    const double young = input.scene.bodies[datum.body].material.elasticity.young;
-    const double factor = datum.kind == SampledDatum::Kind::traction ? 1
-                          : datum.kind == SampledDatum::Kind::force  ? datum.size
-                                                                     : young / datum.size;
-    const double stress = factor * datum.change(from, to);
+    const double stress = datum.stressOfUnit(input.scene) * datum.change(from, to);
     if (!(stress > largest)) continue;
     largest = stress;
     most = &datum;

@@ -29,8 +29,13 @@ struct SampledDatum {
 
   /// Largest |value| over the points at a time.
   [[nodiscard]] double largest(double t) const;
+  /// The same over the run: at its ends where the value is linear in time, else at the trial times.
+  [[nodiscard]] double largestIn(const TimePlan& plan) const;
   /// Largest |value(t) - value(s)| over the points.
   [[nodiscard]] double change(double s, double t) const;
+  /// Stress that a unit of the value asks for, by order of magnitude: 1 of tractions, the extent of body
+  /// forces, Young's modulus over the extent of displacements and distances, and times the thermal strain.
+  [[nodiscard]] double stressOfUnit(const SceneDescription& scene) const;
 };
 
 /// Of all bodies whose mesh is known.
@@ -42,10 +47,11 @@ std::vector<double> trialTimes(const TimePlan& plan);
 /// Whether the value differs at any of the times.
 bool changesInTime(const SampledDatum& datum, const TimePlan& plan);
 
-/// The stress that the data of the scene ask for at a time, by order of magnitude [Pa]: tractions as they
-/// are, body forces times the extent, prescribed displacements and changes of distances over the extent times
-/// Young's modulus, thermal strain times that.
+/// The stress that the data of the scene ask for at a time, by order of magnitude [Pa]; of distances their
+/// change counts.
 double nominalStress(const SceneDescription& scene, const std::vector<SampledDatum>& data, double t);
+/// The largest of the run.
+double nominalStress(const SceneDescription& scene, const std::vector<SampledDatum>& data);
 
 /// The datum whose change from one time to another asks for the largest stress: the scene's words with file
 /// and line, and its largest value at both times. Empty where none changes.

@@ -20,8 +20,7 @@ class Planner {
     MeshedScene meshed{scene, {}};
     for (const Body& body : model.bodies) meshed.meshes.push_back(&body.mesh());
     data_ = sampledData(meshed);
-    for (const double t : trialTimes(scene.time))
-      largest_ = std::max(largest_, nominalStress(scene, data_, t));
+    largest_ = nominalStress(scene, data_);
   }
 
   Plan make() {

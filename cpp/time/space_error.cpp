@@ -57,8 +57,10 @@ SpaceErrorEstimator::SpaceErrorEstimator(const Model& model, Threads& threads) :
 
 SpaceErrorEstimator::Line SpaceErrorEstimator::lineOf(const TriangleMesh& mesh, int label) {
   Line line;
+  std::vector<char> onLine(mesh.vertices.size(), 0);
   for (std::array<int, 2> edge : edgesOn(mesh, label)) {
     std::sort(edge.begin(), edge.end());
+    onLine[edge[0]] = onLine[edge[1]] = 1;
     line.edges.push_back(edge);
   }
   std::sort(line.edges.begin(), line.edges.end());
@@ -67,6 +69,7 @@ SpaceErrorEstimator::Line SpaceErrorEstimator::lineOf(const TriangleMesh& mesh, 
     for (int k = 0; k < 3; ++k) {
       const auto [low, high] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
       const std::array<int, 2> edge{low, high};
+      if (onLine[low] == 0 || onLine[high] == 0) continue;
       const auto found = std::lower_bound(line.edges.begin(), line.edges.end(), edge);
       if (found != line.edges.end() && *found == edge)
         line.triangles[found - line.edges.begin()] = static_cast<int>(t);
