@@ -17,6 +17,13 @@ constexpr double least = 0.9;
 constexpr double careful = 0.75;     // aims are this part of what is asked
 constexpr double reachOfARound = 4;  // by which a round divides the error, about
 
+/// The same where a large error is asked for: what the recovered stress misses is of higher order.
+double leastOf(double asked) {
+  constexpr double small = 0.01;
+  constexpr double large = 0.1;
+  return least * (1 - 2 * (std::clamp(asked, small, large) - small));
+}
+
 int nodesOf(const AdaptedMeshes& meshes, size_t bodies, int degree) {
   int nodes = 0;
   for (size_t b = 0; b < bodies; ++b) nodes += elementNodes(meshes.mesh(b), degree).count();
@@ -26,7 +33,9 @@ int nodesOf(const AdaptedMeshes& meshes, size_t bodies, int degree) {
 }  // namespace
 
 Rounds::Rounds(ResolvedScene scene)
-    : description_(std::move(scene.description)), meshes_(scene.meshes, description_.degree), least_(least) {
+    : description_(std::move(scene.description)),
+      meshes_(scene.meshes, description_.degree),
+      least_(leastOf(description_.accuracy.energy)) {
   constexpr double firstTolerance = 0.1;
   if (timeShare() > 0) timeTolerance_ = std::max(timeShare(), firstTolerance);
 }

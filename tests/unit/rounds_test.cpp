@@ -29,6 +29,19 @@ TEST(Rounds, oneRefinementIsMadeBeforeAnEstimateIsTrusted) {
   EXPECT_EQ(rounds.judge(resultOf(rounds, 0.001), 1), Rounds::Verdict::reached);
 }
 
+// The recovered stress of coarse meshes misses more of the error.
+TEST(Rounds, largeErrorsHaveALargerMargin) {
+  for (const auto& [asked, part] : {std::pair(0.005, 0.88), std::pair(0.05, 0.8), std::pair(0.3, 0.7)}) {
+    const auto second = [asked = asked](double estimate) {
+      Rounds rounds(sceneOf(asked));
+      EXPECT_EQ(rounds.judge(resultOf(rounds, 4 * asked), 1), Rounds::Verdict::goOn);
+      return rounds.judge(resultOf(rounds, estimate), 1);
+    };
+    EXPECT_EQ(second((part + 0.05) * asked), Rounds::Verdict::goOn) << asked;
+    EXPECT_EQ(second(part * asked), Rounds::Verdict::reached) << asked;
+  }
+}
+
 TEST(Rounds, aBoundHasToBeSmallEnoughToo) {
   Rounds rounds(sceneOf(0.1));
   int asked = 0;
