@@ -1,0 +1,166 @@
+// Bodies that hardly change their volume, with the averaged volumetric strain (fem/volume_patches.h): Cook's
+// membrane, Hill's tube, Prandtl's punch, the error estimate; each also without it, where they lock.
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <numbers>
+#include <random>
+
+#include "fem/error_estimate.h"
+#include "material/overstress.h"
+#include "material/plane_strain.h"
+#include "theory/scenes.h"
+
+namespace mortier {
+namespace {
+
+using namespace scenes;
+
+constexpr Elasticity rubber{1, 0.4999};
+
+double cook(int n, Cut cut, int degree, bool averaged) {
+  Model model;
+  model.bodies.emplace_back(
+      "membrane", quadrilateralMesh({{Point(0, 0), {48, 44}, {48, 60}, {0, 44}}, n, n}, cut),
+      planeStrainElasticMaterial(rubber),
+      Conditions{{{4, alongX, constant(0)}, {4, alongY, constant(0)}}, {{2, alongY, constant(1.0 / 16)}}, {}},
+      degree, false, averaged);
+  const Result result = run(model, 1, 1);
+  EXPECT_EQ(result.report.status, Status::converged) << result.report.reason;
+  const auto middle = [](const Point& x) { return x.x() == 48 && std::abs(x.y() - 52) < 1e-9; };
+  return displacementRange(model.bodies[0], result.state.bodies[0], 1, middle).max;
+}
+
+TEST(AveragedVolume, cooksMembrane) {
+  for (const int degree : {1, 2})
+    for (const Cut cut : {Cut::rising, Cut::falling, Cut::both}) {
+      std::cout << "Cook, degree " << degree << ", cut " << static_cast<int>(cut) << ", 8 to 64 cells:";
+      for (const int n : {8, 16, 32, 64})
+        if (n < 64 || degree == 1)
+          std::cout << " " << cook(n, cut, degree, true) << " (" << cook(n, cut, degree, false) << ")";
+      std::cout << "\n";
+    }
+}
+
+// A tube of radii 1 and 2 under inner pressure, elastic and perfectly plastic, nearly incompressible (Hill,
+// The mathematical theory of plasticity, 1950, chapter V): with c the radius of the plastic part,
+// p = 2k (ln c + (1 - c^2/4)/2).
+struct Errors {
+  double mean = 0;    ///< of the mean stress at points [k]
+  double radial = 0;  ///< of the displacement of the inner side, over itself
+};
+
+Errors tube(int degree, bool aboutAxis, bool averaged, int across, int along, Cut cut, double c,
+            const Elasticity& elasticity = {1000, 0.4999}) {
+  const double k = 1 / std::numbers::sqrt3;
+  const double p = 2 * k * (std::log(c) + (1 - c * c / 4) / 2);
+  const auto material =
+      overstressMaterial(elasticity, {1, 0, 1, 1, 0, 0}, aboutAxis ? Plane::axisymmetric : Plane::strain);
+  Model model;
+  const Function pressure = [=](double, double, double t) { return -p * t; };
+  if (aboutAxis)
+    model.bodies.emplace_back(
+        "tube", rectangleMesh({.lower = {1, 0}, .upper = {2, 0.5}, .cellsX = across, .cellsY = along}, cut),
+        material,
+        Conditions{
+            {{bottom, alongY, constant(0)}, {top, alongY, constant(0)}}, {{left, alongNormal, pressure}}, {}},
+        degree, true, averaged);
+  else
+    model.bodies.emplace_back(
+        "tube",
+        annulusMesh({.inner = 1, .outer = 2, .quarters = 1, .cellsAround = along, .cellsAcross = across},
+                    cut),
+        material,
+        Conditions{{{3, alongY, constant(0)}, {4, alongX, constant(0)}}, {{1, alongNormal, pressure}}, {}},
+        degree, false, averaged);
+  const Result result = run(model, 1, 8);
+  EXPECT_EQ(result.report.status, Status::converged) << result.report.reason;
+  const Body& body = model.bodies[0];
+  const std::vector<Point> places = body.places();
+  Errors errors;
+  for (int i = 0; i < body.points(); ++i) {
+    const double r = aboutAxis ? places[i].x() : places[i].norm();
+    const double exact = r < c ? -p + 2 * k * std::log(r) + k : k * c * c / 4;
+    const auto stress = result.state.bodies[0].stress.col(i);
+    const double mean = (std::numbers::sqrt2 * stress[0] + stress[3]) / 3;
+    errors.mean = std::max(errors.mean, std::abs(mean - exact) / k);
+  }
+  const double shear = elasticity.young / (2 * (1 + elasticity.poisson));
+  const double exact = k * c * c / (2 * shear);
+  for (int v = 0; v < body.nodes(); ++v) {
+    const Point& x = body.elementNodes().places[v];
+    const double r = aboutAxis ? x.x() : x.norm();
+    if (std::abs(r - 1) > 1e-9) continue;
+    const Point u = result.state.bodies[0].displacement.segment<2>(2 * v);
+    errors.radial = std::max(errors.radial, std::abs((aboutAxis ? u.x() : u.norm()) / exact - 1));
+  }
+  return errors;
+}
+
+TEST(AveragedVolume, hillsTube) {
+  for (const bool aboutAxis : {false, true})
+    for (const int degree : {1, 2})
+      for (const Cut cut : {Cut::rising, Cut::both})
+        for (const bool averaged : {false, true}) {
+          std::cout << (aboutAxis ? "about the axis" : "plane strain") << ", degree " << degree << ", cut "
+                    << static_cast<int>(cut) << (averaged ? ", averaged" : ", pointwise");
+          for (const int n : {8, 16}) {
+            const Errors e = tube(degree, aboutAxis, averaged, 2 * n, n, cut, 1.5);
+            std::cout << ": " << 2 * n << "x" << n << " mean stress off by " << e.mean << " k, radial "
+                      << e.radial;
+          }
+          std::cout << "\n";
+        }
+}
+
+/// A rigid smooth punch of half width 1 on a shaken mesh: (2 + pi) sigma_Y/sqrt3.
+double punch(int cells, Cut cut, int degree, bool averaged, double shaken) {
+  constexpr int under = 5;
+  TriangleMesh mesh =
+      rectangleMesh({.lower = {0, -2}, .upper = {4, 0}, .cellsX = 4 * cells, .cellsY = 2 * cells}, cut);
+  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
+    const auto [i, j] = mesh.boundaryEdges[e];
+    const Point middle = (mesh.vertices[i] + mesh.vertices[j]) / 2;
+    if (mesh.boundaryLabels[e] == top && middle.x() < 1) mesh.boundaryLabels[e] = under;
+  }
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> shift(-shaken / cells, shaken / cells);
+  for (Point& x : mesh.vertices)
+    if (x.x() != 0 && x.x() != 4 && x.y() != -2 && x.y() != 0) x += Point(shift(random), shift(random));
+  Model model;
+  model.bodies.emplace_back("ground", std::move(mesh), planeStrainPerzynaMaterial({1000, 0.3}, {1e-4, 1}),
+                            Conditions{{{left, alongX, constant(0)},
+                                        {right, alongX, constant(0)},
+                                        {bottom, alongX, constant(0)},
+                                        {bottom, alongY, constant(0)},
+                                        {under, alongY, [](double, double, double t) { return -0.1 * t; }}},
+                                       {},
+                                       {}},
+                            degree, false, averaged);
+  const Body& body = model.bodies[0];
+  const Result result = run(model, 1, 8);
+  EXPECT_EQ(result.report.status, Status::converged) << result.report.reason;
+  const Vector f = body.internalForce(result.state.bodies[0].stress);
+  double force = 0;
+  for (int v = 0; v < body.nodes(); ++v) {
+    const Point& x = body.elementNodes().places[v];
+    if (x.y() == 0 && x.x() <= 1) force -= f[2 * v + 1];
+  }
+  return force / ((2 + std::numbers::pi) / std::numbers::sqrt3);
+}
+
+TEST(AveragedVolume, prandtlsPunch) {
+  for (const int degree : {1, 2})
+    for (const Cut cut : {Cut::rising, Cut::both})
+      for (const double shaken : {0.0, 0.2})
+        for (const bool averaged : {false, true}) {
+          std::cout << "punch, degree " << degree << ", cut " << static_cast<int>(cut) << ", shaken "
+                    << shaken << (averaged ? ", averaged" : ", pointwise");
+          for (const int n : {4, 8, 16})
+            if (n < 16 || degree == 1) std::cout << " " << punch(n, cut, degree, averaged, shaken);
+          std::cout << std::endl;
+        }
+}
+
+}  // namespace
+}  // namespace mortier
