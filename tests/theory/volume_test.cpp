@@ -2,10 +2,12 @@
 // membrane, Hill's tube, Prandtl's punch, the error estimate; each also without it, where they lock.
 #include <gtest/gtest.h>
 
+#include <complex>
 #include <iostream>
 #include <numbers>
 #include <random>
 
+#include "fem/element.h"
 #include "fem/error_estimate.h"
 #include "material/overstress.h"
 #include "material/plane_strain.h"
@@ -160,6 +162,108 @@ TEST(AveragedVolume, prandtlsPunch) {
             if (n < 16 || degree == 1) std::cout << " " << punch(n, cut, degree, averaged, shaken);
           std::cout << std::endl;
         }
+}
+
+/// A field of plane strain for any Poisson's ratio (Kolosov): 2 G u = (3 - 4 nu) phi - z conj(phi') - conj(psi),
+/// phi = psi = exp z.
+struct Kolosov {
+  Elasticity elasticity;
+  [[nodiscard]] Point displacement(double x, double y) const {
+    const std::complex<double> z(x, y);
+    const std::complex<double> e = std::exp(z);
+    const std::complex<double> u = ((3 - 4 * elasticity.poisson) * e - z * std::conj(e) - std::conj(e)) *
+                                   ((1 + elasticity.poisson) / elasticity.young);
+    return {u.real(), u.imag()};
+  }
+  /// p, q, r and s33.
+  [[nodiscard]] Eigen::Vector4d stress(const Point& x) const {
+    const std::complex<double> z(x.x(), x.y());
+    const std::complex<double> e = std::exp(z);
+    const double sum = 4 * e.real();
+    const std::complex<double> difference = 2.0 * (std::conj(z) * e + e);
+    Eigen::Vector4d result;
+    result << sum / std::numbers::sqrt2, -difference.real() / std::numbers::sqrt2,
+        difference.imag() / std::numbers::sqrt2, elasticity.poisson * sum;
+    return result;
+  }
+};
+
+struct Estimated {
+  double error = 0;  ///< of the energy norm, over it
+  double index = 0;  ///< estimate over error
+};
+
+template <class Element>
+Estimated estimated(const Body& body, const Matrix& stress, const Kolosov& exact) {
+  double error = 0;
+  double energy = 0;
+  for (size_t t = 0; t < body.mesh().triangles.size(); ++t) {
+    double area = 0;
+    for (int k = 0; k < Element::points; ++k) area += body.weights()[Element::points * t + k];
+    for (const auto& [at, toNode] : Element::loadRule()) {
+      double weight = 0;
+      for (const double part : toNode) weight += part / Element::loadDivisor;
+      Point x = Point::Zero();
+      for (int v = 0; v < 3; ++v) x += at[v] * body.mesh().vertices[body.mesh().triangles[t][v]];
+      const Matrix there = exact.stress(x);
+      Matrix off = there;
+      const auto L = Element::stressShapes(at);
+      for (int k = 0; k < Element::points; ++k)
+        off -= L[k] * stress.col(static_cast<Eigen::Index>(Element::points * t + k));
+      Matrix strain(4, 1);
+      body.material().elasticStrain(off, strain, 0, 1);
+      error += weight * area * off.col(0).dot(strain.col(0));
+      body.material().elasticStrain(there, strain, 0, 1);
+      energy += weight * area * there.col(0).dot(strain.col(0));
+    }
+  }
+  const ErrorEstimate estimate = ErrorEstimator(body)(stress);
+  return {std::sqrt(error / energy), std::sqrt(estimate.error.sum() / error)};
+}
+
+Estimated estimatedOn(int cells, int degree, bool averaged, double poisson) {
+  const Kolosov exact{{1, poisson}};
+  TriangleMesh mesh =
+      rectangleMesh({.lower = {0, 0}, .upper = {1, 1}, .cellsX = cells, .cellsY = cells}, Cut::rising);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> shift(-0.2 / cells, 0.2 / cells);
+  for (Point& x : mesh.vertices)
+    if (x.x() != 0 && x.x() != 1 && x.y() != 0 && x.y() != 1) x += Point(shift(random), shift(random));
+  Conditions conditions;
+  for (const int label : {1, 2, 3, 4})
+    for (const int c : {0, 1})
+      conditions.displacements.push_back(
+          {label, c, [=](double x, double y, double) { return exact.displacement(x, y)[c]; }});
+  // One side free of supports: the mean stress is determined.
+  conditions.displacements.erase(conditions.displacements.begin() + 2, conditions.displacements.begin() + 4);
+  for (const int c : {0, 1})
+    conditions.tractions.push_back({2, c, [=](double x, double y, double) {
+                                      const Eigen::Vector4d s = exact.stress({x, y});
+                                      return c == 0 ? (s[0] + s[1]) / std::numbers::sqrt2
+                                                    : s[2] / std::numbers::sqrt2;
+                                    }});
+  Model model;
+  model.bodies.emplace_back("square", std::move(mesh), planeStrainElasticMaterial(exact.elasticity),
+                            std::move(conditions), degree, false, averaged);
+  const Result result = run(model, 1, 1);
+  EXPECT_EQ(result.report.status, Status::converged) << result.report.reason;
+  const Matrix& stress = result.state.bodies[0].stress;
+  return degree == 1 ? estimated<LinearTriangle>(model.bodies[0], stress, exact)
+                     : estimated<QuadraticTriangle>(model.bodies[0], stress, exact);
+}
+
+TEST(AveragedVolume, estimateOverError) {
+  for (const double poisson : {0.3, 0.4999, 0.49999})
+    for (const int degree : {1, 2})
+      for (const bool averaged : {false, true}) {
+        std::cout << "nu " << poisson << ", degree " << degree << (averaged ? ", averaged" : ", pointwise")
+                  << ": ";
+        for (const int n : {8, 16, 32}) {
+          const Estimated e = estimatedOn(n, degree, averaged, poisson);
+          std::cout << " " << e.error << " (" << e.index << ")";
+        }
+        std::cout << "\n";
+      }
 }
 
 }  // namespace
