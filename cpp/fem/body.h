@@ -175,7 +175,8 @@ class Body {
   }
   void tangent(const TangentModuli& moduli, std::vector<double>& values, Threads& threads) const;
   void addGroups(const TangentModuli& moduli, std::vector<double>& values, Threads& threads) const;
-  [[nodiscard]] Matrix groupTangent(const TangentAssembly::Group& group, const TangentModuli& moduli) const;
+  void groupTangent(const TangentAssembly::Group& group, const TangentModuli& moduli, Matrix& B, Matrix& DB,
+                    Matrix& K) const;
   void hoopStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
   void averageStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
   template <class Element>

@@ -254,8 +254,10 @@ void Body::addGroups(const TangentModuli& moduli, std::vector<double>& values, T
   for (size_t first = 0; first < groups.size(); first += atOnce) {
     const size_t count = std::min(atOnce, groups.size() - first);
     threads.forEach(static_cast<int>((count + ofABlock - 1) / ofABlock), [&](int block) {
+      Matrix B;
+      Matrix DB;
       for (size_t k = ofABlock * block; k < std::min(count, ofABlock * (block + 1)); ++k)
-        matrices[k] = groupTangent(groups[first + k], moduli);
+        groupTangent(groups[first + k], moduli, B, DB, matrices[k]);
     });
     for (size_t k = 0; k < count; ++k) {
       const std::vector<int>& entries = groups[first + k].entries;
@@ -265,48 +267,52 @@ void Body::addGroups(const TangentModuli& moduli, std::vector<double>& values, T
   }
 }
 
-Matrix Body::groupTangent(const TangentAssembly::Group& group, const TangentModuli& moduli) const {
-  return withElement(degree(), [&](auto element) {
+// Columns of B and DB, transposed: p, q, r and where the body turns about the axis the circumference, point
+// by point.
+void Body::groupTangent(const TangentAssembly::Group& group, const TangentModuli& moduli, Matrix& B,
+                        Matrix& DB, Matrix& K) const {
+  withElement(degree(), [&](auto element) {
     using Element = decltype(element);
     const auto dofs = static_cast<Eigen::Index>(2 * group.nodes.size());
     const Eigen::Index rows = axisymmetric_ ? 4 : 3;
-    Matrix K = Matrix::Zero(dofs, dofs);
-    // B T: strains of the motions along the frames of the nodes. Rows p, q, r, and the circumference.
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, Eigen::Dynamic> B(rows, dofs);
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4> D(rows, rows);
-    std::array<Eigen::Index, Element::nodes> column;
+    const auto points = static_cast<Eigen::Index>(Element::points * group.triangles.size());
+    B.setZero(dofs, rows * points);
+    DB.resize(dofs, rows * points);
+    Eigen::Index at = 0;
     for (const int t : group.triangles) {
+      std::array<Eigen::Index, Element::nodes> dof;
       for (int a = 0; a < Element::nodes; ++a)
-        column[a] =
+        dof[a] =
             2 * (std::find(group.nodes.begin(), group.nodes.end(), nodes_.of(t)[a]) - group.nodes.begin());
-      for (int i = Element::points * t; i < Element::points * (t + 1); ++i) {
-        B.setZero();
+      for (int i = Element::points * t; i < Element::points * (t + 1); ++i, at += rows) {
         const auto G = triangleData().template gradientsOf<Element>(i);
         for (int a = 0; a < Element::nodes; ++a) {
           const double gx = G[2 * a];
           const double gy = G[2 * a + 1];
-          B.template block<3, 2>(0, column[a]) = Eigen::Matrix<double, 3, 2>{{gx, gy}, {gx, -gy}, {gy, gx}};
-          if (axisymmetric_) B(3, column[a]) = hoops_[static_cast<size_t>(Element::nodes) * i + a];
+          B.template block<2, 3>(dof[a], at) = Eigen::Matrix<double, 2, 3>{{gx, gx, gy}, {gy, -gy, gx}};
+          if (axisymmetric_) B(dof[a], at + 3) = hoops_[static_cast<size_t>(Element::nodes) * i + a];
         }
-        if (patches_) B.row(0) = Eigen::Map<const Eigen::RowVectorXd>(patches_->row(i), dofs);
-        for (size_t a = 0; a < group.nodes.size() && !frameOf_.empty(); ++a)
-          if (const int frame = frameOf_[group.nodes[a]]; frame >= 0)
-            B.template middleCols<2>(2 * a) =
-                (B.template middleCols<2>(2 * a) * frames_[frame].transpose()).eval();
-        const std::array<double, 9> plane = moduliAt(moduli.plane, i);
-        D.template topLeftCorner<3, 3>() = Eigen::Map<const Eigen::Matrix3d>(plane.data());
-        if (axisymmetric_) {
-          const BeyondModuli beyond = beyondAt(*moduli.beyond, i);
-          for (int c = 0; c < 3; ++c) {
-            D(3, c) = beyond.row[c];
-            D(c, 3) = beyond.column[c];
-          }
-          D(3, 3) = beyond.corner;
-        }
-        K.noalias() += B.transpose().lazyProduct((weights_[i] * D * B).eval());
+        if (patches_) B.col(at) = Eigen::Map<const Vector>(patches_->row(i), dofs);
+        const std::array<double, 9> D = moduliAt(moduli.plane, i);
+        const double w = weights_[i];
+        for (int r = 0; r < 3; ++r)
+          DB.col(at + r) =
+              (w * D[r]) * B.col(at) + (w * D[3 + r]) * B.col(at + 1) + (w * D[6 + r]) * B.col(at + 2);
+        if (!axisymmetric_) continue;
+        const BeyondModuli beyond = beyondAt(*moduli.beyond, i);
+        for (int r = 0; r < 3; ++r) DB.col(at + r) += (w * beyond.column[r]) * B.col(at + 3);
+        DB.col(at + 3) = (w * beyond.row[0]) * B.col(at) + (w * beyond.row[1]) * B.col(at + 1) +
+                         (w * beyond.row[2]) * B.col(at + 2) + (w * beyond.corner) * B.col(at + 3);
       }
     }
-    return K;
+    K.noalias() = B * DB.transpose();
+    // Motions along the frames of the nodes.
+    for (size_t a = 0; a < group.nodes.size() && !frameOf_.empty(); ++a)
+      if (const int frame = frameOf_[group.nodes[a]]; frame >= 0) {
+        const auto first = static_cast<Eigen::Index>(2 * a);
+        K.middleRows<2>(first) = (frames_[frame] * K.middleRows<2>(first)).eval();
+        K.middleCols<2>(first) = (K.middleCols<2>(first) * frames_[frame].transpose()).eval();
+      }
   });
 }
 
