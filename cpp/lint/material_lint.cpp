@@ -50,7 +50,7 @@ bool bothDiagonals(const TriangleMesh& mesh) {
   return 2 * quarters > static_cast<std::ptrdiff_t>(mesh.triangles.size());
 }
 
-/// Flow keeps the volume, which linear triangles can follow on cells with both diagonals in plane strain only.
+/// Flow keeps the volume, which linear triangles follow in plane strain on cells with both diagonals only.
 void checkFlowLocks(const LintInput& input, size_t b, const PlacedMaterial& material, Faults& faults) {
   const SceneDescription& scene = input.scene;
   if (scene.plane == Plane::stress || scene.degree > 1 || !material.description.flows() ||

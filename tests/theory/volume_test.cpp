@@ -165,8 +165,8 @@ TEST(AveragedVolume, prandtlsPunch) {
   EXPECT_GE(locked, 1.2);
 }
 
-/// A field of plane strain for any Poisson's ratio (Kolosov): 2 G u = (3 - 4 nu) phi - z conj(phi') - conj(psi),
-/// phi = psi = exp z.
+/// A field of plane strain for any Poisson's ratio (Kolosov), phi = psi = exp z:
+/// 2 G u = (3 - 4 nu) phi - z conj(phi') - conj(psi).
 struct Kolosov {
   Elasticity elasticity;
   [[nodiscard]] Point displacement(double x, double y) const {
@@ -296,7 +296,7 @@ TEST(AveragedVolume, patchTestAcrossContact) {
 }
 
 // In plane strain a temperature linear in space strains a free body without stress in the plane. Thermal
-// strains have to be averaged as well: otherwise K times their difference would remain, a thousand times more.
+// strains have to be averaged as well: otherwise the bulk modulus times their difference would remain.
 TEST(AveragedVolume, freeThermalStrainIsNoStress) {
   for (const int degree : {1, 2})
     for (const bool averaged : {false, true}) {
