@@ -58,9 +58,9 @@ void checkFlowLocks(const LintInput& input, size_t b, const PlacedMaterial& mate
       (scene.plane == Plane::strain && bothDiagonals(*input.meshes[b])))
     return;
   faults.add("flow-locks", material.where("law"),
-             material.subject + "flow keeps the volume, linear triangles " +
-                 (scene.plane == Plane::strain ? "that are no quarters of cells lock in plane strain"
-                                               : "about an axis cannot"));
+             material.subject + "flow keeps the volume: linear triangles " +
+                 (scene.plane == Plane::strain ? "lock, but as quarters of cells with both diagonals"
+                                               : "about an axis lock or have wrong pressures"));
 }
 
 void checkElasticity(const LintInput& input, size_t b, const PlacedMaterial& material, double nominal,
