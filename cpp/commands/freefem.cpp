@@ -262,6 +262,7 @@ void requireKnown(const SceneDescription& scene, bool stepsGiven) {
     if (stressed || !body.regions.empty()) {
       refuse(body.where + ": body " + body.name + ": regions or initial stress", "neither");
     }
+    if (!body.averaged.empty()) refuse(body.averaged, "pointwise");
     if (const auto* own = body.material.as<OwnLaw>()) {
       if (!own->texts) refuse(own->where, "a law of mortier's own or \"expression\"");
       if (body.temperature) refuse(body.temperature->where + ": temperature", "none beside such a law");

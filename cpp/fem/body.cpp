@@ -32,7 +32,7 @@ void requireLabel(const TriangleMesh& mesh, const std::string& body, int label) 
 }  // namespace
 
 Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> material,
-           Conditions conditions, int degree, bool axisymmetric)
+           Conditions conditions, int degree, bool axisymmetric, bool averaged)
     : name_(std::move(name)),
       mesh_(axisymmetric ? meshAboutAxis(std::move(mesh)) : std::move(mesh)),
       nodes_(mortier::elementNodes(mesh_, degree)),
@@ -74,6 +74,8 @@ Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> 
       }
     }
   });
+  if (averaged)
+    patches_.emplace(volumePatches(mesh_, degree), nodes_, places(), weights_, gradients_, hoops_);
   numberEquations();
   findSteadyLoads();
 }

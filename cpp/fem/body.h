@@ -64,10 +64,11 @@ class Body {
   /// \param degree  of the displacements, 1 or 2
   /// \param axisymmetric  whether it turns about the axis x = 0 (mesh/axis.h): the material has four
   /// components then, integrals are of the whole ring, and forces are in [N]
+  /// \param averaged  whether its material sees an averaged volumetric strain (fem/volume_patches.h)
   /// \throws InputError when a condition names a label or a point that the mesh does not have, where a
   /// triangle with a curved side is turned inside out, or where the mesh lies beyond the axis.
   Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> material, Conditions conditions,
-       int degree = 1, bool axisymmetric = false);
+       int degree = 1, bool axisymmetric = false, bool averaged = false);
   /// A part with numbers of its own, in the order of those of the whole body; it has the whole labelled
   /// boundary and all supports. What it sums are the sums over its triangles and the sides that are theirs,
   /// so those of all parts are that of the whole body. The equations of nodes without triangles of the part
@@ -81,6 +82,8 @@ class Body {
   [[nodiscard]] const ElementNodes& elementNodes() const { return nodes_; }
   [[nodiscard]] int degree() const { return nodes_.degree; }
   [[nodiscard]] bool axisymmetric() const { return axisymmetric_; }
+  /// Where the volumetric strain is averaged; null elsewhere.
+  [[nodiscard]] const VolumePatches* patches() const { return patches_ ? &*patches_ : nullptr; }
   [[nodiscard]] int nodes() const { return nodes_.count(); }
   [[nodiscard]] int dofs() const { return 2 * nodes(); }
   /// Quadrature points, triangle by triangle: columns of stresses, strains and moduli.
@@ -168,11 +171,14 @@ class Body {
   /// By the directions of a support [m].
   [[nodiscard]] std::array<double, 2> prescribedAt(const NodeSupport& support, double t) const;
   [[nodiscard]] TriangleData triangleData() const {
-    return {nodes_, equations_, weights_, gradients_, hoops_};
+    return {nodes_, equations_, weights_, gradients_, hoops_, patches()};
   }
   void tangent(const TangentModuli& moduli, std::vector<double>& values, Threads& threads) const;
-  void addSupported(const TangentModuli& moduli, std::vector<double>& values) const;
+  void addGroups(const TangentModuli& moduli, std::vector<double>& values, Threads& threads) const;
+  void groupTangent(const TangentAssembly::Group& group, const TangentModuli& moduli, Matrix& B, Matrix& DB,
+                    Matrix& K) const;
   void hoopStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
+  void averageStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
   template <class Element>
   void strainOf(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
   // Of data that do not change and the rule of the element does not integrate, or of all others.
@@ -196,6 +202,7 @@ class Body {
       gradients_;  ///< of all shape functions of a triangle but the first, over sqrt2, by points
   bool axisymmetric_ = false;
   std::vector<double> hoops_;  ///< of all shape functions of a triangle their value over r, by points
+  std::optional<VolumePatches> patches_;
   double largestGradient_ = 0;
   double extent_ = 0;
   Vector steady_;  ///< nodal forces of findSteadyLoads(), by dofs; empty where there are none

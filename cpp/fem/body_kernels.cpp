@@ -19,10 +19,16 @@ Vector Body::internalForce(const Matrix& stress) const {
     for (size_t i = 0; i < weights_.size(); ++i) {
       const int* triangle = &nodes_.triangles[Element::nodes * (i / Element::points)];
       const auto column = static_cast<Eigen::Index>(i);
-      const double p = weights_[i] * stress(0, column);
+      double p = weights_[i] * stress(0, column);
       const double q = weights_[i] * stress(1, column);
       const double r = weights_[i] * stress(2, column);
       const auto G = triangles.gradientsOf<Element>(i);
+      if (patches_) {
+        const double* row = patches_->row(static_cast<int>(i));
+        for (const int node : patches_->nodes(patches_->patchOf()[i / Element::points]))
+          for (const int c : {0, 1}) f[2 * node + c] += p * *row++;
+        p = 0;
+      }
       for (int a = 0; a < Element::nodes; ++a) {
         f[2 * triangle[a]] += (p + q) * G[2 * a] + r * G[2 * a + 1];
         f[2 * triangle[a] + 1] += (p - q) * G[2 * a + 1] + r * G[2 * a];
@@ -60,6 +66,32 @@ void Body::strain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, i
         -shift->bottomRows(strain.rows() - 3).middleCols(begin, end - begin);
   withElement(degree(), [&](auto element) { strainOf<decltype(element)>(u, shift, strain, begin, end); });
   if (axisymmetric_) hoopStrain(u, shift, strain, begin, end);
+  if (patches_) averageStrain(u, shift, strain, begin, end);
+}
+
+void Body::averageStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin,
+                         int end) const {
+  const int ofTriangle = pointsOfTriangle();
+  for (int i = begin; i < end; ++i) {
+    const auto nodes = patches_->nodes(patches_->patchOf()[i / ofTriangle]);
+    const double* row = patches_->row(i) + 2;
+    const int first = 2 * *nodes.begin();
+    const auto add = [&](DoubleDouble& sum, double factor, DoubleDouble value) {
+      DoubleDouble product = DoubleDouble::product(factor, value.high);
+      product.low += factor * value.low;
+      sum += product;
+    };
+    DoubleDouble p{0, 0};
+    for (const int* node = nodes.begin() + 1; node != nodes.end(); ++node)
+      for (const int c : {0, 1}) {
+        DoubleDouble change = DoubleDouble::sum(u.high[2 * *node + c], -u.high[first + c]);
+        change.low += u.low[2 * *node + c] - u.low[first + c];
+        add(p, *row++, change);
+      }
+    if (axisymmetric_) add(p, patches_->uniform(i), {u.high[first], u.low[first]});
+    if (shift != nullptr) p += DoubleDouble{-(*shift)(0, i), 0};
+    strain(0, i) = p.value();
+  }
 }
 
 void Body::hoopStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const {
@@ -167,7 +199,16 @@ void Body::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress
         yy += gy * dy;
         xy += gy * dx + gx * dy;
       }
-      return std::array<double, 3>{xx + yy, xx - yy, xy};
+      double p = xx + yy;
+      if (patches_) {
+        const auto nodes = patches_->nodes(patches_->patchOf()[i / Element::points]);
+        const double* row = patches_->row(i) + 2;
+        const int first = 2 * *nodes.begin();
+        p = patches_->uniform(i) * d[first];
+        for (const int* node = nodes.begin() + 1; node != nodes.end(); ++node)
+          for (const int c : {0, 1}) p += *row++ * (d[2 * *node + c] - d[first + c]);
+      }
+      return std::array<double, 3>{p, xx - yy, xy};
     };
     for (int i = begin; i < end; ++i) {
       const auto [p, q, r] = strainOf(i);
@@ -197,46 +238,81 @@ void Body::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress
 }
 
 void Body::tangent(const TangentModuli& moduli, std::vector<double>& values, Threads& threads) const {
-  assembly().assemblePlain(triangleData(), moduli, values, threads);
-  addSupported(moduli, values);
+  if (patches_)
+    values.assign(pattern().entries(), 0.0);
+  else
+    assembly().assemblePlain(triangleData(), moduli, values, threads);
+  addGroups(moduli, values, threads);
 }
 
-void Body::addSupported(const TangentModuli& moduli, std::vector<double>& values) const {
+void Body::addGroups(const TangentModuli& moduli, std::vector<double>& values, Threads& threads) const {
+  // The matrices of some at once, then their sums in the order of the groups.
+  constexpr size_t atOnce = 1024;
+  constexpr size_t ofABlock = 32;
+  const std::vector<TangentAssembly::Group>& groups = assembly().groups();
+  std::vector<Matrix> matrices(std::min(atOnce, groups.size()));
+  for (size_t first = 0; first < groups.size(); first += atOnce) {
+    const size_t count = std::min(atOnce, groups.size() - first);
+    threads.forEach(static_cast<int>((count + ofABlock - 1) / ofABlock), [&](int block) {
+      Matrix B;
+      Matrix DB;
+      for (size_t k = ofABlock * block; k < std::min(count, ofABlock * (block + 1)); ++k)
+        groupTangent(groups[first + k], moduli, B, DB, matrices[k]);
+    });
+    for (size_t k = 0; k < count; ++k) {
+      const std::vector<int>& entries = groups[first + k].entries;
+      for (size_t i = 0; i < entries.size(); ++i)
+        if (entries[i] >= 0) values[entries[i]] += matrices[k].data()[i];
+    }
+  }
+}
+
+// Columns of B and DB, transposed: p, q, r and where the body turns about the axis the circumference, point
+// by point.
+void Body::groupTangent(const TangentAssembly::Group& group, const TangentModuli& moduli, Matrix& B,
+                        Matrix& DB, Matrix& K) const {
   withElement(degree(), [&](auto element) {
     using Element = decltype(element);
-    constexpr int dofs = 2 * Element::nodes;
-    for (const auto& [t, entries] : assembly().supported()) {
-      Eigen::Matrix<double, dofs, dofs> K = Eigen::Matrix<double, dofs, dofs>::Zero();
-      for (int i = Element::points * t; i < Element::points * (t + 1); ++i) {
-        // B T: strains of the motions along the frames of the nodes.
-        Eigen::Matrix<double, 3, dofs> B;
-        Eigen::Matrix<double, 1, dofs> hoop = Eigen::Matrix<double, 1, dofs>::Zero();
+    const auto dofs = static_cast<Eigen::Index>(2 * group.nodes.size());
+    const Eigen::Index rows = axisymmetric_ ? 4 : 3;
+    const auto points = static_cast<Eigen::Index>(Element::points * group.triangles.size());
+    B.setZero(dofs, rows * points);
+    DB.resize(dofs, rows * points);
+    Eigen::Index at = 0;
+    for (const int t : group.triangles) {
+      std::array<Eigen::Index, Element::nodes> dof;
+      for (int a = 0; a < Element::nodes; ++a)
+        dof[a] =
+            2 * (std::find(group.nodes.begin(), group.nodes.end(), nodes_.of(t)[a]) - group.nodes.begin());
+      for (int i = Element::points * t; i < Element::points * (t + 1); ++i, at += rows) {
         const auto G = triangleData().template gradientsOf<Element>(i);
         for (int a = 0; a < Element::nodes; ++a) {
           const double gx = G[2 * a];
           const double gy = G[2 * a + 1];
-          Eigen::Matrix<double, 3, 2> Ba{{gx, gy}, {gx, -gy}, {gy, gx}};
-          const int frame = frameOf_.empty() ? -1 : frameOf_[nodes_.of(t)[a]];
-          if (frame >= 0) Ba = Ba * frames_[frame].transpose();
-          B.template middleCols<2>(2 * a) = Ba;
-          if (!axisymmetric_) continue;
-          Eigen::RowVector2d around(hoops_[static_cast<size_t>(Element::nodes) * i + a], 0);
-          if (frame >= 0) around = around * frames_[frame].transpose();
-          hoop.template segment<2>(2 * a) = around;
+          B.template block<2, 3>(dof[a], at) = Eigen::Matrix<double, 2, 3>{{gx, gx, gy}, {gy, -gy, gx}};
+          if (axisymmetric_) B(dof[a], at + 3) = hoops_[static_cast<size_t>(Element::nodes) * i + a];
         }
+        if (patches_) B.col(at) = Eigen::Map<const Vector>(patches_->row(i), dofs);
         const std::array<double, 9> D = moduliAt(moduli.plane, i);
-        K += weights_[i] * (B.transpose() * Eigen::Map<const Eigen::Matrix3d>(D.data()) * B);
+        const double w = weights_[i];
+        for (int r = 0; r < 3; ++r)
+          DB.col(at + r) =
+              (w * D[r]) * B.col(at) + (w * D[3 + r]) * B.col(at + 1) + (w * D[6 + r]) * B.col(at + 2);
         if (!axisymmetric_) continue;
         const BeyondModuli beyond = beyondAt(*moduli.beyond, i);
-        const Eigen::Vector3d row(beyond.row[0], beyond.row[1], beyond.row[2]);
-        const Eigen::Vector3d column(beyond.column[0], beyond.column[1], beyond.column[2]);
-        K += weights_[i] * (B.transpose() * column * hoop +
-                            hoop.transpose() * (row.transpose() * B + beyond.corner * hoop));
+        for (int r = 0; r < 3; ++r) DB.col(at + r) += (w * beyond.column[r]) * B.col(at + 3);
+        DB.col(at + 3) = (w * beyond.row[0]) * B.col(at) + (w * beyond.row[1]) * B.col(at + 1) +
+                         (w * beyond.row[2]) * B.col(at + 2) + (w * beyond.corner) * B.col(at + 3);
       }
-      for (int j = 0; j < dofs; ++j)
-        for (int i = 0; i < dofs; ++i)
-          if (const int entry = entries[dofs * j + i]; entry >= 0) values[entry] += K(i, j);
     }
+    K.noalias() = B * DB.transpose();
+    // Motions along the frames of the nodes.
+    for (size_t a = 0; a < group.nodes.size() && !frameOf_.empty(); ++a)
+      if (const int frame = frameOf_[group.nodes[a]]; frame >= 0) {
+        const auto first = static_cast<Eigen::Index>(2 * a);
+        K.middleRows<2>(first) = (frames_[frame] * K.middleRows<2>(first)).eval();
+        K.middleCols<2>(first) = (K.middleCols<2>(first) * frames_[frame].transpose()).eval();
+      }
   });
 }
 

@@ -160,6 +160,12 @@ Matrix Body::thermalStrain(double t) const {
   for (int i = 0; i < points(); ++i)
     strain.col(i).head(conditions_.expansion.rows()) =
         conditions_.expansion.col(i) * conditions_.temperature(places[i].x(), places[i].y(), t);
+  if (patches_) {
+    // Averaged as the strain of the displacements is: otherwise their difference would be a stress.
+    Vector theta = std::numbers::sqrt2 * strain.row(0);
+    if (conditions_.expansion.rows() > 3) theta += strain.row(3).transpose();
+    strain.row(0) += (patches_->averaged(theta, weights_) - theta).transpose() / std::numbers::sqrt2;
+  }
   return strain;
 }
 

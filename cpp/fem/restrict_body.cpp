@@ -111,6 +111,16 @@ Body::Body(const Body& whole, const BodyCut& cut)
   weights_ = taken(whole.weights_, cut.triangles, each);
   gradients_ = taken(whole.gradients_, cut.triangles, 2 * (n - 1) * each);
   hoops_ = taken(whole.hoops_, cut.triangles, n * each);
+  if (whole.patches_) {
+    // Patches are whole (solver/body_part.h), in the order of their first triangles.
+    std::vector<int> patchOf = taken(whole.patches_->patchOf(), cut.triangles);
+    std::vector<int> known = patchOf;
+    std::sort(known.begin(), known.end());
+    known.erase(std::unique(known.begin(), known.end()), known.end());
+    for (int& patch : patchOf)
+      patch = static_cast<int>(std::lower_bound(known.begin(), known.end(), patch) - known.begin());
+    patches_.emplace(patchOf, nodes_, places(), weights_, gradients_, hoops_);
+  }
   std::vector<char> own(nodes(), 0);
   for (const int node : nodes_.triangles) own[node] = 1;
   numberEquations(own);

@@ -62,13 +62,18 @@ void TangentAssembly::buildPattern(const TriangleData& triangles) {
   // node at a time. Equations ascend with nodes; those of nodes without a triangle here may be beyond.
   const auto nodes = static_cast<int>(triangles.equations.size() / 2);
   const int n = triangles.nodes.perTriangle();
+  const auto forEachCouplingOf = [&](const int* begin, const int* end, auto visit) {
+    for (const int* j = begin; j != end; ++j)
+      for (const int* i = begin; i != end; ++i)
+        if (*i >= *j || !pattern_.symmetric) visit(*i, *j);
+  };
   const auto forEachCoupling = [&](auto visit) {
-    for (size_t t = 0; t < triangles.count(); ++t) {
-      const int* triangle = triangles.nodes.of(t);
-      for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i)
-          if (triangle[i] >= triangle[j] || !pattern_.symmetric) visit(triangle[i], triangle[j]);
+    for (int p = 0; triangles.patches != nullptr && p < triangles.patches->count(); ++p) {
+      const auto patch = triangles.patches->nodes(p);
+      forEachCouplingOf(patch.begin(), patch.end(), visit);
     }
+    for (size_t t = 0; triangles.patches == nullptr && t < triangles.count(); ++t)
+      forEachCouplingOf(triangles.nodes.of(t), triangles.nodes.of(t) + n, visit);
   };
   std::vector<int> start(nodes + 1, 0);
   forEachCoupling([&](int, int of) { ++start[of + 1]; });
@@ -102,18 +107,18 @@ int TangentAssembly::entry(int row, int column) const {
   return static_cast<int>(std::lower_bound(begin, end, row) - pattern_.rows.begin());
 }
 
-std::vector<int> TangentAssembly::entriesOf(const TriangleData& triangles, size_t t) const {
-  const int* nodes = triangles.nodes.of(t);
-  const int dofs = 2 * triangles.nodes.perTriangle();
-  std::vector<int> entries(static_cast<size_t>(dofs) * dofs, -1);
-  for (int j = 0; j < dofs; ++j)
-    for (int i = 0; i < dofs; ++i) {
+void TangentAssembly::addGroup(const TriangleData& triangles, std::vector<int> members,
+                               std::vector<int> nodes) {
+  const size_t dofs = 2 * nodes.size();
+  std::vector<int> entries(dofs * dofs, -1);
+  for (size_t j = 0; j < dofs; ++j)
+    for (size_t i = 0; i < dofs; ++i) {
       const int column = triangles.equations[2 * nodes[j / 2] + j % 2];
       const int row = triangles.equations[2 * nodes[i / 2] + i % 2];
       if (column < 0 || row < 0 || (row < column && pattern_.symmetric)) continue;
       entries[dofs * j + i] = entry(row, column);
     }
-  return entries;
+  groups_.push_back({std::move(members), std::move(nodes), std::move(entries)});
 }
 
 void TangentAssembly::cutIntoParts(const std::vector<int>& equations) {
@@ -137,6 +142,14 @@ void TangentAssembly::placeBlocks(const TriangleData& triangles, const std::vect
                                         [](int value, const Part& part) { return value < part.firstColumn; });
     return static_cast<int>(after - parts_.begin()) - 1;
   };
+  if (triangles.patches != nullptr) {
+    for (int p = 0; p < triangles.patches->count(); ++p) {
+      const auto members = triangles.patches->triangles(p);
+      const auto nodes = triangles.patches->nodes(p);
+      addGroup(triangles, {members.begin(), members.end()}, {nodes.begin(), nodes.end()});
+    }
+    return;
+  }
   const int n = triangles.nodes.perTriangle();
   blocks_.resize(triangles.count() * n * n);
   std::vector<int> home(n);
@@ -156,7 +169,7 @@ void TangentAssembly::placeBlocks(const TriangleData& triangles, const std::vect
       }
     }
     if (!plain) {
-      supported_.push_back({static_cast<int>(t), entriesOf(triangles, t)});
+      addGroup(triangles, {static_cast<int>(t)}, {nodes, nodes + n});
       continue;
     }
     std::sort(home.begin(), home.end());

@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/types.h"
+#include "fem/volume_patches.h"
 #include "linear/sparse_pattern.h"
 #include "mesh/element_nodes.h"
 
@@ -16,10 +17,11 @@ namespace mortier {
 /// The triangles of a body as kernels see them.
 struct TriangleData {
   const ElementNodes& nodes;
-  const std::vector<int>& equations;     ///< of dof 2 node + component, ascending; -1 where there is none
-  const std::vector<double>& weights;    ///< of the quadrature points, triangle by triangle [m^2] or [m^3]
-  const std::vector<double>& gradients;  ///< of all but the first shape function, over sqrt2 [1/m]
-  const std::vector<double>& hoops;      ///< all shape functions over the radius [1/m]; empty in the plane
+  const std::vector<int>& equations;       ///< of dof 2 node + component, ascending; -1 where there is none
+  const std::vector<double>& weights;      ///< of the quadrature points, triangle by triangle [m^2] or [m^3]
+  const std::vector<double>& gradients;    ///< of all but the first shape function, over sqrt2 [1/m]
+  const std::vector<double>& hoops;        ///< all shape functions over the radius [1/m]; empty in the plane
+  const VolumePatches* patches = nullptr;  ///< where the volumetric strain is averaged
 
   [[nodiscard]] size_t count() const { return nodes.triangles.size() / nodes.perTriangle(); }
   /// At a point; the first x and y of a node come one after the other. They sum to zero.
@@ -58,16 +60,18 @@ class TangentAssembly {
   [[nodiscard]] const SparsePattern& pattern() const { return pattern_; }
 
   /// values = sum |T| B' D B over the plain triangles: those whose nodes all have two equations along the
-  /// axes.
+  /// axes; none where the volumetric strain is averaged.
   void assemblePlain(const TriangleData& triangles, const TangentModuli& moduli, std::vector<double>& values,
                      Threads& threads) const;
 
-  struct SupportedTriangle {
-    int triangle = 0;
+  /// One of the other triangles, or a patch of them.
+  struct Group {
+    std::vector<int> triangles;
+    std::vector<int> nodes;
     std::vector<int> entries;  ///< of the pattern for its matrix, column major, -1 for none
   };
-  /// The others.
-  [[nodiscard]] const std::vector<SupportedTriangle>& supported() const { return supported_; }
+  /// The others: those with supported nodes, or all patches where the volumetric strain is averaged.
+  [[nodiscard]] const std::vector<Group>& groups() const { return groups_; }
 
  private:
   /// Columns that one thread assembles: no entry is written by two.
@@ -80,7 +84,7 @@ class TangentAssembly {
   void buildPattern(const TriangleData& triangles);
   void cutIntoParts(const std::vector<int>& equations);
   void placeBlocks(const TriangleData& triangles, const std::vector<int>& frameOf);
-  [[nodiscard]] std::vector<int> entriesOf(const TriangleData& triangles, size_t t) const;
+  void addGroup(const TriangleData& triangles, std::vector<int> members, std::vector<int> nodes);
   template <class Element, bool aboutAxis>
   void assemblePlain(const TriangleData& triangles, const TangentModuli& moduli, std::vector<double>& values,
                      Threads& threads) const;
@@ -90,7 +94,7 @@ class TangentAssembly {
   std::vector<Part> parts_;
   /// Per triangle and pair of its nodes, by columns: place of the block in its column.
   std::vector<uint16_t> blocks_;
-  std::vector<SupportedTriangle> supported_;
+  std::vector<Group> groups_;
 };
 
 }  // namespace mortier

@@ -130,8 +130,10 @@ const std::vector<FaultKind>& faultKinds() {
        "take variant = \"mortar\", or let the held body be the mortar side (contact.swap)"},
       // Materials.
       {"poisson-limit", warning, "Poisson's ratio is next to 0.5 in plane strain or around an axis",
-       "linear triangles lock: take poisson <= 0.49, cells cut by both diagonals, or refine until nothing "
-       "changes"},
+       "pressures are wrong and linear triangles lock: say volume = \"averaged\" of the body, or take "
+       "poisson <= 0.49"},
+      {"flow-locks", warning, "flow in plane strain or around an axis on linear triangles that lock",
+       "say volume = \"averaged\" of the body; in plane strain cells cut by both diagonals do not lock"},
       {"poisson-negative", warning, "Poisson's ratio is negative", "check its sign"},
       {"projection-unused", warning, "an elastic body has a projection",
        "add viscosity and yield_stress, or take the key out"},

@@ -61,6 +61,8 @@ class Planner {
     const Body& body = model_.bodies[b];
     const std::string part = "body " + body.name();
     planPoints(b);
+    if (body.patches() != nullptr)
+      add(part, true, "volumetric strain averaged over patches of triangles", "volume = \"averaged\"");
     const bool symmetric = body.material().symmetricTangent();
     const std::string factor = symmetric ? "Cholesky" : "LU";
     if (body.material().linear()) {

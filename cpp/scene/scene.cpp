@@ -22,6 +22,10 @@ void requireInPlane(const BodyDescription& body, Plane plane) {
   for (const RegionDescription& region : body.regions) {
     require(region.initialStress);
   }
+  if (plane == Plane::stress && !body.averaged.empty())
+    throw InputError(body.averaged +
+                     ", expected plane = \"strain\" or \"axisymmetric\" beside it: in plane stress the "
+                     "thickness keeps the volume");
 }
 
 /// What the bound of the error, refined meshes and the note's algorithm cannot have.
@@ -37,6 +41,11 @@ void requireKnownTo(const SceneDescription& scene, const BodyDescription& body) 
   require(body.material);
   for (const RegionDescription& region : body.regions)
     if (region.material) require(*region.material);
+  if (scene.accuracy.bound && !body.averaged.empty())
+    throw InputError(
+        body.averaged +
+        ", expected pointwise beside accuracy.bound: bounds need stresses that balance the loads "
+        "on the strains of the displacements themselves");
   if (!body.temperature) return;
   if (scene.accuracy.bound)
     throw InputError(body.temperature->where + ": temperature, expected none beside accuracy.bound");

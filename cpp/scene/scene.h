@@ -103,6 +103,7 @@ struct BodyDescription {
   std::vector<ConditionDescription> conditions;
   StressDescription initialStress;
   std::vector<RegionDescription> regions;
+  std::string averaged;  ///< where the volumetric strain is (fem/volume_patches.h): its place in the scene
   std::string where;
 };
 

@@ -96,6 +96,9 @@ std::vector<std::vector<int>> ownersOf(const std::vector<Body>& bodies, Ranks& r
     }
     ranks.sum(share.data(), triangles);
     for (size_t t = 0; t < triangles; ++t) owner[t] += static_cast<int>(share[t]);
+    const VolumePatches* patches = bodies[b].patches();
+    for (int p = 0; patches != nullptr && p < patches->count(); ++p)  // a patch is of one rank
+      for (const int t : patches->triangles(p)) owner[t] = owner[*patches->triangles(p).begin()];
   }
   return owners;
 }

@@ -35,6 +35,7 @@ struct Case {
   int support = alongX;
   bool regions = false;
   bool turned = false;
+  bool averaged = false;
 };
 
 constexpr Case cases[] = {{"plain"},
@@ -43,7 +44,9 @@ constexpr Case cases[] = {{"plain"},
                           {"regions", Plane::stress, 1, alongX, true},
                           {"turned axes", Plane::stress, 1, alongX, false, true},
                           {"about the axis", Plane::axisymmetric, 1, alongY},
-                          {"about the axis, quadratic", Plane::axisymmetric, 2, alongY}};
+                          {"about the axis, quadratic", Plane::axisymmetric, 2, alongY},
+                          {"averaged volume", Plane::strain, 1, alongNormal, false, false, true},
+                          {"averaged volume, quadratic", Plane::axisymmetric, 2, alongY, false, false, true}};
 
 std::shared_ptr<const Material> materialOf(const Case& each, int points) {
   const Elasticity elasticity{100, 0.3};
@@ -72,8 +75,9 @@ Body bodyOf(const Case& each) {
                         {{1, [](double x, double y, double t) { return t * x * (1 - y); }}}};
   conditions.temperature = [](double x, double, double t) { return t * x; };
   conditions.expansion.setConstant(each.plane == Plane::stress ? 3 : 4, points, 1e-3);
-  return {"plate",    mesh,        materialOf(each, points),
-          conditions, each.degree, each.plane == Plane::axisymmetric};
+  return {"plate",      mesh,        materialOf(each, points),
+          conditions,   each.degree, each.plane == Plane::axisymmetric,
+          each.averaged};
 }
 
 /// Cells in a pattern that no order of the mesh has.
@@ -81,6 +85,8 @@ std::vector<int> scattered(const Body& body, int ranks) {
   std::vector<int> owner;
   for (size_t t = 0; t < body.mesh().triangles.size(); ++t)
     owner.push_back(static_cast<int>(t * t / 5 + t) % ranks);
+  for (size_t t = 0; body.patches() != nullptr && t < owner.size(); ++t)  // patches are whole
+    owner[t] = owner[*body.patches()->triangles(body.patches()->patchOf()[t]).begin()];
   return owner;
 }
 

@@ -8,6 +8,11 @@ def _(case):
     case.scene = "plane = \"strain\"\n" + case.scene
 
 
+@fault("flow-locks", "viscosity = ")
+def _(case):
+    case.scene = "plane = \"axisymmetric\"\n" + case.scene
+
+
 @fault("poisson-negative", "poisson = -0.3")
 def _(case):
     case.replace("poisson = 0.3", "poisson = -0.3")
