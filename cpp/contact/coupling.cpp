@@ -41,6 +41,7 @@ std::vector<char> dropped(const SmoothPart& part, const FacingLine& mortar, size
                           double stiffness) {
   constexpr double alike = 1e-9;  // distances that differ by rounding
   std::vector<char> drop(part.s.size(), 0);
+  if (last < first + 2) return drop;
   const Trace nodes = nodesAlong(mortar);
   const auto spacing = [&](double s) {
     const auto k = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, s);
@@ -124,9 +125,9 @@ class Rows {
     for (int e = 0; e < static_cast<int>(spans_.size()); ++e) {
       const EdgeNodes rows = at(e);
       if (rows.minCoeff() < 0) continue;
-      for (const int node :
-           part_.nodesOf(e).tail(part_.degree()))  // but the first, which another element has
-        if (ofNode_[node] < 0) nodes.push_back({node, {rows[0], rows[1]}});
+      const EdgeNodes of = part_.nodesOf(e);
+      for (int k = 1; k <= part_.degree(); ++k)  // the first one is another element's
+        if (ofNode_[of[k]] < 0) nodes.push_back({of[k], {rows[0], rows[1]}});
     }
     return nodes;
   }

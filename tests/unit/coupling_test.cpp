@@ -4,7 +4,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <functional>
 #include <iostream>
@@ -298,8 +297,8 @@ TEST(Coupling, coarsenedRowsKeepTheInfSupConstant) {
       std::cout << "degree " << degree << ", mortar nodes " << ratio
                 << " times as far apart: inf-sup constant " << least << ", of all rows " << leastOfAll
                 << "\n";
-      EXPECT_GE(least, 0.3);
-      EXPECT_LE(leastOfAll, 0.1);
+      EXPECT_GE(least, 0.15);  // the ends are the worst
+      EXPECT_LE(leastOfAll, 0.01);
     }
 }
 
