@@ -25,10 +25,47 @@ Sparse assembled(Eigen::Index rows, Eigen::Index columns, const Triplets& entrie
   return matrix;
 }
 
+/// Abscissae of the nodes of a trace.
+Trace nodesAlong(const ElementLine& line) {
+  Trace nodes;
+  for (size_t i = 0; i < line.s.size(); ++i) {
+    if (i > 0 && line.degree() == 2) nodes.push_back((line.s[i - 1] + line.s[i]) / 2);
+    nodes.push_back(line.s[i]);
+  }
+  return nodes;
+}
+
+/// Takes from the vertices `first` to `last` of a part those that the mortar trace does not tell apart.
+/// \param stiffness  of the nonmortar over that of the mortar body
+std::vector<char> dropped(const SmoothPart& part, const FacingLine& mortar, size_t first, size_t last,
+                          double stiffness) {
+  constexpr double alike = 1e-9;  // distances that differ by rounding
+  std::vector<char> drop(part.s.size(), 0);
+  if (last < first + 2) return drop;
+  const Trace nodes = nodesAlong(mortar);
+  const auto spacing = [&](double s) {
+    const auto k = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, s);
+    return *k - *(k - 1);
+  };
+  for (size_t i = first + 1; i < last; ++i)
+    drop[i] = stiffness * spacing(part.s[i]) > (1 + alike) * (part.s[i + 1] - part.s[i - 1]) / 2 ? 1 : 0;
+  for (const double t : nodes) {
+    const auto above = std::lower_bound(part.s.begin() + static_cast<std::ptrdiff_t>(first),
+                                        part.s.begin() + static_cast<std::ptrdiff_t>(last), t);
+    auto i = std::max<size_t>(above - part.s.begin(), first + 1);
+    const double half = spacing(t) / 2;
+    if (t - part.s[first] < half || part.s[last] - t < half) continue;
+    if (t - part.s[i - 1] <= part.s[i] - t + alike * half) --i;
+    drop[i] = 0;
+  }
+  return drop;
+}
+
 /// Rows and row functions of a part. The last vertex of a closed part has the row of the first.
 class Rows {
  public:
-  Rows(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar, const std::vector<char>& merged)
+  Rows(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar, const std::vector<char>& merged,
+       double stiffness)
       : part_(part), degree_(rowDegree(kind, part.degree())), ofNode_(part.traceNodes(), -1) {
     const Overlap overlap = overlapOf(part.s, mortar.s);
     if (!(overlap.length() > 0)) return;
@@ -42,6 +79,21 @@ class Rows {
       ofNode_[node] = count();
       nodes_.push_back(static_cast<int>(node));
     };
+    if (kind == CouplingKind::coarsened) {
+      size_t first = 0;
+      size_t end = last + 1;
+      while (first < end && !has(first)) ++first;
+      while (end > first && !has(end - 1)) --end;
+      if (first == end) return;
+      const std::vector<char> drop = dropped(part, mortar, first, end - 1, stiffness);
+      for (size_t i = first; i < end; ++i)
+        if (part.closed && i == last)
+          ofNode_[i] = ofNode_[0];
+        else if (drop[i] == 0)
+          add(i);
+      span();
+      return;
+    }
     for (size_t i = 0; i <= last; ++i) {
       if (part.closed && i == last)
         ofNode_[i] = ofNode_[0];
@@ -56,21 +108,47 @@ class Rows {
 
   /// Of the nodes of an element that carry row functions, the vertices first; -1: none.
   [[nodiscard]] EdgeNodes at(int element) const {
-    EdgeNodes rows = part_.nodesOf(element).head(degree_ + 1);
+    EdgeNodes rows = spans_.empty() ? EdgeNodes(part_.nodesOf(element).head(degree_ + 1)) : spanOf(element);
     for (int& row : rows) row = ofNode_[row];
     return rows;
   }
-  /// Values of these functions at a part xi of the element.
-  [[nodiscard]] EdgeValues functions(const EdgeNodes& rows, double xi) const {
-    if (rows[0] >= 0 && rows[1] >= 0) return edgeShapes(degree_, xi);
-    return EdgeValues::Unit(rows.size(), rows[0] < 0 ? 1 : 0);
+  /// Values of these functions at an abscissa of the element.
+  [[nodiscard]] EdgeValues functions(int element, const EdgeNodes& rows, double s) const {
+    if (rows[0] < 0 || rows[1] < 0) return EdgeValues::Unit(rows.size(), rows[0] < 0 ? 1 : 0);
+    if (spans_.empty()) return edgeShapes(degree_, part_.partAt(element, s));
+    const auto& [begin, end] = spans_[element];
+    return edgeShapes(1, (s - part_.s[begin]) / (part_.s[end] - part_.s[begin]));
+  }
+  /// Nodes without a row between two that have one.
+  [[nodiscard]] std::vector<NodeBetween> between() const {
+    std::vector<NodeBetween> nodes;
+    for (int e = 0; e < static_cast<int>(spans_.size()); ++e) {
+      const EdgeNodes rows = at(e);
+      if (rows.minCoeff() < 0) continue;
+      const EdgeNodes of = part_.nodesOf(e);
+      for (int k = 1; k <= part_.degree(); ++k)  // the first one is another element's
+        if (ofNode_[of[k]] < 0) nodes.push_back({of[k], {rows[0], rows[1]}});
+    }
+    return nodes;
   }
 
  private:
+  /// Finds the vertices with a row that are next to each element.
+  void span() {
+    const int elements = part_.elements();
+    spans_.assign(elements, {0, elements});
+    for (int e = 0, at = 0; e < elements; ++e) spans_[e][0] = at = ofNode_[e] >= 0 ? e : at;
+    for (int e = elements, at = elements; e-- > 0;) spans_[e][1] = at = ofNode_[e + 1] >= 0 ? e + 1 : at;
+  }
+  [[nodiscard]] EdgeNodes spanOf(int element) const {
+    return EdgeNodes{{spans_[element][0], spans_[element][1]}};
+  }
+
   const SmoothPart& part_;
   int degree_;
   std::vector<int> ofNode_;
   std::vector<int> nodes_;
+  std::vector<std::array<int, 2>> spans_;  ///< by elements: vertices whose hat functions they carry
 };
 
 /// Entries of a row at the nodes of an element: columns 2 node + component.
@@ -96,7 +174,7 @@ void atGaussPoints(const SmoothPart& part, const FacingLine& mortar, const Rows&
     const double half = (segment.end - segment.begin) / 2;
     for (size_t k = 0; k < places.size(); ++k) {
       const double s = segment.begin + (1 + places[k]) * half;
-      at(segment, row, s, rows.functions(row, part.partAt(segment.nonmortar, s)), weights[k] * half);
+      at(segment, row, s, rows.functions(segment.nonmortar, row, s), weights[k] * half);
     }
   }
 }
@@ -237,14 +315,15 @@ Vector lifted(const Vector& projected, const Vector& atNodes, const Vector& leas
 }  // namespace
 
 Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
-                const DistanceAt& distance, const std::vector<char>& merged, bool axisymmetric) {
-  const Rows rows(kind, part, mortar, merged);
+                const DistanceAt& distance, const std::vector<char>& merged, bool axisymmetric,
+                double stiffness) {
+  const Rows rows(kind, part, mortar, merged, stiffness);
   const Eigen::Index n = rows.count();
   std::vector<Sighting> atRows;  // what their nodes see
   std::vector<Point> own;        // directions there
   Triplets ownMotion;
   Vector distances(n);
-  if (kind != CouplingKind::weighted)
+  if (!hasMeans(kind))
     for (int i = 0; i < n; ++i) {
       atRows.push_back(seeFrom(part, mortar, rows.nodes()[i]));
       const auto& [sight, place] = atRows.back();
@@ -255,18 +334,19 @@ Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mor
   const auto matrix = [n](const ElementLine& line, const Triplets& entries) {
     return assembled(n, 2 * static_cast<Eigen::Index>(line.traceNodes()), entries);
   };
-  if (n == 0) return {{}, Sparse(0, 0), matrix(part, {}), matrix(mortar, {}), Vector(), {}, Vector()};
+  if (n == 0) return {{}, Sparse(0, 0), matrix(part, {}), matrix(mortar, {}), Vector(), {}, Vector(), {}};
   const Integrals integrals = integrate(part, mortar, distance, rows, own, axisymmetric);
 
   Coupling result;
   result.nodes = rows.nodes();
   result.distance = distances;
   result.lengths = integrals.lengths;
+  result.between = rows.between();
   result.mass = assembled(n, n, integrals.mass);
   result.C1 = matrix(part, ownMotion);
   Triplets atNodes;  // what is given holds at the nodes
   for (int i = 0; i < n; ++i) atNodes.emplace_back(i, rows.nodes()[i], 1);
-  result.N = assembled(n, part.traceNodes(), kind == CouplingKind::weighted ? integrals.N : atNodes);
+  result.N = assembled(n, part.traceNodes(), hasMeans(kind) ? integrals.N : atNodes);
   if (kind == CouplingKind::interpolation) {
     Triplets seen;
     for (int i = 0; i < n; ++i)

@@ -7,12 +7,20 @@
 //   interpolation  (C u)_i = j(s_i)
 //   mortar         C u = Phi^-1 int chi j ds,   Phi_ij = int chi_i chi_j ds:   the L2 projection of the jump
 //   weighted       C u = w^-1 int chi j ds,   w_i = int chi_i ds:          its means
+//   coarsened      the same with fewer chi_i: hat functions of some of the vertices
 //
 // so that the nodal forces of the pressure sum pi_i chi_i are Phi pi, or w pi; w is Phi lumped. In the
 // field's words C u = Phi^-1 (D u1 - M u2), D_ik = int chi_i n phi_k the matrix of the nonmortar side and
 // M_il = int chi_i n psi_l that of the mortar side (the note writes D for the latter, and M for Phi). chi are
 // the shape functions phi; with `weighted` they are the hat functions of the vertices, whatever the degree,
 // and p >= 0 says that the pressure is so at every point.
+//
+// Where the nonmortar side is finer than the mortar side and less compliant (h the distances of nodes, E the
+// stiffness: h1/E1 < h2/E2), neither trace follows pressures that alternate from node to node: the inf-sup
+// constant of the nodal pressures is lost, and they alternate. With `coarsened` a vertex there has a row only
+// if it is the nearest one of a node of the mortar trace, and hat functions span the vertices without a row:
+// pressures are those of the mortar trace but for half an element (docs/theory.md; MorteX: Akula et al. 2019).
+// The ends keep their rows and stand for the mortar nodes within half a mortar element.
 //
 // The distance g0 is seen by the same rows. With mortar it is moved up where the projection of a convex
 // distance would be below the least one that a row function sees (coupling.cpp).
@@ -40,6 +48,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <array>
 #include <vector>
 
 #include "base/types.h"
@@ -47,7 +56,13 @@
 
 namespace mortier {
 
-enum class CouplingKind { interpolation, mortar, weighted };
+enum class CouplingKind { interpolation, mortar, weighted, coarsened };
+
+/// A trace node between two rows whose functions its pressure interpolates.
+struct NodeBetween {
+  int node = 0;
+  std::array<int, 2> rows{};
+};
 
 struct Coupling {
   std::vector<int> nodes;            ///< trace nodes of the part with a row, along the line (ElementLine)
@@ -57,11 +72,17 @@ struct Coupling {
   Vector distance;                   ///< g0, as the rows see it [m]
   Eigen::SparseMatrix<double> N;     ///< rows x trace nodes: g0 of a distance that is given at the nodes
   Vector lengths;                    ///< int chi ds, by rows [m]
+  std::vector<NodeBetween> between;  ///< with `coarsened`: the other trace nodes
 };
+
+/// Whether rows are weighted means, with a mass that is diagonal.
+inline bool hasMeans(CouplingKind kind) {
+  return kind == CouplingKind::weighted || kind == CouplingKind::coarsened;
+}
 
 /// The degree of the row functions on a line whose trace has a degree.
 inline int rowDegree(CouplingKind kind, int traceDegree) {
-  return kind == CouplingKind::weighted ? 1 : traceDegree;
+  return hasMeans(kind) ? 1 : traceDegree;
 }
 
 /// \param distance  of the bodies, where x1(s) sees
@@ -69,8 +90,9 @@ inline int rowDegree(CouplingKind kind, int traceDegree) {
 /// within the overlap.
 /// \param axisymmetric  whether the line turns about the axis x = 0: integrals are over the whole surface
 /// then, ds 2 pi r of the nonmortar line, and the mass is in [m^2]
+/// \param stiffness  of the nonmortar over that of the mortar body, for `coarsened`
 Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
                 const DistanceAt& distance = distanceOfCurves, const std::vector<char>& merged = {},
-                bool axisymmetric = false);
+                bool axisymmetric = false, double stiffness = 1);
 
 }  // namespace mortier

@@ -209,8 +209,9 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
         gap += sight.phi[j] * options.gap(nonmortarMesh.nodes.places[part.number(nodes[j])]);
       return gap;
     };
-    Coupling coupling = couple(pair_.coupling, part, facing[k], distance, merged, axisymmetric_);
-    if (options.gap && pair_.coupling != CouplingKind::weighted)  // what is given holds at the nodes
+    Coupling coupling =
+        couple(pair_.coupling, part, facing[k], distance, merged, axisymmetric_, options.stiffness);
+    if (options.gap && !hasMeans(pair_.coupling))  // what is given holds at the nodes
       for (size_t i = 0; i < coupling.nodes.size(); ++i)
         coupling.distance[static_cast<Eigen::Index>(i)] =
             options.gap(nonmortarMesh.nodes.places[part.number(coupling.nodes[i])]);
@@ -224,6 +225,8 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
       nonmortarNodes_.push_back(part.number(node));
       normals_.push_back(directionAt(part, facing[k], node));
     }
+    for (const auto& [node, rows] : coupling.between)
+      between_.push_back({part.number(node), {firstRow + rows[0], firstRow + rows[1]}});
     overlap_ += std::max(0.0, overlapOf(part.s, facing[k].s).length());
     distances.insert(distances.end(), coupling.distance.begin(), coupling.distance.end());
     if (!options.gap && options.initial != InitialGap::close)
@@ -261,6 +264,7 @@ ContactInterface ContactInterface::renumbered(const std::array<std::vector<int>,
   ContactInterface result = *this;
   const auto& [nonmortar, mortar] = numbers;
   for (int& node : result.nonmortarNodes_) node = nonmortar[node];
+  for (NodeBetween& between : result.between_) between.node = nonmortar[between.node];
   for (int& node : result.mortarNodes_) node = mortar[node];
   for (auto& [node, place] : result.gapNodes_) node = nonmortar[node];
   columns(result.C1_, 2, nonmortar, count[0]);
@@ -313,6 +317,8 @@ std::vector<GapSquare> ContactInterface::gapSquares(const Vector& p, const Vecto
   std::vector<int> pressed;
   for (int row = 0; row < rows(); ++row)
     if (p[row] > 0) pressed.push_back(nonmortarNodes_[row]);
+  for (const auto& [node, rows] : between_)
+    if (p[rows[0]] > 0 || p[rows[1]] > 0) pressed.push_back(node);
   std::sort(pressed.begin(), pressed.end());
   const auto presses = [&](int vertex) { return std::binary_search(pressed.begin(), pressed.end(), vertex); };
   return penetration_.squares(uNonmortar, uMortar, presses, nodalGap(t));

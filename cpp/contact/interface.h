@@ -66,6 +66,7 @@ struct InterfaceOptions {
   std::function<bool(int, const Point&)> mortarHeld = {};
   Friction friction = {};
   bool axisymmetric = false;  ///< whether the bodies turn about the axis x = 0: forces are in [N] then
+  double stiffness = 1;       ///< of the nonmortar over that of the mortar body (coupling `coarsened`)
 };
 
 /// Rows of C on one body: conditions x dofs (2 node + component), without entries that are zero.
@@ -96,6 +97,8 @@ class ContactInterface {
   /// Numbers of the nonmortar nodes that carry a condition, along the line; one row of C each. A node at a
   /// corner comes twice.
   [[nodiscard]] const std::vector<int>& nonmortarNodes() const { return nonmortarNodes_; }
+  /// Nodes of the nonmortar line between two rows (coupling `coarsened`), by their numbers.
+  [[nodiscard]] const std::vector<NodeBetween>& nodesBetween() const { return between_; }
   /// Numbers of the nodes of the mortar line, the vertices first.
   [[nodiscard]] const std::vector<int>& mortarNodes() const { return mortarNodes_; }
   /// Direction of contact at the node of each row, out of the nonmortar body.
@@ -175,6 +178,7 @@ class ContactInterface {
 
   ContactPair pair_;
   std::vector<int> nonmortarNodes_;
+  std::vector<NodeBetween> between_;
   std::vector<int> mortarNodes_;
   std::vector<Point> normals_;
   ConstraintRows C1_;

@@ -7,6 +7,7 @@
 #include "mesh/boundary_line.h"
 #include "scene/finite_value.h"
 #include "scene/memory_need.h"
+#include "scene/resolve.h"
 
 namespace mortier {
 
@@ -31,6 +32,7 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
   options.initial = contact.initial;
   options.friction = contact.friction;
   options.axisymmetric = scene.plane == Plane::axisymmetric;
+  options.stiffness = stiffnessRatio(scene, contact.nonmortar, contact.mortar);
   if (contact.gap) {
     const Body& body = model.bodies[pair.nonmortar.body];
     std::vector<Point> points;

@@ -47,6 +47,10 @@ Point vertexPoint(const TriangleMesh& mesh, const Point& point, const std::strin
 // (but with interpolation): a soft body cannot tell the nodes of a finer stiff one apart, and nodal pressures
 // alternate.
 
+/// Young's modulus of the body of one side over that of the other's.
+double stiffnessRatio(const SceneDescription& scene, const SideDescription& one,
+                      const SideDescription& other);
+
 /// Whether one body of a contact is so much stiffer than the other that it is to be mortar.
 bool farStiffer(const SceneDescription& scene, const ContactDescription& contact, const SideDescription& one,
                 const SideDescription& other);

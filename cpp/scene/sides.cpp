@@ -22,13 +22,18 @@ std::optional<double> meanEdge(const SceneDescription& scene, const SideDescript
 
 }  // namespace
 
-bool farStiffer(const SceneDescription& scene, const ContactDescription& contact, const SideDescription& one,
-                const SideDescription& other) {
-  constexpr double far = 100;
+double stiffnessRatio(const SceneDescription& scene, const SideDescription& one,
+                      const SideDescription& other) {
   const auto young = [&](const SideDescription& side) {
     return scene.bodies[bodyIndex(scene, side.body)].material.elasticity.young;
   };
-  return contact.variant != CouplingKind::interpolation && young(one) > far * young(other);
+  return young(one) / young(other);
+}
+
+bool farStiffer(const SceneDescription& scene, const ContactDescription& contact, const SideDescription& one,
+                const SideDescription& other) {
+  constexpr double far = 100;
+  return contact.variant != CouplingKind::interpolation && stiffnessRatio(scene, one, other) > far;
 }
 
 void decideSides(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes) {

@@ -133,8 +133,8 @@ void SpaceErrorEstimator::addGaps(size_t interface, const State& state,
   const auto& [nonmortar, mortar, coupling] = contact.pair();
   // Forces that are conditions on projections of quadratic traces have a pressure that does not vanish
   // outside contact.
-  const bool bounded = coupling == CouplingKind::weighted ||
-                       (coupling == CouplingKind::mortar && model_.bodies[nonmortar.body].degree() == 1);
+  const bool bounded =
+      hasMeans(coupling) || (coupling == CouplingKind::mortar && model_.bodies[nonmortar.body].degree() == 1);
   if (!bounded) return;
   for (const GapSquare& square :
        contact.gapSquares(state.contactForce[interface], state.bodies[nonmortar.body].displacement,

@@ -13,7 +13,8 @@ namespace {
 using namespace scenes;
 
 constexpr double reproduced = 1e-12;
-constexpr CouplingKind projections[] = {CouplingKind::mortar, CouplingKind::weighted};
+constexpr CouplingKind projections[] = {CouplingKind::mortar, CouplingKind::weighted,
+                                        CouplingKind::coarsened};
 
 void addAxisymmetric(Model& model, const ContactSide& nonmortar, const ContactSide& mortar,
                      CouplingKind kind) {

@@ -54,6 +54,20 @@ TEST(InterfacePatch, brokenLine) {
   std::cout << "broken lines: stress error at most " << worst << "\n";
 }
 
+// Where the finer side is nonmortar most of its nodes have no row of their own.
+TEST(InterfacePatch, coarsenedRows) {
+  double worst = 0;
+  for (const bool upperNonmortar : {true, false})
+    for (const Sides sides : {Sides::pressed, Sides::held})
+      for (const double slope : {-0.5, 0.0, 1.5}) {
+        const Map roof = [=](const Point& x) { return Point(x.x(), x.y() + slope * std::abs(x.x() - 0.5)); };
+        const Model model = stack({16, 6}, turned(1, roof), CouplingKind::coarsened, upperNonmortar, sides);
+        EXPECT_LE(model.interfaces[0].rows(), slope == 0 ? 7 : 8);
+        expectPatch(model, worst);
+      }
+  std::cout << "coarsened rows: stress error at most " << worst << "\n";
+}
+
 TEST(InterfacePatch, threeBodiesTurnedAtRandom) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> angle(0, 2 * pi);
@@ -102,7 +116,8 @@ TEST(InterfacePatch, turningAndMirroringChangeNoInvariant) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> angle(0, 2 * pi);
   double worst = 0;
-  for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::interpolation})
+  for (const CouplingKind coupling :
+       {CouplingKind::mortar, CouplingKind::interpolation, CouplingKind::coarsened})
     for (const bool upperNonmortar : {true, false}) {
       const Model first = bow(turned(0), coupling, upperNonmortar);
       const auto [state, report] = run(first, 1, 1);

@@ -50,7 +50,7 @@ Vector shear(const Model& model, const State& state) {
 // What slides does so under t = mu p everywhere, or under the shear stress that surfaces bear, on any meshes.
 TEST(Sliding, isUniform) {
   constexpr double p = 2;
-  for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::weighted})
+  for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::weighted, CouplingKind::coarsened})
     for (const int nonmortar : {upperBody, lowerBody})
       for (const Friction& friction : {Friction{mu, 0}, Friction{0, mu * p}})
         for (const double direction : {1.0, -1.0})
@@ -83,7 +83,9 @@ TEST(Sliding, stickingBlocksAreOneBody) {
   for (const auto& [coupling, degree] : {std::pair(CouplingKind::mortar, 1),
                                          {CouplingKind::weighted, 1},
                                          {CouplingKind::mortar, 2},
-                                         {CouplingKind::weighted, 2}}) {
+                                         {CouplingKind::weighted, 2},
+                                         {CouplingKind::coarsened, 1},
+                                         {CouplingKind::coarsened, 2}}) {
     const Model model = uniformBlocks(coupling, upperBody, {mu, 0}, 2, 0.9 * mu * 2, 0, 1, degree);
     const Result result = run(model, 1, 2);
     ASSERT_EQ(result.report.status, Status::converged) << result.report.reason;
@@ -141,7 +143,7 @@ double energyOf(const Model& model, const std::vector<Matrix>& stress) {
 // Euler), friction's and that of gaps that close; each of these but the first is not negative.
 TEST(Sliding, energyIsKept) {
   for (const CouplingKind coupling :
-       {CouplingKind::mortar, CouplingKind::interpolation, CouplingKind::weighted})
+       {CouplingKind::mortar, CouplingKind::interpolation, CouplingKind::weighted, CouplingKind::coarsened})
     for (const int nonmortar : {upperBody, lowerBody}) {
       const Model model = shearedBlocks(coupling, nonmortar, {mu, 0});
       std::vector<Quantity> reactions(2);

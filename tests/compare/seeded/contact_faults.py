@@ -123,6 +123,12 @@ def _(case):
     case.scene = case.scene[:lower] + case.scene[lower:].replace("young = 3e11", "young = 2e9")
 
 
+@fault("pressure-alternates", "[contact]")
+def _(case):
+    case.upper = Mesh(0, 0, 1, 1, 15, 6)
+    case.lower = Mesh(0, -1, 1, 0, 3, 3)
+
+
 @fault("friction-large", "[contact]")
 def _(case):
     case.replace("label = 3 }\n", "label = 3 }\nfriction = 1.2\n")
