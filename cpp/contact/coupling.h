@@ -18,8 +18,8 @@
 // Where the nonmortar side is finer than the mortar side and less compliant (h the distances of nodes, E the
 // stiffness: h1/E1 < h2/E2), neither trace follows pressures that alternate from node to node: the inf-sup
 // constant of the nodal pressures is lost, and they alternate. With `coarsened` a vertex there has a row only
-// if it is the nearest one of a node of the mortar trace, and hat functions span the vertices without a row:
-// pressures are those of the mortar trace but for half an element (docs/theory.md; MorteX: Akula et al. 2019).
+// if it is the nearest one of a node of the mortar trace, and hat functions span the others: pressures are
+// those of the mortar trace but for half an element (docs/theory.md; MorteX: Akula et al. 2019).
 // The ends keep their rows and stand for the mortar nodes within half a mortar element.
 //
 // The distance g0 is seen by the same rows. With mortar it is moved up where the projection of a convex

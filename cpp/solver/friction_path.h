@@ -1,10 +1,10 @@
 // The sets of a contact problem with friction by following a path (Lemke's idea, on sets). With
 //   q(tau) = q + tau d,   d > 0 on gaps, on slips 0 or, where a limit c holds, -d/2 max(1, mu) of its gap,
-// everything is open and slips for large tau. From there tau decreases to 0; where a force, a gap, a slip or the
-// distance of a shear force from its bound becomes zero, the node changes its state and the path continues:
-// tau decreases where det A(sets) > 0 and increases where it is negative. For W positive definite the only
-// solution of q = d without limits is zero (x'd >= 0), so the path is bounded; no piece of it is visited twice, so it ends at tau = 0
-// (docs/theory.md). The solution found in this way has det A > 0.
+// everything is open and slips for large tau. From there tau decreases to 0; where a force, a gap, a slip or
+// the distance of a shear force from its bound becomes zero, the node changes its state and the path
+// continues: tau decreases where det A(sets) > 0 and increases where it is negative. For W positive definite
+// the only solution of q = d without limits is zero (x'd >= 0), so the path is bounded; no piece of it is
+// visited twice, so it ends at tau = 0 (docs/theory.md). The solution found in this way has det A > 0.
 #pragma once
 
 #include <optional>
