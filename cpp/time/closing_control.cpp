@@ -19,6 +19,23 @@ double Controller::lateness(StepTaker& taker, double t, double k, StepReport& re
   return relative(measure_.sizeOf(taker.lagAtStart()), memory_.controller.scale);
 }
 
+bool Controller::repeatInHalves(StepTaker& taker, StepTaker::Kept start, const State& state, double closing,
+                                StepReport& report, double& factor) {
+  ControllerMemory& own = memory_.controller;
+  second_.reset();
+  double off = halve(taker, start, state, report);
+  if (off <= own.local && closing > 0) off += lateness(taker, state.time, closing, report);
+  if (off > own.local) {
+    taker.goBack(std::move(start));
+    own.pairEnd = 0;
+    own.missed = {};
+    factor = std::clamp(safety * own.local / off, leastFactor, safety);
+    return false;
+  }
+  own.worst = larger(own.worst, {own.error.stress + off * own.scale.stress, 0, 0});
+  return true;
+}
+
 /// Repeats the step that ended in the state as two half steps, and keeps these. \returns by how much they end
 /// elsewhere, relative; nothing where they cannot be solved
 double Controller::halve(StepTaker& taker, const StepTaker::Kept& start, const State& state,

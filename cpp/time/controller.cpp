@@ -333,19 +333,9 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
       reject();
       continue;
     }
-    if (looksOn) {
-      second_.reset();
-      double off = halve(taker, *kept, state, report);
-      if (off <= own.local && closes) off += lateness(taker, t1, k, report);
-      if (off > own.local) {
-        taker.goBack(std::move(*kept));
-        own.pairEnd = 0;
-        own.missed = {};
-        factor = std::clamp(safety * own.local / off, leastFactor, safety);
-        reject();
-        continue;
-      }
-      own.worst = larger(own.worst, {own.error.stress + off * own.scale.stress, 0, 0});
+    if (looksOn && !repeatInHalves(taker, std::move(*kept), state, closes ? k : 0, report, factor)) {
+      reject();
+      continue;
     }
     // A step that was only shortened to end on a stop tells nothing against a longer one.
     const bool shortened = k < own.timeStep && factor >= 1;

@@ -77,6 +77,12 @@ class Controller {
   /// \returns whether it is good \param factor  by which the next pair may be longer
   bool completePair(StepTaker& taker, const Attempt& first, double end, StepReport& report, double& factor);
   [[nodiscard]] bool inPair(double t) const { return memory_.controller.pairEnd > t; }
+  /// Takes the step from `start` again as two half steps (closing_control.cpp).
+  /// \param closing  its length where contact closes in it, else 0
+  /// \returns whether these are good; where not, the state is the one at the start and `factor` the part of
+  /// the step that may be
+  bool repeatInHalves(StepTaker& taker, StepTaker::Kept start, const State& state, double closing,
+                      StepReport& report, double& factor);
   [[nodiscard]] double lateness(StepTaker& taker, double t, double k, StepReport& report) const;
   double halve(StepTaker& taker, const StepTaker::Kept& start, const State& state, StepReport& report);
   [[nodiscard]] bool turnsTooFar(const StepTaker& taker) const;
