@@ -53,9 +53,9 @@ bool bothDiagonals(const TriangleMesh& mesh) {
 /// Flow keeps the volume, which linear triangles follow in plane strain on cells with both diagonals only.
 void checkFlowLocks(const LintInput& input, size_t b, const PlacedMaterial& material, Faults& faults) {
   const SceneDescription& scene = input.scene;
-  if (scene.plane == Plane::stress || scene.degree > 1 || !material.description.flows() ||
-      material.description.as<OwnLaw>() != nullptr || !scene.bodies[b].averaged.empty() ||
-      (scene.plane == Plane::strain && bothDiagonals(*input.meshes[b])))
+  if (input.meshes[b] == nullptr || scene.plane == Plane::stress || scene.degree > 1 ||
+      !material.description.flows() || material.description.as<OwnLaw>() != nullptr ||
+      !scene.bodies[b].averaged.empty() || (scene.plane == Plane::strain && bothDiagonals(*input.meshes[b])))
     return;
   faults.add("flow-locks", material.where("law"),
              material.subject + "flow keeps the volume: linear triangles " +

@@ -88,7 +88,7 @@ FAULTS = [
      "ring", "mortar as it stands", "displacement"),
     ("curved lines end with the mesh", "lines", "if (a == b) xi = ", "if (a == b) xi = 0*", "hertz",
      "as it stands", ""),
-    ("row functions end with the hats", "coupling", "row(e1 + 1) < 0 ? 1. : phi, ", "phi, ", "punch",
+    ("row functions end with the hats", "coupling", "row(to(e1)) < 0 ? 1. : part, ", "part, ", "punch",
      "sides swapped", "displacement"),
     ("conditions at held ends", "coupling", "faces = faces && !", "faces = faces || false && !", "stack",
      "mortar held", ""),

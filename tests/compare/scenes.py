@@ -109,6 +109,7 @@ ty = { time = [0, 0.4, 1], value = [-1, -4, -2] }
 [[body]]
 name = "lower"
 mesh = "lower.mesh"
+volume = "averaged"
 [body.material]
 young = 1e4
 poisson = 0.3
