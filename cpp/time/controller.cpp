@@ -239,7 +239,8 @@ StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort e
   // What is too long without the guard is too long with it, whose steps are of the first order; but where the
   // data turn to rest they are exact.
   const bool turns = t0 == memory_.begin || std::binary_search(stops_.begin(), stops_.end(), t0);
-  const bool changes = judgement.change > memory_.controller.local;
+  constexpr double rounding = 1e-4;  // of what a step may be wrong by: many steps of that are nothing too
+  const bool changes = judgement.change > rounding * memory_.controller.local;
   if (!changes || (!judgement.good && !turns) || !taker.turned()) return outcome;
   outcome = taker.guard(outcome, effort);
   if (outcome.converged()) judgement = judge(taker, t0, t1);
