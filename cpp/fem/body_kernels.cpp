@@ -246,46 +246,6 @@ void Body::tangent(const TangentModuli& moduli, std::vector<double>& values, Thr
 }
 
 void Body::addGroups(const TangentModuli& moduli, std::vector<double>& values, Threads& threads) const {
-  if (!patches_) {  // single triangles, of a size that is known
-    withElement(degree(), [&](auto element) {
-      using Element = decltype(element);
-      constexpr int dofs = 2 * Element::nodes;
-      for (const auto& [triangles, nodes, entries] : assembly().groups()) {
-        const int t = triangles[0];
-        Eigen::Matrix<double, dofs, dofs> K = Eigen::Matrix<double, dofs, dofs>::Zero();
-        for (int i = Element::points * t; i < Element::points * (t + 1); ++i) {
-          // B T: strains of the motions along the frames of the nodes.
-          Eigen::Matrix<double, 3, dofs> B;
-          Eigen::Matrix<double, 1, dofs> hoop = Eigen::Matrix<double, 1, dofs>::Zero();
-          const auto G = triangleData().template gradientsOf<Element>(i);
-          for (int a = 0; a < Element::nodes; ++a) {
-            const double gx = G[2 * a];
-            const double gy = G[2 * a + 1];
-            Eigen::Matrix<double, 3, 2> Ba{{gx, gy}, {gx, -gy}, {gy, gx}};
-            const int frame = frameOf_.empty() ? -1 : frameOf_[nodes_.of(t)[a]];
-            if (frame >= 0) Ba = Ba * frames_[frame].transpose();
-            B.template middleCols<2>(2 * a) = Ba;
-            if (!axisymmetric_) continue;
-            Eigen::RowVector2d around(hoops_[static_cast<size_t>(Element::nodes) * i + a], 0);
-            if (frame >= 0) around = around * frames_[frame].transpose();
-            hoop.template segment<2>(2 * a) = around;
-          }
-          const std::array<double, 9> D = moduliAt(moduli.plane, i);
-          K += weights_[i] * (B.transpose() * Eigen::Map<const Eigen::Matrix3d>(D.data()) * B);
-          if (!axisymmetric_) continue;
-          const BeyondModuli beyond = beyondAt(*moduli.beyond, i);
-          const Eigen::Vector3d row(beyond.row[0], beyond.row[1], beyond.row[2]);
-          const Eigen::Vector3d column(beyond.column[0], beyond.column[1], beyond.column[2]);
-          K += weights_[i] * (B.transpose() * column * hoop +
-                              hoop.transpose() * (row.transpose() * B + beyond.corner * hoop));
-        }
-        for (int j = 0; j < dofs; ++j)
-          for (int i = 0; i < dofs; ++i)
-            if (const int entry = entries[dofs * j + i]; entry >= 0) values[entry] += K(i, j);
-      }
-    });
-    return;
-  }
   // The matrices of some at once, then their sums in the order of the groups.
   constexpr size_t atOnce = 1024;
   constexpr size_t ofABlock = 32;
