@@ -24,7 +24,7 @@ void printSolves(int n, int steps) {
   int unsolved = 0;
   for (int step = 1; step <= 4 * steps; ++step) {
     const FrictionCase c = stepOfHistory(n, step, steps, slip);
-    const FrictionSolution solution = solveFriction(c.problem(), c.q, sets);
+    const FrictionSolution solution = solveFriction(c.problem, c.q, sets);
     unsolved += solution.solved ? 0 : 1;
     paths += solution.events > 0 ? 1 : 0;
     solves += solution.solves;
@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
     constexpr double mu = 0.4;
     const FrictionCase c = mindlinCase(n, mu);
     const FrictionSolution solution =
-        solveFriction(c.problem(), c.q, {std::vector<char>(n, 0), std::vector<signed char>(n, 1)});
+        solveFriction(c.problem, c.q, {std::vector<char>(n, 0), std::vector<signed char>(n, 1)});
     const Vector t = solution.force.tail(n);
     const Vector exact = mindlinTraction(n, mu, solution.force.head(n).sum(), t.sum());
     std::printf("%3d nodes: traction of Cattaneo and Mindlin off by %.2g of Q\n", n,

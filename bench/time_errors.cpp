@@ -58,10 +58,10 @@ int main(int argc, char** argv) {
       if (compares && best == 0) works.push_back(0.5);
     }
     std::printf(
-        "%4d error %8.3g %8.3g at %.5f  estimate %8.3g  tol %.0e  %5d steps %6d solves %4d rejected "
-        "best %d  %s%s%s\n",
+        "%4d error %8.3g %8.3g at %.5f  estimate %8.3g  tol %.0e  %5d steps %6d solves (%d before) %4d "
+        "rejected best %d  %s%s%s\n",
         seed, run.stress, run.displacement, run.at, run.run.timeError / of.tolerance, of.tolerance,
-        run.run.steps, run.run.iterations, run.run.rejected, best, of.name.c_str(),
+        run.run.steps, run.run.iterations, run.run.pilotIterations, run.run.rejected, best, of.name.c_str(),
         says          ? "  TOLD"
         : error > 1.5 ? "  OFF"
                       : "",

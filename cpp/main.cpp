@@ -64,22 +64,22 @@ int dispatch(int argc, char** argv) {
       })
       ->type_name("SECONDS");
   runApp->add_option("--set", runCommand.settings, settingsHelp)->type_name("KEY=VALUE");
-  const auto addGoal = [&](const char* flag, const char* key, const char* type) {
+  const auto addGoal = [](CLI::App* to, std::vector<std::string>& settings, const char* flag, const char* key,
+                          const char* type) {
     const Key& known = keyAt("accuracy", key);
-    runApp
-        ->add_option_function<std::string>(
-            flag,
-            [&runCommand, key](const std::string& value) {
-              runCommand.settings.push_back(std::string("accuracy.") + key + "=" + value);
-            },
-            helpOf(known) + (known.range.holds(std::atof(known.fallback.c_str()))
-                                 ? " (default " + known.fallback + ")"
-                                 : ""))
+    to->add_option_function<std::string>(
+          flag,
+          [&settings, key](const std::string& value) {
+            settings.push_back(std::string("accuracy.") + key + "=" + value);
+          },
+          helpOf(known) + (known.range.holds(std::atof(known.fallback.c_str()))
+                               ? " (default " + known.fallback + ")"
+                               : ""))
         ->type_name(type);
   };
-  addGoal("--accuracy", "energy", "E");
-  addGoal("--max-unknowns", "max_unknowns", "N");
-  addGoal("--max-seconds", "max_seconds", "SECONDS");
+  addGoal(runApp, runCommand.settings, "--accuracy", "energy", "E");
+  addGoal(runApp, runCommand.settings, "--max-unknowns", "max_unknowns", "N");
+  addGoal(runApp, runCommand.settings, "--max-seconds", "max_seconds", "SECONDS");
   runApp->add_option("--threads", runCommand.threads, "threads (default 1)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
@@ -99,6 +99,7 @@ int dispatch(int argc, char** argv) {
       "check", "say what a run would model and leave out, and what is wrong or doubtful (docs/check.md)");
   checkApp->add_option("SCENE", checkCommand.scene, "scene, a TOML file");
   checkApp->add_option("--set", checkCommand.settings, settingsHelp)->type_name("KEY=VALUE");
+  addGoal(checkApp, checkCommand.settings, "--accuracy", "energy", "E");
   checkApp->add_flag("--json", checkCommand.json, "machine-readable");
   checkApp->add_flag("--list", checkCommand.list, "all faults that it knows, and their remedies; no scene");
 
@@ -175,6 +176,7 @@ int dispatch(int argc, char** argv) {
       "compare a scene with FreeFEM or with a stored reference (docs/compare.md); exit code 0 or 1");
   compareApp->add_option("SCENE", compareCommand.scene, "scene, a TOML file");
   compareApp->add_option("--set", compareCommand.settings, settingsHelp)->type_name("KEY=VALUE");
+  addGoal(compareApp, compareCommand.settings, "--accuracy", "energy", "E");
   compareApp->add_option("--accept", compareCommand.accept, "store the result of the scene as a reference")
       ->type_name("FOLDER");
   compareApp

@@ -105,7 +105,7 @@ def run_freefem(case, scene, settings, folder, timeout):
     cost, _ = measured([FREEFEM, "-nw", "-nw", "-ne", "-v", "0", script, "-quiet", "-out", out, *accuracy],
                        timeout, environment=ONE_THREAD)
     run_ = results.read_freefem(out)
-    document = scenes.load(scene, settings)
+    document = scenes.load(scene, settings, script)
     for body in document["body"] if accuracy else ():
         body["mesh"] = out / f"{body['name']}.mesh"
     add_points(run_, document)
@@ -159,7 +159,7 @@ def run_peer(program, case, scene, settings, folder, timeout):
     cost."""
     checked = folder / "checked.edp"
     measured([MORTIER, "freefem", scene, checked, *set_option(settings)], timeout)  # the scene is sound
-    document = scenes.load(scene, settings)
+    document = scenes.load(scene, settings, checked)
     scenes.take_sides(document, checked.read_text())
     problem = folder / "problem.json"
     problem.write_text(json.dumps(document, default=str))

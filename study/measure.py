@@ -158,6 +158,8 @@ def field_error(quantity, run, truth, materials, ring=False):
     """
     difference = size = 0.0
     for name, body in run.bodies.items():
+        if quantity == "energy" and name not in materials:
+            raise RunFailure(f"error of the energy: body {name} has no young and poisson that are numbers")
         norm = (lambda v, name=name: energy_density(v, *materials[name])) if quantity == "energy" \
             else (lambda v: (v**2).sum(-1))
         attribute = "stress" if quantity == "energy" else "displacement"

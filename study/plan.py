@@ -117,7 +117,7 @@ def read(path):
     comparisons = [read_comparison(each, errors, names) for each in top.tables("compare")]
     plan = Plan(path, title, scene, meshes, sweeps, errors, reference, comparisons, let, timeout, repeat)
     decides = {key: document.get(key) for key in ("mesh", "error", "reference", "let", "repeat", "timeout")}
-    files = [scene, *(scene.parent / str(body.get("mesh", ""))
+    files = [scene, *(scene.parent / mesh_file(body)
                       for body in tomllib.loads(scene.read_text(encoding="utf-8"))["body"]),
              *(file for each in meshes.values() for file in each if isinstance(file, Path))]
     digest = hashlib.sha256(json.dumps(decides, sort_keys=True, default=str).encode())
@@ -130,8 +130,7 @@ def read(path):
 def bodies_of(scene, lines):
     try:
         document = tomllib.loads(scene.read_text(encoding="utf-8"))
-        if not all(is_text(body["name"]) and isinstance(body.get("mesh", ""), str)
-                   for body in document["body"]):
+        if not all(is_text(body["name"]) and isinstance(mesh_file(body), str) for body in document["body"]):
             raise ValueError
         return [body["name"] for body in document["body"]]
     except OSError as error:
@@ -140,6 +139,12 @@ def bodies_of(scene, lines):
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise StudyError(
             f"{lines.place('scene')}: scene = \"{scene}\", expected a scene (docs/scene.md)") from error
+
+
+def mesh_file(body):
+    """The file of a body's mesh; empty where it is a shape, or the study gives it."""
+    mesh = body.get("mesh", "")
+    return mesh.get("file", "") if isinstance(mesh, dict) else mesh
 
 
 def read_meshes(table, bodies, folder):

@@ -11,17 +11,23 @@ import numpy as np
 from problems import RunFailure
 
 
-def load(path, settings=()):
-    """The document with KEY=VALUE settings applied (docs/scene.md); meshes as absolute paths."""
+def load(path, settings=(), script=None):
+    """The document with KEY=VALUE settings applied (docs/scene.md); meshes as absolute paths. Those that are
+    shapes or geometries are the files that mortier wrote beside a script for FreeFEM, where one is given."""
     path = Path(path)
     document = tomllib.loads(path.read_text())
     for body in document.get("body", []):
-        body["mesh"] = str((path.parent / body["mesh"]).resolve())
+        if isinstance(body.get("mesh"), str):
+            body["mesh"] = str((path.parent / body["mesh"]).resolve())
     for setting in settings:
         key, _, text = setting.partition("=")
         change(document, key.split("."), value_of(text))
     for body in document.get("body", []):
-        body["mesh"] = str(Path(body["mesh"]).resolve())
+        written = script and script.with_name(f"{script.stem}-{body['name']}.mesh")
+        if written and written.is_file():
+            body["mesh"] = str(written)
+        elif isinstance(body.get("mesh"), str):
+            body["mesh"] = str(Path(body["mesh"]).resolve())
     contacts = document.get("contact", [])
     document["contact"] = [contacts] if isinstance(contacts, dict) else contacts
     for contact in document["contact"]:
@@ -64,10 +70,14 @@ def change(table, path, value):
         change(each, rest[1:] if chosen else rest, value)
 
 
-def materials(document):
-    """name -> (E, nu) of the bodies."""
-    return {body["name"]: (float(body["material"]["young"]), float(body["material"]["poisson"]))
-            for body in document["body"]}
+def materials(run, document):
+    """name -> (E, nu) of the bodies, in the units of the scene: as a run of mortier tells them, or as the
+    scene says. Absent where a body has no such two numbers."""
+    told = {body["name"]: body["laws"][0] for body in run.summary.get("bodies", ())
+            if isinstance(body, dict) and body.get("laws")}
+    said = {body["name"]: body.get("material", {}) for body in document["body"]}
+    pairs = {name: [each.get(key) for key in ("young", "poisson")] for name, each in {**said, **told}.items()}
+    return {name: pair for name, pair in pairs.items() if all(isinstance(x, (int, float)) for x in pair)}
 
 
 class Mesh:

@@ -57,8 +57,9 @@ def errors(plan, meshes, case, run, truth):
     document = scenes.load(plan.scene, codes.settings_of(case, meshes))
     ring = document.get("plane") == "axisymmetric"
     return {f"error {each.name}": repr(measure.error_of(each, run, truth and truth.run,
-                                                        scenes.materials(document), plan.let,
-                                                        float(document["time"]["end"]), ring))
+                                                        scenes.materials(run, document), plan.let,
+                                                        float(run.scalars.get("time") or
+                                                              document["time"]["end"]), ring))
             for each in plan.errors}
 
 

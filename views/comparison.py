@@ -1,5 +1,6 @@
 """A scene in both codes, or a run of it beside a result that was kept: table, place and picture of the
 difference."""
+import json
 import os
 import re
 import subprocess
@@ -31,9 +32,13 @@ def run(given):
     scene = "./" + given.scene if given.scene.startswith("-") else given.scene
     with tempfile.TemporaryDirectory(prefix="mortier-compare-") as folder:
         folder = Path(folder)
-        ours = called("mortier", codes.run_mortier, folder / "mortier", given.set, scene)
+        # FreeFEM takes the meshes of the scene, which an accuracy would refine, and the steps of our run.
+        settings = [*given.set, "accuracy="] if other is None else given.set
+        ours = called("mortier", codes.run_mortier, folder / "mortier", settings, scene)
         if other is None:
-            other = called("FreeFEM", codes.run_freefem, folder / "freefem", given.set, scene)
+            chosen = "planned_steps" not in ours.summary
+            other = called("FreeFEM", codes.run_freefem, folder / "freefem", settings, scene,
+                           steps_of=folder / "mortier" if chosen else None)
         verdict = verdict_on(ours, other, given)
         print(verdict.table())
         place = largest(ours, other) if same_meshes(ours, other) else None
@@ -58,13 +63,15 @@ def accept(given):
         raise CodeFailed(done.stderr, done.returncode)
     sys.stderr.write(done.stderr)  # warnings
     size = sum(path.stat().st_size for path in Path(given.accept).iterdir() if path.is_file())
-    print(f"{shown(given.accept)}: kept, {size / 1e3:.0f} kB")
+    asked = json.loads((Path(given.accept) / "summary.json").read_text()).get("accuracy", {}).get("asked")
+    meshes = f"accuracy {asked:g}" if asked else "on the meshes of the scene, no accuracy asked for"
+    print(f"{shown(given.accept)}: kept, {size / 1e3:.0f} kB, {meshes}")
     return 0
 
 
-def called(code, solve, folder, settings, scene):
+def called(code, solve, folder, settings, scene, **options):
     try:
-        return solve(folder, settings, scene, cwd=os.getcwd())
+        return solve(folder, settings, scene, cwd=os.getcwd(), **options)
     except codes.RunError as error:
         if not error.output and not error.code > 1:
             package = " (Debian package freefem++)" if code == "FreeFEM" else ""

@@ -49,7 +49,7 @@ def contact(views, exact=None):
         pressures = np.concatenate([of_view[i].pressure for of_view in lines if len(of_view) > i])
         low, high = pressures.min(), pressures.max()
         if high - low <= ROUNDING * high and not rough:
-            above.set_ylim(0, 1.2 * high)
+            above.set_ylim(0, 1.2 * high or 1)
         if exact is not None:
             above.axhline(exact, color=INK, lw=1.1, ls=(0, (5, 3)), label="exact")
         below.axhline(0, color=INK, lw=0.8)
@@ -94,6 +94,18 @@ def shown_beside(name, names):
     return (" " if name.startswith("_") else "") + name
 
 
+def draw_path(axes, views, moved, force):
+    """Force over displacement, from the state before the first step on."""
+    for i, view in enumerate(views):
+        x, y = (view.result.history.get(name, np.zeros(0)) for name in (moved, force))
+        colour, marker, width = OF_RUNS[i % len(OF_RUNS)]
+        axes.plot(np.append(0, x), np.append(0, y), color=colour, lw=max(width, 1.2),
+                  marker=marker if len(x) < 60 else None, ms=3, label=label_of(view, views))
+    axes.set_title(f"{force.replace('_', ' ').replace('[', ' [')} over displacement", loc="left", fontsize=9)
+    axes.set_xlabel(moved.replace("displacement_max", "largest displacement "))
+    axes.grid()
+
+
 def history(views):
     """Columns of history.csv against time, those that a scene adds too;
     of a failed run how hard its steps were as well."""
@@ -108,10 +120,15 @@ def history(views):
     times = [each.result.history.get(f"time[{each.result.time_unit}]", np.zeros(0)) for each in views]
     if not shown or max(map(len, times)) < 2:
         return None
-    rows = (len(shown) + 1) // 2
-    figure, axes = plt.subplots(rows, 2, figsize=(9.2, 0.6 + 1.9 * rows), sharex=True, squeeze=False,
+    force, moved = (next((name for name in views[0].result.history if name.split("[")[0] == column), None)
+                    for column in ("contact_force", "displacement_max"))
+    path = force in shown and moved in shown
+    rows = (len(shown) + path + 1) // 2
+    figure, axes = plt.subplots(rows, 2, figsize=(9.2, 0.6 + 1.9 * rows), squeeze=False,
                                 layout="constrained")
     for name, each in zip(shown, axes.flat):
+        if each is not axes.flat[0]:
+            each.sharex(axes.flat[0])
         for i, (view, time) in enumerate(zip(views, times)):
             values = view.result.history.get(name)
             if values is None or not len(values):
@@ -124,11 +141,15 @@ def history(views):
             each.set_yscale("log")
         each.set_title(name.replace("_", " ").replace("[", " ["), loc="left", fontsize=9)
         each.grid()
-    for each in list(axes.flat)[len(shown):]:
+    for each in list(axes.flat)[len(shown) + path:]:
         each.set_axis_off()
-    for each in axes.flat[max(0, len(shown) - 2):len(shown)]:  # the last of each column
-        each.set_xlabel(labelled("time", views[0].result.time_unit))
-        each.tick_params(labelbottom=True)
+    if path:
+        draw_path(axes.flat[len(shown)], views, moved, force)
+    for i, each in enumerate(axes.flat[:len(shown)]):
+        last = i + 2 >= len(shown)  # of its column
+        each.tick_params(labelbottom=last)
+        if last:
+            each.set_xlabel(labelled("time", views[0].result.time_unit))
     if len(views) > 1:
         add_legend(figure)
     return figure

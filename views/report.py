@@ -23,6 +23,7 @@ PROGRAM = ("data.js", "controls.js", "bodies.js", "charts.js", "page.js")  # one
 # of all kept steps together: beyond that steps are left out, so that the page stays small
 TRIANGLES = 600_000
 MANY = 200_000  # of the same: beyond that numbers have a digit less
+NOISE = 1e-9  # of the largest of a kind of field
 HISTORY_ROWS = 1500  # of a longer history some are left out
 SCENE_LETTERS = 200_000
 VIRIDIS = ("440154 482173 433e85 38588c 2d708e 25858e 1e9b8a 2ab07f 52c569 86d549 c2df23 fde725").split()
@@ -66,6 +67,8 @@ def step_block(result, run, fields, earlier, many):
     and the rest by triangle."""
     block = Block(earlier)
     values = {name: result.values(run, fields[name]) for name in order_of(fields)}
+    for kind in (("ux", "uy"), ("s11", "s22", "s12", "s33", "von_mises"), ("e11", "e22", "e12", "e33")):
+        without_noise({name: values[name] for name in kind if name in values}, values)
     for body in run.bodies:
         stress = []
         for name in order_of(fields):
@@ -83,6 +86,15 @@ def step_block(result, run, fields, earlier, many):
         top = np.percentile(np.abs(numbers) if fields[name].signed else numbers, 99.5)
         ranges[name] = [float(f"{each:.6g}") for each in (numbers.min(), numbers.max(), top)]
     return block, ranges
+
+
+def without_noise(kind, values):
+    """A component that is nothing but rounding beside the others of its kind becomes 0."""
+    largest = {name: max(np.abs(each).max(initial=0) for each in of.values()) for name, of in kind.items()}
+    top = max(largest.values(), default=0)
+    for name, of in kind.items():
+        if largest[name] < NOISE * top:
+            values[name] = {body: np.zeros_like(each) for body, each in of.items()}
 
 
 def order_of(fields):
@@ -136,7 +148,30 @@ def run_data(result, share):
             "units": {"length": result.length_unit, "stress": result.stress_unit, "time": result.time_unit},
             "keptSteps": len(result.kept), "bodies": bodies, "fields": listed, "order": order_of(fields),
             "steps": steps, "ranges": ranges, "lines": lines, "scale": natural_scale(first.bodies.values()),
-            "extent": extent(first.bodies.values()), "history": history_of(result), **words_of(result)}
+            "extent": extent(first.bodies.values()), "history": history_of(result),
+            "asked": asked_of(result), **words_of(result)}
+
+
+def asked_of(result):
+    """The quantities of the scene: name, value with its unit, where, range in time and what is known of the
+    error."""
+    rows = []
+    for name, each in result.summary.get("quantities", {}).items():
+        unit, bound = each.get("unit", ""), each.get("bound") or {}
+
+        def at(key, each=each):
+            found = each.get(key)
+            return f"{found['value']:.5g} at t = {found['time']:.5g} {result.time_unit}" if found else ""
+        error = bound.get("error") if bound.get("error") is not None else bound.get("estimate")
+        kind = "estimated" if bound.get("error") is None else "guaranteed"
+        words = f"\u00b1 {error:.3g}, {kind}" if error is not None else ""
+        if each.get("grows_with_rounds"):
+            words = "no limit: it grows with every refinement"
+        elif not words and "change_in_last_round" in each:
+            words = f"changed by {each['change_in_last_round']:.3g} in the last round of refinement"
+        rows.append([shown(name, 200), f"{each['value']:.6g}", shown(unit, 60),
+                     ", ".join(f"{x:.4g}" for x in each.get("at", [])), at("smallest"), at("largest"), words])
+    return rows
 
 
 def history_of(result):

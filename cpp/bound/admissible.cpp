@@ -22,6 +22,7 @@ bool fits(const EarlierContact& earlier, const MatchedMeshes& meshes, const std:
 bool pressWhereItDid(const std::vector<Vector>& before, const MatchedMeshes& meshes,
                      std::vector<Vector>& spread) {
   std::vector<Vector> widths;
+  widths.reserve(spread.size());
   for (const Vector& each : spread) widths.emplace_back(Vector::Zero(each.size()));
   for (const MatchedPiece& piece : meshes.pieces)
     for (int k = 0; k < 2 && piece.rows[k] >= 0; ++k)
@@ -43,12 +44,18 @@ bool pressWhereItDid(const std::vector<Vector>& before, const MatchedMeshes& mes
 
 }  // namespace
 
-Admissible::Admissible(const Model& model, const State& state, double weight, const EarlierContact& earlier) {
-  obstacle = construct(model, state, weight, earlier);
+Admissible::Admissible(const Model& of, const State& state, double weight, const EarlierContact& earlier)
+    : model(of) {
+  obstacle = construct(state, weight, earlier);
 }
 
-std::string Admissible::construct(const Model& model, const State& state, double weight,
-                                  const EarlierContact& earlier) {
+std::string Admissible::foreseen(const Model& model, const State& state, double weight) {
+  std::vector<SideDatum> distances;
+  return Admissible(model).place(state, weight, distances);
+}
+
+/// The bodies with their data, on meshes that match.
+std::string Admissible::place(const State& state, double weight, std::vector<SideDatum>& distances) {
   for (const Body& body : model.bodies) {
     if (body.degree() != 1) return "displacements are quadratic";
     for (const PrescribedDisplacement& held : body.conditions().displacements)
@@ -69,7 +76,7 @@ std::string Admissible::construct(const Model& model, const State& state, double
   }
   const bool given = std::any_of(model.interfaces.begin(), model.interfaces.end(),
                                  [](const ContactInterface& each) { return bool(each.given()); });
-  std::vector<SideDatum> distances(given ? meshes.pieces.size() : 0);
+  distances.resize(given ? meshes.pieces.size() : 0);
   for (size_t k = 0; k < distances.size(); ++k) {
     MatchedPiece& piece = meshes.pieces[k];
     const Datum& gap = model.interfaces[piece.interface].given();
@@ -82,7 +89,12 @@ std::string Admissible::construct(const Model& model, const State& state, double
     if (!distances[k].linear() && beyondLinear.empty())
       beyondLinear = "the gap is not linear on pieces of the contact line";
   }
-  if (flows && !beyondLinear.empty()) return beyondLinear;
+  return flows ? beyondLinear : "";
+}
+
+std::string Admissible::construct(const State& state, double weight, const EarlierContact& earlier) {
+  std::vector<SideDatum> distances;
+  if (std::string fault = place(state, weight, distances); !fault.empty()) return fault;
 
   spread = spreadPressures(model, state, meshes);
   if (!fits(earlier, meshes, spread)) return "contact of the step before is of other meshes";
@@ -101,13 +113,11 @@ std::string Admissible::construct(const Model& model, const State& state, double
   }
 
   double largest = 0;
-  std::vector<LiftedBody> lifted;
   for (LoadedBody& body : bodies) {
     if (!body.balance()) return "a tangent is singular";
     const auto [worst, size] = body.imbalance();
     strictness.imbalance = std::max(strictness.imbalance, worst);
     largest = std::max(largest, size);
-    lifted.push_back(body.lifted());
   }
   for (const MatchedPiece& piece : meshes.pieces) {
     const auto& [nonmortar, mortar, coupling] = model.interfaces[piece.interface].pair();
@@ -121,17 +131,17 @@ std::string Admissible::construct(const Model& model, const State& state, double
     strictness.mismatch /= largest;
   }
   if (!strictness.broken().empty()) return strictness.broken();
-  lifting = lift(lifted, model, meshes.pieces, pressures, earlier.gaps);
+  lifting = lift(bodies, model, meshes.pieces, pressures, earlier.gaps);
   if (!lifting.obstacle.empty()) return lifting.obstacle;
   strictness.leastGap = leastGapOf(model, meshes.pieces, lifting.displacements);
   if (!strictness.broken().empty()) return strictness.broken();
   addDefect();
-  return moveGaps(model, distances);
+  return moveGaps(distances);
 }
 
 /// Where the gap is not linear on a piece the two bodies take up the rest, unless nothing presses there and
 /// the piece stays open without.
-std::string Admissible::moveGaps(const Model& model, const std::vector<SideDatum>& distances) {
+std::string Admissible::moveGaps(const std::vector<SideDatum>& distances) {
   for (size_t k = 0; k < distances.size(); ++k) {
     if (distances[k].linear()) continue;
     const MatchedPiece& piece = meshes.pieces[k];
@@ -169,11 +179,11 @@ void Admissible::addDefect() {
   double moved = 0;
   double force = 0;
   double triangles = 0;
-  for (size_t b = 0; b < bodies.size(); ++b) {
-    left = std::max(left, bodies[b].imbalance().worst + bodies[b].data().error);
-    moved = std::max(moved, bodies[b].lifted().displacement.lpNorm<Eigen::Infinity>());
-    force = std::max(force, bodies[b].imbalance().largest);
-    triangles += static_cast<double>(bodies[b].mesh().triangles.size());
+  for (const auto& body : bodies) {
+    left = std::max(left, body.imbalance().worst + body.data().error);
+    moved = std::max(moved, body.place().displacement.lpNorm<Eigen::Infinity>());
+    force = std::max(force, body.imbalance().largest);
+    triangles += static_cast<double>(body.mesh().triangles.size());
   }
   double pressed = 0;
   for (const Vector& each : spread) pressed = std::max(pressed, each.size() > 0 ? each.maxCoeff() : 0);

@@ -8,15 +8,22 @@
 #include <vector>
 
 #include "bound/checks.h"
-#include "bound/earlier_contact.h"
 #include "bound/lift.h"
 #include "bound/loaded_body.h"
 #include "bound/matched_meshes.h"
 
 namespace mortier {
 
+/// Contact at an earlier time, which has to go on: no gap may be smaller, nothing may press that did not.
+/// Empty where it need not.
+struct EarlierContact {
+  std::vector<std::array<double, 2>> gaps;  ///< at begin and end of each piece [m]
+  std::vector<Vector> pressures;            ///< coefficients of p^
+};
+
 /// Its members refer to each other.
 struct Admissible {
+  const Model& model;
   std::string obstacle;  ///< why there is none; empty where there is
   MatchedMeshes meshes;
   std::vector<LoadedBody> bodies;  ///< balanced: they have s^
@@ -29,13 +36,17 @@ struct Admissible {
 
   /// \param weight  time step times the scheme's diagonal coefficient, of bodies that flow [s]
   /// \throws Interrupted
-  Admissible(const Model& model, const State& state, double weight = 0, const EarlierContact& earlier = {});
+  Admissible(const Model& of, const State& state, double weight = 0, const EarlierContact& earlier = {});
+  /// The obstacle that model and data are, whatever the solution: the time is that of the state.
+  static std::string foreseen(const Model& model, const State& state, double weight);
   Admissible(const Admissible&) = delete;
   Admissible& operator=(const Admissible&) = delete;
 
  private:
-  std::string construct(const Model& model, const State& state, double weight, const EarlierContact& earlier);
-  std::string moveGaps(const Model& model, const std::vector<SideDatum>& distances);
+  explicit Admissible(const Model& of) : model(of) {}
+  std::string place(const State& state, double weight, std::vector<SideDatum>& distances);
+  std::string construct(const State& state, double weight, const EarlierContact& earlier);
+  std::string moveGaps(const std::vector<SideDatum>& distances);
   void addDefect();
 };
 

@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <experimental/simd>
 #include <limits>
 
 #include "base/interrupt.h"
@@ -13,28 +12,6 @@ namespace {
 
 /// Of the block's diagonal.
 constexpr double regularised = 1e-12;
-
-using Four = std::experimental::fixed_size_simd<double, 4>;
-
-Four four(const double* values) {
-  return Four(values, std::experimental::element_aligned);
-}
-
-void put(const Four& values, double* target) {
-  values.copy_to(target, std::experimental::element_aligned);
-}
-
-/// A x, A by its columns.
-template <class Columns>
-Four product(const Columns& A, const double* x) {
-  return four(A[0].data()) * x[0] + four(A[1].data()) * x[1] + four(A[2].data()) * x[2];
-}
-
-template <class Columns>
-void addTo(Columns& to, const Eigen::Matrix3d& K) {
-  for (int c = 0; c < 3; ++c)
-    for (int r = 0; r < 3; ++r) to[c][r] += K(r, c);
-}
 
 /// What iterations still take that gain like those before: with g the gains, the last one times the largest
 /// of (g_(j+1) + ... + g_k)/g_j (Meurant, Papez, Tichy, Numer. Algorithms 88 (2021)).
@@ -57,7 +34,7 @@ AirySystem::AirySystem(const TriangleMesh& mesh, const Sides& sides, const std::
       firstSide_(stride * vertices_),
       sides_(sides.count()),
       sidesFrom_(mesh.vertices.size() + 1, 0),
-      diagonal_(mesh.vertices.size()),
+      diagonal_(mesh.vertices.size(), Block::Zero()),
       b_(Vector::Zero(firstSide_ + sides.count())) {
   for (int e = 0; e < sides.count(); ++e) {
     const auto [low, high] = std::minmax(sides.all()[e].vertices[0], sides.all()[e].vertices[1]);
@@ -67,16 +44,11 @@ AirySystem::AirySystem(const TriangleMesh& mesh, const Sides& sides, const std::
   }
   for (int v = 0; v < vertices_; ++v) sidesFrom_[v + 1] += sidesFrom_[v];
   if (thin.empty()) return;
-  number_.assign(b_.size(), -1);
-  const auto number = [&](int mode) {
-    if (number_[mode] >= 0) return;
-    number_[mode] = static_cast<int>(inBlock_.size());
-    inBlock_.push_back(mode);
-  };
+  joined_.assign(b_.size(), 0);
   for (const int t : thin)
     for (int k = 0; k < 3; ++k) {
-      for (int c = 0; c < 3; ++c) number(stride * mesh.triangles[t][k] + c);
-      number(firstSide_ + sides.of(t, k));
+      for (int c = 0; c < 3; ++c) joined_[stride * mesh.triangles[t][k] + c] = 1;
+      joined_[firstSide_ + sides.of(t, k)] = 1;
     }
 }
 
@@ -89,42 +61,42 @@ void AirySystem::add(const std::array<int, 3>& triangle, const std::array<int, 3
   }
   for (int i = 0; i < 12; ++i) b_[modes[i]] += b[i];
   energy_ += energy;
-  const auto joined = [&](int i) { return !number_.empty() && number_[modes[i]] >= 0; };
+  const auto joined = [&](int i) { return !joined_.empty() && joined_[modes[i]] != 0; };
   constexpr std::array<int, 6> groups{0, 3, 6, 9, 10, 11};
   if (std::none_of(groups.begin(), groups.end(), joined)) return addToSweeps(triangle, sidesOf, K);
+  const bool allJoined = std::all_of(groups.begin(), groups.end(), joined);
   MomentMatrix rest = K;
   for (int i = 0; i < 12; ++i)
     for (int j = 0; j <= i; ++j) {
       if (!joined(i) && !joined(j)) continue;
-      const int a = number_[modes[i]];
-      const int c = number_[modes[j]];
-      if (a >= 0 && c >= 0)
-        ofBlock_.push_back({std::min(a, c), std::max(a, c), K(i, j)});
+      const auto [low, high] = std::minmax(modes[i], modes[j]);
+      if (joined(i) && joined(j) && K(i, j) != 0)
+        ofBlock_.push_back({low, high, K(i, j)});
       else if (K(i, j) != 0)
-        toBlock_.push_back({a < 0 ? modes[i] : modes[j], std::max(a, c), K(i, j)});
+        toBlock_.push_back({modes[joined(i) ? j : i], modes[joined(i) ? i : j], K(i, j)});
       rest(i, j) = 0;
       rest(j, i) = 0;
     }
-  addToSweeps(triangle, sidesOf, rest);
+  if (!allJoined) addToSweeps(triangle, sidesOf, rest);
 }
 
 void AirySystem::addToSweeps(const std::array<int, 3>& triangle, const std::array<int, 3>& sidesOf,
                              const MomentMatrix& K) {
-  const auto couple = [&](Padded& with, int vertex, int side) {
-    for (int c = 0; c < 3; ++c) with[c] += K(3 * vertex + c, 9 + side);
+  const auto couple = [&](Coupling& with, int place, int vertex, int side) {
+    with.withVertices.col(place).head<3>() += K.block<3, 1>(3 * vertex, 9 + side);
   };
   for (int k = 0; k < 3; ++k) {
     const int last = (k + 1) % 3;
     const int apex = (k + 2) % 3;
-    addTo(diagonal_[triangle[k]], K.block<3, 3>(3 * k, 3 * k));
+    diagonal_[triangle[k]].topRows<3>() += K.block<3, 3>(3 * k, 3 * k);
     Coupling& side = sides_[sidesOf[k]];
     const bool ascends = triangle[k] < triangle[last];
-    addTo(side.ends, ascends ? K.block<3, 3>(3 * k, 3 * last) : K.block<3, 3>(3 * last, 3 * k));
-    couple(side.withVertices[ascends ? 0 : 1], k, k);
-    couple(side.withVertices[ascends ? 1 : 0], last, k);
+    side.ends.topRows<3>() += ascends ? K.block<3, 3>(3 * k, 3 * last) : K.block<3, 3>(3 * last, 3 * k);
+    couple(side, ascends ? 0 : 1, k, k);
+    couple(side, ascends ? 1 : 0, last, k);
     const bool second = side.vertices[2] != side.vertices[0];  // the side of two triangles
     side.vertices[second ? 3 : 2] = triangle[apex];
-    couple(side.withVertices[second ? 3 : 2], apex, k);
+    couple(side, second ? 3 : 2, apex, k);
     side.own += K(9 + k, 9 + k);
     int slot = second ? 2 : 0;
     for (const int other : {last, apex})
@@ -137,19 +109,16 @@ void AirySystem::addToSweeps(const std::array<int, 3>& triangle, const std::arra
 
 /// Modes that are not allowed, and those in the block, have no diagonal: they get a 1.
 void AirySystem::invertDiagonal() {
-  inverse_.resize(diagonal_.size());
+  inverse_.assign(diagonal_.size(), Block::Zero());
   for (size_t v = 0; v < diagonal_.size(); ++v) {
-    Eigen::Matrix3d D;
-    for (int c = 0; c < 3; ++c) {
-      if (diagonal_[v][c][c] == 0) diagonal_[v][c][c] = 1;
-      for (int r = 0; r < 3; ++r) D(r, c) = diagonal_[v][c][r];
-    }
+    for (int c = 0; c < 3; ++c)
+      if (diagonal_[v](c, c) == 0) diagonal_[v](c, c) = 1;
+    const Eigen::Matrix3d D = diagonal_[v].topRows<3>();
     // Values and derivatives have units of their own.
     const Eigen::Vector3d scale = D.diagonal().array().rsqrt();
     Eigen::Matrix3d inverse = (scale.asDiagonal() * D * scale.asDiagonal()).inverse();
     if (!inverse.allFinite()) inverse.setIdentity();
-    for (int c = 0; c < 3; ++c)
-      for (int r = 0; r < 3; ++r) inverse_[v][c][r] = scale[r] * inverse(r, c) * scale[c];
+    inverse_[v].topRows<3>() = scale.asDiagonal() * inverse * scale.asDiagonal();
   }
   for (Coupling& side : sides_)
     if (side.own == 0) side.own = 1;
@@ -157,13 +126,20 @@ void AirySystem::invertDiagonal() {
 
 bool AirySystem::factorise() {
   invertDiagonal();
+  std::vector<int> number(ofBlock_.empty() ? 0 : b_.size(), -1);  // of the modes that are allowed
+  for (const auto& [column, row, value] : ofBlock_)
+    if (column == row) number[row] = 0;
+  for (int mode = 0; mode < static_cast<int>(number.size()); ++mode)
+    if (number[mode] == 0) {
+      number[mode] = static_cast<int>(inBlock_.size());
+      inBlock_.push_back(mode);
+    }
   if (inBlock_.empty()) return true;
+  for (MatrixEntry& entry : ofBlock_) entry = {number[entry.column], number[entry.row], entry.value};
   block_ = assembled(static_cast<int>(inBlock_.size()), ofBlock_);
   ofBlock_ = {};
-  for (int c = 0; c < block_.pattern.size; ++c) {
-    double& diagonal = block_.values[block_.pattern.columnStart[c]];
-    diagonal = diagonal == 0 ? 1 : diagonal * (1 + regularised);  // a linear function is no stress
-  }
+  for (int c = 0; c < block_.pattern.size; ++c)
+    block_.values[block_.pattern.columnStart[c]] *= 1 + regularised;  // a linear function is no stress
   blockSolver_ = multifrontalSolver(block_.pattern, {});
   return blockSolver_->factorise(block_.values);
 }
@@ -176,63 +152,48 @@ void AirySystem::solveBlock(Vector& f) const {
 }
 
 void AirySystem::forward(Vector& f) const {
-  double* const all = f.data();
   for (int v = 0; v < vertices_; ++v) {
-    double* const x = all + stride * static_cast<size_t>(v);
-    put(product(inverse_[v], x), x);
-    const Four own = four(x);
-    for (int e = sidesFrom_[v]; e < sidesFrom_[v + 1]; ++e) {
-      double* const high = all + stride * static_cast<size_t>(sides_[e].vertices[1]);
-      for (int c = 0; c < 3; ++c) high[c] -= reduce(four(sides_[e].ends[c].data()) * own);
-    }
+    const Eigen::Vector4d own = inverse_[v] * at(f, v).head<3>();
+    at(f, v) = own;
+    for (int e = sidesFrom_[v]; e < sidesFrom_[v + 1]; ++e)
+      at(f, sides_[e].vertices[1]).head<3>() -= sides_[e].ends.transpose() * own;
   }
-  double* const ofSides = all + firstSide_;
   for (size_t e = 0; e < sides_.size(); ++e) {
     const Coupling& side = sides_[e];
-    Four sum = 0;
-    for (int i = 0; i < 4; ++i)
-      sum += four(side.withVertices[i].data()) * four(all + stride * static_cast<size_t>(side.vertices[i]));
-    const double x = (ofSides[e] - reduce(sum)) / side.own;
-    ofSides[e] = x;
-    for (int i = 0; i < 4; ++i) ofSides[side.others[i]] -= side.withOthers[i] * x;
+    Eigen::Vector4d sum = side.withVertices.col(0).cwiseProduct(at(f, side.vertices[0]));
+    for (int i = 1; i < 4; ++i) sum += side.withVertices.col(i).cwiseProduct(at(f, side.vertices[i]));
+    const double x = (f[firstSide_ + e] - sum.sum()) / side.own;
+    f[firstSide_ + e] = x;
+    for (int i = 0; i < 4; ++i) f[firstSide_ + side.others[i]] -= side.withOthers[i] * x;
   }
   if (inBlock_.empty()) return;
-  for (const auto& [column, row, value] : toBlock_) f[inBlock_[row]] -= value * f[column];
+  for (const auto& [column, row, value] : toBlock_) f[row] -= value * f[column];
   solveBlock(f);
 }
 
 void AirySystem::backward(Vector& f) const {
   if (!inBlock_.empty()) {
     solveBlock(f);
-    for (const auto& [column, row, value] : toBlock_) f[column] -= value * f[inBlock_[row]];
+    for (const auto& [column, row, value] : toBlock_) f[column] -= value * f[row];
   }
-  double* const all = f.data();
-  double* const ofSides = all + firstSide_;
   for (size_t e = sides_.size(); e-- > 0;) {
     const Coupling& side = sides_[e];
-    double x = ofSides[e];
-    for (int i = 0; i < 4; ++i) x -= side.withOthers[i] * ofSides[side.others[i]];
+    double x = f[firstSide_ + e];
+    for (int i = 0; i < 4; ++i) x -= side.withOthers[i] * f[firstSide_ + side.others[i]];
     x /= side.own;
-    ofSides[e] = x;
-    for (int i = 0; i < 4; ++i) {
-      double* const at = all + stride * static_cast<size_t>(side.vertices[i]);
-      put(four(at) - four(side.withVertices[i].data()) * x, at);
-    }
+    f[firstSide_ + e] = x;
+    for (int i = 0; i < 4; ++i) at(f, side.vertices[i]) -= side.withVertices.col(i) * x;
   }
   for (int v = vertices_ - 1; v >= 0; --v) {
-    double* const x = all + stride * static_cast<size_t>(v);
-    Four left = four(x);
+    Eigen::Vector4d left = at(f, v);
     for (int e = sidesFrom_[v]; e < sidesFrom_[v + 1]; ++e)
-      left -= product(sides_[e].ends, all + stride * static_cast<size_t>(sides_[e].vertices[1]));
-    put(left, x);
-    put(product(inverse_[v], x), x);
+      left -= sides_[e].ends * at(f, sides_[e].vertices[1]).head<3>();
+    at(f, v) = inverse_[v] * left.head<3>();
   }
 }
 
 void AirySystem::multiplyDiagonal(const Vector& f, Vector& result) const {
-  for (int v = 0; v < vertices_; ++v)
-    put(product(diagonal_[v], f.data() + stride * static_cast<size_t>(v)),
-        result.data() + stride * static_cast<size_t>(v));
+  for (int v = 0; v < vertices_; ++v) at(result, v) = diagonal_[v] * f.segment<3>(stride * v);
   for (size_t e = 0; e < sides_.size(); ++e) result[firstSide_ + e] = sides_[e].own * f[firstSide_ + e];
   for (const int mode : inBlock_) result[mode] = 0;
   const SparsePattern& pattern = block_.pattern;

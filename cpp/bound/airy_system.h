@@ -38,7 +38,6 @@ class AirySystem {
   /// Lowers E until what more iterations could take, as their gains fade, is no more than a part of it.
   /// \returns whether it is after `most` of them \throws Interrupted
   bool solve(double part, int most);
-  [[nodiscard]] double energy() const { return energy_; }  ///< E(x)
   [[nodiscard]] int iterations() const { return iterations_; }
   [[nodiscard]] Eigen::Vector3d atVertex(int vertex) const { return x_.segment<3>(stride * vertex); }
   [[nodiscard]] double atSide(int side) const { return x_[firstSide_ + side]; }
@@ -46,20 +45,19 @@ class AirySystem {
  private:
   /// Modes of vertices are held with a 0 behind them, and what multiplies them, too.
   static constexpr int stride = 4;
-  using Padded = std::array<double, stride>;
-  using PaddedSquare = std::array<Padded, 3>;  ///< columns
+  using Block = Eigen::Matrix<double, stride, 3>;
   /// The coupling of a side: with its two ends, the lower number first, and the vertices opposite; of these
   /// ends with each other; with sides of greater number.
   struct Coupling {
-    std::array<int, 4> vertices;
-    std::array<int, 4> others;
-    PaddedSquare ends;
-    std::array<Padded, 4> withVertices;
-    std::array<double, 4> withOthers;
-    double own;
+    std::array<int, 4> vertices, others;
+    Block ends = Block::Zero();
+    Eigen::Matrix4d withVertices = Eigen::Matrix4d::Zero();  ///< columns
+    Eigen::Vector4d withOthers = Eigen::Vector4d::Zero();
+    double own = 0;
   };
   void addToSweeps(const std::array<int, 3>& triangle, const std::array<int, 3>& sidesOf,
                    const MomentMatrix& K);
+  static auto at(Vector& f, int vertex) { return f.segment<stride>(stride * vertex); }
   void solveBlock(Vector& f) const;
   void forward(Vector& f) const;   ///< f becomes (D + L)^-1 f
   void backward(Vector& f) const;  ///< f becomes (D + L')^-1 f
@@ -69,11 +67,11 @@ class AirySystem {
   int vertices_, firstSide_;
   std::vector<Coupling> sides_;
   std::vector<int> sidesFrom_;  ///< the sides of which a vertex is the lower end: those from here on
-  std::vector<PaddedSquare> diagonal_, inverse_;
-  std::vector<int> number_;  ///< of modes in the block, -1 for others; empty where there is none
-  std::vector<int> inBlock_;
+  std::vector<Block> diagonal_, inverse_;
+  std::vector<char> joined_;          ///< by modes, whether they are in the block; empty where none is
+  std::vector<int> inBlock_;          ///< modes of its equations: those that are allowed
   std::vector<MatrixEntry> ofBlock_;  ///< to be assembled
-  std::vector<MatrixEntry> toBlock_;  ///< rows are those of the block, columns other modes
+  std::vector<MatrixEntry> toBlock_;  ///< rows are modes of the block, columns others
   SparseSymmetric block_;
   std::unique_ptr<CondensingSolver> blockSolver_;
   Vector b_, x_;

@@ -29,11 +29,6 @@ void hold(KnownTraction& known, const Point& direction) {
     known.count = 0;
 }
 
-/// (p, q, r) of sym(v (x) g).
-Eigen::Vector3d strainOf(const Point& v, const Point& g) {
-  return fromCartesian({v.x() * g.x(), v.y() * g.y(), (v.x() * g.y() + v.y() * g.x()) / 2});
-}
-
 /// A triangle with a side from p to q, the body to the left, and the vertex c opposite.
 struct Fan {
   Point p, q, c;
@@ -92,8 +87,7 @@ double carriesTraction(Fan fan, const Eigen::Matrix3d& compliance) {
 
 class Reading {
  public:
-  Reading(const DataPlace& place, const Vector& displacement, double t)
-      : place_(place), mesh_(place.cut.mesh), displacement_(displacement), t_(t) {
+  Reading(const MatchedBody& place, double t) : place_(place), mesh_(place.cut.mesh), t_(t) {
     const auto triangles = static_cast<Eigen::Index>(mesh_.triangles.size());
     data_.forces.assign(triangles, BodyLoad::Zero());
     data_.known.resize(place.sides.count());
@@ -131,6 +125,7 @@ class Reading {
     if (forces.empty()) return;
     const int triangles = static_cast<int>(mesh_.triangles.size());
     std::vector<Datum> values;
+    values.reserve(forces.size());
     for (const BodyForce& force : forces) values.push_back(force.value);
     DataOnTriangles data(values, t_, triangles);
     for (int t = 0; t < triangles; ++t) {
@@ -229,9 +224,9 @@ class Reading {
         onSide(value, mesh_.vertices[side.vertices[0]], mesh_.vertices[side.vertices[1]], t_);
     const std::string what =
         ofBody("the displacement prescribed on label " + std::to_string(mesh_.boundaryLabels[side.boundary]));
-    const double size = std::max(datum.size, displacement_.lpNorm<Eigen::Infinity>());
+    const double size = std::max(datum.size, place_.displacement.lpNorm<Eigen::Infinity>());
     for (int end = 0; end < 2; ++end)
-      if (std::abs(direction.dot(displacement_.segment<2>(2 * side.vertices[end])) - datum.ends[end]) >
+      if (std::abs(direction.dot(place_.displacement.segment<2>(2 * side.vertices[end])) - datum.ends[end]) >
           same * size)
         return datum.linear() && side.vertices[end] < place_.own.nodes()
                    ? refuse(what + " is not that of its nodes")
@@ -329,26 +324,25 @@ class Reading {
     }
   }
 
-  const DataPlace& place_;
+  const MatchedBody& place_;
   const TriangleMesh& mesh_;
-  const Vector& displacement_;
   double t_;
   BodyData data_;
 };
 
 }  // namespace
 
-BodyData readData(const DataPlace& place, const Vector& displacement, double t) {
-  return Reading(place, displacement, t).read();
+BodyData readData(const MatchedBody& place, double t) {
+  return Reading(place, t).read();
 }
 
-double movedEnergy(const DataPlace& place, int side, const Point& along, const SideDatum& datum) {
+double movedEnergy(const MatchedBody& place, int side, const Point& along, const SideDatum& datum) {
   const Fan fan(place.cut.mesh, place.sides.all()[side]);
   const int t = place.sides.all()[side].triangles[0];
   const Eigen::Matrix3d& E = place.moduli[t];
   const double twiceArea = fan.length() * fan.height();
   const auto energy = [&](const Point& g) {
-    const Eigen::Vector3d strain = strainOf(along, g);
+    const Eigen::Vector3d strain = symmetricPart(along, g);
     return strain.dot(E * strain);
   };
   // x = c + rho (p + s (q - p) - c): grad rho = m, grad s = g(s)/rho, g linear in s.
@@ -364,7 +358,8 @@ double movedEnergy(const DataPlace& place, int side, const Point& along, const S
   return std::sqrt(twiceArea * (std::sqrt(bySlope * byValue) + byValue / 2));
 }
 
-void moveSide(const DataPlace& place, int side, const Point& along, const SideDatum& datum, BodyData& data) {
+void moveSide(const MatchedBody& place, int side, const Point& along, const SideDatum& datum,
+              BodyData& data) {
   const Fan fan(place.cut.mesh, place.sides.all()[side]);
   const int t = place.sides.all()[side].triangles[0];
   data.strained[t] += movedEnergy(place, side, along, datum);
@@ -374,7 +369,7 @@ void moveSide(const DataPlace& place, int side, const Point& along, const SideDa
   data.moved.push_back({place.cut.mesh.boundaryLabels[place.sides.all()[side].boundary], integral * along,
                         fan.length() * (2 * datum.momentError + rounding * datum.size)});
   // Integral of E eps(w): w vanishes on the other sides.
-  data.meanStrained[t] += toCartesian(place.moduli[t] * strainOf(along, fan.outward())) * integral;
+  data.meanStrained[t] += toCartesian(place.moduli[t] * symmetricPart(along, fan.outward())) * integral;
 }
 
 }  // namespace mortier

@@ -42,21 +42,22 @@ struct BodyData {
   [[nodiscard]] bool linear() const { return beyond.empty(); }
 };
 
-/// What a datum needs to know of a body on its matched mesh. \param own  the body on its own mesh
-struct DataPlace {
-  const Body& own;
-  const Body& body;
+/// A body on its matched mesh, its law linearised.
+struct MatchedBody {
+  const Body& own;  ///< on its own mesh
   const CutMesh& cut;
-  const Sides& sides;
-  const std::vector<Eigen::Matrix3d>& moduli;       ///< by triangles, on (p, q, r)
-  const std::vector<Eigen::Matrix3d>& compliances;  ///< on (s11, s22, s12)
+  Body body;  ///< on the matched mesh
+  Sides sides;
+  Vector displacement;                       ///< u_h
+  std::vector<Eigen::Matrix3d> moduli;       ///< by triangles, on (p, q, r) of strains [Pa]
+  std::vector<Eigen::Matrix3d> compliances;  ///< on (s11, s22, s12)
 };
 
-BodyData readData(const DataPlace& place, const Vector& displacement, double t);
+BodyData readData(const MatchedBody& place, double t);
 
-/// Adds a displacement w = datum times `along` on a side of the boundary. \param side  of DataPlace::sides
-void moveSide(const DataPlace& place, int side, const Point& along, const SideDatum& datum, BodyData& data);
+/// Adds a displacement w = datum times `along` on a side of the boundary. \param side  of MatchedBody::sides
+void moveSide(const MatchedBody& place, int side, const Point& along, const SideDatum& datum, BodyData& data);
 /// The energy norm of such a w, at most.
-double movedEnergy(const DataPlace& place, int side, const Point& along, const SideDatum& datum);
+double movedEnergy(const MatchedBody& place, int side, const Point& along, const SideDatum& datum);
 
 }  // namespace mortier

@@ -1,6 +1,7 @@
 #include "bound/composite_triangle.h"
 
 #include <Eigen/Dense>
+#include <numbers>
 
 #include "bound/composite_reference.h"
 
@@ -85,22 +86,23 @@ Moments CompositeTriangle::momentsOfLoad(const BodyLoad& f) const {
   return result;
 }
 
-/// Components of the reference triangle by vertices of the parts.
-Eigen::Matrix<double, 9, 3> CompositeTriangle::loadValues(const BodyLoad& f) const {
+Eigen::Matrix<double, 9, 3> CompositeTriangle::valuesOf(const Moments& m, const BodyLoad& f) const {
+  const Eigen::Matrix<double, 27, 1> all = times(reference().stresses, momentsInReference(m));
+  Eigen::Matrix<double, 9, 3> values = Eigen::Map<const Eigen::Matrix<double, 9, 3>>(all.data());
+  if (f.isZero(0)) return values;
   const Point centre = (x_[0] + x_[1] + x_[2]) / 3;
   const Eigen::Matrix3d toReference = fromReference_.inverse();
-  Eigen::Matrix<double, 9, 3> values;
   for (int part = 0; part < 3; ++part)
     for (int k = 0; k < 3; ++k) {
       const Point y = k == 2 ? Point(0, 0) : Point(x_[(part + k) % 3] - centre);
-      values.row(3 * part + k) = (toReference * Stress(-f.x() * y.x(), -f.y() * y.y(), 0)).transpose();
+      values.row(3 * part + k) += (toReference * Stress(-f.x() * y.x(), -f.y() * y.y(), 0)).transpose();
     }
   for (int c = 0; c < 3; ++c) values.col(c) += f[2] / J_ * reference().turn.segment<9>(9 * c);
   return values;
 }
 
 Moments CompositeTriangle::loadProduct(const BodyLoad& f) const {
-  const Eigen::Matrix<double, 9, 3> weighted = reference().mass * loadValues(f) * reference_;
+  const Eigen::Matrix<double, 9, 3> weighted = reference().mass * valuesOf(Moments::Zero(), f) * reference_;
   Moments moments = Moments::Zero();
   for (int c = 0; c < 3; ++c)
     moments += reference().stresses.middleRows<9>(9 * c).transpose() * weighted.col(c);
@@ -113,9 +115,49 @@ AiryModes CompositeTriangle::airyLoadProduct(const BodyLoad& f) const {
   return momentsOfAiry(x_).transpose() * loadProduct(f);
 }
 
+double CompositeTriangle::energyOf(const Moments& m, const BodyLoad& f) const {
+  const Eigen::Matrix<double, 9, 3> values = valuesOf(m, f);
+  return values.cwiseProduct(reference().mass.lazyProduct(values.lazyProduct(reference_).eval())).sum();
+}
 double CompositeTriangle::loadEnergy(const BodyLoad& f) const {
-  const Eigen::Matrix<double, 9, 3> values = loadValues(f);
-  return values.cwiseProduct(reference().mass * values * reference_).sum();
+  return energyOf(Moments::Zero(), f);
+}
+
+AiryModes CompositeTriangle::airyOf(const Moments& m) const {
+  AiryModes modes;
+  double value = 0;
+  Point gradient(0, 0);
+  for (int k = 0; k < 3; ++k) {
+    const Point side = x_[(k + 1) % 3] - x_[k];
+    const Point mean(gradient.x() - m[4 * k + 1], gradient.y() + m[4 * k]);
+    modes.segment<3>(3 * k) << value, gradient;
+    modes[9 + k] = (mean.x() * side.y() - mean.y() * side.x()) / side.norm();
+    gradient = {mean.x() - m[4 * k + 3], mean.y() + m[4 * k + 2]};
+    value += mean.dot(side);
+  }
+  return modes;
+}
+
+/// As a function of the reference triangle an Airy function has the gradient F' grad, and the stress J S.
+MomentMatrix CompositeTriangle::airyEnergy() const {
+  constexpr double slope = std::numbers::sqrt2 / 2;
+  const std::array<Point, 3> normals{Point(0, -1), Point(slope, slope), Point(-1, 0)};  // of the reference
+  MomentMatrix K = weighted(reference_ / (J_ * J_), reference().airyEnergies);
+  for (int half = 0; half < 2; ++half) {  // columns, then rows
+    for (int k = 0; k < 3; ++k) {
+      const Point side = x_[(k + 1) % 3] - x_[k];
+      const Point normal = F_ * normals[k];
+      // The derivative along the normal of the reference by (Phi(Q) - Phi(P)) and the mean derivative.
+      const double along = normal.dot(side) / side.squaredNorm();
+      K.col(3 * k) -= along * K.col(9 + k);
+      K.col(3 * ((k + 1) % 3)) += along * K.col(9 + k);
+      K.col(9 + k) *= (normal.x() * side.y() - normal.y() * side.x()) / side.norm();
+    }
+    for (int i = 0; i < 3; ++i)
+      K.middleCols<2>(3 * i + 1) = K.middleCols<2>(3 * i + 1).lazyProduct(F_.transpose()).eval();
+    K.transposeInPlace();
+  }
+  return K;
 }
 
 Eigen::Matrix<double, 2, 3> CompositeTriangle::nodalForces(const BodyLoad& f) const {
@@ -144,9 +186,7 @@ Moments CompositeTriangle::momentsInReference(const Moments& m) const {
 }
 
 std::array<Stress, 9> CompositeTriangle::stressOf(const Moments& m, const BodyLoad& f) const {
-  Eigen::Matrix<double, 9, 3> values = loadValues(f);
-  const Moments moments = momentsInReference(m);
-  for (int c = 0; c < 3; ++c) values.col(c) += reference().stresses.middleRows<9>(9 * c) * moments;
+  const Eigen::Matrix<double, 9, 3> values = valuesOf(m, f);
   std::array<Stress, 9> result;
   for (int i = 0; i < 9; ++i) result[i] = fromReference_ * values.row(i).transpose();
   return result;

@@ -46,6 +46,14 @@ class CompositeTriangle {
   /// and the integrals of that force and the hat functions of the corners [N/m].
   [[nodiscard]] Eigen::Matrix<double, 2, 3> nodalForces(const BodyLoad& f) const;
 
+  /// The energy of the stress of moments in equilibrium and of a load [J/m].
+  [[nodiscard]] double energyOf(const Moments& m, const BodyLoad& f) const;
+
+  /// The Airy function of moments in equilibrium that is 0 at the first corner, with its gradient.
+  [[nodiscard]] AiryModes airyOf(const Moments& m) const;
+  /// K with x'K x = integral of s : E^-1 s, s the stress of Airy modes x [1/Pa].
+  [[nodiscard]] MomentMatrix airyEnergy() const;
+
   /// The linear force that is CompositeReference's J(x - centroid) in the reference triangle, with the couple
   /// 1: values at the corners; energy norm and integral of a stress without tractions on the sides that
   /// carries what it is beside the body load with that couple.
@@ -62,7 +70,8 @@ class CompositeTriangle {
   [[nodiscard]] double defect(const Moments& m) const;
 
  private:
-  [[nodiscard]] Eigen::Matrix<double, 9, 3> loadValues(const BodyLoad& f) const;
+  /// Components of the reference triangle by vertices of the parts.
+  [[nodiscard]] Eigen::Matrix<double, 9, 3> valuesOf(const Moments& m, const BodyLoad& f) const;
   [[nodiscard]] Moments momentsInReference(const Moments& m) const;
 
   std::array<Point, 3> x_;

@@ -18,7 +18,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();  // of a sum of a few terms
 
 std::string obstacleOf(const Model& model, const Steps& steps) {
-  if (!steps.backwardEuler) return "steps are not those of backward Euler";
+  if (!steps.backwardEuler) return otherScheme;
   return FlowPotential::obstacleOf(model);
 }
 
@@ -79,11 +79,7 @@ bool FlowBoundRecord::applies(const Model& model) {
 FlowBoundRecord::FlowBoundRecord(const Model& model, Steps steps, const State& state, FlowBoundMemory& memory)
     : model_(model), steps_(steps), memory_(memory) {
   for (const Body& body : model.bodies) {
-    double least = 0;
-    for (const LawDescription& law : body.material().laws())
-      if (const double viscosity = parameterOf(law, "viscosity"); viscosity > 0)
-        least = least > 0 ? std::min(least, viscosity) : viscosity;
-    viscosities_.push_back(least);
+    viscosities_.push_back(leastViscosity(body));
     for (const Point& x : body.mesh().vertices)
       rounding_ = std::max(rounding_, roundings * x.cwiseAbs().maxCoeff());
   }
@@ -245,7 +241,7 @@ FlowBound FlowBoundRecord::atEnd(const State& state) const {
       stress += body.weights()[i] * elastic.col(i).dot(state.bodies[b].stress.col(i));
       strain += body.weights()[i] * state.bodies[b].viscoplasticStrain.col(i).squaredNorm();
     }
-    if (!body.material().linear()) viscosity = std::min(viscosity, viscosities_[b]);
+    viscosity = std::min(viscosity, viscosities_[b]);
   }
   result.strainNorm = std::sqrt(strain);
   result.stressNorm = std::sqrt(stress);

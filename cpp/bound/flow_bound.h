@@ -20,6 +20,9 @@
 
 namespace mortier {
 
+/// Why schemes have none but backward Euler.
+constexpr const char* otherScheme = "steps are not those of backward Euler";
+
 /// The sums of a run so far.
 struct FlowBoundMemory {
   std::string obstacle;  ///< why there is no bound
@@ -73,7 +76,7 @@ class FlowBoundRecord {
   Steps steps_;
   FlowBoundMemory& memory_;
   State before_;                     ///< without displacements
-  std::vector<double> viscosities_;  ///< lambda, the least of each body; 0 where none flows [Pa s]
+  std::vector<double> viscosities_;  ///< lambda, the least of each body [Pa s]
   double rounding_ = 0;              ///< a gap that coordinates leave [m]
 };
 

@@ -12,8 +12,8 @@
 
 namespace mortier {
 
-/// 0 where the law has none of this name.
-double parameterOf(const LawDescription& law, const std::string& name);
+/// The least lambda of a body's laws; infinite where nothing flows [Pa s].
+double leastViscosity(const Body& body);
 
 class FlowPotential {
  public:
@@ -30,7 +30,20 @@ class FlowPotential {
   /// G of stresses at the triangles from one on (components x triangles), no more than together() [1/s].
   Matrix rates(int first, const Matrix& stress);
 
+  /// Means over the same triangles, of stresses s that are linear in each of the three parts of a triangle,
+  /// by their values at the vertices of the parts (9 columns a triangle), with G at t: no less than that of
+  /// D(s; t), by its values at the vertices of small triangles, as it is convex in s,
+  Vector excessAbove(int first, const Matrix& s, const Matrix& t, const Matrix& rates) {
+    return means(true, first, s, t, rates);
+  }
+  /// and no more than that of (m/2) |s - t|^2 - D(s; t), m = 1/(2 lambda), convex too, by those at centroids.
+  Vector squareBeyond(int first, const Matrix& s, const Matrix& t, const Matrix& rates) {
+    return means(false, first, s, t, rates);
+  }
+
  private:
+  Vector means(bool atVertices, int first, const Matrix& s, const Matrix& t, const Matrix& rates);
+
   const Material& material_;
   const std::vector<int>& parents_;
   Matrix stress_, rate_;  ///< by points of the body

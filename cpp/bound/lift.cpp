@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
 #include "base/interrupt.h"
-#include "material/stress.h"
 
 namespace mortier {
 namespace {
@@ -24,11 +22,13 @@ constexpr double depth = 2;
 
 class Lifting {
  public:
-  Lifting(const std::vector<LiftedBody>& bodies, const Model& model, const std::vector<MatchedPiece>& pieces,
+  Lifting(const std::vector<LoadedBody>& bodies, const Model& model, const std::vector<MatchedPiece>& pieces,
           const std::vector<std::array<double, 2>>& pressure,
           const std::vector<std::array<double, 2>>& floors)
-      : bodies_(bodies), strained_(bodies.size()) {
-    for (const LiftedBody& each : bodies) {
+      : strained_(bodies.size()) {
+    for (const LoadedBody& loaded : bodies) {
+      const MatchedBody& each = loaded.place();
+      bodies_.push_back(&each);
       displacements_.push_back(each.displacement);
       strains_.emplace_back(each.body.mesh().triangles.size(), Eigen::Vector3d::Zero());
       moves_.emplace_back(each.body.nodes(), 0);
@@ -66,12 +66,10 @@ class Lifting {
       for (const int t : strained_[b]) energies[t] = energyIn(b, t);
       lift.energies.push_back(std::move(energies));
     }
-    lift.leastGap = facing_.empty() ? 0 : std::numeric_limits<double>::max();
     for (size_t i = 0; i < facing_.size(); ++i) {
       Facing& each = facing_[i];
       each.gap += floors_[i];
       lift.gap += each.weight * each.gap;
-      lift.leastGap = std::min(lift.leastGap, each.gap);
     }
     lift.displacements = displacements_;
     lift.facing = facing_;
@@ -80,9 +78,9 @@ class Lifting {
   }
 
  private:
-  [[nodiscard]] double area(size_t body, size_t t) const { return bodies_[body].body.weights()[t]; }
+  [[nodiscard]] double area(size_t body, size_t t) const { return bodies_[body]->body.weights()[t]; }
   [[nodiscard]] double energyIn(size_t body, int t) const {
-    return area(body, t) * strains_[body][t].dot(bodies_[body].moduli[t] * strains_[body][t]);
+    return area(body, t) * strains_[body][t].dot(bodies_[body]->moduli[t] * strains_[body][t]);
   }
 
   void collect(const Model& model, const std::vector<MatchedPiece>& pieces,
@@ -109,8 +107,8 @@ class Lifting {
         if (index < 0) {
           index = static_cast<int>(facing_.size());
           Facing facing{sides, vertices, piece.normal, 0, 0};
-          facing.gap = piece.distance[end] - (bodies_[sides[0]].displacement.segment<2>(2 * vertices[0]) -
-                                              bodies_[sides[1]].displacement.segment<2>(2 * vertices[1]))
+          facing.gap = piece.distance[end] - (bodies_[sides[0]]->displacement.segment<2>(2 * vertices[0]) -
+                                              bodies_[sides[1]]->displacement.segment<2>(2 * vertices[1]))
                                                  .dot(piece.normal);
           facing_.push_back(facing);
           for (int side = 0; side < 2; ++side) facingAt_[sides[side]][vertices[side]].push_back(index);
@@ -125,10 +123,10 @@ class Lifting {
   [[nodiscard]] double sizeAt(int body, const TriangleMesh& own, const std::array<int, 2>& side) const {
     const auto& [a, b] = side;
     double size = 0;
-    for (const int t : bodies_[body].sides.trianglesAt(a)) {
-      const auto& v = bodies_[body].body.mesh().triangles[t];
+    for (const int t : bodies_[body]->sides.trianglesAt(a)) {
+      const auto& v = bodies_[body]->body.mesh().triangles[t];
       if (std::find(v.begin(), v.end(), b) == v.end()) continue;
-      const auto& corners = own.triangles[bodies_[body].parents[t]];
+      const auto& corners = own.triangles[bodies_[body]->cut.parents[t]];
       for (int k = 0; k < 3; ++k)
         size = std::max(size, (own.vertices[corners[(k + 1) % 3]] - own.vertices[corners[k]]).norm());
     }
@@ -141,14 +139,14 @@ class Lifting {
       int vertex, from;
     };
     for (int b = 0; b < static_cast<int>(bodies_.size()); ++b) {
-      const TriangleMesh& mesh = bodies_[b].body.mesh();
+      const TriangleMesh& mesh = bodies_[b]->body.mesh();
       std::vector<char> seen(mesh.triangles.size(), 0);
       std::vector<Reached> ring;
       const auto add = [&](int vertex, int from) {
         if (std::exchange(moves_[b][vertex], 1) != 0) return;
         ring.push_back({vertex, from});
         moving_.push_back({b, vertex});
-        for (const int t : bodies_[b].sides.trianglesAt(vertex))
+        for (const int t : bodies_[b]->sides.trianglesAt(vertex))
           if (std::exchange(seen[t], 1) == 0) strained_[b].push_back(t);
       };
       for (const Facing& each : facing_)
@@ -156,7 +154,7 @@ class Lifting {
           if (each.bodies[side] == b) add(each.vertices[side], each.vertices[side]);
       for (int i = 0; !ring.empty(); ++i)
         for (const auto& [vertex, from] : std::exchange(ring, {}))
-          for (const int t : bodies_[b].sides.trianglesAt(vertex))
+          for (const int t : bodies_[b]->sides.trianglesAt(vertex))
             for (const int other : mesh.triangles[t])
               if (i < fewestRings || (mesh.vertices[other] - mesh.vertices[from]).norm() <= reach_[b][from])
                 add(other, from);
@@ -167,7 +165,7 @@ class Lifting {
   [[nodiscard]] Point freePart(int body, int vertex, Point direction) const {
     const int at = supportOf_[body][vertex];
     if (at < 0) return direction;
-    const NodeSupport& support = bodies_[body].body.supports().nodes()[at];
+    const NodeSupport& support = bodies_[body]->body.supports().nodes()[at];
     if (support.count == 2) return {0, 0};
     const Point& held = support.directions[0];
     return direction - direction.dot(held) / held.squaredNorm() * held;
@@ -175,13 +173,9 @@ class Lifting {
 
   /// (p, q, r) of the strain of a motion of a vertex in one of its triangles.
   [[nodiscard]] Eigen::Vector3d strainOf(int body, int t, int vertex, const Point& motion) const {
-    const TriangleMesh& mesh = bodies_[body].body.mesh();
-    const auto& v = mesh.triangles[t];
+    const auto& v = bodies_[body]->body.mesh().triangles[t];
     const int i = v[0] == vertex ? 0 : v[1] == vertex ? 1 : 2;
-    const Point opposite = mesh.vertices[v[(i + 2) % 3]] - mesh.vertices[v[(i + 1) % 3]];
-    const Point gradient = Point(-opposite.y(), opposite.x()) / (2 * area(body, t));
-    return fromCartesian({motion.x() * gradient.x(), motion.y() * gradient.y(),
-                          (motion.x() * gradient.y() + motion.y() * gradient.x()) / 2});
+    return symmetricPart(motion, hatGradient(bodies_[body]->body.mesh(), t, i) / area(body, t));
   }
 
   struct Step {
@@ -192,7 +186,7 @@ class Lifting {
   void apply(const std::vector<Step>& steps, double amount) {
     for (const Step& step : steps) {
       displacements_[step.body].segment<2>(2 * step.vertex) -= amount * step.motion;
-      for (const int t : bodies_[step.body].sides.trianglesAt(step.vertex))
+      for (const int t : bodies_[step.body]->sides.trianglesAt(step.vertex))
         strains_[step.body][t] += amount * strainOf(step.body, t, step.vertex, step.motion);
       for (const int at : facingAt_[step.body][step.vertex]) facing_[at].gap += amount * opening(at, step);
     }
@@ -209,9 +203,9 @@ class Lifting {
     double curvature = 0;
     // Triangles of both vertices, where they are of one body, are none here: they face each other.
     for (const Step& step : steps)
-      for (const int t : bodies_[step.body].sides.trianglesAt(step.vertex)) {
+      for (const int t : bodies_[step.body]->sides.trianglesAt(step.vertex)) {
         const Eigen::Vector3d strain = strainOf(step.body, t, step.vertex, step.motion);
-        const Eigen::Vector3d stress = bodies_[step.body].moduli[t] * strain;
+        const Eigen::Vector3d stress = bodies_[step.body]->moduli[t] * strain;
         slope += area(step.body, t) * stress.dot(strains_[step.body][t]);
         curvature += area(step.body, t) * stress.dot(strain);
       }
@@ -247,10 +241,10 @@ class Lifting {
       std::array<double, 2> share{};
       for (int side = 0; side < 2; ++side) {
         double stiffness = 0;
-        for (const int t : bodies_[steps[side].body].sides.trianglesAt(steps[side].vertex)) {
+        for (const int t : bodies_[steps[side].body]->sides.trianglesAt(steps[side].vertex)) {
           const Eigen::Vector3d strain =
               strainOf(steps[side].body, t, steps[side].vertex, steps[side].motion);
-          stiffness += area(steps[side].body, t) * strain.dot(bodies_[steps[side].body].moduli[t] * strain);
+          stiffness += area(steps[side].body, t) * strain.dot(bodies_[steps[side].body]->moduli[t] * strain);
         }
         share[side] = opens[side] > 1e-9 ? opens[side] * opens[side] / stiffness : 0;
       }
@@ -291,7 +285,7 @@ class Lifting {
     return sum;
   }
 
-  const std::vector<LiftedBody>& bodies_;
+  std::vector<const MatchedBody*> bodies_;
   std::vector<std::vector<Eigen::Vector3d>> strains_;  ///< of w, by bodies and triangles
   std::vector<std::vector<int>> strained_;             ///< triangles that may be, by bodies
   std::vector<std::vector<char>> moves_;               ///< by bodies and vertices
@@ -310,7 +304,7 @@ class Lifting {
 
 }  // namespace
 
-Lift lift(const std::vector<LiftedBody>& bodies, const Model& model, const std::vector<MatchedPiece>& pieces,
+Lift lift(const std::vector<LoadedBody>& bodies, const Model& model, const std::vector<MatchedPiece>& pieces,
           const std::vector<std::array<double, 2>>& pressure,
           const std::vector<std::array<double, 2>>& floors) {
   return Lifting(bodies, model, pieces, pressure, floors).result();

@@ -12,8 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "bound/matched_meshes.h"
-#include "bound/side_tractions.h"
+#include "bound/loaded_body.h"
 
 namespace mortier {
 
@@ -32,21 +31,12 @@ struct Lift {
   std::vector<std::array<int, 2>> facingOfPiece;  ///< at begin and end
   std::vector<Vector> energies;  ///< |w|_E^2 by bodies and triangles of the matched meshes [J/m]
   double gap = 0;                ///< integral of p^ G [J/m]
-  double leastGap = 0;           ///< of u^, at a vertex [m]; not negative
   std::string obstacle;          ///< why there is none
-};
-
-struct LiftedBody {
-  const Body& body;                 ///< on the matched mesh
-  const std::vector<int>& parents;  ///< of its triangles, in the body's own mesh
-  const Sides& sides;
-  const std::vector<Eigen::Matrix3d>& moduli;  ///< by triangles, on (p, q, r) of strains [Pa]
-  Vector displacement;                         ///< u_h
 };
 
 /// \param pressure  p^ at begin and end of each piece [Pa]
 /// \param floors  below which no gap shall be, at begin and end of each piece; 0 everywhere if empty [m]
-Lift lift(const std::vector<LiftedBody>& bodies, const Model& model, const std::vector<MatchedPiece>& pieces,
+Lift lift(const std::vector<LoadedBody>& bodies, const Model& model, const std::vector<MatchedPiece>& pieces,
           const std::vector<std::array<double, 2>>& pressure,
           const std::vector<std::array<double, 2>>& floors = {});
 

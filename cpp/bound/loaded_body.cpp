@@ -7,7 +7,6 @@
 
 #include "base/interrupt.h"
 #include "bound/relaxation.h"
-#include "bound/strip_balance.h"
 #include "fem/rigid_modes.h"
 #include "linear/condensing_solver.h"
 #include "material/stress.h"
@@ -15,11 +14,8 @@
 namespace mortier {
 namespace {
 
-/// The bodies of a model with fewer triangles are solved as a whole for what is out of balance.
+/// Airy modes of flowing bodies of models with fewer triangles are solved for directly.
 constexpr size_t many = 10000;
-/// What stresses next to contact lines may have far from them, over the energy in the end: where it is more,
-/// forces that balance each other over lengths went the long way along the line.
-constexpr double little = 0.05;
 
 /// (p, q, r) of (s11, s22, s12), and the same for strains.
 Eigen::Matrix3d toBasis() {
@@ -45,91 +41,76 @@ Linearisation linearisedLaw(const Body& body, const Matrix& stress, double weigh
 }
 
 LoadedBody::LoadedBody(const Model& model, const State& state, const CutMesh& cut, int index, double weight)
-    : cut_(cut),
-      own_(&model.bodies[index]),
-      body_(model.bodies[index].name(), cut.mesh,
-            std::shared_ptr<const Material>(std::shared_ptr<void>(), &model.bodies[index].material()),
-            model.bodies[index].conditions()),
-      sides_(cut.mesh),
-      displacement_(cut.displacement(state.bodies[index].displacement)),
-      modes_(rigidModes(body_)) {
+    : place_{model.bodies[index],
+             cut,
+             {model.bodies[index].name(), cut.mesh,
+              std::shared_ptr<const Material>(std::shared_ptr<void>(), &model.bodies[index].material()),
+              model.bodies[index].conditions()},
+             Sides(cut.mesh),
+             cut.displacement(state.bodies[index].displacement),
+             {},
+             {}},
+      modes_(rigidModes(place_.body)) {
   const Linearisation law = linearisedLaw(model.bodies[index], state.bodies[index].stress, weight);
   size_t triangles = 0;
   for (const Body& body : model.bodies) triangles += body.mesh().triangles.size();
   coarse_ = triangles < many;
-  flows_ = weight > 0 && !body_.material().linear();
+  flows_ = weight > 0 && !place_.body.material().linear();
   const Eigen::Matrix3d B = toBasis();
-  moduli_.reserve(cut_.parents.size());
-  compliances_.reserve(cut_.parents.size());
-  stress_.reserve(cut_.parents.size());
-  for (size_t t = 0; t < cut_.parents.size(); ++t) {
-    const int parent = cut_.parents[t];
-    moduli_.emplace_back(Eigen::Map<const Eigen::Matrix3d>(moduliAt(law.moduli, parent).data()));
-    if (t > 0 && moduli_[t] == moduli_[t - 1])
-      compliances_.push_back(compliances_.back());
+  place_.moduli.reserve(place_.cut.parents.size());
+  place_.compliances.reserve(place_.cut.parents.size());
+  stress_.reserve(place_.cut.parents.size());
+  for (size_t t = 0; t < place_.cut.parents.size(); ++t) {
+    const int parent = place_.cut.parents[t];
+    place_.moduli.emplace_back(Eigen::Map<const Eigen::Matrix3d>(moduliAt(law.moduli, parent).data()));
+    if (t > 0 && place_.moduli[t] == place_.moduli[t - 1])
+      place_.compliances.push_back(place_.compliances.back());
     else
-      compliances_.emplace_back(B.transpose() * moduli_.back().inverse() * B);
+      place_.compliances.emplace_back(B.transpose() * place_.moduli.back().inverse() * B);
     stress_.emplace_back(toCartesian(state.bodies[index].stress.col(parent).head<3>()));
   }
-  data_ = readData(place(), displacement_, state.time);
+  data_ = readData(place_, state.time);
 }
 
 void LoadedBody::move(const std::array<int, 2>& vertices, const Point& along, const SideDatum& datum) {
-  moveSide(place(), sideBetween(vertices), along, datum, data_);
+  moveSide(place_, sideBetween(vertices), along, datum, data_);
 }
 double LoadedBody::movedEnergy(const std::array<int, 2>& vertices, const Point& along,
                                const SideDatum& datum) const {
-  return mortier::movedEnergy(place(), sideBetween(vertices), along, datum);
+  return mortier::movedEnergy(place_, sideBetween(vertices), along, datum);
 }
 
 void LoadedBody::press(const std::array<int, 2>& vertices, const Point& outward,
                        const std::array<double, 2>& moments) {
   const int e = sideBetween(vertices);
-  const int first = sides_.all()[e].vertices[0] == vertices[0] ? 0 : 1;
+  const int first = place_.sides.all()[e].vertices[0] == vertices[0] ? 0 : 1;
   for (int end = 0; end < 2; ++end) {
     data_.known[e].moments[end == 0 ? first : 1 - first] -= moments[end] * outward;
     data_.load.segment<2>(2 * vertices[end]) -= moments[end] * outward;
   }
 }
 int LoadedBody::sideBetween(const std::array<int, 2>& vertices) const {
-  for (const int e : sides_.sidesAt(vertices[0]))
-    if (sides_.all()[e].vertices[0] == vertices[1] || sides_.all()[e].vertices[1] == vertices[1]) return e;
+  for (const int e : place_.sides.sidesAt(vertices[0]))
+    if (place_.sides.all()[e].vertices[0] == vertices[1] || place_.sides.all()[e].vertices[1] == vertices[1])
+      return e;
   return -1;
 }
 
 bool LoadedBody::balance() {
-  const auto relaxed = [&](const std::vector<Stress>& stress) {
-    moments_ = balancedMoments(mesh(), sides_, stress, data_.forces, data_.known);
-    Relaxation relaxation(mesh(), sides_, compliances_, stress_, data_.forces, data_.known, moments_);
-    if (!(flows_ && coarse_ && relaxation.minimise())) relaxation.relax();
-    energies_ = relaxation.energies();
-  };
   std::vector<Stress> stress = stress_;
-  // Other data than those of the run are out of balance everywhere.
-  if (!coarse_ && data_.linear()) {
-    Vector left = leftOver(data_.load, stress);
-    const double size = sizeOf(body_, data_.load, left);
-    if (const std::optional<double> far = balanceStrip(body_, sides_, moduli_, size, left, stress)) {
-      relaxed(stress);
-      if (*far <= little * energies_.sum()) return true;
-      stress = stress_;
-    }
-  }
   if (!equilibrate(stress)) return false;
-  relaxed(stress);
+  moments_ = balancedMoments(mesh(), place_.sides, stress, data_.forces, data_.known);
+  Relaxation relaxation(mesh(), place_.sides, place_.compliances, stress_, data_.forces, data_.known,
+                        moments_);
+  if (!(flows_ && coarse_ && relaxation.minimise())) relaxation.relax();
+  energies_ = relaxation.energies();
   return true;
 }
 double LoadedBody::norm() const {
   double sum = 0;
   for (size_t t = 0; t < stress_.size(); ++t)
-    sum += doubleArea(mesh(), static_cast<int>(t)) / 2 * stress_[t].dot(compliances_[t] * stress_[t]);
+    sum += doubleArea(mesh(), static_cast<int>(t)) / 2 * stress_[t].dot(place_.compliances[t] * stress_[t]);
   return sum;
-}
-std::array<Point, 2> LoadedBody::momentsBetween(const std::array<int, 2>& vertices) const {
-  const int e = sideBetween(vertices);
-  std::array<Point, 2> moments = moments_[e];
-  if (sides_.all()[e].vertices[0] != vertices[0]) std::swap(moments[0], moments[1]);
-  return moments;
 }
 std::array<Point, 2> LoadedBody::asPressed(const std::array<int, 2>& vertices) const {
   const int e = sideBetween(vertices);
@@ -140,16 +121,16 @@ std::array<Point, 2> LoadedBody::asPressed(const std::array<int, 2>& vertices) c
     moments[end] = known.moments[end];
     for (int i = 0; i < known.count; ++i) moments[end] += known.known[i].dot(off) * known.known[i];
   }
-  if (sides_.all()[e].vertices[0] != vertices[0]) std::swap(moments[0], moments[1]);
+  if (place_.sides.all()[e].vertices[0] != vertices[0]) std::swap(moments[0], moments[1]);
   return moments;
 }
 Imbalance LoadedBody::imbalance() const {
-  return imbalanceOf(mesh(), sides_, moments_, data_.forces, data_.known);
+  return imbalanceOf(mesh(), place_.sides, moments_, data_.forces, data_.known);
 }
 
 LoadedBody LoadedBody::unloaded(const Vector& near) const {
   LoadedBody result = *this;
-  result.displacement_ = near;
+  result.place_.displacement = near;
   result.stress_ = stressOf(near);
   result.data_.load.setZero();
   result.data_.error = 0;
@@ -159,8 +140,8 @@ LoadedBody LoadedBody::unloaded(const Vector& near) const {
 }
 
 void LoadedBody::pull(int label, const Point& traction) {
-  for (int e = 0; e < sides_.count(); ++e) {
-    const Side& side = sides_.all()[e];
+  for (int e = 0; e < place_.sides.count(); ++e) {
+    const Side& side = place_.sides.all()[e];
     if (side.boundary < 0 || mesh().boundaryLabels[side.boundary] != label) continue;
     const auto& [a, b] = side.vertices;
     const Point moment = (mesh().vertices[b] - mesh().vertices[a]).norm() / 2 * traction;
@@ -174,60 +155,40 @@ void LoadedBody::pull(int label, const Point& traction) {
 void LoadedBody::push(int triangle, const Point& force) {
   data_.forces[triangle].head<2>() += force;
   for (const int v : mesh().triangles[triangle])
-    data_.load.segment<2>(2 * v) += body_.weights()[triangle] / 3 * force;
+    data_.load.segment<2>(2 * v) += place_.body.weights()[triangle] / 3 * force;
 }
 
 CompositeTriangle LoadedBody::elementOf(int triangle) const {
   const auto& v = mesh().triangles[triangle];
-  return {{mesh().vertices[v[0]], mesh().vertices[v[1]], mesh().vertices[v[2]]}, compliances_[triangle]};
-}
-
-/// |K| grad phi_i
-Point LoadedBody::gradient(int t, int i) const {
-  const auto& v = mesh().triangles[t];
-  const Point opposite = mesh().vertices[v[(i + 2) % 3]] - mesh().vertices[v[(i + 1) % 3]];
-  return Point(-opposite.y(), opposite.x()) / 2;
+  return {{mesh().vertices[v[0]], mesh().vertices[v[1]], mesh().vertices[v[2]]},
+          place_.compliances[triangle]};
 }
 
 Vector LoadedBody::leftOver(Vector forces, const std::vector<Stress>& stress) const {
-  for (int t = 0; t < static_cast<int>(stress.size()); ++t)
-    for (int i = 0; i < 3; ++i) {
-      const Point g = gradient(t, i);
-      forces.segment<2>(2 * mesh().triangles[t][i]) -=
-          Point(stress[t][0] * g.x() + stress[t][2] * g.y(), stress[t][2] * g.x() + stress[t][1] * g.y());
-    }
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t) takeForces(mesh(), t, stress[t], forces);
   return forces;
-}
-
-Eigen::Vector3d LoadedBody::strainIn(int triangle, const Vector& displacement) const {
-  Eigen::Vector3d strain = Eigen::Vector3d::Zero();
-  for (int i = 0; i < 3; ++i) {
-    const Point g = gradient(triangle, i) / body_.weights()[triangle];
-    const Point u = displacement.segment<2>(2 * mesh().triangles[triangle][i]);
-    strain += fromCartesian({u.x() * g.x(), u.y() * g.y(), (u.x() * g.y() + u.y() * g.x()) / 2});
-  }
-  return strain;
 }
 
 std::vector<Stress> LoadedBody::stressOf(const Vector& displacement) const {
   const Eigen::Matrix3d back = toBasis().inverse();
-  std::vector<Stress> stress(moduli_.size());
+  std::vector<Stress> stress(place_.moduli.size());
   for (int t = 0; t < static_cast<int>(stress.size()); ++t)
-    stress[t] = back * (moduli_[t] * strainIn(t, displacement));
+    stress[t] = back * (place_.moduli[t] * strainIn(mesh(), t, displacement));
   return stress;
 }
 
 std::vector<double> LoadedBody::tangent() const {
-  Matrix moduli(body_.material().symmetricTangent() ? 6 : 9, static_cast<Eigen::Index>(moduli_.size()));
-  for (size_t t = 0; t < moduli_.size(); ++t) {
-    const Eigen::Matrix3d& D = moduli_[t];
+  Matrix moduli(place_.body.material().symmetricTangent() ? 6 : 9,
+                static_cast<Eigen::Index>(place_.moduli.size()));
+  for (size_t t = 0; t < place_.moduli.size(); ++t) {
+    const Eigen::Matrix3d& D = place_.moduli[t];
     if (moduli.rows() == 6)
       moduli.col(t) << D(0, 0), D(1, 0), D(2, 0), D(1, 1), D(2, 1), D(2, 2);
     else
       moduli.col(t) = Eigen::Map<const Eigen::Matrix<double, 9, 1>>(D.data());
   }
-  std::vector<double> values(body_.pattern().entries());
-  body_.tangent(moduli, values);
+  std::vector<double> values(place_.body.pattern().entries());
+  place_.body.tangent(moduli, values);
   return values;
 }
 
@@ -237,21 +198,21 @@ bool LoadedBody::equilibrate(std::vector<Stress>& stress) const {
   constexpr int most = 4;
   constexpr double enough = 1e-10;  // of the largest force
   const Vector left = leftOver(data_.load, stress);
-  const double size = sizeOf(body_, data_.load, left);
+  const double size = sizeOf(place_.body, data_.load, left);
   std::vector<double> values = tangent();
   pin(values);
-  auto solver = multifrontalSolver(body_.pattern(), {});
+  auto solver = multifrontalSolver(place_.body.pattern(), {});
   if (!solver->factorise(values)) {
-    solver = suiteSparseSolver(body_.pattern(), {});
+    solver = suiteSparseSolver(place_.body.pattern(), {});
     if (!solver->factorise(values)) return false;
   }
-  Vector x = body_.gather(left);
+  Vector x = place_.body.gather(left);
   for (int i = 0; i < most; ++i) {
     solver->condense(x);
     solver->expand(x);
-    const std::vector<Stress> more = stressOf(body_.spread(x));
+    const std::vector<Stress> more = stressOf(place_.body.spread(x));
     for (size_t t = 0; t < stress.size(); ++t) stress[t] += more[t];
-    x = body_.gather(leftOver(data_.load, stress));
+    x = place_.body.gather(leftOver(data_.load, stress));
     if (!(x.lpNorm<Eigen::Infinity>() > enough * size)) break;
   }
   return true;
@@ -260,10 +221,10 @@ bool LoadedBody::equilibrate(std::vector<Stress>& stress) const {
 /// Springs at as many equations as there are rigid motions: forces in equilibrium leave them at rest.
 void LoadedBody::pin(std::vector<double>& values) const {
   if (modes_.cols() == 0) return;
-  Matrix motions(body_.freeDofs(), modes_.cols());
-  for (Eigen::Index m = 0; m < modes_.cols(); ++m) motions.col(m) = body_.gather(modes_.col(m));
+  Matrix motions(place_.body.freeDofs(), modes_.cols());
+  for (Eigen::Index m = 0; m < modes_.cols(); ++m) motions.col(m) = place_.body.gather(modes_.col(m));
   const Eigen::ColPivHouseholderQR<Matrix> qr(motions.transpose());
-  const SparsePattern& pattern = body_.pattern();
+  const SparsePattern& pattern = place_.body.pattern();
   for (Eigen::Index m = 0; m < modes_.cols(); ++m) {
     const int equation = qr.colsPermutation().indices()[m];
     for (int k = pattern.columnStart[equation]; k < pattern.columnStart[equation + 1]; ++k)

@@ -7,7 +7,6 @@
 
 #include "bound/body_data.h"
 #include "bound/checks.h"
-#include "bound/lift.h"
 #include "bound/matched_meshes.h"
 #include "bound/side_tractions.h"
 #include "solver/state.h"
@@ -24,14 +23,14 @@ class LoadedBody {
   /// is made near
   LoadedBody(const Model& model, const State& state, const CutMesh& cut, int index, double weight = 0);
 
-  [[nodiscard]] const TriangleMesh& mesh() const { return cut_.mesh; }
+  [[nodiscard]] const MatchedBody& place() const { return place_; }
+  [[nodiscard]] const TriangleMesh& mesh() const { return place_.cut.mesh; }
   /// Of each triangle, that of the body's own mesh of which it is a part.
-  [[nodiscard]] const std::vector<int>& parents() const { return cut_.parents; }
+  [[nodiscard]] const std::vector<int>& parents() const { return place_.cut.parents; }
   /// Rigid motions that its supports leave free (fem/rigid_modes.h).
   [[nodiscard]] const Matrix& modes() const { return modes_; }
   /// Nodal forces of loads and of the pressures so far [N/m].
   [[nodiscard]] const Vector& load() const { return data_.load; }
-  [[nodiscard]] LiftedBody lifted() const { return {body_, parents(), sides_, moduli_, displacement_}; }
   /// What linear data leave. Supports along the normals or tangents of a curve (`curvedSupport`) are not
   /// those of nodes.
   [[nodiscard]] const BodyData& data() const { return data_; }
@@ -48,9 +47,8 @@ class LoadedBody {
 
   [[nodiscard]] const Vector& energies() const { return energies_; }  ///< |s^ - s|^2 by triangles [J/m]
   [[nodiscard]] double norm() const;                                  ///< |s|^2 [J/m]
-  /// Moments of the traction on this body at the side between two vertices, at the first and the second.
-  [[nodiscard]] std::array<Point, 2> momentsBetween(const std::array<int, 2>& vertices) const;
-  /// The same with what is pressed in the directions in which supports hold the side: they take the rest.
+  /// Moments of the traction on this body at the side between two vertices, at the first and the second; what
+  /// is pressed in the directions in which supports hold the side: they take the rest.
   [[nodiscard]] std::array<Point, 2> asPressed(const std::array<int, 2>& vertices) const;
   /// Whether no support holds the side between two vertices.
   [[nodiscard]] bool isFree(const std::array<int, 2>& vertices) const {
@@ -67,41 +65,32 @@ class LoadedBody {
   void pull(int label, const Point& traction);
   /// A constant body force on a triangle [N/m^3].
   void push(int triangle, const Point& force);
-  [[nodiscard]] const Body& body() const { return body_; }
+  [[nodiscard]] const Body& body() const { return place_.body; }
   /// Values of the tangent's pattern.
   [[nodiscard]] std::vector<double> tangent() const;
   /// (s11, s22, s12) by triangles of a displacement (dofs).
   [[nodiscard]] std::vector<Stress> stressOf(const Vector& displacement) const;
-  /// (p, q, r) of the strain of a displacement (dofs) in a triangle.
-  [[nodiscard]] Eigen::Vector3d strainIn(int triangle, const Vector& displacement) const;
   /// Nodal forces less those of a stress.
   [[nodiscard]] Vector leftOver(Vector forces, const std::vector<Stress>& stress) const;
   [[nodiscard]] const std::vector<Stress>& stress() const { return stress_; }  ///< s
   /// Of s^ in a triangle.
   [[nodiscard]] Moments momentsOf(int triangle) const {
-    return mortier::momentsOf(sides_, moments_, triangle);
+    return mortier::momentsOf(place_.sides, moments_, triangle);
   }
   [[nodiscard]] CompositeTriangle elementOf(int triangle) const;
   [[nodiscard]] const BodyLoad& forceOn(int triangle) const { return data_.forces[triangle]; }
 
  private:
-  [[nodiscard]] DataPlace place() const { return {*own_, body_, cut_, sides_, moduli_, compliances_}; }
   [[nodiscard]] int sideBetween(const std::array<int, 2>& vertices) const;
-  [[nodiscard]] Point gradient(int t, int i) const;
   bool equilibrate(std::vector<Stress>& stress) const;
   void pin(std::vector<double>& values) const;
 
-  const CutMesh& cut_;
-  const Body* own_;  ///< on its own mesh
-  Body body_;
-  Sides sides_;
-  Vector displacement_;
+  MatchedBody place_;
   Matrix modes_;
-  std::vector<Eigen::Matrix3d> moduli_, compliances_;
   std::vector<Stress> stress_;  ///< s, that of the finite elements
   BodyData data_;
   bool flows_ = false;   ///< its tangents may differ by many orders: iterations would not see the stiff part
-  bool coarse_ = false;  ///< the model is: solutions of whole bodies cost little
+  bool coarse_ = false;  ///< the model is
   SideMoments moments_;
   Vector energies_;
 };

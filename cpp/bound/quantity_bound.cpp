@@ -40,7 +40,7 @@ double leftOf(const LoadedBody& body) {
 
 class Enclosing {
  public:
-  explicit Enclosing(const AdmissiblePair& pair)
+  explicit Enclosing(const Admissible& pair)
       : pair_(pair), facing_(pair.lifting.facing), glued_(pair.bodies, pair.lifting.facing) {
     Q_ = pair.lifting.gap;
     for (size_t b = 0; b < pair.bodies.size(); ++b) {
@@ -48,7 +48,7 @@ class Enclosing {
       unbalanced_ = std::max(unbalanced_, leftOf(body));
       triangles_ += static_cast<double>(body.mesh().triangles.size());
       moved_ = std::max(moved_, pair.lifting.displacements[b].lpNorm<Eigen::Infinity>());
-      std::vector<Stress> lifted = body.stressOf(pair.lifting.displacements[b] - body.lifted().displacement);
+      std::vector<Stress> lifted = body.stressOf(pair.lifting.displacements[b] - body.place().displacement);
       products_.emplace_back();
       sizes_.emplace_back();
       misfits_.emplace_back(Vector::Zero(static_cast<Eigen::Index>(lifted.size())));
@@ -60,7 +60,7 @@ class Enclosing {
         const Moments load = element.loadProduct(f);
         products_[b].emplace_back(element.energy() * d + load);
         sizes_[b].emplace_back(roundings * (element.energy().cwiseAbs() * d.cwiseAbs() + load.cwiseAbs()));
-        const double square = d.dot(products_[b][t]) + d.dot(load) + element.loadEnergy(f);
+        const double square = element.energyOf(d, f);
         const double data = body.data().carried[t] + body.data().strained[t];
         misfits_[b][t] = data > 0 ? std::pow(std::sqrt(std::max(square, 0.0)) + data, 2) / 4 : square / 4;
       }
@@ -83,7 +83,7 @@ class Enclosing {
     Enclosure result = enclose(functional, goal);
     if (!result.obstacle.empty()) return result;
     if (functional.point) {
-      const Vector& u = pair_.bodies[functional.body].lifted().displacement;
+      const Vector& u = pair_.bodies[functional.body].place().displacement;
       result.estimate = result.error(goal.loads[functional.body].dot(u));
       result.obstacle = "displacements at a point have none, means of a label have";
     }
@@ -153,7 +153,7 @@ class Enclosing {
     for (int side = 0; side < 2; ++side) {
       const int body = side == 0 ? nonmortar.body : mortar.body;
       const auto& [first, last] = at.vertices[side];
-      for (const int t : pair_.bodies[body].lifted().sides.trianglesAt(first)) {
+      for (const int t : pair_.bodies[body].place().sides.trianglesAt(first)) {
         const auto& v = pair_.bodies[body].mesh().triangles[t];
         if (std::find(v.begin(), v.end(), last) != v.end()) to[body][t] += value / 2;
       }
@@ -260,7 +260,7 @@ class Enclosing {
     if (data.linear() && data.moved.empty()) return;
     for (int t = 0; t < static_cast<int>(data.forces.size()); ++t) {
       if (data.carried[t] + data.strained[t] == 0) continue;
-      const Eigen::Vector3d strain = toCartesian(pair_.bodies[b].strainIn(t, z));
+      const Eigen::Vector3d strain = toCartesian(strainIn(pair_.bodies[b].mesh(), t, z));
       const Stress mean = data.meanCarried[t] - data.meanStrained[t];
       trial.centre += mean[0] * strain[0] + mean[1] * strain[1] + 2 * mean[2] * strain[2];
       trial.rounding +=
@@ -344,7 +344,7 @@ class Enclosing {
     return q;
   }
 
-  const AdmissiblePair& pair_;
+  const Admissible& pair_;
   const std::vector<Facing>& facing_;
   GluedBodies glued_;
   double Q_ = 0;
@@ -364,7 +364,7 @@ double largestRemainder(double Q, double misfit, double c) {
   return c * Q + misfit * misfit / (4 * c);
 }
 
-std::vector<Enclosure> enclose(const AdmissiblePair& pair, const std::vector<Functional>& functionals) {
+std::vector<Enclosure> enclose(const Admissible& pair, const std::vector<Functional>& functionals) {
   std::vector<Enclosure> result;
   if (functionals.empty()) return result;
   if (pair.lifting.facing.size() > mostFacing)

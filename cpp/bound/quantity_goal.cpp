@@ -1,4 +1,4 @@
-#include "bound/quantity_goal.h"
+#include "bound/quantity_bound.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -55,7 +55,7 @@ std::string reactionValues(const Functional& functional, const Body& body, Vecto
 }
 
 /// r = e . (inward normal) on the sides of contact with the label. \returns what is wrong with it
-std::string weigh(const AdmissiblePair& pair, const Functional& functional, Vector& r) {
+std::string weigh(const Admissible& pair, const Functional& functional, Vector& r) {
   std::vector<char> seen(pair.lifting.facing.size(), 0);
   for (size_t k = 0; k < pair.meshes.pieces.size(); ++k) {
     const MatchedPiece& piece = pair.meshes.pieces[k];
@@ -79,7 +79,7 @@ std::string weigh(const AdmissiblePair& pair, const Functional& functional, Vect
 }
 
 /// r of a part of the line: at a vertex the least, or the largest, of what each piece there allows.
-void weighPart(const AdmissiblePair& pair, const Functional& functional, Against side, Vector& r) {
+void weighPart(const Admissible& pair, const Functional& functional, Against side, Vector& r) {
   std::vector<char> seen(pair.lifting.facing.size(), 0);
   const std::vector<Point>& places = pair.bodies[functional.body].mesh().vertices;
   const double size = functional.part->size();
@@ -121,7 +121,7 @@ int triangleAt(const TriangleMesh& mesh, const Point& x) {
 
 }  // namespace
 
-Goal goalOf(const AdmissiblePair& pair, const Functional& functional, Against side) {
+Goal goalOf(const Admissible& pair, const Functional& functional, Against side) {
   Goal goal;
   for (const LoadedBody& body : pair.bodies) {
     goal.held.emplace_back(Vector::Zero(body.body().dofs()));

@@ -15,7 +15,6 @@
 
 #include <vector>
 
-#include "bound/composite_lanes.h"
 #include "bound/side_tractions.h"
 
 namespace mortier {
@@ -33,39 +32,21 @@ class Relaxation {
   void relax();
   /// By conjugate gradients, until more iterations would take no more than a part of it. \returns whether
   /// this is so after `most` of them
-  bool iterate(double part, int most);
+  bool iterate(double part, int most) { return solve(false, part, most); }
   /// The least energy, by a direct solution for all modes at once. \returns whether it could be found
-  bool minimise();
+  bool minimise() { return solve(true, 0, 1); }
   /// Integral of (s^ - s) : E^-1 (s^ - s) by triangles, s^ the stress of the moments [J/m].
   [[nodiscard]] Vector energies() const;
 
  private:
-  /// What units of Phi (over a length), dPhi/dx and dPhi/dy at a vertex do to a side: to the moments of its
-  /// first and of its second end.
-  using Modes = Eigen::Matrix<double, 4, 3>;
-  /// What the modes of a triangle's sides and vertices do to its moments, and their numbers.
-  struct TriangleModes {
-    Eigen::Matrix<double, 12, Eigen::Dynamic, 0, 12, 12> effects;
-    std::vector<int> numbers;
-  };
-  /// What a unit of the mean normal derivative does to the first end of a side; to the second the opposite.
-  [[nodiscard]] Point normalMode(int side) const;
+  bool solve(bool directly, double part, int most);
   [[nodiscard]] bool mayChange(int side) const;
-  [[nodiscard]] TriangleModes modesOf(int triangle, const std::vector<int>& sideNumbers,
-                                      const std::vector<int>& vertexNumbers,
-                                      const std::vector<Matrix>& vertexModes) const;
-  [[nodiscard]] double lengthAt(int vertex) const;
-  [[nodiscard]] Modes seenBy(int triangle, int k, int vertex, double length) const;
   [[nodiscard]] CompositeTriangle elementOf(int triangle) const;
-  [[nodiscard]] CompositeLanes elementsOf(const Batch& batch) const;
   /// Moments less those of the stress and of the load.
-  [[nodiscard]] CompositeLanes::Twelve differencesOf(const Batch& batch,
-                                                     const CompositeLanes& elements) const;
   [[nodiscard]] Moments differenceOf(int triangle, const CompositeTriangle& element) const;
   [[nodiscard]] Point alongOf(int side) const;
-  [[nodiscard]] Modes modesOf(int side, int vertex, double length) const;
-  /// Columns are the combinations that leave what is known of tractions as it is.
-  [[nodiscard]] Matrix allowedModes(int vertex, double length) const;
+  /// Columns are the combinations of Phi and grad Phi that leave what is known of tractions as it is; or 0.
+  [[nodiscard]] Eigen::Matrix3d allowedModes(int vertex) const;
 
   const TriangleMesh& mesh_;
   const Sides& sides_;

@@ -4,17 +4,15 @@
 #include <algorithm>
 #include <numeric>
 
+#include "bound/composite_reference.h"
+#include "material/stress.h"
+
 namespace mortier {
 namespace {
 
 /// Outward normal times length, the body to the left.
 Point across(const TriangleMesh& mesh, const Side& side) {
-  const Point along = mesh.vertices[side.vertices[1]] - mesh.vertices[side.vertices[0]];
-  return {along.y(), -along.x()};
-}
-
-Point tractionOf(const Stress& s, const Point& n) {
-  return {s[0] * n.x() + s[2] * n.y(), s[2] * n.x() + s[1] * n.y()};
+  return acrossFrom(mesh.vertices[side.vertices[0]], mesh.vertices[side.vertices[1]]);
 }
 
 void listByVertex(size_t vertices, const std::vector<std::array<int, 2>>& pairs, std::vector<int>& start,
@@ -50,11 +48,8 @@ class VertexBalance {
   }
   /// integral over K of s grad phi - f phi, less the moments that its two sides have.
   [[nodiscard]] Point leftOver(int triangle, int vertex) const {
-    const auto& v = mesh_.triangles[triangle];
     const int i = cornerAt(triangle, vertex);
-    const Point opposite = mesh_.vertices[v[(i + 2) % 3]] - mesh_.vertices[v[(i + 1) % 3]];
-    const Point gradient = Point(-opposite.y(), opposite.x()) / 2;  // |K| grad phi
-    Point left = tractionOf(stress_[triangle], gradient);
+    Point left = tractionMatrix(hatGradient(mesh_, triangle, i)) * stress_[triangle];
     if (!forces_[triangle].isZero(0)) left -= nodalForces(mesh_, triangle, forces_[triangle]).col(i);
     for (const int k : {i, (i + 2) % 3}) {
       const int side = sides_.of(triangle, k);
@@ -147,6 +142,29 @@ class VertexBalance {
 
 }  // namespace
 
+Point hatGradient(const TriangleMesh& mesh, int triangle, int i) {
+  const auto& v = mesh.triangles[triangle];
+  return -acrossFrom(mesh.vertices[v[(i + 1) % 3]], mesh.vertices[v[(i + 2) % 3]]) / 2;
+}
+
+Eigen::Vector3d symmetricPart(const Point& v, const Point& g) {
+  return fromCartesian({v.x() * g.x(), v.y() * g.y(), (v.x() * g.y() + v.y() * g.x()) / 2});
+}
+
+Eigen::Vector3d strainIn(const TriangleMesh& mesh, int triangle, const Vector& displacement) {
+  Eigen::Vector3d strain = Eigen::Vector3d::Zero();
+  for (int i = 0; i < 3; ++i)
+    strain += symmetricPart(displacement.segment<2>(2 * mesh.triangles[triangle][i]),
+                            hatGradient(mesh, triangle, i));
+  return strain / (doubleArea(mesh, triangle) / 2);
+}
+
+void takeForces(const TriangleMesh& mesh, int triangle, const Stress& stress, Vector& forces) {
+  for (int i = 0; i < 3; ++i)
+    forces.segment<2>(2 * mesh.triangles[triangle][i]) -=
+        tractionMatrix(hatGradient(mesh, triangle, i)) * stress;
+}
+
 Sides::Sides(const TriangleMesh& mesh) : ofTriangle_(3 * mesh.triangles.size()) {
   struct Half {
     std::array<int, 2> edge;
@@ -219,8 +237,8 @@ SideMoments balancedMoments(const TriangleMesh& mesh, const Sides& sides, const 
   for (int e = 0; e < sides.count(); ++e) {
     const Side& side = sides.all()[e];
     const Point n = across(mesh, side);
-    Point mean = tractionOf(stress[side.triangles[0]], n);
-    if (side.triangles[1] >= 0) mean = (mean + tractionOf(stress[side.triangles[1]], n)) / 2;
+    Point mean = tractionMatrix(n) * stress[side.triangles[0]];
+    if (side.triangles[1] >= 0) mean = (mean + tractionMatrix(n) * stress[side.triangles[1]]) / 2;
     moments[e] = {mean / 2, mean / 2};
   }
   VertexBalance vertices(mesh, sides, stress, forces, known, moments);

@@ -26,6 +26,15 @@ struct Side {
   int boundary = -1;                     ///< TriangleMesh::boundaryEdges that it is, or -1
 };
 
+/// |K| grad phi of corner i of a triangle K, phi its hat function.
+Point hatGradient(const TriangleMesh& mesh, int triangle, int i);
+/// (p, q, r) of the symmetric part of v (x) g.
+Eigen::Vector3d symmetricPart(const Point& v, const Point& g);
+/// (p, q, r) of the strain of a displacement (dofs) in a triangle.
+Eigen::Vector3d strainIn(const TriangleMesh& mesh, int triangle, const Vector& displacement);
+/// Takes from nodal forces (dofs) those of a stress in a triangle [N/m].
+void takeForces(const TriangleMesh& mesh, int triangle, const Stress& stress, Vector& forces);
+
 /// The sides of a mesh, and the way from triangles and vertices to them.
 class Sides {
  public:

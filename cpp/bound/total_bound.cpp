@@ -1,4 +1,4 @@
-#include "bound/total_bound_record.h"
+#include "bound/total_bound.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,9 +40,7 @@ TotalBoundRecord::TotalBoundRecord(const Model& model, const State& state, Total
   for (const Body& body : model.bodies) {
     bodies_.emplace_back(body);
     for (const Point& x : body.mesh().vertices) extent_ = std::max(extent_, x.cwiseAbs().maxCoeff());
-    for (const LawDescription& law : body.material().laws())
-      if (const double viscosity = parameterOf(law, "viscosity"); viscosity > 0)
-        viscosity_ = std::min(viscosity_, viscosity);
+    viscosity_ = std::min(viscosity_, leastViscosity(body));
   }
 }
 
@@ -280,7 +278,6 @@ TotalBound TotalBoundRecord::atEnd(const State& state, const FlowBound& steps) c
   if (!result.obstacle.empty()) return result;
   result.moved = memory_.moved;
   result.closes = memory_.closes;
-  result.oscillation = memory_.oscillation;
   result.data = steps.data;
   result.strainNorm = steps.strainNorm;
   result.stressNorm = steps.stressNorm;

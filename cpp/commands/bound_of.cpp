@@ -1,7 +1,9 @@
 #include "commands/bound_of.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 
 #include "base/interrupt.h"
 #include "bound/bound_failure.h"
@@ -47,30 +49,19 @@ Bound found(const std::function<Bound()>& find) {
 }
 
 /// Nothing that is not finite may end the run: it is no bound.
+void requireFinite(std::initializer_list<double> numbers, std::string& obstacle) {
+  if (!std::all_of(numbers.begin(), numbers.end(), [](double each) { return std::isfinite(each); }))
+    obstacle = "it is not finite";
+}
 void requireFinite(EnergyBound& bound) {
-  for (const double each : {bound.bound, bound.stress, bound.lift, bound.gap, bound.norm, bound.oscillation})
-    if (!std::isfinite(each)) bound.obstacle = "it is not finite";
+  requireFinite({bound.bound, bound.stress, bound.flow, bound.lift, bound.gap, bound.norm, bound.oscillation,
+                 bound.strain, bound.strainNorm},
+                bound.obstacle);
   for (Enclosure& each : bound.quantities) {
-    if (each.obstacle.empty() && !(std::isfinite(each.lower) && std::isfinite(each.upper)))
-      each.obstacle = "it is not finite";
+    if (each.obstacle.empty()) requireFinite({each.lower, each.upper}, each.obstacle);
     if (each.estimate && !std::isfinite(*each.estimate)) each.estimate.reset();
     if (!bound.obstacle.empty()) each = {bound.obstacle};
   }
-}
-void requireFinite(StepBound& bound) {
-  for (const double each : {bound.bound, bound.stress, bound.flow, bound.lift, bound.gap, bound.norm,
-                            bound.strain, bound.strainNorm})
-    if (!std::isfinite(each)) bound.obstacle = "it is not finite";
-}
-
-void requireFinite(FlowBound& bound) {
-  for (const double each : {bound.strain, bound.stress, bound.strainNorm, bound.stressNorm, bound.data})
-    if (!std::isfinite(each)) bound.obstacle = "it is not finite";
-}
-void requireFinite(TotalBound& bound) {
-  for (const double each : {bound.fixed.strain, bound.fixed.stress, bound.any.strain, bound.any.stress,
-                            bound.lifted, bound.strainNorm, bound.stressNorm, bound.data})
-    if (!std::isfinite(each)) bound.obstacle = "it is not finite";
 }
 
 }  // namespace
@@ -92,18 +83,18 @@ EnergyBound boundOf(const Attempt& attempt) {
   });
 }
 
-StepBound stepBoundOf(const Attempt& attempt) {
-  return found<StepBound>([&] {
+EnergyBound stepBoundOf(const Attempt& attempt) {
+  return found<EnergyBound>([&] {
     const StepReport& last = attempt.solved.last;
     const TimePlan& time = attempt.scene().time;
     if (!time.controlled() && last.rejections > 0) {
-      StepBound none;
+      EnergyBound none;
       none.obstacle = "step " + std::to_string(last.step) + " was cut into parts";
       return none;
     }
     const Tableau steps = last.guarded ? twoHalfSteps() : tableau(time.scheme);
-    StepBound bound =
-        stepBound(*attempt.model, attempt.solved.state, steps.stages.back().diagonal * last.timeStep);
+    EnergyBound bound =
+        energyBound(*attempt.model, attempt.solved.state, {}, steps.stages.back().diagonal * last.timeStep);
     requireFinite(bound);
     return bound;
   });
@@ -112,7 +103,8 @@ StepBound stepBoundOf(const Attempt& attempt) {
 FlowBound flowBoundOf(const FlowBoundRecord& record, const State& state) {
   return found<FlowBound>([&] {
     FlowBound bound = record.atEnd(state);
-    requireFinite(bound);
+    requireFinite({bound.strain, bound.stress, bound.strainNorm, bound.stressNorm, bound.data},
+                  bound.obstacle);
     return bound;
   });
 }
@@ -120,7 +112,9 @@ FlowBound flowBoundOf(const FlowBoundRecord& record, const State& state) {
 TotalBound totalBoundOf(const TotalBoundRecord& record, const State& state, const FlowBound& steps) {
   return found<TotalBound>([&] {
     TotalBound bound = record.atEnd(state, steps);
-    requireFinite(bound);
+    requireFinite({bound.fixed.strain, bound.fixed.stress, bound.any.strain, bound.any.stress, bound.lifted,
+                   bound.strainNorm, bound.stressNorm, bound.data},
+                  bound.obstacle);
     return bound;
   });
 }

@@ -1,13 +1,18 @@
 #include "commands/check.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "base/counted.h"
 #include "base/printable.h"
+#include "bound/energy_bound.h"
+#include "bound/flow_bound.h"
 #include "commands/exit_code.h"
+#include "commands/freefem.h"
 #include "lint/lint.h"
 #include "plan/plan.h"
+#include "time/march.h"
 
 namespace mortier {
 
@@ -56,6 +61,27 @@ Json asJson(const std::string& scene, const Plan& plan, const Faults& faults) {
   return json;
 }
 
+/// What other commands and the bounds would refuse.
+void addRefusals(const SceneDescription& scene, const Model& model, Plan& plan) {
+  std::string why = freefemObstacle(scene, model, true);
+  if (!why.empty())
+    plan.push_back(
+        {"freefem", false, "the scene in FreeFEM; mortier compare --against takes a kept result", why});
+  else if (!(why = freefemObstacle(scene, model, false)).empty())
+    plan.push_back({"freefem", false, "a script without the steps of a run", why});
+  if (!scene.accuracy.bound) return;
+  State end = initialState(model);
+  end.time = scene.time.end;
+  if (!(why = foreseenObstacle(model, end)).empty())
+    plan.push_back({"accuracy", false, "a guaranteed bound of the error of the whole run's stress", why});
+  const bool flows = std::any_of(model.bodies.begin(), model.bodies.end(),
+                                 [](const Body& body) { return !body.material().linear(); });
+  if (flows && scene.time.scheme != Scheme::backwardEuler)
+    plan.push_back({"accuracy", false, "a guaranteed bound of the error of the steps", otherScheme});
+  if (flows && !(why = foreseenObstacle(model, end, scene.time.end)).empty())
+    plan.push_back({"accuracy", false, "a guaranteed bound of the error of a step and of the run", why});
+}
+
 }  // namespace
 
 int check(const CheckCommand& command) {
@@ -63,7 +89,11 @@ int check(const CheckCommand& command) {
     return listKinds(command.json);
   }
   const LintReport report = lint(command.scene, command.settings);
-  const Plan plan = report.model ? planOf(*report.scene, *report.model) : Plan();
+  Plan plan;
+  if (report.model) {
+    plan = planOf(*report.scene, *report.model);
+    addRefusals(*report.scene, *report.model, plan);
+  }
   const Faults& faults = report.faults;
   const int wrong = faults.count(Severity::error);
   const int unheld = faults.count(Severity::unheld);

@@ -208,7 +208,8 @@ std::string script(const SceneDescription& scene, const Model& model,
   for (int b = 0; b < bodies; ++b) out << " what(" << b + 1 << ')';
   out << " //\n";
   for (int b = 0; b < bodies; ++b) writeBody(out, scene.bodies[b], meshFiles[b], b + 1, scene.units);
-  out << freefemMaterials(scene) << "\n// Boundary conditions and loads, functions of x, y and t\n";
+  out << freefemMaterials(scene) << freefemPatches(model)
+      << "\n// Boundary conditions and loads, functions of x, y and t\n";
   for (int b = 0; b < bodies; ++b) writeConditions(out, scene.bodies[b], b + 1, scene);
   out << rollers(scene) << heldPoints(scene)
       << "\n// Contact: nonmortar body and label, mortar body and label; time\nint[int, int] contact = ";
@@ -262,7 +263,6 @@ void requireKnown(const SceneDescription& scene, bool stepsGiven) {
     if (stressed || !body.regions.empty()) {
       refuse(body.where + ": body " + body.name + ": regions or initial stress", "neither");
     }
-    if (!body.averaged.empty()) refuse(body.averaged, "pointwise");
     if (const auto* own = body.material.as<OwnLaw>()) {
       if (!own->texts) refuse(own->where, "a law of mortier's own or \"expression\"");
       if (body.temperature) refuse(body.temperature->where + ": temperature", "none beside such a law");
@@ -324,16 +324,32 @@ void requireSmooth(const SceneDescription& scene, const Model& model) {
   }
 }
 
+void requireAll(const SceneDescription& scene, const Model& model, bool stepsGiven) {
+  requireKnown(scene, stepsGiven);
+  requireSmooth(scene, model);
+  requireStraightSides(scene, model);
+}
+
 }  // namespace
+
+std::string freefemObstacle(const SceneDescription& scene, const Model& model, bool stepsGiven) {
+  std::vector<std::string> meshFiles;
+  for (const BodyDescription& body : scene.bodies) meshFiles.push_back(body.name + ".mesh");
+  try {
+    requireAll(scene, model, stepsGiven);
+    script(scene, model, meshFiles, {});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
 
 int writeFreefem(const FreefemCommand& command) {
   // 1. The scene, checked as for a run of our own.
   ResolvedScene resolved = resolveScene(readScene(command.scene, command.settings));
   const Model model = buildModel(resolved);
   const SceneDescription& scene = resolved.description;
-  requireKnown(scene, !command.stepsOf.empty());
-  requireSmooth(scene, model);
-  requireStraightSides(scene, model);
+  requireAll(scene, model, !command.stepsOf.empty());
 
   // 2. The meshes that FreeFEM does not read, beside the script.
   std::vector<std::string> meshFiles;

@@ -1,5 +1,6 @@
 #include "commands/freefem_materials.h"
 
+#include <algorithm>
 #include <map>
 #include <variant>
 
@@ -167,6 +168,31 @@ std::string temperatures(const SceneDescription& scene) {
 std::string freefemMaterials(const SceneDescription& scene) {
   return creeps(scene) + relaxes(scene) + overstresses(scene) + anisotropies(scene) + ownLaws(scene) +
          temperatures(scene);
+}
+
+std::string freefemPatches(const Model& model) {
+  constexpr size_t ofALine = 20;
+  constexpr size_t ofAList = 1000;  // FreeFEM takes 1024
+  std::string numbers;
+  std::string text;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const VolumePatches* patches = model.bodies[b].patches();
+    if (patches == nullptr) continue;
+    const std::vector<int>& patchOf = patches->patchOf();
+    const std::string name = "patch" + std::to_string(b + 1);
+    numbers += "int[int] " + name + "(" + std::to_string(patchOf.size()) + ");\n";
+    for (size_t first = 0; first < patchOf.size(); first += ofAList) {
+      const size_t end = std::min(first + ofAList, patchOf.size());
+      numbers += "{ int[int] some = [";
+      for (size_t t = first; t < end; ++t)
+        numbers += (t == first ? "" : t % ofALine == 0 ? ",\n  " : ", ") + std::to_string(patchOf[t]);
+      numbers +=
+          "];\n  " + name + "(" + std::to_string(first) + ":" + std::to_string(end - 1) + ") = some; }\n";
+    }
+    text += "patchesOf(" + std::to_string(b + 1) + ", " + name + ") ";
+  }
+  return text.empty() ? text
+                      : "macro averaged " + text + "//  body, of its triangles the patch, from 0\n" + numbers;
 }
 
 }  // namespace mortier

@@ -55,7 +55,7 @@ void tell(Log& log, const RunFacts& facts, const Model& model, const Solved& sol
   log.print(logSpecial(solved.report.special));
   log.print(logAccuracy(facts, model, solved.accuracy));
   log.print(logTimeError(facts, solved.report));
-  log.print(logPeaks(solved.report.peaks, solved.last, facts.units));
+  log.print(logPeaks(solved.report.peaks, solved.last, facts.units, !model.interfaces.empty()));
   log.print(logQuantities(facts, model, solved.state, solved.accuracy.bound));
   log.print(logRanges(facts, solved.report.quantities));
 }

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/ranks.h"
-#include "bound/total_bound_record.h"
+#include "bound/total_bound.h"
 #include "commands/bound_of.h"
 #include "report/checkpoint_files.h"
 #include "report/clock.h"

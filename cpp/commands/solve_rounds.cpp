@@ -86,7 +86,7 @@ std::string solveRounds(Rounds& rounds, std::unique_ptr<Attempt>& attempt, const
     verdict = rounds.judge(result, end);
     round.facts.best = done.size();
     done.push_back({round.triangles(), round.unknowns(), round.solved.report.steps, rounds.meshError(), time,
-                    end - begin});
+                    end - begin, evaluate(round.facts.quantities, *round.model, round.solved.state)});
     log.print(logRound(done));
     begin = end;
   };

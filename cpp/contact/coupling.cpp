@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "contact/row_functions.h"
 #include "mesh/axis.h"
 
 namespace mortier {
@@ -25,132 +26,6 @@ Sparse assembled(Eigen::Index rows, Eigen::Index columns, const Triplets& entrie
   return matrix;
 }
 
-/// Abscissae of the nodes of a trace.
-Trace nodesAlong(const ElementLine& line) {
-  Trace nodes;
-  for (size_t i = 0; i < line.s.size(); ++i) {
-    if (i > 0 && line.degree() == 2) nodes.push_back((line.s[i - 1] + line.s[i]) / 2);
-    nodes.push_back(line.s[i]);
-  }
-  return nodes;
-}
-
-/// Takes from the vertices `first` to `last` of a part those that the mortar trace does not tell apart.
-/// \param stiffness  of the nonmortar over that of the mortar body
-std::vector<char> dropped(const SmoothPart& part, const FacingLine& mortar, size_t first, size_t last,
-                          double stiffness) {
-  constexpr double alike = 1e-9;  // distances that differ by rounding
-  std::vector<char> drop(part.s.size(), 0);
-  if (last < first + 2) return drop;
-  const Trace nodes = nodesAlong(mortar);
-  const auto spacing = [&](double s) {
-    const auto k = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, s);
-    return *k - *(k - 1);
-  };
-  for (size_t i = first + 1; i < last; ++i)
-    drop[i] = stiffness * spacing(part.s[i]) > (1 + alike) * (part.s[i + 1] - part.s[i - 1]) / 2 ? 1 : 0;
-  for (const double t : nodes) {
-    const auto above = std::lower_bound(part.s.begin() + static_cast<std::ptrdiff_t>(first),
-                                        part.s.begin() + static_cast<std::ptrdiff_t>(last), t);
-    auto i = std::max<size_t>(above - part.s.begin(), first + 1);
-    const double half = spacing(t) / 2;
-    if (t - part.s[first] < half || part.s[last] - t < half) continue;
-    if (t - part.s[i - 1] <= part.s[i] - t + alike * half) --i;
-    drop[i] = 0;
-  }
-  return drop;
-}
-
-/// Rows and row functions of a part. The last vertex of a closed part has the row of the first.
-class Rows {
- public:
-  Rows(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar, const std::vector<char>& merged,
-       double stiffness)
-      : part_(part), degree_(rowDegree(kind, part.degree())), ofNode_(part.traceNodes(), -1) {
-    const Overlap overlap = overlapOf(part.s, mortar.s);
-    if (!(overlap.length() > 0)) return;
-    const auto last = static_cast<size_t>(part.elements());
-    const auto has = [&](size_t i) {
-      const size_t own = part.closed && i == last ? 0 : i;
-      return (merged.empty() || merged[own] == 0) && part.s[own] >= overlap.begin &&
-             part.s[own] <= overlap.end;
-    };
-    const auto add = [&](size_t node) {
-      ofNode_[node] = count();
-      nodes_.push_back(static_cast<int>(node));
-    };
-    if (kind == CouplingKind::coarsened) {
-      size_t first = 0;
-      size_t end = last + 1;
-      while (first < end && !has(first)) ++first;
-      while (end > first && !has(end - 1)) --end;
-      if (first == end) return;
-      const std::vector<char> drop = dropped(part, mortar, first, end - 1, stiffness);
-      for (size_t i = first; i < end; ++i)
-        if (part.closed && i == last)
-          ofNode_[i] = ofNode_[0];
-        else if (drop[i] == 0)
-          add(i);
-      span();
-      return;
-    }
-    for (size_t i = 0; i <= last; ++i) {
-      if (part.closed && i == last)
-        ofNode_[i] = ofNode_[0];
-      else if (has(i))
-        add(i);
-      if (degree_ == 2 && i < last && has(i) && has(i + 1)) add(last + 1 + i);
-    }
-  }
-
-  [[nodiscard]] const std::vector<int>& nodes() const { return nodes_; }
-  [[nodiscard]] int count() const { return static_cast<int>(nodes_.size()); }
-
-  /// Of the nodes of an element that carry row functions, the vertices first; -1: none.
-  [[nodiscard]] EdgeNodes at(int element) const {
-    EdgeNodes rows = spans_.empty() ? EdgeNodes(part_.nodesOf(element).head(degree_ + 1)) : spanOf(element);
-    for (int& row : rows) row = ofNode_[row];
-    return rows;
-  }
-  /// Values of these functions at an abscissa of the element.
-  [[nodiscard]] EdgeValues functions(int element, const EdgeNodes& rows, double s) const {
-    if (rows[0] < 0 || rows[1] < 0) return EdgeValues::Unit(rows.size(), rows[0] < 0 ? 1 : 0);
-    if (spans_.empty()) return edgeShapes(degree_, part_.partAt(element, s));
-    const auto& [begin, end] = spans_[element];
-    return edgeShapes(1, (s - part_.s[begin]) / (part_.s[end] - part_.s[begin]));
-  }
-  /// Nodes without a row between two that have one.
-  [[nodiscard]] std::vector<NodeBetween> between() const {
-    std::vector<NodeBetween> nodes;
-    for (int e = 0; e < static_cast<int>(spans_.size()); ++e) {
-      const EdgeNodes rows = at(e);
-      if (rows.minCoeff() < 0) continue;
-      const EdgeNodes of = part_.nodesOf(e);
-      for (int k = 1; k <= part_.degree(); ++k)  // the first one is another element's
-        if (ofNode_[of[k]] < 0) nodes.push_back({of[k], {rows[0], rows[1]}});
-    }
-    return nodes;
-  }
-
- private:
-  /// Finds the vertices with a row that are next to each element.
-  void span() {
-    const int elements = part_.elements();
-    spans_.assign(elements, {0, elements});
-    for (int e = 0, at = 0; e < elements; ++e) spans_[e][0] = at = ofNode_[e] >= 0 ? e : at;
-    for (int e = elements, at = elements; e-- > 0;) spans_[e][1] = at = ofNode_[e + 1] >= 0 ? e + 1 : at;
-  }
-  [[nodiscard]] EdgeNodes spanOf(int element) const {
-    return EdgeNodes{{spans_[element][0], spans_[element][1]}};
-  }
-
-  const SmoothPart& part_;
-  int degree_;
-  std::vector<int> ofNode_;
-  std::vector<int> nodes_;
-  std::vector<std::array<int, 2>> spans_;  ///< by elements: vertices whose hat functions they carry
-};
-
 /// Entries of a row at the nodes of an element: columns 2 node + component.
 void addEntries(int row, const EdgeNodes& nodes, const EdgeValues& values, const Point& direction,
                 Triplets& entries) {
@@ -163,7 +38,7 @@ void addEntries(int row, const EdgeNodes& nodes, const EdgeValues& values, const
 /// Gauss's rule of four points on every segment: calls at(segment, rows, s,
 /// values of the row functions, weight).
 template <class At>
-void atGaussPoints(const SmoothPart& part, const FacingLine& mortar, const Rows& rows, At at) {
+void atGaussPoints(const SmoothPart& part, const FacingLine& mortar, const RowFunctions& rows, At at) {
   constexpr std::array<double, 4> places{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
                                          0.8611363115940526};
   constexpr std::array<double, 4> weights{0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
@@ -192,7 +67,7 @@ struct Integrals {
 
 /// \param own  directions of contact at the nodes of the rows, or empty: no motion is subtracted
 Integrals integrate(const SmoothPart& part, const FacingLine& mortar, const DistanceAt& distance,
-                    const Rows& rows, const std::vector<Point>& own, bool axisymmetric) {
+                    const RowFunctions& rows, const std::vector<Point>& own, bool axisymmetric) {
   Integrals result;
   result.distance = Vector::Zero(rows.count());
   result.least = Vector::Constant(rows.count(), std::numeric_limits<double>::infinity());
@@ -317,7 +192,7 @@ Vector lifted(const Vector& projected, const Vector& atNodes, const Vector& leas
 Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
                 const DistanceAt& distance, const std::vector<char>& merged, bool axisymmetric,
                 double stiffness) {
-  const Rows rows(kind, part, mortar, merged, stiffness);
+  const RowFunctions rows(kind, part, mortar, merged, stiffness);
   const Eigen::Index n = rows.count();
   std::vector<Sighting> atRows;  // what their nodes see
   std::vector<Point> own;        // directions there

@@ -166,7 +166,7 @@ class ContactInterface {
   /// overlap elsewhere.
   [[nodiscard]] std::vector<GapSquare> gapSquares(const Vector& p, const Vector& uNonmortar,
                                                   const Vector& uMortar, double t = 0) const;
-  /// The common refinement of the two lines where displacements are linear.
+  /// The common refinement of the two lines.
   [[nodiscard]] std::vector<RefinedPiece> pieces() const { return penetration_.pieces(); }
 
  private:

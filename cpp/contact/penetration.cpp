@@ -56,6 +56,11 @@ class Parabola {
   double a_, slope_, bend_;
 };
 
+/// Where shape functions have these values, as a part of the element.
+double partOf(const EdgeValues& shapes) {
+  return shapes.size() > 2 ? shapes[1] + shapes[2] / 2 : shapes[1];
+}
+
 EdgeNodes numbers(const ElementLine& line, int element) {
   EdgeNodes nodes = line.nodesOf(element);
   for (int& node : nodes) node = line.number(node);
@@ -151,13 +156,12 @@ std::vector<GapSquare> PenetrationIntegral::squares(const Vector& uNonmortar, co
 std::vector<RefinedPiece> PenetrationIntegral::pieces() const {
   std::vector<RefinedPiece> result;
   for (const Stretch& stretch : stretches_) {
-    if (stretch.parabola) continue;
     const Place& a = places_[stretch.first];
-    const Place& b = places_[stretch.first + 1];
+    const Place& b = places_[stretch.first + (stretch.parabola ? 2 : 1)];
     result.push_back({{a.nonmortar[0], a.nonmortar[1]},
                       {a.mortar[0], a.mortar[1]},
-                      {a.phi[1], b.phi[1]},
-                      {a.psi[1], b.psi[1]},
+                      {partOf(a.phi), partOf(b.phi)},
+                      {partOf(a.psi), partOf(b.psi)},
                       {a.normal, b.normal},
                       {a.distance, b.distance},
                       stretch.length});

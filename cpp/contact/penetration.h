@@ -44,7 +44,7 @@ class PenetrationIntegral {
   [[nodiscard]] std::vector<GapSquare> squares(const Vector& uNonmortar, const Vector& uMortar,
                                                const std::function<bool(int vertex)>& pressed,
                                                const Vector& gap = {}) const;
-  /// The common refinement of linear traces; that of others is not given.
+  /// The common refinement, of straight elements where traces are linear.
   [[nodiscard]] std::vector<RefinedPiece> pieces() const;
 
  private:

@@ -174,9 +174,14 @@ class Body {
     return {nodes_, equations_, weights_, gradients_, hoops_, patches()};
   }
   void tangent(const TangentModuli& moduli, std::vector<double>& values, Threads& threads) const;
-  void addGroups(const TangentModuli& moduli, std::vector<double>& values, Threads& threads) const;
-  void groupTangent(const TangentAssembly::Group& group, const TangentModuli& moduli, Matrix& B, Matrix& DB,
-                    Matrix& K) const;
+  /// Of a triangle, in the frames of its nodes.
+  template <class Element>
+  [[nodiscard]] Eigen::Matrix<double, 2 * Element::nodes, 2 * Element::nodes> triangleTangent(
+      int triangle, const TangentModuli& moduli) const;
+  template <class Element>
+  void addOthers(const TangentModuli& moduli, std::vector<double>& values, Threads& threads) const;
+  template <class Element>
+  void addPatches(const TangentModuli& moduli, std::vector<double>& values, Threads& threads) const;
   void hoopStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
   void averageStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const;
   template <class Element>

@@ -1,32 +1,73 @@
 // What a body does in every iteration, triangle by triangle.
+#include <numbers>
+
 #include "base/double_double.h"
 #include "base/lanes.h"
 #include "fem/body.h"
 #include "fem/element.h"
 
 namespace mortier {
+namespace {
+
+constexpr double overRoot2 = std::numbers::sqrt2 / 2;
+
+/// What a displacement makes of the polynomials of patches, found once for points that lie near each other.
+template <class Value, class Find>
+class OfPatches {
+ public:
+  explicit OfPatches(const Find& find) : find_(find) { patches_.fill(-1); }
+  const std::array<Value, 3>& operator()(int patch) {
+    const int at = patch % kept;
+    if (patches_[at] != patch) {
+      patches_[at] = patch;
+      find_(patch, values_[at]);
+    }
+    return values_[at];
+  }
+
+ private:
+  static constexpr int kept = 128;
+  const Find& find_;
+  std::array<int, kept> patches_;
+  std::array<std::array<Value, 3>, kept> values_;
+};
+
+DoubleDouble times(double factor, const DoubleDouble& value) {
+  DoubleDouble product = DoubleDouble::product(factor, value.high);
+  product.low += factor * value.low;
+  return product;
+}
+
+}  // namespace
 
 // With G = gradient / sqrt2, a nodal displacement (ux, uy) strains p, q, r by
 //   B = [Gx Gy; Gx -Gy; Gy Gx],
 // and, where the body turns about the axis, the circumference by [N/r 0], N the shape function at the point.
 // The gradients of one triangle sum to zero: differences to its first node keep rigid motions exact.
+//
+// Where the volumetric strain is averaged, p is the sum of the polynomials of the patch less the
+// circumference over sqrt2 (fem/volume_patches.h).
 
 Vector Body::internalForce(const Matrix& stress) const {
   const TriangleData triangles = triangleData();
   Vector f = Vector::Zero(dofs());
+  const int terms = patches_ ? patches_->terms() : 0;
+  std::vector<double> ofPatches(patches_ ? static_cast<size_t>(terms) * patches_->count() : 0, 0.0);
   withElement(degree(), [&](auto element) {
     using Element = decltype(element);
     for (size_t i = 0; i < weights_.size(); ++i) {
       const int* triangle = &nodes_.triangles[Element::nodes * (i / Element::points)];
       const auto column = static_cast<Eigen::Index>(i);
+      double hoop = axisymmetric_ ? weights_[i] * stress(3, column) : 0;
       double p = weights_[i] * stress(0, column);
       const double q = weights_[i] * stress(1, column);
       const double r = weights_[i] * stress(2, column);
       const auto G = triangles.gradientsOf<Element>(i);
       if (patches_) {
-        const double* row = patches_->row(static_cast<int>(i));
-        for (const int node : patches_->nodes(patches_->patchOf()[i / Element::points]))
-          for (const int c : {0, 1}) f[2 * node + c] += p * *row++;
+        const double* basis = patches_->basis(static_cast<int>(i));
+        double* ofPatch = &ofPatches[static_cast<size_t>(terms) * patches_->patchOf()[i / Element::points]];
+        for (int k = 0; k < terms; ++k) ofPatch[k] += p * basis[k];
+        hoop -= overRoot2 * p;
         p = 0;
       }
       for (int a = 0; a < Element::nodes; ++a) {
@@ -34,10 +75,16 @@ Vector Body::internalForce(const Matrix& stress) const {
         f[2 * triangle[a] + 1] += (p - q) * G[2 * a + 1] + r * G[2 * a];
       }
       if (!axisymmetric_) continue;
-      const double hoop = weights_[i] * stress(3, column);
       for (int a = 0; a < Element::nodes; ++a) f[2 * triangle[a]] += hoop * hoops_[Element::nodes * i + a];
     }
   });
+  for (int patch = 0; patches_ && patch < patches_->count(); ++patch)
+    for (int k = 0; k < terms; ++k) {
+      const double* row = patches_->row(patch, k);
+      for (const int node : patches_->nodes(patch))
+        for (const int c : {0, 1})
+          f[2 * node + c] += ofPatches[static_cast<size_t>(terms) * patch + k] * *row++;
+    }
   return f;
 }
 
@@ -71,24 +118,32 @@ void Body::strain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, i
 
 void Body::averageStrain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin,
                          int end) const {
+  const int n = nodes_.perTriangle();
   const int ofTriangle = pointsOfTriangle();
-  for (int i = begin; i < end; ++i) {
-    const auto nodes = patches_->nodes(patches_->patchOf()[i / ofTriangle]);
-    const double* row = patches_->row(i) + 2;
+  const int terms = patches_->terms();
+  const auto find = [&](int patch, std::array<DoubleDouble, 3>& sums) {
+    const auto nodes = patches_->nodes(patch);
     const int first = 2 * *nodes.begin();
-    const auto add = [&](DoubleDouble& sum, double factor, DoubleDouble value) {
-      DoubleDouble product = DoubleDouble::product(factor, value.high);
-      product.low += factor * value.low;
-      sum += product;
-    };
-    DoubleDouble p{0, 0};
-    for (const int* node = nodes.begin() + 1; node != nodes.end(); ++node)
+    for (int k = 0; k < terms; ++k)
+      sums[k] = times(patches_->uniform(patch, k), {u.high[first], u.low[first]});
+    for (size_t a = 1; a < nodes.size(); ++a)
       for (const int c : {0, 1}) {
-        DoubleDouble change = DoubleDouble::sum(u.high[2 * *node + c], -u.high[first + c]);
-        change.low += u.low[2 * *node + c] - u.low[first + c];
-        add(p, *row++, change);
+        const int dof = 2 * nodes.first[a] + c;
+        DoubleDouble change = DoubleDouble::sum(u.high[dof], -u.high[first + c]);
+        change.low += u.low[dof] - u.low[first + c];
+        for (int k = 0; k < terms; ++k) sums[k] += times(patches_->row(patch, k)[2 * a + c], change);
       }
-    if (axisymmetric_) add(p, patches_->uniform(i), {u.high[first], u.low[first]});
+  };
+  OfPatches<DoubleDouble, decltype(find)> ofPatches(find);
+  for (int i = begin; i < end; ++i) {
+    const std::array<DoubleDouble, 3>& sums = ofPatches(patches_->patchOf()[i / ofTriangle]);
+    const double* basis = patches_->basis(i);
+    DoubleDouble p = times(basis[0], sums[0]);
+    for (int k = 1; k < terms; ++k) p += times(basis[k], sums[k]);
+    const int* triangle = nodes_.of(i / ofTriangle);
+    for (int a = 0; a < n && axisymmetric_; ++a)
+      p += times(-overRoot2 * hoops_[static_cast<size_t>(n) * i + a],
+                 {u.high[2 * triangle[a]], u.low[2 * triangle[a]]});
     if (shift != nullptr) p += DoubleDouble{-(*shift)(0, i), 0};
     strain(0, i) = p.value();
   }
@@ -179,6 +234,17 @@ void Body::strainOf(const TwoPartVector& u, const Matrix* shift, Matrix& strain,
 }
 
 void Body::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress, int begin, int end) const {
+  const auto find = [&](int patch, std::array<double, 3>& sums) {
+    const auto nodes = patches_->nodes(patch);
+    const int first = 2 * *nodes.begin();
+    for (int k = 0; k < patches_->terms(); ++k) {
+      const double* row = patches_->row(patch, k);
+      sums[k] = patches_->uniform(patch, k) * d[first];
+      for (size_t a = 1; a < nodes.size(); ++a)
+        for (const int c : {0, 1}) sums[k] += row[2 * a + c] * (d[2 * nodes.first[a] + c] - d[first + c]);
+    }
+  };
+  OfPatches<double, decltype(find)> ofPatches(find);
   withElement(degree(), [&](auto element) {
     using Element = decltype(element);
     constexpr int others = 2 * (Element::nodes - 1);
@@ -201,12 +267,11 @@ void Body::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress
       }
       double p = xx + yy;
       if (patches_) {
-        const auto nodes = patches_->nodes(patches_->patchOf()[i / Element::points]);
-        const double* row = patches_->row(i) + 2;
-        const int first = 2 * *nodes.begin();
-        p = patches_->uniform(i) * d[first];
-        for (const int* node = nodes.begin() + 1; node != nodes.end(); ++node)
-          for (const int c : {0, 1}) p += *row++ * (d[2 * *node + c] - d[first + c]);
+        const std::array<double, 3>& sums = ofPatches(patches_->patchOf()[i / Element::points]);
+        p = 0;
+        for (int k = 0; k < patches_->terms(); ++k) p += patches_->basis(i)[k] * sums[k];
+        for (int a = 0; a < Element::nodes && axisymmetric_; ++a)
+          p -= overRoot2 * hoops_[static_cast<size_t>(Element::nodes) * i + a] * d[2 * triangle[a]];
       }
       return std::array<double, 3>{p, xx - yy, xy};
     };
@@ -234,85 +299,6 @@ void Body::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress
             law.beyond(first, i) * p + law.beyond(first + 1, i) * q + law.beyond(first + 2, i) * r;
       }
     }
-  });
-}
-
-void Body::tangent(const TangentModuli& moduli, std::vector<double>& values, Threads& threads) const {
-  if (patches_)
-    values.assign(pattern().entries(), 0.0);
-  else
-    assembly().assemblePlain(triangleData(), moduli, values, threads);
-  addGroups(moduli, values, threads);
-}
-
-void Body::addGroups(const TangentModuli& moduli, std::vector<double>& values, Threads& threads) const {
-  // The matrices of some at once, then their sums in the order of the groups.
-  constexpr size_t atOnce = 1024;
-  constexpr size_t ofABlock = 32;
-  const std::vector<TangentAssembly::Group>& groups = assembly().groups();
-  std::vector<Matrix> matrices(std::min(atOnce, groups.size()));
-  for (size_t first = 0; first < groups.size(); first += atOnce) {
-    const size_t count = std::min(atOnce, groups.size() - first);
-    threads.forEach(static_cast<int>((count + ofABlock - 1) / ofABlock), [&](int block) {
-      Matrix B;
-      Matrix DB;
-      for (size_t k = ofABlock * block; k < std::min(count, ofABlock * (block + 1)); ++k)
-        groupTangent(groups[first + k], moduli, B, DB, matrices[k]);
-    });
-    for (size_t k = 0; k < count; ++k) {
-      const std::vector<int>& entries = groups[first + k].entries;
-      for (size_t i = 0; i < entries.size(); ++i)
-        if (entries[i] >= 0) values[entries[i]] += matrices[k].data()[i];
-    }
-  }
-}
-
-// Columns of B and DB, transposed: p, q, r and where the body turns about the axis the circumference, point
-// by point.
-void Body::groupTangent(const TangentAssembly::Group& group, const TangentModuli& moduli, Matrix& B,
-                        Matrix& DB, Matrix& K) const {
-  withElement(degree(), [&](auto element) {
-    using Element = decltype(element);
-    const auto dofs = static_cast<Eigen::Index>(2 * group.nodes.size());
-    const Eigen::Index rows = axisymmetric_ ? 4 : 3;
-    const auto points = static_cast<Eigen::Index>(Element::points * group.triangles.size());
-    B.setZero(dofs, rows * points);
-    DB.resize(dofs, rows * points);
-    Eigen::Index at = 0;
-    for (const int t : group.triangles) {
-      std::array<Eigen::Index, Element::nodes> dof;
-      for (int a = 0; a < Element::nodes; ++a)
-        dof[a] =
-            2 * (std::find(group.nodes.begin(), group.nodes.end(), nodes_.of(t)[a]) - group.nodes.begin());
-      for (int i = Element::points * t; i < Element::points * (t + 1); ++i, at += rows) {
-        const auto G = triangleData().template gradientsOf<Element>(i);
-        for (int a = 0; a < Element::nodes; ++a) {
-          const double gx = G[2 * a];
-          const double gy = G[2 * a + 1];
-          B.template block<2, 3>(dof[a], at) = Eigen::Matrix<double, 2, 3>{{gx, gx, gy}, {gy, -gy, gx}};
-          if (axisymmetric_) B(dof[a], at + 3) = hoops_[static_cast<size_t>(Element::nodes) * i + a];
-        }
-        if (patches_) B.col(at) = Eigen::Map<const Vector>(patches_->row(i), dofs);
-        const std::array<double, 9> D = moduliAt(moduli.plane, i);
-        const double w = weights_[i];
-        for (int r = 0; r < 3; ++r)
-          DB.col(at + r) =
-              (w * D[r]) * B.col(at) + (w * D[3 + r]) * B.col(at + 1) + (w * D[6 + r]) * B.col(at + 2);
-        if (!axisymmetric_) continue;
-        const BeyondModuli beyond = beyondAt(*moduli.beyond, i);
-        for (int r = 0; r < 3; ++r) DB.col(at + r) += (w * beyond.column[r]) * B.col(at + 3);
-        DB.col(at + 3) = (w * beyond.row[0]) * B.col(at) + (w * beyond.row[1]) * B.col(at + 1) +
-                         (w * beyond.row[2]) * B.col(at + 2) + (w * beyond.corner) * B.col(at + 3);
-      }
-    }
-    K.noalias() = B * DB.transpose();
-    // Motions along the frames of the nodes.
-    for (size_t a = 0; a < group.nodes.size() && !frameOf_.empty(); ++a)
-      if (const int frame = frameOf_[group.nodes[a]]; frame >= 0) {
-        const auto first = static_cast<Eigen::Index>(2 * a);
-        K.middleRows<2>(first) = (frames_[frame] * K.middleRows<2>(first)).eval();
-        K.middleCols<2>(first) = (K.middleCols<2>(first) * frames_[frame].transpose()).eval();
-      }
   });
 }
 

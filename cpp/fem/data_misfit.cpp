@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "mesh/edge_element.h"
 
@@ -58,6 +59,29 @@ Misfit misfitOf(const Resolved<Place>& resolved, const std::vector<double>& w) {
   return result;
 }
 
+/// |w|_-1/2^2 by the first waves of a function, and |W| |w| of the others: of a narrow peak |W| |w| of all
+/// is far more.
+double minusHalfNorm(const ResolvedEdge& edge, const std::vector<double>& w, const Misfit& of) {
+  constexpr int waves = 64;
+  constexpr double smooth = 4;  // of so few waves
+  const double pi = std::numbers::pi;
+  const double all = std::sqrt(of.primitive * of.square);
+  if (!(of.square > smooth * smooth * pi * pi * of.primitive)) return all;
+  double sum = 0;
+  double square = of.square;
+  double primitive = of.primitive;
+  for (int k = 1; k <= waves; ++k) {
+    double amplitude = 0;
+    for (size_t i = 0; i < w.size(); ++i)
+      amplitude += 2 * edge.samples[i].weight * w[i] * std::cos(k * pi * edge.samples[i].at);
+    const double part = amplitude * amplitude / 2;
+    sum += part / (k * pi);
+    square -= part;
+    primitive -= part / (k * pi * k * pi);
+  }
+  return std::min(all, sum + std::sqrt(std::max(0.0, square) * std::max(0.0, primitive)));
+}
+
 /// With what is known of a function along an edge by its samples in order.
 Misfit alongEdge(const ResolvedEdge& edge, const std::vector<double>& w, bool zeroAtEnds) {
   Misfit result = misfitOf(edge, w);
@@ -74,6 +98,7 @@ Misfit alongEdge(const ResolvedEdge& edge, const std::vector<double>& w, bool ze
     if (edge.samples[i].at > from) result.slope += change * change / (edge.samples[i].at - from);
   }
   result.primitive = std::max(0.0, result.primitive - meanPrimitive * meanPrimitive);
+  result.minusHalf = minusHalfNorm(edge, w, result);
   if (zeroAtEnds && !w.empty() && edge.samples.back().at < 1)
     result.slope += w.back() * w.back() / (1 - edge.samples.back().at);
   return result;

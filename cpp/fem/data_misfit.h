@@ -32,6 +32,7 @@ struct Misfit {
   double size = 0;       ///< integral of f^2
   double most = 0;       ///< largest |w| at a sample
   double primitive = 0;  ///< edges: integral of W^2, W' = w, the mean of W being 0; by length^3
+  double minusHalf = 0;  ///< edges: |w|^2 of order -1/2, that is |W| |w| of each wave in w; by length^2
   double slope = 0;      ///< edges: integral of w'^2; over the length. Infinite where w jumps
   double uncertain = 0;  ///< mean of |w| beyond that at the samples: sqrt(square) may be that much larger,
                          ///< times (largest |f| over its mean)^(1/2)

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
+#include <type_traits>
 
 #include "fem/element.h"
 #include "material/material.h"
@@ -33,6 +35,12 @@ struct ColumnOfDB {
     difference += (D.column[0] - D.column[1]) * strain;
     r += D.column[2] * strain;
     hoop = D.row[0] * p + D.row[1] * q + D.row[2] * shear + D.corner * strain;
+  }
+  /// Where p is averaged only minus the circumference over sqrt2 is left of its row to a triangle.
+  void averageRows() {
+    hoop -= (sum + difference) / (2 * std::numbers::sqrt2);
+    sum = (sum - difference) / 2;
+    difference = -sum;
   }
 };
 
@@ -107,18 +115,17 @@ int TangentAssembly::entry(int row, int column) const {
   return static_cast<int>(std::lower_bound(begin, end, row) - pattern_.rows.begin());
 }
 
-void TangentAssembly::addGroup(const TriangleData& triangles, std::vector<int> members,
-                               std::vector<int> nodes) {
-  const size_t dofs = 2 * nodes.size();
-  std::vector<int> entries(dofs * dofs, -1);
-  for (size_t j = 0; j < dofs; ++j)
-    for (size_t i = 0; i < dofs; ++i) {
+void TangentAssembly::addEntries(const TriangleData& triangles, const int* nodes, size_t count, bool lower,
+                                 std::vector<int>& entries) const {
+  for (size_t j = 0; j < 2 * count; ++j)
+    for (size_t i = lower ? j : 0; i < 2 * count; ++i) {
       const int column = triangles.equations[2 * nodes[j / 2] + j % 2];
       const int row = triangles.equations[2 * nodes[i / 2] + i % 2];
-      if (column < 0 || row < 0 || (row < column && pattern_.symmetric)) continue;
-      entries[dofs * j + i] = entry(row, column);
+      const bool none = column < 0 || row < 0 || (row < column && pattern_.symmetric);
+      // The rows of a node follow each other.
+      const bool follows = !none && i % 2 == 1 && i > (lower ? j : 0) && entries.back() >= 0;
+      entries.push_back(none ? -1 : follows ? entries.back() + 1 : entry(row, column));
     }
-  groups_.push_back({std::move(members), std::move(nodes), std::move(entries)});
 }
 
 void TangentAssembly::cutIntoParts(const std::vector<int>& equations) {
@@ -142,13 +149,9 @@ void TangentAssembly::placeBlocks(const TriangleData& triangles, const std::vect
                                         [](int value, const Part& part) { return value < part.firstColumn; });
     return static_cast<int>(after - parts_.begin()) - 1;
   };
-  if (triangles.patches != nullptr) {
-    for (int p = 0; p < triangles.patches->count(); ++p) {
-      const auto members = triangles.patches->triangles(p);
-      const auto nodes = triangles.patches->nodes(p);
-      addGroup(triangles, {members.begin(), members.end()}, {nodes.begin(), nodes.end()});
-    }
-    return;
+  for (int p = 0; triangles.patches != nullptr && p < triangles.patches->count(); ++p) {
+    const auto nodes = triangles.patches->nodes(p);
+    addEntries(triangles, nodes.begin(), nodes.size(), pattern_.symmetric, entriesOfPatches_);
   }
   const int n = triangles.nodes.perTriangle();
   blocks_.resize(triangles.count() * n * n);
@@ -169,7 +172,8 @@ void TangentAssembly::placeBlocks(const TriangleData& triangles, const std::vect
       }
     }
     if (!plain) {
-      addGroup(triangles, {static_cast<int>(t)}, {nodes, nodes + n});
+      others_.push_back({static_cast<int>(t), {}});
+      addEntries(triangles, nodes, n, false, others_.back().entries);
       continue;
     }
     std::sort(home.begin(), home.end());
@@ -182,7 +186,7 @@ void TangentAssembly::placeBlocks(const TriangleData& triangles, const std::vect
 // Both rows of a node follow each other in every column, and its second column is its first one (where
 // symmetric: without its first row). Every entry is a sum over triangles in their order, whichever part it
 // lies in.
-template <class Element, bool aboutAxis>
+template <class Element, bool aboutAxis, bool averaged>
 void TangentAssembly::assemblePlain(const TriangleData& triangles, const TangentModuli& moduli,
                                     std::vector<double>& values, Threads& threads) const {
   constexpr int n = Element::nodes;
@@ -214,11 +218,19 @@ void TangentAssembly::assemblePlain(const TriangleData& triangles, const Tangent
           if (equation[b] < part.firstColumn || equation[b] >= part.endColumn) continue;
           const double gx = weight * G[2 * b];
           const double gy = weight * G[2 * b + 1];
-          ColumnOfDB x = columnOfDB(D, gx, gx, gy);
-          ColumnOfDB y = columnOfDB(D, gy, -gy, gx);
+          double px = gx;
+          double py = gy;
+          if constexpr (averaged) px = py = 0;
+          if constexpr (averaged && aboutAxis) px = -weight * overRadius[b] / std::numbers::sqrt2;
+          ColumnOfDB x = columnOfDB(D, px, gx, gy);
+          ColumnOfDB y = columnOfDB(D, py, -gy, gx);
           if constexpr (aboutAxis) {
-            x.addHoop(beyond, gx, gx, gy, weight * overRadius[b]);
-            y.addHoop(beyond, gy, -gy, gx, 0);
+            x.addHoop(beyond, px, gx, gy, weight * overRadius[b]);
+            y.addHoop(beyond, py, -gy, gx, 0);
+          }
+          if constexpr (averaged) {
+            x.averageRows();
+            y.averageRows();
           }
           const auto rows = [&](const ColumnOfDB& column, int a) {
             if constexpr (aboutAxis) return column.times(G[2 * a], G[2 * a + 1], overRadius[a]);
@@ -246,10 +258,16 @@ void TangentAssembly::assemblePlain(const TriangleData& triangles, const Tangent
                                     std::vector<double>& values, Threads& threads) const {
   withElement(triangles.nodes.degree, [&](auto element) {
     using Element = decltype(element);
-    if (moduli.beyond != nullptr)
-      assemblePlain<Element, true>(triangles, moduli, values, threads);
+    const auto assemble = [&](auto averaged) {
+      if (moduli.beyond != nullptr)
+        assemblePlain<Element, true, averaged.value>(triangles, moduli, values, threads);
+      else
+        assemblePlain<Element, false, averaged.value>(triangles, moduli, values, threads);
+    };
+    if (triangles.patches != nullptr)
+      assemble(std::true_type());
     else
-      assemblePlain<Element, false>(triangles, moduli, values, threads);
+      assemble(std::false_type());
   });
 }
 

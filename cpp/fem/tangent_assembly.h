@@ -60,18 +60,18 @@ class TangentAssembly {
   [[nodiscard]] const SparsePattern& pattern() const { return pattern_; }
 
   /// values = sum |T| B' D B over the plain triangles: those whose nodes all have two equations along the
-  /// axes; none where the volumetric strain is averaged.
+  /// axes. Where the volumetric strain is averaged this is the part of B that is of the triangle alone.
   void assemblePlain(const TriangleData& triangles, const TangentModuli& moduli, std::vector<double>& values,
                      Threads& threads) const;
 
-  /// One of the other triangles, or a patch of them.
-  struct Group {
-    std::vector<int> triangles;
-    std::vector<int> nodes;
+  struct Other {
+    int triangle = 0;
     std::vector<int> entries;  ///< of the pattern for its matrix, column major, -1 for none
   };
-  /// The others: those with supported nodes, or all patches where the volumetric strain is averaged.
-  [[nodiscard]] const std::vector<Group>& groups() const { return groups_; }
+  /// Those with supported nodes.
+  [[nodiscard]] const std::vector<Other>& others() const { return others_; }
+  /// The same of the matrices of all patches, one after the other; where symmetric their lower triangles.
+  [[nodiscard]] const std::vector<int>& entriesOfPatches() const { return entriesOfPatches_; }
 
  private:
   /// Columns that one thread assembles: no entry is written by two.
@@ -84,8 +84,10 @@ class TangentAssembly {
   void buildPattern(const TriangleData& triangles);
   void cutIntoParts(const std::vector<int>& equations);
   void placeBlocks(const TriangleData& triangles, const std::vector<int>& frameOf);
-  void addGroup(const TriangleData& triangles, std::vector<int> members, std::vector<int> nodes);
-  template <class Element, bool aboutAxis>
+  /// Appends the entries of the matrix of some nodes, ascending where only its `lower` triangle is asked for.
+  void addEntries(const TriangleData& triangles, const int* nodes, size_t count, bool lower,
+                  std::vector<int>& entries) const;
+  template <class Element, bool aboutAxis, bool averaged>
   void assemblePlain(const TriangleData& triangles, const TangentModuli& moduli, std::vector<double>& values,
                      Threads& threads) const;
   [[nodiscard]] int entry(int row, int column) const;
@@ -94,7 +96,8 @@ class TangentAssembly {
   std::vector<Part> parts_;
   /// Per triangle and pair of its nodes, by columns: place of the block in its column.
   std::vector<uint16_t> blocks_;
-  std::vector<Group> groups_;
+  std::vector<Other> others_;
+  std::vector<int> entriesOfPatches_;
 };
 
 }  // namespace mortier

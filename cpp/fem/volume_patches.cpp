@@ -17,52 +17,60 @@ struct Neighbours {
   std::vector<std::pair<int, int>> list;
 };
 
-struct Side {
-  std::array<int, 2> ends;
-  int triangle;
-};
-
 /// Interior sides between triangles of one region, as pairs of triangles.
 std::vector<std::array<int, 2>> innerSides(const TriangleMesh& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
-      sides.push_back({{low, high}, static_cast<int>(t)});
-    }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::pair(a.ends, a.triangle) < std::pair(b.ends, b.triangle);
-  });
+  // Sides by their lower vertex: its others, and the triangles.
+  std::vector<int> from(mesh.vertices.size() + 1, 0);
+  const auto forEachSide = [&](auto visit) {
+    for (size_t t = 0; t < mesh.triangles.size(); ++t)
+      for (int k = 0; k < 3; ++k) {
+        const auto [low, high] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
+        visit(low, std::array<int, 2>{high, static_cast<int>(t)});
+      }
+  };
+  forEachSide([&](int low, const std::array<int, 2>&) { ++from[low + 1]; });
+  std::partial_sum(from.begin(), from.end(), from.begin());
+  std::vector<std::array<int, 2>> sides(from.back());
+  std::vector<int> next(from.begin(), from.end() - 1);
+  forEachSide([&](int low, const std::array<int, 2>& side) { sides[next[low]++] = side; });
   std::vector<std::array<int, 2>> pairs;
-  for (size_t i = 0; i + 1 < sides.size(); ++i) {
-    const int a = sides[i].triangle;
-    const int b = sides[i + 1].triangle;
-    if (sides[i].ends == sides[i + 1].ends && mesh.regions[a] == mesh.regions[b]) pairs.push_back({a, b});
+  for (size_t v = 0; v + 1 < from.size(); ++v) {
+    std::sort(sides.begin() + from[v], sides.begin() + from[v + 1]);
+    for (int i = from[v]; i + 1 < from[v + 1]; ++i) {
+      const auto& [high, a] = sides[i];
+      const auto& [other, b] = sides[i + 1];
+      if (high == other && mesh.regions[a] == mesh.regions[b]) pairs.push_back({a, b});
+    }
   }
   return pairs;
 }
 
 Neighbours neighboursOf(const std::vector<std::array<int, 2>>& sides, const std::vector<int>& part,
                         int count) {
-  std::vector<std::array<int, 2>> both;
-  for (const auto& [a, b] : sides) {
-    if (part[a] == part[b]) continue;
-    both.push_back({part[a], part[b]});
-    both.push_back({part[b], part[a]});
-  }
-  std::sort(both.begin(), both.end());
-  Neighbours result;
-  result.from.assign(count + 1, 0);
-  for (size_t i = 0; i < both.size(); ++i) {
-    if (i > 0 && both[i] == both[i - 1]) {
-      ++result.list.back().second;
-      continue;
+  std::vector<int> from(count + 1, 0);
+  const auto forEachBoth = [&](auto visit) {
+    for (const auto& [a, b] : sides) {
+      if (part[a] == part[b]) continue;
+      visit(part[a], part[b]);
+      visit(part[b], part[a]);
     }
-    result.list.emplace_back(both[i][1], 1);
-    ++result.from[both[i][0] + 1];
+  };
+  forEachBoth([&](int a, int) { ++from[a + 1]; });
+  std::partial_sum(from.begin(), from.end(), from.begin());
+  std::vector<int> all(from.back());
+  std::vector<int> next(from.begin(), from.end() - 1);
+  forEachBoth([&](int a, int b) { all[next[a]++] = b; });
+  Neighbours result;
+  result.from.assign(1, 0);
+  for (int p = 0; p < count; ++p) {
+    std::sort(all.begin() + from[p], all.begin() + from[p + 1]);
+    for (int i = from[p]; i < from[p + 1]; ++i)
+      if (i > from[p] && all[i] == all[i - 1])
+        ++result.list.back().second;
+      else
+        result.list.emplace_back(all[i], 1);
+    result.from.push_back(static_cast<int>(result.list.size()));
   }
-  std::partial_sum(result.from.begin(), result.from.end(), result.from.begin());
   return result;
 }
 
@@ -123,7 +131,14 @@ std::vector<int> volumePatches(const TriangleMesh& mesh, int degree) {
   std::vector<int> patchOf(mesh.triangles.size());
   std::iota(patchOf.begin(), patchOf.end(), 0);
   const int pairs = joinInTwos(sides, patchOf, static_cast<int>(patchOf.size()));
-  if (degree == 1) joinInTwos(sides, patchOf, pairs);
+  const int patches = degree == 1 ? joinInTwos(sides, patchOf, pairs) : pairs;
+  // Numbered as their first triangles are: neighbours in memory.
+  std::vector<int> number(patches, -1);
+  int next = 0;
+  for (int& patch : patchOf) {
+    if (number[patch] < 0) number[patch] = next++;
+    patch = number[patch];
+  }
   return patchOf;
 }
 
@@ -144,22 +159,32 @@ void VolumePatches::findPatches(const ElementNodes& nodes) {
     nodes_.erase(std::unique(nodes_.begin() + first, nodes_.end()), nodes_.end());
     nodesFrom_.push_back(static_cast<int>(nodes_.size()));
   }
+  local_.reserve(nodes.triangles.size());
+  for (size_t t = 0; t < patchOf_.size(); ++t) {
+    const Range own = this->nodes(patchOf_[t]);
+    for (int a = 0; a < ofTriangle_; ++a)
+      local_.push_back(
+          static_cast<int>(std::lower_bound(own.begin(), own.end(), nodes.of(t)[a]) - own.begin()));
+  }
 }
 
 VolumePatches::VolumePatches(const std::vector<int>& patchOf, const ElementNodes& nodes,
                              const std::vector<Point>& places, const std::vector<double>& weights,
                              const std::vector<double>& gradients, const std::vector<double>& hoops)
-    : patchOf_(patchOf), points_(nodes.degree == 1 ? 1 : 3), terms_(nodes.degree == 1 ? 1 : 3) {
+    : patchOf_(patchOf),
+      ofTriangle_(nodes.perTriangle()),
+      points_(nodes.degree == 1 ? 1 : 3),
+      terms_(nodes.degree == 1 ? 1 : 3) {
   constexpr double overRoot2 = std::numbers::sqrt2 / 2;
   findPatches(nodes);
-  const int n = nodes.perTriangle();
+  const int n = ofTriangle_;
   basis_.resize(terms_ * weights.size());
-  rowsFrom_.resize(weights.size());
-  if (!hoops.empty()) uniform_.resize(weights.size());
+  rows_.assign(2 * static_cast<size_t>(terms_) * nodes_.size(), 0);
+  if (!hoops.empty()) uniform_.assign(static_cast<size_t>(terms_) * count(), 0);
+  Matrix F;  // the polynomials at the points
+  std::vector<int> points;
   for (int patch = 0; patch < count(); ++patch) {
-    const Range own = this->nodes(patch);
-    const auto width = static_cast<Eigen::Index>(own.size());
-    std::vector<int> points;
+    points.clear();
     for (const int t : triangles(patch))
       for (int i = 0; i < points_; ++i) points.push_back(points_ * t + i);
     const auto m = static_cast<Eigen::Index>(points.size());
@@ -167,47 +192,36 @@ VolumePatches::VolumePatches(const std::vector<int>& patchOf, const ElementNodes
     for (const int i : points) centre += places[i] / static_cast<double>(m);
     double size = 0;
     for (const int i : points) size = std::max(size, (places[i] - centre).lpNorm<Eigen::Infinity>());
-    // Values at the points: polynomials, of theta the rows of the nodes and of a uniform motion along x.
-    Matrix F(m, terms_);
-    Matrix theta = Matrix::Zero(m, 2 * width + 1);
-    Vector w(m);
+    F.resize(terms_, m);
+    Eigen::Matrix3d gram = Eigen::Matrix3d::Identity();
+    gram.topLeftCorner(terms_, terms_).setZero();
     for (Eigen::Index k = 0; k < m; ++k) {
-      const int i = points[k];
-      w[k] = weights[i];
-      F(k, 0) = 1;
-      if (terms_ == 3) F.row(k).tail<2>() = (places[i] - centre).transpose() / size;
-      const int* triangle = nodes.of(i / points_);
-      const auto column = [&](int a) {
-        return 2 * (std::lower_bound(own.begin(), own.end(), triangle[a]) - own.begin());
-      };
-      for (int a = 1; a < n; ++a)
-        for (int c = 0; c < 2; ++c)
-          theta(k, column(a) + c) = gradients[2 * static_cast<size_t>(n - 1) * i + 2 * (a - 1) + c];
-      for (int a = 0; a < n && !hoops.empty(); ++a) {
-        const double hoop = overRoot2 * hoops[static_cast<size_t>(n) * i + a];
-        theta(k, column(a)) += hoop;
-        theta(k, 2 * width) += hoop;
-      }
-      // The gradients sum to zero.
-      for (int a = 1; a < n; ++a)
-        for (int c = 0; c < 2; ++c)
-          theta(k, column(0) + c) -= gradients[2 * static_cast<size_t>(n - 1) * i + 2 * (a - 1) + c];
+      F(0, k) = 1;
+      if (terms_ == 3) F.col(k).tail<2>() = (places[points[k]] - centre) / size;
+      gram.topLeftCorner(terms_, terms_) += weights[points[k]] * F.col(k) * F.col(k).transpose();
     }
-    const Matrix L = (F.transpose() * w.asDiagonal() * F).llt().matrixL();
-    F = L.triangularView<Eigen::Lower>().solve(F.transpose()).transpose().eval();
-    Matrix rows = F * (F.transpose() * w.asDiagonal() * theta);
+    const Eigen::Matrix3d L = gram.llt().matrixL();
+    L.topLeftCorner(terms_, terms_).triangularView<Eigen::Lower>().solveInPlace(F);
     for (Eigen::Index k = 0; k < m; ++k) {
       const int i = points[k];
-      for (int term = 0; term < terms_; ++term) basis_[terms_ * i + term] = F(k, term);
-      const int* triangle = nodes.of(i / points_);
-      for (int a = 0; a < n && !hoops.empty(); ++a) {
-        const double hoop = overRoot2 * hoops[static_cast<size_t>(n) * i + a];
-        rows(k, 2 * (std::lower_bound(own.begin(), own.end(), triangle[a]) - own.begin())) -= hoop;
-        rows(k, 2 * width) -= hoop;
+      const int* at = local(i / points_);
+      for (int term = 0; term < terms_; ++term) {
+        basis_[static_cast<size_t>(terms_) * i + term] = F(term, k);
+        const double factor = weights[i] * F(term, k);
+        double* row = const_cast<double*>(this->row(patch, term));
+        const double* gradient = &gradients[2 * static_cast<size_t>(n - 1) * i];
+        for (int a = 1; a < n; ++a)
+          for (int c = 0; c < 2; ++c) {
+            const double part = factor * gradient[2 * (a - 1) + c];
+            row[2 * at[a] + c] += part;
+            row[2 * at[0] + c] -= part;  // gradients sum to zero
+          }
+        for (int a = 0; a < n && !hoops.empty(); ++a) {
+          const double part = factor * overRoot2 * hoops[static_cast<size_t>(n) * i + a];
+          row[2 * at[a]] += part;
+          uniform_[static_cast<size_t>(terms_) * patch + term] += part;
+        }
       }
-      if (!hoops.empty()) uniform_[i] = rows(k, 2 * width);
-      rowsFrom_[i] = rows_.size();
-      for (Eigen::Index column = 0; column < 2 * width; ++column) rows_.push_back(rows(k, column));
     }
   }
 }

@@ -41,10 +41,23 @@ class VolumePatches {
   /// Ascending.
   [[nodiscard]] Range nodes(int patch) const { return range(nodes_, nodesFrom_, patch); }
 
-  /// The row of B-bar for p at a point of a patch: of each node of the patch x and y, over sqrt2. They sum to
-  /// zero but for uniform(), the strain p of a uniform motion along x (0 in the plane).
-  [[nodiscard]] const double* row(int point) const { return &rows_[rowsFrom_[point]]; }
-  [[nodiscard]] double uniform(int point) const { return uniform_.empty() ? 0 : uniform_[point]; }
+  /// Of each node of a triangle its place in nodes() of the patch.
+  [[nodiscard]] const int* local(int triangle) const {
+    return &local_[static_cast<size_t>(ofTriangle_) * triangle];
+  }
+
+  // A theta / sqrt2 at a point is the sum over the terms k of basis(point)[k] times the product of
+  // row(patch, k) with the displacements of the nodes of the patch, x and y.
+
+  [[nodiscard]] int terms() const { return terms_; }
+  [[nodiscard]] const double* basis(int point) const { return &basis_[static_cast<size_t>(terms_) * point]; }
+  [[nodiscard]] const double* row(int patch, int term) const {
+    return &rows_[2 * (static_cast<size_t>(terms_) * nodesFrom_[patch] + term * nodes(patch).size())];
+  }
+  /// What a row sums to in x: the product with a uniform motion along x; 0 in the plane. In y it is 0.
+  [[nodiscard]] double uniform(int patch, int term) const {
+    return uniform_.empty() ? 0 : uniform_[static_cast<size_t>(terms_) * patch + term];
+  }
 
   /// A theta for values at the points.
   [[nodiscard]] Vector averaged(const Vector& theta, const std::vector<double>& weights) const;
@@ -58,10 +71,11 @@ class VolumePatches {
   std::vector<int> patchOf_;
   std::vector<int> trianglesFrom_, triangles_;
   std::vector<int> nodesFrom_, nodes_;
+  std::vector<int> local_;
+  int ofTriangle_ = 3;         ///< nodes
   int points_ = 1;             ///< of a triangle
   int terms_ = 1;              ///< of the polynomials
   std::vector<double> basis_;  ///< orthonormal in L2 of the patch: terms at each point
-  std::vector<size_t> rowsFrom_;
   std::vector<double> rows_;
   std::vector<double> uniform_;
 };

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/interrupt.h"
+
 extern "C" {
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 void dgetrf_(const int* m, const int* n, double* a, const int* lda, int* ipiv, int* info);
@@ -130,6 +132,7 @@ void subtractSquare(const double* A, int ldA, int inner, double beta, double* C,
 /// L11 of a large pivot block.
 bool tiledCholesky(double* panel, int n, int pivots, Threads& threads) {
   for (int k = 0; k < pivots; k += tile) {
+    stopIfInterrupted();
     const int next = std::min(k + tile, pivots);
     const int width = next - k;
     double* diagonal = panel + static_cast<size_t>(n) * k + k;
@@ -151,6 +154,7 @@ bool tiledCholesky(double* panel, int n, int pivots, Threads& threads) {
 bool tiledLU(double* panel, int n, int pivots, int* interchange, Threads& threads) {
   const auto at = [&](int i, int j) { return panel + static_cast<size_t>(n) * j + i; };
   for (int k = 0; k < pivots; k += tile) {
+    stopIfInterrupted();
     const int next = std::min(k + tile, pivots);
     const int width = next - k;
     const int height = pivots - k;

@@ -5,6 +5,7 @@
 #include "contact/sliding.h"
 #include "lint/held_dofs.h"
 #include "lint/lint.h"
+#include "lint/topology.h"
 #include "mesh/boundary_line.h"
 #include "plan/estimate_doubts.h"
 #include "scene/build.h"
@@ -128,29 +129,20 @@ void diagnose(const LintInput& input, const ContactDescription& contact, const S
     faults.add("contact-line", contact.where, message);
 }
 
-struct EdgeLengths {
-  double mean = 0;
-  int count = 0;
-};
-
-EdgeLengths edgeLengths(const Side& side) {
-  return {side.length / std::max(1, side.edges), side.edges};
-}
-
 void compareMeshes(const SceneDescription& scene, const ContactDescription& contact, const Side& one,
                    const Side& two, Faults& faults) {
   constexpr double different = 10;
   constexpr double coarser = 4;
-  const EdgeLengths h1 = edgeLengths(one);
-  const EdgeLengths h2 = edgeLengths(two);
+  const double h1 = one.length / one.edges;
+  const double h2 = two.length / two.edges;
   for (const Side* side : {&one, &two})
     if (side->edges == 1)
       faults.add("contact-one-edge", side->description->where, name(*side) + " is one edge");
-  const double ratio = h1.mean / h2.mean;
+  const double ratio = h1 / h2;
   if (std::max(ratio, 1 / ratio) > different)
     faults.add("contact-size-ratio", contact.where,
-               "edges of " + name(one) + " are " + shortest(h1.mean) + " " + scene.units.length +
-                   " long, those of " + name(two) + " " + shortest(h2.mean) + " " + scene.units.length);
+               "edges of " + name(one) + " are " + shortest(h1) + " " + scene.units.length +
+                   " long, those of " + name(two) + " " + shortest(h2) + " " + scene.units.length);
   else if (ratio > coarser && !farStiffer(scene, contact, contact.mortar, contact.nonmortar))
     faults.add("nonmortar-coarser", contact.nonmortar.where,
                "edges of the nonmortar side are " + shortest(std::round(10 * ratio) / 10) +
@@ -159,12 +151,14 @@ void compareMeshes(const SceneDescription& scene, const ContactDescription& cont
   constexpr double finer = 1.2;
   constexpr double much = 4;
   if (contact.variant != CouplingKind::mortar && contact.variant != CouplingKind::weighted) return;
-  const double nodes = 1 / ratio / (rowDegree(contact.variant, scene.degree) < scene.degree ? 2 : 1);
+  const double coarse = std::max(
+      1 / ratio, edgeRatioWhereFine(*one.mesh, contact.nonmortar.label, *two.mesh, contact.mortar.label));
+  const double nodes = coarse / (rowDegree(contact.variant, scene.degree) < scene.degree ? 2 : 1);
   const double stiffness = stiffnessRatio(scene, contact.nonmortar, contact.mortar);
   if (nodes > finer && nodes * stiffness > much &&
       !farStiffer(scene, contact, contact.nonmortar, contact.mortar))
     faults.add("pressure-alternates", contact.where,
-               "edges of " + name(two) + " are " + shortest(std::round(10 / ratio) / 10) +
+               "edges of " + name(two) + " are " + shortest(std::round(10 * coarse) / 10) +
                    " times as long as those of the nonmortar side, whose young is " +
                    shortest(std::round(100 * stiffness) / 100) + " times as large");
 }

@@ -134,10 +134,11 @@ const std::vector<FaultKind>& faultKinds() {
        "take variant = \"mortar\", or let the held body be the mortar side (contact.swap)"},
       // Materials.
       {"poisson-limit", warning, "Poisson's ratio is next to 0.5 in plane strain or around an axis",
-       "pressures are wrong and linear triangles lock: say volume = \"averaged\" of the body, or take "
-       "poisson <= 0.49"},
+       "pressures are wrong and linear triangles lock: leave out volume = \"pointwise\" and accuracy.bound, "
+       "or take poisson <= 0.49"},
       {"flow-locks", warning, "flow in plane strain or around an axis on linear triangles that lock",
-       "say volume = \"averaged\" of the body; in plane strain cells cut by both diagonals do not lock"},
+       "leave out volume = \"pointwise\" and accuracy.bound; in plane strain cells cut by both diagonals do "
+       "not lock"},
       {"poisson-negative", warning, "Poisson's ratio is negative", "check its sign"},
       {"projection-unused", warning, "an elastic body has a projection",
        "add viscosity and yield_stress, or take the key out"},

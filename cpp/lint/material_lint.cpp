@@ -37,25 +37,10 @@ double relaxingModulus(const Elasticity& elasticity, Plane plane) {
   return plane != Plane::stress ? elasticity.moduli()[1] : elasticity.moduli().maxCoeff();
 }
 
-/// Whether most triangles are quarters of cells with both diagonals, where linear ones do not lock: they have
-/// a vertex with four triangles.
-bool bothDiagonals(const TriangleMesh& mesh) {
-  std::vector<int> around(mesh.vertices.size(), 0);
-  for (const auto& triangle : mesh.triangles)
-    for (const int v : triangle) ++around[v];
-  const auto quarters =
-      std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& triangle) {
-        return std::any_of(triangle.begin(), triangle.end(), [&](int v) { return around[v] == 4; });
-      });
-  return 2 * quarters > static_cast<std::ptrdiff_t>(mesh.triangles.size());
-}
-
-/// Flow keeps the volume, which linear triangles follow in plane strain on cells with both diagonals only.
 void checkFlowLocks(const LintInput& input, size_t b, const PlacedMaterial& material, Faults& faults) {
   const SceneDescription& scene = input.scene;
-  if (input.meshes[b] == nullptr || scene.plane == Plane::stress || scene.degree > 1 ||
-      !material.description.flows() || material.description.as<OwnLaw>() != nullptr ||
-      !scene.bodies[b].averaged.empty() || (scene.plane == Plane::strain && bothDiagonals(*input.meshes[b])))
+  if (input.meshes[b] == nullptr || scene.bodies[b].volume == Volume::averaged ||
+      !flowLocks(scene, material.description, *input.meshes[b]))
     return;
   faults.add("flow-locks", material.where("law"),
              material.subject + "flow keeps the volume: linear triangles " +
@@ -65,13 +50,12 @@ void checkFlowLocks(const LintInput& input, size_t b, const PlacedMaterial& mate
 
 void checkElasticity(const LintInput& input, size_t b, const PlacedMaterial& material, double nominal,
                      Faults& faults) {
-  constexpr double incompressible = 0.49;
   constexpr double large = 0.05;
   const Elasticity& e = material.description.elasticity;
   const std::string& subject = material.subject;
   const std::string& unit = input.scene.units.stress;
-  if (input.scene.plane != Plane::stress && e.poisson > incompressible &&
-      input.scene.bodies[b].averaged.empty())
+  if (nearlyIncompressible(material.description, input.scene.plane) &&
+      input.scene.bodies[b].volume != Volume::averaged)
     faults.add("poisson-limit", material.where("poisson"),
                subject + "poisson = " + shortest(e.poisson) + " in " +
                    (input.scene.plane == Plane::strain ? "plane strain" : "axisymmetric bodies") +

@@ -124,7 +124,7 @@ std::shared_ptr<const Material> anisotropicMaterial(const Anisotropy& anisotropy
     if (plane == Plane::stress) description.variant = projectionNames[static_cast<int>(perzyna->projection)];
     return made(PerzynaLaw({e, e}, a, {1, 1}, *perzyna), description);
   }
-  return made(ElasticLaw({e, e}), describe("elastic", stiffest));
+  return made(ElasticLaw({e, e}), describe(stiffest));
 }
 
 }  // namespace mortier

@@ -28,10 +28,16 @@ LawDescription describe(const std::string& name, const Elasticity& elasticity) {
   return {name, "", {{"young", elasticity.young, "Pa"}, {"poisson", elasticity.poisson, ""}}};
 }
 
+LawDescription describe(const Elasticity& elasticity) {
+  LawDescription description = describe("elastic", elasticity);
+  description.flows = false;
+  return description;
+}
+
 std::shared_ptr<const Material> elasticMaterial(const Elasticity& elasticity) {
   requireValid(elasticity);
   const Eigen::Array3d e = elasticity.moduli();
-  return pointMaterial(ElasticLaw({e[0], e[1]}), describe("elastic", elasticity));
+  return pointMaterial(ElasticLaw({e[0], e[1]}), describe(elasticity));
 }
 
 }  // namespace mortier

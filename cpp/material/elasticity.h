@@ -18,7 +18,8 @@ void requireParameter(bool holds, const char* name, double value, const char* ex
 /// \throws InputError unless young > 0 and -1 < poisson < 0.5.
 void requireValid(const Elasticity& elasticity);
 
-/// `name` with the two constants.
+/// "elastic", and another law, with the two constants.
+LawDescription describe(const Elasticity& elasticity);
 LawDescription describe(const std::string& name, const Elasticity& elasticity);
 
 class ElasticLaw {

@@ -132,6 +132,8 @@ LawDescription describe(const Elasticity& elasticity, const Viscoplasticity& vis
   LawDescription description = describe("Perzyna", elasticity);
   description.parameters.push_back({"viscosity", viscoplasticity.viscosity, "Pa s"});
   description.parameters.push_back({"yield_stress", viscoplasticity.yieldStress, "Pa"});
+  // In plane strain B is a cylinder and all projections are one.
+  description.projected = {viscoplasticity.viscosity, viscoplasticity.yieldStress, true};
   return description;
 }
 
@@ -145,6 +147,9 @@ std::shared_ptr<const Material> perzynaMaterial(const Elasticity& elasticity,
                                                                               : 1;
   LawDescription description = describe(elasticity, viscoplasticity);
   description.variant = projectionNames[static_cast<int>(viscoplasticity.projection)];
+  // Without Poisson's effect E is a multiple of the identity.
+  description.projected->hasPotential =
+      viscoplasticity.projection == Projection::frobenius || elasticity.poisson == 0;
   return pointMaterial(PerzynaLaw({e[0], e[1]}, {0.5, 1.5}, {ratio, 1}, viscoplasticity),
                        std::move(description));
 }

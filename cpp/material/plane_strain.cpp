@@ -13,8 +13,7 @@ Pair shear(const Elasticity& elasticity) {
 
 std::shared_ptr<const Material> planeStrainElasticMaterial(const Elasticity& elasticity) {
   requireValid(elasticity);
-  return pointMaterial(InPlaneStrain(ElasticLaw(shear(elasticity)), elasticity),
-                       describe("elastic", elasticity));
+  return pointMaterial(InPlaneStrain(ElasticLaw(shear(elasticity)), elasticity), describe(elasticity));
 }
 
 std::shared_ptr<const Material> planeStrainPerzynaMaterial(const Elasticity& elasticity,

@@ -61,8 +61,12 @@ class Planner {
     const Body& body = model_.bodies[b];
     const std::string part = "body " + body.name();
     planPoints(b);
+    const std::string& choice = scene_.bodies[b].volumeChoice;
     if (body.patches() != nullptr)
-      add(part, true, "volumetric strain averaged over patches of triangles", "volume = \"averaged\"");
+      add(part, true, "volumetric strain averaged over patches of triangles",
+          choice.empty() ? "volume = \"averaged\"" : choice);
+    else if (!choice.empty())
+      add(part, false, "volumetric strain averaged over patches of triangles", choice);
     const bool symmetric = body.material().symmetricTangent();
     const std::string factor = symmetric ? "Cholesky" : "LU";
     if (body.material().linear()) {

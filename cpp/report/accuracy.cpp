@@ -63,4 +63,20 @@ Accuracy AccuracyRecord::atEnd(const Peaks& peaks) {
   return result;
 }
 
+std::optional<RoundChange> changeInRounds(const RunFacts& facts, size_t quantity) {
+  constexpr double noticeable = 0.05;  // of the value, a round
+  constexpr double hardlyLess = 0.5;   // than the change of the round before
+  if (facts.best < 1 || facts.rounds.size() <= facts.best) return {};
+  const auto at = [&](size_t round) { return facts.rounds[round].quantities[quantity]; };
+  const double last = at(facts.best) - at(facts.best - 1);
+  RoundChange change{std::abs(last)};
+  const Quantity::Kind kind = facts.quantities[quantity].kind;
+  if (facts.best > 1 && (kind == Quantity::Kind::largestPressure || kind == Quantity::Kind::largestMises)) {
+    const double before = at(facts.best - 1) - at(facts.best - 2);
+    change.grows = before > noticeable * at(facts.best - 2) && last > noticeable * at(facts.best - 1) &&
+                   last > hardlyLess * before;
+  }
+  return change;
+}
+
 }  // namespace mortier

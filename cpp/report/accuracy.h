@@ -7,8 +7,8 @@
 
 #include "bound/energy_bound.h"
 #include "bound/flow_bound.h"
-#include "bound/step_bound.h"
 #include "bound/total_bound.h"
+#include "report/run_facts.h"
 #include "time/report.h"
 #include "time/space_error.h"
 
@@ -27,8 +27,19 @@ struct Accuracy {
   std::optional<EnergyBound> bound = {};  ///< of the last state, where it is asked for
   std::optional<FlowBound> flow = {};     ///< of the steps up to it, where bodies flow
   std::optional<TotalBound> total = {};   ///< of steps and meshes together, where bodies flow
-  std::optional<StepBound> step = {};     ///< of the meshes in the last step, where bodies flow
+  std::optional<EnergyBound> step = {};   ///< of the meshes in the last step, where bodies flow
 };
+
+/// How a quantity changed from the round before that of the result to it.
+struct RoundChange {
+  double size = 0;  ///< absolute
+  /// Whether a largest value has grown in two rounds, hardly less in the last one: at a place where stresses
+  /// are unbounded it has no limit.
+  bool grows = false;
+};
+
+/// None where the result is that of the first round, or there are none.
+std::optional<RoundChange> changeInRounds(const RunFacts& facts, size_t quantity);
 
 /// The estimates of a run so far.
 struct AccuracyMemory {

@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Names the layout (checkpoint_members.h); it changes with any member.
-constexpr std::string_view magic = "mortier checkpoint 11\n";
+/// Names the layout (checkpoint_members.h) and what a scene means; it changes with any member.
+constexpr std::string_view magic = "mortier checkpoint 13\n";
 
 uint64_t sumOf(std::string_view bytes) {
   Checksum sum;

@@ -126,7 +126,7 @@ void requireFits(const Checkpoint& checkpoint, const Model& model, const std::st
               accuracy.flow.growth >= 0,
           "accuracy");
   require(isCourse(accuracy.total.fixed) && isCourse(accuracy.total.any) &&
-              isTime(accuracy.total.oscillation) && fitsBodies(accuracy.total.stress, model),
+              fitsBodies(accuracy.total.stress, model),
           "bound");
   require(memory.run.quantities.size() == quantities &&
               (last.quantities.empty() || last.quantities.size() == quantities),

@@ -65,7 +65,12 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
             lawsOf(body.material());
   }
   text += "; plane " + facts.plane + "\n";
-  for (const Body& body : model.bodies) text += materials(body, facts.units);
+  for (const Body& body : model.bodies) {
+    text += materials(body, facts.units);
+    if (body.patches() != nullptr)
+      text += "material   " + body.name() + " volumetric strain averaged over " +
+              std::to_string(body.patches()->count()) + " patches of triangles\n";
+  }
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
     const double least = interface.initialDistance().size() > 0 ? interface.initialDistance().minCoeff() : 0;
@@ -186,7 +191,7 @@ std::string logTotal(const TotalBound& bound) {
   return text + "\n";
 }
 
-std::string logStep(const StepBound& bound) {
+std::string logStep(const EnergyBound& bound) {
   const std::string none = "           no guaranteed bound of the last step: ";
   if (!bound.obstacle.empty()) return none + bound.obstacle + "\n";
   std::string parts;
@@ -235,7 +240,7 @@ std::string logAccuracy(const RunFacts& facts, const Model& model, const Accurac
   return text;
 }
 
-std::string logPeaks(const Peaks& peaks, const StepReport& last, const Units& units) {
+std::string logPeaks(const Peaks& peaks, const StepReport& last, const Units& units, bool contact) {
   std::string text;
   const auto add = [&](const char* name, const Peak& peak, double end, const std::string& unit) {
     constexpr double same = 1e-9;
@@ -262,6 +267,10 @@ std::string logPeaks(const Peaks& peaks, const StepReport& last, const Units& un
         "small "
         "here\n",
         peaks.motion.value, peaks.motion.time, units.time.c_str());
+  if (contact && peaks.contactForce.value == 0)
+    text +=
+        "warning    the bodies never touched: no contact pressed at any step (a motion too small to close "
+        "the distance, the wrong direction, or meshes too coarse to see it)\n";
   return text;
 }
 
@@ -275,6 +284,12 @@ std::string logQuantities(const RunFacts& facts, const Model& model, const State
             quantities[i].unit(facts.units);
     if (const auto place = placeOf(quantities[i], model, state))
       text += format(" at (%.4g, %.4g)", place->x(), place->y());
+    const std::optional<RoundChange> change = changeInRounds(facts, i);
+    if (change && change->grows)
+      text += format(" (grows with every round, the last time by %.2g %%: stresses are unbounded there)",
+                     100 * change->size / values[i]);
+    else if (change && values[i] != 0)
+      text += format(" (changed by %.2g %% in the last round)", 100 * change->size / std::abs(values[i]));
     if (!bound || bound->quantities.empty()) continue;
     const Enclosure& enclosure = bound->quantities[i];
     if (enclosure.obstacle.empty())

@@ -33,7 +33,7 @@ std::string logTimeError(const RunFacts& facts, const RunReport& report);
 std::string logAccuracy(const RunFacts& facts, const Model& model, const Accuracy& accuracy);
 /// The largest values of the run where the last step does not have them,
 /// and what no small strain is any more.
-std::string logPeaks(const Peaks& peaks, const StepReport& last, const Units& units);
+std::string logPeaks(const Peaks& peaks, const StepReport& last, const Units& units, bool contact);
 /// The quantities of the scene at the end of the run, with the places of those that have one and the bounds
 /// of their errors where there are such; nothing where there are none.
 std::string logQuantities(const RunFacts& facts, const Model& model, const State& state,

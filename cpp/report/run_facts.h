@@ -17,7 +17,8 @@ struct RoundFacts {
   int steps = 0;
   double mesh = 0;  ///< estimated errors, relative
   double time = 0;
-  double seconds = 0;  ///< wall time
+  double seconds = 0;                   ///< wall time
+  std::vector<double> quantities = {};  ///< their values at the end
 };
 
 struct RunFacts {

@@ -31,11 +31,21 @@ void requireFiniteNumbers(const Json& json, const std::string& path) {
   }
 }
 
+Json laws(const Material& material) {
+  Json list = Json::array();
+  for (const LawDescription& law : material.laws()) {
+    list.push_back({{"law", law.text()}});
+    for (const LawDescription::Parameter& each : law.parameters) list.back()[each.name] = each.value;
+  }
+  return list;
+}
+
 Json bodies(const Model& model) {
   Json list = Json::array();
   for (const Body& body : model.bodies)
     list.push_back({{"name", body.name()},
                     {"material", lawsOf(body.material())},
+                    {"laws", laws(body.material())},
                     {"triangles", body.mesh().triangles.size()},
                     {"nodes", body.nodes()},
                     {"dofs", body.dofs()},
@@ -136,16 +146,27 @@ Json jsonOf(const std::vector<SeveralSolutions>& several) {
   return list;
 }
 
+/// A bound over the exact norm; null where it is not below 100 %.
+Json over(double error, double norm) {
+  return error == 0 ? Json(0.0) : error < norm ? Json(error / (norm - error)) : Json(nullptr);
+}
+
 Json jsonOf(const EnergyBound& bound) {
   if (!bound.obstacle.empty()) return {{"energy_error", nullptr}, {"reason", bound.obstacle}};
-  const double relative = bound.relative();
-  return {{"energy_error", std::isfinite(relative) ? Json(relative) : Json(nullptr)},
+  return {{"energy_error", over(bound.bound, bound.norm)},
           {"absolute", bound.bound},
           {"norm", bound.norm},
           {"stress", bound.stress},
           {"lift", bound.lift},
           {"gap", std::sqrt(2 * bound.gap)},
           {"data", bound.oscillation}};
+}
+Json jsonOfStep(const EnergyBound& bound) {
+  if (!bound.obstacle.empty()) return {{"viscoplastic_strain", nullptr}, {"reason", bound.obstacle}};
+  Json json = jsonOf(bound);
+  json["viscoplastic_strain"] = over(bound.strain, bound.strainNorm);
+  json["flow"] = bound.flow;
+  return json;
 }
 
 /// Where to look at, and why it is hard there.
@@ -168,11 +189,6 @@ Json jsonOf(const EnergyBound& bound, size_t quantity, double value) {
     return json;
   }
   return {{"error", enclosure.error(value)}, {"lower", enclosure.lower}, {"upper", enclosure.upper}};
-}
-
-/// A bound over the exact norm; null where it is not below 100 %.
-Json over(double error, double norm) {
-  return error == 0 ? Json(0.0) : error < norm ? Json(error / (norm - error)) : Json(nullptr);
 }
 
 Json jsonOf(const FlowBound& bound) {
@@ -208,21 +224,8 @@ Json jsonOf(const TotalBound& bound) {
   else
     json["any_contact"]["reason"] = bound.closes;
   json["lift"] = over(bound.lifted, bound.strainNorm);
-  json["data"] = std::max(bound.oscillation, bound.data);
+  json["data"] = bound.data;
   return json;
-}
-
-Json jsonOf(const StepBound& bound) {
-  if (!bound.obstacle.empty()) return {{"viscoplastic_strain", nullptr}, {"reason", bound.obstacle}};
-  return {{"viscoplastic_strain", over(bound.strain, bound.strainNorm)},
-          {"energy_error", over(bound.bound, bound.norm)},
-          {"absolute", bound.bound},
-          {"norm", bound.norm},
-          {"stress", bound.stress},
-          {"flow", bound.flow},
-          {"lift", bound.lift},
-          {"gap", std::sqrt(2 * bound.gap)},
-          {"data", bound.oscillation}};
 }
 
 Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy) {
@@ -237,7 +240,7 @@ Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy)
   if (accuracy.bound) json["bound"] = jsonOf(*accuracy.bound);
   if (accuracy.bound && accuracy.flow) json["bound"]["time"] = jsonOf(*accuracy.flow);
   if (accuracy.bound && accuracy.total) json["bound"]["total"] = jsonOf(*accuracy.total);
-  if (accuracy.bound && accuracy.step) json["bound"]["step"] = jsonOf(*accuracy.step);
+  if (accuracy.bound && accuracy.step) json["bound"]["step"] = jsonOfStep(*accuracy.step);
   return json;
 }
 
@@ -322,6 +325,10 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
     if (const auto place = placeOf(facts.quantities[i], model, state))
       quantity["at"] = {place->x(), place->y()};
     if (i < report.quantities.size()) quantity.update(jsonOf(report.quantities[i]));
+    if (const std::optional<RoundChange> change = changeInRounds(facts, i)) {
+      quantity["change_in_last_round"] = change->size;
+      if (change->grows) quantity["grows_with_rounds"] = true;
+    }
   }
   for (size_t i = 0; accuracy.bound && i < values.size(); ++i)
     json["quantities"][facts.quantities[i].name]["bound"] = jsonOf(*accuracy.bound, i, values[i]);

@@ -241,8 +241,13 @@ Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescri
   const std::vector<Point> places = placesOfPoints(mesh, elementNodes(mesh, scene.degree));
   const std::shared_ptr<const Material> material = buildMaterial(body, mesh, scene.plane, places);
   addTemperature(body, mesh, scene.plane, places, times, conditions);
-  return {body.name,    std::move(mesh),       material, std::move(conditions), scene.degree,
-          axisymmetric, !body.averaged.empty()};
+  return {body.name,
+          std::move(mesh),
+          material,
+          std::move(conditions),
+          scene.degree,
+          axisymmetric,
+          body.volume == Volume::averaged};
 }
 
 }  // namespace mortier

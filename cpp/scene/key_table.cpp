@@ -24,9 +24,9 @@ units | | SI | a length, a force, a stress, and a time if it is not s: `"mm, N, 
 name | | | letters, digits, `_`, `-`; each once | names files and messages
 mesh | m | | a Medit `.mesh` file, a file for Gmsh (`.msh`, `.geo`, `.step`, ...), or a table | path relative
   to the scene
-volume | | `"pointwise"` | `"pointwise"`, `"averaged"` | the volumetric strain that the material sees: of each
-  point, or averaged over patches of triangles, for bodies that hardly change their volume
-  ([below](#bodies-that-keep-their-volume))
+volume | | `"automatic"` | `"automatic"`, `"pointwise"`, `"averaged"` | the volumetric strain that the
+  material sees: of each point, or averaged over patches of triangles, by itself where the body keeps its
+  volume ([below](#bodies-that-keep-their-volume))
 material, force, boundary, region, initial_stress, point
 temperature | K | 0 | datum, or `{ file = "...", factor = datum }` | above that at which nothing is strained;
   of a file nodal values, a number for each vertex of the mesh in its order, times `factor` (1); needs

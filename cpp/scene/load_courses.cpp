@@ -147,7 +147,7 @@ std::vector<std::string> loadsBetweenSteps(const SceneDescription& scene, const 
       for (const double t : course.times) {
         const double i = std::min(std::floor(t / k), scene.time.steps - 1.0);
         if (i == std::exchange(last, i)) continue;
-        if (const double part = beyondEnds(course, k * i, k * (i + 1)); part > most) {
+        if (const double part = peakBetween(course, k * i, k * (i + 1)).height; part > most) {
           most = part;
           warning = expression.where + text(": between t = %.6g and %.6g ", k * i, k * (i + 1)) +
                     scene.units.time +

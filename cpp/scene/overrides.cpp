@@ -100,6 +100,12 @@ void set(Node& table, const Setting& setting, size_t depth, const std::string& s
              : (guess.empty() ? ", expected" : " Expected") + std::string(" one of ") + joined(keys)));
   }
   Node* member = table.find(word);
+  if (depth + 1 == setting.path.size() && setting.value.isString() && setting.value.text.empty()) {
+    table.members.erase(std::remove_if(table.members.begin(), table.members.end(),
+                                       [&](const Node& each) { return each.key == word; }),
+                        table.members.end());
+    return;
+  }
   if (member == nullptr) {
     member = &table.members.emplace_back();
     member->key = word;

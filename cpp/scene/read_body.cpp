@@ -169,8 +169,10 @@ BodyDescription readBody(const Node& node, const std::string& scenePath, size_t 
     body.force[1] = components.datum("y");
   }
   if (table.find("temperature") != nullptr) body.temperature = readTemperature(table, scenePath, subject);
-  if (table.choice<bool>("volume"))
-    body.averaged = table.message(table.find("volume")->where, "volume = \"averaged\"");
+  body.volume = table.choice<Volume>("volume");
+  if (body.volume != Volume::automatic)
+    body.volumeWhere = table.message(table.find("volume")->where,
+                                     body.volume == Volume::averaged ? "volume = \"averaged\"" : "volume");
   for (const Node* boundary : table.tables("boundary")) readBoundary(*boundary, body);
   for (const Node* point : table.tables("point")) readPoint(*point, body);
   return body;

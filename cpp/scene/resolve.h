@@ -42,6 +42,19 @@ int regionLabel(const TriangleMesh& mesh, int label, const std::string& name, co
 /// \throws InputError, headed by `place`, with that vertex and its distance.
 Point vertexPoint(const TriangleMesh& mesh, const Point& point, const std::string& place);
 
+// Which volumetric strain the material of a body sees where the scene leaves it open (`volumes`).
+
+/// Whether a material is elastically next to incompressible where the thickness cannot make up for it.
+bool nearlyIncompressible(const MaterialDescription& material, Plane plane);
+
+/// Whether flow, which keeps the volume, locks on the triangles of a mesh: linear ones, but in plane strain
+/// as quarters of cells with both diagonals.
+bool flowLocks(const SceneDescription& scene, const MaterialDescription& material, const TriangleMesh& mesh);
+
+/// Averages the volumetric strain of bodies with such a material, and says why in `volumeChoice`; beside
+/// accuracy.bound none. A second call changes nothing. Bodies without mesh (nullptr) stay as they are.
+void decideVolumes(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes);
+
 // Which side of a contact is nonmortar where the scene leaves it open (`sides`): the one with the finer mesh
 // along the contact, measured by bench/nonmortar_side. A body that is far stiffer than the other is mortar
 // (but with interpolation): a soft body cannot tell the nodes of a finer stiff one apart, and nodal pressures

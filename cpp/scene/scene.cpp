@@ -22,8 +22,8 @@ void requireInPlane(const BodyDescription& body, Plane plane) {
   for (const RegionDescription& region : body.regions) {
     require(region.initialStress);
   }
-  if (plane == Plane::stress && !body.averaged.empty())
-    throw InputError(body.averaged +
+  if (plane == Plane::stress && body.volume == Volume::averaged)
+    throw InputError(body.volumeWhere +
                      ", expected plane = \"strain\" or \"axisymmetric\" beside it: in plane stress the "
                      "thickness keeps the volume");
 }
@@ -41,9 +41,9 @@ void requireKnownTo(const SceneDescription& scene, const BodyDescription& body) 
   require(body.material);
   for (const RegionDescription& region : body.regions)
     if (region.material) require(*region.material);
-  if (scene.accuracy.bound && !body.averaged.empty())
+  if (scene.accuracy.bound && body.volume == Volume::averaged)
     throw InputError(
-        body.averaged +
+        body.volumeWhere +
         ", expected pointwise beside accuracy.bound: bounds need stresses that balance the loads "
         "on the strains of the displacements themselves");
   if (!body.temperature) return;

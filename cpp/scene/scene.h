@@ -93,6 +93,9 @@ struct TemperatureDescription {
   std::string where;
 };
 
+/// The volumetric strain that the material of a body sees (fem/volume_patches.h).
+enum class Volume { automatic, pointwise, averaged };
+
 struct BodyDescription {
   std::string name;
   MeshSource mesh;
@@ -103,7 +106,9 @@ struct BodyDescription {
   std::vector<ConditionDescription> conditions;
   StressDescription initialStress;
   std::vector<RegionDescription> regions;
-  std::string averaged;  ///< where the volumetric strain is (fem/volume_patches.h): its place in the scene
+  Volume volume = Volume::automatic;  ///< resolveScene decides what is left to the program
+  std::string volumeWhere;            ///< empty where the scene does not say it
+  std::string volumeChoice;           ///< why it is that one, where the program has chosen it for a reason
   std::string where;
 };
 

@@ -18,11 +18,15 @@ double depthOf(const Body& body) {
 
 }  // namespace
 
-Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double materialResidual) const {
+Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double materialResidual,
+                                bool repeated) const {
   constexpr double roundingOfMotion = 1e-15;
   constexpr double farBelowYield = 1e-6;  // of the force of a triangle as large as the body
+  constexpr double roundingOfForces = 1e-13;
   Worst force;
-  Worst length;  // gaps are differences of displacements
+  Worst load;
+  Worst ofRounding;  // forces that the rounding of distances makes
+  Worst length;      // gaps are differences of displacements
   Worst rounding;
   const std::vector<Vector> u = displacements(step.state0, iterate);
   std::vector<Vector> residual(bodies_.size());
@@ -78,13 +82,14 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
     static_assert(sizeof(Largest) == 8 * sizeof(double));
     model_.largest(&of.now, 8);
     for (const double each : {of.now, of.before, of.load, of.loose}) force.add(each);
+    for (const double each : {of.load, of.loose}) load.add(each);
     // A body that moves without any load, or touches another without any, has forces that are nothing but the
     // rounding of its motion, and of distances, unless it is beyond yield.
     const double yieldStress = body.material().stressScale();
     const bool far = of.now <= farBelowYield * yieldStress * body.extent() * of.depth;
     if (bodies_[b].elastic() || yieldStress <= 0 || far) {
       const double rounded = model_.interfaces.empty() ? of.increment : std::max(of.increment, body.extent());
-      force.add(roundingOfMotion * bodies_[b].largestModulus() * rounded * of.depth);
+      ofRounding.add(roundingOfMotion * bodies_[b].largestModulus() * rounded * of.depth);
     }
     length.add(body.extent());
     length.add(of.displacement);
@@ -98,6 +103,15 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
   Worst gapOnActive;
   Worst openPenetration;
   Worst complementarity;
+  // However soft and thin a body is, motions that the rounding of forces makes count as these forces.
+  const Vector compliance = compliances();
+  const auto moved = [&](double by, Eigen::Index condition) {
+    const double part = by / length.value();
+    if (!(by > 0) || condition >= compliance.size() || !(compliance[condition] > 0)) return part;
+    const double pull = by / compliance[condition];
+    return pull <= roundingOfForces * force.value() ? std::min(part, pull / force.value()) : part;
+  };
+  Eigen::Index along = rows();
   for (size_t k = 0; k < model_.interfaces.size(); ++k) {
     const ContactInterface& interface = model_.interfaces[k];
     const int b1 = interface.pair().nonmortar.body;
@@ -112,24 +126,29 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
         const int sign = iterate.slipping[k][i];
         beyondBound.add(std::abs(t[i]) - bound[i]);
         if (bound[i] > 0)
-          wrongSlip.add((sign == 0 ? std::abs(slip[k][i]) : -sign * slip[k][i]) / length.value());
+          wrongSlip.add(moved(sign == 0 ? std::abs(slip[k][i]) : -sign * slip[k][i], along + i));
       }
+      along += t.size();
     }
-    const Vector g = interface.gap(u[b1], u[b2], step.data.time) / length.value();
+    const Vector g = interface.gap(u[b1], u[b2], step.data.time);
     for (Eigen::Index i = 0; i < g.size(); ++i) {
+      const double off = moved(std::abs(g[i]), firstRow_[k] + i);
       if (iterate.active[k][i] != 0)
-        gapOnActive.add(std::abs(g[i]));
+        gapOnActive.add(off);
       else
-        openPenetration.add(g[i]);
-      if (contactForce.value() != 0) complementarity.add(std::abs(p[i] / contactForce.value() * g[i]));
+        openPenetration.add(g[i] / length.value());
+      if (contactForce.value() != 0) complementarity.add(p[i] / contactForce.value() * off);
     }
   }
   Worst own;
   for (size_t b = 0; b < bodies_.size(); ++b) own.add(model_.bodies[b].gather(residual[b]));
   const double balance = model_.largest(own.value());
+  const double rounded = ofRounding.value();
+  const bool unloaded = repeated && load.value() == 0 && std::max(force.value(), balance) <= rounded;
+  force.add(rounded);
   const auto overForce = [&](double value) {
     if (!std::isfinite(force.value())) return std::numeric_limits<double>::quiet_NaN();
-    return value == 0 ? 0 : value / force.value();
+    return value == 0 || (unloaded && value <= rounded) ? 0 : value / force.value();
   };
   Certificate result;
   result.forceBalance = overForce(balance);
@@ -143,8 +162,12 @@ Certificate StepSystem::certify(const Step& step, const Iterate& iterate, double
   return result;
 }
 
+Vector StepSystem::compliances() const {
+  return sparse() ? sparse_->compliance() : Vector(contact_.W.diagonal());
+}
+
 double StepSystem::opened(const Step& step, const Iterate& iterate) const {
-  const Vector compliance = sparse() ? sparse_->compliance() : Vector(contact_.W.diagonal());
+  const Vector compliance = compliances();
   const std::vector<Vector> gap = gaps(model_, step.state0, iterate);
   double largest = 0;
   double force = 0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "base/interrupt.h"
 #include "solver/proximal_contact.h"
@@ -10,46 +9,35 @@
 namespace mortier {
 namespace {
 
-/// How a proximal term is weakened from one repetition to the next.
-constexpr double softer = 1e-2;
-
 /// Conditions that say the same twice leave the forces undetermined and W singular: a proximal term on dp
 /// makes it regular, repeated until it no longer acts.
-/// \param weakest  weight of the term. The smaller, the fewer repetitions,
-/// and the more rounding in the signs of forces.
+/// \param weight  of the term. The smaller, the fewer repetitions, and the more rounding in the signs of
+/// forces.
 ContactSolution solveRedundant(const ContactProblem& problem, const std::vector<char>& idle,
                                const Vector& slack, const Vector& p0, const Vector& balance,
-                               const std::vector<char>& active, double weakest, Work& work) {
+                               const std::vector<char>& active, double weight, Work& work) {
   constexpr int repetitions = 40;
   constexpr double done = 1e-15;
   ContactProblem regular = problem;
-  double weight = std::max(problem.proximal, weakest);
+  const Vector term = weight * problem.W.diagonal();
+  regular.W.diagonal() += term;
+  ProximalContact contact(regular, idle, slack, p0, balance, work);
   ContactSolution solution;
   solution.active = active;
   Vector before = Vector::Zero(slack.size());
-  Vector term;
-  std::optional<ProximalContact> contact;
-  double weightOfFactor = 0;
   int pivots = 0;
-  for (int repetition = 0; repetition < repetitions; ++repetition) {
-    if (weight != weightOfFactor) {
-      term = weight * problem.W.diagonal();
-      regular.W.diagonal() = problem.W.diagonal() + term;
-      contact.emplace(regular, idle, slack, p0, balance, work);
-      weightOfFactor = weight;
-    }
-    contact->restart(slack - term.cwiseProduct(before));
-    solution = solveBalanced(*contact, solution.active);
+  const auto solve = [&] {
+    contact.restart(slack - term.cwiseProduct(before));
+    solution = solveBalanced(contact, solution.active);
     pivots += solution.pivots;
-    solution.pivots = pivots;
-    if (solution.outcome != ContactSolution::Outcome::solved) break;
-    const double left = term.cwiseProduct(solution.change - before).cwiseAbs().maxCoeff();
-    const double scale =
-        problem.W.diagonal().cwiseProduct(p0.cwiseAbs() + solution.change.cwiseAbs()).maxCoeff();
-    if (left <= done * scale) break;
+    if (solution.outcome != ContactSolution::Outcome::solved) return 0.0;
+    const double carried = term.cwiseProduct(solution.change - before).lpNorm<Eigen::Infinity>();
+    const Vector forces = p0.cwiseAbs() + solution.change.cwiseAbs();
     before = solution.change;
-    weight = std::max(softer * weight, weakest);
-  }
+    return ratio(carried, problem.W.diagonal().cwiseProduct(forces).maxCoeff());
+  };
+  repeatProximal(repetitions, done, solve);
+  solution.pivots = pivots;
   return solution;
 }
 

@@ -12,13 +12,30 @@
 
 namespace mortier {
 
+/// Bounds b = coefficient p + limit, by tangential condition.
+struct FrictionLaw {
+  Vector coefficient = {};  ///< mu [-]
+  Vector limit = {};        ///< c [N/m]
+};
+
+/// The conditions along the line (friction.h), which come after all those across it.
+struct FrictionRows {
+  std::vector<int> node = {};  ///< the condition across whose p bounds each
+  FrictionLaw law = {};
+};
+
 struct ContactProblem {
-  Matrix W;               ///< rows x rows; W_ii = 0 where no free motion changes a condition
-  bool symmetric = true;  ///< whether W is
-  Matrix G;               ///< rows x rigid motions, none where all bodies are supported
-  double force = 0;       ///< a contact force beside which an imbalance is nothing but rounding
-  double proximal =
-      1e-9;  ///< weight of the proximal terms to begin with, relative to the stiffness or compliance [-]
+  Matrix W;                 ///< conditions x conditions; W_ii = 0 where no free motion changes one [m^2/N]
+  bool symmetric = true;    ///< whether W is
+  Matrix G;                 ///< conditions x rigid motions, none where all bodies are supported
+  double forceScale = 0;    ///< a contact force beside which an imbalance is nothing but rounding [N/m]
+  double proximal = 1e-9;   ///< weight of the proximal terms to begin with, over stiffness or compliance [-]
+  FrictionRows along = {};  ///< none without friction
+
+  /// The number of conditions across the line.
+  [[nodiscard]] Eigen::Index normals() const {
+    return W.rows() - static_cast<Eigen::Index>(along.node.size());
+  }
 };
 
 struct ContactSolution {

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "solver/sparse_sets.h"
 #include "solver/step_system.h"
 
 namespace mortier {
@@ -15,23 +14,17 @@ bool StepSystem::Factorised::solve(const Step& step, Iterate& iterate, StepOutco
 
 ContactSolution StepSystem::Condensed::solveContact() const {
   if (system_->hasFriction()) return solveFriction();
-  if (system_->sparse()) return solveSparse();
-  ContactSolution solution = mortier::solveContact(system_->contact_, slack, p0, balance, active);
+  const ContactProblem& problem = system_->contact_;
   SpecialConditions& special = system_->special_;
-  special.idle = std::max(special.idle, solution.idle);
-  if (solution.dependent && special.dependent == 0)
-    special.dependent = dependentConditions(system_->contact_.W);
-  return solution;
-}
-
-ContactSolution StepSystem::Condensed::solveSparse() const {
   Vector motion;
-  SparseContact& matrix = *system_->sparse_;
-  ContactSolution solution = mortier::solveSparse(matrix, system_->contact_, system_->gathered(force), slack,
-                                                  p0, balance, active, motion);
-  system_->special_.idle = std::max(system_->special_.idle, solution.idle);
-  if (solution.outcome != ContactSolution::Outcome::solved) return solution;
-  solution.motion = system_->spread(motion, solution.rigid);
+  ContactSolution solution = system_->sparse()
+                                 ? solveSparse(*system_->sparse_, problem, system_->gathered(force), slack,
+                                               p0, balance, sets.closed, motion)
+                                 : mortier::solveContact(problem, slack, p0, balance, sets.closed);
+  if (system_->sparse() && solution.outcome == ContactSolution::Outcome::solved)
+    solution.motion = system_->spread(motion, solution.rigid);
+  special.idle = std::max(special.idle, solution.idle);
+  if (solution.dependent && special.dependent == 0) special.dependent = dependentConditions(problem.W);
   return solution;
 }
 
@@ -54,30 +47,16 @@ std::vector<Vector> StepSystem::spread(const Vector& x, const Vector& rigid) con
   return nodal;
 }
 
-std::vector<Response> StepSystem::respondSparse(const std::vector<Matrix>& error, const Iterate& on) {
-  std::vector<Response> responses(bodies_.size());
-  std::vector<Vector> force(bodies_.size());
-  forEachBody([&](int b) {
-    Matrix& stress = responses[b].stress;
-    stress.resizeLike(error[b]);
-    for (int i = 0; i < stress.cols(); ++i) stress.col(i) = -stressOf(bodies_[b].law(), error[b].col(i), i);
-    force[b] = -model_.bodies[b].internalForce(stress);
-  });
-  std::vector<char> active;
-  for (const std::vector<char>& part : on.active) active.insert(active.end(), part.begin(), part.end());
+ContactSolution StepSystem::holdClosedSparse(const std::vector<Vector>& force, const Iterate& on) const {
   sparse_->setSprings(contact_.proximal);
   const Vector none = Vector::Zero(contact_.G.cols());
-  SparseContact::Solution held{Vector::Zero(sparse_->firstEquation().back()), none, {}};
   const Vector zero = Vector::Zero(rows());
-  if (sparse_->factorise(active)) held = sparse_->solve(gathered(force), zero, zero, none, true);
-  const std::vector<Vector> displacement = spread(held.motion, held.rigid);
-  forEachBody([&](int b) {
-    Response& response = responses[b];
-    response.displacement = displacement[b];
-    model_.bodies[b].addStressOf(displacement[b], bodies_[b].law(), response.stress, 0,
-                                 model_.bodies[b].points());
-  });
-  return responses;
+  SparseContact::Solution held{Vector::Zero(sparse_->firstEquation().back()), none, {}};
+  if (sparse_->factorise(joinedSets(on).closed))
+    held = sparse_->solve(gathered(force), zero, zero, none, true);
+  ContactSolution solution;
+  solution.motion = spread(held.motion, held.rigid);
+  return solution;
 }
 
 }  // namespace mortier

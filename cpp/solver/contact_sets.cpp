@@ -1,11 +1,10 @@
 #include "solver/contact_sets.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include "solver/pivoting.h"
 
 namespace mortier {
 
@@ -16,7 +15,33 @@ ContactSets::ContactSets(const ContactProblem& problem, const std::vector<char>&
       diagonal_(std::move(diagonal)),
       slack_(std::move(slack)),
       p0_(p0),
-      balance_(balance) {}
+      balance_(balance),
+      z0_(Vector::Zero(balance.size())) {}
+
+void ContactSets::centre(const Vector& z0) {
+  z0_ = z0;
+  pivotsLeft_ = 20 * static_cast<int>(slack_.size()) + 100;
+}
+
+void ContactSets::soften() {
+  weight_ = std::max(softer * weight_, std::min(weight_, weakest_));
+}
+
+bool ContactSets::solveOn(ContactSolution& solution) {
+  ++solution.pivots;
+  --pivotsLeft_;
+  if (!take(solution.active)) return false;
+  solveTaken(solution);
+  return true;
+}
+
+bool ContactSets::grow(int condition, ContactSolution& solution, Growth& growth) {
+  ++solution.pivots;
+  --pivotsLeft_;
+  if (!take(solution.active)) return false;
+  growTaken(condition, growth);
+  return true;
+}
 
 ContactSets::Signs ContactSets::signsOf(const ContactSolution& solution) const {
   Signs signs{open_, p0_ + solution.change, {}, {}};
@@ -55,7 +80,7 @@ double ContactSets::sizeOf(const ContactSolution& solution) const {
 
 Vector ContactSets::usualForces(const ContactSolution& solution) const {
   constexpr double roundingOfGaps = 1e-8;  // an imbalance of 1e-6 of that is rounding
-  Vector usual = Vector::Constant(slack_.size(), problem_.force);
+  Vector usual = Vector::Constant(slack_.size(), problem_.forceScale);
   const double largest = slack_.cwiseAbs().maxCoeff();
   for (Eigen::Index i = 0; i < usual.size(); ++i)
     if (solution.active[i] != 0 && idle_[i] == 0)
@@ -79,35 +104,21 @@ bool ContactSets::leaves(const ContactSolution& solution) const {
   return closing.maxCoeff() <= negligible * closing.cwiseAbs().maxCoeff() && work > 0;
 }
 
-ContactSolution solveBalanced(ContactSets& contact, const std::vector<char>& active) {
-  constexpr int repetitions = 12;
-  constexpr double balanced = 1e-14;
-  constexpr double slow = 1e-12;  // three repetitions leave no more than that, unless the term is too strong
+double proximalStiffness(double stiffness, double load, double open) {
+  constexpr double farther = 10;  // than the gap
+  return open > 0 && load > 0 ? std::min(stiffness, load / (farther * open)) : stiffness;
+}
 
-  const Eigen::Index motions = contact.problem().G.cols();
-  ContactSolution solution;
-  solution.active = active;
-  solution.rigid = Vector::Zero(motions);
-  Vector z0 = solution.rigid;
-  for (int repetition = 0; repetition < repetitions; ++repetition) {
-    contact.centre(z0);
-    if (!pivot(contact, solution)) {
-      if (contact.capped()) solution.outcome = ContactSolution::Outcome::capped;
-      return solution;
-    }
-    const double imbalance =
-        motions == 0 ? 0 : contact.imbalance(solution, Vector::Zero(solution.change.size()));
-    if (imbalance <= balanced) break;
-    z0 = solution.rigid;
-    if (repetition > 1 && imbalance > slow) contact.soften();
-  }
-  constexpr double mostImbalance = 1e-6;
-  if (motions > 0 && contact.imbalance(solution, contact.usualForces(solution)) > mostImbalance)
-    solution.outcome =
-        contact.leaves(solution) ? ContactSolution::Outcome::unbalanced : ContactSolution::Outcome::cycled;
-  else
-    solution.outcome = ContactSolution::Outcome::solved;
-  return solution;
+RigidMotions rigidMotionsOn(const std::vector<char>& active, const Matrix& G) {
+  // Those that move no condition have the proximal term alone,
+  // however weak it is beside the rounding of the others.
+  constexpr double heldFraction = 1e-14;
+  Matrix closed = G;
+  for (Eigen::Index i = 0; i < closed.rows(); ++i)
+    if (active[i] == 0) closed.row(i).setZero();
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(closed.transpose() * closed);
+  const auto free = (eigen.eigenvalues().array() <= heldFraction * G.squaredNorm()).count();
+  return {eigen.eigenvectors().rightCols(G.cols() - free), eigen.eigenvectors().leftCols(free)};
 }
 
 Vector moveRigidBodiesIntoContact(const Matrix& G, const std::vector<char>& active, Vector& slack) {
@@ -117,7 +128,7 @@ Vector moveRigidBodiesIntoContact(const Matrix& G, const std::vector<char>& acti
     if (active[i] != 0) closed.push_back(i);
   const bool none = closed.empty();
   const Matrix motions = none ? G : Matrix(G(closed, Eigen::all));
-  const Vector moved = motions.completeOrthogonalDecomposition().solve(none ? slack : Vector(slack(closed)));
+  Vector moved = motions.completeOrthogonalDecomposition().solve(none ? slack : Vector(slack(closed)));
   slack -= G * moved;
   return moved;
 }

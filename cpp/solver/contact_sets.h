@@ -1,7 +1,8 @@
 // A contact problem (complementarity.h) solved for a sequence of active sets: the interface that principal
 // pivoting needs, independent of how the equations of a set are solved. A proximal term on the rigid motions
 // enforces their balance,
-//   s = s0 + W dp - G z,   p = p0 + dp,   G' dp + proximal (z - z0) = r,   s_A = 0,   p = 0 off A.
+//   s = s0 + W dp - G z,   p = p0 + dp,   G' dp + weight (z - z0) = r,   s_A = 0,   p = 0 off A.
+// Solves are repeated about the last solution until such a term carries nothing (Rockafellar 1976).
 #pragma once
 
 #include <limits>
@@ -11,6 +12,35 @@
 
 namespace mortier {
 
+/// The weight of a proximal term over that in the repetition before, where it is reduced [-].
+constexpr double softer = 1e-2;
+/// Down to which weight, over the stiffness that all nodes together give to rigid motions [-].
+constexpr double weakestProximal = 1e-13;
+/// What is left of the balance of rigid motions by rounding, over the forces in it [-].
+constexpr double balanceRounding = 1e-14;
+
+inline double ratio(double part, double whole) {
+  return part == 0 ? 0 : part / whole;
+}
+
+/// Calls solve(), which solves about its last solution and tells what the term still carries [-], until that
+/// is `rounding`. Where more than three repetitions are needed the term is too strong: soften().
+template <class Solve, class Soften = void (*)()>
+void repeatProximal(
+    int most, double rounding, const Solve& solve, const Soften& soften = [] {}) {
+  constexpr double slow = 1e-12;  // three repetitions leave no more
+  for (int repetition = 0; repetition < most; ++repetition) {
+    const double carried = solve();
+    if (carried <= rounding) return;
+    if (repetition > 1 && carried > slow) soften();
+  }
+}
+
+/// The stiffness of a proximal term on rigid motions: where a body has to travel until contact closes, so
+/// small that the load takes it there.
+/// \param open  the widest gap
+double proximalStiffness(double stiffness, double load, double open);
+
 class ContactSets {
  public:
   ContactSets(const ContactSets&) = delete;
@@ -18,12 +48,12 @@ class ContactSets {
   virtual ~ContactSets() = default;
 
   /// Sets z0, and how many solves are allowed until the next call.
-  virtual void centre(const Vector& z0) = 0;
-  /// Weakens the proximal term: repetitions converge faster than at any fixed weight (Rockafellar 1976).
-  virtual void soften() = 0;
+  void centre(const Vector& z0);
+  /// Weakens the proximal term.
+  void soften();
 
   /// dp and z on solution.active. \returns false where that is redundant.
-  virtual bool solveOn(ContactSolution& solution) = 0;
+  bool solveOn(ContactSolution& solution);
   /// The same with factors of the set itself, if those in use are not.
   virtual bool refactor(const std::vector<char>& active) = 0;
   [[nodiscard]] virtual bool fresh() const = 0;
@@ -43,7 +73,7 @@ class ContactSets {
     Vector force, slack;
   };
   /// \returns false where the set is redundant.
-  virtual bool grow(int condition, ContactSolution& solution, Growth& growth) = 0;
+  bool grow(int condition, ContactSolution& solution, Growth& growth);
 
   /// Values below this part of the largest are rounding.
   static constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
@@ -58,7 +88,7 @@ class ContactSets {
   /// Whether a matrix that was to be solved with is singular but for rounding.
   [[nodiscard]] bool redundant() const { return redundant_; }
   /// Whether all work or all solves that are allowed were done.
-  [[nodiscard]] virtual bool capped() const = 0;
+  [[nodiscard]] virtual bool capped() const { return pivotsLeft_ <= 0; }
   /// What the proximal term still carries of the balance, against all forces in it, or those that are usual.
   [[nodiscard]] double imbalance(const ContactSolution& solution, const Vector& usual) const;
   /// Contact forces of the step before, and on closed conditions those that the rounding of gaps makes.
@@ -72,6 +102,12 @@ class ContactSets {
   /// \param idle  conditions that stay inactive. All that is given by reference must outlive this.
   ContactSets(const ContactProblem& problem, const std::vector<char>& idle, Vector diagonal, Vector slack,
               const Vector& p0, const Vector& balance);
+
+  /// Takes the equations of a set. \returns false where it is redundant.
+  virtual bool take(const std::vector<char>& active) = 0;
+  /// solveOn() and grow() on the set that was taken last.
+  virtual void solveTaken(ContactSolution& solution) = 0;
+  virtual void growTaken(int condition, Growth& growth) = 0;
 
   /// What is rounding in forces, and in slacks as forces.
   struct Noise {
@@ -91,10 +127,23 @@ class ContactSets {
   const Vector& p0_;
   const Vector& balance_;
   Vector open_;  ///< slack of the set that was solved on last
+  Vector z0_;
+  double weight_ = 0;   ///< of the proximal term
+  double weakest_ = 0;  ///< to which it is reduced at most
   bool redundant_ = false;
+
+ private:
+  int pivotsLeft_ = 0;  ///< sets of a few conditions cost next to no work
 };
 
-/// Principal pivoting, repeated until the proximal term no longer acts. \param active  the set to begin with.
+/// Rigid motions that the closed conditions of a set resist, and those that they do not: by columns.
+struct RigidMotions {
+  Matrix held, free;
+};
+RigidMotions rigidMotionsOn(const std::vector<char>& active, const Matrix& G);
+
+/// Principal pivoting (pivoting.cpp), repeated until the proximal term no longer acts.
+/// \param active  the set to begin with. \throws Interrupted
 ContactSolution solveBalanced(ContactSets& contact, const std::vector<char>& active);
 
 /// The rigid motions that take away the gaps and overlaps of the conditions to begin with (of all, where

@@ -1,5 +1,5 @@
-// In-place factorisation of a dense matrix: Cholesky if it is symmetric, else LU with row interchanges, by
-// panels of columns; interruptions are checked between any two blocks of a large matrix.
+// In-place factorisation of a dense matrix: Cholesky if it is symmetric, else LU with row interchanges
+// (linear/dense_kernels.h); interruptions are checked between the blocks of a large matrix.
 #pragma once
 
 #include "base/types.h"
@@ -23,16 +23,9 @@ class DenseFactor {
   [[nodiscard]] Eigen::Index rows() const { return factor_.rows(); }
 
  private:
-  bool cholesky();
-  bool lu();
-  void eliminatePanel(Eigen::Index first, Eigen::Index columns);
-  /// Of triangles with themselves or transposed: solves by panels.
-  template <unsigned triangle, bool transposed>
-  void substitute(Matrix& x) const;
-
   bool symmetric_ = true;
   Matrix factor_;
-  Eigen::VectorXi interchange_;  ///< by columns: the row that was exchanged with the pivot's
+  Eigen::VectorXi interchange_;  ///< by columns: the row that was exchanged with the pivot's, from 1
   double leastPivot_ = 0;
 };
 

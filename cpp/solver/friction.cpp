@@ -1,101 +1,182 @@
 #include "solver/friction.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "solver/contact_sets.h"
 #include "solver/friction_sets.h"
-#include "solver/friction_solutions.h"
 
 namespace mortier {
 namespace {
 
 /// From the solution of Tresca's law under the bounds of the pressure without friction.
-std::optional<FrictionSets> fromFixedBounds(FrictionSystem& system) {
+std::optional<FrictionSets> fromFixedBounds(const FrictionSystem& system) {
   constexpr int most = 50;  // where it takes more, the path is shorter
-  const auto& [node, law] = system.problem().rows;
+  const auto& [node, law] = system.problem().along;
   FrictionSets sets = system.allHeld();
   Vector limit = law.limit;
   for (int repetition = 0; repetition < 2; ++repetition) {
-    const std::optional<FrictionSolution> solution = system.bounded(limit, std::move(sets), most);
+    const auto solution = system.underBounds(limit).changeSingly(std::move(sets), most);
     if (!solution) return std::nullopt;
     sets = solution->sets;
-    for (size_t k = 0; k < node.size(); ++k) {
-      const auto row = static_cast<Eigen::Index>(k);
-      limit[row] = law.limit[row] + law.coefficient[row] * solution->force[node[k]];
-    }
+    limit = law.limit + law.coefficient.cwiseProduct(solution->force(node));
   }
   return sets;
 }
 
-/// What solveFriction does where conditions are independent.
-FrictionSolution solveIndependent(const FrictionProblem& problem, const Vector& q, const FrictionSets& first,
-                                  bool endWhereSingular) {
-  FrictionSystem system(problem, q);
-  int events = 0;
+/// Calls onPath(system) for the problem and for two nearby until it returns true. Where two things happen at
+/// once, as they do in a symmetric problem, the path has a corner that it cannot turn.
+template <class OnPath>
+void followNearby(const FrictionSystem& system, OnPath onPath) {
+  constexpr double turn = 0.754877666246693;
+  for (const double nearby : {0.0, 1e-9, 1e-7}) {
+    Vector q = system.q();
+    const double largest = q.lpNorm<Eigen::Infinity>();
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      const double place = turn * static_cast<double>(i + 1);
+      q[i] += nearby * largest * (place - std::floor(place) - 0.5);
+    }
+    if (onPath(FrictionSystem(system.problem(), q, system.springs(), system.work()))) return;
+  }
+}
+
+/// Where conditions are independent.
+FrictionSolution solveIndependent(const ContactProblem& problem, const Vector& q, const Springs& springs,
+                                  const FrictionSets& first, bool endWhereSingular, FrictionWork& work) {
+  const FrictionSystem system(problem, q, springs, work);
+  work.singular = false;
+  std::optional<FrictionSolution> found = system.newton(first);
   // A solution of index -1 is one that no path of loads leads to: Newton's method may meet it.
-  const auto good = [](const std::optional<FrictionSolution>& found) { return found && found->index > 0; };
-  std::optional<FrictionSolution> found = system.newton(problem.rows.law, first);
-  const auto goesOn = [&] { return !good(found) && !(endWhereSingular && system.singular()); };
-  if (const FrictionSets held = system.allHeld(); goesOn() && !(first == held))
-    found = system.newton(problem.rows.law, held);
+  const auto good = [&] { return found && found->index > 0; };
+  const auto goesOn = [&] { return !good() && !(endWhereSingular && work.singular); };
+  if (const FrictionSets held = system.allHeld(); goesOn() && !(first == held)) found = system.newton(held);
   if (goesOn()) {
     std::optional<FrictionSets> nearby = fromFixedBounds(system);
-    if (nearby) found = system.newton(problem.rows.law, std::move(*nearby));
+    if (nearby) found = system.newton(std::move(*nearby));
   }
-  if (goesOn()) found = firstOnPath(system, events);
-  FrictionSolution result = good(found) ? std::move(*found) : FrictionSolution();
-  result.solves = system.solves();
-  result.events = events;
-  result.singular = !result.solved && system.singular();
-  result.ambiguous = system.ambiguous();
-  return result;
+  if (goesOn())
+    followNearby(system, [&](const FrictionSystem& moved) {
+      const std::vector<FrictionSets> passages = followPath(moved, 0);
+      found = passages.empty() ? std::nullopt : system.newton(passages.front());
+      return good();
+    });
+  if (!good()) return {};
+  work.singular = false;
+  return *found;
 }
 
 /// Conditions that depend on each other, as the four at a corner of which both sides touch a rigid body: W
 /// is semidefinite. A compliance D of every condition is added, against x0, which follows x until D (x - x0)
-/// is nothing (as the springs of friction_motions.h): to it W is W + D.
-FrictionSolution solveDependent(const FrictionProblem& problem, const Vector& q, FrictionSets first) {
+/// is nothing: to springs W is W + D.
+FrictionSolution solveDependent(const ContactProblem& problem, const Vector& q, const Springs& springs,
+                                FrictionSets first, FrictionWork& work) {
   constexpr int repetitions = 8;
   constexpr double weight = 1e-8;
-  constexpr double nothing = 1e-14;
+  constexpr double done = 1e-14;
   const Vector D = weight * problem.W.diagonal().cwiseMax(0);
-  Matrix sum = problem.W;
-  sum.diagonal() += D;
-  Vector x0 = Vector::Zero(q.size());
+  ContactProblem regular = problem;
+  regular.W.diagonal() += D;
   FrictionSolution result;
-  int solves = 0;
-  int events = 0;
-  bool ambiguous = false;
-  for (int repetition = 0; repetition < repetitions; ++repetition) {
-    const Vector at = q - D.cwiseProduct(x0);
-    result = solveIndependent({sum, problem.rows, problem.motions}, at, first, false);
-    solves += result.solves;
-    events += result.events;
-    ambiguous = ambiguous || result.ambiguous;
-    if (!result.solved) break;
+  Vector x0 = Vector::Zero(q.size());
+  const auto solve = [&] {
+    result = solveIndependent(regular, q - D.cwiseProduct(x0), springs, first, false, work);
+    if (!result.solved) return 0.0;
     first = result.sets;
-    const Vector left = D.cwiseProduct(result.force - x0);
+    const double left = D.cwiseProduct(result.force - x0).lpNorm<Eigen::Infinity>();
     x0 = result.force;
-    const double size = q.lpNorm<Eigen::Infinity>() + (problem.W * x0).lpNorm<Eigen::Infinity>();
-    if (left.lpNorm<Eigen::Infinity>() <= nothing * size) break;
-  }
-  result.solves = solves;
-  result.events = events;
-  result.singular = true;
-  result.ambiguous = ambiguous;
+    return ratio(left, q.lpNorm<Eigen::Infinity>() + (problem.W * x0).lpNorm<Eigen::Infinity>());
+  };
+  repeatProximal(repetitions, done, solve);
+  work.singular = true;
   return result;
+}
+
+FrictionSolution solveOnSprings(const ContactProblem& problem, const Vector& q, const Springs& springs,
+                                const FrictionSets& first, FrictionWork& work) {
+  const bool ambiguous = work.ambiguous;
+  FrictionSolution result = solveIndependent(problem, q, springs, first, true, work);
+  if (result.solved || !work.singular) return result;
+  work.ambiguous = ambiguous;  // the sign of a determinant that is rounding tells nothing
+  result = solveDependent(problem, q, springs, first, work);
+  if (result.solved) return result;
+  // A single set may be singular where conditions are independent.
+  work.ambiguous = ambiguous;
+  return solveIndependent(problem, q, springs, first, false, work);
 }
 
 }  // namespace
 
-FrictionSolution solveFriction(const FrictionProblem& problem, const Vector& q, const FrictionSets& first) {
-  FrictionSolution result = solveIndependent(problem, q, first, true);
-  if (result.solved || !result.singular) return result;
-  FrictionSolution dependent = solveDependent(problem, q, first);
-  dependent.solves += result.solves;
-  // A single set may be singular where conditions are independent.
-  return dependent.solved ? dependent : solveIndependent(problem, q, first, false);
+FrictionSolution solveFriction(const ContactProblem& problem, Vector q, FrictionSets first,
+                               const Vector& load, std::vector<FrictionSolution>* all) {
+  constexpr int repetitions = 15;
+  constexpr double softest = 1e-4;  // springs, over those to begin with
+  constexpr double mostImbalance = 1e-9;
+  constexpr double roundingOfGaps = 1e-5;  // an imbalance of 1e-9 of that is rounding
+
+  const Matrix& G = problem.G;
+  const double compliance = problem.W.diagonal().maxCoeff();
+  // What rigid motions take away is taken first, as in solveContact.
+  std::vector<char> closed = first.closed;
+  for (size_t k = 0; k < first.slip.size(); ++k)
+    closed.push_back(first.slip[k] == 0 && first.closed[problem.along.node[k]] != 0 ? 1 : 0);
+  const Vector moved = moveRigidBodiesIntoContact(G, closed, q);
+  const double force = load.lpNorm<Eigen::Infinity>();
+  Springs springs{load, Vector::Zero(G.cols())};
+  springs.stiffness = proximalStiffness(problem.proximal * (G.squaredNorm() / compliance), force,
+                                        q.head(problem.normals()).maxCoeff());
+  const double least = softest * springs.stiffness;
+  FrictionSolution result;
+  FrictionWork work;
+  double imbalance = 0;
+  double beside = 0;
+  Vector change;
+  const auto solve = [&] {
+    result = solveOnSprings(problem, q, springs, first, work);
+    if (!result.solved) return 0.0;
+    first = result.sets;
+    change = result.rigid - springs.z0;
+    springs.z0 = result.rigid;
+    imbalance = (load - G.transpose() * result.force).lpNorm<Eigen::Infinity>();
+    const Matrix size = G.cwiseAbs().transpose();
+    beside = force + (size * result.force.cwiseAbs()).lpNorm<Eigen::Infinity>();
+    return ratio(imbalance, beside);
+  };
+  repeatProximal(repetitions, balanceRounding, solve,
+                 [&] { springs.stiffness = std::max(softer * springs.stiffness, least); });
+  if (result.solved) {
+    const double usual = problem.forceScale + roundingOfGaps * q.lpNorm<Eigen::Infinity>() / compliance;
+    const double scale = beside + usual * G.cwiseAbs().colwise().sum().lpNorm<Eigen::Infinity>();
+    result.balanced = G.cols() == 0 || imbalance <= mostImbalance * scale;
+    if (all != nullptr && result.balanced) *all = solutionsOnPath(problem, q, springs, result);
+    result.rigid = result.balanced ? Vector(result.rigid + moved) : change;
+  }
+  static_cast<FrictionWork&>(result) = work;
+  return result;
+}
+
+std::vector<FrictionSolution> solutionsOnPath(const ContactProblem& problem, const Vector& q,
+                                              const Springs& springs, const FrictionSolution& taken) {
+  constexpr double same = 1e-9;
+  constexpr double beyond = 3;
+  std::vector<FrictionSolution> all{taken};
+  const auto isKnown = [&](const FrictionSolution& one) {
+    return std::any_of(all.begin(), all.end(), [&](const FrictionSolution& other) {
+      const double size =
+          std::max(one.force.lpNorm<Eigen::Infinity>(), other.force.lpNorm<Eigen::Infinity>());
+      return one.sets == other.sets || (one.force - other.force).lpNorm<Eigen::Infinity>() <= same * size;
+    });
+  };
+  FrictionWork work;
+  const FrictionSystem system(problem, q, springs, work);
+  followNearby(system, [&](const FrictionSystem& moved) {
+    const std::vector<FrictionSets> passages = followPath(moved, beyond);
+    for (const FrictionSets& sets : passages)
+      if (const auto one = system.newton(sets); one && !isKnown(*one)) all.push_back(*one);
+    return !passages.empty();
+  });
+  return all;
 }
 
 }  // namespace mortier

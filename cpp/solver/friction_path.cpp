@@ -1,5 +1,10 @@
-#include "solver/friction_path.h"
-
+// The sets of a contact problem with friction by following a path (Lemke's idea, on sets). With
+//   q(tau) = q + tau d,   d > 0 on gaps, on slips 0 or, where a limit c holds, -d/2 max(1, mu) of its gap,
+// everything is open and slips for large tau. From there tau decreases to 0; where a force, a gap, a slip or
+// the distance of a shear force from its bound becomes zero, the node changes its state and the path
+// continues: tau decreases where det A(sets) > 0 and increases where it is negative. For W positive definite
+// the only solution of q = d without limits is zero (x'd >= 0), so the path is bounded; no piece of it is
+// visited twice, so it ends at tau = 0 (docs/theory.md). The solution found in this way has det A > 0.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +13,7 @@
 
 #include "base/interrupt.h"
 #include "base/two_part_sums.h"
+#include "solver/friction_sets.h"
 
 namespace mortier {
 namespace {
@@ -24,22 +30,20 @@ class Path {
   explicit Path(const FrictionSystem& system)
       : system_(system),
         W_(system.problem().W),
-        law_(system.problem().rows.law),
-        node_(system.problem().rows.node),
-        free_(system.problem().motions),
+        G_(system.problem().G),
+        law_(system.problem().along.law),
+        node_(system.problem().along.node),
         n_(system.normals()),
-        motions_(free_ != nullptr ? free_->G.cols() : 0),
+        motions_(G_.cols()),
         sets_{std::vector<char>(n_, 0), std::vector<signed char>(node_.size(), 1)},
         d_(Vector::Zero(W_.rows())),
         unit_(W_.diagonal().cwiseInverse()) {
-    if (motions_ > 0) scale_ = 1 / (unit_.minCoeff() * free_->G.cwiseAbs().maxCoeff());
+    if (motions_ > 0) scale_ = 1 / (unit_.minCoeff() * G_.cwiseAbs().maxCoeff());
     system.holdIdle(sets_);
     openBy();
   }
 
-  /// \param beyond  how far below 0 tau goes, over the largest |q|/d
-  /// \returns the sets on the passages through tau = 0: the first one, or all where it goes beyond
-  std::vector<FrictionSets> follow(double beyond, int& events) {
+  std::vector<FrictionSets> follow(double beyond) {
     const Eigen::Index most = 200 + 40 * W_.rows();
     constexpr int fresh = 50;
     std::vector<FrictionSets> passages;
@@ -60,7 +64,7 @@ class Path {
       const bool ends = direction < 0 ? next.step >= tau + beyond * largest : !std::isfinite(next.step);
       if (ends || (beyond == 0 && !passages.empty())) return passages;
       tau += direction * next.step;
-      ++events;
+      ++system_.work().events;
       if (!change(next, direction * next.step) && !invert()) return passages;
     }
     return passages;
@@ -73,9 +77,7 @@ class Path {
     int slip = 0;  ///< of a node that sticks, how it begins to slip
   };
 
-  [[nodiscard]] bool sticks(Eigen::Index k) const {
-    return system_.sticks(law_, sets_, static_cast<size_t>(k));
-  }
+  [[nodiscard]] bool sticks(Eigen::Index k) const { return system_.sticks(sets_, k); }
 
   /// d: gaps as uniform forces open them, that forces of the path are of their size; a little different for
   /// all, so that events come one by one. What shear limits hold slips.
@@ -115,7 +117,7 @@ class Path {
     Vector row = Vector::Zero(W_.rows() + motions_);
     if (acts(condition)) {
       row.head(W_.rows()) = unit_[condition] * W_.row(condition).transpose();
-      if (motions_ > 0) row.tail(motions_) = -unit_[condition] * scale_ * free_->G.row(condition).transpose();
+      if (motions_ > 0) row.tail(motions_) = -unit_[condition] * scale_ * G_.row(condition).transpose();
       return row;
     }
     row[condition] = 1;
@@ -130,9 +132,9 @@ class Path {
     Matrix A(size + motions_, size + motions_);
     for (Eigen::Index i = 0; i < size; ++i) A.row(i) = equation(i).transpose();
     if (motions_ > 0) {
-      A.bottomLeftCorner(motions_, size) = balanceUnit() * free_->G.transpose();
+      A.bottomLeftCorner(motions_, size) = balanceUnit() * G_.transpose();
       A.bottomRightCorner(motions_, motions_) =
-          balanceUnit() * scale_ * free_->spring * Matrix::Identity(motions_, motions_);
+          balanceUnit() * scale_ * system_.springs().stiffness * Matrix::Identity(motions_, motions_);
     }
     DenseFactor factor;
     if (!factor.factorise(std::move(A), false)) return false;
@@ -141,7 +143,7 @@ class Path {
     sign_ = factor.sign();
     return true;
   }
-  [[nodiscard]] double balanceUnit() const { return 1 / free_->G.cwiseAbs().maxCoeff(); }
+  [[nodiscard]] double balanceUnit() const { return 1 / G_.cwiseAbs().maxCoeff(); }
 
   /// Puts the present equation of a condition in place of the one before.
   bool replace(Eigen::Index condition) {
@@ -259,9 +261,9 @@ class Path {
 
   const FrictionSystem& system_;
   const Matrix& W_;
+  const Matrix& G_;
   const FrictionLaw& law_;
   const std::vector<int>& node_;
-  const FreeMotions* free_;
   Eigen::Index n_;
   Eigen::Index motions_;
   FrictionSets sets_;
@@ -276,15 +278,8 @@ class Path {
 
 }  // namespace
 
-std::optional<FrictionSets> followPath(const FrictionSystem& system, int& events) {
-  std::vector<FrictionSets> passages = Path(system).follow(0, events);
-  if (passages.empty()) return std::nullopt;
-  return std::move(passages.front());
-}
-
-std::vector<FrictionSets> followPathBeyond(const FrictionSystem& system, int& events) {
-  constexpr double beyond = 3;
-  return Path(system).follow(beyond, events);
+std::vector<FrictionSets> followPath(const FrictionSystem& system, double beyond) {
+  return Path(system).follow(beyond);
 }
 
 }  // namespace mortier

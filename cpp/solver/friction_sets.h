@@ -43,12 +43,29 @@ class Corrections {
   bool failed_ = false;
 };
 
+/// The conditions of given sets whose forces are unknown: closed ones and nodes that stick. The force of a
+/// slipping node follows that across it.
+struct HeldConditions {
+  std::vector<Eigen::Index> rows = {};
+  struct Follower {
+    Eigen::Index row;
+    Eigen::Index leader;  ///< place in `rows`
+    double part;          ///< +-mu
+  };
+  std::vector<Follower> followers = {};
+};
+
 class FrictionSystem {
  public:
-  /// \param q  (g, v) without forces; must outlive this, as what the problem refers to.
-  FrictionSystem(const FrictionProblem& problem, const Vector& q);
+  /// \param q  (g, v) without forces. What is given by reference must outlive this.
+  FrictionSystem(const ContactProblem& problem, const Vector& q, Springs springs, FrictionWork& work);
 
-  [[nodiscard]] const FrictionProblem& problem() const { return problem_; }
+  /// The same problem under fixed bounds |t| <= limit.
+  [[nodiscard]] FrictionSystem underBounds(const Vector& limit) const;
+
+  [[nodiscard]] const ContactProblem& problem() const { return problem_; }
+  [[nodiscard]] const Springs& springs() const { return springs_; }
+  [[nodiscard]] FrictionWork& work() const { return work_; }
   [[nodiscard]] Eigen::Index normals() const { return problem_.normals(); }
   [[nodiscard]] const Vector& q() const { return q_; }
   /// Whether no free motion changes a condition.
@@ -56,45 +73,49 @@ class FrictionSystem {
   /// Puts what no free motion changes into the sets: open across the line; along it, as the supports slip.
   void holdIdle(FrictionSets& sets) const;
   /// Whether t of a tangential condition is an unknown on the sets.
-  [[nodiscard]] bool sticks(const FrictionLaw& law, const FrictionSets& sets, size_t tangential) const;
+  [[nodiscard]] bool sticks(const FrictionSets& sets, Eigen::Index tangential) const;
 
   /// Everything closed and stuck.
   [[nodiscard]] FrictionSets allHeld() const;
 
-  /// start + W x - G z, and part (load + spring z0) - G' x - spring z.
+  [[nodiscard]] HeldConditions heldOn(const FrictionSets& sets) const;
+  /// Their linear equations, [W + softness I, -unit G; unit G', unit^2 stiffness I].
+  [[nodiscard]] Matrix matrix(const HeldConditions& held, double unit, double softness,
+                              double stiffness) const;
+
+  /// start + W x - G z, and part (load + stiffness z0) - G' x - stiffness z.
   [[nodiscard]] Vector motionOf(TwoPartSums start, const TwoPartVector& x, const TwoPartVector& z) const;
   [[nodiscard]] Vector unbalanced(double part, const TwoPartVector& x, const TwoPartVector& z) const;
 
   /// Newton's method from `sets`. \returns the solution, or nothing where sets come back.
-  std::optional<FrictionSolution> newton(const FrictionLaw& law, FrictionSets sets);
-  /// Under fixed bounds |t| <= limit, in as many solves at most.
-  std::optional<FrictionSolution> bounded(const Vector& limit, FrictionSets sets, Eigen::Index most);
-
-  [[nodiscard]] int solves() const { return solves_; }
-  [[nodiscard]] bool singular() const { return singular_; }
-  /// Whether det A < 0 on any sets that were solved on.
-  [[nodiscard]] bool ambiguous() const { return ambiguous_; }
+  std::optional<FrictionSolution> newton(FrictionSets sets) const;
+  /// For fixed bounds, in as many solves at most: changes of one condition where Newton's method goes round.
+  std::optional<FrictionSolution> changeSingly(FrictionSets sets, int most) const;
 
  private:
-  struct Trial {
-    Vector force;
-    Vector motion;
-    int index = 1;
-    Vector rigid = {};
-  };
-  bool solveOn(const FrictionLaw& law, const FrictionSets& sets, Trial& trial);
-  [[nodiscard]] FrictionSets next(const FrictionLaw& law, const FrictionSets& sets, const Trial& trial) const;
-  [[nodiscard]] double residual(const FrictionLaw& law, const Trial& trial) const;
-  [[nodiscard]] FrictionSolution solution(const FrictionLaw& law, const FrictionSets& sets,
-                                          const Trial& trial) const;
+  /// Forces and motions as the equations have them. \returns nothing where these are singular.
+  [[nodiscard]] std::optional<FrictionSolution> solveOn(const FrictionSets& sets) const;
+  [[nodiscard]] FrictionSets next(const FrictionSolution& trial) const;
+  [[nodiscard]] double residual(const FrictionSolution& trial) const;
+  /// mu p + c of a tangential condition.
+  [[nodiscard]] double bound(const FrictionSolution& trial, Eigen::Index tangential) const;
+  /// The same within its bounds, and exact on its sets.
+  [[nodiscard]] FrictionSolution clipped(FrictionSolution trial) const;
 
-  FrictionProblem problem_;
+  const ContactProblem& problem_;
+  FrictionLaw law_;
   const Vector& q_;
-  Vector compliance_;  ///< diagonal of W; 1 where idle
+  Springs springs_;
+  FrictionWork& work_;
   std::vector<char> idle_;
-  int solves_ = 0;
-  bool singular_ = false;
-  bool ambiguous_ = false;
+  Vector compliance_;  ///< diagonal of W; 1 where idle
 };
+
+/// The sets by following a path (friction_path.cpp).
+/// \param beyond  how far below 0 tau goes, over the largest |q|/d [-]
+/// \returns the sets on the passages through tau = 0, downwards (det A > 0) and upwards, in their order: the
+/// first one, or all where the path goes beyond. Those so far where it cannot be followed: two events at one
+/// tau that are not the same, or rounding.
+std::vector<FrictionSets> followPath(const FrictionSystem& system, double beyond);
 
 }  // namespace mortier

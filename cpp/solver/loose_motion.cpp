@@ -87,9 +87,9 @@ int StepSystem::slipOf(const Iterate& solution, int row) const {
 std::vector<int> StepSystem::freeAlong(const Iterate& solution) const {
   const Vector p = joined(solution.contactForce);
   std::vector<int> free;
-  for (size_t k = 0; k < friction_.node.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(k);
-    const bool bears = p[friction_.node[k]] > 0 || friction_.law.limit[at] > 0;
+  const auto& [node, law] = contact_.along;
+  for (size_t k = 0; k < node.size(); ++k) {
+    const bool bears = p[node[k]] > 0 || law.limit[static_cast<Eigen::Index>(k)] > 0;
     const int row = rows() + static_cast<int>(k);
     if (!bears || slipOf(solution, row) != 0) free.push_back(row);
   }

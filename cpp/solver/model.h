@@ -90,7 +90,7 @@ struct SolverOptions {
   /// Leave out what changes nothing: factors of bodies in which nothing flows, steps in which nothing
   /// happens.
   bool reduce = true;
-  /// With friction, look for all solutions of the contact problem of every step (friction_solutions.h).
+  /// With friction, look for all solutions of the contact problem of every step (friction.h).
   bool listSolutions = false;
   /// Without friction, contact is solved without dense matrices (sparse_contact.h) where the cube of the
   /// number of its conditions is more than so many times the number of equations of the bodies.

@@ -44,7 +44,7 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
     // A stress that was far off the law has come back by cancellation. What that rounds stays in stiff
     // triangles, unseen by the residual, until an iteration has nothing to cancel.
     if (!(linearised.residual() <= limits.tolerance) || residual > cancelling) continue;
-    Certificate certificate = system.certify(step, iterate, linearised.residual());
+    Certificate certificate = system.certify(step, iterate, linearised.residual(), outOfBalance >= patience);
     if (worthCorrecting(system, step, limits.tolerance, iterate)) {
       if (const auto better = corrected(system, linearised, step, weight, limits, iterate))
         certificate = *better;

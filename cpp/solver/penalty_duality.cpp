@@ -184,7 +184,7 @@ StepOutcome penaltyDuality(StepSystem& system, const Step& step, Iterate& iterat
       contact = multipliers->solve(2 * relaxation * (q - p), -(slack + g), condensed.balance);
     } else {
       if (condensed.balance.size() > 0)
-        contact = solveContact(factorised->contact(), slack, p, condensed.balance, condensed.active);
+        contact = solveContact(factorised->contact(), slack, p, condensed.balance, condensed.sets.closed);
       if (contact.outcome != ContactSolution::Outcome::unbalanced) {
         contact = multipliers->iterate(factorised->contact(), g, slack, p, condensed.balance,
                                        options.maxIterations - 1);

@@ -1,11 +1,11 @@
-#include "solver/pivoting.h"
-
+// How the active set of a contact problem is found: complementarity.h.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "base/interrupt.h"
+#include "solver/contact_sets.h"
 
 namespace mortier {
 namespace {
@@ -160,8 +160,8 @@ void closeOne(ContactSets& contact, int chosen, ContactSolution& solution) {
   }
 }
 
-}  // namespace
-
+/// From the set in `solution` to one where no force pulls and nothing overlaps. \returns false after all work
+/// that is allowed, or where a matrix is redundant.
 bool pivot(ContactSets& contact, ContactSolution& solution) {
   constexpr size_t faster = 2;
   constexpr size_t slower = 4;
@@ -197,6 +197,32 @@ bool pivot(ContactSets& contact, ContactSolution& solution) {
     if (!dropPulls(contact, solution, best)) return false;
   }
   return true;
+}
+
+}  // namespace
+
+ContactSolution solveBalanced(ContactSets& contact, const std::vector<char>& active) {
+  constexpr int repetitions = 12;
+  constexpr double mostImbalance = 1e-6;
+  const Eigen::Index motions = contact.problem().G.cols();
+  ContactSolution solution;
+  solution.active = active;
+  solution.rigid = Vector::Zero(motions);
+  bool found = false;
+  const auto solve = [&] {
+    contact.centre(solution.rigid);
+    found = pivot(contact, solution);
+    return !found || motions == 0 ? 0 : contact.imbalance(solution, Vector::Zero(solution.change.size()));
+  };
+  repeatProximal(repetitions, balanceRounding, solve, [&] { contact.soften(); });
+  if (!found)
+    solution.outcome = contact.capped() ? ContactSolution::Outcome::capped : ContactSolution::Outcome::cycled;
+  else if (motions > 0 && contact.imbalance(solution, contact.usualForces(solution)) > mostImbalance)
+    solution.outcome =
+        contact.leaves(solution) ? ContactSolution::Outcome::unbalanced : ContactSolution::Outcome::cycled;
+  else
+    solution.outcome = ContactSolution::Outcome::solved;
+  return solution;
 }
 
 }  // namespace mortier

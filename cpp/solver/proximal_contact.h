@@ -26,29 +26,24 @@ class ProximalContact final : public ContactSets {
 
   /// Begins anew with another slack.
   void restart(const Vector& slack);
-  void centre(const Vector& z0) override;
-  void soften() override;
-  bool solveOn(ContactSolution& solution) override;
   bool refactor(const std::vector<char>& active) override;
   [[nodiscard]] bool fresh() const override { return factor_.fresh(); }
-  bool grow(int condition, ContactSolution& solution, Growth& growth) override;
-  [[nodiscard]] bool capped() const override { return work_.done > work_.limit || pivotsLeft_ <= 0; }
+  [[nodiscard]] bool capped() const override { return work_.done > work_.limit || ContactSets::capped(); }
 
  private:
+  bool take(const std::vector<char>& active) override;
+  void solveTaken(ContactSolution& solution) override;
+  void growTaken(int condition, Growth& growth) override;
   [[nodiscard]] Noise noise(const ContactSolution& solution) const override;
   [[nodiscard]] Vector compliance(const Vector& p);
-  bool take(const std::vector<char>& active);
   Vector solve(const Vector& h, Vector& f);
 
-  Vector z0_;
   Work& work_;
   ActiveFactor factor_;
   double stiffness_ = 0;  ///< of all nodes together against rigid motions
-  double proximal_ = 0;
-  Matrix held_, free_;  ///< motions that the set resists, and those that it does not
-  Matrix forces_;       ///< W_AA^-1 G_A held
+  RigidMotions motions_;
+  Matrix forces_;  ///< W_AA^-1 G_A held
   Eigen::PartialPivLU<Matrix> stiffnessFactor_;
-  int pivotsLeft_ = 0;  ///< sets of a few conditions cost next to no work
 };
 
 }  // namespace mortier

@@ -14,8 +14,8 @@ namespace {
 /// so many of an error, and rounding takes so many times more of what it takes from the stiffness alone.
 constexpr double penaltyRatio = 1e4;
 
-/// Entries of rows that are nothing but what rounding left of longer ones.
-constexpr double nothing = 1e-14;
+/// Smaller entries of a row are the rounding of larger ones, over its largest [-].
+constexpr double roundingOfRows = 1e-14;
 
 Eigen::SparseMatrix<double, Eigen::RowMajor> pruned(const Eigen::SparseMatrix<double, Eigen::RowMajor>& A) {
   Eigen::SparseMatrix<double, Eigen::RowMajor> result(A.rows(), A.cols());
@@ -25,7 +25,7 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> pruned(const Eigen::SparseMatrix<do
     double largest = 0;
     for (Row a(A, i); a; ++a) largest = std::max(largest, std::abs(a.value()));
     for (Row a(A, i); a; ++a)
-      if (std::abs(a.value()) > nothing * largest)
+      if (std::abs(a.value()) > roundingOfRows * largest)
         entries.emplace_back(i, static_cast<int>(a.col()), a.value());
   }
   result.setFromTriplets(entries.begin(), entries.end());
@@ -44,7 +44,7 @@ SparseContact::SparseContact(const Model& model, const std::vector<CondensedBody
   }
   findRows(model, bodies, firstRow);
   findSprings(model, bodies);
-  findPattern(model);
+  findPattern();
   analyse();
 }
 
@@ -121,18 +121,25 @@ void SparseContact::forEachPair(Visit visit) const {
           visit(i, static_cast<int>(a.col()), static_cast<int>(b.col()), a.value() * b.value());
 }
 
-void SparseContact::findPattern(const Model& model) {
+/// Calls visit(body, place, row, column) for the entries of K that H holds, with their place in the tangent
+/// of their body.
+template <class Visit>
+void SparseContact::forEachTangentEntry(Visit visit) const {
+  for (size_t b = 0; b < patterns_.size(); ++b) {
+    const SparsePattern& own = *patterns_[b];
+    for (int j = 0; j < own.size; ++j)
+      for (int k = own.columnStart[j]; k < own.columnStart[j + 1]; ++k) {
+        visit(b, k, first_[b] + own.rows[k], first_[b] + j);
+        if (own.symmetric && !pattern_.symmetric && own.rows[k] != j)
+          visit(b, k, first_[b] + j, first_[b] + own.rows[k]);
+      }
+  }
+}
+
+void SparseContact::findPattern() {
   const int size = first_.back() + static_cast<int>(C_.rows());
   const auto forEachEntry = [&](auto visit) {
-    for (size_t b = 0; b < patterns_.size(); ++b) {
-      const SparsePattern& own = model.bodies[b].pattern();
-      for (int j = 0; j < own.size; ++j)
-        for (int k = own.columnStart[j]; k < own.columnStart[j + 1]; ++k) {
-          visit(first_[b] + own.rows[k], first_[b] + j);
-          if (own.symmetric && !pattern_.symmetric && own.rows[k] != j)
-            visit(first_[b] + j, first_[b] + own.rows[k]);
-        }
-    }
+    forEachTangentEntry([&](size_t, int, int row, int column) { visit(row, column); });
     forEachPair([&](int, int row, int column, double) { visit(row, column); });
   };
   std::vector<int> start(size + 1, 0);
@@ -152,14 +159,7 @@ void SparseContact::findPattern(const Model& model) {
     pattern_.columnStart.push_back(pattern_.entries());
   }
   pattern_.rows.shrink_to_fit();
-  for (size_t b = 0; b < patterns_.size(); ++b) {
-    const SparsePattern& own = *patterns_[b];
-    std::vector<int>& places = entryOf_.emplace_back();
-    places.reserve(own.rows.size());
-    for (int j = 0; j < own.size; ++j)
-      for (int k = own.columnStart[j]; k < own.columnStart[j + 1]; ++k)
-        places.push_back(entry(first_[b] + own.rows[k], first_[b] + j));
-  }
+  forEachTangentEntry([&](size_t, int, int row, int column) { tangentEntry_.push_back(entry(row, column)); });
   forEachPair([&](int, int row, int column, double) { pairEntry_.push_back(entry(row, column)); });
 }
 
@@ -222,21 +222,14 @@ bool SparseContact::factorise(const std::vector<char>& active) {
   stopIfInterrupted();
   const int w = first_.back();
   values_.assign(pattern_.rows.size(), 0);
-  for (size_t b = 0; b < patterns_.size(); ++b) {
-    const SparsePattern& own = *patterns_[b];
-    for (int j = 0; j < own.size; ++j)
-      for (int k = own.columnStart[j]; k < own.columnStart[j + 1]; ++k) {
-        values_[entryOf_[b][k]] += (*K_[b])[k];
-        if (own.symmetric && !pattern_.symmetric && own.rows[k] != j)
-          values_[entry(first_[b] + j, first_[b] + own.rows[k])] += (*K_[b])[k];
-      }
-  }
+  const int* at = tangentEntry_.data();
+  forEachTangentEntry([&](size_t b, int k, int, int) { values_[*at++] += (*K_[b])[k]; });
   for (const int dof : springs_) values_[entry(dof, dof)] += springWeight_ * diagonal_[dof];
-  size_t pair = 0;
+  at = pairEntry_.data();
   const auto fixed = [&](int column) { return column >= w && active[column - w] != 0; };
   forEachPair([&](int i, int row, int column, double product) {
-    const int at = pairEntry_[pair++];
-    if (!fixed(row) && !fixed(column)) values_[at] += penalty_[i] * product;
+    double& value = values_[*at++];
+    if (!fixed(row) && !fixed(column)) value += penalty_[i] * product;
   });
   for (size_t i = 0; i < active.size(); ++i)
     if (active[i] != 0) values_[entry(w + static_cast<int>(i), w + static_cast<int>(i))] = penalty_[i];

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "linear/condensing_solver.h"
+#include "solver/complementarity.h"
 #include "solver/condensed_body.h"
 
 namespace mortier {
@@ -72,8 +73,10 @@ class SparseContact {
   void findRows(const Model& model, const std::vector<CondensedBody>& bodies,
                 const std::vector<int>& firstRow);
   void findSprings(const Model& model, const std::vector<CondensedBody>& bodies);
-  void findPattern(const Model& model);
+  void findPattern();
   [[nodiscard]] int entry(int row, int column) const;
+  template <class Visit>
+  void forEachTangentEntry(Visit visit) const;
   template <class Visit>
   void forEachPair(Visit visit) const;
   [[nodiscard]] Vector stiffnessTimes(const Vector& d) const;
@@ -92,7 +95,7 @@ class SparseContact {
   Matrix motionsInRows_;  ///< B times them
   Eigen::PartialPivLU<Matrix> toMotions_;
   SparsePattern pattern_;                      ///< of H
-  std::vector<std::vector<int>> entryOf_;      ///< per body, of its entries in H
+  std::vector<int> tangentEntry_;              ///< place of each in H, in the order of forEachTangentEntry
   std::vector<int> pairEntry_;                 ///< of the products in E' E, in the order of forEachPair
   std::vector<const std::vector<double>*> K_;  ///< tangents of the bodies
   Vector diagonal_;                            ///< of K
@@ -104,5 +107,13 @@ class SparseContact {
   std::unique_ptr<CondensingSolver> solver_;
   int factorisations_ = 0;
 };
+
+/// The contact problem of a linearised step with the equations of all bodies, none condensed,
+///   K d + C' dp = force,   s = slack - C d >= 0,   p = p0 + dp >= 0,   p s = 0.
+/// \param problem  its W is not used. Ends like solveContact (complementarity.h), by the same pivoting.
+/// \param motion  becomes d without the rigid motions of the solution.
+ContactSolution solveSparse(SparseContact& matrix, const ContactProblem& problem, const Vector& force,
+                            const Vector& slack, const Vector& p0, const Vector& balance,
+                            std::vector<char> active, Vector& motion);
 
 }  // namespace mortier

@@ -1,57 +1,29 @@
-#include "solver/sparse_sets.h"
-
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "solver/contact_sets.h"
+#include "solver/sparse_contact.h"
+
 namespace mortier {
 namespace {
-
-/// How a proximal term is weakened from one repetition to the next, and down to which weight.
-constexpr double softer = 1e-2;
-constexpr double softest = 1e-13;
 
 class SparseSets final : public ContactSets {
  public:
   SparseSets(SparseContact& matrix, const ContactProblem& problem, const std::vector<char>& idle,
              const Vector& force, const Vector& slack, const Vector& p0, const Vector& balance)
-      : ContactSets(problem, idle, matrix.compliance(), slack, p0, balance),
-        matrix_(matrix),
-        force_(force),
-        anchors_(Vector::Zero(balance.size())) {
+      : ContactSets(problem, idle, matrix.compliance(), slack, p0, balance), matrix_(matrix), force_(force) {
     if (balance.size() == 0) return;
-    weight_ = problem.proximal;
-    // Where a body has to travel until contact closes, weak enough that the load takes it there.
-    constexpr double farther = 10;
-    const double open = slack.size() > 0 ? slack.maxCoeff() : 0;
     const Vector carried =
         matrix.springMotions().transpose().partialPivLu().solve(balance + problem.G.transpose() * p0);
-    const double load = carried.lpNorm<Eigen::Infinity>();
-    if (open > 0 && load > 0)
-      weight_ = std::min(weight_, load / (farther * open * matrix.stiffnessAtSprings()));
+    const double unit = matrix.stiffnessAtSprings();
+    weight_ = proximalStiffness(problem.proximal, carried.lpNorm<Eigen::Infinity>() / unit,
+                                slack.size() > 0 ? slack.maxCoeff() : 0);
+    weakest_ = weakestProximal;
   }
 
-  void centre(const Vector& z0) override {
-    anchors_ = matrix_.springMotions() * z0;
-    pivotsLeft_ = 20 * static_cast<int>(slack_.size()) + 100;
-  }
-  void soften() override { weight_ = std::max(softer * weight_, std::min(weight_, weakest_)); }
-
-  bool solveOn(ContactSolution& solution) override {
-    ++solution.pivots;
-    --pivotsLeft_;
-    if (!take(solution.active)) return false;
-    exact_ = solution.active == last_;
-    solved_ = matrix_.solve(force_, p0_, slack_, anchors_, exact_);
-    solution.change = solved_.change;
-    solution.rigid = solved_.rigid;
-    open_ = slack_ - matrix_.C() * solved_.motion;
-    if (anchors_.size() > 0) open_ -= problem_.G * solved_.rigid;
-    return true;
-  }
   // Most sets are left again: only one that seems to be the last is solved on to rounding.
   bool refactor(const std::vector<char>& active) override {
     last_ = active;
@@ -59,36 +31,16 @@ class SparseSets final : public ContactSets {
   }
   [[nodiscard]] bool fresh() const override { return exact_; }
 
-  bool grow(int condition, ContactSolution& solution, Growth& growth) override {
-    ++solution.pivots;
-    --pivotsLeft_;
-    if (!take(solution.active)) return false;
-    const Vector load = -matrix_.C().row(condition).transpose();
-    const Vector zero = Vector::Zero(slack_.size());
-    const SparseContact::Solution rate = matrix_.solve(load, zero, zero, Vector::Zero(anchors_.size()), true);
-    growth.force = rate.change;
-    growth.force[condition] = 1;
-    growth.slack = -(matrix_.C() * rate.motion);
-    if (anchors_.size() > 0) growth.slack -= problem_.G * rate.rigid;
-    return true;
-  }
   /// What closed conditions resist is no rigid motion, but what springs see of the strain.
   [[nodiscard]] Vector rigid(const ContactSolution& solution) const override {
-    constexpr double heldFraction = 1e-14;
-    Matrix closed = problem_.G;
-    for (Eigen::Index i = 0; i < closed.rows(); ++i)
-      if (solution.active[i] == 0) closed.row(i).setZero();
-    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(closed.transpose() * closed);
-    const auto loose = (eigen.eigenvalues().array() <= heldFraction * problem_.G.squaredNorm()).count();
-    const Matrix free = eigen.eigenvectors().leftCols(loose);
+    const Matrix free = rigidMotionsOn(solution.active, problem_.G).free;
     return free * (free.transpose() * solution.rigid);
   }
-  [[nodiscard]] bool capped() const override { return pivotsLeft_ <= 0; }
 
   [[nodiscard]] const Vector& motion() const { return solved_.motion; }
 
  private:
-  bool take(const std::vector<char>& active) {
+  bool take(const std::vector<char>& active) override {
     constexpr double strongest = 1e-6;
     matrix_.setSprings(weight_);
     while (!matrix_.factorise(active)) {
@@ -100,6 +52,23 @@ class SparseSets final : public ContactSets {
       matrix_.setSprings(weight_);
     }
     return true;
+  }
+  void solveTaken(ContactSolution& solution) override {
+    exact_ = solution.active == last_;
+    solved_ = matrix_.solve(force_, p0_, slack_, matrix_.springMotions() * z0_, exact_);
+    solution.change = solved_.change;
+    solution.rigid = solved_.rigid;
+    open_ = slack_ - matrix_.C() * solved_.motion;
+    if (z0_.size() > 0) open_ -= problem_.G * solved_.rigid;
+  }
+  void growTaken(int condition, Growth& growth) override {
+    const Vector load = -matrix_.C().row(condition).transpose();
+    const Vector zero = Vector::Zero(slack_.size());
+    const SparseContact::Solution rate = matrix_.solve(load, zero, zero, Vector::Zero(z0_.size()), true);
+    growth.force = rate.change;
+    growth.force[condition] = 1;
+    growth.slack = -(matrix_.C() * rate.motion);
+    if (z0_.size() > 0) growth.slack -= problem_.G * rate.rigid;
   }
   [[nodiscard]] Noise noise(const ContactSolution& solution) const override {
     // Forces beside those that are there; slacks beside the motions whose differences they are.
@@ -115,12 +84,8 @@ class SparseSets final : public ContactSets {
 
   SparseContact& matrix_;
   const Vector& force_;
-  Vector anchors_;
-  double weight_ = 0;
-  double weakest_ = softest;
   std::vector<char> last_;  ///< to be solved on to rounding
   bool exact_ = false;
-  int pivotsLeft_ = 0;
   SparseContact::Solution solved_;
 };
 

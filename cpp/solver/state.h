@@ -51,7 +51,7 @@ struct Certificate {
       0;  ///< |F - sum |T| B' s - C' p|_inf over the largest nodal force, of the load or of a triangle
   double materialResidual =
       0;                   ///< |H^-1 r| over the yield stress or the largest stress of the body, if larger
-  double gapOnActive = 0;  ///< |g| on active nodes over the extent of the bodies, or the largest |u|
+  double gapOnActive = 0;  ///< |g| on active nodes over the largest extent or |u|, or its forces if rounding
   double openPenetration = 0;  ///< largest g of a node that is not active, over the same
   double sign = 0;             ///< largest negative contact force over the largest nodal force
   double complementarity = 0;  ///< max |p g| over (largest contact force times that length)

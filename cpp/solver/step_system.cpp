@@ -19,15 +19,16 @@ std::vector<int> numberRows(const Model& model) {
   return first;
 }
 
-/// The sets of all interfaces as one.
-template <class Member>
-std::vector<Member> joinedSets(const std::vector<std::vector<Member>>& sets) {
-  std::vector<Member> set;
-  for (const std::vector<Member>& part : sets) set.insert(set.end(), part.begin(), part.end());
-  return set;
-}
-
 }  // namespace
+
+FrictionSets joinedSets(const Iterate& iterate) {
+  FrictionSets sets;
+  for (const std::vector<char>& part : iterate.active)
+    sets.closed.insert(sets.closed.end(), part.begin(), part.end());
+  for (const std::vector<signed char>& part : iterate.slipping)
+    sets.slip.insert(sets.slip.end(), part.begin(), part.end());
+  return sets;
+}
 
 StepSystem::StepSystem(const Model& model, const SolverOptions& options)
     : model_(model),
@@ -80,21 +81,11 @@ const std::vector<Vector>& StepSystem::loadsAt(double time) {
   return loads.forces;
 }
 
-Vector StepSystem::joined(const std::vector<Vector>& parts) const {
-  Vector all(rows());
-  for (size_t k = 0; k < parts.size(); ++k) all.segment(firstRow_[k], parts[k].size()) = parts[k];
-  return all;
-}
-
-Vector StepSystem::joined(const std::vector<Vector>& across, const std::vector<Vector>& along) const {
-  Vector all(conditions());
-  all.head(rows()) = joined(across);
-  Eigen::Index row = rows();
-  for (const Vector& part : along) {
-    all.segment(row, part.size()) = part;
-    row += part.size();
-  }
-  return all;
+Vector StepSystem::joined(const std::vector<Vector>& across, const std::vector<Vector>& along) {
+  std::vector<double> all;
+  for (const std::vector<Vector>* parts : {&across, &along})
+    for (const Vector& part : *parts) all.insert(all.end(), part.begin(), part.end());
+  return Eigen::Map<const Vector>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
 std::vector<Vector> StepSystem::parted(const Vector& all) const {
@@ -200,9 +191,10 @@ StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const I
   std::vector<Vector> force(bodies.size());
   system_->forEachBody(
       [&](int b) { force[b] = bodies[b].leftOver(step.loads[b], bodies[b].law().predictor); });
-  system_->contact_.force = 0;
+  double& forceScale = system_->contact_.forceScale;
+  forceScale = 0;
   for (const Vector& before : step.state0.contactForce)
-    if (before.size() > 0) system_->contact_.force = std::max(system_->contact_.force, before.maxCoeff());
+    if (before.size() > 0) forceScale = std::max(forceScale, before.maxCoeff());
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactPair& pair = model.interfaces[k].pair();
     model.interfaces[k].subtractForces(iterate.contactForce[k], force[pair.nonmortar.body],
@@ -212,14 +204,9 @@ StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const I
                                            force[pair.mortar.body]);
   }
   Condensed result(*system_, Key{});
-  if (system_->hasFriction()) {
-    result.slack = -system_->joined(gaps(model, step.state0, iterate), slips(model, iterate));
-    result.p0 = system_->joined(iterate.contactForce, iterate.frictionForce);
-    result.slipping = joinedSets(iterate.slipping);
-  } else {
-    result.slack = -system_->joined(gaps(model, step.state0, iterate));
-    result.p0 = system_->joined(iterate.contactForce);
-  }
+  result.slack = -joined(gaps(model, step.state0, iterate), slips(model, iterate));
+  result.p0 = joined(iterate.contactForce, iterate.frictionForce);
+  result.sets = joinedSets(iterate);
   std::vector<Vector> motion;
   if (!system_->sparse())
     motion = system_->condenseBodies(force);
@@ -234,7 +221,6 @@ StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const I
         dofs.rigidForce(model, static_cast<int>(b), step.loads[b]);
   }
   result.balance -= system_->contact_.G.transpose() * result.p0;
-  result.active = joinedSets(iterate.active);
   return result;
 }
 

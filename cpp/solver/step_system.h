@@ -46,6 +46,9 @@ struct Response {
   Matrix stress;        ///< components x points [Pa]
 };
 
+/// The sets of all interfaces as one.
+FrictionSets joinedSets(const Iterate& iterate);
+
 class StepSystem {
   struct Key {
     explicit Key() = default;
@@ -74,9 +77,11 @@ class StepSystem {
   class Factorised;
   class Condensed;
 
-  /// The residuals of an iterate, with the law as it was linearised last.
-  /// Collective.
-  [[nodiscard]] Certificate certify(const Step& step, const Iterate& iterate, double materialResidual) const;
+  /// The residuals of an iterate, with the law as it was linearised last. Collective.
+  /// \param repeated  linear solves do not reduce the residuals: where nothing loads the bodies and all
+  ///     forces are rounding, residuals are none
+  [[nodiscard]] Certificate certify(const Step& step, const Iterate& iterate, double materialResidual,
+                                    bool repeated = false) const;
 
   /// What the rounding of the last linear solve left of the gaps of closed conditions, each as the force that
   /// would close it by itself, over the largest contact force; 0 with friction [-].
@@ -98,7 +103,7 @@ class StepSystem {
   /// Whether contact is solved without dense matrices over its conditions.
   [[nodiscard]] bool sparse() const { return sparse_ != nullptr; }
   /// Whether any interface has friction.
-  [[nodiscard]] bool hasFriction() const { return !friction_.node.empty(); }
+  [[nodiscard]] bool hasFriction() const { return !contact_.along.node.empty(); }
   /// Whether every tangent is symmetric: a step minimises a convex energy.
   [[nodiscard]] bool uniqueSolutions() const { return uniqueSolutions_; }
   /// The special contact conditions that were found so far.
@@ -109,10 +114,10 @@ class StepSystem {
   StepSolutions takeSolutions();
 
   /// One vector of all conditions from those of the interfaces, and the reverse.
-  [[nodiscard]] Vector joined(const std::vector<Vector>& parts) const;
+  /// \param along  the line, of interfaces with friction: they come after all others.
+  [[nodiscard]] static Vector joined(const std::vector<Vector>& across,
+                                     const std::vector<Vector>& along = {});
   [[nodiscard]] std::vector<Vector> parted(const Vector& all) const;
-  /// The same with those along the line of interfaces with friction, which come after all others.
-  [[nodiscard]] Vector joined(const std::vector<Vector>& across, const std::vector<Vector>& along) const;
 
   [[nodiscard]] Threads& threads() const { return threads_; }
   void forEachBody(const Threads::Work& work) { threads_.forEach(static_cast<int>(bodies_.size()), work); }
@@ -127,7 +132,8 @@ class StepSystem {
   /// By the equations of all bodies.
   [[nodiscard]] Vector gathered(const std::vector<Vector>& nodal) const;
   [[nodiscard]] std::vector<Vector> spread(const Vector& x, const Vector& rigid) const;
-  [[nodiscard]] std::vector<Response> respondSparse(const std::vector<Matrix>& error, const Iterate& on);
+  /// The motion under these forces with the contacts that are closed in `on` kept closed.
+  [[nodiscard]] ContactSolution holdClosedSparse(const std::vector<Vector>& force, const Iterate& on) const;
   [[nodiscard]] std::string describeRigid(const Vector& z) const;
   /// Rows along the line that resist no motion: they slip, or nothing presses; and how one slips.
   [[nodiscard]] std::vector<int> freeAlong(const Iterate& solution) const;
@@ -137,7 +143,9 @@ class StepSystem {
   }
   [[nodiscard]] int rows() const { return firstRow_.back(); }
   /// Those across contact and those along it.
-  [[nodiscard]] int conditions() const { return rows() + static_cast<int>(friction_.node.size()); }
+  /// W_ii of all conditions, as linearised last; none before. [m^2/N]
+  [[nodiscard]] Vector compliances() const;
+  [[nodiscard]] int conditions() const { return rows() + static_cast<int>(contact_.along.node.size()); }
   void findFriction();
   [[nodiscard]] ListedSolution listed(const FrictionSolution& solution) const;
   /// What the law asks for at the points of all ranks. Collective.
@@ -155,7 +163,6 @@ class StepSystem {
   std::vector<int> firstMotion_{0};  ///< of each body among all rigid motions, and their number at the end
   ContactProblem contact_;           ///< its W is that of all conditions; none where contact is sparse
   std::unique_ptr<SparseContact> sparse_;
-  FrictionRows friction_;
   SpecialConditions special_;
   StepSolutions solutions_;
   struct Loads {
@@ -195,7 +202,7 @@ class StepSystem::Factorised {
   [[nodiscard]] const ContactProblem& contact() const { return system_->contact_; }
   /// With the contacts that are closed in `on` kept closed and the others open:
   ///   s = H^-1 (B d - error),   sum |T| B' s + C_A' p = 0,   C_A d = 0;
-  /// with friction what sticks goes on to stick, and what slips has t = +-mu p.
+  /// with friction t of sticking nodes is free, and that of slipping nodes +-mu p.
   /// \param error  per body, a strain added in every triangle (components x points).
   /// \param slip  per interface, by which the nodes that stick have slipped besides [m]; empty for none.
   [[nodiscard]] std::vector<Response> respond(const std::vector<Matrix>& error, const Iterate& on,
@@ -212,17 +219,14 @@ class StepSystem::Condensed {
   [[nodiscard]] ContactSolution solveContact() const;
   /// The same with friction (friction.h).
   [[nodiscard]] ContactSolution solveFriction() const;
-  /// The same without dense matrices.
-  [[nodiscard]] ContactSolution solveSparse() const;
   /// Moves the iterate (displacement, stress, contact) to the solution of the linear solve.
   /// \returns false where there is none; `outcome` then has the reason.
   bool expand(const ContactSolution& contact, Iterate& iterate, StepOutcome& outcome) &&;
 
-  Vector slack;              ///< g0 - C u at dp = 0, then -T du
-  Vector p0;                 ///< contact forces, then those of friction
-  Vector balance;            ///< of the forces that only contact can carry
-  std::vector<char> active;  ///< to begin with
-  std::vector<signed char> slipping;
+  Vector slack;               ///< g0 - C u at dp = 0, then -T du
+  Vector p0;                  ///< contact forces, then those of friction
+  Vector balance;             ///< of the forces that only contact can carry
+  FrictionSets sets;          ///< to begin with
   std::vector<Vector> force;  ///< out of balance, per body (dofs), where contact is sparse
 
  private:

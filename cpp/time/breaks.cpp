@@ -192,29 +192,17 @@ Course tableCourse(std::function<double(double)> datum, const std::vector<double
   return course;
 }
 
-std::vector<double> findBreaks(const std::vector<std::function<double(double)>>& data, double begin,
-                               double end) {
-  std::vector<double> breaks;
-  for (const auto& datum : data) {
-    const std::vector<double> found = resolve(datum, begin, end).breaks;
-    breaks.insert(breaks.end(), found.begin(), found.end());
-  }
-  std::sort(breaks.begin(), breaks.end());
-  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
-  return breaks;
-}
-
-double beyondEnds(const Course& course, double t0, double t1) {
-  if (!(course.range > 0)) return 0;
-  const double least = std::min(course.value(t0), course.value(t1));
-  const double largest = std::max(course.value(t0), course.value(t1));
-  double most = 0;
+CoursePeak peakBetween(const Course& course, double t0, double t1) {
+  CoursePeak peak;
   const auto first = std::upper_bound(course.times.begin(), course.times.end(), t0);
+  if (!(course.range > 0) || first == course.times.end() || !(*first < t1)) return peak;
+  const auto [least, largest] = std::minmax({course.value(t0), course.value(t1)});
   for (auto t = first; t != course.times.end() && *t < t1; ++t) {
     const double value = course.values[t - course.times.begin()];
-    most = std::max({most, value - largest, least - value});
+    const double height = std::max(value - largest, least - value) / course.range;
+    if (height > peak.height) peak = {*t, height};
   }
-  return most / course.range;
+  return peak;
 }
 
 double unseen(const Course& course, const std::vector<double>& nodes, double t0, double t1) {

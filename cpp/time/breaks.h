@@ -28,15 +28,15 @@ Course resolve(std::function<double(double)> datum, double begin, double end, in
 Course tableCourse(std::function<double(double)> datum, const std::vector<double>& times, double begin,
                    double end);
 
-/// The breaks of all data, ascending, each once.
-std::vector<double> findBreaks(const std::vector<std::function<double(double)>>& data, double begin,
-                               double end);
-
 /// By how much the datum is missed by the polynomial through its values at the start of the step [t0, t1] and
 /// at the fractions `nodes` of it, over the range of the datum: at most at the samples inside.
 double unseen(const Course& course, const std::vector<double>& nodes, double t0, double t1);
 
-/// How far the datum goes beyond its values at t0 and t1 in between, over its range.
-double beyondEnds(const Course& course, double t0, double t1);
+/// Where a datum goes farthest beyond its values at t0 and t1 in between.
+struct CoursePeak {
+  double time = 0;    ///< [s]; of the sample
+  double height = 0;  ///< over the range of the datum; 0: nowhere
+};
+CoursePeak peakBetween(const Course& course, double t0, double t1);
 
 }  // namespace mortier

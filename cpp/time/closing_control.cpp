@@ -10,8 +10,8 @@ namespace mortier {
 /// shortly before the end of a step, the stress that follows at once has hardly begun there, and neither the
 /// step nor its stages show by how much more it grows.
 double Controller::lateness(StepTaker& taker, double t, double k, StepReport& report) const {
-  if (std::binary_search(stops_.begin(), stops_.end(), t)) return 0;  // what comes after is another load
-  const double end = std::min(t + k, stopAfter(t));
+  if (ends_.isBreak(t)) return 0;  // what comes after is another load
+  const double end = std::min(t + k, ends_.breakAfter(t));
   const StepOutcome outcome = taker.attempt(end, Effort::little);
   report.iterations += outcome.iterations;
   report.factorisations += outcome.factorisations;

@@ -27,32 +27,13 @@ void multiply(StepError& error, double factor) {
 }  // namespace
 
 Controller::Controller(const Model& model, const TimePlan& plan, MarchMemory& memory)
-    : plan_(plan), memory_(memory), measure_(model), rough_(anyFriction(model)) {
-  for (const double t : plan.breaks)
-    if (t > memory.begin && t < plan.end) stops_.push_back(t);
-  stops_.push_back(plan.end);
-  for (const Stage& stage : tableau(plan.scheme).stages) nodes_.push_back(stage.time);
-  unseen_ = unseenPart * std::sqrt(plan.tolerance);
+    : plan_(plan),
+      memory_(memory),
+      measure_(model),
+      ends_(plan, memory.begin),
+      unseen_(unseenPart * std::sqrt(plan.tolerance)),
+      rough_(anyFriction(model)) {
   for (const Body& body : model.bodies) flows_ = flows_ || !body.material().linear();
-}
-
-double Controller::stopAfter(double t) const {
-  return *std::upper_bound(stops_.begin(), stops_.end() - 1, t);
-}
-
-/// To the next stop in one step if it is near, in two if it is not far; never over a part of the data.
-double Controller::nextTime(double t, double k) const {
-  constexpr double stretch = 1.1;
-  constexpr double shorter = 0.8;
-  const double end = stopAfter(t);
-  while (true) {
-    const double t1 = end - t <= stretch * k ? end : end - t <= 2 * k ? t + (end - t) / 2 : t + k;
-    double missed = 0;
-    for (const Course& course : plan_.data) missed = std::max(missed, unseen(course, nodes_, t, t1));
-    if (missed <= unseen_ || !(t + shorter * k > t)) return t1;
-    const double order = static_cast<double>(nodes_.size()) + 1;
-    k = std::min(k, t1 - t) * std::clamp(std::pow(missed / unseen_, -1 / order), leastFactor, shorter);
-  }
 }
 
 double Controller::worst() const {
@@ -75,11 +56,10 @@ void Controller::pilot(StepTaker& taker, State& state) {
   const State before = state;
   ErrorNorms largest = measure_.sizeOf(state);
   const double k = (plan_.end - state.time) / steps;
-  const double often = std::exchange(unseen_, coarse);
   const auto walk = [&] {
     // Where bodies are passing yield a step twice as long, to where more of them flows, is the easier one.
     bool longer = false;
-    for (double t1 = nextTime(state.time, k);; t1 = nextTime(t1, k)) {
+    for (double t1 = ends_.next(state.time, k, coarse);; t1 = ends_.next(t1, k, coarse)) {
       const Effort effort = longer || t1 == plan_.end ? Effort::usual : Effort::little;
       const StepOutcome outcome = taker.attempt(t1, Scheme::backwardEuler, effort);
       memory_.run.iterations += outcome.iterations;
@@ -97,7 +77,6 @@ void Controller::pilot(StepTaker& taker, State& state) {
   } catch (const DatumError&) {
     // The run ends there as well, and says so.
   }
-  unseen_ = often;
   state = before;
   memory_.controller.scale = largest;
   memory_.controller.local = aim * plan_.tolerance;
@@ -127,17 +106,27 @@ void Controller::begin(const State& state) {
   second_.reset();
 }
 
+bool Controller::abandons() {
+  ControllerMemory& own = memory_.controller;
+  const int iterations = memory_.run.iterations - memory_.run.pilotIterations;
+  if (own.crossing == 0 && relative(own.worst, own.scale) > plan_.tolerance) own.crossing = iterations;
+  return own.crossing > 0 && iterations >= 2 * own.crossing && own.trial < trials && !own.shortestInaccurate;
+}
+
 bool Controller::beginAgain(State& state) {
   constexpr double least = 1e-4;  // by which the error of a step changes at once
   ControllerMemory& own = memory_.controller;
-  const double foreseen = std::exchange(own.scale, own.largest).friction;
-  if (worst() <= plan_.tolerance || own.shortestInaccurate || own.trial >= trials) return false;
+  const bool ended = state.time == plan_.end;
+  const double foreseen = std::exchange(own.scale, ended ? own.largest : own.scale).friction;
+  const double error = relative(own.worst, own.scale);
+  if (error <= plan_.tolerance || own.shortestInaccurate || own.trial >= trials) return false;
   // Where friction is what counts, errors were too small for their scale, and by as much fewer steps will do.
-  if (own.worst.friction > 0 && relative({0, 0, own.worst.friction}, own.scale) >= worst())
+  if (own.worst.friction > 0 && relative({0, 0, own.worst.friction}, own.scale) >= error)
     own.local = std::min(own.local * foreseen / own.scale.friction, aim * plan_.tolerance);
   const double order = plan_.scheme == Scheme::backwardEuler || rough_ ? 1 : 2;
-  const double next = order == 1 ? 0.8 : aim;  // many small steps are the easier to foresee
-  own.local *= std::max(least, std::pow(next * plan_.tolerance / worst(), (order + 1) / order));
+  // Many small steps are the easier to foresee; of a run that did not end the error may still grow.
+  const double next = ended ? (order == 1 ? 0.8 : aim) : (order == 1 ? 0.6 : 0.4);
+  own.local *= std::max(least, std::pow(next * plan_.tolerance / error, (order + 1) / order));
   // So many steps cannot be wrong by more in all.
   own.local = std::max(own.local, aim * plan_.tolerance / plan_.maxSteps);
   state = own.start;
@@ -238,7 +227,7 @@ StepOutcome Controller::attempt(StepTaker& taker, double t0, double t1, Effort e
   }
   // What is too long without the guard is too long with it, whose steps are of the first order; but where the
   // data turn to rest they are exact.
-  const bool turns = t0 == memory_.begin || std::binary_search(stops_.begin(), stops_.end(), t0);
+  const bool turns = t0 == memory_.begin || ends_.isBreak(t0);
   constexpr double rounding = 1e-4;  // of what a step may be wrong by: many steps of that are nothing too
   const bool changes = judgement.change > rounding * memory_.controller.local;
   if (!changes || (!judgement.good && !turns) || !taker.turned()) return outcome;
@@ -274,7 +263,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
   };
   while (true) {
     const bool second = inPair(state.time);
-    const double end = second ? own.pairEnd : nextTime(state.time, own.timeStep);
+    const double end = second ? own.pairEnd : ends_.next(state.time, own.timeStep, unseen_);
     const double k = end - state.time;
     if (memory_.run.steps + memory_.run.rejected + report.rejections >= plan_.maxSteps)
       return giveUp(Status::failed, end,
@@ -317,13 +306,12 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
     }
     std::optional<StepTaker::Kept> kept;
     // What passes within a step that begins where the data turn its stages do not see either.
-    const bool begins =
-        state.time == memory_.begin || std::binary_search(stops_.begin(), stops_.end(), state.time);
+    const bool begins = state.time == memory_.begin || ends_.isBreak(state.time);
     const bool closes = outcome.rung != Rung::rest && taker.closes();
     const bool looksOn = (closes || taker.guarded() || (begins && !rough_ && outcome.rung != Rung::rest)) &&
                          flows_ && !isShortest(state.time, k);
     if (step.beginsPair || looksOn) kept = taker.kept();
-    const double twice = std::exp2(static_cast<double>(nodes_.size()));  // the error of a step twice as long
+    const double twice = std::exp2(tableau(plan_.scheme).stages.size());  // the error of a step twice as long
     if (looksOn) multiply(step.judgement.local, 1 / twice);
     if (outcome.rung != Rung::rest)
       add(taker, std::move(step.judgement.local), judgement.size,

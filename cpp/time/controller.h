@@ -5,8 +5,7 @@
 //   global ~ local^(p/(p+1)).
 // Within a run
 //   k <- k 0.9 (error/local)^(-1/(p+1)),  by a factor between 1/5 and 5,
-// and a step with a larger error is rejected. Steps end on the breaks of the plan and jump over no part of
-// its data.
+// and a step with a larger error is rejected. Where steps may end: step_ends.h.
 //
 // Where there is friction only the slip of a whole step counts, and what a step misses of it no stage of the
 // step shows. So steps come in pairs, and a pair is good if one step of twice the length differs from it by
@@ -22,6 +21,7 @@
 #include "time/error_norms.h"
 #include "time/memory.h"
 #include "time/plan.h"
+#include "time/step_ends.h"
 #include "time/step_taker.h"
 
 namespace mortier {
@@ -37,8 +37,10 @@ class Controller {
   void begin(const State& state);
   /// Takes one step, or reports why there is none.
   void advance(StepTaker& taker, const State& state, StepReport& report);
-  /// Goes back to the beginning with another guess, unless the run as it ended meets the tolerance or was the
-  /// last trial.
+  /// Whether the run so far is too inaccurate to be continued: it has cost twice what it took to pass the
+  /// tolerance, so that by how much it does is known.
+  bool abandons();
+  /// Goes back to the beginning with another guess, unless the run meets the tolerance or was the last trial.
   bool beginAgain(State& state);
   /// The error of the worst step so far over the largest displacement and stress so far.
   [[nodiscard]] double worst() const;
@@ -50,7 +52,7 @@ class Controller {
   static constexpr double largestFactor = 5;
   static constexpr double leastFactor = 0.2;
   static constexpr double failureFactor = 0.25;
-  static constexpr int trials = 5;
+  static constexpr int trials = 10;
   /// What is known of an attempt that converged.
   struct Judgement {
     StepError local;                ///< its error
@@ -91,18 +93,15 @@ class Controller {
   [[nodiscard]] double leastStep(double t) const;
   [[nodiscard]] bool isShortest(double t, double k) const;
   [[nodiscard]] bool stepsTooSmall(double t, double k) const;
-  [[nodiscard]] double nextTime(double t, double k) const;
-  [[nodiscard]] double stopAfter(double t) const;
   void add(StepTaker& taker, StepError local, double size, const SlipAndWork& missed);
 
   const TimePlan& plan_;
   MarchMemory& memory_;
   ErrorMeasure measure_;
-  std::vector<double> nodes_;  ///< stage times of the scheme
-  std::vector<double> stops_;  ///< breaks and the end
-  double unseen_ = 0;          ///< part of a datum's range that a step may miss
-  bool rough_ = false;         ///< whether there is friction
-  bool flows_ = false;         ///< whether any body can flow
+  StepEnds ends_;
+  double unseen_ = 0;   ///< part of a datum's range that a step may miss
+  bool rough_ = false;  ///< whether there is friction
+  bool flows_ = false;  ///< whether any body can flow
   /// The second step of a pair whose first one has been taken: solved, not committed.
   std::optional<Attempt> second_;
 };

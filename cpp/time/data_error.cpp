@@ -2,7 +2,7 @@
 // the trial functions nor the recovered stress can follow. Of waves of wave number k on the edge of a half
 // plane
 //
-//   tractions        2/E |w|_-1/2^2,      |w|_-1/2^2 ~ |W| |w|,    W' = w off the L2 projection onto traces,
+//   tractions        2/E |w|_-1/2^2,      |w|_-1/2^2 = |W| |w|,    W' = w off the L2 projection onto traces,
 //   displacements    E/2 |w|_1/2^2,       |w|_1/2^2  ~ |w| |w'|,   w off the interpolant,
 //   distances        E*/2 |w|_1/2^2,      1/E* = 1/E1 + 1/E2,      where the bodies press,
 //
@@ -44,6 +44,10 @@ bool unresolved(const Body& body, const Datum& datum) {
   return datum && datum.degree > body.degree();
 }
 
+bool isOnEdges(const PrescribedDisplacement& held) {
+  return !held.point && !held.onAxis;
+}
+
 /// |w| |w'| on an edge.
 double halfNorm(const Misfit& w) {
   return std::sqrt(w.square * w.slope);
@@ -61,6 +65,39 @@ bool SpaceErrorEstimator::hasVaryingData(const Body& body) {
          (body.heated() && unresolved(body, data.temperature));
 }
 
+void SpaceErrorEstimator::addAtEdge(size_t b, size_t edge, double energy, bool needsTotalStrain,
+                                    const State& state, Vector& error) const {
+  const Body& body = model_.bodies[b];
+  const int index = static_cast<int>(b);
+  const int triangle =
+      line(index, body.mesh().boundaryLabels[edge]).triangleOf(body.mesh().boundaryEdges[edge]);
+  const Compliance compliance = complianceOf(state, index, triangle);
+  const std::vector<Point> places = placesOf(body, edge);
+  error[triangle] +=
+      body.depthAt((places[0] + places[1]) / 2) * energy *
+      (needsTotalStrain ? compliance.elastic / (compliance.all * compliance.all) : compliance.elastic);
+}
+
+void SpaceErrorEstimator::addTractions(size_t b,
+                                       const std::vector<std::pair<size_t, ResolvedEdge>>& tractions,
+                                       const State& state, Vector& error) const {
+  const Body& body = model_.bodies[b];
+  std::vector<LineEdge> edges;
+  for (const auto& [e, traction] : tractions) {
+    const auto& [from, to] = body.mesh().boundaryEdges[e];
+    const std::vector<Point> places = placesOf(body, e);
+    edges.push_back({traction,
+                     {from, to, body.degree() > 1 ? body.elementNodes().middles[e] : -1},
+                     (places[1] - places[0]).norm()});
+  }
+  const std::vector<std::array<double, 3>> seen = lineProjection(edges, body.degree());
+  for (size_t i = 0; i < edges.size(); ++i) {
+    const Misfit w = interpolationMisfit(edges[i].datum, seen[i], body.degree());
+    addAtEdge(b, tractions[i].first, 2 * edges[i].length * edges[i].length * w.minusHalf, false, state,
+              error);
+  }
+}
+
 void SpaceErrorEstimator::addEdgeData(size_t b, const State& state, Vector& error) const {
   const Body& body = model_.bodies[b];
   const TriangleMesh& mesh = body.mesh();
@@ -68,37 +105,18 @@ void SpaceErrorEstimator::addEdgeData(size_t b, const State& state, Vector& erro
     for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
       if (mesh.boundaryLabels[e] == label) work(e, placesOf(body, e));
   };
-  const auto add = [&](const Line& line, size_t e, double energy, bool needsTotalStrain) {
-    const int triangle = line.triangleOf(mesh.boundaryEdges[e]);
-    const Compliance compliance = complianceOf(state, static_cast<int>(b), triangle);
-    const std::vector<Point> places = placesOf(body, e);
-    error[triangle] +=
-        body.depthAt((places[0] + places[1]) / 2) * energy *
-        (needsTotalStrain ? compliance.elastic / (compliance.all * compliance.all) : compliance.elastic);
-  };
   for (const Traction& traction : body.conditions().tractions) {
     if (!unresolved(body, traction.value)) continue;
-    std::vector<LineEdge> edges;
-    std::vector<size_t> numbers;
+    std::vector<std::pair<size_t, ResolvedEdge>> edges;
     forEachEdge(traction.label, [&](size_t e, const std::vector<Point>& places) {
-      const auto& [from, to] = mesh.boundaryEdges[e];
-      edges.push_back({onEdge(traction.value, places, state.time),
-                       {from, to, body.degree() > 1 ? body.elementNodes().middles[e] : -1},
-                       (places[1] - places[0]).norm()});
-      numbers.push_back(e);
+      edges.emplace_back(e, onEdge(traction.value, places, state.time));
     });
-    const std::vector<std::array<double, 3>> seen = lineProjection(edges, body.degree());
-    const Line line = lineOf(mesh, traction.label);
-    for (size_t i = 0; i < edges.size(); ++i) {
-      const Misfit w = interpolationMisfit(edges[i].datum, seen[i], body.degree());
-      add(line, numbers[i], 2 * edges[i].length * edges[i].length * std::sqrt(w.primitive * w.square), false);
-    }
+    addTractions(b, edges, state, error);
   }
   for (const PrescribedDisplacement& held : body.conditions().displacements) {
-    if (held.point || held.onAxis || !unresolved(body, held.value)) continue;
-    const Line line = lineOf(mesh, held.label);
+    if (!isOnEdges(held) || !unresolved(body, held.value)) continue;
     forEachEdge(held.label, [&](size_t e, const std::vector<Point>& places) {
-      add(line, e, halfNorm(offInterpolant(body, held.value, places, state.time)) / 2, true);
+      addAtEdge(b, e, halfNorm(offInterpolant(body, held.value, places, state.time)) / 2, true, state, error);
     });
   }
 }
@@ -170,13 +188,13 @@ void SpaceErrorEstimator::addGivenGaps(size_t k, const State& state,
   for (const auto& [node, rows] : contact.nodesBetween())
     open[node] = std::min(open[contact.nonmortarNodes()[rows[0]]], open[contact.nonmortarNodes()[rows[1]]]);
   Compliance facing;  // the softest of the other side: it is what yields
-  for (const int triangle : lines_[k][1].triangles) {
+  for (const int triangle : line(mortar.body, mortar.label).triangles) {
     const Compliance here = complianceOf(state, mortar.body, triangle);
     if (facing.all == 0 || here.all < facing.all) facing = here;
   }
   for (const auto& [edge, square, most] : gaps) {
     if (!(std::min(open[edge[0]], open[edge[1]]) < most)) continue;
-    const int triangle = lines_[k][0].triangleOf(edge);
+    const int triangle = line(nonmortar.body, nonmortar.label).triangleOf(edge);
     const Compliance compliance = complianceOf(state, nonmortar.body, triangle) + facing;
     estimates[nonmortar.body].error[triangle] +=
         compliance.elastic / (compliance.all * compliance.all) / 2 * square;
@@ -190,6 +208,10 @@ void SpaceErrorEstimator::readData() {
     if (!hasVaryingData(body)) continue;
     steadyData_[b] = Vector::Zero(static_cast<Eigen::Index>(body.mesh().triangles.size()));
     addTriangleData(b, 0, true, steadyData_[b]);
+    for (const Traction& each : body.conditions().tractions)
+      if (unresolved(body, each.value)) addLine(static_cast<int>(b), each.label);
+    for (const PrescribedDisplacement& each : body.conditions().displacements)
+      if (isOnEdges(each) && unresolved(body, each.value)) addLine(static_cast<int>(b), each.label);
   }
   for (size_t k = 0; k < model_.interfaces.size(); ++k)
     givenGaps_.push_back(model_.interfaces[k].given().inTime ? std::vector<GivenGap>() : givenGaps(k, 0));
@@ -202,7 +224,10 @@ void SpaceErrorEstimator::addData(const State& state, std::vector<ErrorEstimate>
     addEdgeData(b, state, estimates[b].error);
     addTriangleData(b, state.time, false, estimates[b].error);
   }
-  for (size_t k = 0; k < model_.interfaces.size(); ++k) addGivenGaps(k, state, estimates);
+  for (size_t k = 0; k < model_.interfaces.size(); ++k) {
+    addGivenGaps(k, state, estimates);
+    addPressures(k, state, estimates);
+  }
 }
 
 }  // namespace mortier

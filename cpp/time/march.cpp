@@ -101,7 +101,8 @@ void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& p
         Controller& controller, const Observer& observer) {
   RunReport& run = memory.run;
   const bool controlled = plan.controlled();
-  while (run.status == Status::converged && (controlled ? state.time < plan.end : run.steps < plan.steps)) {
+  while (run.status == Status::converged &&
+         (controlled ? state.time < plan.end && !controller.abandons() : run.steps < plan.steps)) {
     const auto begin = Clock::now();
     StepReport report;
     report.step = run.steps + 1;

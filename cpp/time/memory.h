@@ -33,6 +33,7 @@ struct SlipAndWork {
 struct ControllerMemory {
   int trial = 0;                    ///< runs begun; 0: the march has not begun
   bool shortestInaccurate = false;  ///< a step is wrong by more than the tolerance and cannot be shorter
+  int crossing = 0;                 ///< iterations until the error passed the tolerance; 0: it has not
   State start;                      ///< of each
   double timeStep = 0;              ///< to try next [s]
   ErrorNorms scale;                 ///< by which errors of steps are measured

@@ -52,21 +52,15 @@ BodyIncrement taken(const Way& way, size_t body, const BodyIncrement& from) {
 
 template <class Way>
 ControllerMemory taken(const Way& way, const ControllerMemory& from) {
-  const auto& [trial, shortestInaccurate, start, timeStep, scale, largest, local, strain, error, worst, slip,
-               missed, pairEnd] = from;
-  ControllerMemory memory{trial,
-                          shortestInaccurate,
-                          taken(way, start),
-                          timeStep,
-                          scale,
-                          largest,
-                          local,
-                          {},
-                          error,
-                          worst,
-                          slip,
-                          missed,
-                          pairEnd};
+  const auto& [trial, shortestInaccurate, crossing, start, timeStep, scale, largest, local, strain, error,
+               worst, slip, missed, pairEnd] = from;
+  ControllerMemory memory{trial,    shortestInaccurate,
+                          crossing, taken(way, start),
+                          timeStep, scale,
+                          largest,  local,
+                          {},       error,
+                          worst,    slip,
+                          missed,   pairEnd};
   for (size_t b = 0; b < strain.size(); ++b) memory.strain.push_back(way.points(b, strain[b]));
   return memory;
 }

@@ -47,16 +47,17 @@ SpaceErrorEstimator::SpaceErrorEstimator(const Model& model, Threads& threads) :
   });
   for (std::optional<ErrorEstimator>& body : bodies) bodies_.push_back(std::move(*body));
   for (const ContactInterface& interface : model.interfaces) {
-    const auto of = [&](const ContactSide& side) {
-      return lineOf(model.bodies[side.body].mesh(), side.label);
-    };
-    lines_.push_back({of(interface.pair().nonmortar), of(interface.pair().mortar)});
+    const auto& [nonmortar, mortar, coupling] = interface.pair();
+    for (const ContactSide& side : {nonmortar, mortar}) addLine(side.body, side.label);
   }
   readData();
 }
 
-SpaceErrorEstimator::Line SpaceErrorEstimator::lineOf(const TriangleMesh& mesh, int label) {
-  Line line;
+void SpaceErrorEstimator::addLine(int body, int label) {
+  const auto [place, isNew] = lines_.try_emplace({body, label});
+  if (!isNew) return;
+  const TriangleMesh& mesh = model_.bodies[body].mesh();
+  Line& line = place->second;
   std::vector<char> onLine(mesh.vertices.size(), 0);
   for (std::array<int, 2> edge : edgesOn(mesh, label)) {
     std::sort(edge.begin(), edge.end());
@@ -74,7 +75,6 @@ SpaceErrorEstimator::Line SpaceErrorEstimator::lineOf(const TriangleMesh& mesh, 
       if (found != line.edges.end() && *found == edge)
         line.triangles[found - line.edges.begin()] = static_cast<int>(t);
     }
-  return line;
 }
 
 int SpaceErrorEstimator::Line::triangleOf(const std::array<int, 2>& edge) const {
@@ -99,7 +99,7 @@ std::vector<ErrorEstimate> SpaceErrorEstimator::operator()(const State& state, T
   std::vector<ErrorEstimate> estimates(bodies_.size());
   threads.forEach(static_cast<int>(bodies_.size()),
                   [&](int b) { estimates[b] = bodies_[b](state.bodies[b].stress, threads); });
-  for (size_t k = 0; k < lines_.size(); ++k) addGaps(k, state, estimates);
+  for (size_t k = 0; k < model_.interfaces.size(); ++k) addGaps(k, state, estimates);
   addData(state, estimates);
   return estimates;
 }
@@ -139,10 +139,10 @@ void SpaceErrorEstimator::addGaps(size_t interface, const State& state,
   for (const GapSquare& square :
        contact.gapSquares(state.contactForce[interface], state.bodies[nonmortar.body].displacement,
                           state.bodies[mortar.body].displacement, state.time)) {
-    const int triangle = lines_[interface][0].triangleOf(square.nonmortar);
+    const int triangle = line(nonmortar.body, nonmortar.label).triangleOf(square.nonmortar);
     const Compliance compliance =
         complianceOf(state, nonmortar.body, triangle) +
-        complianceOf(state, mortar.body, lines_[interface][1].triangleOf(square.mortar));
+        complianceOf(state, mortar.body, line(mortar.body, mortar.label).triangleOf(square.mortar));
     estimates[nonmortar.body].error[triangle] +=
         compliance.elastic / (compliance.all * compliance.all) * square.integral / square.element;
   }

@@ -10,13 +10,18 @@
 //
 // h the edge of the nonmortar triangle, to whose error they are added. Where bodies have flowed, the gap
 // closes under less stress: E* is then that of strain over stress, and the energy that of elasticity,
-// K^2/E* in place of E*. Data that the meshes do not resolve come on top: data_error.cpp.
+// K^2/E* in place of E*. Data that the meshes do not resolve come on top (data_error.cpp), and what the edges
+// of the mortar side do not resolve of pressure and friction: to their body these are tractions
+// (pressure_error.cpp).
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "base/adaptive_quadrature.h"
 #include "fem/error_estimate.h"
 #include "solver/model.h"
 #include "solver/state.h"
@@ -41,7 +46,8 @@ class SpaceErrorEstimator {
     std::vector<int> triangles;             ///< behind them
     [[nodiscard]] int triangleOf(const std::array<int, 2>& edge) const;
   };
-  [[nodiscard]] static Line lineOf(const TriangleMesh& mesh, int label);
+  void addLine(int body, int label);
+  [[nodiscard]] const Line& line(int body, int label) const { return lines_.at({body, label}); }
   void addGaps(size_t interface, const State& state, std::vector<ErrorEstimate>& estimates) const;
   /// 1/E, and strain over stress [1/Pa].
   struct Compliance {
@@ -61,16 +67,23 @@ class SpaceErrorEstimator {
   void readData();
   void addData(const State& state, std::vector<ErrorEstimate>& estimates) const;
   [[nodiscard]] static bool hasVaryingData(const Body& body);
+  /// An energy per depth [J/m] of the triangle behind a boundary edge.
+  void addAtEdge(size_t b, size_t edge, double energy, bool needsTotalStrain, const State& state,
+                 Vector& error) const;
+  /// What the edges of a line do not resolve of tractions. \param tractions  by boundary edges [Pa]
+  void addTractions(size_t b, const std::vector<std::pair<size_t, ResolvedEdge>>& tractions,
+                    const State& state, Vector& error) const;
   void addEdgeData(size_t b, const State& state, Vector& error) const;
   void addTriangleData(size_t b, double t, bool steady, Vector& error) const;
   [[nodiscard]] std::vector<GivenGap> givenGaps(size_t k, double t) const;
   void addGivenGaps(size_t k, const State& state, std::vector<ErrorEstimate>& estimates) const;
+  void addPressures(size_t k, const State& state, std::vector<ErrorEstimate>& estimates) const;
 
   const Model& model_;
   std::vector<ErrorEstimator> bodies_;
-  std::vector<std::array<Line, 2>> lines_;  ///< of each interface, nonmortar and mortar
-  std::vector<Vector> compliances_;         ///< 1/E by points [1/Pa]
-  std::vector<Vector> steadyData_;          ///< of each body, by triangles; empty where all are resolved
+  std::map<std::array<int, 2>, Line> lines_;  ///< by body and label: of contact, and where data vary
+  std::vector<Vector> compliances_;           ///< 1/E by points [1/Pa]
+  std::vector<Vector> steadyData_;            ///< of each body, by triangles; empty where all are resolved
   std::vector<std::vector<GivenGap>> givenGaps_;  ///< of each interface; of those that do not move
 };
 

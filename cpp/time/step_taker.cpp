@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -59,6 +60,13 @@ StepOutcome StepTaker::guard(const StepOutcome& before, Effort effort) {
 }
 
 namespace {
+
+/// Sets values to zero whose cubes have no digits: stresses that relax for long become so small.
+template <class Values>
+void dropIfVanishing(Values& values) {
+  const double least = std::cbrt(std::numeric_limits<double>::min());
+  if (values.template lpNorm<Eigen::Infinity>() < least) values.setZero();
+}
 
 /// The first residual of a solution that is beyond `most`, in words; empty where none is.
 std::string beyond(const Certificate& found, double most) {
@@ -268,12 +276,18 @@ void StepTaker::commit() {
         part(body.viscoplasticStrain) += part(step.strain) - part(elastic);
         if (!shift_.empty()) part(body.viscoplasticStrain) += part(shift_[b]);
       });
+      if (strains) {
+        dropIfVanishing(body.stress);
+        dropIfVanishing(body.viscoplasticStrain);
+      }
       increments.push_back({std::move(step.increment), std::move(step.stress)});
     }
     if (!guarded_) memory_.increments.push_back(std::move(increments));
   }
   state_.contactForce = std::move(solutions_.back().contactForce);
   state_.frictionForce = std::move(solutions_.back().frictionForce);
+  for (Vector& force : state_.contactForce) dropIfVanishing(force);
+  for (Vector& force : state_.frictionForce) dropIfVanishing(force);
   state_.slipping = std::move(solutions_.back().slipping);
   state_.time = t1_;
   active_ = std::move(solutions_.back().active);

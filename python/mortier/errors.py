@@ -23,15 +23,19 @@ class InputError(Error, ValueError):
     exit_code = 2
 
 
-class StepError(Error):
+class ResultMissing(InputError, FileNotFoundError):
+    """A scene or a result that is not there."""
+
+
+class StepError(Error, RuntimeError):
     """A step that cannot be solved, or an accuracy that is not reached."""
 
 
-class FreeMotion(Error):
+class FreeMotion(Error, RuntimeError):
     """Nothing holds a body; the line names the motion."""
 
     exit_code = 3
 
 
-class OutputError(Error):
+class OutputError(Error, OSError):
     """A result that cannot be written."""

@@ -35,13 +35,13 @@ class Run:
     Fields are those of the last step: run.stress is run.steps[-1].stress.
     """
 
-    def __init__(self, solution: _core.Solution) -> None:
+    def __init__(self, solution: Any) -> None:
         self._solution = solution
 
     @cached_property
     def steps(self) -> list[_core.Step]:
         """Those that were kept: 0, k, 2k ... with output.every = k, and the last one."""
-        return self._solution.steps
+        return list(self._solution.steps)
 
     @cached_property
     def summary(self) -> dict[str, Any]:
@@ -62,6 +62,12 @@ class Run:
     def units(self) -> dict[str, str]:
         """Column of the history -> its unit."""
         return {bare(name): name[len(bare(name)) + 1:-1] for name in self._solution.history}
+
+    @cached_property
+    def quantities(self) -> dict[str, float]:
+        """Quantity of the scene -> its value at the end; its unit, range, place and error stand in
+        summary["quantities"], its values by steps in the history."""
+        return {name: each["value"] for name, each in self.summary.get("quantities", {}).items()}
 
     @property
     def last(self) -> _core.Step:
@@ -113,6 +119,9 @@ class Run:
                        for name, of in cells.items())
         title = html.escape(summary["title"] or summary["scene"])
         return f"<table><caption>{title}</caption>{rows}</table>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Run, (self._solution,)
 
     def __repr__(self) -> str:
         steps = self.summary["steps"]

@@ -1,18 +1,23 @@
 """Scenes: read from a file, or made of dicts and arrays."""
 from __future__ import annotations
 
+import importlib
 import os
 import shutil
 import tempfile
 import weakref
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from numpy.typing import ArrayLike
 
+if TYPE_CHECKING:
+    import meshio
+
 from mortier import _core, toml
-from mortier.errors import Error, InputError
+from mortier.errors import Error, InputError, ResultMissing
+from mortier.meshes import Mesh, part, plain
 from mortier.run import Run, finished
 
 Settings = Mapping[str, Any] | Sequence[str] | None
@@ -33,16 +38,6 @@ class Fault(NamedTuple):
         return f"{self.place}: {self.severity}: {self.message}; {self.remedy} [{self.id}]"
 
 
-class Mesh(NamedTuple):
-    """A mesh of triangles: vertices and edges are numbered from 0, labels are integers."""
-
-    points: ArrayLike  # n x 2 [m]
-    triangles: ArrayLike  # n x 3, counterclockwise
-    edges: ArrayLike  # n x 2, of the labelled boundary
-    labels: ArrayLike  # of each edge
-    regions: ArrayLike | None = None  # of each triangle
-
-
 class Scene:
     """A scene as it was when it was read; runs of it begin anew each time, and may go on in several threads.
 
@@ -51,7 +46,7 @@ class Scene:
     """
 
     def __init__(self, scene: Mapping[str, Any],
-                 meshes: Mapping[str, Mesh | tuple[ArrayLike, ...]] | None = None,
+                 meshes: Mapping[str, Mesh | meshio.Mesh | tuple[ArrayLike, ...]] | None = None,
                  set: Settings = None) -> None:
         folder = Path(tempfile.mkdtemp(prefix="mortier-"))
         self._folder = str(folder)
@@ -63,7 +58,10 @@ class Scene:
             if name not in known:
                 raise InputError(f"meshes: no body {name}, expected one of {', '.join(map(str, known))}")
             path = folder / f"mesh-{known.index(name)}.mesh"
-            _core.write_mesh(str(path), f"mesh of {name}", *Mesh(*mesh))
+            arrays, names = plain(mesh, f"mesh of {name}")
+            _core.write_mesh(str(path), f"mesh of {name}", *arrays)
+            with path.open("a", encoding="utf-8") as file:
+                file.writelines(f"# {of} {number} = {each}\n" for of, each, number in names)
             bodies[known.index(name)]["mesh"] = path.name
         for body in bodies:
             if body.get("name") not in (meshes or {}):
@@ -71,6 +69,41 @@ class Scene:
         path = folder / "scene.toml"
         path.write_text(toml.document({**scene, "body": bodies}), encoding="utf-8")
         self._read(str(path), set)
+
+    @classmethod
+    def from_meshio(cls, scene: Mapping[str, Any], meshes: Mapping[str, meshio.Mesh] | meshio.Mesh,
+                    set: Settings = None) -> Scene:
+        """A scene whose bodies have meshes of meshio: triangles, and lines with labels (physical groups of
+        Gmsh, references of Medit, cell sets). One mesh alone is that of all bodies, each of which names its
+        `region`.
+        """
+        if not isinstance(meshes, Mapping):
+            bodies = scene.get("body", [])
+            bodies = [dict(each) for each in ([bodies] if isinstance(bodies, Mapping) else bodies)]
+            meshes = {each.get("name", ""): part(meshes, each.pop("mesh", {}).get("region"))
+                      for each in bodies}
+            scene = {**scene, "body": bodies}
+        return cls(scene, meshes, set)
+
+    @classmethod
+    def from_gmsh(cls, scene: Mapping[str, Any], set: Settings = None) -> Scene:
+        """A scene on the meshed model of the running gmsh (its Python module), with its physical groups: each
+        body without `mesh` is the region of its name, or the one that `mesh = {"region": ...}` names."""
+        gmsh = importlib.import_module("gmsh")
+        bodies = scene.get("body", [])
+        bodies = [dict(each) for each in ([bodies] if isinstance(bodies, Mapping) else bodies)]
+        folder = tempfile.mkdtemp(prefix="mortier-")
+        try:
+            path = os.path.join(folder, "model.msh")
+            gmsh.write(path)
+            for each in bodies:
+                each["mesh"] = {"region": each.get("name", ""), **each.get("mesh", {}), "file": path}
+            made = cls({**scene, "body": bodies}, set=set)
+        except BaseException:
+            shutil.rmtree(folder, ignore_errors=True)
+            raise
+        weakref.finalize(made, shutil.rmtree, folder, ignore_errors=True)
+        return made
 
     def _read(self, path: str, set: Settings) -> None:
         self._core = self._told(lambda: _core.Scene(path, toml.settings(set)))
@@ -134,7 +167,10 @@ class Scene:
 def load(path: str | os.PathLike[str], set: Settings = None) -> Scene:
     """Reads a scene; `set` changes it as --set does: {"time.steps": 20}. InputError."""
     scene = Scene.__new__(Scene)
-    scene._read(os.fspath(path), set)
+    try:
+        scene._read(os.fspath(path), set)
+    except InputError as error:
+        raise error if os.path.exists(path) else ResultMissing(str(error)) from error
     return scene
 
 

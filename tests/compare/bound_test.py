@@ -8,21 +8,23 @@ from support import ROOT, OfTwoBlocks
 ELASTIC = TWO_BLOCKS.replace(', viscosity = 10, yield_stress = 1, projection = "elasticity"', "")
 BOUND = "\n[accuracy]\nbound = true\n"
 # The bound is half as large again as the estimate.
-NEARLY_INCOMPRESSIBLE = '''\
+SINGLE_CELLS = '''\
 plane = "strain"
 [[body]]
 name = "upper"
-mesh = { shape = "rectangle", lower = [0, 1], upper = [1, 2], cells = [6, 6], cut = "both" }
-material = { young = 1000, poisson = 0.499 }
-boundary = [ { label = 4, ux = 0 }, { label = 3, ty = "-5*t*(1+2*x)" } ]
+mesh = { shape = "rectangle", lower = [0, 0], upper = [1, 1], cells = [1, 1], cut = "both" }
+material = { young = 1, poisson = 0.45 }
+boundary = [ { label = 4, ux = 0 }, { label = 3, uy = "-0.01*t*1" } ]
 [[body]]
 name = "lower"
-mesh = { shape = "rectangle", upper = [1, 1], cells = [4, 4], cut = "both" }
-material = { young = 300, poisson = 0.499 }
-boundary = [ { label = 4, ux = 0 }, { label = 1, uy = 0 } ]
+mesh = { shape = "rectangle", lower = [0, -1], upper = [1, 0], cells = [3, 3], cut = "both" }
+material = { young = 1.0, poisson = 0.45 }
+boundary = [ { label = 1, ux = 0, uy = 0 } ]
 [contact]
 nonmortar = { body = "upper", label = 1 }
 mortar = { body = "lower", label = 3 }
+gap = "0.003*2"
+sliding = "allow"
 [time]
 end = 1
 steps = 1
@@ -242,15 +244,15 @@ component = "y"
             self.assertIsNotNone(accuracy["bound"]["step"])
 
     def test_rounds_end_on_the_bound(self):
-        self.write(NEARLY_INCOMPRESSIBLE)
+        self.write(SINGLE_CELLS)
         unknowns = []
         for bound in ("false", "true"):
-            self.mortier("run", "scene.toml", "--out", bound, "--accuracy", "0.01", "--set",
+            self.mortier("run", "scene.toml", "--out", bound, "--accuracy", "0.1", "--set",
                          f"accuracy.bound={bound}")
             summary = json.loads(self.read(f"{bound}/summary.json"))
             self.assertTrue(summary["accuracy"]["reached"])
             unknowns.append(summary["rounds"][-1]["unknowns"])
-        self.assertTrue(0.003 < summary["accuracy"]["bound"]["energy_error"] < 0.01)
+        self.assertTrue(0.03 < summary["accuracy"]["bound"]["energy_error"] < 0.1)
         # The estimate alone is content with coarser meshes.
         self.assertGreater(unknowns[1], 1.2 * unknowns[0])
 

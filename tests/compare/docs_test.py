@@ -89,6 +89,17 @@ class Tutorial(InFolder):
             self.assertGreater(max(float(row["pressure"]) for row in csv.DictReader(text)), 0)
         for name in tutorial.MADE:
             self.assertTrue((self.folder / name).is_file(), name)
+        # The rounds of the run that the page shows, where the meshes are the same.
+        table = r"^ +(\d+ +\d+ +\d+ +\d+ +[\d.]+ % +[\d.]+ %) "
+        rounds = re.findall(table, TUTORIAL.read_text(), re.M)
+        made = re.findall(table, told["mortier run press.toml --accuracy 0.02"], re.M)
+        self.assertEqual(rounds[0].split()[1] != made[0].split()[1] or rounds, made)
+        # No bound, as `check` says and the page shows; what is kept has the accuracy that was asked for.
+        bound = told["mortier check press.toml --set accuracy.bound=true"]
+        self.assertIn(re.search(r"^left out   accuracy: .*$", TUTORIAL.read_text(), re.M)[0], bound)
+        kept = json.loads(self.read("kept/summary.json"))
+        self.assertEqual(kept["accuracy"]["asked"], 0.02)
+        self.assertIn("press.toml: agrees", told[tutorial.commands()[-1]])
 
 
 class Commands(InSharedFolder):

@@ -95,9 +95,14 @@ class Pictures(InSharedFolder):
             other = curves.history([column])
             self.assertIn("reaction [kN]", [axes.get_title(loc="left") for axes in other.axes])
             for figure in (history, other):  # one of an odd number of pictures, below each column its time
-                for axes in [each for each in figure.axes if each.axison][-2:]:
+                *of_time, path = [each for each in figure.axes if each.axison]
+                for axes in of_time[-2:]:
                     self.assertEqual(axes.get_xlabel(), "time [s]")
                     self.assertTrue(axes.xaxis.get_major_ticks()[0].label1.get_visible())
+                self.assertEqual(path.get_xlabel(), "largest displacement [m]")
+                for values, column_of in zip(path.lines[0].get_data(), ("displacement_max[m]",
+                                                                        "contact_force[N/m]")):
+                    np.testing.assert_array_equal(values, [0, *column.result.history[column_of]])
             pictures.plt.close("all")
 
     def test_shear_is_drawn_where_there_is_friction(self):

@@ -16,7 +16,7 @@ SOLID = {"tau": 0.1, "g": 0.3, "shear": 2e11 / 1.3}
 
 def scene(law, plane="strain", **time):
     return {"plane": plane,
-            "body": [{"name": "upper",
+            "body": [{"name": "upper", "volume": "pointwise",
                       "mesh": {"shape": "rectangle", "cells": 3, "lower": [0, 0], "upper": [1, 1]},
                       "material": {"young": 2e11, "poisson": 0.3, **law},
                       "boundary": [{"label": 3, "ux": 0, "ty": "-1e8*(1 + 0.5*x)*min(t, 0.3)"}]},

@@ -59,6 +59,7 @@ CASES = [
       "body.upper.boundary=[{label=3, uy='-0.1*t', ux='0.1*sin(9*t)'}]"], 2),
     ([NORTON, "plane=strain", "contact.variant=mortar", "time.scheme=crank-nicolson"], 1),
     ([HARDENING, "contact.variant=interpolation", "time.scheme=sdirk2"], 1),
+    (["plane=strain", "body.volume=averaged", "contact.variant=mortar", "time.scheme=sdirk2", QUANTITIES], 2),
     (["body.upper.boundary.3.ty=-10", "time.scheme=sdirk2", QUANTITIES], 1),  # it acts at once
     (["body.upper.boundary.3.ty='-5-5*t'", "time.scheme=sdirk2", "time.tolerance=1e-5", QUANTITIES], 2),
     ([OWN, "plane=strain", "contact.variant=mortar", "time.scheme=sdirk2", "time.tolerance=1e-4"], 2),

@@ -92,7 +92,7 @@ class OwnLawsOfRings(OfScene):
                     histories = []
                     for law in (PAIRS[name][0], own):
                         self.run_it(SCENE.replace("PLANE", "axisymmetric").format(law=law),
-                                    f"time.scheme={scheme}")
+                                    f"time.scheme={scheme}", "body.upper.volume=pointwise")
                         rows = list(csv.DictReader(self.read("out/history.csv").splitlines()))
                         histories.append([[float(row[column.replace("/m]", "]")]) for column in COMPARED]
                                           for row in rows])

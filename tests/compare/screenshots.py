@@ -37,8 +37,9 @@ def main():
             browser = Browser(width, height, dark)
             try:
                 browser.open(folder / "report.html")
-                left, top, w, h = browser.run("const r = "
-                                              "document.querySelector('#canvas0').getBoundingClientRect(); "
+                left, top, w, h = browser.run("const c = document.querySelector('#canvas0'); "
+                                              "c.scrollIntoView({block: 'center'}); "
+                                              "const r = c.getBoundingClientRect(); "
                                               "return [r.left, r.top, r.width, r.height]")
                 browser.point(left + 0.4 * w, top + 0.6 * h)
                 browser.run("return new Promise(done => requestAnimationFrame(() => "

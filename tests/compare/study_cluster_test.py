@@ -158,11 +158,12 @@ class Cluster(StudyTest):
         script = self.folder / "study-of-other"
         script.write_text(f"#!/bin/sh\nMORTIER={other} exec {sys.executable} {ROOT}/study/__main__.py -\n")
         script.chmod(0o755)
-        self.worker(script)
+        worker = self.worker(script)
         self.on_workers(code=1)
         for row in self.rows():
             self.assertRegex(row["reason"],
                              r"^worker \S+: .*mortier here is not the version of the study$")
+        self.end(worker)
         self.worker()  # what failed is tried again
         self.assertIn("2 runs, 0 of them done before", self.on_workers().stdout)
 

@@ -30,6 +30,16 @@ class TrueError(unittest.TestCase):
                 self.assertLessEqual(estimate / error, MOST)
                 self.assertLessEqual(overhead, 3)
 
+    def test_pressures_that_the_other_body_does_not_resolve_count(self):
+        # The body on top has one edge on the contact line: its stress is uniform, whatever presses it.
+        scene, bodies, accuracy, degree = accuracies.random_case(31)
+        _, error, estimate, _, reached = accuracies.measured(scene, bodies, accuracy, degree, 6)
+        print(f"error {error:.3g} of {accuracy:.3g}, estimate over it {estimate / error:.2f}")
+        self.assertTrue(reached)
+        self.assertLessEqual(error, accuracy)
+        self.assertGreaterEqual(estimate / error, LEAST)
+        self.assertLessEqual(estimate / error, MOST)
+
     def test_quadratic_displacements_take_a_hundredth_of_the_unknowns_where_bodies_flow(self):
         found = accuracies.flow_orders({1: [4, 8, 16], 2: [3, 6, 12]}, 24)
         linear, linear_takes = accuracies.fitted(*found[1])

@@ -156,7 +156,7 @@ TEST(ControlledMarch, stiffRampAndHold) {
   const double euler = worstError({.end = 2, .steps = 20});
   const double equal = worstError({.end = 2, .steps = 20, .scheme = Scheme::sdirk2});
   TimePlan plan = controlled(2, 1e-4);
-  plan.breaks = findBreaks({path}, 0, 2);
+  plan.breaks = resolve(path, 0, 2).breaks;
   const double chosen = worstError(plan);
   constexpr double rounding = 1e-9;
   EXPECT_LT(euler, 1e-7);

@@ -198,7 +198,7 @@ TEST(ErrorControl, openCloseRecloseToTheTolerance) {
     for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::interpolation}) {
       const Model model = pressedBlocks(coupling);
       TimePlan plan = controlled(4, tolerance);
-      plan.breaks = findBreaks({[](double t) { return pathOfTheTop(t); }}, 0, 4);
+      plan.breaks = resolve(pathOfTheTop, 0, 4).breaks;
       EXPECT_EQ(plan.breaks, (std::vector<double>{1, 2, 3}));
       OpenClose values(model);
       State state = initialState(model);
@@ -250,7 +250,7 @@ TEST(ErrorControl, twentyReversals) {
   const double equal = errorOf({.end = end, .steps = 21 * 20, .scheme = Scheme::sdirk2});
   for (const double tolerance : {1e-4, 1e-5}) {
     TimePlan plan = controlled(end, tolerance);
-    plan.breaks = findBreaks({saw}, 0, end);
+    plan.breaks = resolve(saw, 0, end).breaks;
     ASSERT_EQ(plan.breaks.size(), 20);
     const double chosen = errorOf(plan);
     EXPECT_LT(chosen, 4 * tolerance);  // what twenty cycles add up to

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <numbers>
 
+#include "material/viscoelastic.h"
 #include "theory/controlled_runs.h"
 #include "theory/scenes.h"
 #include "time/breaks.h"
@@ -108,7 +109,7 @@ TEST(ErrorControl, whatTimeDoesNotResolveIsNotTriedAgain) {
   const Model model = movedBlocks(3e15, jump);
   State state = initialState(model);
   TimePlan plan = controlled(1, tolerance);
-  plan.breaks = findBreaks({jump}, 0, 1);
+  plan.breaks = resolve(jump, 0, 1).breaks;
   int begun = 0;
   const RunReport run = runWith(
       model, state, plan, [&](const State&, const StepReport& report) { begun += report.step == 0 ? 1 : 0; });
@@ -119,6 +120,40 @@ TEST(ErrorControl, whatTimeDoesNotResolveIsNotTriedAgain) {
   EXPECT_NE(run.shortfall.find("above tolerance 0.001"), std::string::npos) << run.shortfall;
   EXPECT_EQ(begun, 1);
   EXPECT_LE(run.steps, 300);
+}
+
+// ---- stresses that have relaxed
+
+// Loaded, then at rest for steps of 20 relaxation times each: stresses decay beyond the smallest numbers.
+TEST(Relaxation, bodiesWithoutStressStayAtRest) {
+  const Function moved = [](double, double, double t) { return -0.01 * std::min(t, 0.1); };
+  for (const Plane plane : {Plane::stress, Plane::strain})
+    for (const Scheme scheme : {Scheme::backwardEuler, Scheme::sdirk2}) {
+      const auto material = viscoelasticMaterial({3e4, 0.3}, {1e-5, 0}, plane);
+      const std::vector<PrescribedDisplacement> above{{left, 0, constant(0)}, {top, 1, moved}};
+      const std::vector<PrescribedDisplacement> below{{left, 0, constant(0)}, {bottom, 1, constant(0)}};
+      std::vector<PrescribedDisplacement> both = below;
+      both.push_back(above[1]);
+      const auto block = [](double lowerY, int cells) {  // on crisscross meshes every number is the same
+        return rectangleMesh(
+            {.lower = {0, lowerY}, .upper = {1, lowerY + 1}, .cellsX = cells, .cellsY = cells});
+      };
+      std::vector<Model> models(1);
+      models[0].bodies.emplace_back("block", block(0, 2), material, Conditions{both, {}, {}});
+      for (const double friction : {0.0, 0.3}) {
+        InterfaceOptions options;
+        options.friction.coefficient = friction;
+        models.push_back(contactModel({"upper", block(0, 1), material, {above, {}, {}}},
+                                      {"lower", block(-1, 2), material, {below, {}, {}}},
+                                      CouplingKind::interpolation, upperBody, options));
+      }
+      for (const Model& model : models) {
+        State state = initialState(model);
+        const RunReport run = runWith(model, state, {.end = 0.4, .steps = 2000, .scheme = scheme});
+        EXPECT_EQ(run.status, Status::converged) << run.reason;
+        EXPECT_LE(run.iterations, 4 * run.steps);
+      }
+    }
 }
 
 }  // namespace

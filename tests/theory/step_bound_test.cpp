@@ -1,6 +1,6 @@
 // The guaranteed bound of the error that the meshes make in a step of bodies that flow: against an exact
 // stress, and against the same step on much finer meshes.
-#include "bound/step_bound.h"
+#include "bound/energy_bound.h"
 
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ TEST(StepBound, isAboveAndNearTheErrorOfTheNotesTest) {
         const Model model = compression(upper, lower, material, CouplingKind::interpolation, upperBody);
         const auto [state, report] = run(model, 1, 1);
         ASSERT_EQ(report.status, Status::converged);
-        const StepBound bound = stepBound(model, state, 1);
+        const EnergyBound bound = energyBound(model, state, {}, 1);
         ASSERT_EQ(bound.obstacle, "");
         // The exact stress is that of matching meshes.
         const Model matching = compression(1, 1, material, CouplingKind::interpolation, upperBody);
@@ -84,7 +84,7 @@ TEST(StepBound, isZeroToRoundingWhereTheStressIsExact) {
       const Model model = compression(6, 16, perzynaMaterial({young, 0.3}, noteLaw(Projection::frobenius)),
                                       CouplingKind::mortar, upperBody);
       const auto [state, report] = run(model, 1, steps);
-      const StepBound bound = stepBound(model, state, 1.0 / steps);
+      const EnergyBound bound = energyBound(model, state, {}, 1.0 / steps);
       ASSERT_EQ(bound.obstacle, "");
       EXPECT_LE(bound.bound, 1e-5 * bound.norm) << young << ", " << steps;
       EXPECT_LE(bound.strain, 1e-7 * bound.strainNorm) << young << ", " << steps;
@@ -174,8 +174,8 @@ TEST(StepBound, isAboveTheErrorOfRandomScenes) {
     State fineState = prolonged(model, state, fine);
     const double t1 = state.time + weight;
     if (!takeStep(model, state, t1) || !takeStep(fine.model, fineState, t1)) continue;
-    const StepBound bound = stepBound(model, state, weight);
-    const StepBound fineBound = stepBound(fine.model, fineState, weight);
+    const EnergyBound bound = energyBound(model, state, {}, weight);
+    const EnergyBound fineBound = energyBound(fine.model, fineState, {}, weight);
     if (!bound.obstacle.empty() || !fineBound.obstacle.empty()) {
       std::cout << "scene " << seed << ": " << bound.obstacle << fineBound.obstacle << "\n";
       continue;

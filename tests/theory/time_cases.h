@@ -75,7 +75,7 @@ struct Case {
   }
   /// Jumps and kinks, and the end.
   [[nodiscard]] std::vector<double> stops() const {
-    std::vector<double> stops = findBreaks({load.value}, 0, 1);
+    std::vector<double> stops = resolve(load.value, 0, 1).breaks;
     stops.push_back(1);
     return stops;
   }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <iostream>
+#include <numeric>
 
 #include "theory/controlled_runs.h"
 
@@ -107,7 +108,10 @@ TEST(TimeErrors, aLoadThatJumpsIsPassedWithFriction) {
 TEST(TimeErrors, randomRunsAreAsAccurateAsTheySay) {
   int good = 0;
   int runs = 0;
-  for (unsigned seed = 0; seed < 24; ++seed) {
+  std::vector<unsigned> seeds(24);
+  std::iota(seeds.begin(), seeds.end(), 0U);
+  seeds.push_back(454);  // contact closes and opens at the peak of a distance
+  for (const unsigned seed : seeds) {
     const Case of = randomCase(seed);
     const Outcome outcome = outcomeOf(of, 500, of.plan);
     if (outcome.run.status != Status::converged || !outcome.run.shortfall.empty()) continue;

@@ -1,6 +1,6 @@
 // The guaranteed bound of what steps and meshes do together to bodies that flow: against an exact solution,
 // and against finer meshes and shorter steps.
-#include "bound/total_bound_record.h"
+#include "bound/total_bound.h"
 
 #include <gtest/gtest.h>
 
@@ -111,7 +111,6 @@ TEST(TotalBound, isAboveAndNearTheErrorOfTheNotesTest) {
       EXPECT_LE(bound.any.strain, 1.3 * bound.fixed.strain);
     }
     EXPECT_LE(bound.data, 1e-12);
-    EXPECT_LE(bound.oscillation, 1e-12);
     if (coupling == CouplingKind::mortar) {
       EXPECT_LE(bound.lifted, 1e-9 * error);
     }
@@ -247,11 +246,14 @@ TEST(TotalBound, holdsInPartialContact) {
     }
 }
 
-/// Most have no bound: contact opens there while bodies flow, or closes.
+/// Some have no bound: contact opens there while bodies flow, or closes. Some have no load, and stresses that
+/// are rounding: moduli and lengths are about 1.
 TEST(TotalBound, isAboveTheDistanceInRandomScenes) {
   const char* wanted = std::getenv("MORTIER_RANDOM_TOTALS");
   const unsigned count = wanted != nullptr ? std::atoi(wanted) : 40;
+  constexpr double rounding = 1e-12;
   unsigned bounded = 0;
+  unsigned loaded = 0;
   for (unsigned seed = 0; seed < count; ++seed) {
     Randoms random(seed + 2000);
     RandomScene scene(seed);
@@ -270,6 +272,9 @@ TEST(TotalBound, isAboveTheDistanceInRandomScenes) {
     for (const ContactInterface& interface : elastic.interfaces) addInterface(model, interface.pair());
     const Refined fine = refined(model, 1);
     const auto [coarseState, coarse] = boundedRun(model, {.end = 1, .steps = 4});
+    const auto unloaded = [](const BodyState& body) { return body.stress.cwiseAbs().maxCoeff() <= rounding; };
+    if (std::all_of(coarseState.bodies.begin(), coarseState.bodies.end(), unloaded)) continue;
+    ++loaded;
     if (!coarse.obstacle.empty() || !coarse.closes.empty()) continue;
     const auto [fineState, close] = boundedRun(fine.model, {.end = 1, .steps = 16});
     if (!close.obstacle.empty() || !close.closes.empty()) continue;
@@ -280,8 +285,9 @@ TEST(TotalBound, isAboveTheDistanceInRandomScenes) {
     EXPECT_LE(off.stress, coarse.any.stress + close.any.stress + 1e-9 * coarse.stressNorm)
         << "scene " << seed;
   }
-  std::cout << bounded << " of " << count << " have a bound\n";
-  EXPECT_GE(bounded, 1U);
+  std::cout << bounded << " of " << loaded << " have a bound\n";
+  EXPECT_GE(4 * loaded, 3 * count);
+  EXPECT_GE(3 * bounded, 2 * loaded);
 }
 
 TEST(TotalBound, tellsWhichConditionFails) {

@@ -1,5 +1,5 @@
-// Stresses in equilibrium that come near to given ones: forces that are out of balance at a contact line,
-// tractions in equilibrium with each triangle, Airy functions that keep them so.
+// Stresses in equilibrium that come near to given ones: tractions in equilibrium with each triangle, Airy
+// functions that keep them so.
 #include "bound/relaxation.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,6 @@
 #include <Eigen/Dense>
 #include <numbers>
 
-#include "bound/strip_balance.h"
 #include "material/stress.h"
 #include "mesh/generate.h"
 #include "theory/scenes.h"
@@ -136,75 +135,6 @@ TEST(Relaxation, iterationsEndWhereTheySayTheyDo) {
     ASSERT_TRUE(relaxation.minimise());
     EXPECT_LE(energy, 1.03 * relaxation.energies().sum());
   }
-}
-
-// ---- forces that are out of balance
-struct Pressed {
-  Body body;
-  Sides sides{body.mesh()};
-  std::vector<Eigen::Matrix3d> moduli;
-  std::vector<Stress> stress;
-
-  explicit Pressed(std::vector<PrescribedDisplacement> held)
-      : body("block", square(0, 24), elasticMaterial({1, 0.3}), Conditions{std::move(held), {}, {}}),
-        moduli(body.points(), Eigen::Vector3d(1 / 0.7, 1 / 1.3, 1 / 1.3).asDiagonal()),
-        stress(moduli.size(), Stress::Zero()) {}
-  /// Of the stresses of the triangles.
-  [[nodiscard]] Vector forces() const {
-    Matrix all(3, body.points());
-    for (int t = 0; t < body.points(); ++t) all.col(t) = fromCartesian(stress[t]);
-    return body.internalForce(all);
-  }
-  [[nodiscard]] double energy() const {
-    double sum = 0;
-    for (size_t t = 0; t < stress.size(); ++t) {
-      const Eigen::Vector3d s = fromCartesian(stress[t]);
-      sum += body.weights()[t] * s.dot(moduli[t].inverse() * s);
-    }
-    return sum;
-  }
-  /// Nodal forces on the lower side.
-  [[nodiscard]] Vector load(const std::function<double(double)>& at) const {
-    Vector result = Vector::Zero(body.dofs());
-    for (int v = 0; v < body.nodes(); ++v)
-      if (body.mesh().vertices[v].y() < 1e-9) result[2 * v + 1] = at(body.mesh().vertices[v].x());
-    return result;
-  }
-};
-
-TEST(StripBalance, takesUpForcesThatBalanceEachOtherInAFewRings) {
-  std::array<double, 2> far{};  // part of the energy
-  for (const int waves : {1, 4}) {
-    Pressed found({{top, 0, constant(0)}, {top, 1, constant(0)}});
-    const Vector load =
-        found.load([&](double x) { return std::cos(2 * std::numbers::pi * waves * (x + 1.0 / 48)); });
-    Vector ends = found.load([](double x) { return x < 1e-9 || x > 1 - 1e-9 ? 1 : 0; });
-    Vector balanced = load - (load.sum() / 2) * ends;  // symmetric about the middle but for a couple
-    double couple = 0;
-    for (int v = 0; v < found.body.nodes(); ++v)
-      couple += (found.body.mesh().vertices[v].x() - 0.5) * balanced[2 * v + 1];
-    balanced += found.load([&](double x) { return x < 1e-9 ? couple : x > 1 - 1e-9 ? -couple : 0; });
-    Vector left = balanced;
-    const auto energy = balanceStrip(found.body, found.sides, found.moduli, 1, left, found.stress);
-    ASSERT_TRUE(energy);
-    EXPECT_LE((found.forces() - balanced).cwiseAbs().maxCoeff(), 1e-12);
-    for (size_t t = 0; t < found.stress.size(); ++t) {
-      const bool outside = found.body.mesh().vertices[found.body.mesh().triangles[t][0]].y() > 0.4;
-      EXPECT_TRUE(!outside || found.stress[t].isZero(0));
-    }
-    far[waves == 1 ? 0 : 1] = *energy / found.energy();
-  }
-  EXPECT_GT(far[0], 0.1);  // waves are longer than the strip is wide
-  EXPECT_LT(far[1], 0.02);
-}
-
-TEST(StripBalance, leavesForcesThatTheRestOfTheBodyHasToHold) {
-  Pressed found({{top, 0, constant(0)}, {top, 1, constant(0)}});
-  const Vector load = found.load([](double x) { return x; });
-  Vector left = load;
-  EXPECT_FALSE(balanceStrip(found.body, found.sides, found.moduli, 1, left, found.stress));
-  EXPECT_EQ(left, load);
-  EXPECT_TRUE(found.stress[0].isZero(0));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 using Times = std::vector<double>;
 
 Times breaksOf(const std::function<double(double)>& datum, double end = 4) {
-  return findBreaks({datum}, 0, end);
+  return resolve(datum, 0, end).breaks;
 }
 
 TEST(Breaks, smoothDataHaveNone) {
@@ -53,12 +53,6 @@ TEST(Breaks, unitsOfTimeAndValueDoNotMatter) {
   }
 }
 
-TEST(Breaks, ofSeveralDataEachOnce) {
-  const auto a = [](double t) { return std::min(t, 1.0); };
-  const auto b = [](double t) { return std::max(t, 0.5) + std::min(t, 1.0); };
-  EXPECT_EQ(findBreaks({a, b}, 0, 2), (Times{0.5, 1}));
-}
-
 // ---- samples
 
 constexpr double pi = std::numbers::pi;
@@ -71,8 +65,8 @@ TEST(Courses, aStepThatJumpsOverWavesIsSeen) {
   EXPECT_GT(unseen(waves, {1}, 0, 0.05), 0.99);
   EXPECT_GT(unseen(waves, {0.5, 1}, 0, 0.2), 0.9);
   EXPECT_LT(unseen(waves, {0.5, 1}, 0, 0.005), 0.01);
-  EXPECT_NEAR(beyondEnds(waves, 0, 0.05), 1, 1e-3);
-  EXPECT_EQ(beyondEnds(waves, 0, 0.025), 0);
+  EXPECT_NEAR(peakBetween(waves, 0, 0.05).height, 1, 1e-3);
+  EXPECT_EQ(peakBetween(waves, 0, 0.025).height, 0);
 }
 
 TEST(Courses, whatAStepSeesExactlyIsNotMissed) {

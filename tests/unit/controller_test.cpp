@@ -155,13 +155,17 @@ TEST(Controller, aStepThatIsTooLongIsRejectedAndTheNextAreLongEnough) {
 }
 
 TEST(Controller, aRunThatMissesItsToleranceBeginsAgainWithSmallerErrorsOfItsSteps) {
-  Taken taken(wave, planOf(1e-3));
+  TimePlan plan = planOf(1e-3);
+  plan.maxSteps = 1000000000;
+  Taken taken(wave, plan);
   taken.advanceToTheEnd();
   taken.memory.controller.worst = {};
   EXPECT_FALSE(taken.controller.beginAgain(taken.state));  // it meets it
   EXPECT_EQ(taken.state.time, 1);
-  for (int trial = 2; trial <= 5; ++trial) {
+  constexpr int trials = 10;
+  for (int trial = 2; trial <= trials; ++trial) {
     ControllerMemory& own = taken.memory.controller;
+    taken.state.time = 1;
     own.worst = {2e-3 * own.largest.stress, 0};  // twice the tolerance
     const double local = own.local;
     ASSERT_TRUE(taken.controller.beginAgain(taken.state)) << trial;
@@ -171,8 +175,33 @@ TEST(Controller, aRunThatMissesItsToleranceBeginsAgainWithSmallerErrorsOfItsStep
     EXPECT_EQ(taken.memory.run.steps, 0);
     EXPECT_NEAR(own.local / local, std::pow(0.7 / 2, 1.5), 1e-12);  // local ~ global^((p+1)/p)
   }
+  taken.state.time = 1;
   taken.memory.controller.worst = taken.memory.controller.largest;
   EXPECT_FALSE(taken.controller.beginAgain(taken.state));  // that was the last trial
+}
+
+TEST(Controller, aTrialEndsWhenItHasCostTwiceWhatItTookToMissTheTolerance) {
+  Taken taken(wave, planOf(1e-3));
+  ControllerMemory& own = taken.memory.controller;
+  const int before = taken.memory.run.iterations;
+  EXPECT_FALSE(taken.controller.abandons());
+  const auto continueTo = [&](int iterations, double error) {
+    taken.state.time = 0.1;
+    taken.memory.run.iterations = before + iterations;
+    own.worst = {error * own.scale.stress, 0};
+    return taken.controller.abandons();
+  };
+  EXPECT_FALSE(continueTo(10, 0.9e-3));
+  EXPECT_FALSE(continueTo(20, 1.1e-3));
+  EXPECT_FALSE(continueTo(39, 1.5e-3));
+  EXPECT_TRUE(continueTo(40, 2e-3));
+  const double local = own.local;
+  const double scale = own.scale.stress;
+  ASSERT_TRUE(taken.controller.beginAgain(taken.state));
+  EXPECT_EQ(own.scale.stress, scale);  // the run so far does not tell how large the stress will be
+  EXPECT_NEAR(own.local / local, std::pow(0.4 / 2, 1.5), 1e-12);
+  EXPECT_EQ(taken.memory.run.pilotIterations, before + 40);
+  EXPECT_FALSE(taken.controller.abandons());
 }
 
 TEST(Controller, allOfMaxStepsUsedIsTheReason) {

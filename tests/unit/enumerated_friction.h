@@ -16,11 +16,8 @@
 namespace mortier {
 
 struct FrictionCase {
-  Matrix W;
-  FrictionRows rows;
+  ContactProblem problem;
   Vector q;
-
-  [[nodiscard]] FrictionProblem problem() const { return {W, rows}; }
 };
 
 inline std::vector<int> allNodes(int n) {
@@ -31,7 +28,9 @@ inline std::vector<int> allNodes(int n) {
 
 inline FrictionCase frictionCase(Matrix W, double mu, const Vector& q) {
   const auto n = static_cast<int>(W.rows() / 2);
-  return {std::move(W), {allNodes(n), {Vector::Constant(n, mu), Vector::Zero(n)}}, q};
+  FrictionCase c{{std::move(W), true, Matrix(2 * n, 0)}, q};
+  c.problem.along = {allNodes(n), {Vector::Constant(n, mu), Vector::Zero(n)}};
+  return c;
 }
 
 /// Any positive definite compliance; more of the gaps than not are overlaps.
@@ -115,8 +114,8 @@ struct EnumeratedFriction {
 /// All solutions of Coulomb's law, by trial of the 4^n sets.
 inline std::vector<EnumeratedFriction> enumerateFriction(const FrictionCase& c) {
   constexpr double rounding = 1e-9;
-  const auto n = static_cast<int>(c.rows.node.size());
-  const Matrix& W = c.W;
+  const auto n = static_cast<int>(c.problem.along.node.size());
+  const Matrix& W = c.problem.W;
   std::vector<EnumeratedFriction> found;
   for (int code = 0; code < 1 << 2 * n; ++code) {
     const auto state = [&](int i) { return code >> 2 * i & 3; };  // open, stuck, v > 0, v < 0
@@ -132,7 +131,7 @@ inline std::vector<EnumeratedFriction> enumerateFriction(const FrictionCase& c) 
         A.row(n + i) = unitAlong * W.row(n + i);
         right[n + i] = -unitAlong * c.q[n + i];
       } else {
-        A(n + i, i) = (state(i) == 2 ? 1 : -1) * c.rows.law.coefficient[i];
+        A(n + i, i) = (state(i) == 2 ? 1 : -1) * c.problem.along.law.coefficient[i];
       }
     }
     const Eigen::PartialPivLU<Matrix> lu(A);
@@ -143,7 +142,7 @@ inline std::vector<EnumeratedFriction> enumerateFriction(const FrictionCase& c) 
     const double near = rounding * w.cwiseAbs().maxCoeff();
     bool right_ = true;
     for (int i = 0; i < n && right_; ++i) {
-      const double mu = c.rows.law.coefficient[i];
+      const double mu = c.problem.along.law.coefficient[i];
       if (state(i) == 0) right_ = w[i] >= -near;
       if (state(i) != 0) right_ = x[i] >= -small;
       if (state(i) == 1) right_ = right_ && std::abs(x[n + i]) <= mu * x[i] + small;
@@ -162,13 +161,13 @@ inline std::vector<EnumeratedFriction> enumerateFriction(const FrictionCase& c) 
 /// Lemke's method, the covering vector d with d_n > mu d_t > 0 and d_b > 0. \returns the forces (p, t), or
 /// nothing after more pivots than are to be expected.
 inline std::optional<Vector> lemke(const FrictionCase& c) {
-  const auto n = static_cast<Eigen::Index>(c.rows.node.size());
+  const auto n = static_cast<Eigen::Index>(c.problem.along.node.size());
   const Eigen::Index size = 3 * n;
-  const auto mu = c.rows.law.coefficient.asDiagonal();
-  const Matrix Wnn = c.W.topLeftCorner(n, n);
-  const Matrix Wnt = c.W.topRightCorner(n, n);
-  const Matrix Wtn = c.W.bottomLeftCorner(n, n);
-  const Matrix Wtt = c.W.bottomRightCorner(n, n);
+  const auto mu = c.problem.along.law.coefficient.asDiagonal();
+  const Matrix Wnn = c.problem.W.topLeftCorner(n, n);
+  const Matrix Wnt = c.problem.W.topRightCorner(n, n);
+  const Matrix Wtn = c.problem.W.bottomLeftCorner(n, n);
+  const Matrix Wtt = c.problem.W.bottomRightCorner(n, n);
   Matrix M = Matrix::Zero(size, size);  // z = (p, a, v-), w = (g, v+, b): a = mu p + t, b = mu p - t
   M.topRows(n) << Wnn - Wnt * mu, Wnt, Matrix::Zero(n, n);
   M.middleRows(n, n) << Wtn - Wtt * mu, Wtt, Matrix::Identity(n, n);
@@ -178,7 +177,7 @@ inline std::optional<Vector> lemke(const FrictionCase& c) {
   q.head(2 * n) = c.q;
   Vector d = Vector::Zero(size);
   d.head(n).setOnes();
-  d.segment(n, n) = 0.5 / (1 + c.rows.law.coefficient.array());
+  d.segment(n, n) = 0.5 / (1 + c.problem.along.law.coefficient.array());
   d.tail(n).setOnes();
   // w - M z - d z0 = q, columns w, z, z0.
   Matrix tableau(size, 2 * size + 2);

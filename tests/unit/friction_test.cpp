@@ -6,8 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "solver/friction_path.h"
-#include "solver/friction_solutions.h"
+#include "solver/friction_sets.h"
 #include "unit/enumerated_friction.h"
 #include "unit/half_plane_friction.h"
 #include "unit/load_patterns.h"
@@ -21,16 +20,16 @@ FrictionSets open(int n) {
 
 /// Cone, slip direction and gap of every node, over the largest force and motion.
 double worstFault(const FrictionCase& c, const FrictionSolution& solution) {
-  const Eigen::Index n = c.problem().normals();
-  const Vector w = c.q + c.W * solution.force;
+  const Eigen::Index n = c.problem.normals();
+  const Vector w = c.q + c.problem.W * solution.force;
   const double force = std::max(solution.force.lpNorm<Eigen::Infinity>(), 1e-300);
   const double motion = c.q.lpNorm<Eigen::Infinity>() +
-                        c.W.lpNorm<Eigen::Infinity>() * solution.force.lpNorm<Eigen::Infinity>();
+                        c.problem.W.lpNorm<Eigen::Infinity>() * solution.force.lpNorm<Eigen::Infinity>();
   double worst = 0;
   for (Eigen::Index i = 0; i < n; ++i) {
     const double p = solution.force[i];
     const double t = solution.force[n + i];
-    const double bound = c.rows.law.coefficient[i] * p + c.rows.law.limit[i];
+    const double bound = c.problem.along.law.coefficient[i] * p + c.problem.along.law.limit[i];
     worst = std::max({worst, -p / force, -w[i] / motion, p / force * std::abs(w[i]) / motion,
                       (std::abs(t) - bound) / force,
                       std::abs(t * w[n + i] + bound * std::abs(w[n + i])) / force / motion});
@@ -69,21 +68,21 @@ TEST(Friction, agreesWithEnumerationOfAllSets) {
                                       1e-7 * (1 + one.force.lpNorm<Eigen::Infinity>());
         });
       };
-      const FrictionSolution solution = solveFriction(c.problem(), c.q, open(n));
+      const FrictionSolution solution = solveFriction(c.problem, c.q, open(n));
       ASSERT_TRUE(solution.solved) << "trial " << trial;
       EXPECT_TRUE(isExact(solution.force)) << "trial " << trial << ", mu " << mu;
       EXPECT_LE(solution.residual, 1e-12);
       paths += solution.events > 0 ? 1 : 0;
 
-      FrictionSystem system(c.problem(), c.q);
-      int events = 0;
-      const auto sets = followPath(system, events);
-      ASSERT_TRUE(sets.has_value()) << "trial " << trial << ", mu " << mu;
-      const auto onPath = system.newton(c.rows.law, *sets);
+      FrictionWork work;
+      const FrictionSystem system(c.problem, c.q, {}, work);
+      const auto sets = followPath(system, 0);
+      ASSERT_EQ(sets.size(), 1u) << "trial " << trial << ", mu " << mu;
+      const auto onPath = system.newton(sets[0]);
       ASSERT_TRUE(onPath.has_value());
       EXPECT_TRUE(isExact(onPath->force)) << "trial " << trial << ", mu " << mu;
       EXPECT_EQ(onPath->index, 1);
-      longest = std::max(longest, events);
+      longest = std::max(longest, work.events);
 
       const auto pivoted = lemke(c);
       ASSERT_TRUE(pivoted.has_value()) << "trial " << trial << ", mu " << mu;
@@ -107,7 +106,7 @@ TEST(Friction, historiesNeedFewSolves) {
   int slipping = 0;
   for (int step = 1; step <= 4 * steps; ++step) {
     const FrictionCase c = stepOfHistory(n, step, steps, slip);
-    const FrictionSolution solution = solveFriction(c.problem(), c.q, sets);
+    const FrictionSolution solution = solveFriction(c.problem, c.q, sets);
     ASSERT_TRUE(solution.solved) << "step " << step;
     EXPECT_LE(solution.residual, 1e-12);
     EXPECT_LE(worstFault(c, solution), 1e-12);
@@ -130,7 +129,7 @@ TEST(Friction, isThatOfCattaneoAndMindlin) {
   constexpr double mu = 0.4;
   for (const auto& [n, tolerance] : {std::pair(60, 5e-3), {240, 5e-4}}) {
     const FrictionCase c = mindlinCase(n, mu);
-    const FrictionSolution solution = solveFriction(c.problem(), c.q, open(n));
+    const FrictionSolution solution = solveFriction(c.problem, c.q, open(n));
     ASSERT_TRUE(solution.solved);
     const double P = solution.force.head(n).sum();
     const double Q = solution.force.tail(n).sum();
@@ -153,18 +152,18 @@ TEST(Friction, pathsOfManyNodesAreShort) {
   constexpr int n = 80;
   for (const double mu : {0.0, 0.2, 0.8}) {
     const FrictionCase c = halfPlane(n, mu, 0.3, 9, 1);
-    const FrictionSolution solution = solveFriction(c.problem(), c.q, open(n));
+    const FrictionSolution solution = solveFriction(c.problem, c.q, open(n));
     ASSERT_TRUE(solution.solved);
-    FrictionSystem system(c.problem(), c.q);
-    int events = 0;
-    const auto sets = followPath(system, events);
-    ASSERT_TRUE(sets.has_value()) << mu;
-    const auto onPath = system.newton(c.rows.law, *sets);
+    FrictionWork work;
+    const FrictionSystem system(c.problem, c.q, {}, work);
+    const auto sets = followPath(system, 0);
+    ASSERT_EQ(sets.size(), 1u) << mu;
+    const auto onPath = system.newton(sets[0]);
     ASSERT_TRUE(onPath.has_value());
     EXPECT_LE((onPath->force - solution.force).lpNorm<Eigen::Infinity>(),
               1e-10 * solution.force.lpNorm<Eigen::Infinity>());
-    EXPECT_LE(events, 2 * n);
-    EXPECT_GT(events, 0);
+    EXPECT_LE(work.events, 2 * n);
+    EXPECT_GT(work.events, 0);
   }
 }
 
@@ -183,7 +182,7 @@ TEST(Friction, tiesAreNoTrouble) {
       q[n + i] = random.below(5) - 2;
     }
     const FrictionCase c = frictionCase(W, 0.5 * random.below(4), q);
-    const FrictionSolution solution = solveFriction(c.problem(), c.q, open(n));
+    const FrictionSolution solution = solveFriction(c.problem, c.q, open(n));
     ASSERT_TRUE(solution.solved) << trial;
     EXPECT_LE(worstFault(c, solution), 1e-12);
   }
@@ -195,9 +194,9 @@ TEST(Friction, fixedBoundsHold) {
   for (int trial = 0; trial < problems(200); ++trial) {
     const int n = 2 + trial % 5;
     FrictionCase c = randomFriction(random, n, 0);
-    c.rows.law.limit = random.vector(n).cwiseAbs();
-    if (trial % 3 == 0) c.rows.law.coefficient.setConstant(0.3);
-    const FrictionSolution solution = solveFriction(c.problem(), c.q, open(n));
+    c.problem.along.law.limit = random.vector(n).cwiseAbs();
+    if (trial % 3 == 0) c.problem.along.law.coefficient.setConstant(0.3);
+    const FrictionSolution solution = solveFriction(c.problem, c.q, open(n));
     ASSERT_TRUE(solution.solved) << trial;
     EXPECT_LE(worstFault(c, solution), 1e-12) << trial;
   }
@@ -211,25 +210,25 @@ TEST(Friction, shearLimitsAloneHoldABody) {
   int paths = 0;
   for (int trial = 0; trial < problems(60); ++trial) {
     FrictionCase c = randomFriction(random, n, 0);
-    const double stiffness = 1 / c.W.diagonal().maxCoeff();
+    const double stiffness = 1 / c.problem.W.diagonal().maxCoeff();
     c.q.head(n).setConstant(1);
     c.q.tail(n) += Vector::LinSpaced(n, -1, 1);
-    c.rows.law.limit = stiffness / (100 * n) * (Vector::Ones(n) + random.vector(n).cwiseAbs());
+    c.problem.along.law.limit = stiffness / (100 * n) * (Vector::Ones(n) + random.vector(n).cwiseAbs());
     Matrix G = Matrix::Zero(2 * n, 1);
     G.bottomRows(n).setOnes();
-    const FreeMotions motion{G, Vector::Zero(1), Vector::Zero(1), 1e-9 * stiffness, stiffness};
-    const FrictionProblem problem{c.W, c.rows, &motion};
-    const FrictionSolution solution = solveFriction(problem, c.q, open(n));
+    c.problem.G = G;
+    const FrictionSolution solution = solveFriction(c.problem, c.q, open(n), Vector::Zero(1));
     ASSERT_TRUE(solution.solved) << trial;
-    EXPECT_LE(std::abs(solution.force.tail(n).sum()), 1e-6 * c.rows.law.limit.sum());
+    EXPECT_LE(std::abs(solution.force.tail(n).sum()), 1e-6 * c.problem.along.law.limit.sum());
     paths += solution.events > 0 ? 1 : 0;
     EXPECT_LE(solution.events, 5 * n);
 
-    FrictionSystem system(problem, c.q);
-    int events = 0;
-    const auto sets = followPath(system, events);
-    ASSERT_TRUE(sets.has_value()) << trial;
-    const auto onPath = system.newton(c.rows.law, *sets);
+    FrictionWork work;
+    const Vector q = c.q;
+    const FrictionSystem system(c.problem, q, {Vector::Zero(1), solution.rigid, 1e-9 * stiffness}, work);
+    const auto sets = followPath(system, 0);
+    ASSERT_EQ(sets.size(), 1u) << trial;
+    const auto onPath = system.newton(sets[0]);
     ASSERT_TRUE(onPath.has_value());
     c.q -= G * solution.rigid;
     EXPECT_LE(worstFault(c, solution), 1e-12) << trial;
@@ -245,10 +244,10 @@ TEST(Friction, unitsDoNotMatter) {
   for (int trial = 0; trial < 50; ++trial) {
     const FrictionCase c = randomBlocks(random, 5, 1);
     FrictionCase other = c;
-    other.W *= std::ldexp(1.0, -40);
+    other.problem.W *= std::ldexp(1.0, -40);
     other.q *= std::ldexp(1.0, 12);
-    const FrictionSolution one = solveFriction(c.problem(), c.q, open(5));
-    const FrictionSolution two = solveFriction(other.problem(), other.q, open(5));
+    const FrictionSolution one = solveFriction(c.problem, c.q, open(5));
+    const FrictionSolution two = solveFriction(other.problem, other.q, open(5));
     ASSERT_TRUE(one.solved && two.solved);
     EXPECT_TRUE(one.sets == two.sets);
     EXPECT_EQ(one.solves, two.solves);
@@ -274,11 +273,11 @@ TEST(Friction, solutionsOfNegativeIndexAreLeft) {
         sets.closed[i] = 1;
         sets.slip[i] = std::abs(std::abs(t) - 2 * p) < 1e-9 * p ? (t > 0 ? 1 : -1) : 0;
       }
-      FrictionSystem system(c.problem(), c.q);
-      const auto there = system.newton(c.rows.law, sets);
+      FrictionWork work;
+      const auto there = FrictionSystem(c.problem, c.q, {}, work).newton(sets);
       ASSERT_TRUE(there.has_value());
       EXPECT_EQ(there->index, -1);
-      const FrictionSolution solution = solveFriction(c.problem(), c.q, sets);
+      const FrictionSolution solution = solveFriction(c.problem, c.q, sets);
       ASSERT_TRUE(solution.solved);
       EXPECT_EQ(solution.index, 1);
       ++met;
@@ -293,10 +292,10 @@ TEST(Friction, wedgeHoldsOrLetsGo) {
   constexpr double c = 0.8;
   constexpr double mu = 2;
   const FrictionCase wedge = frictionCase(Matrix{{1, c}, {c, 1}}, mu, Vector{{1, 3}});
-  const FrictionSolution taken = solveFriction(wedge.problem(), wedge.q, open(1));
+  const FrictionSolution taken = solveFriction(wedge.problem, wedge.q, open(1));
   ASSERT_TRUE(taken.solved);
   EXPECT_EQ(taken.force, (Vector{{0, 0}}));
-  const std::vector<FrictionSolution> all = solutionsOnPath(wedge.problem(), wedge.q, taken);
+  const std::vector<FrictionSolution> all = solutionsOnPath(wedge.problem, wedge.q, {}, taken);
   ASSERT_EQ(all.size(), 3u);
   EXPECT_EQ(all[0].sets.closed[0], 0);
   EXPECT_EQ(all[0].index, 1);
@@ -309,10 +308,10 @@ TEST(Friction, wedgeHoldsOrLetsGo) {
   EXPECT_NEAR(all[2].force[1], (c - 3) / (1 - c * c), 1e-14);
   for (const FrictionSolution& each : all) EXPECT_LE(each.residual, 1e-14);
   // From the jammed state the solver stays there, and has met no sets with det A < 0.
-  const FrictionSolution jammed = solveFriction(wedge.problem(), wedge.q, {{1}, {0}});
+  const FrictionSolution jammed = solveFriction(wedge.problem, wedge.q, {{1}, {0}});
   EXPECT_EQ(jammed.sets.slip[0], 0);
   EXPECT_FALSE(jammed.ambiguous);
-  const FrictionSolution slipping = solveFriction(wedge.problem(), wedge.q, {{1}, {-1}});
+  const FrictionSolution slipping = solveFriction(wedge.problem, wedge.q, {{1}, {-1}});
   EXPECT_TRUE(slipping.ambiguous);
   EXPECT_EQ(slipping.index, 1);
 }
@@ -327,9 +326,9 @@ TEST(Friction, otherSolutionsAreFound) {
     const int n = 2 + trial % 4;
     const double mu = 1 + 1.0 * random.below(1001) / 1000;
     const FrictionCase c = randomFriction(random, n, mu);
-    const FrictionSolution taken = solveFriction(c.problem(), c.q, open(n));
+    const FrictionSolution taken = solveFriction(c.problem, c.q, open(n));
     ASSERT_TRUE(taken.solved);
-    const std::vector<FrictionSolution> all = solutionsOnPath(c.problem(), c.q, taken);
+    const std::vector<FrictionSolution> all = solutionsOnPath(c.problem, c.q, {}, taken);
     const std::vector<EnumeratedFriction> exact = enumerateFriction(c);
     for (const FrictionSolution& one : all) {
       EXPECT_EQ(std::count_if(exact.begin(), exact.end(),
@@ -357,7 +356,7 @@ TEST(Friction, idleConditionsFollowTheirSupports) {
   Matrix W = Matrix::Identity(4, 4);
   W(1, 1) = W(2, 2) = 0;
   const FrictionCase c = frictionCase(W, 0.5, Vector{{-1, -1, 2, 3}});
-  const FrictionSolution solution = solveFriction(c.problem(), c.q, {{1, 1}, {0, 0}});
+  const FrictionSolution solution = solveFriction(c.problem, c.q, {{1, 1}, {0, 0}});
   ASSERT_TRUE(solution.solved);
   EXPECT_EQ(solution.force, (Vector{{1, 0, -0.5, 0}}));
 }
@@ -367,7 +366,7 @@ TEST(Friction, idleConditionsFollowTheirSupports) {
 TEST(Friction, dependentConditionsShareTheLoad) {
   const Matrix B{{1, 0}, {1, 0}, {0, 1}, {0, 1}};
   const FrictionCase twice = frictionCase(B * B.transpose(), 0.5, Vector{{-1, -1, 0.1, 0.1}});
-  const FrictionSolution solution = solveFriction(twice.problem(), twice.q, {{1, 1}, {0, 0}});
+  const FrictionSolution solution = solveFriction(twice.problem, twice.q, {{1, 1}, {0, 0}});
   ASSERT_TRUE(solution.solved);
   EXPECT_TRUE(solution.singular);
   EXPECT_LE(worstFault(twice, solution), 1e-12);
@@ -389,7 +388,7 @@ TEST(Friction, dependentConditionsShareTheLoad) {
     const Matrix S = R * R.transpose() + 0.1 * Matrix::Identity(2 * n - 2, 2 * n - 2);
     Vector u = random.vector(2 * n - 2);
     const FrictionCase c = frictionCase(C * S * C.transpose(), mu, C * u);
-    const FrictionSolution held = solveFriction(c.problem(), c.q, open(n));
+    const FrictionSolution held = solveFriction(c.problem, c.q, open(n));
     ASSERT_TRUE(held.solved) << "trial " << trial;
     EXPECT_LE(worstFault(c, held), 1e-9) << "trial " << trial;
   }

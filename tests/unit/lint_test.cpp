@@ -8,6 +8,7 @@
 #include "base/counted.h"
 #include "lint/fault.h"
 #include "lint/topology.h"
+#include "mesh/boundary_line.h"
 #include "mesh/generate.h"
 
 namespace mortier {
@@ -64,6 +65,23 @@ TEST(Faults, aLineHasPlaceSeverityMessageRemedyAndId) {
   EXPECT_EQ(counted(2, "vertex"), "2 vertices");
   EXPECT_EQ(counted(0, "edge"), "0 edges");
   EXPECT_EQ(counted(3, "held vertex"), "3 held vertices");
+}
+
+// A line graded towards its middle has edges of the same mean length as the other one, and short ones there.
+TEST(Topology, comparesEdgesWhereBothLinesAreFine) {
+  const TriangleMesh graded = rectangleMesh({.lower = {0, 0},
+                                             .upper = {1, 1},
+                                             .cellsX = 21,
+                                             .cellsY = 1,
+                                             .focus = Point(0.5, 0),
+                                             .grading = {10, 1}});
+  const TriangleMesh equal = rectangleMesh({.lower = {0, -1}, .upper = {1, 0}, .cellsX = 21, .cellsY = 1});
+  double shortest = 1;
+  for (const auto& [a, b] : edgesOn(graded, 1))
+    shortest = std::min(shortest, (graded.vertices[a] - graded.vertices[b]).norm());
+  EXPECT_LT(shortest, 0.5 / 21);
+  EXPECT_NEAR(edgeRatioWhereFine(graded, 1, equal, 3), 1 / (21 * shortest), 1e-9);
+  EXPECT_NEAR(edgeRatioWhereFine(equal, 3, graded, 1), 21 * shortest, 1e-9);
 }
 
 // n x n cells with one diagonal: 4 n edges around, the others between two triangles.

@@ -10,6 +10,7 @@
 #include "material/perzyna.h"
 #include "material/stress.h"
 #include "mesh/generate.h"
+#include "unit/dense_reference.h"
 
 namespace mortier {
 namespace {
@@ -116,18 +117,12 @@ TEST(QuadraticBody, tangentIsThatOfTheInternalForce) {
       plate.material().linearise({0.1, zero, zero}, stress, law, 0, plate.points());
       std::vector<double> values;
       plate.tangent(law.moduli, values);
-      const SparsePattern& pattern = plate.pattern();
-      const Vector x = Vector::NullaryExpr(pattern.size, [&] { return normal(random); });
-      Vector product = Vector::Zero(pattern.size);
-      for (int j = 0; j < pattern.size; ++j)
-        for (int k = pattern.columnStart[j]; k < pattern.columnStart[j + 1]; ++k) {
-          product[pattern.rows[k]] += values[k] * x[j];
-          if (pattern.symmetric && pattern.rows[k] != j) product[j] += values[k] * x[pattern.rows[k]];
-        }
+      const Matrix K = dense(plate.pattern(), values);
+      const Vector x = Vector::NullaryExpr(K.rows(), [&] { return normal(random); });
       Matrix change = zero;
       plate.addStressOf(plate.spread(x), law, change, 0, plate.points());
       const Vector force = plate.gather(plate.internalForce(change));
-      EXPECT_LE((product - force).lpNorm<Eigen::Infinity>(), 1e-12 * force.lpNorm<Eigen::Infinity>());
+      EXPECT_LE((K * x - force).lpNorm<Eigen::Infinity>(), 1e-12 * force.lpNorm<Eigen::Infinity>());
       const Matrix strain = strainOf(plate, plate.spread(x));
       for (int i = 0; i < plate.points(); ++i)
         ASSERT_LE((stressOf(law, strain.col(i), i) - change.col(i)).norm(), 1e-12 * change.norm());

@@ -12,6 +12,7 @@
 #include "fem/rigid_modes.h"
 #include "material/plane_strain.h"
 #include "mesh/generate.h"
+#include "unit/dense_reference.h"
 
 namespace mortier {
 namespace {
@@ -159,18 +160,12 @@ TEST(VolumePatches, forcesAndTangentAreThoseOfTheStrain) {
       Threads some(threads);
       std::vector<double> values;
       plate.tangent(law, values, some);
-      const SparsePattern& pattern = plate.pattern();
-      const Vector x = Vector::NullaryExpr(pattern.size, [&] { return normal(random); });
-      Vector product = Vector::Zero(pattern.size);
-      for (int j = 0; j < pattern.size; ++j)
-        for (int k = pattern.columnStart[j]; k < pattern.columnStart[j + 1]; ++k) {
-          product[pattern.rows[k]] += values[k] * x[j];
-          if (pattern.symmetric && pattern.rows[k] != j) product[j] += values[k] * x[pattern.rows[k]];
-        }
+      const Matrix K = dense(plate.pattern(), values);
+      const Vector x = Vector::NullaryExpr(K.rows(), [&] { return normal(random); });
       Matrix change = zero;
       plate.addStressOf(plate.spread(x), law, change, 0, plate.points());
       const Vector force = plate.gather(plate.internalForce(change));
-      EXPECT_LE((product - force).lpNorm<Eigen::Infinity>(), 1e-12 * force.lpNorm<Eigen::Infinity>());
+      EXPECT_LE((K * x - force).lpNorm<Eigen::Infinity>(), 1e-12 * force.lpNorm<Eigen::Infinity>());
       const Matrix of = strainOf(plate, plate.spread(x));
       for (int i = 0; i < plate.points(); ++i)
         ASSERT_LE((stressOf(law, of.col(i), i).head(rows) - change.col(i).head(rows)).norm(),

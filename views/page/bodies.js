@@ -21,7 +21,7 @@ function colourRange({runs}) {  // one for all runs of a group; a corner must no
     if (high - low > 0.5 * Math.abs(high)) low = Math.min(0, low);
   }
   if (!(high - low > 1e-9 * size)) { const margin = 0.1 * size || 1; low -= margin; high += margin; }
-  return {low, high, cut, table: tables[signed ? "signed" : "plain"], signed};
+  return {low, high, cut, largest: size, table: tables[signed ? "signed" : "plain"], signed};
 }
 
 // ---- Bodies: triangles are painted pixel by pixel, and each pixel knows its triangle ----------------------
@@ -160,8 +160,20 @@ function paint(panel, range) {
   const strip = panel.bar.getContext("2d"), shades = strip.createImageData(256, 1);
   new Uint32Array(shades.data.buffer).set(range.table);
   strip.putImageData(shades, 0, 0);
-  panel.low.textContent = (range.cut && range.signed ? "\u2264 " : "") + short(range.low);
-  panel.high.textContent = (range.cut ? "\u2265 " : "") + of(short(range.high), fieldOf(run, now.field).unit);
+  const shownField = fieldOf(run, now.field);
+  panel.legend.textContent = withUnit(shownField.words, shownField.unit);
+  const marks = ticks(range.low, range.high, 5);
+  panel.scale.replaceChildren(...marks.map((value, i) => {
+    const part = 100 * (value - range.low) / (range.high - range.low), mark = $("span"),
+          last = i === marks.length - 1, first = i === 0 && range.signed,
+          beyond = range.cut && (last ? " \u2192" : first ? "\u2190 " : ""),
+          words = short(value, 5);
+    mark.textContent = !beyond ? words : i ? words + beyond : beyond + words;
+    mark.style.left = `${part}%`;
+    mark.style.transform = `translateX(${part < 8 ? 0 : part > 92 ? -100 : -50}%)`;
+    return mark;
+  }));
+  panel.scale.title = range.cut ? `largest: ${short(range.largest, 5)}` : "";
 }
 function hover(panel, x, y) {  // in CSS pixels of the canvas
   const {run, canvas, owner, ratio} = panel, i = Math.floor(x * ratio), j = Math.floor(y * ratio);

@@ -145,7 +145,10 @@ const leftOut = new Set(
 function drawHistories() {
   const t = longest.steps[now.step].time,
         names = [...new Set(runs.flatMap(run => Object.keys(run.history.columns)))];
-  historyBox.replaceChildren(...names.filter(name => !leftOut.has(name.split("[")[0])).flatMap(name => {
+  const bare = name => name.split("[")[0],
+        wanted = new Set(runs.flatMap(run => run.asked.map(each => each[0])));
+  const drawn = names.filter(name => !leftOut.has(bare(name)));
+  const charts = chosen => drawn.filter(name => chosen(bare(name))).flatMap(name => {
     const series = runs.flatMap((run, r) => {
       const columns = run.history.columns,
             time = columns[Object.keys(columns).find(each => each.startsWith("time["))], y = columns[name];
@@ -158,5 +161,20 @@ function drawHistories() {
       now: t
     })]
                                                          : [];
-  }));
+  });
+  const force = names.find(name => bare(name) === "contact_force"),
+        moved = names.find(name => bare(name) === "displacement_max");
+  const paths = runs.flatMap((run, r) => {
+    const x = run.history.columns[moved], y = run.history.columns[force];
+    return x && y && x.length > 1 && y.some(v => v !== y[0])
+      ? [{x: [0, ...x], y: [0, ...y], run: r, name: run.name, marks: y.length < 25}]
+      : [];
+  });
+  askedBox.replaceChildren(...charts(name => wanted.has(name)), ...(paths.length ? [chart({
+    id: "force-displacement",
+    title: force.replace("_", " ").replace("[", " [") + " over the largest displacement",
+    xWords: moved.replace("displacement_max", "largest displacement ").trim(),
+    series: paths
+  })] : []));
+  historyBox.replaceChildren(...charts(name => !wanted.has(name)));
 }

@@ -25,6 +25,18 @@ for (const run of runs) {
           `${run.name}: ${run.steps.length} of ${run.keptSteps} kept steps are in this page.`));
 }
 
+const asked = runs.flatMap(run => run.asked.map(row => [run.name, ...row]));  // what the scene asks for
+const askedBox = $("div", {class: "charts", id: "asked"});
+if (asked.length) {
+  const heads = ["run", "quantity", "value", "unit", "at", "smallest", "largest", "error"],
+        shown = heads.map((_, i) => asked.some(row => row[i] !== "") && (i > 0 || runs.length > 1)),
+        row = (tag, cells) => $("tr", {}, ...cells.flatMap((cell, i) => shown[i] ? [$(tag, {}, cell)] : []));
+  page.append(
+      $("div", {class: "wide"},
+        $("table", {id: "quantities"}, row("th", heads), ...asked.map(cells => row("td", cells)))));
+}
+page.append(askedBox);
+
 function control(words, element, output) {
   controls.append($("label", {}, words, element, ...(output ? [output] : [])));
   return element;
@@ -70,10 +82,10 @@ const panels = runs.map((run, r) => {
     "aria-label": `Deformed bodies of ${run.name}. Arrow keys move, plus and minus zoom, 0 shows everything.`
   });
   const read = $("p", {class: "read", id: `read${r}`, "aria-live": "polite"}),
-        bar = $("canvas", {width: 256, height: 1});
-  const low = $("span"), high = $("span"), contact = $("div", {class: "contact"});
+        bar = $("canvas", {width: 256, height: 1}), legend = $("div"), scale = $("div", {class: "scale"});
+  const contact = $("div", {class: "contact"});
   grid.append(
       $("section", {class: "run"}, $("h3", {}, $("i", {class: `dot b${r % 4}`}), run.name),
-        $("div", {class: "picture"}, canvas), $("div", {class: "bar"}, low, bar, high), read, contact));
-  return {run, r, canvas, read, bar, low, high, contact, context: canvas.getContext("2d")};
+        $("div", {class: "picture"}, canvas), $("div", {class: "bar"}, legend, bar, scale), read, contact));
+  return {run, r, canvas, read, bar, legend, scale, contact, context: canvas.getContext("2d")};
 });

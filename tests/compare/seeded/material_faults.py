@@ -5,12 +5,13 @@ from seeded.case import ELASTIC, Mesh, fault
 @fault("poisson-limit", "poisson = 0.4999")
 def _(case):
     case.replace("poisson = 0.3", "poisson = 0.4999")
-    case.scene = "plane = \"strain\"\n" + case.scene
+    case.scene = "plane = \"strain\"\n" + case.scene.replace("mesh = ", "volume = \"pointwise\"\nmesh = ")
 
 
 @fault("flow-locks", "viscosity = ")
 def _(case):
-    case.scene = "plane = \"axisymmetric\"\n" + case.scene
+    case.scene = ("plane = \"axisymmetric\"\n" +
+                  case.scene.replace("mesh = ", "volume = \"pointwise\"\nmesh = "))
 
 
 @fault("poisson-negative", "poisson = -0.3")

@@ -1,0 +1,166 @@
+#!/usr/bin/python3
+"""Hard problems of contact: what mortier finds beside exact or published values, and beside other codes.
+
+    bench/hard.py [WORD ...] [--no-peers] [--json FILE]
+
+The rows are in bench/hard/rows.py, their scenes beside it; with words, only rows that have one of them.
+The verdict of a row is `within` its tolerance, `named` where the value is off and the program said so by
+itself (a warning, or the reason why it ended), or OFF. The other codes are those that are installed: FreeFEM
+(Debian package freefem++), GetFEM (python3-getfem), CalculiX (calculix-ccx), and Siconos
+(libsiconos-numerics-dev when mortier was built). Exit code 1 where a row is OFF.
+"""
+import argparse
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+import tomllib
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+SCENES = ROOT / "bench" / "hard"
+sys.path[:0] = [str(ROOT / "study"), str(ROOT / "compare"), str(SCENES)]
+
+import codes  # noqa: E402
+import results  # noqa: E402
+import rows  # noqa: E402
+import scene as scenes  # noqa: E402
+from plan import Case  # noqa: E402
+from problems import RunFailure  # noqa: E402
+
+codes.MORTIER = str(Path(codes.MORTIER).resolve())  # runs are in other folders
+NAMES = {"freefem": "FreeFEM", "getfem": "GetFEM", "calculix": "CalculiX"}
+
+
+class Ended(Exception):
+    """A run that has no result; the message is all that the program said."""
+
+
+def solve(row, settings, folder):
+    """A run, and what the program said of it."""
+    done = subprocess.run([codes.MORTIER, "run", row.scene, "--quiet", "--out", folder, *row.options,
+                           *codes.set_option(settings)], cwd=SCENES, capture_output=True, text=True)
+    if done.returncode != 0:
+        raise Ended(done.stderr)
+    run = results.read_mortier(folder)
+    return run, done.stderr + json.dumps(run.summary.get("several_solutions", ""))
+
+
+def call(row):
+    """The output of a program of the tree; nothing where it is not built."""
+    program = ROOT / row.command[0]
+    if program.parts[len(ROOT.parts)] == "build":  # beside the program that is tested
+        program = Path(codes.MORTIER).parent.joinpath(*program.parts[len(ROOT.parts) + 1:])
+    if not program.is_file():
+        return None
+    options = ["--program", codes.MORTIER] if program.suffix == ".py" else []
+    done = subprocess.run([program, *row.command[1:], *options], capture_output=True, text=True, cwd=ROOT)
+    if not done.stdout:
+        raise Ended(done.stderr)
+    return done.stdout
+
+
+def measure(row):
+    """(value, difference, verdict) of ours; the verdict is `skipped` where what it needs is not there."""
+    said = ""
+    try:
+        if row.command:
+            output = call(row)
+            if output is None:
+                return None, None, f"skipped: {row.command[0]} is not built"
+            value = row.read(output)
+        else:
+            with tempfile.TemporaryDirectory(prefix="mortier-hard-") as name:
+                solved = [solve(row, settings, Path(name) / str(i)) for i, settings in enumerate(row.runs())]
+                value = row.read(*(run for run, _ in solved))
+                said = "".join(words for _, words in solved)
+    except Ended as ending:
+        value, said = None, str(ending)
+    off = None if value is None else row.off(value)
+    if off is not None and off <= row.within:
+        return value, off, "within"
+    if row.named and (found := re.search(row.named, said)):
+        return value, off, f"named: {found[0]}"
+    return value, off, "OFF" if value is not None else "OFF: " + said.strip().splitlines()[-1]
+
+
+def mesh_files(document, folder):
+    """Files in place of the tables of shapes: what other codes read. KEY=VALUE settings."""
+    settings = []
+    for body in document["body"]:
+        shape = dict(body["mesh"])
+        path = folder / f"{body['name']}.mesh"
+        options = []
+        for key, value in shape.items():
+            flat = isinstance(value, list) and isinstance(value[0], list)
+            words = [",".join(map(str, each)) if isinstance(each, list) else str(each)
+                     for each in (value if flat else [value])]
+            options += [] if key == "shape" else [f"--{key}", *words]
+        codes.measured([codes.MORTIER, "mesh", shape["shape"], *options, path])
+        settings.append(f"body.{body['name']}.mesh={path}")
+    return settings
+
+
+def peer(row, code):
+    """The value of another code on the same meshes, or why there is none."""
+    document = tomllib.loads((SCENES / row.scene).read_text())
+    (settings,) = row.runs()
+    for setting in settings:
+        key, _, value = setting.partition("=")
+        scenes.change(document, key.split("."), scenes.value_of(value))
+    with tempfile.TemporaryDirectory(prefix="mortier-hard-") as name:
+        folder = Path(name)
+        try:
+            kept = [setting for setting in settings if ".mesh." not in setting]
+            pairs = [setting.split("=", 1) for setting in kept + mesh_files(document, folder)]
+            case = Case((("code", code), *((key, scenes.value_of(text)) for key, text in pairs)))
+            return row.read(codes.run(case, SCENES / row.scene, {}, folder / "run", timeout=300).run)
+        except (RunFailure, KeyError) as failure:
+            return str(failure).splitlines()[0]
+
+
+def shown(value):
+    return f"{value:.5g}" if isinstance(value, (int, float)) else "-"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("words", nargs="*", metavar="WORD")
+    parser.add_argument("--no-peers", action="store_true", help="mortier alone")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="writes the rows as JSON")
+    given = parser.parse_args()
+    os.environ.setdefault("MORTIER", codes.MORTIER)
+    found, case = [], None
+    print(f"{'value':<66} {'ours':>10} {'peer':>18} {'exact':>10} {'off':>8} {'s':>6}  verdict")
+    for row in rows.ROWS:
+        if given.words and not any(word in f"{row.case} {row.value}" for word in given.words):
+            continue
+        if row.case != case:
+            case = row.case
+            print(f"\n{case} ({row.source})")
+        begin = time.perf_counter()
+        value, off, verdict = measure(row)
+        seconds = time.perf_counter() - begin
+        peers = {} if given.no_peers else {NAMES[code]: peer(row, code) for code in row.peers}
+        words = [f"{name} {each if isinstance(each, str) else shown(each)}" for name, each in peers.items()]
+        words += [] if words else [""]
+        print(f"{row.value:<66} {shown(value):>10} {words[0]:>18} {shown(row.exact):>10} "
+              f"{'' if off is None else f'{off:.1e}':>8} {seconds:>6.1f}  {verdict}", flush=True)
+        for each in words[1:]:
+            print(f"{'':<66} {'':>10} {each:>18}", flush=True)
+        found.append({"case": row.case, "value": row.value, "ours": value, "peers": peers, "exact": row.exact,
+                      "off": off, "verdict": verdict, "seconds": seconds, "source": row.source})
+    count = {kind: sum(row["verdict"].startswith(kind) for row in found)
+             for kind in ("within", "named", "OFF", "skipped")}
+    print("\n" + ", ".join(f"{number} {kind}" for kind, number in count.items()))
+    if given.json:
+        given.json.write_text(json.dumps(found, indent=2) + "\n")
+    return 1 if count["OFF"] or not found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

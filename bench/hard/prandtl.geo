@@ -1,0 +1,19 @@
+// The ground of prandtl.toml without a grid.
+DefineConstant[ h = 0.125 ];
+Point(1) = {0, -2, 0, h};
+Point(2) = {4, -2, 0, h};
+Point(3) = {4, 0, 0, h};
+Point(4) = {1, 0, 0, h};
+Point(5) = {0, 0, 0, h};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 1};
+Curve Loop(1) = {1, 2, 3, 4, 5};
+Plane Surface(1) = {1};
+Physical Curve(1) = {1};
+Physical Curve(2) = {2};
+Physical Curve(3) = {3, 4};
+Physical Curve(4) = {5};
+Physical Surface(1) = {1};

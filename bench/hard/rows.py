@@ -1,0 +1,223 @@
+"""The rows of bench/hard.py: a scene, what is read from its result, and the value that it should have.
+
+`read` takes the runs (results.Run) of the settings of a row, one for each, or the output of its command.
+"""
+import math
+from dataclasses import dataclass
+
+from reads import (curved_motion, curved_pressure, dragged, growth, half_width, inner_motion, iterations,
+                   number, off_hertz, off_punch, off_ring, off_stress, off_tube, order, peak, quantity, total,
+                   unloading)
+
+
+@dataclass
+class Row:
+    case: str
+    source: str  # of the value, or of the failure of another code
+    value: str  # what is read, in words
+    scene: str = ""
+    settings: tuple = ()  # KEY=VALUE; of several runs: tuples of them
+    read: object = None
+    exact: float = 0.0  # of 0 the difference is that from 0
+    within: float = 0.0  # the relative difference that is allowed
+    named: str = ""  # what the program says where the value is off: id of a warning, or a part of a message
+    peers: tuple = ()
+    command: tuple = ()
+    options: tuple = ()
+    at_least: bool = False  # more than the exact value is no fault
+    test: str = ""  # of a fast one the verdict that tests/compare/hard_test.py expects
+
+    def runs(self):
+        several = self.settings and not isinstance(self.settings[0], str)
+        return self.settings if several else (self.settings,)
+
+    def off(self, value):
+        if self.at_least and value > self.exact:
+            return 0.0
+        return abs(value / self.exact - 1) if self.exact else abs(value)
+
+
+def disc(ratio, young, variant, within=0.02, **more):
+    cells = round(120 / (0.15625 * ratio)) // 2 * 2 + 1
+    modulus = 1 / (1 / 210000 + 1 / young)
+    return Row("Disc on block, the disc nonmortar, finer and stiffer",
+               "Hertz; in MorteX (Akula and others) pressures alternate",
+               f"nodal pressures, cells 1:{ratio:g}, E {210000 / young:g}:1, {variant}", "disc.toml",
+               (f"body.block.material.young={young!r}", f"body.block.mesh.cells=[{cells}, 40]",
+                f"contact.variant={variant}"), off_hertz(modulus), 0, within, **more)
+
+
+def disc_rows():
+    for variant in ("weighted", "coarsened"):
+        yield disc(2.5, 210000.0, variant, named="pressure-alternates")
+    for young in (70000.0, 210.0):
+        for ratio in (1.4, 1.7, 2, 4, 8):
+            yield disc(ratio, young, "weighted", named="pressure-alternates|nonmortar-stiffer",
+                       test="named" if ratio == 2 and young > 1000 else "")
+            yield disc(ratio, young, "coarsened", within=0.02 if ratio < 8 else 0.03,
+                       test="within" if ratio == 4 and young > 1000 else "")
+
+
+def prandtl_rows():
+    exact = (2 + math.pi) / math.sqrt(3)
+    meshes = {"one diagonal": ("body.ground.mesh.cut=rising",),
+              "the other": ("body.ground.mesh.cut=falling",),
+              "both": ("body.ground.mesh.cut=both",), "Gmsh": ("body.ground.mesh=prandtl.geo",)}
+    for mesh, settings in meshes.items():
+        for volume, verdict in (("pointwise", "named"), ("averaged", "within")):
+            for degree in (1, 2):
+                yield Row("Prandtl's punch, 8 cells on the half width", "(2 + pi)/sqrt3 yield stresses",
+                          f"limit load, {mesh}, {volume}, degree {degree}", "prandtl.toml",
+                          (*settings, f"body.ground.volume={volume}", f"degree={degree}"), total, exact,
+                          0.05 if degree == 1 else 0.03,  # of first order in the cells: 4 % with both cuts
+                          named="flow-locks", test=verdict if mesh == "Gmsh" and degree == 1 else "")
+
+
+def circular_rows():
+    for volume, degree in (("pointwise", 1), ("averaged", 1), ("averaged", 2)):
+        settings = ("plane=axisymmetric", "body.ground.mesh=prandtl.geo", f"body.ground.volume={volume}",
+                    f"degree={degree}")
+        yield Row("Circular punch, 8 cells on the radius",
+                  "limit of degree 2; with Tresca's criterion 2.845 (Shield 1955)",
+                  f"mean pressure over the yield stress, Gmsh, {volume}, degree {degree}", "prandtl.toml",
+                  settings, lambda run: total(run) / math.pi, 3.02, 0.05 if degree == 1 else 0.03,
+                  named="flow-locks")
+
+
+def ring_rows():
+    k = 1 / math.sqrt(3)
+    for volume in ("pointwise", "averaged"):
+        for degree in (1, 2):
+            settings = (f"body.ring.volume={volume}", f"degree={degree}")
+            common = ("A ring that flows by 100 elastic strains, 12 cells", "2 k ln 2; 2 k ln(2/r)")
+            yield Row(*common, f"pressure inside, {volume}, degree {degree}", "ring.toml", settings,
+                      quantity("push", 1 / math.pi), 2 * k * math.log(2), 0.02, named="flow-locks")
+            yield Row(*common, f"radial stress over k, {volume}, degree {degree}", "ring.toml", settings,
+                      off_ring, 0, 0.1 if degree == 1 else 0.02,  # 2 k/r times half a cell
+                      named="flow-locks",
+                      test="within" if degree == 1 and volume == "averaged" else "")
+
+
+def end_rows():
+    case = ("Dropped edges, crosspoints, supports at an end", "equilibrium; MOOSE #18853, #33493, #15215")
+    for overlap in (1, 0.5, 1e-2, 1e-4, 1e-6, 1e-9):
+        left = 1 - overlap
+        yield Row(*case, f"force through an overlap of {overlap:g}", "overlap.toml",
+                  (f"body.lower.mesh.lower=[{left!r}, -1]", f"body.lower.mesh.upper=[{left + 1!r}, 0]"),
+                  total, 10, 1e-9, peers=("freefem",) if overlap == 0.5 else (),
+                  test="within" if overlap == 1e-6 else "")
+    for scene, what in (("crosspoint.toml", "three bodies at a point"), ("held-end.toml", "a held end")):
+        for variant in ("mortar", "weighted", "coarsened"):
+            yield Row(*case, f"stress, {what}, {variant}", scene, (f"contact.variant={variant}",),
+                      off_stress(-1, -1, 0), 0, 1e-9,
+                      test="within" if scene == "crosspoint.toml" and variant == "mortar" else "")
+
+
+def plank_rows():
+    case = ("Block on plank with friction", "|T| = mu N; MOOSE PR #22533, #13508: not ready, dies")
+    creep = ("body.block.material={young=1e7, poisson=0.3, law='norton', reference_stress=1e4, "
+             "reference_rate=1e-3, exponent=3}")
+    for plank in (1e7, 1e9, 1e12):
+        for swap in ("false", "true"):
+            settings = (f"body.plank.material.young={plank!r}", f"contact.swap={swap}")
+            side = "plank" if swap == "true" else "block"
+            what = f"plank {plank / 1e7:g} times as stiff, {side} nonmortar"
+            yield Row(*case, f"friction, {what}", "plank.toml", settings,
+                      dragged, 0, 1e-9,
+                      test="within" if plank == 1e9 and swap == "false" else "")
+    yield Row(*case, "friction, the block creeps", "plank.toml", (creep,), dragged, 0, 1e-9)
+    yield Row(*case, "linear solves of the worst step over 1", "plank.toml", (),
+              lambda run: iterations(run) - 1, 0, 10)
+
+
+def punch_rows():
+    modulus = 2e5 / (1 - 0.3**2)
+    yield Row("Elastoplastic punch, unloaded", "2 E/(1 - nu^2) a; Code_Aster SSNA111",
+              "force over motion in unloading", "unload.toml", (), unloading, 2 * modulus, 0.02)
+    yield Row("Flat punch", "F/(pi sqrt(a^2 - x^2)); solids4foam", "nodal pressures up to 0.9 a",
+              "flat-punch.toml", (), off_punch, 0, 0.03, peers=("freefem",), test="within")
+
+
+def hertz_rows():
+    case = ("NAFEMS R0094, benchmark 1", "Hertz; with friction Konter 2006 (Abaqus, Marc)")
+    for degree in (1, 2):
+        yield Row(*case, f"half width, degree {degree}", "nafems.toml", (f"degree={degree}",), half_width,
+                  6.2146, 0.02, peers=("freefem",) if degree == 1 else (),
+                  test="within" if degree == 1 else "")
+        yield Row(*case, f"pressure, degree {degree}", "nafems.toml", (f"degree={degree}",), peak, 3585.4,
+                  0.02)
+    rough = ("contact.friction=0.1", "time.steps=10")
+    yield Row(*case, "pressure, friction 0.1", "nafems.toml", rough, peak, 3800, 0.1)
+    yield Row("Two spheres, SSNV104", "half space; the tolerance is theirs (their 3D value 3176)",
+              "pressure in the middle", "spheres.toml", (), peak, 2798, 0.15)
+    case = ("Kratos' hemispheres", "half space")
+    yield Row(*case, "contact radius", "hemispheres.toml", (),
+              lambda run: math.sqrt(2.5 * (run.contact.force @ run.contact.position[:, 0]**2) / total(run)),
+              0.6302, 0.02)
+    yield Row(*case, "pressure in the middle", "hemispheres.toml", (), peak, 1.4164e5, 0.02)
+
+
+def order_rows():
+    def cells(n):
+        return (f"body.inner.mesh.cells=[{8 * n}, {4 * n}]", f"body.outer.mesh.cells=[{11 * n}, {7 * n}]")
+    case = ("Manufactured curved contact, fitted orders", "Code_Aster V6.03.150, V6.04.219: theirs")
+    for degree, motion, pressure in ((1, 2.0, 0.5), (2, 2.5, 1.0)):
+        settings = tuple((*cells(n), f"degree={degree}") for n in ((1, 2, 4) if degree == 1 else (1, 2, 3)))
+        for what, error, least in (("displacement", curved_motion, motion),
+                                   ("pressure", curved_pressure, pressure)):
+            yield Row(*case, f"order of the {what}, degree {degree}", "curved.toml", settings, order(error),
+                      least, 0.05, at_least=True,
+                      test="within" if degree == 1 and what == "pressure" else "")
+
+
+def patch_rows():
+    for degree in (1, 2):
+        for cuts in (("rising", "both"), ("falling", "rising")):
+            settings = (f"degree={degree}", f"body.upper.mesh.cut={cuts[0]}",
+                        f"body.lower.mesh.cut={cuts[1]}")
+            peers = ("freefem", "getfem", "calculix") if degree == 1 and cuts[0] == "rising" else ()
+            yield Row("Patch on unlike elements, SSNP121", "-1e5 everywhere",
+                      f"stress, {' on '.join(cuts)}, degree {degree}", "patch.toml", settings,
+                      off_stress(0, -1e5, 0), 0, 1e-9, peers=peers,
+                      test="within" if degree == 2 and cuts[0] == "rising" else "")
+
+
+def volume_rows():
+    for volume, verdict in (("pointwise", "named"), ("averaged", "within")):
+        for degree in (1, 2):
+            yield Row("Cook's membrane, nu 0.4999", "limit of both degrees",
+                      f"deflection, {volume}, degree {degree}", "cook.toml",
+                      (f"body.membrane.volume={volume}", f"degree={degree}"), quantity("deflection"), 18.515,
+                      0.03, named="poisson-limit", test=verdict if degree == 1 else "")
+    k, shear = 1 / math.sqrt(3), 1000 / (2 * 1.4999)
+    for volume in ("pointwise", "averaged"):
+        for degree in (1, 2):
+            settings = (f"body.tube.volume={volume}", f"degree={degree}")
+            case = ("Hill's tube, plastic to 1.5", "Hill 1950")
+            yield Row(*case, f"mean stress over k, {volume}, degree {degree}", "tube.toml", settings,
+                      off_tube, 0, 0.03, named="flow-locks|poisson-limit")
+            yield Row(*case, f"inner displacement, {volume}, degree {degree}", "tube.toml", settings,
+                      inner_motion, k * 1.5**2 / (2 * shear), 0.03, named="flow-locks|poisson-limit")
+
+
+def other_rows():
+    lines = tuple((f"body.upper.mesh.cells=[{n}, 12]", f"body.lower.mesh.cells=[{n * 8 // 5}, 12]")
+                  for n in (100, 200, 400, 800))
+    yield Row("Iterations and the mesh", "PETSc's vinewtonrsls: 5, 9, 17, 34 (MOOSE #14166)",
+              "growth of the linear solves from 100 to 800 nodes", "growing.toml", lines, growth, 0, 0.25)
+    yield Row("Shallow ironing", "slips are finite: out of the model", "the run ends", "ironing.toml", (),
+              total, 0, 0, named="contact-slides|past the end")
+    yield Row("Rough punch", "Spence 1975: c/a 0.680", "c/a", command=(
+        "bench/rough_punch.py", "--cells", "24", "--width", "100", "--tolerance", "0.1", "--equal", "1"),
+        read=number(r"tolerance = .*c/a ([\d.]+)"), exact=0.680, within=0.03)
+    yield Row("Half planes pushed along", "Cattaneo, Mindlin", "stick zones, worst of 10 forces [%]",
+              command=("bench/stick_zone.py",), read=number(r"worst ([\d.]+) %"), exact=0, within=1)
+    yield Row("Steps that stall elsewhere", "limits of the certificate (tests/theory/hard_cases.h)",
+              "cases beyond the limits", command=("build/bench/hard_cases", "--fast"),
+              read=number(r"(\d+) cases beyond"))
+    yield Row("Friction in Siconos", "fc2d_lexicolemke", "largest difference of forces, one solution",
+              command=("build/bench/siconos",), read=number(r"largest difference ([\d.e+-]+)"), within=1e-9)
+
+
+ROWS = [*disc_rows(), *prandtl_rows(), *circular_rows(), *ring_rows(), *end_rows(), *plank_rows(),
+        *punch_rows(), *hertz_rows(), *order_rows(), *patch_rows(), *volume_rows(), *other_rows()]

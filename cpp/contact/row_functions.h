@@ -1,0 +1,39 @@
+// Which trace nodes of the nonmortar line have a row, and the functions chi of the rows (coupling.h).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "contact/coupling.h"
+
+namespace mortier {
+
+/// Rows and row functions of a part. The last vertex of a closed part has the row of the first.
+class RowFunctions {
+ public:
+  /// Arguments as in couple(); the part must outlive it.
+  RowFunctions(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
+               const std::vector<char>& merged, double stiffness);
+
+  /// Trace nodes with a row, along the line.
+  [[nodiscard]] const std::vector<int>& nodes() const { return nodes_; }
+  [[nodiscard]] int count() const { return static_cast<int>(nodes_.size()); }
+  /// Rows of the nodes of an element that carry row functions, the vertices first; -1: none.
+  [[nodiscard]] EdgeNodes at(int element) const;
+  /// Values of these functions at an abscissa of the element.
+  [[nodiscard]] EdgeValues functions(int element, const EdgeNodes& rows, double s) const;
+  /// Nodes without a row between two that have one.
+  [[nodiscard]] std::vector<NodeBetween> between() const;
+
+ private:
+  void findSpans();
+  [[nodiscard]] EdgeNodes spanOf(int element) const;
+
+  const SmoothPart& part_;
+  int degree_;
+  std::vector<int> ofNode_;  ///< row of a trace node; -1: none
+  std::vector<int> nodes_;
+  std::vector<std::array<int, 2>> spans_;  ///< by elements: vertices whose hat functions they carry
+};
+
+}  // namespace mortier

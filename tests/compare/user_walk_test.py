@@ -1,0 +1,150 @@
+"""All commands on scenes of users: some of those of user_walk.py, and what a walk found."""
+import csv
+import json
+import os
+import unittest
+
+from support import PROGRAM, OfTwoBlocks
+from tutorial import files as tutorial_files
+from user_walk import explore
+
+# STEP with a bound and rounds; bodies of files with rounds and a bound that is refused; an aim at a quantity
+SEEDS = (1, 11, 17)
+RING = """\
+plane = "axisymmetric"
+degree = 2
+[[body]]
+name = "base"
+mesh = { shape = "rectangle", cells = [5, 3], lower = [0, 0], upper = [1, 1] }
+material = { young = "45 GPa", poisson = 0.3 }
+boundary = [{ label = 1, ux = 0, uy = 0 }]
+[[body]]
+name = "middle"
+mesh = { shape = "rectangle", cells = [4, 3], lower = [0, 1], upper = [0.73, 1.5] }
+material = { young = 15437, poisson = 0.3 }
+boundary = [{ label = 3, ux = 0, uy = "-0.004*t" }]
+[contact]
+variant = "interpolation"
+sides = [{ body = "middle", label = 1 }, { body = "base", label = 3 }]
+shear_limit = 25
+[time]
+end = 1
+steps = 2
+"""
+PUNCH = """\
+plane = "strain"
+[[body]]
+name = "punch"
+mesh = { shape = "rectangle", cells = 4, lower = [-1, 0], upper = [1, 2] }
+material = { young = 100, poisson = 0.3 }
+boundary = [{ label = 3, ux = 0, uy = "-0.01*t" }]
+[[body]]
+name = "ground"
+mesh = { shape = "rectangle", cells = [8, 4], lower = [-4, -4], upper = [4, 0] }
+material = { young = 1, poisson = 0.3 }
+boundary = [{ label = 1, ux = 0, uy = 0 }]
+[contact]
+sides = [{ body = "punch", label = 1 }, { body = "ground", label = 3 }]
+sliding = "allow"
+[[quantity]]
+name = "highest"
+largest_pressure = { body = "punch", label = 1 }
+[[quantity]]
+name = "force"
+reaction = { body = "punch", label = 3 }
+component = "y"
+[time]
+end = 1
+steps = 1
+"""
+STUDY = """\
+scene = "scene.toml"
+[[error]]
+quantity = "energy"
+[reference]
+steps = 4
+[[sweep]]
+steps = [1, 2]
+"""
+
+
+class Walks(unittest.TestCase):
+    def test_every_command_is_done_or_refused_as_check_said(self):
+        for seed, each in explore(PROGRAM, SEEDS):
+            with self.subTest(seed=seed):
+                self.assertEqual(each.findings, [])
+                done = ("check", "run", "python", "study", "compare", "plot", "report")
+                self.assertEqual({each.ways[way] for way in done}, {"done"})
+
+
+class Found(OfTwoBlocks):
+    def left_out(self, *words):
+        plan = json.loads(self.mortier("check", "scene.toml", "--json", *words).stdout)["plan"]
+        return {item["part"]: item["why"] for item in plan if not item["modelled"]}
+
+    def test_tresca_around_an_axis_with_quadratic_interpolation_in_both_codes(self):
+        self.write('units = "mm, N, MPa"\n' + RING)
+        self.mortier("compare", "scene.toml")
+
+    def test_a_comparison_takes_the_meshes_of_the_scene_and_the_steps_of_the_run(self):
+        self.write(self.read("scene.toml") + "[accuracy]\nenergy = 0.1\n")
+        self.mortier("compare", "scene.toml")
+        self.mortier("compare", "scene.toml", "--set", "time.tolerance=0.05", "accuracy=")
+
+    def test_kept_results_say_what_accuracy_they_have(self):
+        plain = self.mortier("compare", "scene.toml", "--accept", "kept").stdout
+        self.assertIn("on the meshes of the scene, no accuracy asked for", plain)
+        asked = ("--accuracy", "0.2")
+        fine = self.mortier("compare", "scene.toml", "--accept", "fine", *asked).stdout
+        self.assertIn(", accuracy 0.2\n", fine)
+        self.mortier("compare", "scene.toml", "--against", "fine", *asked)
+
+    def test_a_study_takes_shapes_units_and_geometries(self):
+        for name, text in tutorial_files().items():
+            self.write(text, name)
+        press = self.read("press.toml").replace("size = 2", "size = 5")
+        for text in ('units = "mm, N, MPa"\n' + RING, press):
+            self.write(text)
+            self.write(STUDY, "study.toml")
+            self.mortier("study", "study.toml", "--quiet", "--jobs", "1", "--out", "studied")
+            with (self.folder / "studied" / "study.csv").open() as file:
+                rows = list(csv.DictReader(file))
+            self.assertEqual([row["status"] for row in rows], ["done", "done"])
+            self.assertLess(float(rows[1]["error energy"]), 1e-2)
+
+    def test_check_says_what_others_refuse_in_their_words(self):
+        self.assertNotIn("freefem", self.left_out())
+        for setting, why in (("time.scheme=sdirk2", "scheme = sdirk2, expected backward-euler"),
+                             ("time.tolerance=0.1", "expected equal steps, or those of a run (--steps-of)")):
+            self.assertIn(why, self.left_out("--set", setting)["freefem"])
+            refused = self.mortier("freefem", "scene.toml", "--set", setting, code=2).stderr
+            self.assertIn(self.left_out("--set", setting)["freefem"], refused)
+        bound = ("--set", "accuracy.bound=true", "degree=2", "body.upper.material={young=3e11, poisson=0.3}")
+        self.assertEqual(self.left_out(*bound)["accuracy"], "displacements are quadratic")
+        self.mortier("run", "scene.toml", "--quiet", "--out", "out", *bound)
+        told = json.loads(self.read("out/summary.json"))["accuracy"]["bound"]
+        self.assertEqual(told["reason"], "displacements are quadratic")
+        self.assertNotIn("accuracy", self.left_out(*bound, "degree=1"))
+
+    def test_values_without_a_limit_are_named_and_others_say_how_they_change(self):
+        self.write(PUNCH)
+        told = self.mortier("run", "scene.toml", "--out", "out", "--accuracy", "0.03").stdout
+        self.assertRegex(told, r"highest .* \(grows with every round, the last time by \d+ %: stresses are "
+                               r"unbounded there\), force \S+ N/m \(changed by 0\.\d+ % in the last round\)")
+        summary = json.loads(self.read("out/summary.json"))
+        highest, force = (summary["quantities"][name] for name in ("highest", "force"))
+        self.assertTrue(highest["grows_with_rounds"])
+        self.assertNotIn("grows_with_rounds", force)
+        self.assertLess(force["change_in_last_round"], 0.01 * abs(force["value"]))
+
+    def test_a_contact_that_never_closes_is_said(self):
+        self.assertNotIn("never touched", self.mortier("run", "scene.toml").stdout)
+        lifted = ("--set", "contact.gap=0.1", 'body.upper.boundary=[{label=4,ux=0},{label=3,uy="1e-3*t"}]')
+        told = self.mortier("run", "scene.toml", *lifted).stdout
+        self.assertIn("warning    the bodies never touched", told)
+        plotted = self.mortier("plot", "out/scene", env={**os.environ, "PYTHONWARNINGS": "always"})
+        self.assertNotIn("Warning", plotted.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
