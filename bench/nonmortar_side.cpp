@@ -53,6 +53,13 @@ int main(int count, char** arguments) {
       {"coarser mesh", [](const MeshPair& p) { return p.cells[0] >= p.cells[1] ? 1 : 0; }},
       {"softer body", [](const MeshPair& p) { return p.young[0] <= p.young[1] ? 0 : 1; }},
       {"stiffer body", [](const MeshPair& p) { return p.young[0] <= p.young[1] ? 1 : 0; }},
+      {"softer or finer",
+       [](const MeshPair& p) {
+         constexpr double clearly = 2;  // as scene/sides.cpp
+         if (p.young[0] > clearly * p.young[1] || p.young[1] > clearly * p.young[0])
+           return p.young[0] <= p.young[1] ? 0 : 1;
+         return p.cells[0] >= p.cells[1] ? 0 : 1;
+       }},
       {"larger E h",
        [](const MeshPair& p) { return p.young[0] / p.cells[0] >= p.young[1] / p.cells[1] ? 0 : 1; }},
       {"smaller E h",

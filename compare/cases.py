@@ -285,6 +285,7 @@ def scene_cases():
         SceneCase("ring", "weighted", "linear"),
         SceneCase("sloped", "weighted", "linear, parted by a parabola", ("contact.gap=1e-5*x^2+2e-6",)),
         SceneCase("stack", "weighted", "linear, held on the left up to the contact lines", HELD),
+        SceneCase("stack", "mortar", "beside weighted", ("contact.1.variant=weighted", *HELD)),
         *(SceneCase("sloped", "coarsened", f"degree {degree}, finer and stiffer side nonmortar",
                     ("contact.swap=true", "contact.gap=1e-5*x^2+2e-6", "body.upper.material.young=1e4",
                      f"degree={degree}")) for degree in (1, 2)),

@@ -149,5 +149,6 @@ def unloading(run):
     return float((history[name][loaded] - history[name][-1]) / -0.008)
 
 
-def number(pattern):
-    return lambda output: float(re.search(pattern, output)[1])
+def number(pattern, of=lambda found: found[0]):
+    """The first number of a command's output that a pattern finds, or another one of all."""
+    return lambda output: of([float(found) for found in re.findall(pattern, output)])

@@ -176,6 +176,17 @@ std::string friction(const SceneDescription& scene) {
          coefficients + "], shearLimit = [" + limits + "];\n";
 }
 
+/// One word where all interfaces have the same.
+std::string variants(const SceneDescription& scene) {
+  std::vector<std::string> words;
+  for (const ContactDescription& contact : scene.contacts) words.push_back(word(contact.variant));
+  std::string list;
+  for (const std::string& each : words) list += (list.empty() ? "\"" : ", \"") + each + '"';
+  const bool same = std::equal(words.begin() + 1, words.end(), words.begin());
+  return "string variant = \"" + words.front() + "\";\n" +
+         (same ? "" : "macro severalVariants yes //\nstring[int] variants = [" + list + "];\n");
+}
+
 /// Other labels than those of SI.
 std::string unitNames(const Units& units) {
   if (!units.given) return "";
@@ -219,9 +230,8 @@ std::string script(const SceneDescription& scene, const Model& model,
         << ", " << mortar.label << ']';
   }
   out << "];\n"
-      << friction(scene) << distances(scene, model) << "string variant = \""
-      << word(scene.contacts.front().variant) << "\";\nreal endTime = " << shortest(scene.time.end)
-      << ";  // [" << scene.units.time << "]\n"
+      << friction(scene) << distances(scene, model) << variants(scene)
+      << "real endTime = " << shortest(scene.time.end) << ";  // [" << scene.units.time << "]\n"
       << stepEnds(times)
       << "int steps = " << (times.empty() ? scene.time.steps : static_cast<int>(times.size()))
       << ";  // backward Euler, " << (times.empty() ? "equal steps" : "steps of their own lengths") << "\n\n";
@@ -244,12 +254,6 @@ std::string script(const SceneDescription& scene, const Model& model,
 /// \throws InputError for the first thing in the scene that the FreeFEM method does not know.
 void requireKnown(const SceneDescription& scene, bool stepsGiven) {
   if (scene.contacts.empty()) refuse(scene.path + ": no contact interface", "one at least");
-  for (const ContactDescription& contact : scene.contacts) {
-    if (contact.variant != scene.contacts.front().variant) {
-      refuse(contact.where + ": contact: variant = " + word(contact.variant),
-             "one variant for all interfaces");
-    }
-  }
   if (scene.time.scheme != Scheme::backwardEuler) {
     refuse(scene.path + ": scheme = " + word(scene.time.scheme), "backward-euler");
   }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/digits.h"
 #include "base/error.h"
 #include "contact/sliding.h"
 #include "lint/held_dofs.h"
@@ -129,8 +130,16 @@ void diagnose(const LintInput& input, const ContactDescription& contact, const S
     faults.add("contact-line", contact.where, message);
 }
 
-void compareMeshes(const SceneDescription& scene, const ContactDescription& contact, const Side& one,
+/// Whether the nonmortar body is so much stiffer that pressures alternate on meshes that are as fine, too.
+bool farStiffer(const SceneDescription& scene, const ContactDescription& contact) {
+  constexpr double far = 100;
+  return contact.variant != CouplingKind::interpolation &&
+         stiffnessRatio(scene, contact.nonmortar, contact.mortar) > far;
+}
+
+void compareMeshes(const LintInput& input, const ContactDescription& contact, const Side& one,
                    const Side& two, Faults& faults) {
+  const SceneDescription& scene = input.scene;
   constexpr double different = 10;
   constexpr double coarser = 4;
   const double h1 = one.length / one.edges;
@@ -143,30 +152,20 @@ void compareMeshes(const SceneDescription& scene, const ContactDescription& cont
     faults.add("contact-size-ratio", contact.where,
                "edges of " + name(one) + " are " + shortest(h1) + " " + scene.units.length +
                    " long, those of " + name(two) + " " + shortest(h2) + " " + scene.units.length);
-  else if (ratio > coarser && !farStiffer(scene, contact, contact.mortar, contact.nonmortar))
+  else if (ratio > coarser && !stiffer(scene, contact, contact.mortar, contact.nonmortar))
     faults.add("nonmortar-coarser", contact.nonmortar.where,
                "edges of the nonmortar side are " + shortest(std::round(10 * ratio) / 10) +
                    " times as long as those of the mortar side");
-  // Nodal pressures are then off by a tenth or more (docs/measurements.md).
-  constexpr double finer = 1.2;
-  constexpr double much = 4;
-  if (contact.variant != CouplingKind::mortar && contact.variant != CouplingKind::weighted) return;
-  const double coarse = std::max(
-      1 / ratio, edgeRatioWhereFine(*one.mesh, contact.nonmortar.label, *two.mesh, contact.mortar.label));
-  const double nodes = coarse / (rowDegree(contact.variant, scene.degree) < scene.degree ? 2 : 1);
-  const double stiffness = stiffnessRatio(scene, contact.nonmortar, contact.mortar);
-  if (nodes > finer && nodes * stiffness > much &&
-      !farStiffer(scene, contact, contact.nonmortar, contact.mortar))
+  if (contact.variant == CouplingKind::coarsened || farStiffer(scene, contact)) return;
+  if (const auto found = alternation(scene, contact, input.meshes))
     faults.add("pressure-alternates", contact.where,
-               "edges of " + name(two) + " are " + shortest(std::round(10 * coarse) / 10) +
+               "edges of " + name(two) + " are " + digits(found->edges) +
                    " times as long as those of the nonmortar side, whose young is " +
-                   shortest(std::round(100 * stiffness) / 100) + " times as large");
+                   digits(found->stiffness) + " times as large");
 }
 
 void compareStiffness(const LintInput& input, const ContactDescription& contact, Faults& faults) {
-  if (contact.variant == CouplingKind::coarsened ||
-      !farStiffer(input.scene, contact, contact.nonmortar, contact.mortar))
-    return;
+  if (contact.variant == CouplingKind::coarsened || !farStiffer(input.scene, contact)) return;
   const auto young = [&](const SideDescription& side) {
     return shortest(input.scene.bodies[bodyIndex(input.scene, side.body)].material.elasticity.young);
   };
@@ -321,7 +320,7 @@ void lintContacts(const LintInput& input, Faults& faults) {
     const Side one = sideOf(input, contact.nonmortar, contact.nonmortar.label);
     const Side two = sideOf(input, contact.mortar, contact.mortar.label);
     if (one.edges == 0 || two.edges == 0) continue;  // named elsewhere
-    if (!refinesMeshes(input.scene)) compareMeshes(input.scene, contact, one, two, faults);
+    if (!refinesMeshes(input.scene)) compareMeshes(input, contact, one, two, faults);
     compareStiffness(input, contact, faults);
     const ContactPair pair{{0, contact.nonmortar.label}, {1, contact.mortar.label}, contact.variant};
     checkFriction(contact, faults);

@@ -116,11 +116,11 @@ const std::vector<FaultKind>& faultKinds() {
       {"nonmortar-coarser", warning, "the nonmortar side is much the coarser one",
        "exchange the sides (contact.swap), or refine it"},
       {"nonmortar-stiffer", warning, "the nonmortar body is much the stiffer one",
-       "exchange the sides (contact.swap): the pressure is then discretised on the softer body; or take "
-       "variant = \"coarsened\""},
+       "leave out contact.variant, or exchange the sides (contact.swap): the pressure is then discretised on "
+       "the softer body"},
       {"pressure-alternates", warning,
        "the nonmortar side is so much finer and stiffer that pressures may alternate from node to node",
-       "take variant = \"coarsened\", or exchange the sides (contact.swap)"},
+       "leave out contact.variant, or exchange the sides (contact.swap)"},
       {"friction-large", warning, "friction so large that a step may have several solutions",
        "check the coefficient; mortier run --list-solutions looks for others"},
       {"interpolation-unmatched", warning, "interpolation on meshes that do not match",

@@ -58,10 +58,6 @@ SegmentGrid boundaryGrid(const TriangleMesh& mesh, const Topology& topology);
 /// [m]
 double distanceToSegment(const Point& p, const std::array<Point, 2>& segment);
 
-/// The length of an edge of the other labelled line over that of one of the first, where both are shortest:
-/// on graded lines, where contact is expected. \pre neither is empty
-double edgeRatioWhereFine(const TriangleMesh& mesh, int label, const TriangleMesh& other, int otherLabel);
-
 /// Lower left and upper right corner of all vertices [m].
 std::array<Point, 2> boundingBox(const TriangleMesh& mesh);
 

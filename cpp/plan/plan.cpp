@@ -135,11 +135,12 @@ class Planner {
     for (size_t k = 0; k < model_.interfaces.size(); ++k) {
       const ContactInterface& interface = model_.interfaces[k];
       const std::string part = "contact " + std::to_string(k);
+      const std::string& choice = scene_.contacts[k].choice;
       add(part, true,
           "unilateral contact by " + word(scene_.contacts[k].variant) + " at " +
               counted(interface.rows(), "node") + " of " +
               model_.bodies[interface.pair().nonmortar.body].name(),
-          "any of them may open");
+          "any of them may open" + std::string(choice.empty() ? "" : "; ") + choice);
       if (const Friction& friction = interface.friction(); friction.any())
         add(part, true, "friction: nodes stick or slip",
             friction.coefficient > 0 ? "friction = " + shortest(friction.coefficient)

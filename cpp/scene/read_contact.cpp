@@ -59,6 +59,7 @@ ContactDescription readContact(const Node& node, const SceneDescription& scene) 
   readSides(table, scene, contact);
   const auto variant = scene.degree == 1 ? CouplingKind::mortar : CouplingKind::weighted;
   contact.variant = table.choice<CouplingKind>("variant", variant);
+  contact.variantGiven = table.has("variant");
   if (contact.variant == CouplingKind::coarsened && scene.accuracy.bound)
     table.reject("variant", "another one beside accuracy.bound");
   contact.initial = table.choice<InitialGap>("initial");

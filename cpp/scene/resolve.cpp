@@ -67,6 +67,7 @@ ResolvedScene resolveScene(SceneDescription scene) {
         point = vertexPoint(meshes[body], point, place(body, where));
       });
   decideSides(scene, pointersTo(meshes));
+  decideVariants(scene, pointersTo(meshes));
   decideVolumes(scene, pointersTo(meshes));
   return {std::move(scene), std::move(meshes)};
 }
@@ -91,6 +92,7 @@ void resolveWhatCanBe(SceneDescription& scene, const std::vector<const TriangleM
   };
   forEachPlace(scene, number(&TriangleMesh::labelNames), number(&TriangleMesh::regionNames), vertex);
   decideSides(scene, meshes);
+  decideVariants(scene, meshes);
   decideVolumes(scene, meshes);
 }
 

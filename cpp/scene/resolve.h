@@ -1,6 +1,7 @@
 // What a scene leaves to its meshes, decided once: between reading (scene.h) and building (build.h).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "scene/scene.h"
@@ -55,22 +56,36 @@ bool flowLocks(const SceneDescription& scene, const MaterialDescription& materia
 /// accuracy.bound none. A second call changes nothing. Bodies without mesh (nullptr) stay as they are.
 void decideVolumes(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes);
 
-// Which side of a contact is nonmortar where the scene leaves it open (`sides`): the one with the finer mesh
-// along the contact, measured by bench/nonmortar_side. A body that is far stiffer than the other is mortar
-// (but with interpolation): a soft body cannot tell the nodes of a finer stiff one apart, and nodal pressures
-// alternate.
+// Which side of a contact is nonmortar where the scene leaves it open (`sides`), measured by
+// bench/nonmortar_side: the softer body, whose energy error is as small and whose nodal pressures do not
+// alternate; the finer mesh along the contact where the moduli are alike, and with interpolation.
 
 /// Young's modulus of the body of one side over that of the other's.
 double stiffnessRatio(const SceneDescription& scene, const SideDescription& one,
                       const SideDescription& other);
 
 /// Whether one body of a contact is so much stiffer than the other that it is to be mortar.
-bool farStiffer(const SceneDescription& scene, const ContactDescription& contact, const SideDescription& one,
-                const SideDescription& other);
+bool stiffer(const SceneDescription& scene, const ContactDescription& contact, const SideDescription& one,
+             const SideDescription& other);
 
 /// Puts the chosen side first in every contact that leaves the choice open, and says why in `choice`; labels
 /// are numbers (scene/resolve.h). A second call changes nothing. Contacts with a mesh that is missing
 /// (nullptr) or a label that the mesh lacks stay as they are.
 void decideSides(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes);
+
+// Which rows a contact has where the scene does not say it (`variant`).
+
+/// A nonmortar side so much finer and stiffer than the mortar side that nodal pressures may alternate where
+/// all its nodes have a row.
+struct Alternation {
+  double edges = 1;      ///< length of the mortar edges over that of the nonmortar edges [-]
+  double stiffness = 1;  ///< Young's modulus of the nonmortar body over that of the mortar body [-]
+};
+std::optional<Alternation> alternation(const SceneDescription& scene, const ContactDescription& contact,
+                                       const std::vector<const TriangleMesh*>& meshes);
+
+/// Takes `coarsened` for contacts with such a side, and says why in `choice`; not with [accuracy], which
+/// refines the meshes or bounds the error of the rows by default. A second call changes nothing.
+void decideVariants(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes);
 
 }  // namespace mortier

@@ -124,8 +124,9 @@ struct ContactDescription {
   SideDescription mortar;
   bool sidesGiven = true;  ///< otherwise which one is nonmortar is left to the program (scene/resolve.h)
   bool otherSide = false;  ///< where it is left to the program: the one that it would not choose
-  std::string choice;      ///< why the nonmortar side is that one, where the program has chosen
-  CouplingKind variant = CouplingKind::mortar;  ///< by default `weighted` where displacements are quadratic
+  std::string choice;      ///< why side and variant are those, where the program has chosen
+  CouplingKind variant = CouplingKind::mortar;
+  bool variantGiven = true;  ///< otherwise it is left to the program (scene/resolve.h)
   InitialGap initial = InitialGap::asMeshed;
   std::optional<Expression> gap;  ///< [m]
   Friction friction;

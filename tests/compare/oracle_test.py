@@ -39,8 +39,6 @@ class Oracle(unittest.TestCase):
     def test_what_freefem_does_not_know_is_refused(self):
         for name, reason in UNKNOWN_TO_FREEFEM.items():
             self.refused(reason, name)
-        self.refused("contact: variant = interpolation, expected one variant for all interfaces", "stack",
-                     "--set", "contact.1.variant=interpolation")
         self.refused("scheme = sdirk2, expected backward-euler", "open-close")
 
     def refused(self, reason, name, *arguments):
