@@ -1,10 +1,8 @@
 #include "mesh/boundary_line.h"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 #include <unordered_map>
-#include <utility>
 
 #include "base/error.h"
 
@@ -130,32 +128,6 @@ BoundaryLine boundaryLine(const TriangleMesh& mesh, const ElementNodes& nodes, i
 int vertexAt(const TriangleMesh& mesh, const Point& place) {
   const auto found = std::find(mesh.vertices.begin(), mesh.vertices.end(), place);
   return found == mesh.vertices.end() ? -1 : static_cast<int>(found - mesh.vertices.begin());
-}
-
-double edgeRatioWhereFine(const TriangleMesh& mesh, int label, const TriangleMesh& other, int otherLabel) {
-  struct Edge {
-    Point middle;
-    double length;
-  };
-  std::array<std::vector<Edge>, 2> lines;
-  for (const int k : {0, 1})
-    for (const auto& [a, b] : edgesOn(k == 0 ? mesh : other, k == 0 ? label : otherLabel)) {
-      const Point& x = (k == 0 ? mesh : other).vertices[a];
-      const Point& y = (k == 0 ? mesh : other).vertices[b];
-      lines[k].push_back({(x + y) / 2, (y - x).norm()});
-    }
-  std::pair<double, double> finest{INFINITY, 1};  // product and ratio of the lengths
-  for (const std::vector<Edge>& line : lines) {
-    const auto shorter = [](const Edge& a, const Edge& b) { return a.length < b.length; };
-    const Point place = std::min_element(line.begin(), line.end(), shorter)->middle;
-    const auto nearer = [&](const Edge& a, const Edge& b) {
-      return (a.middle - place).squaredNorm() < (b.middle - place).squaredNorm();
-    };
-    const double h1 = std::min_element(lines[0].begin(), lines[0].end(), nearer)->length;
-    const double h2 = std::min_element(lines[1].begin(), lines[1].end(), nearer)->length;
-    finest = std::min(finest, {h1 * h2, h2 / h1});
-  }
-  return finest.second;
 }
 
 }  // namespace mortier

@@ -40,8 +40,4 @@ std::vector<int> verticesOn(const TriangleMesh& mesh, int label);
 /// The first vertex that lies exactly at a place [m]; -1 for none.
 int vertexAt(const TriangleMesh& mesh, const Point& place);
 
-/// The length of an edge of the other labelled line over that of one of the first, where both are shortest:
-/// on graded lines, where contact is expected. \pre neither is empty
-double edgeRatioWhereFine(const TriangleMesh& mesh, int label, const TriangleMesh& other, int otherLabel);
-
 }  // namespace mortier

@@ -1,7 +1,7 @@
 #include "scene/resolve.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <utility>
 
 #include "base/digits.h"
@@ -20,6 +20,30 @@ std::optional<double> meanEdge(const SceneDescription& scene, const SideDescript
   if (edges.empty()) return std::nullopt;
   for (const auto& [a, b] : edges) length += (mesh->vertices[b] - mesh->vertices[a]).norm();
   return length / static_cast<double>(edges.size());
+}
+
+/// Over the edges of the nonmortar side, the median of the length of the nearest mortar edge over their own:
+/// edges are many where contact is expected. Both sides have edges.
+double medianEdgeRatio(const TriangleMesh& nonmortar, int label, const TriangleMesh& mortar,
+                       int mortarLabel) {
+  constexpr size_t enough = 1000;
+  const auto edges = edgesOn(nonmortar, label);
+  const auto others = edgesOn(mortar, mortarLabel);
+  std::vector<double> ratios;
+  for (size_t e = 0; e < edges.size(); e += 1 + edges.size() / enough) {
+    const Point& from = nonmortar.vertices[edges[e][0]];
+    const Point& to = nonmortar.vertices[edges[e][1]];
+    const auto distance = [&](const std::array<int, 2>& other) {
+      return (mortar.vertices[other[0]] + mortar.vertices[other[1]] - from - to).squaredNorm();
+    };
+    const auto& [a, b] =
+        *std::min_element(others.begin(), others.end(),
+                          [&](const auto& one, const auto& two) { return distance(one) < distance(two); });
+    ratios.push_back((mortar.vertices[b] - mortar.vertices[a]).norm() / (to - from).norm());
+  }
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return *middle;
 }
 
 }  // namespace
@@ -67,13 +91,14 @@ std::optional<Alternation> alternation(const SceneDescription& scene, const Cont
   // Nodal pressures are off by more than 2 % beyond one of these pairs (docs/measurements.md): the least
   // ratio of nodes, and of nodes times stiffness.
   constexpr double limits[][2] = {{1.1, 4}, {1.5, 1.25}};
-  const auto edge1 = meanEdge(scene, contact.nonmortar, meshes);
-  const auto edge2 = meanEdge(scene, contact.mortar, meshes);
-  if (!edge1 || !edge2 || contact.variant == CouplingKind::interpolation) return std::nullopt;
-  const auto meshOf = [&](const SideDescription& side) { return meshes[bodyIndex(scene, side.body)]; };
-  const double edges =
-      std::max(*edge2 / *edge1, edgeRatioWhereFine(*meshOf(contact.nonmortar), contact.nonmortar.label,
-                                                   *meshOf(contact.mortar), contact.mortar.label));
+  const auto edgesOf = [&](const SideDescription& side) {
+    return meanEdge(scene, side, meshes).has_value() ? meshes[bodyIndex(scene, side.body)] : nullptr;
+  };
+  const TriangleMesh* nonmortar = edgesOf(contact.nonmortar);
+  const TriangleMesh* mortar = edgesOf(contact.mortar);
+  if (nonmortar == nullptr || mortar == nullptr || contact.variant == CouplingKind::interpolation)
+    return std::nullopt;
+  const double edges = medianEdgeRatio(*nonmortar, contact.nonmortar.label, *mortar, contact.mortar.label);
   const double nodes = edges / (rowDegree(contact.variant, scene.degree) < scene.degree ? 2 : 1);
   const double stiffness = stiffnessRatio(scene, contact.nonmortar, contact.mortar);
   for (const auto& [finer, product] : limits)

@@ -67,23 +67,6 @@ TEST(Faults, aLineHasPlaceSeverityMessageRemedyAndId) {
   EXPECT_EQ(counted(3, "held vertex"), "3 held vertices");
 }
 
-// A line graded towards its middle has edges of the same mean length as the other one, and short ones there.
-TEST(Topology, comparesEdgesWhereBothLinesAreFine) {
-  const TriangleMesh graded = rectangleMesh({.lower = {0, 0},
-                                             .upper = {1, 1},
-                                             .cellsX = 21,
-                                             .cellsY = 1,
-                                             .focus = Point(0.5, 0),
-                                             .grading = {10, 1}});
-  const TriangleMesh equal = rectangleMesh({.lower = {0, -1}, .upper = {1, 0}, .cellsX = 21, .cellsY = 1});
-  double shortest = 1;
-  for (const auto& [a, b] : edgesOn(graded, 1))
-    shortest = std::min(shortest, (graded.vertices[a] - graded.vertices[b]).norm());
-  EXPECT_LT(shortest, 0.5 / 21);
-  EXPECT_NEAR(edgeRatioWhereFine(graded, 1, equal, 3), 1 / (21 * shortest), 1e-9);
-  EXPECT_NEAR(edgeRatioWhereFine(equal, 3, graded, 1), 21 * shortest, 1e-9);
-}
-
 // n x n cells with one diagonal: 4 n edges around, the others between two triangles.
 TEST(Topology, countsTheEdgesOfAGrid) {
   const int n = 7;

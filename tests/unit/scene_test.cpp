@@ -116,6 +116,31 @@ TEST_F(SceneFiles, sidesAreDecidedInOnePlace) {
     }
 }
 
+// The lower mesh is the finer one, the upper body the stiffer one as it stands.
+TEST_F(SceneFiles, pressuresDoNotAlternateByDefault) {
+  const auto contact = [&](const std::vector<std::string>& settings) {
+    return resolveScene(readScene(path(), settings)).description.contacts[0];
+  };
+  const std::string stiff = "body.lower.material.young=1e12";
+  EXPECT_EQ(contact({"contact.swap=true"}).variant, CouplingKind::mortar);
+  EXPECT_EQ(contact({stiff}).variant, CouplingKind::mortar);
+  EXPECT_EQ(contact({"contact.swap=true", stiff}).variant, CouplingKind::coarsened);
+  EXPECT_EQ(contact({"contact.swap=true", stiff}).choice,
+            "fewer nodes as its edges are 1.5 times as short and its young is 3.3 times as large");
+  EXPECT_EQ(contact({"contact.swap=true", stiff, "contact.variant=mortar"}).variant, CouplingKind::mortar);
+  EXPECT_EQ(contact({"contact.swap=true", stiff, "accuracy.energy=0.1"}).variant, CouplingKind::mortar);
+  const std::vector<std::string> free{
+      "contact.nonmortar=", "contact.mortar=",
+      "contact.sides=[{body=\"upper\", label=1}, {body=\"lower\", label=3}]"};
+  const auto nonmortar = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), free.begin(), free.end());
+    return contact(more).nonmortar.body;
+  };
+  EXPECT_EQ(nonmortar({}), "lower");
+  EXPECT_EQ(nonmortar({stiff}), "upper");
+  EXPECT_EQ(nonmortar({stiff, "contact.variant=interpolation"}), "lower");
+}
+
 // Names of conditions, regions and sides become the numbers of the mesh; what it does not have,
 // one that no mesh has.
 TEST_F(SceneFiles, labelsAreNumbersOnceResolved) {
