@@ -37,7 +37,7 @@ class Row:
         return abs(value / self.exact - 1) if self.exact else abs(value)
 
 
-def disc(ratio, stiffness, degree=1, side="disc", variant="", up_to=0.85, within=0.02, **more):
+def disc(ratio, stiffness, degree=1, side="disc", variant="", up_to=0.85, **more):
     """Up to that part of the half width: with at least 20 cells on it, or more than half of it."""
     young = 210000 / stiffness
     cells = round(120 / (0.15625 * ratio)) // 2 * 2 + 1
@@ -48,7 +48,7 @@ def disc(ratio, stiffness, degree=1, side="disc", variant="", up_to=0.85, within
                f"nodal pressures up to {up_to:g} b, cells 1:{ratio:g}, E {stiffness:g}:1, {side} nonmortar, "
                f"degree {degree}" + (f", {variant}" if variant else ""), "disc.toml",
                settings + ((f"contact.variant={variant}",) if variant else ()), off_hertz(modulus, up_to), 0,
-               within, **more)
+               0.03 if ratio == 8 else 0.02, **more)
 
 
 def disc_rows():
