@@ -1,9 +1,10 @@
 #include "commands/freefem_steps.h"
 
 #include <charconv>
-#include <fstream>
+#include <sstream>
 
 #include "base/error.h"
+#include "base/whole_file.h"
 
 namespace mortier {
 namespace {
@@ -27,9 +28,9 @@ std::vector<double> stepsOfRun(const std::string& folder, double end) {
     throw InputError(path + (line > 0 ? ':' + std::to_string(line) : "") + ": " + what + ", expected " +
                      expected);
   };
-  std::ifstream file(path);
+  std::istringstream file(readWhole(path, "the history of a run"));
   std::string line;
-  if (!file || !std::getline(file, line)) refuse(0, "cannot be read", "the history of a run");
+  if (!std::getline(file, line)) refuse(0, "cannot be read", "the history of a run");
   size_t column = 0;
   const std::vector<std::string> names = cells(line);
   while (column < names.size() && names[column].compare(0, 5, "time[") != 0) ++column;

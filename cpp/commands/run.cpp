@@ -2,8 +2,10 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -25,12 +27,14 @@ namespace mortier {
 
 namespace {
 
+/// What a signal says that ends the process at once.
+std::atomic<const char*> atOnce = nullptr;
+
 /// The first Ctrl-C ends the run with a checkpoint of its last step; a second one kills, and so does the
 /// first where a library would not hear of it (before the first step).
 void onInterrupt(int signal) {
   if (inUninterruptibleCall()) {
-    constexpr char text[] = "mortier: interrupted before the first step; nothing was written\n";
-    static_cast<void>(!write(STDERR_FILENO, text, sizeof text - 1));
+    static_cast<void>(!write(STDERR_FILENO, atOnce, std::strlen(atOnce)));
     _exit(exitFailed);
   }
   if (!Ranks::all().interrupt()) requestInterrupt();
@@ -105,6 +109,7 @@ int run(RunCommand command) {
     const SceneDescription& scene = attempt->resolved.description;
     lintSettling(scene, findInitialEquilibrium(scene, attempt->solvedModel(), attempt->state), doubts);
   }
+  atOnce = "mortier: interrupted before the first step; nothing was written\n";
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, onInterrupt);
   if (stopped && ranks.first())
     folder.emplace(path, stopped->folder, std::move(stopped->lock));
@@ -126,6 +131,10 @@ int run(RunCommand command) {
   if (stopped && rounds) warn(command.restart + ": the rounds begin again");
 
   // 3. The march in time; where an accuracy is asked for, again and again.
+  const std::string again =
+      "; mortier run --restart " + path + (rounds ? " begins the rounds again" : " goes on");
+  static std::string betweenRounds;
+  betweenRounds = "mortier: " + command.scene + ": interrupted between rounds" + again + "\n";
   const auto solveIt = [&](Attempt& now, Observer alsoObserve) {
     Solving solving{now.resolved.description,
                     *now.model,
@@ -141,13 +150,18 @@ int run(RunCommand command) {
                     std::move(alsoObserve)};
     if (goesOn) solving.stopped = std::move(stopped->checkpoint);
     solving.checkpointInitialStateOnly = rounds.has_value();
-    solving.again = "; mortier run --restart " + path + (rounds ? " begins the rounds again" : " goes on");
+    solving.again = again;
     now.solved = solve(std::move(solving));
+    if (rounds) atOnce = betweenRounds.c_str();
   };
   std::string shortfall;  // why the accuracy is not reached
-  if (rounds)
-    shortfall = solveRounds(*rounds, attempt, options, temporary, log, solveIt);
-  else {
+  if (rounds) {
+    try {
+      shortfall = solveRounds(*rounds, attempt, options, temporary, log, solveIt);
+    } catch (const Interrupted&) {
+      throw InterruptedError(command.scene + ": interrupted between rounds" + again);
+    }
+  } else {
     solveIt(*attempt, {});
     shortfall = attempt->solved.report.shortfall;
   }

@@ -67,7 +67,7 @@ std::string OutputFolder::commit(const Manifest& manifest) {
       const PlaceLock alone(place_.parent().string());
       target = putInPlace(place_, temporary_);
     }
-    finish(place_, target, lock_.name());
+    finish(place_, target, fs::path(temporary_).filename().string());
     return place_.shown(target);
   } catch (const std::exception& error) {
     const auto* file = dynamic_cast<const fs::filesystem_error*>(&error);

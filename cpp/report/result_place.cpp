@@ -146,16 +146,18 @@ fs::path ResultPlace::unused(const std::string& middle) const {
   return folder;
 }
 
+bool ResultPlace::isCalled(const std::string& name, const std::string& middle) const {
+  const std::string begin = result_.filename().string() + middle;
+  return name.size() > begin.size() && name.compare(0, begin.size(), begin) == 0 &&
+         name.find_first_not_of("0123456789.", begin.size()) == std::string::npos;
+}
+
 std::vector<fs::path> ResultPlace::all(const std::string& middle) const {
   std::vector<fs::path> found;
   if (!fs::is_directory(parent())) return found;
-  const std::string begin = result_.filename().string() + middle;
-  for (const fs::directory_entry& entry : entriesOf(parent())) {
-    const std::string name = entry.path().filename().string();
-    if (name.size() > begin.size() && name.compare(0, begin.size(), begin) == 0 &&
-        name.find_first_not_of("0123456789.", begin.size()) == std::string::npos && isFolder(entry.path()))
+  for (const fs::directory_entry& entry : entriesOf(parent()))
+    if (isCalled(entry.path().filename().string(), middle) && isFolder(entry.path()))
       found.push_back(entry.path());
-  }
   return found;
 }
 
@@ -230,8 +232,8 @@ fs::path putInPlace(const ResultPlace& place, const fs::path& temporary) {
 
 void finish(const ResultPlace& place, const fs::path& target, const std::string& name) {
   for (const std::string& old : {name, name + asideName}) {
-    const fs::path folder = place.parent() / fs::path(old).filename();
-    if (old.find(".tmp-") == std::string::npos || !isFolder(folder)) continue;
+    const fs::path folder = place.parent() / old;
+    if (!place.isCalled(name, ".tmp-") || !isFolder(folder)) continue;
     if (!fs::is_empty(folder) && (!isResult(folder) || isMarked(folder))) continue;
     const fs::path gone = place.unused(passing);
     fs::rename(folder, gone);
@@ -264,7 +266,7 @@ LeftBehind clearUp(const ResultPlace& place) {
     const std::optional<Manifest> manifest = readManifest(folder.string());
     if (manifest && isSound(folder.string(), *manifest)) {
       left.placed = putInPlace(place, folder);
-      finish(place, left.placed, lock.name());
+      finish(place, left.placed, folder.filename().string());
     } else if (hasCheckpoint(folder.string())) {
       stopped.emplace_back(fs::last_write_time(folder), folder);
     } else {
