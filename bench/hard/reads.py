@@ -59,6 +59,14 @@ def off_punch(run):
     return float(np.abs(p[inside] * math.pi * np.sqrt(a**2 - x[inside]**2) / (2 * total(run)) - 1).max())
 
 
+def off_cone(run):
+    """The largest deviation of a nodal pressure from E tan/(2 (1 - nu^2)) arcosh(a/r), a = 2 depth/(pi tan)."""
+    a, unit = 2 / math.pi, 1000 / (1 - 0.3**2) * 0.02 / 2
+    r, p = pressures(run)
+    inside = (r > 0.1 * a) & (r < 0.85 * a)
+    return float(np.abs(p[inside] / (unit * np.arccosh(a / r[inside])) - 1).max())
+
+
 def off_stress(*exact):
     """The largest deviation of a stress (s11, s22, s12), over the largest exact one."""
     def read(run):

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 
 from reads import (curved_motion, curved_pressure, dragged, growth, half_width, inner_motion, iterations,
-                   number, off_hertz, off_punch, off_ring, off_stress, off_tube, order, peak, quantity, total,
-                   unloading)
+                   number, off_cone, off_hertz, off_punch, off_ring, off_stress, off_tube, order, peak,
+                   quantity, total, unloading)
 
 
 @dataclass
@@ -139,6 +139,10 @@ def punch_rows():
     modulus = 2e5 / (1 - 0.3**2)
     yield Row("Elastoplastic punch, unloaded", "2 E/(1 - nu^2) a; Code_Aster SSNA111",
               "force over motion in unloading", "unload.toml", (), unloading, 2 * modulus, 0.02)
+    for side, swap, within in (("punch", "false", 0.1), ("block", "true", 0.02)):
+        yield Row("Cone, rigid", "Sneddon 1965; with all rows from -22 to 45 for 12",
+                  f"nodal pressures from 0.1 a to 0.85 a, 9 block cells on a, {side} nonmortar", "cone.toml",
+                  (f"contact.swap={swap}",), off_cone, 0, within, test="within" if side == "punch" else "")
     yield Row("Flat punch", "F/(pi sqrt(a^2 - x^2)); solids4foam", "nodal pressures up to 0.9 a",
               "flat-punch.toml", (), off_punch, 0, 0.03, peers=("freefem",), test="within")
 
