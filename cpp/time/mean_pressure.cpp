@@ -8,6 +8,7 @@
 #include "mesh/axis.h"
 #include "mesh/boundary_line.h"
 #include "time/nodal_forces.h"
+#include "time/quantity.h"
 
 namespace mortier {
 namespace {
@@ -41,8 +42,12 @@ int rowOf(const ContactInterface& interface, int node, const Point& normal) {
 
 std::vector<Vector> meanPressureShares(const Model& model, int body, int label, const LinePart& part) {
   std::vector<Vector> shares;
-  const bool ring = model.bodies[body].axisymmetric();
-  const double size = part.size(ring);
+  const Body& sided = model.bodies[body];
+  const bool ring = sided.axisymmetric();
+  double size = part.size(ring);
+  if (sided.elementNodes().degree > 1)  // forces are those of curved sides, the part is one of the polygon
+    size *= sizeOn(sided.mesh(), sided.elementNodes(), label, ring) /
+            sizeOn(sided.mesh(), elementNodes(sided.mesh(), 1), label, ring);
   for (const ContactInterface& interface : model.interfaces) {
     Vector of = Vector::Zero(interface.rows());
     Vector all = of;
