@@ -29,35 +29,6 @@ Barycentric onCurved(const std::array<Point, QuadraticTriangle::nodes>& x, const
   return b;
 }
 
-/// Integrals of the trial functions over a label, or of x times them, by nodes.
-std::map<int, double> integralsOn(const TriangleMesh& mesh, const ElementNodes& nodes, int label,
-                                  bool axisymmetric) {
-  std::map<int, double> lengths;
-  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
-    if (mesh.boundaryLabels[e] != label) continue;
-    const auto& [a, b] = mesh.boundaryEdges[e];
-    if (nodes.degree == 1) {
-      const double length = (mesh.vertices[b] - mesh.vertices[a]).norm();
-      lengths[a] += length / 2 * (axisymmetric ? (2 * mesh.vertices[a].x() + mesh.vertices[b].x()) / 3 : 1);
-      lengths[b] += length / 2 * (axisymmetric ? (mesh.vertices[a].x() + 2 * mesh.vertices[b].x()) / 3 : 1);
-      continue;
-    }
-    const std::array<int, 3> numbers{a, b, nodes.middles[e]};
-    const std::array<Point, 3> x{nodes.places[a], nodes.places[b], nodes.places[numbers[2]]};
-    const auto radiusAt = [&](double s) {
-      double radius = 0;
-      for (int k = 0; k < 3; ++k) radius += QuadraticEdge::shapes(s)[k] * x[k].x();
-      return radius;
-    };
-    const ResolvedEdge edge = resolveOnEdge([&](double s) {
-      return QuadraticTriangle::edgeTangent(s, x).norm() * (axisymmetric ? radiusAt(s) : 1);
-    });
-    for (const auto& [s, weight, length] : edge.samples)
-      for (int k = 0; k < 3; ++k) lengths[numbers[k]] += weight * length * QuadraticEdge::shapes(s)[k];
-  }
-  return lengths;
-}
-
 }  // namespace
 
 Weights meanAt(const TriangleMesh& mesh, const Point& point) {
@@ -95,17 +66,37 @@ Weights meanOn(const TriangleMesh& mesh, int label, bool axisymmetric) {
 }
 
 Weights meanOn(const TriangleMesh& mesh, const ElementNodes& nodes, int label, bool axisymmetric) {
-  const double sum = sizeOn(mesh, nodes, label, axisymmetric);
-  Weights weights;
-  for (const auto& [node, length] : integralsOn(mesh, nodes, label, axisymmetric))
-    weights.emplace_back(node, length / sum);
-  return weights;
-}
-
-double sizeOn(const TriangleMesh& mesh, const ElementNodes& nodes, int label, bool axisymmetric) {
+  std::map<int, double> lengths;
   double sum = 0;
-  for (const auto& [node, length] : integralsOn(mesh, nodes, label, axisymmetric)) sum += length;
-  return sum;
+  const auto add = [&](int node, double length) {
+    lengths[node] += length;
+    sum += length;
+  };
+  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
+    if (mesh.boundaryLabels[e] != label) continue;
+    const auto& [a, b] = mesh.boundaryEdges[e];
+    if (nodes.degree == 1) {
+      const double length = (mesh.vertices[b] - mesh.vertices[a]).norm();
+      add(a, length / 2 * (axisymmetric ? (2 * mesh.vertices[a].x() + mesh.vertices[b].x()) / 3 : 1));
+      add(b, length / 2 * (axisymmetric ? (mesh.vertices[a].x() + 2 * mesh.vertices[b].x()) / 3 : 1));
+      continue;
+    }
+    const std::array<int, 3> numbers{a, b, nodes.middles[e]};
+    const std::array<Point, 3> x{nodes.places[a], nodes.places[b], nodes.places[numbers[2]]};
+    const auto radiusAt = [&](double s) {
+      double radius = 0;
+      for (int k = 0; k < 3; ++k) radius += QuadraticEdge::shapes(s)[k] * x[k].x();
+      return radius;
+    };
+    const ResolvedEdge edge = resolveOnEdge([&](double s) {
+      return QuadraticTriangle::edgeTangent(s, x).norm() * (axisymmetric ? radiusAt(s) : 1);
+    });
+    for (const auto& [s, weight, length] : edge.samples)
+      for (int k = 0; k < 3; ++k) add(numbers[k], weight * length * QuadraticEdge::shapes(s)[k]);
+  }
+  Weights weights;
+  for (const auto& [node, length] : lengths) weights.emplace_back(node, length / sum);
+  return weights;
 }
 
 }  // namespace mortier

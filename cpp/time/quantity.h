@@ -88,7 +88,5 @@ std::vector<std::pair<int, double>> meanOn(const TriangleMesh& mesh, const Eleme
                                            bool axisymmetric = false);
 /// The same of linear displacements.
 std::vector<std::pair<int, double>> meanOn(const TriangleMesh& mesh, int label, bool axisymmetric = false);
-/// Length of a label, of curved sides where they are [m]; about an axis the integral of x over it [m^2].
-double sizeOn(const TriangleMesh& mesh, const ElementNodes& nodes, int label, bool axisymmetric = false);
 
 }  // namespace mortier

@@ -77,3 +77,33 @@ def along(direction):
 def scaled_width(force):
     """The half width of one half of a line contact, for another force by Hertz's square root."""
     return lambda run: half_width(run) * math.sqrt(force / (2 * total(run)))
+
+
+def prandtl_reuss(strains, shear, yield_stress, hardening, steps=200):
+    """Von Mises stresses after stretches of the strains (e11, e22), e33 = 0, with isotropic hardening: up to
+    yield as it is, then by the method of Runge and Kutta."""
+    stress, flow, found = np.zeros(3), 0.0, []
+    for first, last in zip(strains, strains[1:]):
+        strain = np.array([*np.subtract(last, first), 0.0])
+        rise = 2 * shear * (strain - strain.mean())
+
+        def rates(stress):
+            n = stress / np.linalg.norm(stress)
+            part = max(n @ rise, 0.0) / (2 * shear + 2 / 3 * hardening)
+            return np.array([*(rise - 2 * shear * part * n), math.sqrt(2 / 3) * part])
+
+        a, b = rise @ rise, stress @ rise
+        c = stress @ stress - 2 / 3 * (yield_stress + hardening * flow)**2
+        inside = b < 0 or c < -1e-9 * yield_stress**2
+        elastic = min(1.0, (-b + math.sqrt(max(b * b - a * c, 0.0))) / a) if inside else 0.0
+        stress = stress + elastic * rise
+        h = (1 - elastic) / steps
+        for _ in range(steps if h > 0 else 0):
+            k1 = rates(stress)
+            k2 = rates(stress + h / 2 * k1[:3])
+            k3 = rates(stress + h / 2 * k2[:3])
+            k4 = rates(stress + h * k3[:3])
+            change = h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+            stress, flow = stress + change[:3], flow + change[3]
+        found.append(math.sqrt(1.5) * np.linalg.norm(stress))
+    return found

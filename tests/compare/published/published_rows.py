@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from known import Row, located
-from published_reads import (along, constant, course, courses, flow, motions, quantities, scaled_width,
-                             stress_at)
+from published_reads import (along, constant, course, courses, flow, motions, prandtl_reuss, quantities,
+                             scaled_width, stress_at)
 from reads import half_width, off_hertz, off_stress, peak, quantity, radius_of_contact, total
 
 
@@ -25,22 +25,18 @@ def aster_contact_rows():
     yield Row(*case, "displacement of the interface", "ssnp121.toml", (), quantity("motion"), -0.05,
               -0.0499784, 1e-9, published=True)
     pressure = 2e6 * 0.8 / (1 + 0.36 * 0.6 + 0.64 / 0.32 * (0.36 * 0.6 + 0.04))
-    for degree, within in ((1, 0.02), (2, 1e-3)):
+    for degree, within in ((1, 0.02), (2, 1e-4)):
         yield Row("SSNP152 B, two rings", "Code_Aster V6.03.152, ssnp152b.comm; Lame",
                   f"contact pressure, degree {degree}", "ssnp152.toml", (f"degree={degree}",),
-                  quantity("pressure"), pressure, 918462.2, within, test="within" if degree == 1 else "",
-                  published=True)
+                  quantity("pressure"), pressure, 918462.2, within, test="within", published=True)
     yield Row("NAFEMS R0094, benchmark 1", "Konter 2006 by Code_Aster's ssnp154a.comm (Abaqus, Marc)",
               "displacement of the block in the middle", "nafems1.toml", (), quantity("sinks"), None,
-              -1.30690, 0.01, published=True)
-    case = ("NAFEMS R0094, benchmark 2", "Konter 2006 by Code_Aster's ssna122a.comm (Abaqus, Marc)")
-    for friction, sinks, stress in ((0, -0.1307341, -91.1006), (0.1, -0.1285802, -88.6652)):
-        settings = (f"contact.friction={friction}", "time.steps=4") if friction else ()
-        words = f", friction {friction}" if friction else ""
-        yield Row(*case, f"displacement in the middle{words}", "ssna122.toml", settings, quantity("sinks"),
-                  None, sinks, 0.01, test="" if friction else "within", published=True)
-        yield Row(*case, f"axial stress in the middle{words}", "ssna122.toml", settings,
-                  stress_at("foundation", (0, 0), 1), None, stress, 0.02, published=True)
+              -1.30690, 0.03, published=True)
+    for friction, sinks in ((0, -0.132941), (0.1, -0.130794)):
+        yield Row("NAFEMS R0094, benchmark 2", "Konter 2006 by Code_Aster's ssna122b.comm (V6.01.122)",
+                  f"displacement in the middle, friction {friction}", "ssna122.toml",
+                  (f"contact.friction={friction}", "time.steps=4"), quantity("sinks"), None, sinks, 0.01,
+                  test="" if friction else "within", published=True)
     yield Row("SSNV128, plate on a rigid plane, friction 1",
               "GRECO; Code_Aster V6.04.128, ssnv128a.comm (its own: 4 % off)",
               "displacement of five points below", "ssnv128.toml", (),
@@ -113,7 +109,7 @@ def line_contact_rows():
               within=0.03, published=True)
     yield Row("deal.II step-42, ball on an elastoplastic cube",
               "examples/step-42, p1_adaptive.prm, cycle 3 (14,652 cells)", "contact force",
-              "step-42.toml", (), total, None, 56.794, 0.05, published=True)
+              "step-42.toml", (), total, None, 56.794, 0.1, published=True)
 
 
 def patch_rows():
@@ -122,9 +118,9 @@ def patch_rows():
               (-1.4e-4, 6e-5), within=1e-9, each=True, test="within", published=True)
     yield Row(*case, "stresses", "moose-rz.toml", (), off_stress(-100, 0, 0), within=1e-9, published=True)
     case = ("MOOSE, simple_contact_rspherical", "contact/test/tests/simple_contact")
-    for degree, within in ((1, 1e-2), (2, 1e-3)):
+    for degree, within in ((1, 1e-2), (2, 1e-4)):
         yield Row(*case, f"contact pressure, degree {degree}", "moose-spherical.toml", (f"degree={degree}",),
-                  quantity("pressure"), 6000, within=within, published=True)
+                  quantity("pressure"), 6000, within=within, test="within", published=True)
     yield Row("Tribol, contact patch test", "MFEM, miniapps/tribol/contact-patch-test.cpp: E 0.01/2",
               "stress", "tribol.toml", (), constant(1), -0.625, within=1e-9, test="within", published=True)
 
@@ -191,14 +187,15 @@ def elastic_rows():
 
 
 def flow_rows():
-    case = ("NAFEMS NL1, biaxial strain", "NAFEMS NNB by Abaqus' Benchmarks Guide")
-    times = range(1, 9)
-    yield Row(*case, "von Mises stress at eight times, perfectly plastic", "nl1.toml", (),
-              course("stress", times), None, (5, 5, 5, 5, 5, 5, 3.917, 5), 0.01, test="within",
-              published=True)
-    yield Row(*case, "the same, isotropic hardening", "nl1.toml",
-              ("body.square.material.isotropic_hardening=62500",), course("stress", times), None,
-              (5, 5.862, 5.482, 6.362, 6.640, 7.322, 4.230, 5.673), 0.01, published=True)
+    case = ("NAFEMS NL1, biaxial strain", "NAFEMS NNB by Abaqus' Benchmarks Guide; Prandtl, Reuss")
+    strains = 1e-4 * np.array([(0, 0), (0.25, 0), (0.5, 0), (0.5, 0.25), (0.5, 0.5), (0.25, 0.5), (0, 0.5),
+                               (0, 0.25), (0, 0)])
+    for what, hardening, theirs in (("perfectly plastic", 0, (5, 5, 5, 5, 5, 5, 3.917, 5)),
+                                    ("isotropic hardening", 62500, (5, 5.862, 5.482, 6.362, 6.640, 7.322,
+                                                                    4.230, 5.673))):
+        yield Row(*case, f"von Mises stress at eight times, {what}", "nl1.toml",
+                  (f"body.square.material.isotropic_hardening={hardening}",), course("stress", range(1, 9)),
+                  prandtl_reuss(strains, 1e5, 5, hardening), theirs, 0.005, test="within", published=True)
     case = ("NAFEMS R0027, creep under load", "Becker, Hyde; Ansys VMR027, VMR049: A s^4 (s1 - s2/2) t")
     yield Row(*case, "creep strains, uniaxial", "creep.toml", (), flow("square", 0, 1), (10, -5), (10, -5),
               1e-3, test="within", published=True)
