@@ -37,7 +37,7 @@ class Row:
     at_least: bool = False  # more than the exact value is no fault
     each: bool = False  # differences are over each of several values
     test: str = ""  # of a fast one the verdict that a test expects
-    published: bool = False  # a row of docs/published.md
+    published: bool = False  # in docs/published.md too
 
     def runs(self):
         several = self.settings and not isinstance(self.settings[0], str)

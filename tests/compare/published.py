@@ -23,7 +23,7 @@ import rows as hard_rows  # noqa: E402
 from known import measure  # noqa: E402
 
 PAGE = ROOT / "docs" / "published.md"
-ROWS = [row for row in [*published_rows.ROWS, *hard_rows.ROWS] if row.published]
+ROWS = [*published_rows.ROWS, *(row for row in hard_rows.ROWS if row.published)]
 HEADER = ["test", "source", "quantity", "exact", "theirs", "ours", "difference", "tolerance", "s"]
 
 
@@ -39,6 +39,11 @@ def values(row):
     return np.size(row.reference())
 
 
+def right(row, verdict):
+    """A value that is off is wrong though the program said so; where there is none the program has to."""
+    return verdict == "within" or row.reference() is None and verdict.startswith("named")
+
+
 def cells(row, value, off, verdict, seconds):
     """The row of the table; of several values the one with the largest difference."""
     which = 0
@@ -48,7 +53,7 @@ def cells(row, value, off, verdict, seconds):
         which = int(np.argmax(np.abs(value - reference) / scale))
     ours = shown(value, which) or verdict
     difference = "" if off is None else f"{off:.1e}"
-    if not verdict.startswith(("within", "named")):
+    if not right(row, verdict):
         difference = f"{difference} {verdict}".strip()
     return [*facts(row, which)[:5], ours, difference, facts(row, which)[5], f"{seconds:.1f}"]
 
@@ -72,7 +77,7 @@ def table(chosen, report=print):
         begin = time.perf_counter()
         value, off, verdict = measure(row)
         lines.append(line(cells(row, value, off, verdict, time.perf_counter() - begin)))
-        wrong += not verdict.startswith(("within", "named"))
+        wrong += not right(row, verdict)
         report(lines[-1])
     return lines, wrong
 
