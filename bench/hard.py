@@ -12,8 +12,6 @@ itself (a warning, or the reason why it ended), or OFF. The other codes are thos
 import argparse
 import json
 import os
-import re
-import subprocess
 import sys
 import tempfile
 import time
@@ -25,66 +23,14 @@ SCENES = ROOT / "bench" / "hard"
 sys.path[:0] = [str(ROOT / "study"), str(ROOT / "compare"), str(SCENES)]
 
 import codes  # noqa: E402
-import results  # noqa: E402
 import rows  # noqa: E402
 import scene as scenes  # noqa: E402
+from known import measure  # noqa: E402
 from plan import Case  # noqa: E402
 from problems import RunFailure  # noqa: E402
 
 codes.MORTIER = str(Path(codes.MORTIER).resolve())  # runs are in other folders
 NAMES = {"freefem": "FreeFEM", "getfem": "GetFEM", "calculix": "CalculiX"}
-
-
-class Ended(Exception):
-    """A run that has no result; the message is all that the program said."""
-
-
-def solve(row, settings, folder):
-    """A run, and what the program said of it."""
-    done = subprocess.run([codes.MORTIER, "run", row.scene, "--quiet", "--out", folder, *row.options,
-                           *codes.set_option(settings)], cwd=SCENES, capture_output=True, text=True)
-    if done.returncode != 0:
-        raise Ended(done.stderr)
-    run = results.read_mortier(folder)
-    return run, done.stderr + json.dumps(run.summary.get("several_solutions", ""))
-
-
-def call(row):
-    """The output of a program of the tree; nothing where it is not built."""
-    program = ROOT / row.command[0]
-    if program.parts[len(ROOT.parts)] == "build":  # beside the program that is tested
-        program = Path(codes.MORTIER).parent.joinpath(*program.parts[len(ROOT.parts) + 1:])
-    if not program.is_file():
-        return None
-    options = ["--program", codes.MORTIER] if program.suffix == ".py" else []
-    done = subprocess.run([program, *row.command[1:], *options], capture_output=True, text=True, cwd=ROOT)
-    if not done.stdout:
-        raise Ended(done.stderr)
-    return done.stdout
-
-
-def measure(row):
-    """(value, difference, verdict) of ours; the verdict is `skipped` where what it needs is not there."""
-    said = ""
-    try:
-        if row.command:
-            output = call(row)
-            if output is None:
-                return None, None, f"skipped: {row.command[0]} is not built"
-            value = row.read(output)
-        else:
-            with tempfile.TemporaryDirectory(prefix="mortier-hard-") as name:
-                solved = [solve(row, settings, Path(name) / str(i)) for i, settings in enumerate(row.runs())]
-                value = row.read(*(run for run, _ in solved))
-                said = "".join(words for _, words in solved)
-    except Ended as ending:
-        value, said = None, str(ending)
-    off = None if value is None else row.off(value)
-    if off is not None and off <= row.within:
-        return value, off, "within"
-    if row.named and (found := re.search(row.named, said)):
-        return value, off, f"named: {found[0]}"
-    return value, off, "OFF" if value is not None else "OFF: " + said.strip().splitlines()[-1]
 
 
 def mesh_files(document, folder):
@@ -106,7 +52,7 @@ def mesh_files(document, folder):
 
 def peer(row, code):
     """The value of another code on the same meshes, or why there is none."""
-    document = tomllib.loads((SCENES / row.scene).read_text())
+    document = tomllib.loads(row.scene.read_text())
     (settings,) = row.runs()
     for setting in settings:
         key, _, value = setting.partition("=")
@@ -117,7 +63,7 @@ def peer(row, code):
             kept = [setting for setting in settings if ".mesh." not in setting]
             pairs = [setting.split("=", 1) for setting in kept + mesh_files(document, folder)]
             case = Case((("code", code), *((key, scenes.value_of(text)) for key, text in pairs)))
-            return row.read(codes.run(case, SCENES / row.scene, {}, folder / "run", timeout=300).run)
+            return row.read(codes.run(case, row.scene, {}, folder / "run", timeout=300).run)
         except (RunFailure, KeyError) as failure:
             return str(failure).splitlines()[0]
 
@@ -148,11 +94,12 @@ def main():
         peers = {} if given.no_peers else {NAMES[code]: peer(row, code) for code in row.peers}
         words = [f"{name} {each if isinstance(each, str) else shown(each)}" for name, each in peers.items()]
         words += [] if words else [""]
-        print(f"{row.value:<66} {shown(value):>10} {words[0]:>18} {shown(row.exact):>10} "
+        print(f"{row.value:<66} {shown(value):>10} {words[0]:>18} {shown(row.reference()):>10} "
               f"{'' if off is None else f'{off:.1e}':>8} {seconds:>6.1f}  {verdict}", flush=True)
         for each in words[1:]:
             print(f"{'':<66} {'':>10} {each:>18}", flush=True)
-        found.append({"case": row.case, "value": row.value, "ours": value, "peers": peers, "exact": row.exact,
+        found.append({"case": row.case, "value": row.value, "ours": value, "peers": peers,
+                      "exact": row.exact, "theirs": row.theirs,
                       "off": off, "verdict": verdict, "seconds": seconds, "source": row.source})
     count = {kind: sum(row["verdict"].startswith(kind) for row in found)
              for kind in ("within", "named", "OFF", "skipped")}

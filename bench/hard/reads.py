@@ -34,17 +34,22 @@ def half_width(run):
     return 2 * math.sqrt(force @ x**2 / force.sum())
 
 
+def radius_of_contact(run):
+    """The radius of contact by the forces about an axis: of Hertz's pressure."""
+    return math.sqrt(2.5 * (run.contact.force @ run.contact.position[:, 0]**2) / total(run))
+
+
 def peak(run):
     """The pressure in the middle."""
     x, p = pressures(run)
     return float(p[np.argmin(np.abs(x))])
 
 
-def off_hertz(modulus, up_to=0.55):
-    """The largest deviation of a nodal pressure from Hertz's of the same force."""
+def off_hertz(modulus, radius, symmetric=False, up_to=0.55):
+    """The largest deviation of a nodal pressure from Hertz's of the same force; symmetric: of one half."""
     def read(run):
-        force = total(run)
-        b = math.sqrt(4 * force * 50 / (math.pi * modulus))
+        force = total(run) * (2 if symmetric else 1)
+        b = math.sqrt(4 * force * radius / (math.pi * modulus))
         x, p = pressures(run)
         inside = np.abs(x) < up_to * b
         exact = 2 * force / (math.pi * b) * np.sqrt(1 - (x[inside] / b)**2)

@@ -1,5 +1,6 @@
 #include "time/mean_pressure.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -25,6 +26,25 @@ std::vector<std::pair<int, Point>> nodesAlong(const BoundaryLine& line, const Co
   return nodes;
 }
 
+/// How much longer curved sides are than the polygon of their ends, or larger as they turn about the axis.
+double stretchOfCurves(const BoundaryLine& line, bool ring) {
+  const double gauss = std::sqrt(0.6);
+  const std::array<std::pair<double, double>, 3> places{{{-gauss, 5 / 9.0}, {0, 8 / 9.0}, {gauss, 5 / 9.0}}};
+  double curved = 0;
+  double polygon = 0;
+  for (size_t i = 0; i < line.middlePoints.size(); ++i) {
+    const Point& a = line.points[i];
+    const Point& m = line.middlePoints[i];
+    const Point& b = line.points[i + 1];
+    for (const auto& [s, weight] : places) {
+      const Point x = s * (s - 1) / 2 * a + (1 - s * s) * m + s * (s + 1) / 2 * b;
+      curved += weight * ((s - 0.5) * a - 2 * s * m + (s + 0.5) * b).norm() * (ring ? x.x() : 1);
+    }
+    polygon += (b - a).norm() * (ring ? (a.x() + b.x()) / 2 : 1);
+  }
+  return polygon > 0 ? curved / polygon : 1;
+}
+
 /// The row of a node along a normal; a corner has two. -1 where it has none.
 int rowOf(const ContactInterface& interface, int node, const Point& normal) {
   int row = -1;
@@ -41,8 +61,11 @@ int rowOf(const ContactInterface& interface, int node, const Point& normal) {
 
 std::vector<Vector> meanPressureShares(const Model& model, int body, int label, const LinePart& part) {
   std::vector<Vector> shares;
-  const bool ring = model.bodies[body].axisymmetric();
-  const double size = part.size(ring);
+  const Body& sided = model.bodies[body];
+  const bool ring = sided.axisymmetric();
+  // Forces are those of curved sides, the part is one of the polygon.
+  const double size =
+      part.size(ring) * stretchOfCurves(boundaryLine(sided.mesh(), sided.elementNodes(), label), ring);
   for (const ContactInterface& interface : model.interfaces) {
     Vector of = Vector::Zero(interface.rows());
     Vector all = of;

@@ -1,0 +1,23 @@
+// Half of the section of the body of NAFEMS LE11: sphere, taper, cylinder.
+DefineConstant[ h = 0.04 ];
+Point(1) = {1, 0, 0, h / 2};
+Point(2) = {1.4, 0, 0, h};
+Point(3) = {1.2124355652982142, 0.7, 0, h};
+Point(4) = {1, 1.39, 0, h};
+Point(5) = {1, 1.79, 0, h};
+Point(6) = {0.7071067811865476, 1.79, 0, h};
+Point(7) = {0.7071067811865476, 0.7071067811865476, 0, h};
+Point(8) = {0, 0, 0, h};
+Line(1) = {1, 2};
+Circle(2) = {2, 8, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Line(6) = {6, 7};
+Circle(7) = {7, 8, 1};
+Curve Loop(1) = {1, 2, 3, 4, 5, 6, 7};
+Plane Surface(1) = {1};
+Physical Curve("below") = {1};
+Physical Curve("above") = {5};
+Physical Curve("free") = {2, 3, 4, 6, 7};
+Physical Surface(1) = {1};

@@ -1,0 +1,21 @@
+// A quarter of a plate of half width 20 with a hole of radius 1.
+DefineConstant[ h = 0.12 ];
+Point(1) = {1, 0, 0, h};
+Point(2) = {20, 0, 0, 12 * h};
+Point(3) = {20, 20, 0, 12 * h};
+Point(4) = {0, 20, 0, 12 * h};
+Point(5) = {0, 1, 0, h};
+Point(6) = {0, 0, 0, h};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Circle(5) = {5, 6, 1};
+Curve Loop(1) = {1, 2, 3, 4, 5};
+Plane Surface(1) = {1};
+Physical Curve("below") = {1};
+Physical Curve("right") = {2};
+Physical Curve("above") = {3};
+Physical Curve("left") = {4};
+Physical Curve("hole") = {5};
+Physical Surface(1) = {1};

@@ -1,0 +1,20 @@
+// Half of the section of a punch of radius 50 and height 100, its edge rounded with a radius of 10.
+DefineConstant[ h = 1.5 ];
+Point(1) = {0, 0, 0, 3 * h};
+Point(2) = {40, 0, 0, h / 2};
+Point(3) = {40, 10, 0, h};
+Point(4) = {50, 10, 0, 3 * h};
+Point(5) = {50, 100, 0, 8 * h};
+Point(6) = {0, 100, 0, 8 * h};
+Line(1) = {1, 2};
+Circle(2) = {2, 3, 4};
+Line(3) = {4, 5};
+Line(4) = {5, 6};
+Line(5) = {6, 1};
+Curve Loop(1) = {1, 2, 3, 4, 5};
+Plane Surface(1) = {1};
+Physical Curve(1) = {1, 2};
+Physical Curve(2) = {3};
+Physical Curve(3) = {4};
+Physical Curve(4) = {5};
+Physical Surface(1) = {1};
