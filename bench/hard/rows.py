@@ -18,8 +18,8 @@ def disc(ratio, stiffness, degree=1, side="disc", variant="", up_to=0.85, **more
     return Row("Disc on block", "Hertz; in MorteX (Akula and others) pressures alternate",
                f"nodal pressures up to {up_to:g} b, cells 1:{ratio:g}, E {stiffness:g}:1, {side} nonmortar, "
                f"degree {degree}" + (f", {variant}" if variant else ""), "disc.toml",
-               settings + ((f"contact.variant={variant}",) if variant else ()), off_hertz(modulus, 50, up_to=up_to),
-               within=0.03 if ratio == 8 else 0.02, **more)
+               settings + ((f"contact.variant={variant}",) if variant else ()),
+               off_hertz(modulus, 50, up_to=up_to), within=0.03 if ratio == 8 else 0.02, **more)
 
 
 def disc_rows():
