@@ -28,7 +28,7 @@ class Folder:
         if self.path.is_symlink() and not self.path.exists():
             raise StudyError(f"--out {path}: a link to nothing, expected a folder of a study or a new one")
         for each in (self.path, self.path / "study.csv"):
-            if each.exists() and each.is_dir() != (each == self.path):
+            if each.exists() and not (each.is_dir() if each == self.path else each.is_file()):
                 raise StudyError(f"--out {path}: {each} is in the way, expected a folder of a study "
                                  "or a new one")
         csv = self.path / "study.csv"
@@ -88,6 +88,8 @@ class Folder:
     def record(self):
         """name -> checksums of what may stand there."""
         try:
+            if exists(self.path / RECORD) and not (self.path / RECORD).is_file():
+                raise ValueError("a folder or a pipe")
             record = json.loads((self.path / RECORD).read_text(encoding="utf-8"))
             files = {name: list(map(str, sums)) for name, sums in record["files"].items()
                      if Path(name).name == name}

@@ -132,7 +132,8 @@ def require_drawable(views, scale, window):
     size = extent(bodies_of(views))
     most = abs(scale) * max(np.abs(body.displacement).max() for body in bodies_of(views)) / size
     if not most <= FAR:
-        raise Wrong(f"--scale {scale:g}: displacements of {most:.3g} times the bodies, expected {FAR:g} at most")
+        raise Wrong(f"--scale {scale:g}: displacements of {most:.3g} times the bodies, expected {FAR:g} "
+                    "at most")
     for side in (window[1] - window[0], window[3] - window[2]):
         if not size / FAR <= side <= FAR * size:
             raise Wrong(f"--window: a side of {side:.3g}, expected {size / FAR:.3g} to {FAR * size:.3g}")

@@ -135,7 +135,8 @@ std::string Node::quoted() const {
 }
 
 std::string readSceneText(const std::string& path) {
-  return readWhole(path, "a scene (TOML file)", mostBytes, true);
+  constexpr uint64_t most = uint64_t{1} << 28;
+  return readWhole(path, "a scene (TOML file)", most, true);
 }
 
 Node readDocument(const std::string& path, const std::string& text) {

@@ -1,7 +1,6 @@
-"""Results of others: what is no file, endless, too large or names files elsewhere is refused with one line."""
+"""Results of others: what is no file, too large or names files elsewhere is refused with one line."""
 import contextlib
 import os
-import re
 import unittest
 
 from support import InFolder, mortier
@@ -60,7 +59,8 @@ class HostileResults(InFolder):
             sound = (self.folder / "run" / name).read_text()
             for cells in (lambda row: row.rsplit(",", 1)[0], lambda row: row + ",1"):
                 with self.instead(name) as path:
-                    path.write_text(re.sub(r"^\S+\n\Z", lambda row: cells(row[0][:-1]) + "\n", sound, flags=re.M))
+                    head, last = sound.rstrip("\n").rsplit("\n", 1)
+                    path.write_text(f"{head}\n{cells(last)}\n")
                     self.refuse("has not as many cells as there are columns", "plot", "run")
 
     def test_scales_and_windows_of_any_size(self):
@@ -73,14 +73,15 @@ class HostileResults(InFolder):
             self.assertEqual((code, errors), (0, ""))
 
     def test_numbers_that_overflow(self):
-        for name, letters in (("history.csv", r"[^,\n]+$"), ("contact.csv", r"[^,\n]+$"),
-                              ("summary.json", r"(?<=\"interpenetration\": )[^,]+")):
-            sound = (self.folder / "run" / name).read_text()
+        sound = (self.folder / "run/contact.csv").read_text()
+        names = sound.split("\n", 1)[0].split(",")
+        last = sound.rstrip("\n").rsplit("\n", 1)[1].split(",")
+        for column in ("gap", "force", "pressure", "x"):
             for number in ("1e999", "-1e308", "nan"):
-                with self.subTest(name=name, number=number), self.instead(name) as path:
-                    path.write_text(re.sub(letters + r"(?=,?\n?\Z|,)", number, sound, flags=re.M))
-                    self.refuse("run", "plot", "run")
-                    self.refuse("run", "report", "run")
+                with self.subTest(column=column, number=number), self.instead("contact.csv") as path:
+                    cells = [number if name == column else cell for name, cell in zip(names, last)]
+                    path.write_text(sound + ",".join(cells) + "\n")
+                    self.refuse("not finite, or 1e+300 and more", "report", "run")
 
     def test_without_a_home_there_is_no_other_line(self):
         nowhere = {"PATH": os.environ["PATH"], "HOME": "/nonexistent"}

@@ -1,5 +1,6 @@
 """mortier study and what others wrote: names in its page and pictures, files in its folder."""
 import html
+import os
 import re
 import subprocess
 import sys
@@ -8,6 +9,9 @@ import xml.etree.ElementTree as xml
 
 from study_support import SPACE, StudyTest
 from support import PROGRAM, ROOT, told
+from folder import Folder
+from problems import StudyError
+from table import AFTER
 
 sys.path.insert(0, str(ROOT / "tests/fuzz"))
 from fuzz_study import explore  # noqa: E402
@@ -95,6 +99,21 @@ class StudyFiles(StudyTest):
     def one_line(self, code):
         line, = told(self.study("--quiet", code=code).stderr)
         return line
+
+    def test_pipes_in_a_study(self):
+        (self.folder / "study").mkdir()
+        os.mkfifo(self.folder / "study/study.csv")
+        with self.assertRaisesRegex(StudyError, "study.csv is in the way"):
+            Folder(self.folder / "study")
+        (self.folder / "study/study.csv").unlink()
+        os.mkfifo(self.folder / "study/manifest.json")
+        with self.assertRaisesRegex(StudyError, "holds other files"):
+            Folder(self.folder / "study")
+        (self.folder / "study/study.csv").write_text(",".join(("key", "sweep", *AFTER)) + "\n")
+        with Folder(self.folder / "study") as folder:
+            folder.put_own({"page.html": b"page"})
+        self.assertEqual(self.names("study"),
+                         ["manifest.json", "manifest.json.kept", "page.html", "study.csv"])
 
     def test_places_that_cannot_be_used(self):
         self.path.write_text(ONE_RUN)

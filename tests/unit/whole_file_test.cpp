@@ -67,7 +67,7 @@ TEST_F(WholeFile, whatIsNoFileOrTooLargeIsRefused) {
   for (const std::string& each : {path + "/pipe", path, path + "/none", std::string("/dev/zero")})
     EXPECT_EQ(messageOf([&] { readWhole(each, "a mesh"); }), each + ": not a file, expected a mesh");
   for (const std::string& each : {path, path + "/none"})
-    EXPECT_EQ(messageOf([&] { readWhole(each, "a scene", 10, true); }),
+    EXPECT_EQ(messageOf([&] { readWhole(each, "a scene", mostBytes, true); }),
               each + ": cannot be read, expected a scene");
   constexpr uint64_t few = uint64_t{3} << 20;
   put("large", "");
