@@ -1,5 +1,3 @@
-#include "report/progress.h"
-
 #include <unistd.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <string>
 
 #include "report/clock.h"
+#include "report/log.h"
 
 namespace mortier {
 
@@ -42,6 +41,28 @@ void Progress::clear() {
     std::fflush(stderr);
     drawn_ = false;
   }
+}
+
+Log::Log(bool quiet, double endTime)
+    : quiet_(quiet), sharesTerminal_(isatty(STDOUT_FILENO) == 1), progress_(!quiet, endTime) {}
+
+void Log::print(const std::string& text) {
+  if (!quiet_) {
+    if (sharesTerminal_) {
+      progress_.clear();
+    }
+    std::fwrite(text.data(), 1, text.size(), stdout);
+  }
+}
+
+void Log::step(const StepReport& report) {
+  constexpr double patience = 0.2;  // [s]: a fast run is not slowed by its log, a slow one is seen as it goes
+  print(logRow(report));
+  if (const double now = processSeconds(); !quiet_ && now > flushed_ + patience) {
+    std::fflush(stdout);
+    flushed_ = now;
+  }
+  progress_.show(report.time);
 }
 
 }  // namespace mortier
