@@ -23,41 +23,32 @@ std::string logTrial(double error, double tolerance);
 /// \param place  of the result
 std::string logEnd(const RunFacts& facts, const Model& model, const Solved& solved, const std::string& place);
 
-/// A progress bar on standard error, where that is a terminal and the run takes longer than two seconds.
-class Progress {
- public:
-  Progress(bool wanted, double endTime);
-  ~Progress() { clear(); }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-
-  /// Draws the bar for a run that has reached `time` [s of the model].
-  void show(double time);
-  /// Removes it, so that a line can be printed.
-  void clear();
-
- private:
-  bool enabled_;
-  bool drawn_ = false;
-  double endTime_;
-  double start_;
-  double lastDrawn_ = 0;
-};
-
-/// Prints the above, and a progress bar where the run is long. A quiet log prints nothing.
+/// Prints the above, and on standard error, where that is a terminal, a progress bar of a run that takes longer
+/// than two seconds. A quiet log prints nothing.
 class Log {
  public:
   Log(bool quiet, double endTime);
+  ~Log() { finish(); }
+  Log(const Log&) = delete;
+  Log& operator=(const Log&) = delete;
+
   void print(const std::string& text);
   /// Prints the row of a step.
   void step(const StepReport& report);
   /// Removes the progress bar.
-  void finish() { progress_.clear(); }
+  void finish();
 
  private:
+  /// Draws the bar for a run that has reached `time` [s of the model].
+  void drawBar(double time);
+
   bool quiet_;
   bool sharesTerminal_;  ///< rows and bar are drawn on the same screen
-  Progress progress_;
+  bool hasBar_;
+  bool drawn_ = false;
+  double endTime_;
+  double start_;
+  double lastDrawn_ = 0;
   double flushed_ = 0;
 };
 

@@ -9,15 +9,19 @@
 
 namespace mortier {
 
-Progress::Progress(bool wanted, double endTime)
-    : enabled_(wanted && isatty(STDERR_FILENO) == 1), endTime_(endTime), start_(processSeconds()) {}
+Log::Log(bool quiet, double endTime)
+    : quiet_(quiet),
+      sharesTerminal_(isatty(STDOUT_FILENO) == 1),
+      hasBar_(!quiet && isatty(STDERR_FILENO) == 1),
+      endTime_(endTime),
+      start_(processSeconds()) {}
 
-void Progress::show(double time) {
+void Log::drawBar(double time) {
   constexpr double longRun = 2;     // [s]
   constexpr double interval = 0.1;  // [s]
   const double now = processSeconds();
   const double done = std::clamp(time / endTime_, 0.0, 1.0);
-  if (!enabled_ || done <= 0 || (now - start_) / done < longRun) {
+  if (!hasBar_ || done <= 0 || (now - start_) / done < longRun) {
     return;
   }
   // On the same terminal the log's row has just taken the bar away; elsewhere ten times a second are enough.
@@ -35,7 +39,7 @@ void Progress::show(double time) {
   lastDrawn_ = now;
 }
 
-void Progress::clear() {
+void Log::finish() {
   if (drawn_) {
     std::fputs("\r\x1b[K", stderr);
     std::fflush(stderr);
@@ -43,16 +47,10 @@ void Progress::clear() {
   }
 }
 
-Log::Log(bool quiet, double endTime)
-    : quiet_(quiet), sharesTerminal_(isatty(STDOUT_FILENO) == 1), progress_(!quiet, endTime) {}
-
 void Log::print(const std::string& text) {
-  if (!quiet_) {
-    if (sharesTerminal_) {
-      progress_.clear();
-    }
-    std::fwrite(text.data(), 1, text.size(), stdout);
-  }
+  if (quiet_) return;
+  if (sharesTerminal_) finish();
+  std::fwrite(text.data(), 1, text.size(), stdout);
 }
 
 void Log::step(const StepReport& report) {
@@ -62,7 +60,7 @@ void Log::step(const StepReport& report) {
     std::fflush(stdout);
     flushed_ = now;
   }
-  progress_.show(report.time);
+  drawBar(report.time);
 }
 
 }  // namespace mortier
