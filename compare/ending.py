@@ -1,6 +1,7 @@
 """How the commands of mortier that are written in Python end: one line on what stopped them,
 and the exit code."""
 import importlib
+import logging
 import signal
 import sys
 
@@ -26,6 +27,7 @@ def complain(text, code):
 
 def require(*modules):
     """Debian's packages of Python modules; another Python may lack them."""
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it warns where there is no home for its cache
     for module in modules:
         try:
             importlib.import_module(module)

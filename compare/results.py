@@ -9,7 +9,9 @@ import csv
 import io
 import json
 import math
+import os
 import re
+import stat
 import threading
 import xml.etree.ElementTree as xml
 from dataclasses import dataclass, field
@@ -27,6 +29,7 @@ class ResultError(Exception):
     """A run folder that cannot be read, or that holds no finished run."""
 
 
+LARGEST = 1e300  # beyond it, sums and differences of a few numbers overflow
 FINAL = ("time", "von_mises_min", "von_mises_max", "interpenetration", "contact_force", "active_nodes")
 
 
@@ -105,12 +108,15 @@ def mortier_run(folder, summary, tables, step):
 
 def kept_steps(folder):
     """(step, time) of those that a run of mortier has kept, from the collection that ParaView opens."""
-    path = Path(folder) / "fields.pvd"
+    path, kept = Path(folder) / "fields.pvd", {}
     try:
-        entries = list(xml.parse(path).getroot().iter("DataSet"))
-        kept = {int(re.search(r"_(\d+)\.vtu$", entry.get("file"))[1]): float(entry.get("timestep"))
-                for entry in entries}
-    except (OSError, xml.ParseError, TypeError, ValueError) as error:
+        for entry in xml.parse(checked(path)).getroot().iter("DataSet"):
+            name = entry.get("file", "")
+            file = re.fullmatch(r"[\w-]+_(\d{6,10})\.vtu", name, re.ASCII)
+            if file is None:
+                raise ResultError(f"{path}: file {name[:60]!r}, expected BODY_STEP.vtu in the same folder")
+            kept[int(file[1])] = float(entry.get("timestep", "nan"))
+    except (OSError, xml.ParseError, ValueError) as error:
         raise ResultError(f"{path}: {error}") from error
     if not kept or not np.isfinite(list(kept.values())).all():
         raise ResultError(f"{path}: names no step of a run")
@@ -235,11 +241,26 @@ def jump(run, upper="upper", lower="lower"):
     return x, np.interp(x, *sides[1]) - np.interp(x, *sides[0])
 
 
+def checked(path, times=10):
+    """The path of a regular file that can be read; memory must hold so many times its size."""
+    most = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // times
+    try:
+        facts = os.stat(path)
+    except OSError as error:
+        raise ResultError(f"{path}: cannot be read: {error.strerror}") from error
+    if not stat.S_ISREG(facts.st_mode):
+        raise ResultError(f"{path}: no regular file")
+    if facts.st_size > most:
+        raise ResultError(f"{path}: {facts.st_size / 1e9:.3g} GB, expected {most / 1e9:.3g} at most "
+                          "(by the memory of this machine)")
+    return path
+
+
 def read_summary(folder, failed=False):
     """failed: a run that stopped early will do."""
     path = Path(folder) / "summary.json"
     try:
-        summary = json.loads(path.read_text(encoding="utf-8"),
+        summary = json.loads(checked(path).read_text(encoding="utf-8"),
                              parse_constant=lambda word: not_finite(path, word))
     except OSError as error:
         raise ResultError(f"{path}: cannot be read: {error.strerror}") from error
@@ -259,18 +280,22 @@ def not_finite(path, word):
 
 def read_csv(path):
     try:
-        with open(path, newline="") as file:
-            return list(csv.DictReader(file))
+        with open(checked(path), newline="") as file:
+            rows = list(csv.DictReader(file))
     except OSError as error:
         raise ResultError(f"{path}: {error.strerror}") from error
     except (csv.Error, ValueError) as error:
         raise ResultError(f"{path}: {error}") from error
+    for number, row in enumerate(rows, 1):
+        if None in row or None in row.values():  # as DictReader marks them
+            raise ResultError(f"{path}: row {number} has not as many cells as there are columns")
+    return rows
 
 
 def read_table(path, *columns):
     """Numbers, one line an item, so many in a line."""
     try:
-        table = np.loadtxt(path, ndmin=2)
+        table = np.loadtxt(checked(path), ndmin=2)
     except (OSError, ValueError) as error:
         raise ResultError(f"{path}: {error}") from error
     if table.shape[1] not in columns:
@@ -285,8 +310,7 @@ silenced = threading.Lock()  # the standard output is one for all threads
 def read_vtu(path):
     import meshio  # slow to load, and FreeFEM's results do without
 
-    if not Path(path).exists():
-        raise ResultError(f"{path}: no such file")
+    checked(path, times=4)
     try:
         # it prints as well
         with silenced, contextlib.redirect_stdout(io.StringIO()), \
@@ -323,5 +347,5 @@ def require_mesh(folder, name, body):
 
 
 def require_finite(folder, what, values):
-    if not np.isfinite(values).all():
-        raise ResultError(f"{folder}: {what}: not finite")
+    if not (np.abs(values) < LARGEST).all():
+        raise ResultError(f"{folder}: {what}: not finite, or {LARGEST:g} and more")

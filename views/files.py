@@ -11,6 +11,8 @@ from pathlib import Path
 
 from ending import Wrong
 
+MOST_BYTES = 4 << 30  # of a picture or a page
+
 
 def seal_of(data, kind):
     """The seal, and how many bytes of the file follow it."""
@@ -31,6 +33,8 @@ def sealed(data, kind):
 
 def is_own(path):
     if path.is_symlink() or not path.is_file():
+        return False
+    if path.stat().st_size > MOST_BYTES:
         return False
     data, kind = path.read_bytes(), path.suffix[1:]
     seal, after = seal_of(b"", kind)

@@ -12,7 +12,8 @@ from matplotlib.collections import LineCollection  # noqa: E402
 from matplotlib.colors import Normalize  # noqa: E402
 
 from contact_line import boundary_edges  # noqa: E402
-from runs import natural_scale  # noqa: E402
+from ending import Wrong  # noqa: E402
+from runs import extent, natural_scale  # noqa: E402
 
 INK, MUTED, MESH, GRID = "#222222", "#777777", "#55555a", "#dddddd"
 NONMORTAR, MORTAR = "#b0128a", "#0b7a3b"
@@ -27,6 +28,7 @@ STYLE = {
     "svg.fonttype": "path", "text.parse_math": False,  # titles and names are shown as they are
 }
 FINE = 20_000  # triangles of a body
+FAR = 1e6  # times the bodies: what is larger or smaller cannot be drawn beside them
 ROUNDING = 1e-9  # of the largest value: what is less apart has one colour
 
 
@@ -125,6 +127,17 @@ def whole_window(views, scale):
     return low[0] - margin, high[0] + margin, low[1] - margin, high[1] + margin
 
 
+def require_drawable(views, scale, window):
+    """A scale and a window of any size are refused, before matplotlib is at a loss."""
+    size = extent(bodies_of(views))
+    most = abs(scale) * max(np.abs(body.displacement).max() for body in bodies_of(views)) / size
+    if not most <= FAR:
+        raise Wrong(f"--scale {scale:g}: displacements of {most:.3g} times the bodies, expected {FAR:g} at most")
+    for side in (window[1] - window[0], window[3] - window[2]):
+        if not size / FAR <= side <= FAR * size:
+            raise Wrong(f"--window: a side of {side:.3g}, expected {size / FAR:.3g} to {FAR * size:.3g}")
+
+
 def strip_window(lines):
     """Of the magnified line in all columns: x, and y from what both sides do there."""
     low, high = min(line.window()[0] for line in lines), max(line.window()[1] for line in lines)
@@ -204,6 +217,7 @@ def fields(views, field_name="von_mises", scale=None, window=None, norm=None, co
     alike = all(list(each.run.bodies) == list(views[0].run.bodies) for each in views)
     windows = [window or whole_window(views if alike else [each], scale) for each in views]
     window = windows[0]
+    require_drawable(views, scale, window)
     lines = [each.result.lines(each.run, min(scale, 1.0))[:3] if strips else [] for each in views]
     rows = max(map(len, lines))
     aspect = (window[3] - window[2]) / (window[1] - window[0])

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "base/interrupt.h"
+
 namespace mortier {
 namespace {
 
@@ -29,6 +31,7 @@ double scaleOfSizes(const std::vector<Vector>& errors, double aim, int degree) {
       high = std::max(high, root);
     }
   for (int i = 0; i < 60 && high > 0; ++i) {
+    stopIfInterrupted();
     const double middle = std::sqrt(low) * std::sqrt(high);
     double sum = 0;
     for (const Vector& error : errors)
@@ -78,6 +81,7 @@ AdaptedMeshes::AdaptedMeshes(const std::vector<TriangleMesh>& meshes, int degree
 
 std::vector<int> AdaptedMeshes::cut(Adapted& body, const std::vector<char>& marked,
                                     std::vector<double>* byVertex) {
+  stopIfInterrupted();
   RefinedMesh refined = bisect(body.mesh, body.curves, marked);
   body.mesh = std::move(refined.mesh);
   body.curves = std::move(refined.curves);
@@ -197,6 +201,7 @@ void AdaptedMeshes::cutAtSingularities(Adapted& body, double allowed) {
   constexpr int most = 10;
   for (size_t v = 0; v < body.rate.size(); ++v) {
     if (!(body.rate[v] < bounded)) continue;
+    stopIfInterrupted();
     const double rate = std::max(body.rate[v], slowest);
     const auto atVertex = [&](std::vector<char>& marked) {
       double area = 0;

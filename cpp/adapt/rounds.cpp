@@ -6,6 +6,7 @@
 
 #include "base/counted.h"
 #include "base/digits.h"
+#include "base/interrupt.h"
 #include "mesh/element_nodes.h"
 #include "plan/steps.h"
 
@@ -168,32 +169,36 @@ bool Rounds::refine(const RoundResult& result, double aim, double cost, double s
   const size_t bodies = description_.bodies.size();
   const int before = nodesOf(meshes_, bodies, description_.degree);
   const AdaptedMeshes kept = meshes_;
-  // Where the meshes that are wanted are too large, those that are not.
-  for (; aim == 0 || aim <= gain * meshError_ || done_ == 1; aim = std::sqrt(aim * meshError_)) {
-    meshes_ = kept;
-    if (meshError_ > 0)
-      meshes_.refine(result.errors, aim * std::sqrt(result.energy));
-    else
-      meshes_.refineAll();
-    if (done_ == 1)
-      for (const ContactDescription& contact : description_.contacts)
-        meshes_.faceCorners(bodyIndex(description_, contact.nonmortar.body), contact.nonmortar.label,
+  constexpr const char* tooLong = "a further round would take more than max_seconds";
+  try {
+    // Where the meshes that are wanted are too large, those that are not.
+    for (; aim == 0 || aim <= gain * meshError_ || done_ == 1; aim = std::sqrt(aim * meshError_)) {
+      meshes_ = kept;
+      if (meshError_ > 0)
+        meshes_.refine(result.errors, aim * std::sqrt(result.energy));
+      else
+        meshes_.refineAll();
+      if (done_ == 1)
+        for (const ContactDescription& contact : description_.contacts)
+          meshes_.faceCorners(bodyIndex(description_, contact.nonmortar.body), contact.nonmortar.label,
+                              bodyIndex(description_, contact.mortar.body), contact.mortar.label);
+      // Pressures are as coarse as the nonmortar side, however little of the error is in its body.
+      if (aims())
+        for (const ContactDescription& contact : description_.contacts)
+          meshes_.faceSizes(bodyIndex(description_, contact.nonmortar.body), contact.nonmortar.label,
                             bodyIndex(description_, contact.mortar.body), contact.mortar.label);
-    // Pressures are as coarse as the nonmortar side, however little of the error is in its body.
-    if (aims())
-      for (const ContactDescription& contact : description_.contacts)
-        meshes_.faceSizes(bodyIndex(description_, contact.nonmortar.body), contact.nonmortar.label,
-                          bodyIndex(description_, contact.mortar.body), contact.mortar.label);
-    const int nodes = nodesOf(meshes_, bodies, description_.degree);
-    const double expected = cost * std::pow(double(nodes) / before, power);
-    const bool small = 2.0 * nodes <= goal.maxUnknowns;
-    if (small && seconds + expected <= goal.maxSeconds) {
-      aim_ = aim;
-      return true;
+      const int nodes = nodesOf(meshes_, bodies, description_.degree);
+      const double expected = cost * std::pow(double(nodes) / before, power);
+      const bool small = 2.0 * nodes <= goal.maxUnknowns;
+      if (small && seconds + expected <= goal.maxSeconds) {
+        aim_ = aim;
+        return true;
+      }
+      stop(small ? tooLong : "a further round would have more unknowns than max_unknowns");
+      if (meshError_ == 0 || aim > gain * meshError_) break;
     }
-    stop(small ? "a further round would take more than max_seconds"
-               : "a further round would have more unknowns than max_unknowns");
-    if (meshError_ == 0 || aim > gain * meshError_) break;
+  } catch (const TimeIsUp&) {
+    stop(tooLong);
   }
   meshes_ = kept;
   return false;

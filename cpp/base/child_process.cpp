@@ -4,6 +4,7 @@
 #include <linux/audit.h>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -11,6 +12,7 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstddef>
 #include <cstring>
@@ -20,7 +22,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/digits.h"
 #include "base/error.h"
+#include "base/interrupt.h"
 
 namespace mortier {
 
@@ -154,10 +158,20 @@ int ChildProcess::end() {
   return status;
 }
 
-std::string ChildProcess::answer() {
+std::string ChildProcess::answer(double seconds) {
+  using Clock = std::chrono::steady_clock;
+  constexpr int pause = 50;  // in milliseconds
+  const auto begin = Clock::now();
   std::string answer;
   std::array<char, 65536> block{};
   for (ssize_t n = 1; n != 0;) {
+    pollfd ready{pipe_, POLLIN, 0};
+    const int any = poll(&ready, 1, pause);
+    stopIfInterrupted();
+    if (std::chrono::duration<double>(Clock::now() - begin).count() > seconds)
+      throw InputError(subject_ + " has not ended with it after " + digits(seconds, 4) +
+                       " s, expected a file that takes less");
+    if (any <= 0) continue;
     n = read(pipe_, block.data(), block.size());
     if (n < 0 && errno != EINTR) break;
     if (n > 0) answer.append(block.data(), static_cast<size_t>(n));

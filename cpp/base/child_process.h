@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 
 namespace mortier {
@@ -18,9 +19,10 @@ class ChildProcess {
   /// Kills it where its answer was not waited for.
   ~ChildProcess();
 
-  /// Waits for the bytes that `work` gives. Once.
-  /// \throws InputError that work throws, or that names its crash; std::bad_alloc
-  std::string answer();
+  /// Waits for the bytes that `work` gives. Once. \param seconds  for which it waits at most
+  /// \throws InputError that work throws, or that names its crash or says that it does not end;
+  /// std::bad_alloc, Interrupted
+  std::string answer(double seconds = std::numeric_limits<double>::infinity());
 
  private:
   int end();
@@ -31,8 +33,9 @@ class ChildProcess {
 };
 
 /// The bytes that `work` gives, run in a child process: as above, at once.
-inline std::string inChildProcess(const std::function<std::string()>& work, const std::string& subject) {
-  return ChildProcess(work, subject).answer();
+inline std::string inChildProcess(const std::function<std::string()>& work, const std::string& subject,
+                                  double seconds = std::numeric_limits<double>::infinity()) {
+  return ChildProcess(work, subject).answer(seconds);
 }
 
 }  // namespace mortier

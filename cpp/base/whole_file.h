@@ -1,43 +1,27 @@
-// A file that is there as a whole or not at all: written beside its place, then renamed.
+// A file as a whole: written so that it is there as a whole or not at all, and read from a regular file of a
+// size that memory can hold.
 #pragma once
 
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 
-#include "base/error.h"
-
 namespace mortier {
 
-/// Writes `text` to `path`, in place of what stands there. Pipes and devices are written as they are.
-/// \param durable  also brings it to the disk before it gets its name, so that a loss of power spares the old
-/// one.
-/// \throws OutputError
-inline void writeWhole(const std::string& path, std::string_view text, bool durable = false) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  const bool direct = fs::exists(path, error) && !fs::is_regular_file(path, error);
-  const std::string beside = direct ? path : path + ".tmp-" + std::to_string(getpid());
-  std::FILE* file = std::fopen(beside.c_str(), "wb");
-  bool sound = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size() &&
-               std::fflush(file) == 0 && (!durable || fsync(fileno(file)) == 0);
-  int reason = errno;
-  if (file != nullptr && std::fclose(file) != 0 && sound) {
-    reason = errno;
-    sound = false;
-  }
-  if (sound && !direct && std::rename(beside.c_str(), path.c_str()) != 0) {
-    reason = errno;
-    sound = false;
-  }
-  if (sound) return;
-  if (!direct) fs::remove(beside, error);
-  throw OutputError(path + ": cannot be written: " + std::strerror(reason));
-}
+/// Writes `text` to `path`, in place of what stands there: beside it, then renamed. Pipes and devices are
+/// written as they are. \param durable  also brings it to the disk before it gets its name, so that a loss of
+/// power spares the old one; without it SIGINT, SIGTERM and SIGHUP end the writing, and nothing is left.
+/// \throws OutputError, Interrupted
+void writeWhole(const std::string& path, std::string_view text, bool durable = false);
+
+/// Of files that people write or that hold meshes: some 5e7 triangles, beyond what is solved here.
+constexpr uint64_t mostBytes = uint64_t{4} << 30;
+
+/// The bytes of a file. \param expected  for messages: a Medit mesh
+/// \param pipes  whether it may be a pipe or a device as well
+/// \throws InputError  it is no file, it is larger than `most`, or it cannot be read
+std::string readWhole(const std::string& path, const std::string& expected, uint64_t most = mostBytes,
+                      bool pipes = false);
 
 }  // namespace mortier

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <sstream>
@@ -260,9 +259,9 @@ std::vector<double> stepsOfRun(const std::string& folder, double end) {
     throw InputError(path + (line > 0 ? ':' + std::to_string(line) : "") + ": " + what + ", expected " +
                      expected);
   };
-  std::ifstream file(path);
+  std::istringstream file(readWhole(path, "the history of a run"));
   std::string line;
-  if (!file || !std::getline(file, line)) refuse(0, "cannot be read", "the history of a run");
+  if (!std::getline(file, line)) refuse(0, "cannot be read", "the history of a run");
   size_t column = 0;
   const std::vector<std::string> names = cells(line);
   while (column < names.size() && names[column].compare(0, 5, "time[") != 0) ++column;

@@ -8,6 +8,7 @@
 
 #include "base/checksum.h"
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "mesh/medit.h"
 #include "plan/estimate_doubts.h"
 #include "plan/loads.h"
@@ -145,9 +146,20 @@ void Run::open() {
 
 void Run::solve(Observe observe) {
   observe_ = std::move(observe);
-  if (rounds_) return solveRounds();
-  march(attempt_);
-  shortfall_ = attempt_->solved.report.shortfall;
+  if (!rounds_) {
+    march(attempt_);
+    shortfall_ = attempt_->solved.report.shortfall;
+    return;
+  }
+  try {
+    solveRounds();
+  } catch (const Interrupted&) {
+    throw InterruptedError(interruptedBetweenRounds());
+  }
+}
+
+std::string Run::interruptedBetweenRounds() const {
+  return attempt_->scene().path + ": interrupted between rounds" + (temporary_.empty() ? "" : resumeHint_);
 }
 
 /// Adds what spoils the estimates, whether the run has the accuracy that was asked for, and bounds.

@@ -70,6 +70,7 @@ class Run {
   /// Puts the result in place and prints the end of the log. \throws OutputError
   Ending finish();
 
+  [[nodiscard]] std::string interruptedBetweenRounds() const;
   /// The round that is solved, in the end that of the result.
   [[nodiscard]] const std::shared_ptr<Attempt>& attempt() const { return attempt_; }
   /// Once it is finished: summary.json, and the folder of the result, empty where it is in memory only.

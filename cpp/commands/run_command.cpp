@@ -2,9 +2,11 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 
@@ -23,12 +25,14 @@ struct RunCommand : SceneOptions {
   RunOptions options;   ///< `out` empty: out/<scene>
 };
 
+/// What a signal says that ends the process at once.
+std::atomic<const char*> atOnce = nullptr;
+
 /// The first Ctrl-C ends the run with a checkpoint of its last step; a second one kills, and so does the
 /// first where a library would not hear of it (before the first step).
 void onInterrupt(int signal) {
   if (inUninterruptibleCall()) {
-    constexpr char text[] = "mortier: interrupted before the first step; nothing was written\n";
-    static_cast<void>(!write(STDERR_FILENO, text, sizeof text - 1));
+    static_cast<void>(!write(STDERR_FILENO, atOnce, std::strlen(atOnce)));
     _exit(exitFailed);
   }
   if (!Ranks::all().interrupt()) requestInterrupt();
@@ -91,13 +95,20 @@ int runScene(RunCommand command) {
   lintSettling(scene, run.settle(), doubts);
 
   // 2. Where the result goes, and what is reported.
+  atOnce = "mortier: interrupted before the first step; nothing was written\n";
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, onInterrupt);
   run.open();
+  const double end = scene.time.end;
+  const bool inRounds = scene.accuracy.asked() > 0;
   warnOf(doubts);
   if (!command.restart.empty() && !run.resumes()) warn(command.restart + ": the rounds begin again");
 
   // 3. The march in time; where an accuracy is asked for, in rounds.
-  run.solve();
+  static std::string betweenRounds;
+  betweenRounds = "mortier: " + run.interruptedBetweenRounds() + "\n";
+  run.solve([&](const auto&, const State& state, const StepReport&) {
+    if (inRounds && state.time >= end) atOnce = betweenRounds.c_str();
+  });
 
   // 4. The result in place of an older one, and how well it holds.
   const Ending ending = run.finish();

@@ -1,19 +1,17 @@
 #include "mesh/geometry_constants.h"
 
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
 
 #include "base/error.h"
+#include "base/whole_file.h"
 
 namespace mortier {
 
 void requireConstants(const MeshSource& source) {
   if (source.parameters.empty()) return;
-  std::ifstream file(source.path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = readWhole(source.path, "a geometry");
   std::set<std::string> known;
   const std::regex block(R"(DefineConstant\s*\[([^\]]*)\])");
   const std::regex constant(R"(([A-Za-z_]\w*)\s*=)");

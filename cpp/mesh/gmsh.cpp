@@ -33,7 +33,7 @@ bool isGmshFile(const std::string& path) {
 
 #ifndef MORTIER_GMSH
 
-TriangleMesh readGmsh(const MeshSource& source) {
+TriangleMesh readGmsh(const MeshSource& source, double) {
   throw InputError(
       source.path +
       ": read by Gmsh, which this build is without (libgmsh-dev was not there); expected a Medit "
@@ -208,7 +208,7 @@ TriangleMesh readHere(const MeshSource& source) {
 
 }  // namespace
 
-TriangleMesh readGmsh(const MeshSource& source) {
+TriangleMesh readGmsh(const MeshSource& source, double seconds) {
   const std::string& path = source.path;
   if (std::error_code ignored; !std::filesystem::is_regular_file(path, ignored))
     throw InputError(path + ": not a file, expected a mesh or a geometry for Gmsh");
@@ -218,7 +218,7 @@ TriangleMesh readGmsh(const MeshSource& source) {
     writer(mesh);
     return writer.bytes;
   };
-  const std::string bytes = inChildProcess(work, path + ": Gmsh");
+  const std::string bytes = inChildProcess(work, path + ": Gmsh", seconds);
   TriangleMesh mesh;
   ArchiveReader reader(bytes);
   reader(mesh);

@@ -4,8 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <limits>
 #include <string_view>
@@ -18,9 +16,6 @@
 
 namespace mortier {
 namespace {
-
-constexpr std::uintmax_t maxBytes = std::uintmax_t(4)
-                                    << 30;  // some 5e7 triangles: beyond what is solved here
 
 // Sections without meaning for the solver, and how many numbers each of their items has in two dimensions.
 struct SkippedSection {
@@ -48,21 +43,6 @@ constexpr SkippedSection skippedSections[] = {
 
 constexpr std::array<std::string_view, 5> foreignElements{"Quadrilaterals", "Tetrahedra", "Hexahedra",
                                                           "Prisms", "Pyramids"};
-
-std::string readAll(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    throw InputError(path + ": not a file, expected a Medit mesh");
-  }
-  const auto size = std::filesystem::file_size(path, error);
-  if (error || size > maxBytes) throw InputError(path + ": file size, expected 4 GiB at most");
-  std::ifstream file(path, std::ios::binary);
-  std::string text(size, '\0');
-  if (!file.read(text.data(), std::streamsize(size))) {
-    throw InputError(path + ": cannot be read, expected a Medit mesh");
-  }
-  return text;
-}
 
 class Parser {
  public:
@@ -245,7 +225,7 @@ void append(std::string& out, Number value, char after) {
 }  // namespace
 
 TriangleMesh readMedit(const std::string& path, const std::vector<std::string>& regions) {
-  const std::string text = readAll(path);
+  const std::string text = readWhole(path, "a Medit mesh");
   return Parser(path, text).parse(regions);
 }
 

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string_view>
 
 #include "base/archive.h"
@@ -36,8 +35,9 @@ void add(Checksum& sum, const std::vector<T>& values) {
 
 Checkpoint decode(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw InputError("cannot be read");
+  std::string bytes(fs::file_size(path), '\0');
+  if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+    throw InputError("cannot be read");
   uint64_t sum = 0;
   if (bytes.size() < magic.size() + sizeof sum) throw InputError("too short");
   if (bytes.compare(0, magic.size(), magic) != 0) throw InputError("not of this version of mortier");
@@ -49,6 +49,13 @@ Checkpoint decode(const std::string& path) {
   reader(checkpoint);
   if (!reader.atEnd()) throw InputError("damaged");
   return checkpoint;
+}
+
+/// Those of a run: names in a checkpoint are data of others.
+void requireNames(const FilesSoFar& files) {
+  for (const KeptFields& kept : files.fields)
+    for (const auto& [name, record] : kept.files)
+      if (!isResultName(name)) throw InputError("it lists " + name + ", which no run writes");
 }
 
 /// \param whole  false: a file that has grown since
@@ -92,9 +99,11 @@ Checkpoint readCheckpoint(const std::string& folder) {
   std::string fault;
   for (const char* name : {checkpointName, previousCheckpointName}) {
     const std::string path = folder + "/" + name;
-    if (!fs::exists(path)) continue;
+    if (!fs::is_regular_file(path)) continue;
     try {
       Checkpoint checkpoint = decode(path);
+      requireNames(checkpoint.empty);
+      requireNames(checkpoint.files);
       requireFile(folder, "history.csv", checkpoint.files.history, false);
       requireFile(folder, "contact.csv", checkpoint.files.contact, false);
       for (const KeptFields& kept : checkpoint.files.fields)

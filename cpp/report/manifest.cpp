@@ -67,7 +67,7 @@ void writeManifest(const std::string& folder, const Manifest& manifest) {
 
 std::optional<Manifest> readManifest(const std::string& folder) {
   const std::string path = folder + "/" + manifestName;
-  if (!isRegular(path)) return {};
+  if (!isRegular(path) || fs::file_size(path) > mostBytes) return {};
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file.is_open() || file.bad()) cannotBeRead(path);

@@ -5,9 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <utility>
 
@@ -100,16 +98,18 @@ fs::path ResultPlace::unused(const std::string& middle) const {
   return folder;
 }
 
+bool ResultPlace::isCalled(const std::string& name, const std::string& middle) const {
+  const std::string begin = result_.filename().string() + middle;
+  return name.size() > begin.size() && name.compare(0, begin.size(), begin) == 0 &&
+         name.find_first_not_of("0123456789.", begin.size()) == std::string::npos;
+}
+
 std::vector<fs::path> ResultPlace::all(const std::string& middle) const {
   std::vector<fs::path> found;
   if (!fs::is_directory(parent())) return found;
-  const std::string begin = result_.filename().string() + middle;
-  for (const fs::directory_entry& entry : entriesOf(parent())) {
-    const std::string name = entry.path().filename().string();
-    if (name.size() > begin.size() && name.compare(0, begin.size(), begin) == 0 &&
-        name.find_first_not_of("0123456789.", begin.size()) == std::string::npos && isFolder(entry.path()))
+  for (const fs::directory_entry& entry : entriesOf(parent()))
+    if (isCalled(entry.path().filename().string(), middle) && isFolder(entry.path()))
       found.push_back(entry.path());
-  }
   return found;
 }
 
@@ -190,8 +190,8 @@ fs::path ResultPlace::putInPlace(const fs::path& temporary) const {
 
 void ResultPlace::finish(const fs::path& target, const std::string& name) const {
   for (const std::string& old : {name, name + asideName}) {
-    const fs::path folder = parent() / fs::path(old).filename();
-    if (old.find(".tmp-") == std::string::npos || !isFolder(folder)) continue;
+    const fs::path folder = parent() / old;
+    if (!isCalled(name, ".tmp-") || !isFolder(folder)) continue;
     if (!fs::is_empty(folder) && (!isResult(folder) || isMarked(folder))) continue;
     const fs::path gone = renamed(folder);
     if (fs::is_empty(gone))
@@ -262,7 +262,7 @@ ResultPlace::LeftBehind ResultPlace::clearUp() const {
     const std::optional<Manifest> manifest = readManifest(folder.string());
     if (manifest && isSound(folder.string(), *manifest)) {
       left.placed = putInPlace(folder);
-      finish(left.placed, lock.name());
+      finish(left.placed, folder.filename().string());
     } else if (hasCheckpoint(folder.string())) {
       stopped.emplace_back(fs::last_write_time(folder), folder);
     } else {
@@ -330,7 +330,7 @@ std::string OutputFolder::commit(const Manifest& manifest) {
       const PlaceLock lockOfPlace(place_.parent().string());
       target = place_.putInPlace(temporary_);
     }
-    place_.finish(target, lock_.name());
+    place_.finish(target, fs::path(temporary_).filename().string());
     return place_.shown(target);
   } catch (const std::exception& error) {
     const auto* file = dynamic_cast<const fs::filesystem_error*>(&error);

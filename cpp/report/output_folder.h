@@ -31,7 +31,9 @@ class ResultPlace {
   [[nodiscard]] Path parent() const { return result_.parent_path(); }
   /// A folder beside the result that does not exist: its name, `middle` and the number of this process.
   [[nodiscard]] Path unused(const std::string& middle) const;
-  /// Folders beside the result that are called so, by any process.
+  /// Whether `name` is that of such a folder, of any process: names in locks are data of others.
+  [[nodiscard]] bool isCalled(const std::string& name, const std::string& middle) const;
+  /// Folders beside the result that are called so.
   [[nodiscard]] std::vector<Path> all(const std::string& middle) const;
   /// A folder here as the user calls it, for messages.
   [[nodiscard]] std::string shown(const Path& folder) const;

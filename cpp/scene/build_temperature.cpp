@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <numbers>
@@ -18,8 +19,10 @@ std::vector<double> readValues(const std::string& path, size_t count, const std:
     throw InputError(where + ": temperature: file " + path + " " + what + ", expected " +
                      std::to_string(count) + " finite numbers, one for each vertex of the mesh");
   };
-  std::ifstream file(path);
-  if (!file) reject("cannot be read");
+  std::error_code error;
+  std::ifstream file;
+  if (std::filesystem::is_regular_file(path, error)) file.open(path);
+  if (!file.is_open()) reject("cannot be read");
   std::vector<double> values;
   std::string word;
   while (values.size() <= count && file >> word) {

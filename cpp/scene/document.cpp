@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "base/error.h"
+#include "base/whole_file.h"
 
 #define TOML_ENABLE_FORMATTERS 0
 #include <toml++/toml.h>
@@ -136,13 +135,7 @@ std::string Node::quoted() const {
 }
 
 std::string readSceneText(const std::string& path) {
-  try {
-    std::ifstream file(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (file && !file.bad()) return text;
-  } catch (const std::ios_base::failure&) {  // a folder
-  }
-  throw InputError(path + ": cannot be read, expected a scene (TOML file)");
+  return readWhole(path, "a scene (TOML file)", mostBytes, true);
 }
 
 Node readDocument(const std::string& path, const std::string& text) {

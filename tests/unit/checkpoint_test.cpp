@@ -2,6 +2,7 @@
 #include "report/checkpoint.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -153,6 +154,23 @@ TEST(Checkpoint, damagedFilesAreNamed) {
     }
     return std::string();
   };
+  Checkpoint other = checkpoint;
+  for (FilesSoFar* files : {&other.empty, &other.files}) {
+    files->fields = {{0,
+                      0.0,
+                      {{"../" + fs::path(folder).filename().string() + "/upper_000000.vtu",
+                        checkpoint.files.fields[0].files["upper_000000.vtu"]}}}};
+    writeCheckpoint(folder, other);
+    writeCheckpoint(folder, other);
+    EXPECT_NE(reason().find("checkpoint: it lists ../"), std::string::npos) << reason();
+    files->fields = checkpoint.files.fields;
+  }
+  fs::remove(folder + "/checkpoint");  // nothing is read of what is no file
+  ASSERT_EQ(mkfifo((folder + "/checkpoint").c_str(), 0600), 0);
+  EXPECT_NE(reason().find("checkpoint.previous: it lists ../"), std::string::npos) << reason();
+  fs::remove(folder + "/checkpoint");
+  writeCheckpoint(folder, checkpoint);
+  writeCheckpoint(folder, checkpoint);
   put("history.csv", "stEp\n1\n");
   EXPECT_NE(reason().find("its history.csv is damaged"), std::string::npos) << reason();
   put("history.csv", "step\n1\n");

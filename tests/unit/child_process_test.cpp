@@ -3,23 +3,27 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <new>
+#include <thread>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 
 namespace mortier {
 namespace {
 
-std::string errorOf(const std::function<std::string()>& work) {
+std::string errorOf(const std::function<std::string()>& work, double seconds = 60) {
   try {
-    inChildProcess(work, "a.msh: Gmsh");
+    inChildProcess(work, "a.msh: Gmsh", seconds);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -45,6 +49,23 @@ TEST(ChildProcess, crashesAreMessages) {
   EXPECT_EQ(errorOf([]() -> std::string { _exit(0); }), "a.msh: Gmsh gave up on it");
   EXPECT_EQ(errorOf([]() -> std::string { throw InputError("a.msh: no"); }), "a.msh: no");
   EXPECT_THROW(inChildProcess([]() -> std::string { throw std::bad_alloc(); }, ""), std::bad_alloc);
+}
+
+TEST(ChildProcess, thatDoesNotEndIsEnded) {
+  const auto endless = []() -> std::string {
+    for (;;) pause();
+  };
+  EXPECT_EQ(errorOf(endless, 0.125),
+            "a.msh: Gmsh has not ended with it after 0.125 s, expected a file that takes less");
+  EXPECT_EQ(waitpid(-1, nullptr, 0), -1);  // none is left
+  EXPECT_EQ(inChildProcess([] { return std::string(1000000, 'x'); }, "", 60).size(), 1000000);
+  std::thread asks([] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    requestInterrupt();
+  });
+  EXPECT_THROW(inChildProcess(endless, "a.msh: Gmsh"), Interrupted);
+  asks.join();
+  interruption::requested = false;
 }
 
 TEST(ChildProcess, startsNothingAndChangesNoFile) {

@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "contact/interface.h"
 #include "mesh/boundary_line.h"
+#include "mesh/gmsh.h"
 #include "mesh/read.h"
 #include "unit/mesh_measures.h"
 
@@ -226,6 +227,21 @@ TEST(GmshCurves, twoMeshesOfOneCurveTouch) {
       EXPECT_GT(interface.rows(), 10);
       EXPECT_LE(interface.initialDistance().cwiseAbs().maxCoeff(), 1e-9) << degree;
     }
+}
+
+TEST(GmshCurves, geometriesThatDoNotEndAreRefused) {
+  const std::string path = testing::TempDir() + "gmsh_curves_test_" + std::to_string(getpid()) + ".geo";
+  std::ofstream(path) << "i = 0;\nFor n In {1 : 1000000000}\ni = i + 1;\nEndFor\n";
+  try {
+    readGmsh({path}, 0.5);
+    ADD_FAILURE() << "it has ended";
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    EXPECT_TRUE(message.find("without") != std::string::npos ||
+                message == path + ": Gmsh has not ended with it after 0.5 s, expected a file that takes less")
+        << message;
+  }
+  std::remove(path.c_str());
 }
 
 }  // namespace

@@ -133,6 +133,30 @@ TEST_F(Output, foldersNamedLikeOursAreNotEntered) {
     EXPECT_EQ(contentOf(path + "/" + name), "mine") << name;
 }
 
+TEST_F(Output, namesInLocksAreThoseOfTheRunOrNothing) {
+  const auto stopped = [&](const std::string& folder, const std::string& name) {
+    result(folder, {{"summary.json", "new"}});
+    put(folder + "/run.lock", "mortier run in " + name + "\n");
+  };
+  for (const std::string name : {".tmp-/thesis", "a.tmp-/thesis", "a.tmp-1/../thesis", "../a.tmp-1/../thesis",
+                                 "thesis", "b.tmp-7", "a.tmp-7\n", ""})
+    for (const char* folder : {"a.tmp-1", "a", "a.failed"}) {
+      result("thesis", {{"summary.json", "years of work"}});
+      result("b.tmp-7", {{"summary.json", "of another"}});
+      stopped(folder, name);
+      { const OutputFolder next(path + "/a"); }
+      EXPECT_EQ(contentOf(path + "/thesis/summary.json"), "years of work") << name << " in " << folder;
+      EXPECT_EQ(contentOf(path + "/b.tmp-7/summary.json"), "of another") << name << " in " << folder;
+      for (const char* made : {"a.tmp-1", "a", "a.failed"}) fs::remove_all(path + "/" + made);
+    }
+  // A folder that was renamed since: the old result is where the new one was.
+  result("a", {{"summary.json", "old"}});
+  stopped("a.tmp-8", "a.tmp-3");
+  { const OutputFolder next(path + "/a"); }
+  EXPECT_EQ(contentOf(path + "/a/summary.json"), "new");
+  EXPECT_EQ(names(), (std::set<std::string>{"a", "b.tmp-7", "thesis"}));
+}
+
 TEST_F(Output, twoRunsForOneFolderAreNotPossible) {
   const OutputFolder living(path + "/out");
   EXPECT_THROW(OutputFolder(path + "/out"), InputError);

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "base/interrupt.h"
 #include "mesh/generate.h"
 
 namespace mortier {
@@ -147,6 +148,19 @@ TEST(Rounds, limitsEndThemAndTheMeshesAreThoseThatWereSolved) {
     EXPECT_NE(rounds.reason().find(seconds ? "max_seconds" : "max_unknowns"), std::string::npos);
     EXPECT_EQ(rounds.scene().meshes[0].triangles.size(), before);
   }
+}
+
+TEST(Rounds, refinementEndsAtAnInterruptionAndWhenTheTimeIsUp) {
+  Rounds rounds(sceneOf(0.01));
+  const size_t before = rounds.scene().meshes[0].triangles.size();
+  interruption::requested = true;
+  EXPECT_THROW(rounds.judge(resultOf(rounds, 1), 1), Interrupted);
+  interruption::requested = false;
+  Rounds late(sceneOf(0.01));
+  const TimeLimit over(0);
+  EXPECT_EQ(late.judge(resultOf(late, 1), 1), Rounds::Verdict::notReached);
+  EXPECT_EQ(late.reason(), "a further round would take more than max_seconds");
+  EXPECT_EQ(late.scene().meshes[0].triangles.size(), before);
 }
 
 TEST(Rounds, aLimitIsUsedAsFarAsItGoes) {
