@@ -18,6 +18,8 @@
 
 namespace mortier {
 
+namespace fs = std::filesystem;
+
 namespace {
 
 struct RunCommand : SceneOptions {
@@ -40,7 +42,7 @@ void onInterrupt(int signal) {
 }
 
 std::string defaultFolder(const std::string& scene) {
-  return (std::filesystem::path("out") / std::filesystem::path(scene).stem()).string();
+  return (fs::path("out") / fs::path(scene).stem()).string();
 }
 
 /// The warnings of `mortier check`, in its words.
