@@ -19,8 +19,8 @@ namespace {
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// Shared by threads without the interpreter lock, which the last owner takes; with the interpreter its objects
-/// have gone.
+/// Shared by threads without the interpreter lock, which the last owner takes; when the interpreter has ended
+/// its objects are gone.
 template <class T>
 std::shared_ptr<T> shared(T objects) {
   return {new T(std::move(objects)), [](T* old) {

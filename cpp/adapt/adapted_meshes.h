@@ -80,7 +80,7 @@ struct KnownCurves {
 KnownCurves curvesBehind(const TriangleMesh& mesh);
 
 // Ends and corners of a contact line make stresses of the body that it faces unbounded or kinked. Where the
-// other mesh has no vertex there, the estimate shows half of it and refinement never comes near: one is added.
+// other mesh has no vertex there, the estimate shows half of it on any mesh: one is added.
 
 /// Ends of a labelled line, and vertices where it turns by more than `sharpTurn`. \throws InputError
 std::vector<Point> cornersOf(const TriangleMesh& mesh, int label);

@@ -30,7 +30,7 @@
 
 namespace mortier {
 
-/// The error of the meshes over a run, by triangles: what meshes are refined by. One mesh serves all times, so
+/// The error of the meshes over a run, by triangles: meshes are refined by it. One mesh serves all times, so
 /// that of each triangle is the largest that it had at any time.
 class ErrorHistory {
  public:

@@ -59,7 +59,7 @@ struct SceneOptions {
 void complain(const std::string& text);
 /// `mortier: warning: text`, once each
 void warn(const std::string& text);
-/// Writes out the rest of standard output. A reader that has gone away (`mortier run ... | head`) is no error.
+/// Writes out the rest of standard output. A reader that is gone (`mortier run ... | head`) is no error.
 /// \throws OutputError when it cannot be written.
 void finishStandardOutput();
 

@@ -34,7 +34,7 @@ std::string freefemFormula(const std::string& text, const std::string& where,
 /// The names in a text that are none of functions or constants, in their order.
 std::vector<std::string> namesIn(const std::string& text);
 
-// Text of others in a script: it stands there and is never run. FreeFEM reads strings of at most 255 printable
+// Text of others in a script stands there and is never run. FreeFEM reads strings of at most 255 printable
 // ASCII characters, with escapes of its own, and ends a comment at a line feed or a carriage return.
 
 /// `"text"`. \throws InputError `where = "text", expected ...` for what could be read as something else.

@@ -18,12 +18,12 @@ std::string logRound(const std::vector<RoundFacts>& rounds);
 std::string logRow(const StepReport& report);
 /// That a run with steps chosen by their error is begun again.
 std::string logTrial(double error, double tolerance);
-/// How the run ended, where its result is, and how well it holds: equations, estimates and bounds, the largest
+/// How the run ended, where its result is, how well it holds (equations, estimates, bounds), the largest
 /// values where the last step does not have them, and the quantities of the scene.
 /// \param place  of the result
 std::string logEnd(const RunFacts& facts, const Model& model, const Solved& solved, const std::string& place);
 
-/// Prints the above, and on standard error, where that is a terminal, a progress bar of a run that takes longer
+/// Prints the above and, where standard error is a terminal, a progress bar there of a run that takes longer
 /// than two seconds. A quiet log prints nothing.
 class Log {
  public:

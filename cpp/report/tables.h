@@ -1,9 +1,9 @@
 // The tables of a result, a row each:
-//   history.csv  per step, with everything that is reported of it; with friction whether several solutions are
-//                possible and the work of each interface that has it; the quantities of the scene. Units stand
-//                in the header.
-//   contact.csv  per kept step and nonmortar node: its place as meshed, gap [m], positive where the bodies are
-//                apart, nodal force p [N/m], pressure Phi^-1 p [Pa], and whether it is active (p > 0). Where
+//   history.csv  per step, with everything that is reported of it; with friction whether several solutions
+//                are possible and the work of each interface that has it; the quantities of the scene. Units
+//                stand in the header.
+//   contact.csv  per kept step and nonmortar node: its place as meshed, gap [m], positive where the bodies
+//                are apart, nodal force p [N/m], pressure Phi^-1 p [Pa], whether it is active (p > 0). Where
 //                any interface has friction also the fields along the line. Vertices and interfaces count
 //                from 0.
 #pragma once
