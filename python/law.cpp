@@ -19,26 +19,31 @@ namespace {
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-struct PythonObjects {
+/// Shared by threads without the interpreter lock, which the last owner takes; when the interpreter has ended
+/// its objects are gone.
+template <class T>
+std::shared_ptr<T> shared(T objects) {
+  return {new T(std::move(objects)), [](T* old) {
+            if (Py_IsInitialized() == 0) return;
+            const py::gil_scoped_acquire held;
+            delete old;
+          }};
+}
+
+struct Callables {
   py::object rate;
   py::object derivative;  ///< or None
-  py::dict parameters;
 };
 
 class PythonLaw final : public RateLaw {
  public:
   /// The interpreter lock is held.
-  PythonLaw(PythonObjects objects, bool needsTotalStrain, std::string name)
-      : objects_(new PythonObjects(std::move(objects))),
+  PythonLaw(std::shared_ptr<Callables> callables, py::dict parameters, bool needsTotalStrain,
+            std::string name)
+      : callables_(std::move(callables)),
+        parameters_(shared(std::move(parameters))),
         needsTotalStrain_(needsTotalStrain),
         name_(std::move(name)) {}
-  ~PythonLaw() override {
-    if (Py_IsInitialized() == 0) return;  // with the interpreter its objects have gone
-    const py::gil_scoped_acquire held;
-    delete objects_;
-  }
-  PythonLaw(const PythonLaw&) = delete;
-  PythonLaw& operator=(const PythonLaw&) = delete;
 
   [[nodiscard]] bool needsTotalStrain() const override { return needsTotalStrain_; }
   void evaluate(const Matrix& stress, const Matrix& strain, Matrix& rate, Matrix* slopes) const override {
@@ -46,7 +51,7 @@ class PythonLaw final : public RateLaw {
     try {
       rate = rateAt(stress, strain);
       if (slopes == nullptr) return;
-      if (objects_->derivative.is_none())
+      if (callables_->derivative.is_none())
         difference(stress, strain, *slopes);
       else
         *slopes = derivativeAt(stress, strain);
@@ -64,7 +69,7 @@ class PythonLaw final : public RateLaw {
   }
 
   [[nodiscard]] Numbers call(const py::object& callable, const Matrix& stress, const Matrix& strain) const {
-    return Numbers(callable(rowsOf(stress), rowsOf(strain), **objects_->parameters));
+    return Numbers(callable(rowsOf(stress), rowsOf(strain), **(*parameters_)));
   }
 
   void requireShape(const Numbers& is, bool right, const char* what, const std::string& expected) const {
@@ -74,7 +79,7 @@ class PythonLaw final : public RateLaw {
   }
 
   [[nodiscard]] Matrix rateAt(const Matrix& stress, const Matrix& strain) const {
-    const Numbers rates = call(objects_->rate, stress, strain);
+    const Numbers rates = call(callables_->rate, stress, strain);
     const bool right = rates.ndim() == 2 && rates.shape(0) == stress.cols() && rates.shape(1) == 4;
     requireShape(rates, right, "a rate", "(" + std::to_string(stress.cols()) + ", 4)");
     return Eigen::Map<const Matrix>(rates.data(), 4, stress.cols());
@@ -82,7 +87,7 @@ class PythonLaw final : public RateLaw {
 
   /// (points, 4, 4): [point, component of the rate, of the stress]; (points, 4, 8) with those of the strain.
   [[nodiscard]] Matrix derivativeAt(const Matrix& stress, const Matrix& strain) const {
-    const Numbers all = call(objects_->derivative, stress, strain);
+    const Numbers all = call(callables_->derivative, stress, strain);
     const py::ssize_t directions = slopeRows() / 4;
     const bool right =
         all.ndim() == 3 && all.shape(0) == stress.cols() && all.shape(1) == 4 && all.shape(2) == directions;
@@ -127,48 +132,27 @@ class PythonLaw final : public RateLaw {
       }
   }
 
-  PythonObjects* objects_;
+  std::shared_ptr<Callables> callables_;
+  std::shared_ptr<py::dict> parameters_;
   bool needsTotalStrain_;
   std::string name_;
 };
 
-/// A callable that is handed over to threads without the interpreter lock.
-struct Held {
-  explicit Held(py::object of) : object(std::move(of)) {}
-  ~Held() {
-    if (Py_IsInitialized() == 0) {
-      object.release();
-      return;
-    }
-    const py::gil_scoped_acquire held;
-    object = py::object();
-  }
-  Held(const Held&) = delete;
-  Held& operator=(const Held&) = delete;
-  py::object object;
-};
-
 void registerCallable(const std::string& name, const py::object& rate, const py::object& derivative,
                       bool needsTotalStrain) {
-  const auto heldRate = std::make_shared<Held>(rate);
-  const auto heldDerivative = std::make_shared<Held>(derivative);
+  const auto callables = shared(Callables{rate, derivative});
   registerLaw(name, [=](const LawParameters& parameters) -> std::shared_ptr<const RateLaw> {
     const py::gil_scoped_acquire held;
     py::dict numbers;
     for (const auto& [key, value] : parameters.all()) numbers[py::str(key)] = value;
-    return std::make_shared<PythonLaw>(PythonObjects{heldRate->object, heldDerivative->object, numbers},
-                                       needsTotalStrain, name);
+    return std::make_shared<PythonLaw>(callables, numbers, needsTotalStrain, name);
   });
 }
 
 }  // namespace
 
 PythonError::PythonError(const py::error_already_set& error)
-    : std::runtime_error("a law in Python raised an error"),
-      error_(new py::error_already_set(error), [](py::error_already_set* old) {
-        const py::gil_scoped_acquire held;
-        delete old;
-      }) {}
+    : std::runtime_error("a law in Python raised an error"), error_(shared(error)) {}
 
 void bindLaw(py::module_& module) {
   module.def("register_law", &registerCallable);

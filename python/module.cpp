@@ -6,7 +6,6 @@
 #include "base/printable.h"
 #include "bind.h"
 #include "commands/run.h"
-#include "commands/version.h"
 #include "law.h"
 
 namespace py = pybind11;

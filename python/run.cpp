@@ -21,7 +21,7 @@ class Steps {
  public:
   Steps(const Scene& scene, RunOptions options)
       : worker_([this, scene, options = std::move(options)](Worker& worker) {
-          solution_ = solveScene(scene, options, [&](std::shared_ptr<Step> step) {
+          solution_ = solveScene(scene, options, false, [&](std::shared_ptr<Step> step) {
             step_ = std::move(step);
             worker.park();
           });
@@ -43,9 +43,9 @@ class Steps {
 
 std::shared_ptr<Solution> run(const Scene& scene, const std::string& out, int threads, double checkpoint,
                               bool keepAll) {
-  const RunOptions options{out, checkpoint, threads, keepAll};
+  const RunOptions options{out, checkpoint, threads};
   auto solution = std::make_shared<Solution>();
-  interruptibly([&] { *solution = solveScene(scene, options); });
+  interruptibly([&] { *solution = solveScene(scene, options, keepAll); });
   return solution;
 }
 
@@ -76,7 +76,7 @@ void bindRun(py::module_& module) {
       .def_property_readonly("reason", [](const Solution& s) { return printable(s.ending.reason); });
   py::class_<Steps>(module, "Steps")
       .def(py::init([](const Scene& scene, int threads) {
-        return std::make_unique<Steps>(scene, RunOptions{"", 0, threads, false});
+        return std::make_unique<Steps>(scene, RunOptions{"", 0, threads});
       }))
       .def("next", &Steps::next)
       .def_property_readonly("solution", &Steps::solution);

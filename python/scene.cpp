@@ -10,7 +10,6 @@
 #include "bind.h"
 #include "lint/lint.h"
 #include "mesh/medit.h"
-#include "plan/plan.h"
 #include "worker.h"
 
 namespace py = pybind11;
@@ -74,25 +73,17 @@ void writeMesh(const std::string& path, const std::string& of, const Numbers& po
   writeMedit(mesh, path);
 }
 
-/// (plan, faults) as dicts, what `mortier check --json` says.
-py::tuple check(const std::string& path, const std::vector<std::string>& settings) {
+/// Faults as dicts, what `mortier check --json` says.
+py::list check(const std::string& path, const std::vector<std::string>& settings) {
   LintReport report;
-  Plan plan;
-  interruptibly([&] {
-    report = lint(path, settings);
-    if (report.model) plan = planOf(*report.scene, *report.model);
-  });
+  interruptibly([&] { report = lint(path, settings); });
   using py::literals::operator""_a;
-  py::list items;
-  for (const PlanItem& item : plan)
-    items.append(py::dict("part"_a = item.part, "modelled"_a = item.modelled, "what"_a = item.what,
-                          "why"_a = item.why));
   py::list faults;
   for (const Fault& fault : report.faults.all())
     faults.append(py::dict("id"_a = fault.kind->id, "severity"_a = word(fault.kind->severity),
                            "place"_a = printable(fault.place), "message"_a = printable(fault.message),
                            "remedy"_a = fault.kind->remedy, "more"_a = fault.more));
-  return py::make_tuple(items, faults);
+  return faults;
 }
 
 }  // namespace

@@ -10,11 +10,9 @@
 #include <variant>
 #include <vector>
 
-#include "commands/attempt.h"
-#include "commands/ending.h"
-#include "report/contact_table.h"
+#include "commands/run.h"
 #include "report/fields.h"
-#include "report/history.h"
+#include "report/tables.h"
 #include "scene.h"
 
 namespace mortier::python {
@@ -41,16 +39,10 @@ struct Solution {
   Ending ending;
 };
 
-struct RunOptions {
-  std::string out;         ///< folder of the result; empty: memory only
-  double checkpoint = 30;  ///< wall time between checkpoints [s]
-  int threads = 1;
-  bool keepAll = false;  ///< all steps, in place of those of output.every
-};
-
+/// \param keepAll  all steps, in place of those of output.every
 /// \param onStep  called with every step as it is done; not for scenes whose steps may be done again.
 /// \throws InputError, UnheldBodyError, OutputError, InterruptedError, Interrupted
-Solution solveScene(const Scene& scene, const RunOptions& options,
+Solution solveScene(const Scene& scene, const RunOptions& options, bool keepAll,
                     const std::function<void(std::shared_ptr<Step>)>& onStep = {});
 
 }  // namespace mortier::python

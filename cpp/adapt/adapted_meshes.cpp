@@ -5,7 +5,6 @@
 #include <limits>
 #include <numeric>
 
-#include "adapt/facing_corners.h"
 #include "base/interrupt.h"
 
 namespace mortier {
@@ -47,7 +46,7 @@ double scaleOfSizes(const std::vector<Vector>& errors, double aim, int degree) {
 /// The fewest triangles that make half of the sum, all bodies together; of those that are equal to six digits
 /// the first, so that units and rotations change nothing.
 std::vector<std::vector<char>> halfOfTheError(const std::vector<Vector>& errors) {
-  constexpr double part = 0.5 - 1e-9;
+  constexpr double share = 0.5 - 1e-9;
   constexpr double digits = 0x1p20;
   std::vector<std::pair<size_t, Eigen::Index>> order;
   std::vector<std::vector<char>> marked;
@@ -63,7 +62,7 @@ std::vector<std::vector<char>> halfOfTheError(const std::vector<Vector>& errors)
                    [&](const auto& a, const auto& b) { return rank(a) > rank(b); });
   double sum = 0;
   for (const auto& which : order) {
-    if (sum >= part * total) break;
+    if (sum >= share * total) break;
     sum += of(which);
     marked[which.first][which.second] = 1;
   }
@@ -120,7 +119,7 @@ void AdaptedMeshes::learn(const std::vector<Vector>& errors) {
   for (size_t b = 0; b < bodies_.size(); ++b) learnRates(bodies_[b], errors[b], rounding * total);
 }
 
-double AdaptedMeshes::unseen() const {
+double AdaptedMeshes::unresolved() const {
   double sum = 0;
   for (const Adapted& body : bodies_)
     for (size_t v = 0; v < body.rate.size(); ++v)
@@ -174,11 +173,11 @@ void AdaptedMeshes::cutToSize(Adapted& body, const Vector& reduction, std::vecto
       ++around[v];
     }
   for (size_t v = 0; v < vertices; ++v) logArea[v] /= around[v];
-  // The mean at a vertex hides a triangle that is alone with its error:
-  // of those that make half of it each counts.
-  std::vector<double> own(marked.size(), std::numeric_limits<double>::infinity());
+  // The mean at a vertex hides a single triangle with a large error: those that make half of it have a limit
+  // each.
+  std::vector<double> limit(marked.size(), std::numeric_limits<double>::infinity());
   for (size_t t = 0; t < marked.size(); ++t)
-    if (marked[t] != 0) own[t] = logOf(t) + 2 * std::log(reduction[static_cast<Eigen::Index>(t)]);
+    if (marked[t] != 0) limit[t] = logOf(t) + 2 * std::log(reduction[static_cast<Eigen::Index>(t)]);
   // A triangle is half as large when it is cut: from there on, cutting it is nearer to what it should be.
   const double slack = std::log(2.0) / 2 + 1e-9;
   for (bool first = true;; first = false) {
@@ -186,14 +185,14 @@ void AdaptedMeshes::cutToSize(Adapted& body, const Vector& reduction, std::vecto
     bool any = false;
     for (size_t t = 0; t < marked.size(); ++t) {
       const auto& [a, b, c] = body.mesh.triangles[t];
-      const bool large = logOf(t) > std::min((logArea[a] + logArea[b] + logArea[c]) / 3, own[t]) + slack;
+      const bool large = logOf(t) > std::min((logArea[a] + logArea[b] + logArea[c]) / 3, limit[t]) + slack;
       marked[t] = large || (first && marked[t] != 0) ? 1 : 0;
       any = any || marked[t] != 0;
     }
     if (!any) return;
-    std::vector<double> ofParts;
-    for (const int parent : cut(body, marked, &logArea)) ofParts.push_back(own[parent]);
-    own = std::move(ofParts);
+    std::vector<double> limits;
+    for (const int parent : cut(body, marked, &logArea)) limits.push_back(limit[parent]);
+    limit = std::move(limits);
     marked.clear();
   }
 }

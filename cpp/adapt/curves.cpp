@@ -1,4 +1,4 @@
-#include "adapt/curves.h"
+#include "adapt/adapted_meshes.h"
 
 #include <cmath>
 #include <map>

@@ -1,4 +1,4 @@
-#include "adapt/facing_corners.h"
+#include "adapt/adapted_meshes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "contact/smooth_part.h"
 #include "mesh/boundary_line.h"
 #include "mesh/line_part.h"
 #include "mesh/refine.h"
@@ -67,7 +68,6 @@ void apply(TriangleMesh& mesh, const Cut& cut) {
 }  // namespace
 
 std::vector<Point> cornersOf(const TriangleMesh& mesh, int label) {
-  constexpr double sharpTurn = 2 * M_PI / 9;  // as where conditions are placed (contact/smooth_part.h)
   const BoundaryLine line = boundaryLine(mesh, label);
   std::vector<Point> corners;
   const size_t n = line.points.size();

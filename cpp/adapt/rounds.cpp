@@ -15,8 +15,8 @@ namespace {
 
 /// An estimate may be this part of the error, so that it has to be below this part of what is asked.
 constexpr double least = 0.9;
-constexpr double careful = 0.75;     // aims are this part of what is asked
-constexpr double reachOfARound = 4;  // by which a round divides the error, about
+constexpr double careful = 0.75;         // aims are this part of what is asked
+constexpr double reductionOfARound = 4;  // by which a round divides the error, about
 
 /// The same where a large error is asked for: what the recovered stress misses is of higher order.
 double leastOf(double asked) {
@@ -32,6 +32,41 @@ int nodesOf(const AdaptedMeshes& meshes, size_t bodies, int degree) {
 }
 
 }  // namespace
+
+void ErrorHistory::add(const StepReport& report) {
+  if (report.step == 0) {
+    largest_.clear();
+    for (const Body& body : model_.bodies)
+      largest_.emplace_back(Vector::Zero(static_cast<Eigen::Index>(body.mesh().triangles.size())));
+    largestSum_ = energy_ = displacement_ = 0;
+    if (report.vonMises == 0) return;  // nothing acts yet
+  }
+  double error = 0;
+  double energy = 0;
+  const CurrentSpaceError::Estimates estimates = error_.estimates();
+  for (size_t b = 0; b < estimates->size(); ++b) {
+    const ErrorEstimate& estimate = (*estimates)[b];
+    largest_[b] = largest_[b].cwiseMax(estimate.error);
+    error += estimate.error.sum();
+    energy += estimate.energy;
+  }
+  largestSum_ = std::max(largestSum_, error);
+  energy_ = std::max(energy_, energy);
+  displacement_ = std::max(displacement_, report.displacement);
+}
+
+std::vector<Vector> ErrorHistory::errors() const {
+  constexpr double negligible = 1e-24;  // of the energy
+  double rounding = negligible * energy_;
+  double sum = 0;
+  for (size_t b = 0; b < largest_.size(); ++b) {
+    rounding += error_.roundingOf(b, displacement_);
+    sum += largest_[b].sum();
+  }
+  std::vector<Vector> errors = largest_;
+  for (Vector& error : errors) error *= largestSum_ > rounding ? largestSum_ / sum : 0;
+  return errors;
+}
 
 Rounds::Rounds(ResolvedScene scene)
     : description_(std::move(scene.description)),
@@ -60,17 +95,17 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
   meshError_ = result.energy > 0 ? std::sqrt(sum / result.energy) : 0;
   ++done_;
   meshes_.learn(result.errors);
-  trusted_ = result.energy > 0 ? std::sqrt((sum + meshes_.unseen()) / result.energy) : 0;
-  if (done_ > 1 && trusted_ + result.time <= least_ * asked) {
+  corrected_ = result.energy > 0 ? std::sqrt((sum + meshes_.unresolved()) / result.energy) : 0;
+  if (done_ > 1 && corrected_ + result.time <= least_ * asked) {
     const std::optional<double> bound = result.bound ? result.bound() : std::nullopt;
     if (!bound || *bound <= asked) return Verdict::reached;
-    least_ = careful * trusted_ / std::min(*bound, 1.0);
+    least_ = careful * corrected_ / std::min(*bound, 1.0);
   }
   const double ofMeshes = least_ * asked - timeShare();
 
   // The steps alone are too long.
   const bool lastSteps = timeTolerance_ <= timeShare();
-  if (done_ > 1 && trusted_ <= ofMeshes) {
+  if (done_ > 1 && corrected_ <= ofMeshes) {
     if (lastSteps)
       return stop("the error of the steps, " + digits(100 * result.time) + " %" + ", does not fall");
     timeTolerance_ = timeShare();
@@ -82,7 +117,7 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
 Rounds::Verdict Rounds::judgeAim(RoundResult result, double seconds) {
   const AimedError& aim = *result.aim;
   ++done_;
-  trusted_ = std::numeric_limits<double>::infinity();
+  corrected_ = std::numeric_limits<double>::infinity();
   if (!aim.obstacle.empty()) return stop(aim.obstacle);
   const double size = std::abs(aim.value);
   if (size == 0 && aim.error > 0) return stop("the quantity is 0, which no relative error is of");
@@ -91,11 +126,11 @@ Rounds::Verdict Rounds::judgeAim(RoundResult result, double seconds) {
   result.errors = aim.parts;
   for (Vector& part : result.errors) part *= sum > 0 ? aim.error / sum : 0;
   result.energy = size;
-  meshError_ = trusted_ = size > 0 ? std::sqrt(aim.error / size) : 0;
+  meshError_ = corrected_ = size > 0 ? std::sqrt(aim.error / size) : 0;
   meshes_.learn(result.errors);
   const double asked = std::sqrt(description_.accuracy.tolerance);
   least_ = aim.proved ? 1 : least;
-  if ((aim.proved || done_ > 1) && trusted_ <= least_ * asked) return Verdict::reached;
+  if ((aim.proved || done_ > 1) && corrected_ <= least_ * asked) return Verdict::reached;
   return goOn(result, least_ * asked, seconds);
 }
 
@@ -111,8 +146,8 @@ Rounds::Verdict Rounds::goOn(const RoundResult& result, double ofMeshes, double 
   if (!std::isfinite(meshError_)) return stop("no stress of finite energy meets the data");
   shortfalls_ = aim_ > 0 && meshError_ > short_ * aim_ && !fell ? shortfalls_ + 1 : 0;
   if (shortfalls_ >= often) return stop("the error does not fall as it should");
-  const double excess = trusted_ / (careful / least * ofMeshes);
-  const double toCome = std::max(1.0, std::round(std::log(excess) / std::log(reachOfARound)));
+  const double excess = corrected_ / (careful / least * ofMeshes);
+  const double toCome = std::max(1.0, std::round(std::log(excess) / std::log(reductionOfARound)));
   const double factor = std::clamp(std::pow(excess, -1 / toCome), 1.0 / 8, done_ == 1 ? first : careful);
   double cost = result.seconds;
   if (timeTolerance_ > 0) {

@@ -1,14 +1,14 @@
-// A scene solved again and again, on meshes that are refined by the error of the round before and with steps
-// to match, until the estimated error is what was asked for.
-// With E the error of the meshes, with what its estimate does not see, over 0.75 of what is asked of it,
+// A scene solved in rounds, on meshes that are refined by the error of the round before and with steps to
+// match, until the estimated error is what was asked for.
+// With E the error of the meshes, corrected for unbounded stresses, over 0.75 of what is asked of it,
 //
 //   k = max(1, round(log E / log 4))   rounds are to come, each of which divides it by  min(E^(1/k), 8):
 //
-// equal reaches avoid the dear case, a mesh that misses by a little and is solved again at the same size.
+// equal reductions avoid a mesh that misses the aim by a little and is solved once more at nearly its size.
 // Where bodies flow a part of what is asked is that of the steps in time (0.2 of degree 1, 0.25 of degree 2);
 // before the last round steps are as good as the meshes deserve. One round of refinement is made at least,
 // which is to halve the error: on the first meshes an estimate is not trusted, and no rate is known. Where
-// stresses are unbounded what it does not see is added before it is believed (adapt/adapted_meshes.h).
+// stresses are unbounded the estimate is corrected (adapt/adapted_meshes.h).
 //
 // Where refinement aims at a quantity J, the parts of its error by triangles, products of an error of u and
 // one of the adjoint, go with the mesh like squares of errors in the energy norm, and take their place: E is
@@ -26,8 +26,33 @@
 
 #include "adapt/adapted_meshes.h"
 #include "scene/resolve.h"
+#include "time/space_error.h"
 
 namespace mortier {
+
+/// The error of the meshes over a run, by triangles: meshes are refined by it. One mesh serves all times, so
+/// that of each triangle is the largest that it had at any time.
+class ErrorHistory {
+ public:
+  /// \param error  of the states that are told of
+  ErrorHistory(const Model& model, CurrentSpaceError& error) : model_(model), error_(error) {}
+  /// A state of the run, in their order; the initial state (step 0) begins anew.
+  void add(const StepReport& report);
+
+  /// By bodies and triangles [J/m]: the shares, whose sum is the largest error of any state, squared. 0 where
+  /// that is nothing but rounding.
+  [[nodiscard]] std::vector<Vector> errors() const;
+  /// The largest energy of the recovered stress of any state [J/m].
+  [[nodiscard]] double energy() const { return energy_; }
+
+ private:
+  const Model& model_;
+  CurrentSpaceError& error_;
+  std::vector<Vector> largest_;  ///< of each triangle
+  double largestSum_ = 0;
+  double energy_ = 0;
+  double displacement_ = 0;  ///< largest [m]
+};
 
 /// The error of a quantity, and where it comes from.
 struct AimedError {
@@ -61,8 +86,8 @@ class Rounds {
   Verdict judge(const RoundResult& result, double seconds);
   /// Why the accuracy is not reached.
   [[nodiscard]] const std::string& reason() const { return reason_; }
-  /// Of the last round, relative, with what the estimate does not see of unbounded stresses.
-  [[nodiscard]] double meshError() const { return aims() ? trusted_ * trusted_ : trusted_; }
+  /// Of the last round, relative, corrected for unbounded stresses.
+  [[nodiscard]] double meshError() const { return aims() ? corrected_ * corrected_ : corrected_; }
   /// Doubts about the estimate beside those of plan/estimate_doubts.h.
   [[nodiscard]] std::vector<std::string> doubts() const;
 
@@ -81,7 +106,7 @@ class Rounds {
   double aim_ = 0;                                           ///< error that the meshes are to have in it
   double meshError_ = 0;                                     ///< as estimated in the last round, relative
   double lowest_ = std::numeric_limits<double>::infinity();  ///< of the rounds before
-  double trusted_ = 0;                                       ///< with what that does not see
+  double corrected_ = 0;                                     ///< corrected for unbounded stresses
   double least_;  ///< part of what is asked for that the estimate has to be below
   int done_ = 0;
   int shortfalls_ = 0;

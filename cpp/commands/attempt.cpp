@@ -1,10 +1,9 @@
 #include "commands/attempt.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "base/ranks.h"
-#include "commands/version.h"
+#include "commands/command_line.h"
 #include "linear/versions.h"
 #include "plan/loads.h"
 #include "scene/build.h"
@@ -13,16 +12,6 @@
 
 namespace mortier {
 namespace {
-
-std::string joinedOnce(std::vector<std::string> words) {
-  std::sort(words.begin(), words.end());
-  words.erase(std::unique(words.begin(), words.end()), words.end());
-  std::string text;
-  for (const std::string& each : words) {
-    text += (text.empty() ? "" : ", ") + each;
-  }
-  return text.empty() ? "none" : text;
-}
 
 RunFacts factsOf(const SceneDescription& scene, const AttemptOptions& options) {
   RunFacts facts;
@@ -42,19 +31,19 @@ RunFacts factsOf(const SceneDescription& scene, const AttemptOptions& options) {
   facts.versions = {{"mortier", version}, {"compiler", __VERSION__}};
   for (const auto& libraries : {linearLibraries(), sceneLibraries()})
     facts.versions.insert(facts.versions.end(), libraries.begin(), libraries.end());
-  std::vector<std::string> projections;
+  std::set<std::string> projections;
   for (const BodyDescription& body : scene.bodies)
     for (const MaterialDescription* material : materialsOf(body))
-      if (const auto* flow = material->as<Viscoplasticity>()) projections.push_back(word(flow->projection));
-  std::vector<std::string> nonmortars;
+      if (const auto* flow = material->as<Viscoplasticity>()) projections.insert(word(flow->projection));
+  std::set<std::string> nonmortars;
   for (const ContactDescription& contact : scene.contacts) {
     facts.variants.push_back(word(contact.variant));
     facts.choices.push_back(contact.choice);
-    nonmortars.push_back(contact.nonmortar.body);
+    nonmortars.insert(contact.nonmortar.body);
   }
-  facts.contact = joinedOnce(facts.variants);
-  facts.nonmortar = joinedOnce(nonmortars);
-  facts.projection = joinedOnce(projections);
+  facts.contact = joined({facts.variants.begin(), facts.variants.end()}, "none");
+  facts.nonmortar = joined(nonmortars, "none");
+  facts.projection = joined(projections, "none");
   return facts;
 }
 
@@ -68,7 +57,7 @@ void lookAhead(SceneDescription& scene, const Model& model) {
 }
 
 /// What needs whole bodies.
-std::string whyAlone(const SceneDescription& scene, const Model& model) {
+std::string reasonNotToShare(const SceneDescription& scene, const Model& model) {
   if (scene.accuracy.asked() > 0) return "rounds of [accuracy] refine whole meshes";
   if (scene.accuracy.bound) return "bounds are found of whole bodies";
   if (solvesSparse(model, scene.solver)) return "the contact matrices of a line this long are sparse";
@@ -85,8 +74,8 @@ Attempt::Attempt(ResolvedScene scene, const AttemptOptions& options) : resolved(
   facts = factsOf(description, options);
   description.time.quantities = facts.quantities = buildQuantities(description, *model);
   lookAhead(description, *model);
-  if (options.share) alone = whyAlone(description, *model);
-  if (options.share && alone.empty()) share();
+  if (options.share) whyNotShared = reasonNotToShare(description, *model);
+  if (options.share && whyNotShared.empty()) share();
   state = initialState(solvedModel());
 }
 
@@ -99,18 +88,6 @@ void Attempt::share() {
     error = std::make_unique<CurrentSpaceError>(*model);
   }
   ranks.releaseFreeMemory();
-}
-
-int Attempt::unknowns() const {
-  int unknowns = 0;
-  for (const Body& body : model->bodies) unknowns += body.freeDofs();
-  return unknowns;
-}
-
-size_t Attempt::triangles() const {
-  size_t triangles = 0;
-  for (const Body& body : model->bodies) triangles += body.mesh().triangles.size();
-  return triangles;
 }
 
 }  // namespace mortier

@@ -4,9 +4,10 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
-#include "commands/solve.h"
+#include "bound/flow_bound.h"
+#include "bound/total_bound.h"
+#include "report/accuracy.h"
 #include "scene/resolve.h"
 
 namespace mortier {
@@ -21,7 +22,7 @@ struct Attempt {
   ResolvedScene resolved;
   std::unique_ptr<Model> model;              ///< of ranks that share it but the first, in parts
   std::unique_ptr<Model> parts;              ///< of the first of such ranks
-  std::string alone;                         ///< why ranks cannot share it; empty where they do
+  std::string whyNotShared;                  ///< why ranks cannot share it; empty where they do
   std::unique_ptr<CurrentSpaceError> error;  ///< of the meshes, in the state that the run is at
   RunFacts facts;
   State state;  ///< the first one
@@ -35,12 +36,18 @@ struct Attempt {
   /// The model that is solved: the one of this rank.
   [[nodiscard]] const Model& solvedModel() const { return parts ? *parts : *model; }
   [[nodiscard]] const SceneDescription& scene() const { return resolved.description; }
-  /// Of all bodies.
-  [[nodiscard]] int unknowns() const;
-  [[nodiscard]] size_t triangles() const;
 
  private:
   void share();
 };
+
+// Bounds of its error (bound/): whatever goes wrong in them is their obstacle, the result stays.
+
+/// Of its last state and its quantities.
+EnergyBound boundOf(const Attempt& attempt);
+/// Of what the meshes do to its last step.
+EnergyBound stepBoundOf(const Attempt& attempt);
+FlowBound flowBoundOf(const FlowBoundRecord& record, const State& state);
+TotalBound totalBoundOf(const TotalBoundRecord& record, const State& state, const FlowBound& steps);
 
 }  // namespace mortier

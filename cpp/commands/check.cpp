@@ -1,14 +1,16 @@
-#include "commands/check.h"
-
+// `mortier check`: prints what a run of the scene would model and leave out, and what is wrong or doubtful in
+// it, without solving anything.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "base/counted.h"
 #include "base/printable.h"
 #include "bound/energy_bound.h"
 #include "bound/flow_bound.h"
-#include "commands/exit_code.h"
+#include "commands/command_line.h"
 #include "commands/freefem.h"
 #include "lint/lint.h"
 #include "plan/plan.h"
@@ -82,12 +84,8 @@ void addRefusals(const SceneDescription& scene, const Model& model, Plan& plan) 
     plan.push_back({"accuracy", false, "a guaranteed bound of the error of a step and of the run", why});
 }
 
-}  // namespace
-
-int check(const CheckCommand& command) {
-  if (command.list) {
-    return listKinds(command.json);
-  }
+/// \returns the exit code that a run would have, 0 where there are warnings only
+int check(const SceneOptions& command, bool json) {
   const LintReport report = lint(command.scene, command.settings);
   Plan plan;
   if (report.model) {
@@ -97,7 +95,7 @@ int check(const CheckCommand& command) {
   const Faults& faults = report.faults;
   const int wrong = faults.count(Severity::error);
   const int unheld = faults.count(Severity::unheld);
-  if (command.json) {
+  if (json) {
     print(asJson(command.scene, plan, faults));
   } else {
     std::fputs(planText(plan).c_str(), stdout);
@@ -108,6 +106,25 @@ int check(const CheckCommand& command) {
                 counted(faults.count(Severity::warning), "warning").c_str());
   }
   return wrong > 0 ? exitWrongInput : unheld > 0 ? exitUnheld : exitDone;
+}
+
+}  // namespace
+
+Command addCheck(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "check", "say what a run would model and leave out, and what is wrong or doubtful (docs/check.md)");
+  const auto scene = std::make_shared<SceneOptions>();
+  scene->addScene(*command);
+  scene->addSettings(*command);
+  scene->addGoal(*command, "--accuracy", "energy", "E");
+  const CLI::Option* json = command->add_flag("--json")->description("machine-readable");
+  const CLI::Option* list =
+      command->add_flag("--list")->description("all faults that it knows, and their remedies; no scene");
+  return {command, [=]() -> int {
+            if (list->count() > 0) return listKinds(json->count() > 0);
+            scene->requireScene();
+            return check(*scene, json->count() > 0);
+          }};
 }
 
 }  // namespace mortier

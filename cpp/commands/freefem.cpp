@@ -1,20 +1,16 @@
 #include "commands/freefem.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
+#include <charconv>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <sstream>
 
 #include "base/error.h"
 #include "base/whole_file.h"
-#include "commands/exit_code.h"
-#include "commands/freefem_expression.h"
-#include "commands/freefem_materials.h"
-#include "commands/freefem_steps.h"
-#include "commands/freefem_text.h"
-#include "commands/shipped.h"
-#include "contact/smooth_part.h"
+#include "commands/command_line.h"
 #include "fem/element.h"
 #include "mesh/gmsh.h"
 #include "mesh/medit.h"
@@ -106,39 +102,31 @@ void writeConditions(std::ostream& out, const BodyDescription& body, int number,
             << freefemExpression(*body.force[c]) << ")*v" << c + 1 << (midpoints ? "" : own) << ") ";
     }
   }
-  const auto orNothing = [&](const std::ostringstream& terms, const char* nothing) {
+  const auto orZero = [&](const std::ostringstream& terms, const char* zero) {
     const std::string text = terms.str();
-    return text.empty() ? "+ int2d(Body" + n + ")(" + nothing + ") " : text;
+    return text.empty() ? "+ int2d(Body" + n + ")(" + zero + ") " : text;
   };
-  out << "macro supports" << n << ' ' << orNothing(supports, "0.*u1*v1") << "//\nmacro loads" << n << ' '
-      << orNothing(loads, "0.*v2") << "//\n";
+  out << "macro supports" << n << ' ' << orZero(supports, "0.*u1*v1") << "//\nmacro loads" << n << ' '
+      << orZero(loads, "0.*v2") << "//\n";
 }
 
-/// One macro for all bodies; none where there are no rollers.
-std::string rollers(const SceneDescription& scene) {
-  std::string text;
-  for (size_t b = 0; b < scene.bodies.size(); ++b) {
-    for (const ConditionDescription& c : scene.bodies[b].conditions) {
-      if (isRoller(c)) {
-        text += "roller(" + std::to_string(b + 1) + ", " + std::to_string(c.label) + ", " +
-                (c.component == alongNormal ? "normal" : "tangent") + ", " + freefemExpression(c.value) +
-                ") ";
-      }
-    }
-  }
-  return text.empty() ? text : "macro rollers " + text + "//  body, label, direction, displacement\n";
-}
-
-/// One macro for all bodies; none where no point is held.
-std::string heldPoints(const SceneDescription& scene) {
-  std::string text;
+/// Macros for all bodies: rollers, and points that are held.
+std::string specialSupports(const SceneDescription& scene) {
+  std::string rollers;
+  std::string points;
   for (size_t b = 0; b < scene.bodies.size(); ++b)
-    for (const ConditionDescription& c : scene.bodies[b].conditions)
+    for (const ConditionDescription& c : scene.bodies[b].conditions) {
+      const std::string body = "(" + std::to_string(b + 1) + ", ";
+      const std::string value = ", " + freefemExpression(c.value) + ") ";
+      if (isRoller(c))
+        rollers += "roller" + body + std::to_string(c.label) + ", " +
+                   (c.component == alongNormal ? "normal" : "tangent") + value;
       if (c.point)
-        text += "heldPoint(" + std::to_string(b + 1) + ", " + shortest(c.point->x()) + ", " +
-                shortest(c.point->y()) + ", " + std::to_string(c.component + 1) + ", " +
-                freefemExpression(c.value) + ") ";
-  return text.empty() ? text : "macro heldPoints " + text + "//  body, x, y, component, displacement\n";
+        points += "heldPoint" + body + shortest(c.point->x()) + ", " + shortest(c.point->y()) + ", " +
+                  std::to_string(c.component + 1) + value;
+    }
+  return freefemMacro("rollers", rollers, "body, label, direction, displacement") +
+         freefemMacro("heldPoints", points, "body, x, y, component, displacement");
 }
 
 /// What an interface has in place of its distance as meshed; none where it is that everywhere.
@@ -154,9 +142,8 @@ std::string distances(const SceneDescription& scene, const Model& model) {
   }
   const bool moves = std::any_of(scene.contacts.begin(), scene.contacts.end(),
                                  [](const ContactDescription& c) { return c.gap && c.gap->inTime; });
-  return text.empty() ? text
-                      : "macro distances " + text + "//  interface, its bodies, distance\n" +
-                            (moves ? "macro distancesMove yes //  they change in time\n" : "");
+  return freefemMacro("distances", text, "interface, its bodies, distance") +
+         (moves ? "macro distancesMove yes //  they change in time\n" : "");
 }
 
 /// Of every interface; none where there is no friction.
@@ -222,7 +209,7 @@ std::string script(const SceneDescription& scene, const Model& model,
   out << freefemMaterials(scene) << freefemPatches(model)
       << "\n// Boundary conditions and loads, functions of x, y and t\n";
   for (int b = 0; b < bodies; ++b) writeConditions(out, scene.bodies[b], b + 1, scene);
-  out << rollers(scene) << heldPoints(scene)
+  out << specialSupports(scene)
       << "\n// Contact: nonmortar body and label, mortar body and label; time\nint[int, int] contact = ";
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const auto& [nonmortar, mortar, coupling] = model.interfaces[k].pair();
@@ -247,100 +234,13 @@ std::string script(const SceneDescription& scene, const Model& model,
   return out.str();
 }
 
-[[noreturn]] void refuse(const std::string& what, const std::string& expected) {
-  throw InputError(what + ", expected " + expected + " (all that the FreeFEM method knows)");
-}
-
-/// \throws InputError for the first thing in the scene that the FreeFEM method does not know.
-void requireKnown(const SceneDescription& scene, bool stepsGiven) {
-  if (scene.contacts.empty()) refuse(scene.path + ": no contact interface", "one at least");
-  if (scene.time.scheme != Scheme::backwardEuler) {
-    refuse(scene.path + ": scheme = " + word(scene.time.scheme), "backward-euler");
-  }
-  if (scene.time.controlled() && !stepsGiven) {
-    refuse(scene.path + ": tolerance = " + shortest(scene.time.tolerance),
-           "equal steps, or those of a run (--steps-of)");
-  }
-  for (const BodyDescription& body : scene.bodies) {
-    const bool stressed = std::any_of(body.initialStress.begin(), body.initialStress.end(),
-                                      [](const auto& component) { return component.has_value(); });
-    if (stressed || !body.regions.empty()) {
-      refuse(body.where + ": body " + body.name + ": regions or initial stress", "neither");
-    }
-    if (const auto* own = body.material.as<OwnLaw>()) {
-      if (!own->texts) refuse(own->where, "a law of mortier's own or \"expression\"");
-      if (body.temperature) refuse(body.temperature->where + ": temperature", "none beside such a law");
-      if (scene.plane == Plane::axisymmetric)
-        refuse(own->where + " beside plane = \"axisymmetric\"", "\"stress\" or \"strain\"");
-    }
-    const MaterialDescription& material = body.material;
-    if (material.anisotropy && material.flows())
-      refuse(material.anisotropy->where, "\"isotropic\" beside flow");
-    if (material.anisotropy && body.temperature)
-      refuse(body.temperature->where + ": temperature", "none beside elasticity that is not isotropic");
-  }
-}
-
-/// Whether the elements stand for one circle, or for nothing that is known.
-bool isOneCurve(const SmoothPart& part) {
-  const Arc& first = part.arcs.front();
-  return std::all_of(part.arcs.begin(), part.arcs.end(), [&](const Arc& arc) {
-    return !arc.curve.known() && arc.known == first.known && (!arc.known || arc.curvature == first.curvature);
-  });
-}
-
-/// \throws InputError where quadratic triangles have curved sides: FreeFEM's are straight.
-void requireStraightSides(const SceneDescription& scene, const Model& model) {
-  constexpr double rounding = 1e-12;
-  if (scene.degree != 2) return;
-  for (size_t b = 0; b < scene.bodies.size(); ++b) {
-    const TriangleMesh& mesh = model.bodies[b].mesh();
-    for (size_t e = 0; e < mesh.edgeMiddles.size(); ++e) {
-      const auto& [from, to] = mesh.boundaryEdges[e];
-      const Point side = mesh.vertices[to] - mesh.vertices[from];
-      const Point off = mesh.edgeMiddles[e] - mesh.vertices[from] - side / 2;
-      if (off.allFinite() && off.norm() > rounding * side.norm())
-        refuse(scene.bodies[b].meshWhere + ": body " + scene.bodies[b].name + ": a mesh with curved sides",
-               "straight ones beside degree = 2");
-    }
-  }
-}
-
-/// \throws InputError where a line of contact has corners that count, is closed or is made of several curves.
-void requireSmooth(const SceneDescription& scene, const Model& model) {
-  for (size_t k = 0; k < model.interfaces.size(); ++k) {
-    const ContactPair& pair = model.interfaces[k].pair();
-    const auto partsOf = [&](const ContactSide& side) {
-      return smoothParts(boundaryLine(model.bodies[side.body].mesh(), side.label));
-    };
-    const std::vector<SmoothPart> parts = partsOf(pair.nonmortar);
-    const std::vector<SmoothPart> across = partsOf(pair.mortar);
-    const auto straight = [](const SmoothPart& part) { return part.straight; };
-    const bool cornersCount =
-        parts.size() > 1 || (across.size() > 1 && !(parts.front().straight &&
-                                                    std::all_of(across.begin(), across.end(), straight)));
-    if (cornersCount || parts.front().closed || across.front().closed)
-      refuse(scene.contacts[k].where + ": contact: a closed line, or one with corners",
-             "open lines without corners");
-    if (!isOneCurve(parts.front()) || !std::all_of(across.begin(), across.end(), isOneCurve))
-      refuse(scene.contacts[k].where + ": contact: a line of several curves",
-             "one circle, one straight line, or a polygon");
-  }
-}
-
-void requireAll(const SceneDescription& scene, const Model& model, bool stepsGiven) {
-  requireKnown(scene, stepsGiven);
-  requireSmooth(scene, model);
-  requireStraightSides(scene, model);
-}
-
 }  // namespace
 
 std::string freefemObstacle(const SceneDescription& scene, const Model& model, bool stepsGiven) {
   std::vector<std::string> meshFiles;
   for (const BodyDescription& body : scene.bodies) meshFiles.push_back(body.name + ".mesh");
   try {
-    requireAll(scene, model, stepsGiven);
+    requireFreefemKnows(scene, model, stepsGiven);
     script(scene, model, meshFiles, {});
   } catch (const InputError& error) {
     return error.what();
@@ -348,12 +248,62 @@ std::string freefemObstacle(const SceneDescription& scene, const Model& model, b
   return "";
 }
 
-int writeFreefem(const FreefemCommand& command) {
+namespace {
+
+/// The cells of a line without quotes.
+std::vector<std::string> cells(const std::string& line) {
+  std::vector<std::string> result(1);
+  for (const char c : line)
+    if (c == ',')
+      result.emplace_back();
+    else if (c != '\r')
+      result.back() += c;
+  return result;
+}
+
+/// The ends of the steps of a run, ascending, from the history.csv in its folder [s, or the run's unit].
+/// \throws InputError where there is none, or it is not of a run to `end` from time 0
+std::vector<double> stepsOfRun(const std::string& folder, double end) {
+  const std::string path = folder + "/history.csv";
+  const auto refuse = [&](int line, const std::string& what, const std::string& expected) {
+    throw InputError(path + (line > 0 ? ':' + std::to_string(line) : "") + ": " + what + ", expected " +
+                     expected);
+  };
+  std::istringstream file(readWhole(path, "the history of a run"));
+  std::string line;
+  if (!std::getline(file, line)) refuse(0, "cannot be read", "the history of a run");
+  size_t column = 0;
+  const std::vector<std::string> names = cells(line);
+  while (column < names.size() && names[column].compare(0, 5, "time[") != 0) ++column;
+  if (column == names.size()) refuse(1, "no column time[...]", "the history of a run");
+  std::vector<double> times;
+  for (int number = 2; std::getline(file, line); ++number) {
+    const std::vector<std::string> row = cells(line);
+    double time = 0;
+    const std::string text = column < row.size() ? row[column] : "";
+    const auto [rest, fault] = std::from_chars(text.data(), text.data() + text.size(), time);
+    if (number == 2 && text == "0") continue;  // what acts at once is no step
+    const double last = times.empty() ? 0 : times.back();
+    if (fault != std::errc() || rest != text.data() + text.size() || !(time > last) || !(time <= end))
+      refuse(number, "time " + text, "a number above the one before, up to the end of the scene");
+    times.push_back(time);
+  }
+  if (times.empty() || times.back() != end)
+    refuse(0, "no step to the end of the scene", "a run that has ended");
+  return times;
+}
+
+struct FreefemOptions : SceneOptions {
+  std::string file;     ///< empty: standard output
+  std::string stepsOf;  ///< the folder of a run whose steps are to be taken; empty: none
+};
+
+int writeFreefem(const FreefemOptions& command) {
   // 1. The scene, checked as for a run of our own.
   ResolvedScene resolved = resolveScene(readScene(command.scene, command.settings));
   const Model model = buildModel(resolved);
   const SceneDescription& scene = resolved.description;
-  requireAll(scene, model, !command.stepsOf.empty());
+  requireFreefemKnows(scene, model, !command.stepsOf.empty());
 
   // 2. The meshes that FreeFEM does not read, beside the script.
   std::vector<std::string> meshFiles;
@@ -378,6 +328,22 @@ int writeFreefem(const FreefemCommand& command) {
   }
   writeWhole(command.file, text);
   return exitDone;
+}
+
+}  // namespace
+
+Command addFreefem(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("freefem", "write a scene as a FreeFEM script");
+  const auto options = std::make_shared<FreefemOptions>();
+  options->addScene(*command);
+  command->add_option("FILE", options->file, ".edp file to write (default: standard output)");
+  options->addSettings(*command);
+  command->add_option("--steps-of", options->stepsOf, "results of a run of the scene, whose steps it takes")
+      ->type_name("FOLDER");
+  return {command, [options] {
+            options->requireScene();
+            return writeFreefem(*options);
+          }};
 }
 
 }  // namespace mortier

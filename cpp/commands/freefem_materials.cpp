@@ -1,68 +1,56 @@
-#include "commands/freefem_materials.h"
-
 #include <algorithm>
 #include <map>
 #include <variant>
 
-#include "commands/freefem_expression.h"
-#include "commands/freefem_text.h"
+#include "commands/freefem.h"
 #include "scene/document.h"
 
 namespace mortier {
 namespace {
 
-/// Relaxation time of every body and the part of its shear modulus that is left; 0 where it does not relax.
-std::string relaxes(const SceneDescription& scene) {
+/// Numbers of one law for every body, under a macro; nothing where no body follows it. \param none  those of
+/// the bodies that do not  \param comment  what the numbers are
+template <class Law>
+std::string lawNumbers(const SceneDescription& scene, const std::string& macro, const std::string& comment,
+                       const Law& none, const std::vector<std::pair<const char*, double Law::*>>& numbers) {
   std::string text;
   bool any = false;
   for (size_t b = 0; b < scene.bodies.size(); ++b) {
-    const auto* law = scene.bodies[b].material.as<Viscoelasticity>();
-    any = any || law != nullptr;
-    const std::string n = std::to_string(b + 1);
-    text += "real tauM" + n + " = " + shortest(law ? law->relaxationTime : 0) + ", leftM" + n + " = " +
-            shortest(law ? law->relaxedFraction : 0) + ";\n";
-  }
-  return any ? "macro relaxing yes //  shear relaxes: time [" + scene.units.time +
-                   "] and the part that is left\n" + text
-             : "";
-}
-
-/// Reference stress, rate and exponent of every body; a rate of 0 where it does not creep by Norton's law.
-std::string creeps(const SceneDescription& scene) {
-  std::string text;
-  bool any = false;
-  for (size_t b = 0; b < scene.bodies.size(); ++b) {
-    const auto* creep = scene.bodies[b].material.as<NortonCreep>();
-    any = any || creep != nullptr;
-    const std::string n = std::to_string(b + 1);
-    text += "real sigmaN" + n + " = " + shortest(creep ? creep->referenceStress : 1) + ", rateN" + n + " = " +
-            shortest(creep ? creep->referenceRate : 0) + ", powerN" + n + " = " +
-            shortest(creep ? creep->exponent : 1) + ";\n";
-  }
-  const std::string unit = "[" + scene.units.stress + "]";
-  return any ? "macro norton yes //  creep: reference stress " + unit + " and rate [1/" + scene.units.time +
-                   "], exponent\n" + text
-             : "";
-}
-
-/// Flow by the overstress of every body; a yield stress of 0 where it has none.
-std::string overstresses(const SceneDescription& scene) {
-  std::string text;
-  bool any = false;
-  for (size_t b = 0; b < scene.bodies.size(); ++b) {
-    const auto* given = scene.bodies[b].material.as<Overstress>();
+    const auto* given = scene.bodies[b].material.as<Law>();
     any = any || given != nullptr;
-    const std::string n = std::to_string(b + 1);
-    const Overstress law = given != nullptr ? *given : Overstress();
-    text += "real yieldO" + n + " = " + shortest(law.yieldStress) + ", sigmaO" + n + " = " +
-            shortest(law.referenceStress) + ", rateO" + n + " = " + shortest(law.referenceRate) + ", powerO" +
-            n + " = " + shortest(law.exponent) + ", backO" + n + " = " + shortest(law.kinematicHardening) +
-            ", growO" + n + " = " + shortest(law.isotropicHardening) + ";\n";
+    std::string line;
+    for (const auto& [name, number] : numbers)
+      line += (line.empty() ? "real " : ", ") + (name + std::to_string(b + 1)) + " = " +
+              shortest((given != nullptr ? *given : none).*number);
+    text += line + ";\n";
   }
-  const std::string unit = "[" + scene.units.stress + "]";
-  return any ? "macro overstressed yes //  yield stress, overstress " + unit + ", its rate [1/" +
-                   scene.units.time + "], exponent, kinematic and isotropic hardening " + unit + "\n" + text
-             : "";
+  return any ? "macro " + macro + " yes //  " + comment + "\n" + text : "";
+}
+
+/// Creep, relaxation and flow by the overstress; a rate, a time or a yield stress of 0 where there is none.
+std::string lawsWithNumbers(const SceneDescription& scene) {
+  const std::string stress = "[" + scene.units.stress + "]";
+  const std::string rate = "[1/" + scene.units.time + "]";
+  return lawNumbers<NortonCreep>(scene, "norton",
+                                 "creep: reference stress " + stress + " and rate " + rate + ", exponent",
+                                 NortonCreep{1, 0, 1},
+                                 {{"sigmaN", &NortonCreep::referenceStress},
+                                  {"rateN", &NortonCreep::referenceRate},
+                                  {"powerN", &NortonCreep::exponent}}) +
+         lawNumbers<Viscoelasticity>(
+             scene, "relaxing", "shear relaxes: time [" + scene.units.time + "] and the part that is left",
+             Viscoelasticity(),
+             {{"tauM", &Viscoelasticity::relaxationTime}, {"leftM", &Viscoelasticity::relaxedFraction}}) +
+         lawNumbers<Overstress>(scene, "overstressed",
+                                "yield stress, overstress " + stress + ", its rate " + rate +
+                                    ", exponent, kinematic and isotropic hardening " + stress,
+                                Overstress(),
+                                {{"yieldO", &Overstress::yieldStress},
+                                 {"sigmaO", &Overstress::referenceStress},
+                                 {"rateO", &Overstress::referenceRate},
+                                 {"powerO", &Overstress::exponent},
+                                 {"backO", &Overstress::kinematicHardening},
+                                 {"growO", &Overstress::isotropicHardening}});
 }
 
 /// One macro for all bodies whose moduli differ from point to point; none where there are none.
@@ -90,9 +78,8 @@ std::string anisotropies(const SceneDescription& scene) {
   }
   for (size_t b = 0; b < scene.bodies.size(); ++b)
     if (scene.bodies[b].material.as<OwnLaw>() != nullptr) text += "ownLaw(" + std::to_string(b + 1) + ") ";
-  return text.empty() ? text
-                      : "macro anisotropic " + text +
-                            "//  body, angle of axis 1, constants; bodies with a rate of their own\n";
+  return freefemMacro("anisotropic", text,
+                      "body, angle of axis 1, constants; bodies with a rate of their own");
 }
 
 /// A function of all bodies: rates by stress and strain, written as the scene has them. Names of parameters
@@ -160,14 +147,13 @@ std::string temperatures(const SceneDescription& scene) {
             (temperature->file.empty() ? "\"\"" : freefemString(temperature->file, temperature->where)) +
             ", " + freefemExpression(temperature->value) + ") ";
   }
-  return text.empty() ? text : "macro temperatures " + text + "//  body, expansion, file, factor\n";
+  return freefemMacro("temperatures", text, "body, expansion, file, factor");
 }
 
 }  // namespace
 
 std::string freefemMaterials(const SceneDescription& scene) {
-  return creeps(scene) + relaxes(scene) + overstresses(scene) + anisotropies(scene) + ownLaws(scene) +
-         temperatures(scene);
+  return lawsWithNumbers(scene) + anisotropies(scene) + ownLaws(scene) + temperatures(scene);
 }
 
 std::string freefemPatches(const Model& model) {
@@ -191,8 +177,7 @@ std::string freefemPatches(const Model& model) {
     }
     text += "patchesOf(" + std::to_string(b + 1) + ", " + name + ") ";
   }
-  return text.empty() ? text
-                      : "macro averaged " + text + "//  body, of its triangles the patch, from 0\n" + numbers;
+  return freefemMacro("averaged", text, "body, of its triangles the patch, from 0") + numbers;
 }
 
 }  // namespace mortier

@@ -1,12 +1,14 @@
-#include "commands/law.h"
-
+// `mortier law`: tries the law of every body and region that flows (material/law_check.h) and prints what it
+// finds.
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 
 #include "base/digits.h"
 #include "base/error.h"
 #include "base/printable.h"
-#include "commands/exit_code.h"
+#include "commands/command_line.h"
 #include "material/law_check.h"
 #include "material/stress.h"
 #include "plan/loads.h"
@@ -15,6 +17,12 @@
 
 namespace mortier {
 namespace {
+
+struct LawOptions : SceneOptions {
+  double stress = 0;  ///< largest that is tried; 0: that of the scene's data
+  double strain = 0;  ///< largest that is tried; 0: that stress over Young's modulus
+  int samples = 100;
+};
 
 /// The stress that the data of the scene ask for [Pa].
 double stressOfData(const SceneDescription& scene, const Model& model) {
@@ -91,9 +99,9 @@ void judge(const LawCheck& check, const Material& material, bool isotropic, cons
   verdicts.line("steps", true, steps);
 }
 
-}  // namespace
-
-int tryLaws(const LawCommand& command) {
+/// \returns 0, or 1 where a law is wrong: no number, a tangent that is not its derivative, energy made of
+/// nothing, or not as isotropic as it is said to be. \throws InputError
+int tryLaws(const LawOptions& command) {
   ResolvedScene resolved = resolveScene(readScene(command.scene, command.settings));
   const Model model = buildModel(resolved);
   const SceneDescription& scene = resolved.description;
@@ -122,6 +130,29 @@ int tryLaws(const LawCommand& command) {
               own == nullptr || own->isotropic, scene, verdicts);
     }
   return verdicts.wrong() ? exitFailed : exitDone;
+}
+
+}  // namespace
+
+Command addLaw(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "law", "try the laws of a scene at random stresses (docs/check.md); exit code 0 or 1");
+  const auto options = std::make_shared<LawOptions>();
+  options->addScene(*command);
+  options->addSettings(*command);
+  command->add_option("--stress", options->stress, "largest stress (default: that of the scene's data)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("S");
+  command->add_option("--strain", options->strain, "largest strain (default: that stress over young)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("E");
+  command->add_option("--samples", options->samples, "how many stresses (default 100)")
+      ->check(CLI::Range(1, 1000000))
+      ->type_name("N");
+  return {command, [options] {
+            options->requireScene();
+            return tryLaws(*options);
+          }};
 }
 
 }  // namespace mortier

@@ -1,21 +1,43 @@
-#include "commands/mesh.h"
-
+// `mortier mesh`: makes labelled meshes of simple shapes (mesh/generate.h), converts and describes meshes.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <map>
+#include <memory>
 
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/printable.h"
-#include "commands/exit_code.h"
+#include "commands/command_line.h"
 #include "mesh/boundary_line.h"
 #include "mesh/generate.h"
 #include "mesh/medit.h"
+#include "mesh/read.h"
 
 namespace mortier {
 
 namespace {
+
+/// A mesh to make, options as given.
+struct MeshOptions {
+  std::string family;  ///< rectangle, crisscross, quadrilateral, annulus, halfdisc, quarterdisc
+  std::string file;
+  std::string cells = "1";    ///< N or N1,N2
+  std::string cut;            ///< rising, falling, both; empty: that of the family
+  std::string lower = "0,0";  ///< corners of a rectangle [m]
+  std::string upper = "1,1";
+  std::string focus;  ///< X,Y; none: equal cells
+  std::string grading = "1";
+  std::vector<std::string> corners;  ///< of a quadrilateral
+  std::string centre = "0,0";        ///< of an annulus
+  double inner = 1;
+  double outer = 2;
+  std::string span = "full";   ///< quarter, half, full
+  std::string lowest = "0,0";  ///< of a half disc
+  double radius = 1;
+  double core = 0.1;
+};
 
 /// "6,4" as two numbers; "6" as 6 and 6 where `single` is allowed.
 template <class Number>
@@ -74,7 +96,7 @@ struct Made {
   std::string labels;
 };
 
-Made make(const MeshCommand& command) {
+Made make(const MeshOptions& command) {
   const auto [cells1, cells2] = parsePair<int>("--cells", command.cells, true);
   const bool curved = command.family == "annulus" || command.family.ends_with("disc");
   const std::string word = !command.cut.empty() ? command.cut : curved ? "both" : "rising";
@@ -115,19 +137,17 @@ Made make(const MeshCommand& command) {
           "1 bottom, 2 right, 3 top, 4 left"};
 }
 
-}  // namespace
-
-int makeMesh(const MeshCommand& command) {
+int makeMesh(const MeshOptions& command) {
   const auto [mesh, labels] = make(command);
   writeMedit(mesh, command.file);
   std::printf("%s: %s; labels %s\n", command.file.c_str(), sizeOf(mesh).c_str(), labels.c_str());
   return exitDone;
 }
 
-int convertMesh(const ConvertCommand& command) {
-  const TriangleMesh mesh = readMesh(command.source);
-  writeMedit(mesh, command.file);
-  std::printf("%s: %s\n", command.file.c_str(), sizeOf(mesh).c_str());
+int convertMesh(const MeshSource& source, const std::string& file) {
+  const TriangleMesh mesh = readMesh(source);
+  writeMedit(mesh, file);
+  std::printf("%s: %s\n", file.c_str(), sizeOf(mesh).c_str());
   return exitDone;
 }
 
@@ -166,7 +186,7 @@ int meshInfo(const std::string& file) {
     ++regions[region];
   }
 
-  // 4. Tell.
+  // 4. Print.
   std::printf(
       "%s\nvertices   %zu\ntriangles  %zu\narea       %.9g m^2\nextents    x %.9g .. %.9g, y %.9g .. %.9g "
       "m\n",
@@ -182,6 +202,83 @@ int meshInfo(const std::string& file) {
                 named(mesh.regionNames, region).c_str());
   }
   return exitDone;
+}
+
+/// A family's subcommand with what all of them have.
+CLI::App* addFamily(CLI::App& mesh, MeshOptions& command, const std::string& name, const std::string& what,
+                    const std::string& cellsHelp, const std::string& labels) {
+  CLI::App* family = mesh.add_subcommand(name, what);
+  family->add_option("--cells", command.cells, cellsHelp)->required()->type_name("N[,N2]");
+  if (name != "crisscross")
+    family->add_option("--cut", command.cut,
+                       std::string("diagonals of the cells: rising, falling, both (default ") +
+                           (name == "annulus" || name.ends_with("disc") ? "both)" : "rising)"));
+  family->add_option("FILE", command.file, "Medit .mesh file to write")->required();
+  family->footer("Boundary labels: " + labels + ".");
+  family->callback([&command, name] { command.family = name; });
+  return family;
+}
+
+}  // namespace
+
+Command addMesh(CLI::App& app) {
+  const auto command = std::make_shared<MeshOptions>();
+  CLI::App& mesh = *app.add_subcommand("mesh", "make a mesh, or describe one");
+  mesh.require_subcommand(1);
+
+  const std::string sides = "1 bottom, 2 right, 3 top, 4 left";
+  for (const auto& [name, what] : {std::pair("rectangle", "rectangle, each cell cut by one diagonal"),
+                                   std::pair("crisscross", "rectangle, each cell cut by both diagonals")}) {
+    CLI::App* each = addFamily(mesh, *command, name, what, "cells along x and y", sides);
+    each->add_option("--lower", command->lower, "lower left corner [m] (default 0,0)")->type_name("X,Y");
+    each->add_option("--upper", command->upper, "upper right corner [m] (default 1,1)")->type_name("X,Y");
+    each->add_option("--focus", command->focus, "point towards which cells shrink")->type_name("X,Y");
+    each->add_option("--grading", command->grading, "size of the farthest cells over the nearest (default 1)")
+        ->type_name("R[,RY]");
+  }
+  CLI::App* quadrilateral =
+      addFamily(mesh, *command, "quadrilateral", "convex quadrilateral, e.g. Cook's membrane",
+                "cells along the first and second side", "1, 2, 3, 4: side k from corner k to the next");
+  quadrilateral->add_option("--corners", command->corners, "four corners, counterclockwise")
+      ->required()
+      ->expected(4)
+      ->type_name("X,Y");
+  CLI::App* annulus =
+      addFamily(mesh, *command, "annulus", "ring or a sector of it, radii in geometric progression",
+                "cells around (in all) and across",
+                "1 inner circle, 2 outer circle, 3 and 4 first and last side of a sector");
+  annulus->add_option("--centre", command->centre, "centre [m] (default 0,0)")->type_name("X,Y");
+  annulus->add_option("--inner", command->inner, "inner radius [m] (default 1)");
+  annulus->add_option("--outer", command->outer, "outer radius [m] (default 2)");
+  annulus->add_option("--span", command->span, "quarter, half or full (default), from the x axis");
+  for (const auto& [name, what, more] :
+       {std::tuple("halfdisc", "lower half of a disc, fine around its lowest point", ""),
+        std::tuple("quarterdisc", "right half of that, the section of a sphere", ", 4 vertical side")}) {
+    CLI::App* disc = addFamily(
+        mesh, *command, name, what, "cells on half the width of the fine core",
+        std::string("1 arc within 45 degrees of the lowest point, 2 flat side, 3 rest of the arc") + more);
+    disc->add_option("--lowest", command->lowest, "lowest point [m] (default 0,0)")->type_name("X,Y");
+    disc->add_option("--radius", command->radius, "radius [m] (default 1)");
+    disc->add_option("--core", command->core, "half width of the core [m] (default 0.1)");
+  }
+
+  const auto file = std::make_shared<std::string>();
+  CLI::App* info = mesh.add_subcommand("info", "counts, labels, extents, worst triangle");
+  info->add_option("FILE", *file, "Medit .mesh file")->required();
+
+  const auto source = std::make_shared<MeshSource>();
+  CLI::App* convert =
+      mesh.add_subcommand("convert", "any mesh or geometry that a scene can name, as a Medit .mesh file");
+  convert->add_option("FROM", source->path, "Medit .mesh file, or a file for Gmsh")->required();
+  convert->add_option("TO", *file, "Medit .mesh file to write")->required();
+  convert->add_option("--region", source->regions, "regions to keep, by name or number");
+  convert->add_option("--size", source->size, "longest edge of a geometry that is meshed [m]")
+      ->check(CLI::PositiveNumber);
+  return {&mesh, [=] {
+            return info->parsed()      ? meshInfo(*file)
+                   : convert->parsed() ? convertMesh(*source, *file)
+                                       : makeMesh(*command);
+          }};
 }
 
 }  // namespace mortier

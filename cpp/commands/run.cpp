@@ -1,182 +1,227 @@
 #include "commands/run.h"
 
-#include <unistd.h>
-
-#include <atomic>
-#include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <memory>
-#include <optional>
+#include <fstream>
+#include <iterator>
+#include <utility>
 
-#include "adapt/rounds.h"
+#include "base/checksum.h"
 #include "base/error.h"
 #include "base/interrupt.h"
-#include "base/ranks.h"
-#include "commands/attempt.h"
-#include "commands/complain.h"
-#include "commands/ending.h"
-#include "commands/solve.h"
-#include "commands/solve_rounds.h"
-#include "lint/lint.h"
+#include "mesh/medit.h"
+#include "plan/estimate_doubts.h"
+#include "plan/loads.h"
+#include "report/clock.h"
+#include "report/output_file.h"
+#include "report/summary.h"
 #include "scene/build.h"
+#include "scene/document.h"
 #include "scene/memory_need.h"
 
 namespace mortier {
 
+namespace fs = std::filesystem;
+
 namespace {
 
-/// What a signal says that ends the process at once.
-std::atomic<const char*> atOnce = nullptr;
-
-/// The first Ctrl-C ends the run with a checkpoint of its last step; a second one kills, and so does the
-/// first where a library would not hear of it (before the first step).
-void onInterrupt(int signal) {
-  if (inUninterruptibleCall()) {
-    static_cast<void>(!write(STDERR_FILENO, atOnce, std::strlen(atOnce)));
-    _exit(exitFailed);
+/// With the hashes of meshes and of files of temperatures.
+RunIdentity identityOf(const SceneDescription& scene, const Model& model) {
+  RunIdentity identity;
+  identity.workingFolder = fs::current_path().string();
+  identity.scene = scene.path;
+  identity.settings = scene.settings;
+  identity.text = scene.text;
+  for (const Body& body : model.bodies) {
+    identity.files.push_back("the mesh " + body.mesh().name);
+    identity.fileHashes.push_back(hashOf(body.mesh()));
   }
-  if (!Ranks::all().interrupt()) requestInterrupt();
-  std::signal(signal, SIG_DFL);
+  for (const BodyDescription& body : scene.bodies) {
+    if (!body.temperature || body.temperature->file.empty()) continue;
+    std::ifstream file(body.temperature->file, std::ios::binary);
+    Checksum checksum;
+    checksum.add(std::string(std::istreambuf_iterator<char>(file), {}));
+    identity.files.push_back("the file " + body.temperature->file);
+    identity.fileHashes.push_back(checksum.value);
+  }
+  return identity;
 }
 
-std::string defaultFolder(const std::string& scene) {
-  return (std::filesystem::path("out") / std::filesystem::path(scene).stem()).string();
+/// The law of a triangle.
+std::string lawOf(const BodyDescription& description, const Body& body, int triangle) {
+  size_t index = 0;  // of the body's laws; the first is that of the triangles in regions without a law
+  size_t next = 0;
+  for (const RegionDescription& region : description.regions)
+    if (region.material && (++next, region.label == body.mesh().regions[triangle])) index = next;
+  const std::vector<LawDescription> laws = body.material().laws();
+  return laws[index].text();
 }
 
-/// The warnings of `mortier check`, in its words.
-void warnOf(const Faults& faults) {
-  for (const Fault& fault : faults.all())
-    if (fault.kind->severity == Severity::warning) warn(fault.place + ": " + withRemedy(fault));
+/// "; furthest off ..." where that is known.
+std::string whereToLook(const Attempt& attempt) {
+  const std::optional<StuckPlace>& stuck = attempt.solved.report.stuck;
+  if (!stuck) return "";
+  const Body& body = attempt.model->bodies[stuck->body];
+  const std::string& driving = attempt.facts.driving;
+  char at[64];
+  std::snprintf(at, sizeof at, "(%.4g, %.4g)", stuck->at.x(), stuck->at.y());
+  return "; furthest off its law, " + lawOf(attempt.scene().bodies[stuck->body], body, stuck->triangle) +
+         ", is body " + body.name() + " at " + at + ", triangle " + std::to_string(stuck->triangle) +
+         (driving.empty() ? "" : "; what drives the step is " + driving);
 }
 
-/// How well it holds.
-void tell(Log& log, const RunFacts& facts, const Model& model, const Solved& solved,
-          const std::string& where) {
-  log.print(logStatus(solved.report, where));
-  log.print(logVerification(solved.report.worst));
-  log.print(logSpecial(solved.report.special));
-  log.print(logAccuracy(facts, model, solved.accuracy));
-  log.print(logTimeError(facts, solved.report));
-  log.print(logPeaks(solved.report.peaks, solved.last, facts.units, !model.interfaces.empty()));
-  log.print(logQuantities(facts, model, solved.state, solved.accuracy.bound));
-  log.print(logRanges(facts, solved.report.quantities));
+/// The rounds of a scene that asks for an accuracy.
+std::optional<Rounds> roundsOf(const ResolvedScene& scene) {
+  if (!(scene.description.accuracy.asked() > 0)) return std::nullopt;
+  return Rounds(scene);
 }
 
 }  // namespace
 
-int run(RunCommand command) {
-  // 1. The scene, and the model it describes.
-  Ranks& ranks = Ranks::all();
-  std::optional<StoppedRun> stopped;
-  if (!command.restart.empty()) {
-    if (ranks.first()) stopped = findStoppedRun(command.restart);
-    const std::string left = textOfFirst(ranks, stopped ? stopped->folder : "");
-    if (!ranks.first() && !left.empty()) stopped = StoppedRun{left, {}, readCheckpoint(left)};
-    if (!stopped) {
-      warn(command.restart + ": the run was complete, its result is now in place");
-      return exitDone;
+std::optional<StoppedRun> findStoppedRun(const std::string& path) {
+  try {
+    const ResultPlace place(path);
+    const PlaceLock lockOfPlace(place.parent().string());
+    const ResultPlace::LeftBehind left = place.clearUp();
+    if (!left.stopped.empty()) {
+      const std::string folder = left.stopped.front().string();
+      FolderLock lock(folder);
+      if (!lock.held()) throw OutputError(place.shown(folder) + ": cannot be locked");
+      return StoppedRun{folder, std::move(lock), readCheckpoint(folder)};
     }
-    if (command.scene.empty()) askAgain(stopped->checkpoint.identity, command);
-    command.out = command.restart;
+    if (left.placed == place.of(true))
+      throw OutputError(place.shown(left.placed) + ": the run had stopped at a step that cannot be solved");
+    if (!left.placed.empty()) return {};
+  } catch (const fs::filesystem_error& error) {
+    throw OutputError(path + ": " + error.code().message());
   }
-  ResolvedScene resolved = resolveScene(readScene(command.scene, command.settings));
-  Faults doubts = lintResolved(resolved);
-  std::optional<Rounds> rounds = beginRounds(resolved);
-  const AttemptOptions options{command.threads, ranks.shared()};
-  auto attempt = std::make_unique<Attempt>(std::move(resolved), options);
-  std::optional<FirstRankOnly> alone;
-  if (!attempt->alone.empty()) {
-    if (!ranks.first()) return exitDone;  // it waits for the first
-    alone.emplace();
-  }
-  RunIdentity identity;
-  if (ranks.first()) {
-    lintModel(attempt->resolved.description, *attempt->model, doubts);
-    identity = identityOf(attempt->resolved.description, *attempt->model);
-  }
-  if (stopped && ranks.first()) {
-    requireSame(stopped->checkpoint.identity, identity, stopped->folder);
-    requireFits(stopped->checkpoint, *attempt->model, stopped->folder, attempt->facts.quantities.size());
-  }
+  throw InputError(path + ": no stopped run, expected a folder " + path + ".tmp-... with a checkpoint in it");
+}
 
-  // 2. Where the result goes, and what is reported.
-  const std::string path = command.out.empty() ? defaultFolder(command.scene) : command.out;
-  std::optional<OutputFolder> folder;
-  const bool goesOn = stopped && !rounds;
-  if (!goesOn) {
-    const SceneDescription& scene = attempt->resolved.description;
-    lintSettling(scene, findInitialEquilibrium(scene, attempt->solvedModel(), attempt->state), doubts);
-  }
-  atOnce = "mortier: interrupted before the first step; nothing was written\n";
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, onInterrupt);
-  if (stopped && ranks.first())
-    folder.emplace(path, stopped->folder, std::move(stopped->lock));
-  else if (ranks.first())
-    folder.emplace(path);
-  const std::string temporary = folder ? folder->temporary() : "";
-  Checkpoints checkpoints(temporary, command.checkpoint, identity);
-  const double endTime = attempt->resolved.description.time.end;
-  Log log(command.quiet, endTime);
-  Log rows(command.quiet || rounds, endTime);
-  const MemoryNeed need = memoryNeed(*attempt->model, attempt->resolved.description.solver);
-  const std::string part = anyFriction(*attempt->model) ? forFriction(need) : "";
-  log.print("memory     " + aboutMemory(need.all) + (part.empty() ? "" : ", " + part) +
-            (rounds ? ", first meshes\n" : "\n"));
-  if (alone) log.print("ranks      the first one alone: " + attempt->alone + "\n");
-  log.print(logHeader(attempt->facts, *attempt->model));
-  log.print(rounds ? logRoundsHeader() : logStepsHeader(attempt->facts.units));
-  warnOf(doubts);
-  if (stopped && rounds) warn(command.restart + ": the rounds begin again");
+Run::Run(ResolvedScene scene, RunOptions options, std::optional<StoppedRun> stopped)
+    : options_(std::move(options)),
+      stopped_(std::move(stopped)),
+      rounds_(roundsOf(scene)),
+      attempt_(std::make_shared<Attempt>(rounds_ ? rounds_->scene() : std::move(scene), attemptOptions())),
+      log_(options_.quiet, attempt_->scene().time.end),
+      rows_(options_.quiet || rounds_, attempt_->scene().time.end) {
+  if (waitsForFirstRank()) return;
+  if (!attempt_->whyNotShared.empty()) firstRankOnly_.emplace();
+  if (!Ranks::all().first() || options_.out.empty()) return;
+  identity_ = identityOf(attempt_->scene(), *attempt_->model);
+  if (!stopped_) return;
+  requireSame(stopped_->checkpoint.identity, identity_, stopped_->folder);
+  requireFits(stopped_->checkpoint, *attempt_->model, stopped_->folder, attempt_->facts.quantities.size());
+}
 
-  // 3. The march in time; where an accuracy is asked for, again and again.
-  const std::string again =
-      "; mortier run --restart " + path + (rounds ? " begins the rounds again" : " goes on");
-  static std::string betweenRounds;
-  betweenRounds = "mortier: " + command.scene + ": interrupted between rounds" + again + "\n";
-  const auto solveIt = [&](Attempt& now, Observer alsoObserve) {
-    Solving solving{now.resolved.description,
-                    *now.model,
-                    now.solvedModel(),
-                    *now.error,
-                    now.facts,
-                    temporary,
-                    rows,
-                    now.state,
-                    {},
-                    checkpoints,
-                    {},
-                    std::move(alsoObserve)};
-    if (goesOn) solving.stopped = std::move(stopped->checkpoint);
-    solving.checkpointInitialStateOnly = rounds.has_value();
-    solving.again = again;
-    now.solved = solve(std::move(solving));
-    if (rounds) atOnce = betweenRounds.c_str();
+bool Run::waitsForFirstRank() const {
+  return !attempt_->whyNotShared.empty() && !Ranks::all().first();
+}
+
+std::string Run::settle() const {
+  if (resumes()) return "";
+  return findInitialEquilibrium(attempt_->scene(), attempt_->solvedModel(), attempt_->state);
+}
+
+void Run::open() {
+  const Attempt& first = *attempt_;
+  if (Ranks::all().first() && !options_.out.empty()) {
+    if (stopped_)
+      folder_.emplace(options_.out, stopped_->folder, std::move(stopped_->lock));
+    else
+      folder_.emplace(options_.out);
+    temporary_ = folder_->temporary();
+  }
+  resumeHint_ =
+      "; mortier run --restart " + options_.out + (rounds_ ? " begins the rounds again" : " goes on");
+  lastCheckpoint_ = processSeconds();
+  if (options_.quiet) return;
+  const MemoryNeed need = memoryNeed(*first.model, first.scene().solver);
+  const std::string ofFriction = anyFriction(*first.model) ? ", " + forFriction(need) : "";
+  log_.print("memory     " + aboutMemory(need.all) + ofFriction + (rounds_ ? ", first meshes\n" : "\n"));
+  if (firstRankOnly_) log_.print("ranks      the first one alone: " + first.whyNotShared + "\n");
+  log_.print(logHeader(first.facts, *first.model));
+  log_.print(rounds_ ? logRoundsHeader() : logStepsHeader(first.facts.units));
+}
+
+void Run::solve(Observe observe) {
+  observe_ = std::move(observe);
+  if (!rounds_) {
+    march(attempt_);
+    shortfall_ = attempt_->solved.report.shortfall;
+    return;
+  }
+  try {
+    solveRounds();
+  } catch (const Interrupted&) {
+    throw InterruptedError(interruptedBetweenRounds());
+  }
+}
+
+std::string Run::interruptedBetweenRounds() const {
+  return attempt_->scene().path + ": interrupted between rounds" + (temporary_.empty() ? "" : resumeHint_);
+}
+
+/// Adds what spoils the estimates, whether the run has the accuracy that was asked for, and bounds.
+void Run::addVerdict() {
+  RunFacts& facts = attempt_->facts;
+  Solved& solved = attempt_->solved;
+  const bool complete = solved.report.status == Status::converged;
+  if (solved.report.stuck) {
+    MeshedScene meshed{attempt_->scene(), {}};
+    for (const Body& body : attempt_->model->bodies) meshed.meshes.push_back(&body.mesh());
+    facts.driving = drivingDatum(meshed, solved.state.time, solved.report.stuck->time);
+  }
+  facts.doubts = estimateDoubts(attempt_->scene(), *attempt_->model);
+  for (const std::string& doubt : pointForceDoubts(*attempt_->model, solved.state))
+    facts.doubts.push_back(doubt);
+  if (complete && attempt_->scene().accuracy.bound && !solved.accuracy.bound)
+    solved.accuracy.bound = boundOf(*attempt_);
+  if (complete && solved.accuracy.flow) solved.accuracy.step = stepBoundOf(*attempt_);
+  if (!rounds_) return;
+  for (const std::string& doubt : rounds_->doubts()) facts.doubts.push_back(doubt);
+  facts.reached = complete && shortfall_.empty();
+}
+
+/// Writes the summary, beside an accuracy the meshes, and puts the result in place of an older one.
+void Run::putInPlace() {
+  const Solved& solved = attempt_->solved;
+  Manifest manifest{solved.report.status != Status::converged, solved.files};
+  const auto write = [&](const std::string& name, const std::string& text) {
+    manifest.files[name] = (OutputFile(temporary_ + "/" + name) << text).close();
   };
-  std::string shortfall;  // why the accuracy is not reached
-  if (rounds) {
-    try {
-      shortfall = solveRounds(*rounds, attempt, options, temporary, log, solveIt);
-    } catch (const Interrupted&) {
-      throw InterruptedError(command.scene + ": interrupted between rounds" + again);
-    }
-  } else {
-    solveIt(*attempt, {});
-    shortfall = attempt->solved.report.shortfall;
-  }
+  if (rounds_)
+    for (const Body& body : attempt_->model->bodies) write(body.name() + ".mesh", meditText(body.mesh()));
+  write("summary.json", summary_);
+  placed_ = folder_->commit(manifest);
+}
 
-  if (!ranks.first()) return endingOf(*attempt, shortfall, "").code;
+Ending Run::ending() const {
+  const SceneDescription& scene = attempt_->scene();
+  const RunReport& report = attempt_->solved.report;
+  if (report.status != Status::converged)
+    return {report.status == Status::unheld ? exitUnheld : exitFailed,
+            scene.path + ": " + report.reason + whereToLook(*attempt_) + "; the state after step " +
+                std::to_string(attempt_->solved.last.step) + " is in " +
+                (placed_.empty() ? "memory" : placed_ + ", which mortier plot draws")};
+  if (shortfall_.empty()) return {};
+  const AccuracyGoal& goal = scene.accuracy;
+  return {exitFailed, scene.path + ": " +
+                          (rounds_ ? "accuracy " + shortest(goal.asked())
+                                   : "time.tolerance " + shortest(scene.time.tolerance)) +
+                          (goal.quantity.empty() ? "" : " of " + goal.quantity) +
+                          " not reached: " + shortfall_ + "; the " + (rounds_ ? "best" : "last") +
+                          " result is in " + (placed_.empty() ? "memory" : placed_)};
+}
 
-  // 4. The result, in place of an older one only when the run is complete.
-  addVerdict(*attempt, rounds ? &*rounds : nullptr, shortfall);
-  const std::string where = putInPlace(*attempt, *folder);
-
-  // 5. How well it holds.
-  tell(log, attempt->facts, *attempt->model, attempt->solved, where);
-  const Ending ending = endingOf(*attempt, shortfall, where);
-  if (ending.code != exitDone) complain(ending.reason);
-  return ending.code;
+Ending Run::finish() {
+  if (!Ranks::all().first()) return {ending().code};
+  addVerdict();
+  summary_ = summaryText(folder_ ? temporary_ + "/summary.json" : "summary", attempt_->facts,
+                         *attempt_->model, attempt_->solved);
+  if (folder_) putInPlace();
+  log_.print(logEnd(attempt_->facts, *attempt_->model, attempt_->solved, placed_));
+  return ending();
 }
 
 }  // namespace mortier

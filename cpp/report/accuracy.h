@@ -1,6 +1,7 @@
 // How accurate the stresses of a run are, by their own estimate (time/space_error.h).
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,8 +9,9 @@
 #include "bound/energy_bound.h"
 #include "bound/flow_bound.h"
 #include "bound/total_bound.h"
+#include "report/manifest.h"
 #include "report/run_facts.h"
-#include "time/report.h"
+#include "time/march.h"
 #include "time/space_error.h"
 
 namespace mortier {
@@ -28,6 +30,15 @@ struct Accuracy {
   std::optional<FlowBound> flow = {};     ///< of the steps up to it, where bodies flow
   std::optional<TotalBound> total = {};   ///< of steps and meshes together, where bodies flow
   std::optional<EnergyBound> step = {};   ///< of the meshes in the last step, where bodies flow
+};
+
+/// What a run came to.
+struct Solved {
+  State state;      ///< the last one that was reached
+  StepReport last;  ///< of the step that led to it
+  RunReport report;
+  Accuracy accuracy;
+  std::map<std::string, FileRecord> files = {};  ///< what was written
 };
 
 /// How a quantity changed from the round before that of the result to it.

@@ -11,7 +11,6 @@
 #include "base/checksum.h"
 #include "base/error.h"
 #include "base/whole_file.h"
-#include "report/checkpoint_files.h"
 #include "report/checkpoint_members.h"
 
 namespace mortier {

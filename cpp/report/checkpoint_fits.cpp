@@ -3,46 +3,50 @@
 
 #include "base/error.h"
 #include "bound/matched_meshes.h"
-#include "report/checkpoint.h"
-#include "report/checkpoint_files.h"
+#include "report/checkpoint_members.h"
 
 namespace mortier {
 
 namespace {
 
-/// Of the same shape, and finite.
-template <class Values>
-bool isLike(const Values& values, const Values& model) {
-  return values.rows() == model.rows() && values.cols() == model.cols() && values.allFinite();
-}
+/// The sizes of all matrices and lists in a value, in their order, and whether all of its numbers are finite:
+/// an archive that members are visited by.
+struct Shape {
+  std::vector<size_t> sizes;
+  bool finite = true;
 
-template <class Values>
-bool areLike(const std::vector<Values>& values, const std::vector<Values>& model) {
-  return std::equal(values.begin(), values.end(), model.begin(), model.end(), isLike<Values>);
-}
+  template <class... T>
+  void operator()(T&... values) {
+    (add(values), ...);
+  }
 
-bool isLike(const BodyState& body, const BodyState& model) {
-  const auto& [external, contact, dissipated, thermal] = body.work;
-  return isLike(body.displacement, model.displacement) && isLike(body.stress, model.stress) &&
-         isLike(body.viscoplasticStrain, model.viscoplasticStrain) && std::isfinite(external) &&
-         std::isfinite(contact) && std::isfinite(dissipated) && std::isfinite(thermal) &&
-         isLike(body.thermalStrain, model.thermalStrain);
-}
+ private:
+  void add(double value) { finite = finite && std::isfinite(value); }
+  void add(signed char value) { finite = finite && std::abs(value) <= 1; }  // of what slips
+  template <int Columns>
+  void add(Eigen::Matrix<double, Eigen::Dynamic, Columns>& m) {
+    sizes.insert(sizes.end(), {static_cast<size_t>(m.rows()), static_cast<size_t>(m.cols())});
+    finite = finite && m.allFinite();
+  }
+  template <class T>
+  void add(std::vector<T>& values) {
+    sizes.push_back(values.size());
+    for (T& value : values) add(value);
+  }
+  template <class T>
+  void add(T& value) {
+    visitMembers(*this, value);
+  }
+};
 
-bool isLike(const BodyIncrement& increment, const BodyState& model) {
-  return isLike(increment.displacement.high, model.displacement) &&
-         isLike(increment.displacement.low, model.displacement) && isLike(increment.stress, model.stress);
-}
-
-template <class Parts>
-bool oneABody(const Parts& parts, const std::vector<BodyState>& model) {
-  return std::equal(parts.begin(), parts.end(), model.begin(), model.end(),
-                    [](const auto& part, const BodyState& body) { return isLike(part, body); });
-}
-
-bool isSlipping(const std::vector<signed char>& signs, const std::vector<signed char>& model) {
-  return signs.size() == model.size() &&
-         std::all_of(signs.begin(), signs.end(), [](signed char sign) { return sign >= -1 && sign <= 1; });
+/// Of the same shape as a value of the model, and finite.
+template <class T>
+bool isLike(const T& value, const T& ofModel) {
+  Shape one;
+  Shape other;
+  one(const_cast<T&>(value));  // one list of members serves reading and writing
+  other(const_cast<T&>(ofModel));
+  return one.finite && one.sizes == other.sizes;
 }
 
 bool isTime(double time) {
@@ -87,22 +91,21 @@ void requireFits(const Checkpoint& checkpoint, const Model& model, const std::st
   const auto& [identity, empty, files, last, state, memory, accuracy] = checkpoint;
   require(isTime(state.time) && isTime(last.time) && last.step >= 0 && last.step == memory.run.steps, "time");
   const auto requireState = [&](const State& given) {
-    require(oneABody(given.bodies, begin.bodies), "state");
-    require(areLike(given.contactForce, begin.contactForce), "contact force");
-    require(areLike(given.gap, begin.gap), "gap");
-    require(areLike(given.frictionForce, begin.frictionForce) && isTime(given.frictionWork) &&
-                given.frictionWorkOf.size() == begin.frictionWorkOf.size() &&
-                std::all_of(given.frictionWorkOf.begin(), given.frictionWorkOf.end(), isTime) &&
-                std::equal(given.slipping.begin(), given.slipping.end(), begin.slipping.begin(),
-                           begin.slipping.end(), isSlipping),
-            "friction");
-    require(std::isfinite(given.gapWork), "work of distances");
+    require(isLike(given, begin) && isTime(given.frictionWork) &&
+                std::all_of(given.frictionWorkOf.begin(), given.frictionWorkOf.end(), isTime),
+            "state");
   };
   requireState(state);
   require(memory.controller.trial >= 0, "trial");
   if (memory.controller.trial > 0) requireState(memory.controller.start);
+  std::vector<BodyIncrement> increments;
+  std::vector<Matrix> stresses;
+  for (const BodyState& body : begin.bodies) {
+    increments.push_back({{body.displacement, body.displacement}, body.stress});
+    stresses.push_back(body.stress);
+  }
   require(std::all_of(memory.increments.begin(), memory.increments.end(),
-                      [&](const auto& stage) { return oneABody(stage, begin.bodies); }),
+                      [&](const auto& stage) { return isLike(stage, increments); }),
           "increment");
   const auto isPerBody = [&](const std::vector<char>& flags) {
     return flags.empty() || flags.size() == begin.bodies.size();
@@ -111,14 +114,9 @@ void requireFits(const Checkpoint& checkpoint, const Model& model, const std::st
   require(isTime(memory.begin) && isTime(memory.timeStep) && isTime(memory.controller.timeStep) &&
               isTime(memory.controller.local),
           "step length");
-  const std::vector<Matrix>& strain = memory.controller.strain;
-  require(strain.empty() || std::equal(strain.begin(), strain.end(), begin.bodies.begin(), begin.bodies.end(),
-                                       [](const Matrix& a, const BodyState& b) {
-                                         return a.rows() == b.stress.rows() && a.cols() == b.stress.cols();
-                                       }),
-          "error in time");
+  require(memory.controller.strain.empty() || isLike(memory.controller.strain, stresses), "error in time");
   for (const SlipAndWork& error : {memory.controller.slip, memory.controller.missed})
-    require((error.slip.empty() || areLike(error.slip, begin.frictionForce)) && std::isfinite(error.work),
+    require((error.slip.empty() || isLike(error.slip, begin.frictionForce)) && std::isfinite(error.work),
             "error in time");
   require(isTime(memory.controller.pairEnd), "step length");
   require(isTime(accuracy.energy) && isTime(accuracy.error) && isTime(accuracy.time) &&

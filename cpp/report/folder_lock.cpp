@@ -13,7 +13,6 @@
 #include <cstring>
 #include <string_view>
 #include <thread>
-#include <utility>
 
 #include "base/error.h"
 
@@ -51,6 +50,10 @@ std::string nameIn(int file, const std::string& path) {
 
 }  // namespace
 
+OpenFile::~OpenFile() {
+  if (isOpen()) close(number_);
+}
+
 bool makerLives(const std::string& name) {
   const size_t dash = name.rfind('-');
   pid_t pid = 0;
@@ -66,48 +69,28 @@ FolderLock::FolderLock(const std::string& folder) {
     fail(path, "read", errno);
   }
   if (!S_ISREG(facts.st_mode)) return;
-  file_ = open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (file_ < 0 && (errno == ENOENT || (errno == EACCES && facts.st_uid != geteuid())))
+  file_ = OpenFile(open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  if (!file_.isOpen() && (errno == ENOENT || (errno == EACCES && facts.st_uid != geteuid())))
     return;  // gone in between, or of another user
-  if (file_ < 0) fail(path, "read", errno);
-  name_ = nameIn(file_, path);
+  if (!file_.isOpen()) fail(path, "read", errno);
+  name_ = nameIn(file_.number(), path);
   if (name_.empty()) return;
-  const bool locked = flock(file_, LOCK_EX | LOCK_NB) == 0;
+  const bool locked = flock(file_.number(), LOCK_EX | LOCK_NB) == 0;
   // On a file system without locks the number of the process must do.
   const bool living = !locked && (errno == EWOULDBLOCK || makerLives(name_));
-  state_ = living ? State::inUse : isStill(file_, path) ? State::held : State::none;
+  state_ = living ? State::inUse : isStill(file_.number(), path) ? State::held : State::none;
 }
 
 FolderLock::FolderLock(const std::string& folder, const std::string& name) : name_(name) {
   const std::string path = folder + "/" + lockName;
-  file_ = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  file_ = OpenFile(open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
   const std::string line = std::string(mark) + name + "\n";
-  ssize_t written = file_ < 0 ? -1 : 0;
+  ssize_t written = file_.isOpen() ? 0 : -1;
   for (size_t all = 0; written >= 0 && all < line.size(); all += static_cast<size_t>(written))
-    written = write(file_, line.data() + all, line.size() - all);
-  if (written < 0) {
-    const int reason = errno;
-    if (file_ >= 0) close(file_);
-    fail(path, "written", reason);
-  }
-  flock(file_, LOCK_EX | LOCK_NB);  // nobody else knows of it
+    written = write(file_.number(), line.data() + all, line.size() - all);
+  if (written < 0) fail(path, "written", errno);
+  flock(file_.number(), LOCK_EX | LOCK_NB);  // nobody else knows of it
   state_ = State::held;
-}
-
-FolderLock::~FolderLock() {
-  if (file_ >= 0) close(file_);
-}
-
-FolderLock::FolderLock(FolderLock&& other) noexcept
-    : file_(std::exchange(other.file_, -1)),
-      state_(std::exchange(other.state_, State::none)),
-      name_(std::move(other.name_)) {}
-
-FolderLock& FolderLock::operator=(FolderLock&& other) noexcept {
-  std::swap(file_, other.file_);
-  std::swap(state_, other.state_);
-  std::swap(name_, other.name_);
-  return *this;
 }
 
 PlaceLock::PlaceLock(const std::string& folder)
@@ -115,13 +98,9 @@ PlaceLock::PlaceLock(const std::string& folder)
   constexpr auto patience = std::chrono::seconds(10);
   constexpr auto pause = std::chrono::milliseconds(2);
   const auto end = std::chrono::steady_clock::now() + patience;
-  while (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK &&
+  while (file_.isOpen() && flock(file_.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK &&
          std::chrono::steady_clock::now() < end)
     std::this_thread::sleep_for(pause);
-}
-
-PlaceLock::~PlaceLock() {
-  if (file_ >= 0) close(file_);
 }
 
 }  // namespace mortier

@@ -4,8 +4,26 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 namespace mortier {
+
+/// An open file, closed with the object; -1 for none.
+class OpenFile {
+ public:
+  explicit OpenFile(int number = -1) : number_(number) {}
+  ~OpenFile();
+  OpenFile(OpenFile&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  OpenFile& operator=(OpenFile&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  [[nodiscard]] int number() const { return number_; }
+  [[nodiscard]] bool isOpen() const { return number_ >= 0; }
+
+ private:
+  int number_;
+};
 
 constexpr const char* lockName = "run.lock";
 
@@ -24,11 +42,6 @@ class FolderLock {
   /// Marks a folder that has just been made, and takes its lock. \param name  how the folder will be called
   /// \throws OutputError
   FolderLock(const std::string& folder, const std::string& name);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-  FolderLock(FolderLock&& other) noexcept;
-  FolderLock& operator=(FolderLock&& other) noexcept;
 
   [[nodiscard]] State state() const { return state_; }
   [[nodiscard]] bool held() const { return state_ == State::held; }
@@ -36,7 +49,7 @@ class FolderLock {
   [[nodiscard]] const std::string& name() const { return name_; }
 
  private:
-  int file_ = -1;
+  OpenFile file_;
   State state_ = State::none;
   std::string name_;
 };
@@ -46,14 +59,9 @@ class FolderLock {
 class PlaceLock {
  public:
   explicit PlaceLock(const std::string& folder);
-  ~PlaceLock();
-  PlaceLock(const PlaceLock&) = delete;
-  PlaceLock& operator=(const PlaceLock&) = delete;
-  PlaceLock(PlaceLock&&) = delete;
-  PlaceLock& operator=(PlaceLock&&) = delete;
 
  private:
-  int file_ = -1;
+  OpenFile file_;
 };
 
 /// Whether another process lives whose number stands at the end of a name, `DIR.tmp-12` or `DIR.tmp-12.1`.

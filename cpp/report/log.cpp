@@ -1,7 +1,5 @@
 #include "report/log.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdarg>
@@ -9,7 +7,6 @@
 
 #include "base/counted.h"
 #include "report/clock.h"
-#include "report/laws.h"
 #include "report/summary.h"
 
 namespace mortier {
@@ -127,6 +124,8 @@ std::string logTrial(double error, double tolerance) {
                 error, tolerance);
 }
 
+namespace {
+
 std::string logStatus(const RunReport& report, const std::string& folder) {
   const double wall = processSeconds();
   const double share = wall > 0 ? std::min(1.0, report.solveSeconds / wall) : 0;
@@ -203,8 +202,7 @@ std::string logStep(const EnergyBound& bound) {
   add("viscoplastic strain", bound.strain, bound.strainNorm);
   add("stress", bound.bound, bound.norm);
   if (parts.empty()) return none + "nothing below 100 %, the meshes are too coarse\n";
-  std::string text = "           guaranteed in the last step: " + parts;
-  return text + "\n";
+  return "           guaranteed in the last step: " + parts + "\n";
 }
 
 std::string logAccuracy(const RunFacts& facts, const Model& model, const Accuracy& accuracy) {
@@ -331,26 +329,16 @@ std::string logSpecial(const SpecialConditions& special) {
   return text + "\n";
 }
 
-Log::Log(bool quiet, double endTime)
-    : quiet_(quiet), sharesTerminal_(isatty(STDOUT_FILENO) == 1), progress_(!quiet, endTime) {}
+}  // namespace
 
-void Log::print(const std::string& text) {
-  if (!quiet_) {
-    if (sharesTerminal_) {
-      progress_.clear();
-    }
-    std::fwrite(text.data(), 1, text.size(), stdout);
-  }
-}
-
-void Log::step(const StepReport& report) {
-  constexpr double patience = 0.2;  // [s]: a fast run is not slowed by its log, a slow one is seen as it goes
-  print(logRow(report));
-  if (const double now = processSeconds(); !quiet_ && now > flushed_ + patience) {
-    std::fflush(stdout);
-    flushed_ = now;
-  }
-  progress_.show(report.time);
+std::string logEnd(const RunFacts& facts, const Model& model, const Solved& solved,
+                   const std::string& place) {
+  const RunReport& report = solved.report;
+  return logStatus(report, place) + logVerification(report.worst) + logSpecial(report.special) +
+         logAccuracy(facts, model, solved.accuracy) + logTimeError(facts, report) +
+         logPeaks(report.peaks, solved.last, facts.units, !model.interfaces.empty()) +
+         logQuantities(facts, model, solved.state, solved.accuracy.bound) +
+         logRanges(facts, report.quantities);
 }
 
 }  // namespace mortier

@@ -4,9 +4,6 @@
 #include <string>
 
 #include "report/accuracy.h"
-#include "report/progress.h"
-#include "report/run_facts.h"
-#include "time/march.h"
 
 namespace mortier {
 
@@ -21,42 +18,37 @@ std::string logRound(const std::vector<RoundFacts>& rounds);
 std::string logRow(const StepReport& report);
 /// That a run with steps chosen by their error is begun again.
 std::string logTrial(double error, double tolerance);
-/// How the run ended, and where its result is.
-std::string logStatus(const RunReport& report, const std::string& folder);
-/// How well the equations hold in the worst step.
-std::string logVerification(const Certificate& worst);
-/// How far the steps of a run in which they are chosen are from the exact ones,
-/// and whether the tolerance is met.
-std::string logTimeError(const RunFacts& facts, const RunReport& report);
-/// How far stresses are from the exact ones, by their own estimate: those of the last step,
-/// and the largest of the run.
-std::string logAccuracy(const RunFacts& facts, const Model& model, const Accuracy& accuracy);
-/// The largest values of the run where the last step does not have them,
-/// and what no small strain is any more.
-std::string logPeaks(const Peaks& peaks, const StepReport& last, const Units& units, bool contact);
-/// The quantities of the scene at the end of the run, with the places of those that have one and the bounds
-/// of their errors where there are such; nothing where there are none.
-std::string logQuantities(const RunFacts& facts, const Model& model, const State& state,
-                          const std::optional<EnergyBound>& bound);
-/// Their smallest and largest values, and when.
-std::string logRanges(const RunFacts& facts, const std::vector<QuantityRange>& ranges);
-/// A line where contact conditions have no force of their own, otherwise nothing.
-std::string logSpecial(const SpecialConditions& special);
+/// How the run ended, where its result is, how well it holds (equations, estimates, bounds), the largest
+/// values where the last step does not have them, and the quantities of the scene.
+/// \param place  of the result
+std::string logEnd(const RunFacts& facts, const Model& model, const Solved& solved, const std::string& place);
 
-/// Prints the above, and a progress bar where the run is long. A quiet log prints nothing.
+/// Prints the above and, where standard error is a terminal, a progress bar there of a run that takes longer
+/// than two seconds. A quiet log prints nothing.
 class Log {
  public:
   Log(bool quiet, double endTime);
+  ~Log() { finish(); }
+  Log(const Log&) = delete;
+  Log& operator=(const Log&) = delete;
+
   void print(const std::string& text);
   /// Prints the row of a step.
   void step(const StepReport& report);
   /// Removes the progress bar.
-  void finish() { progress_.clear(); }
+  void finish();
 
  private:
+  /// Draws the bar for a run that has reached `time` [s of the model].
+  void drawBar(double time);
+
   bool quiet_;
   bool sharesTerminal_;  ///< rows and bar are drawn on the same screen
-  Progress progress_;
+  bool hasBar_;
+  bool drawn_ = false;
+  double endTime_;
+  double start_;
+  double lastDrawn_ = 0;
   double flushed_ = 0;
 };
 

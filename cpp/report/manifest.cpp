@@ -14,7 +14,6 @@
 #include "base/checksum.h"
 #include "base/error.h"
 #include "base/whole_file.h"
-#include "report/checkpoint_files.h"
 
 namespace mortier {
 

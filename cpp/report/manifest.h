@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -21,6 +22,8 @@ struct Manifest {
 };
 
 constexpr const char* manifestName = "manifest.json";
+constexpr const char* checkpointName = "checkpoint";
+constexpr const char* previousCheckpointName = "checkpoint.previous";
 /// Ends the name of a file's copy that is kept while another result is tried.
 constexpr const char* keptSuffix = ".kept";
 
@@ -38,6 +41,12 @@ bool matches(const std::string& path, const FileRecord& record, bool whole = tru
 
 /// Whether all of its files are as they were written.
 bool isSound(const std::string& folder, const Manifest& manifest);
+
+/// \throws std::filesystem::filesystem_error  nobody can say.
+inline bool hasCheckpoint(const std::string& folder) {
+  return std::filesystem::is_regular_file(folder + "/" + checkpointName) ||
+         std::filesystem::is_regular_file(folder + "/" + previousCheckpointName);
+}
 
 /// Names that a run gives to its files; those that no result keeps are the lock, checkpoints, files under
 /// way and copies.

@@ -29,8 +29,6 @@ class OutputFile {
     return *this << std::string_view(std::to_string(value));
   }
 
-  /// Raw bytes.
-  void write(const void* data, size_t size);
   /// Brings everything to the disk. \returns what is written so far. \throws OutputError
   FileRecord sync();
   /// \returns what was written. \throws OutputError when anything could not be (a full disk shows here).
@@ -40,10 +38,12 @@ class OutputFile {
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
+  void require(bool done) const;
+  void put(std::string_view text);
   void flush();
 
   std::string path_;
-  std::string buffer_;
+  std::string buffer_;  ///< not yet written
   uint64_t written_ = 0;
   Checksum sum_;
   std::unique_ptr<std::FILE, Close> file_;

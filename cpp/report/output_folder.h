@@ -1,29 +1,85 @@
 // Where a run writes: a temporary folder DIR.tmp-PID beside the result DIR, which takes its place when it is
-// complete (report/result_place.h), so that a run that is killed or fails leaves what stood there. Files of
-// others in the old result (pictures, ParaView states) move into the new one.
+// complete, so that a run that is killed or fails leaves what stood there. At any moment the old or the new
+// result stands in its place, whole, and every file of others (pictures, ParaView states) stays:
+//   1. DIR.tmp-PID gets its manifest: from here on the run is complete, and who finds it does steps 2 to 4.
+//   2. Names are exchanged: DIR is the new result, DIR.tmp-PID the old one. The run.lock in DIR names the
+//      latter.
+//   3. Files of others move from the old result into the new one; what the old one's manifest lists goes.
+//   4. Stopped runs for DIR and an old DIR.failed go, run.lock last.
+// Folders that are just being made or taken away are called DIR.mortier-PID.
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "report/folder_lock.h"
 #include "report/manifest.h"
-#include "report/result_place.h"
 
 namespace mortier {
+
+/// The result DIR and the folders beside it.
+class ResultPlace {
+ public:
+  using Path = std::filesystem::path;
+
+  /// \throws InputError  a link to nothing, the current folder or one above it
+  explicit ResultPlace(const std::string& path);
+
+  /// DIR, or DIR.failed for a run that stopped early; links resolved.
+  [[nodiscard]] Path of(bool failedRun) const;
+  [[nodiscard]] Path parent() const { return result_.parent_path(); }
+  /// A folder beside the result that does not exist: its name, `middle` and the number of this process.
+  [[nodiscard]] Path unused(const std::string& middle) const;
+  /// Whether `name` is that of such a folder, of any process: names in locks are data of others.
+  [[nodiscard]] bool isCalled(const std::string& name, const std::string& middle) const;
+  /// Folders beside the result that are called so.
+  [[nodiscard]] std::vector<Path> all(const std::string& middle) const;
+  /// A folder here as the user calls it, for messages.
+  [[nodiscard]] std::string shown(const Path& folder) const;
+
+  /// \throws InputError  it holds what is no result of mortier; OutputError  this user cannot replace it.
+  void requireReplaceable() const;
+
+  /// Step 2, for a folder with a manifest whose lock this process holds. \returns where the result is.
+  [[nodiscard]] Path putInPlace(const Path& temporary) const;
+  /// Steps 3 and 4. \param target  has just been put in place  \param name  of its folder before that
+  void finish(const Path& target, const std::string& name) const;
+  /// Clears up after killed runs: complete results are put in place, those that cannot be resumed are
+  /// deleted. \throws InputError  a living process writes there.
+  struct LeftBehind {
+    std::vector<Path> stopped;  ///< temporary folders with a checkpoint, the latest first
+    Path placed;                ///< where a complete result was put that had no place; empty: there was none
+  };
+  LeftBehind clearUp() const;
+  /// Deletes the files of the program in a folder, and the folder. Files of others move into `heir`; where
+  /// that is no result, they stay.
+  void discard(const Path& folder, const Path& heir) const;
+
+ private:
+  void requireReplaceable(const Path& target) const;
+  /// Gives a folder that is to go its last name. \returns it
+  [[nodiscard]] Path renamed(const Path& folder) const;
+  void requireFree(const FolderLock& lock, const Path& folder) const;
+  void removeMarks(Path folder) const;
+  void discardFailed() const;
+  void clearTransient(const Path& folder) const;
+
+  std::string given_;
+  Path result_;
+};
 
 class OutputFolder {
  public:
   /// \throws OutputError when it cannot be made, InputError when `path` holds something that is no result of
   /// mortier or is in use.
   explicit OutputFolder(const std::string& path);
-  /// Goes on in the temporary folder that a stopped run for `path` left. \throws InputError, OutputError
+  /// Continues in the temporary folder that a stopped run for `path` left. \throws InputError, OutputError
   OutputFolder(const std::string& path, std::string temporary, FolderLock lock);
   /// Removes the temporary folder unless it was committed, is complete or has a checkpoint.
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
-  OutputFolder(OutputFolder&&) = delete;
-  OutputFolder& operator=(OutputFolder&&) = delete;
 
   /// The folder to write into.
   [[nodiscard]] const std::string& temporary() const { return temporary_; }

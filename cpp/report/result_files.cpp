@@ -42,28 +42,33 @@ void bringBack(const std::string& folder, const std::map<std::string, FileRecord
 
 ResultFiles::ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error,
                          const std::vector<Quantity>& quantities, const Units& units, int every)
-    : history_(folder, model, quantities, units),
-      contact_(folder, model),
+    : model_(model),
+      history_(folder + "/history.csv"),
+      contact_(folder + "/contact.csv"),
       fields_(folder, model, error),
       every_(every),
-      lastKept_(-1) {}
+      lastKept_(-1) {
+  writeHistoryHeader(history_, historyColumns(model, quantities, units));
+  writeContactHeader(contact_, model);
+}
 
 ResultFiles::ResultFiles(const std::string& folder, const Model& model, CurrentSpaceError& error, int every,
                          const FilesSoFar& soFar)
-    : history_(folder, soFar.history),
-      contact_(folder, model, soFar.contact),
+    : model_(model),
+      history_(folder + "/history.csv", soFar.history),
+      contact_(folder + "/contact.csv", soFar.contact),
       fields_(folder, model, error, soFar.fields),
       every_(every),
       lastKept_(soFar.fields.empty() ? -1 : soFar.fields.back().step) {}
 
 void ResultFiles::add(const State& state, const StepReport& report) {
-  if (hasRow(report)) history_.add(report);
+  if (hasRow(report)) writeHistoryRow(history_, report);
   if (every_ > 0 && report.step % every_ == 0) keep(state, report.step);
 }
 
 void ResultFiles::keep(const State& state, int step) {
   fields_.add(state, step);
-  contact_.add(state, step);
+  writeContactRows(contact_, model_, state, step);
   lastKept_ = step;
 }
 

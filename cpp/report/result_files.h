@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "report/contact_table.h"
 #include "report/fields.h"
-#include "report/history.h"
+#include "report/tables.h"
 
 namespace mortier {
 
@@ -47,8 +46,9 @@ class ResultFiles {
  private:
   void keep(const State& state, int step);
 
-  History history_;
-  ContactTable contact_;
+  const Model& model_;
+  OutputFile history_;
+  OutputFile contact_;
   Fields fields_;
   int every_;
   int lastKept_;

@@ -1,6 +1,7 @@
 // Facts of the scene that reports show and the model does not have, so that reports need not know scenes.
 #pragma once
 
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,20 @@
 #include "time/quantity.h"
 
 namespace mortier {
+
+/// "a, b, c"; `none` where there is none.
+inline std::string joined(const std::set<std::string>& words, const std::string& none = "") {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text.empty() ? none : text;
+}
+
+/// The laws of a material in a line, each once: "Perzyna (frobenius), elastic".
+inline std::string lawsOf(const Material& material) {
+  std::set<std::string> names;
+  for (const LawDescription& law : material.laws()) names.insert(law.text());
+  return joined(names);
+}
 
 /// Of the rounds on ever better meshes by which an accuracy is reached.
 struct RoundFacts {

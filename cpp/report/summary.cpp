@@ -4,13 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/ranks.h"
 #include "report/clock.h"
 #include "report/fields.h"
-#include "report/laws.h"
-#include "report/output_file.h"
 #include "time/measure.h"
 
 namespace mortier {
@@ -21,14 +20,15 @@ using Json = nlohmann::ordered_json;
 
 /// JSON has no word for NaN; nlohmann would write null.
 void requireFiniteNumbers(const Json& json, const std::string& path) {
-  if (json.is_number_float() && !std::isfinite(json.get<double>())) {
+  if (json.is_number_float() && !std::isfinite(json.get<double>()))
     throw OutputError(path + " is not finite; the run is not valid");
-  }
-  if (json.is_structured()) {
-    for (const auto& [key, value] : json.items()) {
+  if (json.is_structured())
+    for (const auto& [key, value] : json.items())
       requireFiniteNumbers(value, std::string(path).append(": ").append(key));
-    }
-  }
+}
+
+Json finiteOrNull(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 Json laws(const Material& material) {
@@ -83,7 +83,7 @@ Json rounds(const RunFacts& facts) {
     list.push_back({{"triangles", round.triangles},
                     {"unknowns", round.unknowns},
                     {"steps", round.steps},
-                    {"mesh", std::isfinite(round.mesh) ? Json(round.mesh) : Json(nullptr)},
+                    {"mesh", finiteOrNull(round.mesh)},
                     {"time", round.time},
                     {"seconds", round.seconds}});
   return list;
@@ -151,6 +151,13 @@ Json over(double error, double norm) {
   return error == 0 ? Json(0.0) : error < norm ? Json(error / (norm - error)) : Json(nullptr);
 }
 
+/// Bounds of viscoplastic strain and stress, of FlowBound or TotalBound.
+template <class Bound>
+Json strainAndStress(const Bound& bound, double strain, double stress) {
+  return {{"viscoplastic_strain", over(strain, bound.strainNorm)},
+          {"stress", over(stress, bound.stressNorm)}};
+}
+
 Json jsonOf(const EnergyBound& bound) {
   if (!bound.obstacle.empty()) return {{"energy_error", nullptr}, {"reason", bound.obstacle}};
   return {{"energy_error", over(bound.bound, bound.norm)},
@@ -194,14 +201,10 @@ Json jsonOf(const EnergyBound& bound, size_t quantity, double value) {
 Json jsonOf(const FlowBound& bound) {
   if (!bound.obstacle.empty()) return {{"viscoplastic_strain", nullptr}, {"reason", bound.obstacle}};
   const auto all = [&](double factor) {
-    return Json{{"viscoplastic_strain", over(factor * bound.strain, bound.strainNorm)},
-                {"stress", over(factor * bound.stress, bound.stressNorm)}};
+    return strainAndStress(bound, factor * bound.strain, factor * bound.stress);
   };
-  Json json = {{"viscoplastic_strain", nullptr}, {"stress", nullptr}};
-  if (bound.moved.empty())
-    json = all(1);
-  else
-    json["reason"] = bound.moved;
+  Json json = {{"viscoplastic_strain", nullptr}, {"stress", nullptr}, {"reason", bound.moved}};
+  if (bound.moved.empty()) json = all(1);
   json["any_contact"] = std::isfinite(bound.factor) ? all(bound.factor) : Json(nullptr);
   json["data"] = bound.data;
   return json;
@@ -210,19 +213,14 @@ Json jsonOf(const FlowBound& bound) {
 Json jsonOf(const TotalBound& bound) {
   if (!bound.obstacle.empty()) return {{"viscoplastic_strain", nullptr}, {"reason", bound.obstacle}};
   const auto all = [&](const TotalBound::Errors& errors) {
-    return Json{{"viscoplastic_strain", over(errors.strain, bound.strainNorm)},
-                {"stress", over(errors.stress, bound.stressNorm)}};
+    return strainAndStress(bound, errors.strain, errors.stress);
   };
-  Json json = {{"viscoplastic_strain", nullptr}, {"stress", nullptr}};
-  if (bound.moved.empty())
-    json = all(bound.fixed);
-  else
-    json["reason"] = bound.moved;
-  json["any_contact"] = {{"viscoplastic_strain", nullptr}, {"stress", nullptr}};
-  if (bound.closes.empty())
-    json["any_contact"] = all(bound.any);
-  else
-    json["any_contact"]["reason"] = bound.closes;
+  const auto unless = [&](const std::string& reason, const TotalBound::Errors& errors) {
+    if (reason.empty()) return all(errors);
+    return Json{{"viscoplastic_strain", nullptr}, {"stress", nullptr}, {"reason", reason}};
+  };
+  Json json = unless(bound.moved, bound.fixed);
+  json["any_contact"] = unless(bound.closes, bound.any);
   json["lift"] = over(bound.lifted, bound.strainNorm);
   json["data"] = bound.data;
   return json;
@@ -247,18 +245,9 @@ Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy)
 }  // namespace
 
 std::string summaryText(const std::string& path, const RunFacts& facts, const Model& model,
-                        const State& state, const StepReport& last, const RunReport& report,
-                        const Accuracy& accuracy) {
-  size_t triangles = 0;
-  int nodes = 0;
-  int dofs = 0;
-  int freeDofs = 0;
-  for (const Body& body : model.bodies) {
-    triangles += body.mesh().triangles.size();
-    nodes += body.nodes();
-    dofs += body.dofs();
-    freeDofs += body.freeDofs();
-  }
+                        const Solved& solved) {
+  const auto& [state, last, report, accuracy, files] = solved;
+  const Json bodyList = bodies(model);
   Json json;
   json["scene"] = facts.scene;
   json["title"] = facts.title;
@@ -270,21 +259,19 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
   json["plane"] = facts.plane;
   json["settings"] = facts.settings;
   json["status"] = word(report.status);
-  if (report.status != Status::converged) {
+  if (report.status != Status::converged)
     json["reason"] = report.reason;
-  } else if (!report.shortfall.empty() && !(facts.accuracy > 0)) {
+  else if (!report.shortfall.empty() && !(facts.accuracy > 0))
     json["reason"] = report.shortfall;
-  }
   if (report.stuck) json["stuck"] = jsonOf(*report.stuck, facts, model);
   json["contact"] = facts.contact;
   json["nonmortar"] = facts.nonmortar;
   json["projection"] = facts.projection;
   json["scheme"] = facts.scheme;
-  json["triangles"] = triangles;
-  json["nodes"] = nodes;
-  json["dofs"] = dofs;
-  json["free_dofs"] = freeDofs;
-  json["bodies"] = bodies(model);
+  for (const char* count : {"triangles", "nodes", "dofs", "free_dofs"})
+    json[count] = std::accumulate(bodyList.begin(), bodyList.end(), size_t{0},
+                                  [&](size_t sum, const Json& body) { return sum + size_t(body[count]); });
+  json["bodies"] = bodyList;
   json["interfaces"] = interfaces(facts, model, state);
   json["steps"] = report.steps;
   if (facts.tolerance > 0) {
@@ -329,22 +316,20 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
       quantity["change_in_last_round"] = change->size;
       if (change->grows) quantity["grows_with_rounds"] = true;
     }
+    if (accuracy.bound) quantity["bound"] = jsonOf(*accuracy.bound, i, values[i]);
   }
-  for (size_t i = 0; accuracy.bound && i < values.size(); ++i)
-    json["quantities"][facts.quantities[i].name]["bound"] = jsonOf(*accuracy.bound, i, values[i]);
-  json["accuracy"] = jsonOf(facts, model, accuracy);
+  Json& errors = json["accuracy"] = jsonOf(facts, model, accuracy);
   if (facts.tolerance > 0) {
-    json["accuracy"]["time"] = report.timeError;
-    json["accuracy"]["time_reached"] = report.status == Status::converged && report.shortfall.empty();
+    errors["time"] = report.timeError;
+    errors["time_reached"] = report.status == Status::converged && report.shortfall.empty();
   }
   if (facts.accuracy > 0) {
-    json["accuracy"]["asked"] = facts.accuracy;
-    if (!facts.aim.empty()) json["accuracy"]["quantity"] = facts.aim;
-    json["accuracy"]["reached"] = facts.reached;
-    const double mesh = facts.rounds.empty() ? accuracy.largest : facts.rounds[facts.best].mesh;
-    json["accuracy"]["mesh"] = std::isfinite(mesh) ? Json(mesh) : Json(nullptr);
-    if (!facts.rounds.empty()) json["accuracy"]["round"] = facts.best + 1;
-    json["accuracy"]["time"] = report.timeError;
+    errors["asked"] = facts.accuracy;
+    if (!facts.aim.empty()) errors["quantity"] = facts.aim;
+    errors["reached"] = facts.reached;
+    errors["mesh"] = finiteOrNull(facts.rounds.empty() ? accuracy.largest : facts.rounds[facts.best].mesh);
+    if (!facts.rounds.empty()) errors["round"] = facts.best + 1;
+    errors["time"] = report.timeError;
     json["rounds"] = rounds(facts);
   }
   json["peak_memory_mib"] = peakMemory();
@@ -358,25 +343,8 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
-FileRecord writeSummary(const std::string& folder, const RunFacts& facts, const Model& model,
-                        const State& state, const StepReport& last, const RunReport& report,
-                        const Accuracy& accuracy) {
-  const std::string path = folder + "/summary.json";
-  const std::string text = summaryText(path, facts, model, state, last, report, accuracy);
-  OutputFile file(path);
-  file << text;
-  return file.close();
-}
-
 std::string word(Status status) {
-  switch (status) {
-    case Status::converged:
-      return "converged";
-    case Status::failed:
-      return "failed";
-    default:
-      return "unheld";
-  }
+  return status == Status::converged ? "converged" : status == Status::failed ? "failed" : "unheld";
 }
 
 }  // namespace mortier

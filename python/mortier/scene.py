@@ -176,7 +176,7 @@ def load(path: str | os.PathLike[str], set: Settings = None) -> Scene:
 
 def check(path: str | os.PathLike[str], set: Settings = None) -> list[Fault]:
     """What is wrong or doubtful in a scene, which need not be one that can be read."""
-    return [Fault(**each) for each in _core.check(os.fspath(path), toml.settings(set))[1]]
+    return [Fault(**each) for each in _core.check(os.fspath(path), toml.settings(set))]
 
 
 def absolute(mesh: Any) -> Any:

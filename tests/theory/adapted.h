@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "adapt/error_history.h"
 #include "adapt/rounds.h"
 #include "fem/element.h"
 #include "mesh/regions.h"

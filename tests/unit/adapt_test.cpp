@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "adapt/adapted_meshes.h"
-#include "adapt/curves.h"
-#include "adapt/facing_corners.h"
 #include "mesh/boundary_line.h"
 #include "mesh/shape.h"
 

@@ -6,11 +6,10 @@
 
 #include "base/error.h"
 #include "material/stress.h"
-#include "report/contact_table.h"
 #include "report/fields.h"
-#include "report/history.h"
 #include "report/log.h"
 #include "report/summary.h"
+#include "report/tables.h"
 #include "unit/blocks_of_one_cell.h"
 #include "unit/result_folder.h"
 
@@ -108,8 +107,9 @@ TEST_F(Output, fieldsThatAreNotFiniteAreNotWritten) {
 
 TEST_F(Output, contactTableHasARowPerNonmortarNode) {
   const Blocks blocks;
-  ContactTable table(path, blocks.model);
-  table.add(blocks.state, 3);
+  OutputFile table(path + "/contact.csv");
+  writeContactHeader(table, blocks.model);
+  writeContactRows(table, blocks.model, blocks.state, 3);
   table.close();
   std::istringstream text(contentOf(path + "/contact.csv"));
   std::string line;
@@ -126,8 +126,9 @@ TEST_F(Output, gapIsPositiveApart) {
   for (BodyState& body : blocks.state.bodies) body.displacement.setZero();
   for (int v = 0; v < blocks.model.bodies[0].nodes(); ++v)
     blocks.state.bodies[0].displacement[2 * v + 1] = 0.5;
-  ContactTable table(path, blocks.model);
-  table.add(blocks.state, 3);
+  OutputFile table(path + "/contact.csv");
+  writeContactHeader(table, blocks.model);
+  writeContactRows(table, blocks.model, blocks.state, 3);
   table.close();
   EXPECT_NE(contentOf(path + "/contact.csv").find(",1,0,0.5,"), std::string::npos);  // x, y, gap
 }
@@ -139,12 +140,13 @@ TEST_F(Output, historyHasAsManyColumnsAsItsHeader) {
   InterfaceOptions rough;
   rough.friction = {0.3, 0};
   addInterface(model, pair, rough);
-  History history(path, model, {Quantity{"q"}}, Units::from("mm, N, MPa"));
+  OutputFile history(path + "/history.csv");
+  writeHistoryHeader(history, historyColumns(model, {Quantity{"q"}}, Units::from("mm, N, MPa")));
   StepReport report;
   report.penetration = 1.25e-18;
   report.frictionWork = {0.5};
   report.quantities = {7};
-  history.add(report);
+  writeHistoryRow(history, report);
   history.close();
   std::istringstream text(contentOf(path + "/history.csv"));
   std::string header;
@@ -159,12 +161,12 @@ TEST_F(Output, historyHasAsManyColumnsAsItsHeader) {
   EXPECT_NE(header.find(",q[N/mm]"), std::string::npos);
 }
 
-TEST_F(Output, summaryHasItsKeys) {
+TEST(Summary, hasItsKeys) {
   const Blocks blocks;
   StepReport last;
   last.penetration = 1e-18;
-  writeSummary(path, blocks.facts, blocks.model, blocks.state, last, {}, blocks.accuracy());
-  const auto json = nlohmann::json::parse(contentOf(path + "/summary.json"));
+  const auto json = nlohmann::json::parse(
+      summaryText("summary", blocks.facts, blocks.model, {blocks.state, last, {}, blocks.accuracy()}));
   for (const char* key :
        {"scene", "status", "contact", "nonmortar", "projection", "triangles", "nodes", "dofs", "steps",
         "newton_iterations", "max_iterations_in_a_step", "factorisations", "wall_time_s", "solve_time_s",
@@ -185,13 +187,13 @@ TEST_F(Output, summaryHasItsKeys) {
   EXPECT_EQ(json["triangles"], 8);
 }
 
-TEST_F(Output, summaryThatIsNotFiniteIsNotWritten) {
+TEST(Summary, thatIsNotFiniteIsRefused) {
   const Blocks blocks;
   RunReport report;
   report.worst.forceBalance = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(writeSummary(path, blocks.facts, blocks.model, blocks.state, {}, report, blocks.accuracy()),
-               OutputError);
-  EXPECT_TRUE(names().empty());
+  EXPECT_THROW(
+      summaryText("summary", blocks.facts, blocks.model, {blocks.state, {}, report, blocks.accuracy()}),
+      OutputError);
 }
 
 TEST(Log, rowsStandUnderTheirHeader) {

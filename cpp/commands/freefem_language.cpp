@@ -1,11 +1,11 @@
-#include "commands/freefem_expression.h"
-
 #include <algorithm>
 #include <cctype>
 #include <map>
 #include <string_view>
 
 #include "base/error.h"
+#include "base/printable.h"
+#include "commands/freefem.h"
 
 namespace mortier {
 
@@ -128,6 +128,23 @@ std::string freefemFormula(const std::string& text, const std::string& where,
     }
   }
   return result + choices.end();
+}
+
+std::string freefemMacro(const std::string& name, const std::string& text, const std::string& comment) {
+  return text.empty() ? "" : "macro " + name + ' ' + text + "//  " + comment + '\n';
+}
+
+std::string freefemString(const std::string& text, const std::string& where) {
+  constexpr size_t longest = 250;  // with the quotes of an include
+  const auto safe = [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; };
+  if (text.size() > longest || !std::all_of(text.begin(), text.end(), safe))
+    throw InputError(where + " = \"" + printable(text) + "\", expected at most " + std::to_string(longest) +
+                     " printable ASCII characters without \" and \\ (all that a FreeFEM string can hold)");
+  return '"' + text + '"';
+}
+
+std::string freefemComment(const std::string& text) {
+  return "// " + printable(text) + '\n';
 }
 
 }  // namespace mortier

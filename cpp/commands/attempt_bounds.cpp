@@ -1,4 +1,4 @@
-#include "commands/bound_of.h"
+#include "commands/attempt.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,20 +34,6 @@ Functional functionalOf(const Quantity& quantity, const std::optional<Point>& po
   return result;
 }
 
-template <class Bound>
-Bound found(const std::function<Bound()>& find) {
-  const KeepsResult keeps;
-  Bound none;
-  try {
-    return find();
-  } catch (const Interrupted&) {
-    none.obstacle = "interrupted";
-  } catch (const std::exception& error) {
-    none.obstacle = reasonOf(error);
-  }
-  return none;
-}
-
 /// Nothing that is not finite may end the run: it is no bound.
 void requireFinite(std::initializer_list<double> numbers, std::string& obstacle) {
   if (!std::all_of(numbers.begin(), numbers.end(), [](double each) { return std::isfinite(each); }))
@@ -64,6 +50,31 @@ void requireFinite(EnergyBound& bound) {
   }
 }
 
+void requireFinite(FlowBound& bound) {
+  requireFinite({bound.strain, bound.stress, bound.strainNorm, bound.stressNorm, bound.data}, bound.obstacle);
+}
+void requireFinite(TotalBound& bound) {
+  requireFinite({bound.fixed.strain, bound.fixed.stress, bound.any.strain, bound.any.stress, bound.lifted,
+                 bound.strainNorm, bound.stressNorm, bound.data},
+                bound.obstacle);
+}
+
+template <class Bound>
+Bound found(const std::function<Bound()>& find) {
+  const KeepsResult keeps;
+  Bound none;
+  try {
+    Bound bound = find();
+    requireFinite(bound);
+    return bound;
+  } catch (const Interrupted&) {
+    none.obstacle = "interrupted";
+  } catch (const std::exception& error) {
+    none.obstacle = reasonOf(error);
+  }
+  return none;
+}
+
 }  // namespace
 
 EnergyBound boundOf(const Attempt& attempt) {
@@ -78,7 +89,6 @@ EnergyBound boundOf(const Attempt& attempt) {
       if (quantities[i].kind == Quantity::Kind::largestPressure)
         bound.quantities[i].estimate =
             largestPressureError(quantities[i], *attempt.model, attempt.solved.state);
-    requireFinite(bound);
     return bound;
   });
 }
@@ -93,30 +103,17 @@ EnergyBound stepBoundOf(const Attempt& attempt) {
       return none;
     }
     const Tableau steps = last.guarded ? twoHalfSteps() : tableau(time.scheme);
-    EnergyBound bound =
-        energyBound(*attempt.model, attempt.solved.state, {}, steps.stages.back().diagonal * last.timeStep);
-    requireFinite(bound);
-    return bound;
+    return energyBound(*attempt.model, attempt.solved.state, {},
+                       steps.stages.back().diagonal * last.timeStep);
   });
 }
 
 FlowBound flowBoundOf(const FlowBoundRecord& record, const State& state) {
-  return found<FlowBound>([&] {
-    FlowBound bound = record.atEnd(state);
-    requireFinite({bound.strain, bound.stress, bound.strainNorm, bound.stressNorm, bound.data},
-                  bound.obstacle);
-    return bound;
-  });
+  return found<FlowBound>([&] { return record.atEnd(state); });
 }
 
 TotalBound totalBoundOf(const TotalBoundRecord& record, const State& state, const FlowBound& steps) {
-  return found<TotalBound>([&] {
-    TotalBound bound = record.atEnd(state, steps);
-    requireFinite({bound.fixed.strain, bound.fixed.stress, bound.any.strain, bound.any.stress, bound.lifted,
-                   bound.strainNorm, bound.stressNorm, bound.data},
-                  bound.obstacle);
-    return bound;
-  });
+  return found<TotalBound>([&] { return record.atEnd(state, steps); });
 }
 
 }  // namespace mortier

@@ -1,5 +1,3 @@
-#include "report/progress.h"
-
 #include <unistd.h>
 
 #include <algorithm>
@@ -7,18 +5,23 @@
 #include <string>
 
 #include "report/clock.h"
+#include "report/log.h"
 
 namespace mortier {
 
-Progress::Progress(bool wanted, double endTime)
-    : enabled_(wanted && isatty(STDERR_FILENO) == 1), endTime_(endTime), start_(processSeconds()) {}
+Log::Log(bool quiet, double endTime)
+    : quiet_(quiet),
+      sharesTerminal_(isatty(STDOUT_FILENO) == 1),
+      hasBar_(!quiet && isatty(STDERR_FILENO) == 1),
+      endTime_(endTime),
+      start_(processSeconds()) {}
 
-void Progress::show(double time) {
+void Log::drawBar(double time) {
   constexpr double longRun = 2;     // [s]
   constexpr double interval = 0.1;  // [s]
   const double now = processSeconds();
   const double done = std::clamp(time / endTime_, 0.0, 1.0);
-  if (!enabled_ || done <= 0 || (now - start_) / done < longRun) {
+  if (!hasBar_ || done <= 0 || (now - start_) / done < longRun) {
     return;
   }
   // On the same terminal the log's row has just taken the bar away; elsewhere ten times a second are enough.
@@ -36,12 +39,28 @@ void Progress::show(double time) {
   lastDrawn_ = now;
 }
 
-void Progress::clear() {
+void Log::finish() {
   if (drawn_) {
     std::fputs("\r\x1b[K", stderr);
     std::fflush(stderr);
     drawn_ = false;
   }
+}
+
+void Log::print(const std::string& text) {
+  if (quiet_) return;
+  if (sharesTerminal_) finish();
+  std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
+void Log::step(const StepReport& report) {
+  constexpr double patience = 0.2;  // [s]: a fast run is not slowed by its log, a slow one is seen as it goes
+  print(logRow(report));
+  if (const double now = processSeconds(); !quiet_ && now > flushed_ + patience) {
+    std::fflush(stdout);
+    flushed_ = now;
+  }
+  drawBar(report.time);
 }
 
 }  // namespace mortier

@@ -1,0 +1,101 @@
+#include <algorithm>
+
+#include "base/error.h"
+#include "commands/freefem.h"
+#include "contact/smooth_part.h"
+#include "scene/document.h"
+
+namespace mortier {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& what, const std::string& expected) {
+  throw InputError(what + ", expected " + expected + " (all that the FreeFEM method knows)");
+}
+
+/// \throws InputError for the first thing in the scene that the FreeFEM method does not know.
+void requireKnown(const SceneDescription& scene, bool stepsGiven) {
+  if (scene.contacts.empty()) refuse(scene.path + ": no contact interface", "one at least");
+  if (scene.time.scheme != Scheme::backwardEuler) {
+    refuse(scene.path + ": scheme = " + word(scene.time.scheme), "backward-euler");
+  }
+  if (scene.time.controlled() && !stepsGiven) {
+    refuse(scene.path + ": tolerance = " + shortest(scene.time.tolerance),
+           "equal steps, or those of a run (--steps-of)");
+  }
+  for (const BodyDescription& body : scene.bodies) {
+    const bool stressed = std::any_of(body.initialStress.begin(), body.initialStress.end(),
+                                      [](const auto& component) { return component.has_value(); });
+    if (stressed || !body.regions.empty()) {
+      refuse(body.where + ": body " + body.name + ": regions or initial stress", "neither");
+    }
+    if (const auto* own = body.material.as<OwnLaw>()) {
+      if (!own->texts) refuse(own->where, "a law of mortier's own or \"expression\"");
+      if (body.temperature) refuse(body.temperature->where + ": temperature", "none beside such a law");
+      if (scene.plane == Plane::axisymmetric)
+        refuse(own->where + " beside plane = \"axisymmetric\"", "\"stress\" or \"strain\"");
+    }
+    const MaterialDescription& material = body.material;
+    if (material.anisotropy && material.flows())
+      refuse(material.anisotropy->where, "\"isotropic\" beside flow");
+    if (material.anisotropy && body.temperature)
+      refuse(body.temperature->where + ": temperature", "none beside elasticity that is not isotropic");
+  }
+}
+
+/// Whether the elements stand for one circle, or for nothing that is known.
+bool isOneCurve(const SmoothPart& part) {
+  const Arc& first = part.arcs.front();
+  return std::all_of(part.arcs.begin(), part.arcs.end(), [&](const Arc& arc) {
+    return !arc.curve.known() && arc.known == first.known && (!arc.known || arc.curvature == first.curvature);
+  });
+}
+
+/// \throws InputError where quadratic triangles have curved sides: FreeFEM's are straight.
+void requireStraightSides(const SceneDescription& scene, const Model& model) {
+  constexpr double rounding = 1e-12;
+  if (scene.degree != 2) return;
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    const TriangleMesh& mesh = model.bodies[b].mesh();
+    for (size_t e = 0; e < mesh.edgeMiddles.size(); ++e) {
+      const auto& [from, to] = mesh.boundaryEdges[e];
+      const Point side = mesh.vertices[to] - mesh.vertices[from];
+      const Point off = mesh.edgeMiddles[e] - mesh.vertices[from] - side / 2;
+      if (off.allFinite() && off.norm() > rounding * side.norm())
+        refuse(scene.bodies[b].meshWhere + ": body " + scene.bodies[b].name + ": a mesh with curved sides",
+               "straight ones beside degree = 2");
+    }
+  }
+}
+
+/// \throws InputError where a line of contact has corners that count, is closed or is made of several curves.
+void requireSmooth(const SceneDescription& scene, const Model& model) {
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    const ContactPair& pair = model.interfaces[k].pair();
+    const auto partsOf = [&](const ContactSide& side) {
+      return smoothParts(boundaryLine(model.bodies[side.body].mesh(), side.label));
+    };
+    const std::vector<SmoothPart> parts = partsOf(pair.nonmortar);
+    const std::vector<SmoothPart> across = partsOf(pair.mortar);
+    const auto straight = [](const SmoothPart& part) { return part.straight; };
+    const bool cornersCount =
+        parts.size() > 1 || (across.size() > 1 && !(parts.front().straight &&
+                                                    std::all_of(across.begin(), across.end(), straight)));
+    if (cornersCount || parts.front().closed || across.front().closed)
+      refuse(scene.contacts[k].where + ": contact: a closed line, or one with corners",
+             "open lines without corners");
+    if (!isOneCurve(parts.front()) || !std::all_of(across.begin(), across.end(), isOneCurve))
+      refuse(scene.contacts[k].where + ": contact: a line of several curves",
+             "one circle, one straight line, or a polygon");
+  }
+}
+
+}  // namespace
+
+void requireFreefemKnows(const SceneDescription& scene, const Model& model, bool stepsGiven) {
+  requireKnown(scene, stepsGiven);
+  requireSmooth(scene, model);
+  requireStraightSides(scene, model);
+}
+
+}  // namespace mortier

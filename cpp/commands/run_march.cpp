@@ -1,0 +1,189 @@
+// One march of a run with what goes with it: the files of the result, checkpoints, the log.
+#include <algorithm>
+
+#include "base/checksum.h"
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "commands/run.h"
+#include "report/clock.h"
+#include "report/result_files.h"
+#include "solver/threads_for.h"
+#include "time/parts_of_run.h"
+
+namespace mortier {
+
+/// At intervals of wall time, and never so often that a tenth of the time goes into them.
+bool Run::checkpointIsDue() const {
+  constexpr double rarely = 10;
+  const double interval =
+      options_.checkpoint > 0 ? std::max(options_.checkpoint, rarely * checkpointCost_) : 0;
+  return !temporary_.empty() && processSeconds() - lastCheckpoint_ >= interval;
+}
+
+void Run::writeCheckpoint(const Checkpoint& checkpoint) {
+  if (temporary_.empty()) return;
+  const double begin = processSeconds();
+  mortier::writeCheckpoint(temporary_, checkpoint);
+  lastCheckpoint_ = processSeconds();
+  checkpointCost_ = lastCheckpoint_ - begin;
+}
+
+void Run::march(const std::shared_ptr<Attempt>& attempt, const Observer& alsoObserve) {
+  Attempt& now = *attempt;
+  const SceneDescription& scene = now.scene();
+  const Model& model = *now.model;               // of whole bodies, on the first rank
+  const Model& solvedModel = now.solvedModel();  // that of this rank: the same, or in parts
+  const bool inParts = solvedModel.inParts();
+  const bool writes = Ranks::all().first();
+  const bool toFiles = writes && !temporary_.empty();
+  CurrentSpaceError& error = *now.error;
+  Solved& solved = now.solved;
+  StepReport& last = solved.last;
+  State& state = solved.state;
+  std::optional<ResultFiles> files;  // where this rank writes
+  FilesSoFar empty;                  // before the first step
+  MarchMemory memory;
+  AccuracyMemory accuracySoFar;
+  if (resumes()) {
+    Checkpoint stopped = std::move(stopped_->checkpoint);
+    if (toFiles) files.emplace(temporary_, model, error, scene.every, stopped.files);
+    empty = stopped.empty;
+    last = stopped.last;
+    state = inParts ? ofParts(solvedModel, stopped.state) : std::move(stopped.state);
+    memory = inParts ? ofParts(solvedModel, stopped.memory) : std::move(stopped.memory);
+    accuracySoFar = stopped.accuracy;
+  } else {
+    if (toFiles) files.emplace(temporary_, model, error, now.facts.quantities, now.facts.units, scene.every);
+    state = now.state;
+  }
+  if (!inParts) error.moveTo(state);
+  AccuracyRecord accuracies(model, error, accuracySoFar);
+  std::optional<FlowBoundRecord> flow;
+  std::optional<TotalBoundRecord> total;
+  if (scene.accuracy.bound && FlowBoundRecord::applies(model)) {
+    flow.emplace(model, Steps{scene.time.scheme == Scheme::backwardEuler, scene.time.controlled()}, state,
+                 accuracySoFar.flow);
+    total.emplace(model, state, accuracySoFar.total);
+  }
+
+  Threads threads(threadsFor(model, now.facts.threads));
+  // A failure leaves the last good step in `state`, an interruption in what is kept here.
+  State keptState = state;
+  MarchMemory keptMemory = memory;
+  // What all ranks have together, on the first one: gathered into `space` where bodies are in parts.
+  const auto whole = [&]<class T>(const T& own, std::optional<T>& space) -> const T& {
+    return inParts ? space.emplace(gathered(solvedModel, own)) : own;
+  };
+  const auto releaseGathered = [&] {
+    if (inParts) solvedModel.ranks->releaseFreeMemory();
+  };
+  const auto save = [&](const FilesSoFar& written, const State& at, const MarchMemory& with) {
+    {
+      std::optional<State> stateSpace;
+      std::optional<MarchMemory> memorySpace;
+      const State& wholeState = whole(at, stateSpace);
+      const MarchMemory& wholeMemory = whole(with, memorySpace);
+      if (writes) writeCheckpoint({identity_, empty, written, last, wholeState, wholeMemory, accuracySoFar});
+    }
+    releaseGathered();
+  };
+  const Observer observe = [&](const State&, const StepReport& report) {
+    if (total) total->look(state, report.step);  // what may be interrupted comes first
+    const bool restarted = report.step == 0 && memory.controller.trial > 1;
+    const bool kept = scene.every > 0 && report.step % scene.every == 0;
+    const bool mayBeSaved = !rounds_ && report.step > 0 && state.time < scene.time.end;
+    // What the first rank asks of all of them.
+    const auto asked = [&](bool own) { return inParts ? numberOfFirst(Ranks::all(), own ? 1 : 0) > 0 : own; };
+    if (restarted) {
+      // The checkpoint before the files are cut: one that knows them as they were would be of no use.
+      rows_.print(logTrial(keptMemory.run.timeError, scene.time.tolerance));
+      last = report;
+      accuracySoFar = {};
+      const FilesSoFar written = files ? files->sync() : empty;
+      if (!rounds_) save(empty, state, memory);
+      files.reset();
+      removeFields(temporary_, written, empty);
+      if (toFiles) files.emplace(temporary_, model, error, scene.every, empty);
+    }
+    if (asked(kept || accuracies.asks(report, kept))) {
+      {
+        std::optional<State> space;
+        const State& at = whole(state, space);
+        if (writes) error.moveTo(at);
+        if (files && !restarted) files->add(at, report);
+        if (writes) accuracies.add(report, kept);
+      }
+      releaseGathered();
+    } else {
+      error.moveTo(state);
+      if (files && !restarted) files->add(state, report);
+    }
+    if (!restarted && report.step == 0) {
+      if (files) empty = files->sync();
+      if (rounds_ && now.facts.rounds.empty()) {  // whatever later rounds write, one checkpoint serves them
+        const FileRecord emptyFile{0, Checksum().value};
+        save({emptyFile, emptyFile, {}}, state, memory);
+      }
+    }
+    if (alsoObserve) alsoObserve(state, report);
+    if (observe_) observe_(attempt, state, report);
+    if (hasRow(report)) rows_.step(report);
+    last = report;
+    if (flow) {
+      flow->add(state, report);
+      total->add(accuracySoFar.flow.obstacle);
+    }
+    if (asked(mayBeSaved && files && checkpointIsDue())) save(files ? files->sync() : empty, state, memory);
+    threads.forEach(2, [&](int i) {
+      if (i == 0)
+        keptState = state;
+      else
+        keptMemory = memory;
+    });
+  };
+  RunReport& report = solved.report;
+  const auto saveLast = [&] {
+    rows_.finish();
+    const bool begun = last.step > 0 || keptMemory.controller.trial > 1;
+    if (!begun || rounds_ || (inParts && !Ranks::all().answer())) return;
+    save(files ? files->sync() : empty, keptState, keptMemory);
+  };
+  try {
+    report = mortier::march(solvedModel, state, memory, scene.time, scene.solver, observe);
+  } catch (const OutputError& fault) {
+    rows_.finish();
+    if (temporary_.empty() || !hasCheckpoint(temporary_)) throw;
+    throw OutputError(fault.what() + resumeHint_);
+  } catch (const TimeIsUp&) {
+    report = keptMemory.run;
+    report.status = Status::failed;
+    report.reason = timeIsUp;
+    state = keptState;
+  } catch (const PeerEnded&) {
+    if (!inParts) saveLast();
+    throw;
+  } catch (const Interrupted&) {
+    try {
+      saveLast();
+    } catch (const Interrupted&) {  // some no longer answer: the checkpoint before holds
+    }
+    const std::string resume = temporary_.empty()          ? ""
+                               : hasCheckpoint(temporary_) ? resumeHint_
+                                                           : "; nothing was written";
+    throw InterruptedError(scene.path + ": interrupted after step " + std::to_string(last.step) + resume);
+  }
+  rows_.finish();
+  keptState = {};
+  keptMemory = {};
+  if (inParts) state = gathered(solvedModel, state);
+  if (!writes) return;
+  if (inParts) error.moveTo(state);  // elsewhere it is at the last step
+  if (files) solved.files = files->close(state, last.step);
+  solved.accuracy = accuracies.atEnd(report.peaks);
+  if (flow) {
+    solved.accuracy.flow = flowBoundOf(*flow, state);
+    solved.accuracy.total = totalBoundOf(*total, state, *solved.accuracy.flow);
+  }
+}
+
+}  // namespace mortier
