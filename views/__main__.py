@@ -44,6 +44,7 @@ def arguments(words):
     plot.add_argument("--window", type=numbers(4))
     plot.add_argument("--only", choices=PICTURES)
     plot.add_argument("--animate", action="store_true")
+    plot.add_argument("--raw", action="store_true")
     report = commands.add_parser("report")
     for each in (plot, report):
         each.add_argument("--out", type=Path)
@@ -92,12 +93,13 @@ def plot(given):
     made = {}
     with pictures.plt.rc_context(pictures.STYLE):
         if given.animate:
-            made[folder if single else folder / "animation.gif"] = images.animation(results, given.field,
-                                                                                    scale, given.window)
+            made[folder if single else folder / "animation.gif"] = images.animation(
+                results, given.field, scale, given.window, given.raw)
         wanted = [] if given.animate and (single or not given.only) else [given.only] if given.only else \
             ["fields"] if single else PICTURES
         for name in wanted:
-            figure = {"fields": lambda: pictures.fields(views, given.field, scale, given.window),
+            figure = {"fields": lambda: pictures.fields(views, given.field, scale, given.window,
+                                                        raw=given.raw),
                       "contact": lambda: curves.contact(views),
                       "history": lambda: curves.history(views)}[name]()
             if figure is None:

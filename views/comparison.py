@@ -148,12 +148,14 @@ def draw(place, run, path):
     with pictures.plt.rc_context(pictures.STYLE):
         figure, axes = pictures.plt.subplots(1, 2, figsize=(9.4, 4.4), layout="constrained")
         norm, colours = Normalize(0, place.size), "viridis"
+        values = {name: each[run.bodies[name].triangles] if place.what == "displacement" else each
+                  for name, each in place.values.items()}
         points = np.concatenate([body.points for body in run.bodies.values()])
         low, high = points.min(0), points.max(0)
         side = 0.16 * (high - low).max()
         corner = np.clip(place.at - side / 2, low, np.maximum(high - side, low))
         for each, (left, right) in zip(axes, ((low, high), (corner, corner + side))):
-            pictures.draw_bodies(each, run, 0.0, place.values, norm, colours, place.what == "displacement")
+            pictures.draw_bodies(each, run, 0.0, values, norm, colours)
             each.plot(*place.at, marker="o", ms=14, mfc="none", mec="#d00000", mew=1.6, clip_on=False)
             margin = 0.03 * (right - left).max()
             each.set_aspect("equal")
