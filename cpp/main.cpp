@@ -162,6 +162,7 @@ int dispatch(int argc, char** argv) {
   plotApp->add_option("--only", plotCommand.only, "one of the pictures (default: all)")
       ->type_name("fields|contact|history");
   plotApp->add_flag("--animate", plotCommand.animate, "a GIF of all steps that were kept as well");
+  plotApp->add_flag("--raw", plotCommand.raw, "stresses of the triangles, not recovered at the vertices");
 
   ReportCommand reportCommand;
   CLI::App* reportApp =
@@ -177,12 +178,13 @@ int dispatch(int argc, char** argv) {
   compareApp->add_option("SCENE", compareCommand.scene, "scene, a TOML file");
   compareApp->add_option("--set", compareCommand.settings, settingsHelp)->type_name("KEY=VALUE");
   addGoal(compareApp, compareCommand.settings, "--accuracy", "energy", "E");
-  compareApp->add_option("--accept", compareCommand.accept, "store the result of the scene as a reference")
+  compareApp
+      ->add_option("--accept", compareCommand.accept,
+                   "store the result of the scene as a reference, or its numbers alone as FILE.json")
       ->type_name("FOLDER");
   compareApp
-      ->add_option(
-          "--against", compareCommand.against,
-          "a result (of --accept or mortier run), or BODY=FILE.vtu of another code (default: FreeFEM)")
+      ->add_option("--against", compareCommand.against,
+                   "what --accept or mortier run stored, or BODY=FILE.vtu of another code (default: FreeFEM)")
       ->type_name("FOLDER")
       ->take_all()
       ->expected(1);

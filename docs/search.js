@@ -1,5 +1,5 @@
-// Search in the site: the index is a script beside this one, which is loaded when the field is used first, for
-// pages opened as files cannot fetch.
+// Search in the site: the index is a script beside this one, loaded when the field is used first; pages that
+// are opened as files cannot fetch.
 "use strict";
 (() => {
   const root = document.currentScript.dataset.root, most = 12;
@@ -15,7 +15,8 @@
   document.querySelector("header").append(field, found);
   let loading = null;
   const index = () => loading ??= new Promise(done => {
-    document.head.append(make("script", {src: `${root}/search-index.js`, onload: () => done(window.searchIndex)}));
+    const onload = () => done(window.searchIndex);
+    document.head.append(make("script", {src: `${root}/search-index.js`, onload}));
   });
   const folded = text => text.toLowerCase();
   function matches(sections, text) {  // all words, wherever they stand; those of a heading count most
@@ -34,7 +35,8 @@
         .slice(0, most);
   }
   function excerpt({body, words}) {
-    const at = Math.max(0, Math.min(...words.map(word => folded(body).indexOf(word)).filter(i => i >= 0)) - 60);
+    const places = words.map(word => folded(body).indexOf(word)).filter(i => i >= 0);
+    const at = Math.max(0, Math.min(...places) - 60);
     const text = Number.isFinite(at) ? body.slice(at, at + 160) : body.slice(0, 160), parts = [];
     let from = 0;
     const low = folded(text);

@@ -97,7 +97,7 @@ def navigation(page):
 
 
 def sections(source, text):
-    """Of a page: its address, the anchor of a heading, the headings above and the text below it, for search."""
+    """For search: address of the page, anchor of a heading, the title with it and the text below."""
     title = title_of(*text_of(source))
     body = text.partition("<main")[2].partition("</nav>")[2] or text.partition("<main")[2]
     parts = re.split(r'<h[1-4][^>]* id="([^"]*)"[^>]*>(.*?)</h[1-4]>', body, flags=re.S)

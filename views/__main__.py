@@ -138,10 +138,9 @@ def compare(given):
     given.within = given.within[0] if given.within else None
     if given.within is not None and not given.within > 0:
         raise Wrong("--within: expected a number above 0")
-    if given.accept and (given.against or given.picture or given.within is not None):
-        raise Wrong("--accept: keeps a result and compares nothing, expected no --against, --within "
-                    "or --picture")
-    if given.within is not None and not given.against:
+    if given.accept and (given.against or given.picture):
+        raise Wrong("--accept: keeps a result and compares nothing, expected no --against or --picture")
+    if given.within is not None and not given.against and not given.accept:
         raise Wrong("--within: for --against only; both codes agree to rounding")
     if given.picture and given.picture.suffix not in (".png", ".svg"):
         raise Wrong(f"--picture {given.picture}: expected a file NAME.png or NAME.svg")

@@ -22,7 +22,8 @@ from recovery import NormalStress
 from runs import extent, natural_scale, top_of
 
 PAGE = Path(__file__).resolve().parent / "page"
-PROGRAM = ("data.js", "values.js", "bodies.js", "charts.js", "controls.js", "page.js")  # one after the other, one function
+# one after the other, one function
+PROGRAM = ("data.js", "values.js", "bodies.js", "charts.js", "controls.js", "page.js")
 # of all kept steps together: beyond that steps are left out, so that the page stays small
 TRIANGLES = 600_000
 MANY = 200_000  # of the same: beyond that numbers have a digit less

@@ -28,6 +28,7 @@ int plot(const PlotCommand& command) {
   addOption(words, "window", command.window);
   addOption(words, "only", command.only);
   if (command.animate) words.emplace_back("--animate");
+  if (command.raw) words.emplace_back("--raw");
   becomeViews(words, command.results);
 }
 

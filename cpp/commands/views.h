@@ -15,6 +15,7 @@ struct PlotCommand {
   std::string window;  ///< XMIN,XMAX,YMIN,YMAX; empty: everything
   std::string only;    ///< fields, contact or history; empty: all
   bool animate = false;
+  bool raw = false;  ///< stresses of the triangles, not recovered at the vertices
 };
 
 /// `mortier report`: one HTML file of results, made in views/ as well.
@@ -28,8 +29,8 @@ struct ReportCommand {
 struct CompareCommand {
   std::string scene;
   std::vector<std::string> settings;  ///< key=value
-  std::vector<std::string> against;   ///< a result, or BODY=FILE.vtu of another code; empty: FreeFEM
-  std::string accept;                 ///< folder that keeps the result; empty: compare
+  std::vector<std::string> against;   ///< a result, its numbers, BODY=FILE.vtu; empty: FreeFEM
+  std::string accept;                 ///< folder of the result, or FILE.json; empty: compare
   std::string within;                 ///< relative difference that is allowed; empty: that of rounding
   std::string picture;                ///< of the difference; empty: <scene>.difference.png where they differ
 };

@@ -86,7 +86,7 @@ function paint(panel, range) {
   if (panel.key !== key) {
     panel.key = key;
     panel.shown = run.bodies.map((_, b) => shownValues(run, step, b));
-    panel.extremes = extremes(run, step, panel.shown);
+    panel.extremes = extremes(panel.shown);
   }
   const colour = value => range.table[Math.max(
       0, Math.min(SHADES - 1, Math.floor((value - range.low) * perValue)))];

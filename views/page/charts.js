@@ -67,8 +67,10 @@ function chart(box, {
   element.append(svg("text", {x: (L + W - R) / 2, y: H - 6, "text-anchor": "middle"}, xWords));
   if (y0 < 0 && y1 > 0) element.append(svg("path", {class: "zero", d: `M${L} ${n(Y(0))}H${W - R}`}));
   if (at !== undefined) element.append(svg("path", {class: "now", d: `M${n(X(at))} ${T}V${H - B}`}));
-  const polygon = (points, run) =>
-      svg("path", {class: `under f${run % 4}`, d: `M${points.map(([x, y]) => `${n(X(x))} ${n(Y(y))}`).join("L")}Z`});
+  const polygon = (points, run) => {
+    const places = points.map(([x, y]) => `${n(X(x))} ${n(Y(y))}`);
+    return svg("path", {class: `under f${run % 4}`, d: `M${places.join("L")}Z`});
+  };
   for (const s of series) {
     const points = Array.from(s.x, (x, i) => `${n(X(x))} ${n(Y(s.y[i]))}`);
     if (s.fill) element.append(polygon([[s.x[0], 0], ...below(s.x, s.y), [s.x[s.x.length - 1], 0]], s.run));
@@ -86,7 +88,8 @@ function chart(box, {
               svg("circle", {class: `c${s.run % 4}`, cx: n(X(x)), cy: n(Y(s.y[i])), r: 2.6})));
   }
   element.addEventListener("pointermove", event => {
-    const area = element.getBoundingClientRect(), px = event.clientX - area.left, py = event.clientY - area.top;
+    const area = element.getBoundingClientRect(), px = event.clientX - area.left,
+          py = event.clientY - area.top;
     let best = null, distance = 400;
     for (const s of series)
       for (let i = 0; i < s.x.length && !s.to; i++) {
@@ -115,7 +118,8 @@ function lineCharts(group, g, k) {
     run, r: runs.indexOf(run), line: run.lines[k], at: run.lines[k].steps[stepOf(run)]
   }));
   const {line, run: {units}} = found[0], where = `${line.nonmortar} on ${line.mortar}`, id = `${g}-${k}`;
-  const small = 1e-9 * Math.max(...found.map(each => each.line.length)), xWords = withUnit(line.name, units.length);
+  const small = 1e-9 * Math.max(...found.map(each => each.line.length)),
+        xWords = withUnit(line.name, units.length);
   const slipsOf = at => (at.slipping || []).flatMap((slip, i) => slip ? [i] : []);
   const charts = [chart(contactBox, {
     id: `pressure${id}`,
@@ -144,7 +148,8 @@ function lineCharts(group, g, k) {
     xWords,
     small,
     series: found.flatMap(({run, r, line: {x}, at: {gap, jump}}) => jump
-      ? [{x: jump[0], y: jump[1], run: r, fill: Math.min(...jump[1]) < -small, name: named(run, "between nodes")},
+      ? [{x: jump[0], y: jump[1], run: r, name: named(run, "between nodes"),
+          fill: Math.min(...jump[1]) < -small},
          {x, y: gap, run: r, marks: true, line: false, name: named(run, "at a node, weighted")}]
       : [{x, y: gap, run: r, marks: true, name: named(run, "gap"), fill: Math.min(...gap) < -small}])
   }));

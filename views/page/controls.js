@@ -36,8 +36,8 @@ const key = () => $(
 if (runs.length > 1) page.append(key());
 function table(attributes, heads, rows) {
   const row = (tag, cells) => $("tr", {}, ...cells.map(cell => $(tag, {}, cell)));
-  return $(
-      "div", {class: "wide"}, $("table", attributes, row("th", heads), ...rows.map(cells => row("td", cells))));
+  const body = rows.map(cells => row("td", cells));
+  return $("div", {class: "wide"}, $("table", attributes, row("th", heads), ...body));
 }
 const quantities = runs.flatMap(run => run.quantities.map(row => [run.name, ...row]));
 const askedBox = $("div", {class: "charts", id: "asked"});
@@ -93,9 +93,9 @@ const whole = controls.appendChild($("button", {type: "button", id: "whole"}, "r
 const contactBox = $("div", {class: "charts", id: "contact"});
 page.append($("section", {}, $("h2", {}, "Contact ", $("span", {class: "soft when"})), contactBox, $(
     "p", {class: "soft"},
-    "Band: from the contact pressure to the normal stress that is recovered in the nonmortar body; its width " +
-    "estimates the error. Gap: marks are the weighted gaps of the nodes, lines the distance between the " +
-    "deformed meshes.")));
+    "Band: from the contact pressure to the normal stress that is recovered in the nonmortar body; its " +
+    "width estimates the error. Gap: marks are the weighted gaps of the nodes, lines the distance between " +
+    "the deformed meshes.")));
 page.append($("h2", {}, "Bodies ", $("span", {class: "soft when"})));
 const grid = page.appendChild($("div", {class: "runs"}));
 const panels = runs.map((run, r) => {
@@ -105,8 +105,8 @@ const panels = runs.map((run, r) => {
     role: "img",
     "aria-label": `Deformed bodies of ${run.name}. Arrow keys move, plus and minus zoom, 0 shows everything.`
   });
-  const read = $("p", {class: "read", id: `read${r}`, "aria-live": "polite"}), time = $("span", {class: "soft"}),
-        bar = $("canvas", {width: SHADES, height: 1}), legend = $("div"), scale = $("div", {class: "scale"}),
+  const read = $("p", {class: "read", id: `read${r}`, "aria-live": "polite"}),
+        time = $("span", {class: "soft"}), bar = $("canvas", {width: SHADES, height: 1}), legend = $("div"), scale = $("div", {class: "scale"}),
         most = $("p", {class: "most", id: `most${r}`});
   grid.append(
       $("section", {class: "run"}, $("h3", {}, $("i", {class: `dot b${r % 4}`}), `${run.name} `, time),

@@ -19,8 +19,8 @@ function averaged(body, values) {  // one value for each corner of the triangles
 function shownValues(run, step, b) {  // {flat}: values by triangle, or {corner}: by corner
   const body = run.bodies[b], fields = run.steps[step].fields[b], name = now.field;
   if (fieldOf(run, name).vertex) {
-    const at = name === "u" ? real(fields.ux).map((x, v) => Math.hypot(x, scaled(fields.uy.q[v], fields.uy.e)))
-                            : real(fields[name]);
+    const {ux, uy} = fields, length = (x, v) => Math.hypot(x, scaled(uy.q[v], uy.e));
+    const at = name === "u" ? real(ux).map(length) : real(fields[name]);
     return {corner: Float64Array.from(body.corners, v => at[v])};
   }
   if (now.raw || !recoverable(name)) return {flat: real(fields[name])};
@@ -28,7 +28,7 @@ function shownValues(run, step, b) {  // {flat}: values by triangle, or {corner}
   const all = stressNames.filter(each => fields[each]).map(each => averaged(body, real(fields[each])));
   return {corner: Float64Array.from(all[0], (_, i) => vonMises(all, i))};
 }
-function extremes(run, step, shown) {  // the largest value of the bodies, and the smallest: value, b, t, corner
+function extremes(shown) {  // the largest value of the bodies, and the smallest: value, b, t, corner
   const found = [null, null];
   shown.forEach(({flat, corner}, b) => (flat || corner).forEach((value, i) => {
     const place = {value, b, t: flat ? i : Math.floor(i / 3), corner: flat ? -1 : i % 3};
