@@ -192,7 +192,8 @@ def draw_magnified(axes, view, line, window, values, norm, colours):
     for name in (line.nonmortar, line.mortar):
         body = view.run.bodies[name]
         moved = np.abs(body.displacement).max()
-        box = line.points.min(0) - half - 2 * moved, line.points.max(0) + half + 2 * moved
+        reach = abs(middle) + half + 2 * moved
+        box = line.points.min(0) - reach, line.points.max(0) + reach
         near = ((body.points >= box[0]) & (body.points <= box[1])).all(1)
         triangles = np.flatnonzero(near[body.triangles].any(1))
         if len(triangles) * len(line.length) > 2_000_000:
@@ -278,7 +279,7 @@ def fields(views, field_name="von_mises", scale=None, window=None, norm=None, co
             below = figure.add_subplot(grid[1 + k, i])
             shared = strip_window([of_run[k] for of_run in lines if len(of_run) > k] if alike else [line])
             draw_magnified(below, each, line, shared, value, norm, colours)
-            below.set_ylabel("magnified")
+            below.set_ylabel(labelled("across, magnified", each.result.length_unit))
             below.set_title(f"contact: {line.nonmortar} (nonmortar, circles), {line.mortar} (squares)",
                             loc="left", fontsize=8)
     if field is not None:

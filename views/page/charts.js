@@ -59,7 +59,7 @@ function chart(box, {
     element.append(
         svg("path", {class: "grid", d: `M${L} ${n(Y(y))}H${W - R}`}),
         svg("text", {x: L - 6, y: n(Y(y) + 4), "text-anchor": "end"}, short(y, 5)));
-  for (const x of ticks(x0, x1, W < 400 ? 4 : 5))
+  for (const x of ticks(x0, x1, 5))
     element.append(
         svg("path", {class: "grid", d: `M${n(X(x))} ${T}V${H - B}`}),
         svg("text", {x: n(X(x)), y: H - B + 15, "text-anchor": X(x) > W - 20 ? "end" : "middle"},

@@ -106,7 +106,8 @@ const panels = runs.map((run, r) => {
     "aria-label": `Deformed bodies of ${run.name}. Arrow keys move, plus and minus zoom, 0 shows everything.`
   });
   const read = $("p", {class: "read", id: `read${r}`, "aria-live": "polite"}),
-        time = $("span", {class: "soft"}), bar = $("canvas", {width: SHADES, height: 1}), legend = $("div"), scale = $("div", {class: "scale"}),
+        time = $("span", {class: "soft"}), bar = $("canvas", {width: SHADES, height: 1}),
+        legend = $("div"), scale = $("div", {class: "scale"}),
         most = $("p", {class: "most", id: `most${r}`});
   grid.append(
       $("section", {class: "run"}, $("h3", {}, $("i", {class: `dot b${r % 4}`}), `${run.name} `, time),

@@ -9,7 +9,10 @@ function put(element, attributes, children) {
 }
 const withUnit = (words, unit) => unit ? `${words} [${unit}]` : words;
 const of = (value, unit) => unit ? `${value} ${unit}` : String(value);
-const short = (value, digits = 4) => value === 0 ? "0" : String(Number(value.toPrecision(digits)));
+function short(value, digits = 4) {  // 0.00002 as 2e-5
+  const rounded = Number(value.toPrecision(digits)), size = Math.abs(rounded);
+  return size > 0 && size < 1e-3 ? rounded.toExponential() : String(rounded);
+}
 
 // ---- Data (views/coding.py): integers times 10^e, predicted, deflated -------------------------------------
 const powers = Array.from({length: 309}, (_, e) => Number(`1e${e}`));
