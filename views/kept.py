@@ -12,7 +12,8 @@ from ending import Wrong
 BY = "mortier compare --accept"
 DIGITS = 10
 NOISE = 1e-12  # of the largest value of a kind: what is less is rounding, which changes with the machine
-PEAKS = ("von_mises", "contact_force", "displacement")
+PEAKS = {"von_mises": "largest von Mises", "contact_force": "largest force",
+         "displacement": "largest displacement"}
 LEFT_OUT = ("interpenetration", "active_nodes")  # rounding, and what an edge of the mesh decides
 
 
@@ -105,6 +106,6 @@ def compare(ours, kept, within):
                                 peaks["contact_force"], within=within)
     for name in PEAKS:
         a, b = ours.summary["peaks"][name]["value"], peaks[name]
-        found.append(Difference(f"largest {name.replace('_', ' ')}", abs(a - b) / b if a != b else 0.0,
+        found.append(Difference(PEAKS[name], abs(a - b) / (b or 1.0) if a != b else 0.0,
                                 FORCE if within is None else within, a, b))
     return Verdict(found, sorted(missing))

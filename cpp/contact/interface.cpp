@@ -119,14 +119,14 @@ Eigen::SparseMatrix<double> assembled(Eigen::Index rows, Eigen::Index columns, c
 void requireAllowed(const Vector& distance, InitialGap initial, double shorter, const std::string& names) {
   const auto refuse = [&](const std::string& what, double by, const std::string& expected) {
     std::ostringstream message;
-    message << names << what << by << " m as meshed, expected " << expected;
+    message << names << what << by << " as meshed, expected " << expected;
     throw InputError(message.str());
   };
   const double least = distance.minCoeff();
   if (initial == InitialGap::asMeshed && least < -largestPenetration * shorter) {
     std::ostringstream expected;
     expected << "at most " << largestPenetration * shorter
-             << " m (a hundredth of the shorter line); initial = \"close\" would let them touch";
+             << " (a hundredth of the shorter line); initial = \"close\" would let them touch";
     refuse(" penetrate each other by ", -least, expected.str());
   }
   if (initial != InitialGap::reject) return;

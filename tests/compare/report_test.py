@@ -11,6 +11,7 @@ from browser import Browser
 from support import ROOT, InSharedFolder, mortier
 from views_support import solve, view
 import coding
+import recovery
 import results
 import runs
 
@@ -35,6 +36,17 @@ end = 1
 steps = {steps}
 [output]
 every = 1
+"""
+COARSE = """
+degree = 2
+[[body]]
+name = "ring"
+mesh = { shape = "annulus", inner = 1, outer = 2, cells = [8, 1], span = "full" }
+material = { young = 100, poisson = 0.3 }
+boundary = [ { label = 1, pressure = 1 }, { label = 2, un = 0, ut = 0 } ]
+[time]
+end = 1
+steps = 1
 """
 HOSTILE = ["</script><script>window.hacked=1</script>", "<img src=x onerror=window.hacked=1>",
            "\"'`${window.hacked=1}\\",
@@ -307,6 +319,111 @@ class Pages(InSharedFolder):
             slope, constant = np.polyfit(value, part, 1)
             np.testing.assert_allclose(slope * value + constant, part, atol=0.01)
             self.assertGreater(slope, 0)
+
+    def test_values_are_recovered_or_raw_in_smooth_colours_or_bands(self):
+        self.page("hertz")
+        picture = "return document.getElementById('canvas0').toDataURL()"
+        legend = "return document.querySelector('.bar div').textContent"
+        seen = {}
+        for values, colours in (("recovered", "smooth"), ("raw", "smooth"), ("raw", "bands"),
+                                ("recovered", "bands")):
+            choose(self.browser, "values", values)
+            choose(self.browser, "colours", colours)
+            seen[values, colours] = self.browser.run(picture)
+            self.assertEqual("recovered" in self.browser.run(legend), values == "recovered")
+        self.assertEqual(len(set(seen.values())), 4)
+        bar = ("const c = document.querySelector('.bar canvas'), d = c.getContext('2d').getImageData(0, 0, "
+               "c.width, 1).data, s = new Set(); for (let i = 0; i < d.length; i += 4) "
+               "s.add([d[i], d[i + 1], d[i + 2]].join()); return s.size")
+        self.assertEqual(self.browser.run(bar), 10)
+        choose(self.browser, "colours", "smooth")
+        self.assertGreater(self.browser.run(bar), 100)
+        # Where it is marked as largest, it is: of the triangles, and of their means at the vertices.
+        run = results.read_mortier(self.folder / "hertz")
+        raw = max(body.cells["von_mises"].max() for body in run.bodies.values())
+        smooth = max(recovery.von_mises(*(recovery.averaged(body, s) for s in body.stress.T)).max()
+                     for body in run.bodies.values())
+        self.assertNotEqual(raw, smooth)
+        for values, largest in (("raw", raw), ("recovered", smooth)):
+            choose(self.browser, "values", values)
+            told = self.browser.run("return document.getElementById('most0').textContent")
+            self.assertRegex(told, r"^largest \S+ Pa in (\w+) at \(\S+, \S+\)$")
+            self.assertAlmostEqual(float(told.split()[1]) / largest, 1, delta=1e-3)
+
+    def test_a_range_that_is_set_stays(self):
+        self.page("hertz")
+        marks = ("return [...document.querySelectorAll('.scale span')].map(s => "
+                 "[parseFloat(s.textContent.replace(/[^-0-9.e]/g, '')), parseFloat(s.style.left)])")
+
+        def ends():
+            value, part = np.array(self.browser.run(marks)).T
+            slope, constant = np.polyfit(part, value, 1)
+            return constant, constant + 100 * slope
+
+        automatic = ends()
+        high = automatic[1] / 2
+        choose(self.browser, "high", str(high))
+        self.assertAlmostEqual(ends()[1] / high, 1, delta=1e-3)
+        self.assertIn("\u2192", self.browser.run("return document.querySelector('.scale').textContent"))
+        choose(self.browser, "step", 0)
+        choose(self.browser, "field", "uy")
+        self.assertEqual(self.browser.run("return document.getElementById('high').value"), "")
+        choose(self.browser, "field", "von_mises")
+        self.assertAlmostEqual(ends()[1] / high, 1, delta=1e-3)
+        choose(self.browser, "high", "")
+        choose(self.browser, "step", 1)
+        np.testing.assert_allclose(ends(), automatic, atol=1e-3 * automatic[1])
+
+    def test_letters_have_one_size(self):
+        """On a desk and on a phone, in charts, tables and text."""
+        self.page("mortar", "interpolation")
+        sizes = ("const found = []; for (const e of document.querySelectorAll('svg text, td, p, label, h3')) "
+                 "{ const box = e.closest('svg'), scale = box ? box.getBoundingClientRect().width / "
+                 "box.viewBox.baseVal.width : 1; found.push(parseFloat(getComputedStyle(e).fontSize) * "
+                 "scale); } return [Math.min(...found), Math.max(...found)]")
+        for width in (1280, 800, 360):
+            self.browser.size(width, 900)
+            settled(self.browser)
+            settled(self.browser)
+            low, high = self.browser.run(sizes)
+            self.assertGreater(low, 11.9)
+            self.assertLess(high, 16.1)
+        self.browser.size(1280, 900)
+
+    def test_curves_of_quadratic_triangles(self):
+        """A ring of a few of them has the area of a ring, not of a polygon."""
+        (self.folder / "coarse.toml").write_text(COARSE)
+        done = mortier("run", "coarse.toml", "--quiet", "--out", "coarse", cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.page("coarse")
+        choose(self.browser, "scale", 0)
+        choose(self.browser, "field", "region")
+        for name in ("mesh", "ghost"):
+            self.browser.run(f"document.getElementById('{name}').click()")
+        settled(self.browser)
+        pixels, half, width = self.browser.run(
+            "const c = document.getElementById('canvas0'), d = c.getContext('2d').getImageData(0, 0, c.width,"
+            " c.height).data; let n = 0; for (let i = 3; i < d.length; i += 4) n += d[i] === 255; "
+            "return [n, Number(c.dataset.view.split(',')[2]), c.width]")
+        area = pixels * (2 * half / width) ** 2
+        polygon = 0.5 * 8 * np.sin(2 * np.pi / 8) * (2**2 - 1)
+        self.assertLess(polygon, 0.91 * np.pi * (2**2 - 1))
+        self.assertAlmostEqual(area / (np.pi * (2**2 - 1)), 1, delta=0.02)
+
+    def test_the_band_of_the_pressure_is_wide_where_pressures_alternate(self):
+        """Interpolation on meshes that do not match alternates, mortar is exact."""
+        widths = {}
+        for name in ("mortar", "interpolation"):
+            result = runs.Result(self.folder / name)
+            run = result.at(100)
+            line = result.lines(run)[0]
+            body = run.bodies[line.nonmortar]
+            widths[name] = np.abs(recovery.NormalStress(body, line)(body) - line.pressure).max()
+        self.assertLess(widths["mortar"], 1e-9)
+        self.assertGreater(widths["interpolation"], 1)
+        self.page("interpolation")
+        self.assertEqual(self.browser.run("return document.querySelectorAll('#pressure0-0 .under').length"),
+                         1)
 
     def test_contrast(self):
         """WCAG 2, AA: every letter 4.5 to what is behind it, every line of a run 3 to the paper."""
