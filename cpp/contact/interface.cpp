@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "contact/element_tree.h"
+#include "mesh/label_text.h"
 
 namespace mortier {
 namespace {
@@ -148,8 +149,9 @@ ContactInterface::ContactInterface(const ContactPair& pair, const ContactMesh& n
     : pair_(pair), friction_(options.friction), axisymmetric_(options.axisymmetric) {
   const BoundaryLine nonmortar = boundaryLine(nonmortarMesh.mesh, nonmortarMesh.nodes, pair.nonmortar.label);
   const BoundaryLine mortar = boundaryLine(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label);
-  const std::string names = nonmortarMesh.mesh.name + " label " + std::to_string(pair.nonmortar.label) +
-                            " and " + mortarMesh.mesh.name + " label " + std::to_string(pair.mortar.label);
+  const std::string names = nonmortarMesh.mesh.name + " " +
+                            labelText(nonmortarMesh.mesh, pair.nonmortar.label) + " and " +
+                            mortarMesh.mesh.name + " " + labelText(mortarMesh.mesh, pair.mortar.label);
   const double shorter = std::min(lengthOf(nonmortar), lengthOf(mortar));
 
   const std::vector<SmoothPart> parts = partsFacing(nonmortar, mortar);

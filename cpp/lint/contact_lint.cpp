@@ -8,6 +8,7 @@
 #include "lint/lint.h"
 #include "lint/topology.h"
 #include "mesh/boundary_line.h"
+#include "mesh/label_text.h"
 #include "plan/estimate_doubts.h"
 #include "scene/build.h"
 #include "scene/memory_need.h"

@@ -7,6 +7,7 @@
 #include "lint/held_dofs.h"
 #include "lint/lint.h"
 #include "mesh/boundary_line.h"
+#include "mesh/label_text.h"
 #include "scene/resolve.h"
 
 namespace mortier {

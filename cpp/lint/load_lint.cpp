@@ -8,6 +8,7 @@
 #include "lint/held_dofs.h"
 #include "lint/lint.h"
 #include "mesh/boundary_line.h"
+#include "mesh/label_text.h"
 
 namespace mortier {
 namespace {

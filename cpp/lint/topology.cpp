@@ -121,12 +121,6 @@ double edgeRatioWhereFine(const TriangleMesh& mesh, int label, const TriangleMes
   return finest.second;
 }
 
-std::string labelText(const TriangleMesh& mesh, int label) {
-  for (const auto& [name, number] : mesh.labelNames)
-    if (number == label) return "label " + std::to_string(label) + " \"" + name + "\"";
-  return "label " + std::to_string(label);
-}
-
 std::array<Point, 2> boundingBox(const TriangleMesh& mesh) {
   std::array<Point, 2> box{mesh.vertices[0], mesh.vertices[0]};
   for (const Point& p : mesh.vertices) {

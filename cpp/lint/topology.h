@@ -62,9 +62,6 @@ double distanceToSegment(const Point& p, const std::array<Point, 2>& segment);
 /// on graded lines, where contact is expected. \pre neither is empty
 double edgeRatioWhereFine(const TriangleMesh& mesh, int label, const TriangleMesh& other, int otherLabel);
 
-/// `label 3 "top"`, or `label 3` where the mesh has no name for it.
-std::string labelText(const TriangleMesh& mesh, int label);
-
 /// Lower left and upper right corner of all vertices [m].
 std::array<Point, 2> boundingBox(const TriangleMesh& mesh);
 

@@ -210,7 +210,8 @@ function markExtremes(panel, range) {  // where the field is largest, and smalle
   const {run, context, ratio} = panel, field = fieldOf(run, now.field);
   const marked = [["largest", panel.extremes[0]], ...(range.signed ? [["smallest", panel.extremes[1]]] : [])];
   const [most, least] = panel.extremes;
-  if (["viscoplastic", "region"].includes(field.name) || !most || !(most.value > least.value)) {
+  const rounding = most ? 1e-9 * Math.max(Math.abs(most.value), Math.abs(least.value)) : 0;
+  if (["viscoplastic", "region"].includes(field.name) || !most || !(most.value - least.value > rounding)) {
     panel.most.textContent = "";
     return;
   }
