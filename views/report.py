@@ -87,8 +87,8 @@ def step_block(result, run, fields, earlier, many):
             if name in ("s11", "s22", "s12", "s33"):
                 stress.append(found)
     ranges = {}
-    for name in [*order_of(fields), "u"]:
-        of_bodies = values[name] if name in values else result.values(run, fields["u"])
+    for name in [*order_of(fields), "u", *(["region"] if "region" in fields else [])]:
+        of_bodies = values[name] if name in values else result.values(run, fields[name])
         numbers = np.concatenate(list(of_bodies.values()))
         top = top_of(fields[name], run.bodies, of_bodies)
         ranges[name] = [float(f"{each:.6g}") for each in (numbers.min(), numbers.max(), top)]

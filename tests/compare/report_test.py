@@ -140,6 +140,11 @@ class Pages(InSharedFolder):
         print(f"{'+'.join(names)}: {path.stat().st_size / 1e6:.2f} MB, usable after {milliseconds:.0f} ms")
         return path, milliseconds
 
+    def forget_readbacks(self):
+        """What the browser says of a test that reads pictures twice."""
+        for message in self.browser.messages():
+            self.assertIn("willReadFrequently", message)
+
     def tearDown(self):
         self.assertEqual(self.browser.messages(), [])
         self.assertIsNone(self.browser.run("return window.hacked || null"))
@@ -338,6 +343,7 @@ class Pages(InSharedFolder):
         self.assertEqual(self.browser.run(bar), 10)
         choose(self.browser, "colours", "smooth")
         self.assertGreater(self.browser.run(bar), 100)
+        self.forget_readbacks()
         # Where it is marked as largest, it is: of the triangles, and of their means at the vertices.
         run = results.read_mortier(self.folder / "hertz")
         raw = max(body.cells["von_mises"].max() for body in run.bodies.values())
@@ -371,7 +377,7 @@ class Pages(InSharedFolder):
         choose(self.browser, "field", "von_mises")
         self.assertAlmostEqual(ends()[1] / high, 1, delta=1e-3)
         choose(self.browser, "high", "")
-        choose(self.browser, "step", 1)
+        choose(self.browser, "step", 2)
         np.testing.assert_allclose(ends(), automatic, atol=1e-3 * automatic[1])
 
     def test_letters_have_one_size(self):
@@ -405,6 +411,7 @@ class Pages(InSharedFolder):
             "const c = document.getElementById('canvas0'), d = c.getContext('2d').getImageData(0, 0, c.width,"
             " c.height).data; let n = 0; for (let i = 3; i < d.length; i += 4) n += d[i] === 255; "
             "return [n, Number(c.dataset.view.split(',')[2]), c.width]")
+        self.forget_readbacks()
         area = pixels * (2 * half / width) ** 2
         polygon = 0.5 * 8 * np.sin(2 * np.pi / 8) * (2**2 - 1)
         self.assertLess(polygon, 0.91 * np.pi * (2**2 - 1))
