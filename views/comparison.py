@@ -61,6 +61,7 @@ def accept(given):
     """Keeps the result of the scene: its last step, scalars and histories; or its numbers alone."""
     settings = [*given.set, "output.every=0"]
     if kept.is_file(given.accept):
+        kept.require_free(given.accept)
         with tempfile.TemporaryDirectory(prefix="mortier-accept-") as folder:
             run = called("mortier", codes.run_mortier, Path(folder) / "run", settings, given.scene)
             kept.write(given.accept, run, given.set, given.within)

@@ -21,14 +21,17 @@ def is_file(place):
     return Path(place).suffix == ".json"
 
 
-def write(path, run, settings, within):
-    """What is written there before is replaced if it is such a file."""
-    path = Path(path)
-    if path.exists():
+def require_free(path):
+    """Only files of this kind are replaced."""
+    if Path(path).exists():
         try:
             read(path)
         except results.ResultError as error:
             raise Wrong(f"{path}: in the way: not written by mortier compare --accept") from error
+
+
+def write(path, run, settings, within):
+    path = Path(path)
     peaks = {name: run.summary["peaks"][name]["value"] for name in PEAKS}
     sizes = sizes_of(peaks)
 

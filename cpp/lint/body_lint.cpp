@@ -102,7 +102,7 @@ void comparePair(const LintInput& input, size_t i, size_t j, Faults& faults) {
                both + " have young = " + shortest(one.material.elasticity.young) + " " + stress + " and " +
                    shortest(two.material.elasticity.young) + " " + stress);
   if (sameMesh(one.mesh, two.mesh)) {
-    faults.add("same-mesh", two.meshWhere, both + " are meshed by the same file and lie on each other");
+    faults.add("same-mesh", two.meshWhere, both + " are meshed by the same file, in one place");
     return;
   }
   if (input.topologies[i].boundary.empty() || input.topologies[j].boundary.empty()) return;

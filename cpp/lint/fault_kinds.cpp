@@ -43,7 +43,7 @@ const std::vector<FaultKind>& faultKinds() {
       {"hanging-node", warning, "a vertex lies on an edge without being one of its ends",
        "split the triangle beyond the edge there: the mesh must be conforming"},
       {"mesh-overlaps-itself", warning, "the boundary of a mesh crosses itself",
-       "mesh again: parts of the body lie on each other"},
+       "mesh again: parts of the body cover each other"},
       {"sliver", warning, "triangles are very flat", "mesh again with a lower bound on angles"},
       {"size-jump", warning, "neighbouring triangles differ very much in size",
        "grade the mesh over several layers of triangles"},

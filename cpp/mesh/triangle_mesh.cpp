@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "base/digits.h"
 #include "base/fault_error.h"
 
 namespace mortier {
@@ -103,8 +104,8 @@ class Validator {
       if (area > degenerateRatio * square) continue;
       if (area < -degenerateRatio * square)
         failHere(" is clockwise, expected counterclockwise", "clockwise-triangle");
-      failHere(" is degenerate: area " + text(area / 2) + ", longest edge " + text(std::sqrt(square)) +
-                   ", expected three corners that are not in line",
+      failHere(" is degenerate: area " + digits(area / 2, 4) + ", longest edge " +
+                   digits(std::sqrt(square), 4) + ", expected three corners that are not in line",
                "degenerate-triangle");
     }
   }
