@@ -118,21 +118,32 @@ def compare(first, second, within=None):
         differences.append(Difference("friction", relative(first.contact.friction, second.contact.friction,
                                                            force), FORCE))
     differences += quantity_differences(first, second, within)
-    # Scalars, against the size of their kind: a penetration of 1e-18 m^2 has no digits of its own.
-    scales = {"von_mises_min": (stress, STRESS), "von_mises_max": (stress, STRESS),
-              "contact_force": (force, FORCE),
-              "interpenetration": (length * np.ptp(second.contact.position), DISPLACEMENT),
-              "steps": (1, 0), "active_nodes": (1, 0), "time": (1, 1e-14)}
     pressed = max(np.abs(run.contact.force).max(initial=0) for run in (first, second)) > FORCE*force
-    for key, a in first.scalars.items():
-        if key == "active_nodes" and force > 0 and not pressed:
-            continue  # nodes that carry no force: rounding says which of them are closed
-        scale, tolerance = scales.get(key, (length, DISPLACEMENT))
-        b = second.scalars[key]
-        differences.append(Difference(key, relative(a, b, scale), tolerance, a, b))
-    if within is not None:  # counts are for the same steps on the same meshes
-        differences = [replace(each, tolerance=within) for each in differences if each.tolerance > 0]
+    # nodes that carry no force: rounding says which of them are closed
+    left_out = {"active_nodes"} if force > 0 and not pressed else set()
+    scalars = {key: value for key, value in first.scalars.items() if key not in left_out}
+    differences += scalar_differences(scalars, second.scalars, length, stress, force,
+                                      np.ptp(second.contact.position))
+    if within is not None:
+        differences = allowing(differences, within)
     return Verdict(differences, [])
+
+
+def scalar_differences(first, second, length, stress, force, extent=1.0, within=None):
+    """Against the size of their kind: a penetration of 1e-18 m^2 has no digits of its own."""
+    scales = {"von_mises_min": (stress, STRESS), "von_mises_max": (stress, STRESS),
+              "contact_force": (force, FORCE), "interpenetration": (length * extent, DISPLACEMENT),
+              "steps": (1, 0), "active_nodes": (1, 0), "time": (1, 1e-14)}
+    found = []
+    for key, a in first.items():
+        scale, tolerance = scales.get(key, (length, DISPLACEMENT))
+        found.append(Difference(key, relative(a, second[key], scale), tolerance, a, second[key]))
+    return found if within is None else allowing(found, within)
+
+
+def allowing(differences, within):
+    """With this tolerance; without counts, which are for the same steps on the same meshes."""
+    return [replace(each, tolerance=within) for each in differences if each.tolerance > 0]
 
 
 def peak(name, *runs):

@@ -96,6 +96,18 @@ def navigation(page):
     return "\n".join(lines)
 
 
+def sections(source, text):
+    """For search: address of the page, anchor of a heading, the title with it and the text below."""
+    title = title_of(*text_of(source))
+    body = text.partition("<main")[2].partition("</nav>")[2] or text.partition("<main")[2]
+    parts = re.split(r'<h[1-4][^>]* id="([^"]*)"[^>]*>(.*?)</h[1-4]>', body, flags=re.S)
+    plain = [" ".join(html.unescape(re.sub(r"<annotation\b.*?</annotation>|<[^>]*>", " ", each,
+                                           flags=re.S)).split()) for each in parts]
+    for anchor, heading, words in zip(parts[1::3], plain[2::3], plain[3::3]):
+        above = "" if heading == title else f"{title}: "
+        yield [urllib.parse.quote(str(placed(source))), anchor, f"{above}{heading}", words]
+
+
 class Site:
     """pages: their HTML by source; pictures: their sources; faults: lines that say what is wrong."""
 
@@ -178,6 +190,11 @@ class Site:
             shutil.copyfile(FONT, folder / "formulas.ttf")
             style = '@font-face { font-family: "formulas"; src: url("formulas.ttf"); }\n' + style
         (folder / "site.css").write_text(style, encoding="utf-8")
+        shutil.copyfile(DOCS / "search.js", folder / "search.js")
+        index = [each for source, text in self.pages.items() if source.suffix in (".md", ".ipynb")
+                 for each in sections(source, text)]
+        (folder / "search-index.js").write_text(
+            f"window.searchIndex = {json.dumps(index, ensure_ascii=False)};\n", encoding="utf-8")
 
 
 def check_free(out):

@@ -44,6 +44,7 @@ def arguments(words):
     plot.add_argument("--window", type=numbers(4))
     plot.add_argument("--only", choices=PICTURES)
     plot.add_argument("--animate", action="store_true")
+    plot.add_argument("--raw", action="store_true")
     report = commands.add_parser("report")
     for each in (plot, report):
         each.add_argument("--out", type=Path)
@@ -92,12 +93,13 @@ def plot(given):
     made = {}
     with pictures.plt.rc_context(pictures.STYLE):
         if given.animate:
-            made[folder if single else folder / "animation.gif"] = images.animation(results, given.field,
-                                                                                    scale, given.window)
+            made[folder if single else folder / "animation.gif"] = images.animation(
+                results, given.field, scale, given.window, given.raw)
         wanted = [] if given.animate and (single or not given.only) else [given.only] if given.only else \
             ["fields"] if single else PICTURES
         for name in wanted:
-            figure = {"fields": lambda: pictures.fields(views, given.field, scale, given.window),
+            figure = {"fields": lambda: pictures.fields(views, given.field, scale, given.window,
+                                                        raw=given.raw),
                       "contact": lambda: curves.contact(views),
                       "history": lambda: curves.history(views)}[name]()
             if figure is None:
@@ -136,10 +138,9 @@ def compare(given):
     given.within = given.within[0] if given.within else None
     if given.within is not None and not given.within > 0:
         raise Wrong("--within: expected a number above 0")
-    if given.accept and (given.against or given.picture or given.within is not None):
-        raise Wrong("--accept: keeps a result and compares nothing, expected no --against, --within "
-                    "or --picture")
-    if given.within is not None and not given.against:
+    if given.accept and (given.against or given.picture):
+        raise Wrong("--accept: keeps a result and compares nothing, expected no --against or --picture")
+    if given.within is not None and not given.against and not given.accept:
         raise Wrong("--within: for --against only; both codes agree to rounding")
     if given.picture and given.picture.suffix not in (".png", ".svg"):
         raise Wrong(f"--picture {given.picture}: expected a file NAME.png or NAME.svg")

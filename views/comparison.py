@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 import codes
+import kept
 import results
 from compare import compare
 from ending import Wrong, shown
@@ -29,6 +30,8 @@ class CodeFailed(Exception):
 def run(given):
     """Exit code: 0 they agree, 1 they differ."""
     other = against(given.against)
+    if other is not None and other.code == "kept numbers" and not given.set:
+        given.set = other.summary["settings"]
     scene = "./" + given.scene if given.scene.startswith("-") else given.scene
     with tempfile.TemporaryDirectory(prefix="mortier-compare-") as folder:
         folder = Path(folder)
@@ -41,7 +44,7 @@ def run(given):
                            steps_of=folder / "mortier" if chosen else None)
         verdict = verdict_on(ours, other, given)
         print(verdict.table())
-        place = largest(ours, other) if same_meshes(ours, other) else None
+        place = largest(ours, other) if other.bodies and same_meshes(ours, other) else None
         if place:
             print(f"largest difference: {place}")
         drawn = None
@@ -55,18 +58,32 @@ def run(given):
 
 
 def accept(given):
-    """Keeps the result of the scene: its last step, scalars and histories."""
+    """Keeps the result of the scene: its last step, scalars and histories; or its numbers alone."""
     settings = [*given.set, "output.every=0"]
+    if kept.is_file(given.accept):
+        kept.require_free(given.accept)
+        with tempfile.TemporaryDirectory(prefix="mortier-accept-") as folder:
+            run = called("mortier", codes.run_mortier, Path(folder) / "run", settings, given.scene)
+            kept.write(given.accept, run, given.set, given.within)
+        print(f"{shown(given.accept)}: kept, {Path(given.accept).stat().st_size / 1e3:.1f} kB, "
+              f"{meshes_of(run.summary)}")
+        return 0
+    if given.within is not None:
+        raise Wrong("--within: kept with the numbers of --accept FILE.json, not with a folder")
     command = [codes.MORTIER, "run", given.scene, "--quiet", "--out", given.accept, "--set", *settings]
     done = subprocess.run(command, stderr=subprocess.PIPE, text=True, errors="replace")
     if done.returncode:
         raise CodeFailed(done.stderr, done.returncode)
     sys.stderr.write(done.stderr)  # warnings
     size = sum(path.stat().st_size for path in Path(given.accept).iterdir() if path.is_file())
-    asked = json.loads((Path(given.accept) / "summary.json").read_text()).get("accuracy", {}).get("asked")
-    meshes = f"accuracy {asked:g}" if asked else "on the meshes of the scene, no accuracy asked for"
-    print(f"{shown(given.accept)}: kept, {size / 1e3:.0f} kB, {meshes}")
+    summary = json.loads((Path(given.accept) / "summary.json").read_text())
+    print(f"{shown(given.accept)}: kept, {size / 1e3:.0f} kB, {meshes_of(summary)}")
     return 0
+
+
+def meshes_of(summary):
+    asked = summary.get("accuracy", {}).get("asked")
+    return f"accuracy {asked:g}" if asked else "on the meshes of the scene, no accuracy asked for"
 
 
 def called(code, solve, folder, settings, scene, **options):
@@ -87,13 +104,17 @@ def against(places):
     if all(files):
         bodies = {found[1]: read_vtu_of(Path(found[2])) for found in files}
         return results.Run("another code", Path(places[0]), bodies, None, {})
+    if len(places) == 1 and kept.is_file(places[0]):
+        return kept.read(places[0])
     if len(places) > 1 or "=" in places[0] and not os.path.isdir(places[0]):
-        raise Wrong(f"--against {' '.join(places)}: expected one folder of a result, or BODY=FILE.vtu for "
-                        "each body")
+        raise Wrong(f"--against {' '.join(places)}: expected one folder of a result, a FILE.json of "
+                        "--accept, or BODY=FILE.vtu for each body")
     return results.read(places[0])
 
 
 def verdict_on(ours, other, given):
+    if other.code == "kept numbers":
+        return kept.compare(ours, other, given.within)
     if other.code != "another code" and same_meshes(ours, other):
         return compare(ours, other, given.within)
     if given.within is None:
@@ -148,12 +169,14 @@ def draw(place, run, path):
     with pictures.plt.rc_context(pictures.STYLE):
         figure, axes = pictures.plt.subplots(1, 2, figsize=(9.4, 4.4), layout="constrained")
         norm, colours = Normalize(0, place.size), "viridis"
+        values = {name: each[run.bodies[name].triangles] if place.what == "displacement" else each
+                  for name, each in place.values.items()}
         points = np.concatenate([body.points for body in run.bodies.values()])
         low, high = points.min(0), points.max(0)
         side = 0.16 * (high - low).max()
         corner = np.clip(place.at - side / 2, low, np.maximum(high - side, low))
         for each, (left, right) in zip(axes, ((low, high), (corner, corner + side))):
-            pictures.draw_bodies(each, run, 0.0, place.values, norm, colours, place.what == "displacement")
+            pictures.draw_bodies(each, run, 0.0, values, norm, colours)
             each.plot(*place.at, marker="o", ms=14, mfc="none", mec="#d00000", mew=1.6, clip_on=False)
             margin = 0.03 * (right - left).max()
             each.set_aspect("equal")

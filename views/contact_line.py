@@ -1,19 +1,23 @@
 """The line of contact of an interface, and what lies about it in coordinates of that line.
 
 Abscissa: the length along the nonmortar line as meshed, or x or y where that grows along the whole line.
-Ordinate: the distance from it, the nonmortar body above. On a straight line this is a rotation; on a curve it
-is the curve unrolled.
+Ordinate: the distance from it; the nonmortar body is above, or below where it lies below the other one. On a
+straight line this is a rotation; on a curve it is the curve unrolled.
 """
 import numpy as np
 
 FACING = -0.5  # the cosine of 120 degrees between the normals of sides that face each other
 
 
-def boundary_edges(triangles):
-    """Edges of one triangle only, the body to their left."""
+def boundary_edges(triangles, owners=False):
+    """Edges of one triangle only, the body to their left; with owners also the triangle of each, and which of
+    its sides it is."""
     edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     _, first, count = np.unique(np.sort(edges, axis=1), axis=0, return_index=True, return_counts=True)
-    return edges[first[count == 1]]
+    of_one = first[count == 1]
+    if owners:
+        return edges[of_one], of_one % len(triangles), of_one // len(triangles)
+    return edges[of_one]
 
 
 class ContactLine:
@@ -54,6 +58,8 @@ class ContactLine:
         np.add.at(at_nodes, ends, normals)
         np.add.at(at_nodes, ends + 1, normals)
         self.normals = at_nodes / np.maximum(np.hypot(*at_nodes.T), 1e-300)[:, None]
+        x, y = self.normals.mean(0)
+        self.up = -1.0 if y > max(abs(x), 1e-6) else 1.0  # of the ordinates of the nonmortar body
 
         body, other = run.bodies[nonmortar], run.bodies[mortar]
         edges = self.facing_edges(other)
@@ -118,8 +124,8 @@ class ContactLine:
         x = np.interp(length, self.lengths, self.abscissa)
         beyond = length - self.lengths[-1]
         x += np.where(length < 0, length, 0) + np.where(beyond > 0, beyond, 0)
-        return np.stack([x + (displacement * tangent).sum(-1), -distance - (displacement * normal).sum(-1)],
-                        1)
+        across = distance + (displacement * normal).sum(-1)
+        return np.stack([x + (displacement * tangent).sum(-1), -self.up * across], 1)
 
     def facing_edges(self, other):
         """Boundary edges of the mortar body that face the line, as pairs of vertices."""

@@ -1,17 +1,14 @@
 """Curves of runs: pressure and gap along the line of contact, histories."""
 import numpy as np
 
-from pictures import INK, ROUNDING, labelled, plt, time_words
+import columns
+from columns import ROUNDING, labelled
+from pictures import INK, plt, time_words
+from runs import extent
 
 # colour, marker, width
 OF_RUNS = [("#0072b2", "o", 2.6), ("#d55e00", "s", 1.4), ("#009e73", "^", 1.2), ("#cc79a7", "D", 1.0)]
-HISTORY = ("contact_force", "max_pressure", "von_mises_max", "displacement_max", "elastic_energy",
-           "penetration", "viscoplastic_fraction")
 OF_A_FAILED_RUN = ("iterations", "material_residual", "force_balance")
-NOT_DRAWN = {"step", "time", "time_step", "estimate", "rejections", "guarded", "rung", "iterations",
-             "factorisations", "active",
-             "joined", "left", "contact_resultant_x", "contact_resultant_y", "force_balance",
-             "material_residual", "gap_on_active", "sign", "complementarity", "open_penetration", "rounding"}
 
 
 def contact(views, exact=None):
@@ -57,7 +54,7 @@ def contact(views, exact=None):
         below.grid()
     what = "pressure; dashed: shear stress,\nmarks where it slips" if rough else "contact pressure"
     axes[0, 0].set_ylabel(labelled(what, views[0].result.stress_unit))
-    axes[1, 0].set_ylabel(labelled("gap: line geometric, markers weighted", views[0].result.length_unit))
+    axes[1, 0].set_ylabel(labelled("gap; marks: weighted, at nodes", views[0].result.length_unit))
     words = time_words(views[0].result, views[0].step)
     figure.suptitle(f"{views[0].result.title}, {words}" if len(views) == 1 else words, x=0.02, ha="left",
                     fontsize=10.5)
@@ -98,32 +95,29 @@ def draw_path(axes, views, moved, force):
     """Force over displacement, from the state before the first step on."""
     for i, view in enumerate(views):
         x, y = (view.result.history.get(name, np.zeros(0)) for name in (moved, force))
-        colour, marker, width = OF_RUNS[i % len(OF_RUNS)]
-        axes.plot(np.append(0, x), np.append(0, y), color=colour, lw=max(width, 1.2),
-                  marker=marker if len(x) < 60 else None, ms=3, label=label_of(view, views))
-    axes.set_title(f"{force.replace('_', ' ').replace('[', ' [')} over displacement", loc="left", fontsize=9)
-    axes.set_xlabel(moved.replace("displacement_max", "largest displacement "))
+        draw_curve(axes, i, np.append(0, x), np.append(0, y), label_of(view, views))
+    axes.set_title(f"{columns.titled(force)} over displacement", loc="left", fontsize=9)
+    axes.set_xlabel(columns.titled(moved))
     axes.grid()
 
 
+def draw_curve(axes, i, x, y, label):
+    colour, marker, width = OF_RUNS[i % len(OF_RUNS)]
+    axes.plot(x, y, color=colour, lw=max(width, 1.2), marker=marker if len(x) < 60 else None, ms=3,
+              label=label)
+
+
 def history(views):
-    """Columns of history.csv against time, those that a scene adds too;
+    """Columns of history.csv against time, those that a scene adds too, and force over displacement;
     of a failed run how hard its steps were as well."""
-    more = [name.split("[")[0] for name in views[0].result.history]
-    columns = [*HISTORY, *[c for c in more if c not in NOT_DRAWN and c not in HISTORY],
-               *[c for c in OF_A_FAILED_RUN if any(each.result.failed for each in views)]]
-    shown = []
-    for column in columns:
-        name = next((name for name in views[0].result.history if name.split("[")[0] == column), None)
-        if name and any(np.ptp(np.append(each.result.history.get(name, [0.0]), 0)) > 0 for each in views):
-            shown.append(name)
+    also = OF_A_FAILED_RUN if any(each.result.failed for each in views) else ()
+    size = max(extent(each.run.bodies.values()) for each in views)
+    shown = columns.drawn([each.result.history for each in views], size, also)
     times = [each.result.history.get(f"time[{each.result.time_unit}]", np.zeros(0)) for each in views]
     if not shown or max(map(len, times)) < 2:
         return None
-    force, moved = (next((name for name in views[0].result.history if name.split("[")[0] == column), None)
-                    for column in ("contact_force", "displacement_max"))
-    path = force in shown and moved in shown
-    rows = (len(shown) + path + 1) // 2
+    path = columns.force_and_displacement(shown)
+    rows = (len(shown) + bool(path) + 1) // 2
     figure, axes = plt.subplots(rows, 2, figsize=(9.2, 0.6 + 1.9 * rows), squeeze=False,
                                 layout="constrained")
     for name, each in zip(shown, axes.flat):
@@ -131,20 +125,17 @@ def history(views):
             each.sharex(axes.flat[0])
         for i, (view, time) in enumerate(zip(views, times)):
             values = view.result.history.get(name)
-            if values is None or not len(values):
-                continue
-            colour, marker, width = OF_RUNS[i % len(OF_RUNS)]
-            each.plot(time, values, color=colour, lw=max(width, 1.2),
-                      marker=marker if len(time) < 60 else None, ms=3, label=label_of(view, views))
-        if name.split("[")[0] in ("material_residual", "force_balance") and all(
+            if values is not None and len(values):
+                draw_curve(each, i, time, values, label_of(view, views))
+        if columns.bare(name) in ("material_residual", "force_balance") and all(
                 (view.result.history[name] > 0).any() for view in views if name in view.result.history):
             each.set_yscale("log")
-        each.set_title(name.replace("_", " ").replace("[", " ["), loc="left", fontsize=9)
+        each.set_title(columns.titled(name), loc="left", fontsize=9)
         each.grid()
-    for each in list(axes.flat)[len(shown) + path:]:
+    for each in list(axes.flat)[len(shown) + bool(path):]:
         each.set_axis_off()
     if path:
-        draw_path(axes.flat[len(shown)], views, moved, force)
+        draw_path(axes.flat[len(shown)], views, *path)
     for i, each in enumerate(axes.flat[:len(shown)]):
         last = i + 2 >= len(shown)  # of its column
         each.tick_params(labelbottom=last)

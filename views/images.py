@@ -9,7 +9,7 @@ import pictures
 from runs import natural_scale
 
 
-def animation(results, field_name, scale, window):
+def animation(results, field_name, scale, window, raw):
     """A GIF of the kept steps, all with the colours, scale and window that hold for the whole run."""
     steps = [[step for step, _ in result.kept] for result in results]
     count = max(map(len, steps))
@@ -23,7 +23,7 @@ def animation(results, field_name, scale, window):
         views = views_at(i)
         if field_name != "none":
             field = views[0].result.fields(views[0].run)[field_name]
-            values += [v for each in views for v in each.result.values(each.run, field).values()]
+            values += [(each.run.bodies, pictures.shown_values(each, field, raw)) for each in views]
     scale = scale if scale is not None else natural_scale(pictures.bodies_of(views))
     for i in range(count):
         windows.append(pictures.whole_window(views_at(i), scale))
@@ -32,7 +32,8 @@ def animation(results, field_name, scale, window):
     norm, colours = pictures.colours_of(field, values)[:2] if field else (None, None)
     frames = []
     for i in range(count):
-        figure = pictures.fields(views_at(i), field_name, scale, window, norm, colours, strips=False)
+        figure = pictures.fields(views_at(i), field_name, scale, window, norm, colours, strips=False,
+                                 raw=raw)
         frames.append(picture(figure, "png", dpi=90, bbox_inches=None))  # all of one size
         pictures.plt.close(figure)
     return gif(frames)

@@ -10,10 +10,13 @@ import numpy as np  # noqa: E402
 from matplotlib.cm import ScalarMappable  # noqa: E402
 from matplotlib.collections import LineCollection  # noqa: E402
 from matplotlib.colors import Normalize  # noqa: E402
+from matplotlib.patheffects import withStroke  # noqa: E402
 
-from contact_line import boundary_edges  # noqa: E402
+import shapes  # noqa: E402
+from columns import ROUNDING, labelled  # noqa: E402
 from ending import Wrong  # noqa: E402
-from runs import extent, natural_scale  # noqa: E402
+from recovery import averaged, von_mises  # noqa: E402
+from runs import extent, natural_scale, top_of  # noqa: E402
 
 INK, MUTED, MESH, GRID = "#222222", "#777777", "#55555a", "#dddddd"
 NONMORTAR, MORTAR = "#b0128a", "#0b7a3b"
@@ -29,7 +32,6 @@ STYLE = {
 }
 FINE = 20_000  # triangles of a body
 FAR = 1e6  # times the bodies: what is larger or smaller cannot be drawn beside them
-ROUNDING = 1e-9  # of the largest value: what is less apart has one colour
 
 
 @dataclass
@@ -53,25 +55,38 @@ def bodies_of(views):
     return [body for each in views for body in each.run.bodies.values()]
 
 
-def labelled(words, unit):
-    return f"{words} [{unit}]" if unit else words
+def shown_values(view, field, raw):
+    """Body name -> values by triangle, or by corner of the triangles, n x 3: of fields by vertex, and of
+    stresses and strains recovered at the vertices."""
+    values = view.result.values(view.run, field)
+    found = {}
+    for name, body in view.run.bodies.items():
+        if field.by_vertex:
+            found[name] = values[name][body.triangles]
+        elif raw or not field.recoverable:
+            found[name] = values[name]
+        elif field.name == "von_mises":
+            parts = [averaged(body, body.stress[:, c]) for c in range(body.stress.shape[1])]
+            found[name] = von_mises(*parts)
+        else:
+            found[name] = averaged(body, values[name])
+    return found
 
 
-def colours_of(field, values):
-    """Norm, colours and whether the scale ends below the largest value:
-    a corner must not take all the colours."""
-    values = np.concatenate(values)
+def colours_of(field, of_views):
+    """Norm, colours and at which ends values are beyond the scale: a corner must not take all the colours.
+    of_views: bodies and values by triangle or corner."""
+    values = np.concatenate([each.ravel() for _, named in of_views for each in named.values()])
     low, high = values.min(), values.max()
     size = max(abs(low), abs(high))
     cut = False
+    top = max(top_of(field, bodies, named) for bodies, named in of_views)
     if field.signed:
-        top = np.percentile(np.abs(values), 99.5)
         cut = top < 0.7 * size
-        low, high = (-top, top) if cut else (-size, size)
+        low, high = (-top, top) if cut and top > 0 else (-size, size)
     else:
-        top = np.percentile(values, 99.5)
         cut = top < 0.7 * high
-        high = top if cut else high
+        high = top if cut and top > 0 else high
         low = min(0.0, low) if high - low > 0.5 * abs(high) else low
     if high - low <= ROUNDING * size or size == 0:
         margin = 0.1 * size or 1.0
@@ -80,36 +95,69 @@ def colours_of(field, values):
     return Normalize(low, high), matplotlib.colormaps[colours], cut
 
 
-def draw_bodies(axes, run, scale=1.0, values=None, norm=None, colours=None, by_vertex=False, edge=None):
-    """Deformed triangles; coloured by values, or plain meshes where there are none."""
+def draw_bodies(axes, run, scale=1.0, values=None, norm=None, colours=None):
+    """Deformed triangles; coloured by values (shown_values), or plain meshes where there are none."""
     for i, (name, body) in enumerate(run.bodies.items()):
-        x, y = (body.points + scale * body.displacement).T
-        width = edge if edge is not None else min(0.3, 30 / np.sqrt(len(body.triangles)) / 10)
+        corners, owner, parts = shapes.pieces(body, scale)
+        x, y = corners.reshape(-1, 2).T
+        triangles = np.arange(len(x)).reshape(-1, 3)
+        fine = len(triangles) > FINE
+        style = {"cmap": colours, "norm": norm, "rasterized": fine}
         if values is None:
-            paint = np.full(len(body.triangles), 0.25 if i % 2 else 0.1)
-            axes.tripcolor(x, y, body.triangles, facecolors=paint, cmap="Greys", vmin=0, vmax=1,
-                           edgecolors=MESH, linewidth=max(width, 0.15))
-        elif by_vertex:
-            axes.tripcolor(x, y, body.triangles, values[name], cmap=colours, norm=norm, shading="gouraud",
-                           rasterized=True)
-            axes.triplot(x, y, body.triangles, color=MESH, lw=width)
+            axes.tripcolor(x, y, triangles, facecolors=np.full(len(triangles), 0.25 if i % 2 else 0.1),
+                           cmap="Greys", vmin=0, vmax=1, edgecolors="face", linewidth=0.1, rasterized=fine)
+        elif values[name].ndim == 2:
+            paint = np.einsum("tij,tj->ti", parts, values[name][owner])
+            axes.tripcolor(x, y, triangles, paint.ravel(), shading="gouraud",
+                           **{**style, "rasterized": True})
         else:
-            fine = len(body.triangles) > FINE  # edges would cover the colours
-            axes.tripcolor(x, y, body.triangles, facecolors=values[name], cmap=colours, norm=norm,
-                           edgecolors="face" if fine else MESH, linewidth=0 if fine else width,
-                           rasterized=fine, antialiased=not fine)
+            axes.tripcolor(x, y, triangles, facecolors=values[name][owner], edgecolors="face",
+                           linewidth=0 if fine else 0.1, antialiased=not fine, **style)
+        draw_edges(axes, body, scale, 1.0 if values is None else 0.5, fine)
+
+
+def draw_edges(axes, body, scale, strength, fine):
+    """Sides of triangles, thin where they are short, that refined places are not dark; the boundary."""
+    sides = shapes.sides(body, scale)
+    length = np.hypot(*(sides[:, 1] - sides[:, 0]).T)
+    box = np.ptp(body.points, axis=0).max()
+    points = 250 * length / (box if box > 0 else 1)  # as long as they are in a picture of usual size
+    seen = points > 1.5
+    axes.add_collection(LineCollection(sides[seen], colors=MESH, alpha=strength, rasterized=fine,
+                                       linewidths=np.clip(0.03 * points[seen], 0.05, 0.35)), autolim=False)
+    axes.add_collection(LineCollection(shapes.outline(body, scale), colors=INK, linewidths=0.6, zorder=2.5),
+                        autolim=False)
 
 
 def draw_as_meshed(axes, run):
     """Outlines of the bodies as meshed, dashed."""
     for body in run.bodies.values():
-        axes.add_collection(LineCollection(body.points[boundary_edges(body.triangles)], colors=MUTED,
-                                           linewidths=0.6, linestyles=[(0, (4, 3))], zorder=3), autolim=False)
+        axes.add_collection(LineCollection(shapes.outline(body, 0.0), colors=MUTED, linewidths=0.6,
+                                           linestyles=[(0, (4, 3))], zorder=3), autolim=False)
+
+
+def mark_extremes(axes, view, scale, field, values):
+    """The place of the largest value, and of the smallest where values have two signs."""
+    ends = [max] if not field.signed else [max, min]
+    flat = np.concatenate([each.ravel() for each in values.values()])
+    if not field.marked or not np.ptp(flat) > ROUNDING * np.abs(flat).max():
+        return
+    for end in ends:
+        name = end(values, key=lambda each: getattr(values[each], end.__name__)())
+        found, body = values[name], view.run.bodies[name]
+        at = np.unravel_index(getattr(found, f"arg{end.__name__}")(), found.shape)
+        corners = shapes.placed(body, scale)[body.triangles[at[0]]]
+        place = corners[at[1]] if len(at) == 2 else corners.mean(0)
+        axes.plot(*place, marker="o", ms=5, mfc="none", mec=INK, mew=1, zorder=8, clip_on=True)
+        axes.annotate(f"{found[at]:.4g}", place, (4, 4), textcoords="offset points", fontsize=8, zorder=8,
+                      annotation_clip=True, path_effects=[withStroke(linewidth=2, foreground="white")])
 
 
 def draw_whole(axes, view, scale, window, field, values, norm, colours):
-    draw_bodies(axes, view.run, scale, values, norm, colours, field is not None and field.by_vertex)
+    draw_bodies(axes, view.run, scale, values, norm, colours)
     draw_as_meshed(axes, view.run)
+    if values is not None:
+        mark_extremes(axes, view, scale, field, values)
     axes.set_aspect("equal")
     axes.set_xlim(window[0], window[1])
     axes.set_ylim(window[2], window[3])
@@ -152,13 +200,14 @@ def strip_window(lines):
     return low - margin, high + margin, middle, max(half, 0.02 * (high - low))
 
 
-def draw_magnified(axes, view, line, window, field, values, norm, colours):
+def draw_magnified(axes, view, line, window, values, norm, colours):
     """A strip about the line of contact, stretched across it; where the bodies penetrate it is hatched."""
     low, high, middle, half = window
     for name in (line.nonmortar, line.mortar):
         body = view.run.bodies[name]
         moved = np.abs(body.displacement).max()
-        box = line.points.min(0) - half - 2 * moved, line.points.max(0) + half + 2 * moved
+        reach = abs(middle) + half + 2 * moved
+        box = line.points.min(0) - reach, line.points.max(0) + reach
         near = ((body.points >= box[0]) & (body.points <= box[1])).all(1)
         triangles = np.flatnonzero(near[body.triangles].any(1))
         if len(triangles) * len(line.length) > 2_000_000:
@@ -173,11 +222,15 @@ def draw_magnified(axes, view, line, window, field, values, norm, colours):
         if values is None:
             continue
         style = {"cmap": colours, "norm": norm}
-        if field.by_vertex:
-            axes.tripcolor(*placed.T, corners[sound], values[name][vertices], shading="gouraud", **style)
+        of_triangles = values[name][triangles[sound]]
+        if of_triangles.ndim == 2:
+            x, y = placed[corners[sound]].reshape(-1, 2).T
+            axes.tripcolor(x, y, np.arange(len(x)).reshape(-1, 3), of_triangles.ravel(), shading="gouraud",
+                           rasterized=True, **style)
+            axes.triplot(*placed.T, corners[sound], color=MESH, lw=0.3)
         else:
-            axes.tripcolor(*placed.T, corners[sound], facecolors=values[name][triangles[sound]],
-                           edgecolors=MESH, linewidth=0.3, **style)
+            axes.tripcolor(*placed.T, corners[sound], facecolors=of_triangles, edgecolors=MESH,
+                           linewidth=0.3, **style)
     hatch_penetration(axes, line)
     for edge in line.mortar_trace:
         axes.plot(*edge.T, color=MORTAR, lw=1.6, zorder=5, marker="s", ms=3.2, mfc="white")
@@ -197,20 +250,22 @@ def hatch_penetration(axes, line):
                                                                            across[-1, 0]))]
     if len(x) < 2 or (np.diff(line.nonmortar_trace[:, 0]) < 0).any():
         return
-    above, below = np.interp(x, *line.nonmortar_trace.T), np.interp(x, *across.T)
-    if np.max(below - above) > ROUNDING * np.ptp(x):
-        axes.fill_between(x, above, below, where=below > above, interpolate=True, facecolor="none",
+    ours, theirs = np.interp(x, *line.nonmortar_trace.T), np.interp(x, *across.T)
+    overlap = line.up * (theirs - ours)
+    if np.max(overlap) > ROUNDING * np.ptp(x):
+        axes.fill_between(x, ours, theirs, where=overlap > 0, interpolate=True, facecolor="none",
                           edgecolor=INK, hatch="//////", linewidth=0, zorder=4)
 
 
-def fields(views, field_name="von_mises", scale=None, window=None, norm=None, colours=None, strips=True):
+def fields(views, field_name="von_mises", scale=None, window=None, norm=None, colours=None, strips=True,
+           raw=False):
     """One column a view: the deformed bodies, under them their lines of contact magnified. norm, colours: in
-    place of those that the values suggest."""
+    place of those that the values suggest. raw: stresses of the triangles, not recovered at the vertices."""
     field, values, cut = None, [None] * len(views), False
     if field_name != "none":
         field = views[0].result.fields(views[0].run)[field_name]
-        values = [each.result.values(each.run, field) for each in views]
-        natural = colours_of(field, [v for each in values for v in each.values()])
+        values = [shown_values(each, field, raw) for each in views]
+        natural = colours_of(field, [(each.run.bodies, value) for each, value in zip(views, values)])
         cut = natural[2] and norm is None
         norm, colours = norm or natural[0], colours or natural[1]
     scale = scale if scale is not None else natural_scale(bodies_of(views))
@@ -238,8 +293,8 @@ def fields(views, field_name="von_mises", scale=None, window=None, norm=None, co
         for k, line in enumerate(lines[i]):
             below = figure.add_subplot(grid[1 + k, i])
             shared = strip_window([of_run[k] for of_run in lines if len(of_run) > k] if alike else [line])
-            draw_magnified(below, each, line, shared, field, value, norm, colours)
-            below.set_ylabel("magnified")
+            draw_magnified(below, each, line, shared, value, norm, colours)
+            below.set_ylabel(labelled("across, magnified", each.result.length_unit))
             below.set_title(f"contact: {line.nonmortar} (nonmortar, circles), {line.mortar} (squares)",
                             loc="left", fontsize=8)
     if field is not None:

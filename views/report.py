@@ -13,13 +13,17 @@ from pathlib import Path
 
 import numpy as np
 
+import columns
+import tables
 from coding import Block, scaled
 from contact_line import boundary_edges
 from ending import shown
-from runs import extent, natural_scale
+from recovery import NormalStress
+from runs import extent, natural_scale, top_of
 
 PAGE = Path(__file__).resolve().parent / "page"
-PROGRAM = ("data.js", "controls.js", "bodies.js", "charts.js", "page.js")  # one after the other, one function
+# one after the other, one function
+PROGRAM = ("data.js", "values.js", "bodies.js", "charts.js", "controls.js", "page.js")
 # of all kept steps together: beyond that steps are left out, so that the page stays small
 TRIANGLES = 600_000
 MANY = 200_000  # of the same: beyond that numbers have a digit less
@@ -44,13 +48,16 @@ def von_mises_of(integers, exponents):
 
 
 def mesh_block(body):
+    """Points, corners, region of each triangle; of the boundary edges both ends, their triangle and, where
+    triangles are quadratic, the vertex in the middle (else the first end again)."""
     block = Block()
     for c in (0, 1):
         block.add(body.points[:, c], 7)
     first = body.triangles[:, 0]
-    edges = boundary_edges(body.triangles)
+    edges, owner, side = boundary_edges(body.triangles, owners=True)
+    middle = edges[:, 0] if body.elements is None else body.elements[owner, 3 + side]
     for numbers in (first, body.triangles[:, 1] - first, body.triangles[:, 2] - first, edges[:, 0],
-                    edges[:, 1]):
+                    edges[:, 1], owner, middle - edges[:, 0]):
         add_integers(block, numbers)
     add_integers(block, body.cells.get("region", np.zeros(len(body.triangles))))
     return block, len(edges)
@@ -80,10 +87,10 @@ def step_block(result, run, fields, earlier, many):
             if name in ("s11", "s22", "s12", "s33"):
                 stress.append(found)
     ranges = {}
-    for name in [*order_of(fields), "u"]:
-        numbers = np.concatenate(list((values[name] if name in values
-                                       else result.values(run, fields["u"])).values()))
-        top = np.percentile(np.abs(numbers) if fields[name].signed else numbers, 99.5)
+    for name in [*order_of(fields), "u", *(["region"] if "region" in fields else [])]:
+        of_bodies = values[name] if name in values else result.values(run, fields[name])
+        numbers = np.concatenate(list(of_bodies.values()))
+        top = top_of(fields[name], run.bodies, of_bodies)
         ranges[name] = [float(f"{each:.6g}") for each in (numbers.min(), numbers.max(), top)]
     return block, ranges
 
@@ -117,13 +124,13 @@ def run_data(result, share):
     most = max(1, int(TRIANGLES * share) // triangles)
     if len(kept) > most:
         kept = [kept[i] for i in sorted({round(i) for i in np.linspace(len(kept) - 1, 0, most)})]
-    fields = result.fields(first)
+    fields, size = result.fields(first), extent(first.bodies.values())
     bodies = []
     for name, body in first.bodies.items():
         block, edges = mesh_block(body)
         bodies.append({"name": name, "vertices": len(body.points), "triangles": len(body.triangles),
                        "edges": edges, "mesh": block.json()})
-    steps, lines, earlier, ranges = [], [], None, []
+    steps, lines, earlier, ranges, recovered = [], [], None, [], {}
     for step, time in kept:
         run = result.at(step)
         block, of_step = step_block(result, run, fields, earlier, len(kept) * triangles > MANY)
@@ -136,8 +143,10 @@ def run_data(result, share):
                               "x": numbers(line.abscissa, 7), "vertex": line.vertices.tolist(),
                               "length": float(line.lengths[-1]), "steps": []})
             jump = line.jump if line.jump is not None and len(line.jump[0]) * len(kept) < 200_000 else None
+            if k not in recovered:
+                recovered[k] = NormalStress(run.bodies[line.nonmortar], line)
             lines[k]["steps"].append({"pressure": numbers(line.pressure), "gap": numbers(line.gap),
-                                      "force": numbers(line.force),
+                                      "body": numbers(recovered[k](run.bodies[line.nonmortar]), 4),
                                       **({"shear": numbers(line.shear), "slipping": line.slipping.tolist()}
                                          if line.shear is not None else {}),
                                       "jump": [numbers(each) for each in jump] if jump is not None else None})
@@ -148,66 +157,33 @@ def run_data(result, share):
             "units": {"length": result.length_unit, "stress": result.stress_unit, "time": result.time_unit},
             "keptSteps": len(result.kept), "bodies": bodies, "fields": listed, "order": order_of(fields),
             "steps": steps, "ranges": ranges, "lines": lines, "scale": natural_scale(first.bodies.values()),
-            "extent": extent(first.bodies.values()), "history": history_of(result),
-            "asked": asked_of(result), **words_of(result)}
+            "extent": size, "history": history_of(result, size), **words_of(result)}
 
 
-def asked_of(result):
-    """The quantities of the scene: name, value with its unit, where, range in time and what is known of the
-    error."""
-    rows = []
-    for name, each in result.summary.get("quantities", {}).items():
-        unit, bound = each.get("unit", ""), each.get("bound") or {}
-
-        def at(key, each=each):
-            found = each.get(key)
-            return f"{found['value']:.5g} at t = {found['time']:.5g} {result.time_unit}" if found else ""
-        error = bound.get("error") if bound.get("error") is not None else bound.get("estimate")
-        kind = "estimated" if bound.get("error") is None else "guaranteed"
-        words = f"\u00b1 {error:.3g}, {kind}" if error is not None else ""
-        if each.get("grows_with_rounds"):
-            words = "no limit: it grows with every refinement"
-        elif not words and "change_in_last_round" in each:
-            words = f"changed by {each['change_in_last_round']:.3g} in the last round of refinement"
-        rows.append([shown(name, 200), f"{each['value']:.6g}", shown(unit, 60),
-                     ", ".join(f"{x:.4g}" for x in each.get("at", [])), at("smallest"), at("largest"), words])
-    return rows
-
-
-def history_of(result):
-    rows = len(next(iter(result.history.values()), []))
+def history_of(result, size):
+    """What is drawn against time: of every column its name, words, unit and whether the scene adds it."""
+    history = result.history
+    rows = len(next(iter(history.values()), []))
     every = max(1, -(-rows // HISTORY_ROWS))
     chosen = sorted({*range(0, rows, every), rows - 1}) if rows else []
-    return {"every": every,
-            "columns": {name: numbers(values[chosen]) for name, values in result.history.items()
-                                        if name != "rung" and len(values)}}
+    asked = {row[0] for row in tables.quantities(result)}
+    shown_ones = columns.drawn([history], size)
+    path = columns.force_and_displacement(shown_ones)
+    return {"every": every, "path": path,
+            "time": numbers(history.get(f"time[{result.time_unit}]", np.zeros(0))[chosen]),
+            "columns": [{"name": name, "words": columns.words_of(name), "unit": columns.unit_of(name),
+                         "asked": columns.bare(name) in asked, "y": numbers(history[name][chosen])}
+                        for name in shown_ones]}
 
 
 def words_of(result):
     """Tables and text of the page."""
     summary = result.summary
-
-    def flat(value, name=""):
-        if isinstance(value, dict):
-            return [pair for key, each in value.items()
-                    for pair in flat(each, f"{name}, {key}" if name else str(key))]
-        if isinstance(value, list):
-            return [(name, "; ".join(str(each) for each in value) or "none")]
-        return [(name, value)]
-
-    facts = {key: summary[key] for key in ("plane", "scheme", "steps", "contact", "nonmortar", "projection",
-                                           "triangles", "nodes",
-                                           "dofs", "newton_iterations", "rejected_attempts", "guarded_steps",
-                                           "rungs", "settings") if key in summary}
-    facts["materials"] = {body["name"]: body.get("material", "") for body in summary["bodies"]}
-    tables = {"Run": facts, "At the end": summary.get("final", {}),
-              "Largest of the run": summary.get("peaks", {}),
-              "Verification (worst step)": summary.get("verification", {}),
-              "Estimated accuracy": summary.get("accuracy", {})}
-    scene = summary.get("scene_text")
-    return {"tables": {name: [[shown(key, 200), shown(value, 500)] for key, value in flat(table)]
-                       for name, table in tables.items()},
-            "plan": plan_of(summary), "scene": scene[:SCENE_LETTERS] if isinstance(scene, str) else None,
+    scene, settings = summary.get("scene_text"), summary.get("settings")
+    return {"quantities": tables.quantities(result), "tables": tables.pairs(result),
+            "grids": tables.grids(result), "plan": plan_of(summary),
+            "scene": scene[:SCENE_LETTERS] if isinstance(scene, str) else None,
+            "settings": [shown(each, 500) for each in settings] if isinstance(settings, list) else [],
             "path": shown(summary.get("scene", ""), 500)}
 
 

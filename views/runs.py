@@ -20,6 +20,16 @@ class Field:
     signed: bool  # zero is the middle of its colours
     values: callable  # of a results.Body
 
+    @property
+    def recoverable(self):
+        """Whether it is constant in triangles because the triangles are linear."""
+        return self.name == "von_mises" or self.name[1:].isdigit()
+
+    @property
+    def marked(self):
+        """Whether its largest value says something."""
+        return self.name not in ("viscoplastic", "region")
+
 
 STRESSES, STRAINS = ("s11", "s22", "s12", "s33"), ("e11", "e22", "e12", "e33")
 AROUND_AXIS = (" (radial)", " (axial)", " (shear)", " (hoop)")  # what these are of bodies of revolution
@@ -201,6 +211,31 @@ class Result:
                 raise results.ResultError(f"{self.folder}: body {name}: {field.name} has the wrong shape "
                                           f"{values.shape}")
         return found
+
+
+def areas(body):
+    """Of the triangles as meshed."""
+    corners = body.points[body.triangles]
+    (x1, y1), (x2, y2) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+    return np.abs(x1 * y2 - x2 * y1) / 2
+
+
+def top_of(field, bodies, values):
+    """Where the colours of a field end: 99.5 % of the area has a smaller value. values: by triangle, by
+    corner of the triangles or by vertex."""
+    sizes, weights = [], []
+    for name, body in bodies.items():
+        area, each = areas(body), values[name]
+        if each.ndim == 2:
+            area = np.repeat(area / 3, 3)
+        elif field.by_vertex:
+            area = np.bincount(body.triangles.ravel(), np.repeat(area / 3, 3), len(each))
+        sizes.append(np.abs(each.ravel()) if field.signed else each.ravel())
+        weights.append(area)
+    sizes, weights = np.concatenate(sizes), np.concatenate(weights)
+    order = np.argsort(sizes, kind="stable")
+    summed = np.cumsum(weights[order])
+    return sizes[order[min(np.searchsorted(summed, 0.995 * summed[-1]), len(order) - 1)]]
 
 
 def extent(bodies):

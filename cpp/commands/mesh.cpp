@@ -188,13 +188,12 @@ int meshInfo(const std::string& file) {
 
   // 4. Print.
   std::printf(
-      "%s\nvertices   %zu\ntriangles  %zu\narea       %.9g m^2\nextents    x %.9g .. %.9g, y %.9g .. %.9g "
-      "m\n",
+      "%s\nvertices   %zu\ntriangles  %zu\narea       %.9g\nextents    x %.9g .. %.9g, y %.9g .. %.9g\n",
       file.c_str(), mesh.vertices.size(), mesh.triangles.size(), area, lower[0], upper[0], lower[1],
       upper[1]);
   std::printf("worst aspect ratio %.3g (triangle %d; 1 is equilateral)\n", worst, worstTriangle + 1);
   for (const auto& [label, what] : boundary) {
-    std::printf("label %-5d %s, length %.9g m%s\n", label, counted(what.first, "edge").c_str(), what.second,
+    std::printf("label %-5d %s, length %.9g%s\n", label, counted(what.first, "edge").c_str(), what.second,
                 named(mesh.labelNames, label).c_str());
   }
   for (const auto& [region, count] : regions) {

@@ -139,6 +139,7 @@ Command addPlot(CLI::App& app) {
   addText(command, "--window", "part of the plane (default: all)", "XMIN,XMAX,YMIN,YMAX");
   addText(command, "--only", "one of the pictures (default: all)", "fields|contact|history");
   command->add_flag("--animate")->description("a GIF of all steps that were kept as well");
+  command->add_flag("--raw")->description("stresses of the triangles, not recovered at the vertices");
   return plot;
 }
 
@@ -157,9 +158,10 @@ Command addCompare(CLI::App& app) {
   scene->addScene(*command);
   scene->addSettings(*command);
   scene->addGoal(*command, "--accuracy", "energy", "E");
-  addText(command, "--accept", "store the result of the scene as a reference", "FOLDER");
+  addText(command, "--accept",
+          "store the result of the scene as a reference, or its numbers alone as FILE.json", "FOLDER");
   addText(command, "--against",
-          "a result (of --accept or mortier run), or BODY=FILE.vtu of another code (default: FreeFEM)",
+          "what --accept or mortier run stored, or BODY=FILE.vtu of another code (default: FreeFEM)",
           "FOLDER")
       ->take_all();
   addText(command, "--within",

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "contact/element_tree.h"
+#include "mesh/label_text.h"
 
 namespace mortier {
 namespace {
@@ -119,14 +120,14 @@ Eigen::SparseMatrix<double> assembled(Eigen::Index rows, Eigen::Index columns, c
 void requireAllowed(const Vector& distance, InitialGap initial, double shorter, const std::string& names) {
   const auto refuse = [&](const std::string& what, double by, const std::string& expected) {
     std::ostringstream message;
-    message << names << what << by << " m as meshed, expected " << expected;
+    message << names << what << by << " as meshed, expected " << expected;
     throw InputError(message.str());
   };
   const double least = distance.minCoeff();
   if (initial == InitialGap::asMeshed && least < -largestPenetration * shorter) {
     std::ostringstream expected;
     expected << "at most " << largestPenetration * shorter
-             << " m (a hundredth of the shorter line); initial = \"close\" would let them touch";
+             << " (a hundredth of the shorter line); initial = \"close\" would let them touch";
     refuse(" penetrate each other by ", -least, expected.str());
   }
   if (initial != InitialGap::reject) return;
@@ -148,8 +149,9 @@ ContactInterface::ContactInterface(const ContactPair& pair, const ContactMesh& n
     : pair_(pair), friction_(options.friction), axisymmetric_(options.axisymmetric) {
   const BoundaryLine nonmortar = boundaryLine(nonmortarMesh.mesh, nonmortarMesh.nodes, pair.nonmortar.label);
   const BoundaryLine mortar = boundaryLine(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label);
-  const std::string names = nonmortarMesh.mesh.name + " label " + std::to_string(pair.nonmortar.label) +
-                            " and " + mortarMesh.mesh.name + " label " + std::to_string(pair.mortar.label);
+  const std::string names = nonmortarMesh.mesh.name + " " +
+                            labelText(nonmortarMesh.mesh, pair.nonmortar.label) + " and " +
+                            mortarMesh.mesh.name + " " + labelText(mortarMesh.mesh, pair.mortar.label);
   const double shorter = std::min(lengthOf(nonmortar), lengthOf(mortar));
 
   const std::vector<SmoothPart> parts = partsFacing(nonmortar, mortar);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/digits.h"
 #include "lint/lint.h"
 
 namespace mortier {
@@ -93,7 +94,7 @@ void comparePair(const LintInput& input, size_t i, size_t j, Faults& faults) {
   const double ratio = extent(a) / extent(b);
   if (std::max(ratio, 1 / ratio) > units)
     faults.add("extent-ratio", ratio < 1 ? one.meshWhere : two.meshWhere,
-               both + " are " + shortest(extent(a)) + " " + length + " and " + shortest(extent(b)) + " " +
+               both + " are " + digits(extent(a), 4) + " " + length + " and " + digits(extent(b), 4) + " " +
                    length + " wide");
   const double young = one.material.elasticity.young / two.material.elasticity.young;
   if (std::max(young, 1 / young) >= units)
@@ -101,7 +102,7 @@ void comparePair(const LintInput& input, size_t i, size_t j, Faults& faults) {
                both + " have young = " + shortest(one.material.elasticity.young) + " " + stress + " and " +
                    shortest(two.material.elasticity.young) + " " + stress);
   if (sameMesh(one.mesh, two.mesh)) {
-    faults.add("same-mesh", two.meshWhere, both + " are meshed by the same file and lie on each other");
+    faults.add("same-mesh", two.meshWhere, both + " are meshed by the same file, in one place");
     return;
   }
   if (input.topologies[i].boundary.empty() || input.topologies[j].boundary.empty()) return;
@@ -117,14 +118,14 @@ void comparePair(const LintInput& input, size_t i, size_t j, Faults& faults) {
     const TriangleMesh& mesh = m1.inside >= 0 ? a : b;
     const int v = m1.inside >= 0 ? m1.inside : m2.inside;
     faults.add("bodies-overlap", mesh.name + ": vertex " + std::to_string(v + 1),
-               both + " overlap, e.g. at (" + shortest(mesh.vertices[v].x()) + ", " +
-                   shortest(mesh.vertices[v].y()) + ")");
+               both + " penetrate each other, e.g. at (" + digits(mesh.vertices[v].x(), 4) + ", " +
+                   digits(mesh.vertices[v].y(), 4) + ")");
   } else if (m1.touching + m2.touching > 2 && !inContact(input.scene, one.name, two.name)) {
     const TriangleMesh& mesh = m1.touching > 0 ? a : b;
     const int v = m1.touching > 0 ? m1.where : m2.where;
     faults.add("contact-missing", mesh.name + ": vertex " + std::to_string(v + 1),
-               both + " touch, e.g. at (" + shortest(mesh.vertices[v].x()) + ", " +
-                   shortest(mesh.vertices[v].y()) + "), and no contact says so");
+               both + " touch, e.g. at (" + digits(mesh.vertices[v].x(), 4) + ", " +
+                   digits(mesh.vertices[v].y(), 4) + "), and no contact says so");
   }
 }
 

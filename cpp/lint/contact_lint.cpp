@@ -8,6 +8,7 @@
 #include "lint/lint.h"
 #include "lint/topology.h"
 #include "mesh/boundary_line.h"
+#include "mesh/label_text.h"
 #include "plan/estimate_doubts.h"
 #include "scene/build.h"
 #include "scene/memory_need.h"
@@ -45,7 +46,7 @@ Side sideOf(const LintInput& input, const SideDescription& description, int labe
 }
 
 std::string name(const Side& side) {
-  return "label " + std::to_string(side.description->label) + " of body " + side.description->body;
+  return labelText(*side.mesh, side.description->label) + " of body " + side.description->body;
 }
 
 /// Whether both sides have a direction of their own; a closed line has none.
@@ -73,8 +74,8 @@ std::string facingPair(const LintInput& input, const Side& a, const Side& b) {
       const double tolerance = 1e-6 * std::min(one.length, two.length);
       if (distance < -tolerance || distance >= least) continue;
       least = distance;
-      pair = "label " + std::to_string(i) + " of body " + a.description->body + " faces label " +
-             std::to_string(j) + " of body " + b.description->body;
+      pair = labelText(*a.mesh, i) + " of body " + a.description->body + " faces " + labelText(*b.mesh, j) +
+             " of body " + b.description->body;
     }
   return pair.empty() ? "no labels of these bodies face each other" : pair;
 }
@@ -123,7 +124,7 @@ void diagnose(const LintInput& input, const ContactDescription& contact, const S
   }
   if (message.find("overlap") != std::string::npos)
     faults.add("contact-no-overlap", contact.where,
-               both + " pass each other: no nonmortar node sees the other side");
+               both + " face each other nowhere: no normal of the nonmortar side meets the mortar side");
   else if (message.find("penetrate") != std::string::npos)
     faults.add("contact-penetration", contact.where, message);
   else
@@ -150,8 +151,8 @@ void compareMeshes(const LintInput& input, const ContactDescription& contact, co
   const double ratio = h1 / h2;
   if (std::max(ratio, 1 / ratio) > different)
     faults.add("contact-size-ratio", contact.where,
-               "edges of " + name(one) + " are " + shortest(h1) + " " + scene.units.length +
-                   " long, those of " + name(two) + " " + shortest(h2) + " " + scene.units.length);
+               "edges of " + name(one) + " are " + digits(h1, 4) + " " + scene.units.length +
+                   " long, those of " + name(two) + " " + digits(h2, 4) + " " + scene.units.length);
   else if (ratio > coarser && !stiffer(scene, contact, contact.mortar, contact.nonmortar))
     faults.add("nonmortar-coarser", contact.nonmortar.where,
                "edges of the nonmortar side are " + shortest(std::round(10 * ratio) / 10) +
@@ -160,14 +161,15 @@ void compareMeshes(const LintInput& input, const ContactDescription& contact, co
   if (const auto found = alternation(scene, contact, input.meshes))
     faults.add("pressure-alternates", contact.where,
                "edges of " + name(two) + " are " + digits(found->edges) +
-                   " times as long as those of the nonmortar side, whose young is " +
-                   digits(found->stiffness) + " times as large");
+                   " times as long as those of the nonmortar side, whose body is " +
+                   (found->stiffness == 1 ? "as stiff" : digits(found->stiffness, 3) + " times as stiff"));
 }
 
 void compareStiffness(const LintInput& input, const ContactDescription& contact, Faults& faults) {
   if (contact.variant == CouplingKind::coarsened || !farStiffer(input.scene, contact)) return;
   const auto young = [&](const SideDescription& side) {
-    return shortest(input.scene.bodies[bodyIndex(input.scene, side.body)].material.elasticity.young);
+    return shortest(input.scene.bodies[bodyIndex(input.scene, side.body)].material.elasticity.young) + " " +
+           input.scene.units.stress;
   };
   faults.add("nonmortar-stiffer", contact.nonmortar.where,
              "the nonmortar body has young = " + young(contact.nonmortar) + ", the mortar body " +
@@ -239,8 +241,8 @@ void checkInterface(const ContactDescription& contact, const Side& one, const Si
     faults.add("contact-polygon", contact.where, doubt);
   if (gap > large * smallerExtent)
     faults.add("gap-large", contact.where,
-               "the bodies are at least " + shortest(gap) + " " + length + " apart, the smaller one is " +
-                   shortest(smallerExtent) + " " + length + " wide");
+               "the bodies are at least " + digits(gap, 4) + " " + length + " apart, the smaller one is " +
+                   digits(smallerExtent, 4) + " " + length + " wide");
   if (contact.variant == CouplingKind::interpolation && !meshesMatch(interface))
     faults.add("interpolation-unmatched", contact.where,
                "interpolation on meshes that do not match has an error of order one along the contact line");
@@ -299,7 +301,7 @@ void checkSliding(const LintInput& input, const ContactDescription& contact, con
   if (!past && !(worst.edges > noticeable)) return;
   faults.add(
       "contact-slides", contact.where,
-      "supports move " + name(one) + " by " + shortest(worst.slip) + " " + input.scene.units.length +
+      "supports move " + name(one) + " by " + digits(worst.slip, 4) + " " + input.scene.units.length +
           " along " + name(two) +
           (past ? std::string(", past its end")
                 : ", " + shortest(std::round(10 * worst.edges) / 10) + " times the length of an edge"));
@@ -314,9 +316,9 @@ void lintContacts(const LintInput& input, Faults& faults) {
       for (const SideDescription* a : {&contact.nonmortar, &contact.mortar})
         for (const SideDescription* b : {&input.scene.contacts[j].nonmortar, &input.scene.contacts[j].mortar})
           if (a->body == b->body && a->label == b->label)
-            faults.add("contact-side-twice", a->where,
-                       "label " + std::to_string(a->label) + " of body " + a->body +
-                           " is a side of another contact too, at " + b->where);
+            faults.add(
+                "contact-side-twice", a->where,
+                name(sideOf(input, *a, a->label)) + " is a side of another contact too, at " + b->where);
     const Side one = sideOf(input, contact.nonmortar, contact.nonmortar.label);
     const Side two = sideOf(input, contact.mortar, contact.mortar.label);
     if (one.edges == 0 || two.edges == 0) continue;  // named elsewhere

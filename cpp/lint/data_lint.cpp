@@ -117,8 +117,9 @@ class DataLint {
   void tell(const std::string& id, const Expression& datum, const Sum& sum, const std::string& what) {
     const size_t end = datum.where.find(": ");
     faults_.add(id, datum.where.substr(0, end),
-                (end == std::string::npos ? "" : datum.where.substr(end + 2) + ": ") + what +
-                    shortest(sum.worst) + (datum.inTime ? ", t = " + shortest(sum.time) : ""));
+                (end == std::string::npos ? "" : datum.where.substr(end + 2) + ": ") + what + "[" +
+                    digits(sum.worst.x(), 4) + ", " + digits(sum.worst.y(), 4) + "]" +
+                    (datum.inTime ? ", t = " + digits(sum.time, 4) : ""));
   }
 
   const SceneDescription& scene_;

@@ -34,6 +34,19 @@ int Faults::count(Severity severity) const {
   return static_cast<int>(number);
 }
 
+bool Faults::has(const std::string& id) const {
+  return kinds_.count(&faultKind(id)) != 0;
+}
+
+void Faults::drop(const std::string& id) {
+  const FaultKind& kind = faultKind(id);
+  faults_.erase(
+      std::remove_if(faults_.begin(), faults_.end(), [&](const Fault& fault) { return fault.kind == &kind; }),
+      faults_.end());
+  kinds_.erase(&kind);
+  for (size_t i = 0; i < faults_.size(); ++i) kinds_[faults_[i].kind].last = i;
+}
+
 std::string listed(size_t n, const std::function<std::string(size_t)>& word) {
   constexpr size_t most = 20;
   std::string text;

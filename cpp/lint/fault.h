@@ -46,6 +46,9 @@ class Faults {
   void add(const std::string& id, const std::string& place, const std::string& message);
   [[nodiscard]] const std::vector<Fault>& all() const { return faults_; }
   [[nodiscard]] int count(Severity severity) const;
+  [[nodiscard]] bool has(const std::string& id) const;
+  /// All of a kind, also those that are counted only.
+  void drop(const std::string& id);
 
  private:
   struct OfKind {

@@ -7,6 +7,7 @@
 #include "lint/held_dofs.h"
 #include "lint/lint.h"
 #include "mesh/boundary_line.h"
+#include "mesh/label_text.h"
 #include "scene/resolve.h"
 
 namespace mortier {
@@ -63,8 +64,8 @@ void findMissing(const LintInput& input, size_t b, const Topology& topology, Fau
   const TriangleMesh& mesh = *input.meshes[b];
   const std::vector<int> labels = boundaryLabels(mesh);
   const std::string known = listed(labels.size(), [&](size_t i) {
-    return std::to_string(labels[i]) + nameOf(mesh.labelNames, labels[i]) + " " +
-           sideOf(mesh, topology, labels[i]);
+    return std::to_string(labels[i]) + nameOf(mesh.labelNames, labels[i]) + " (" +
+           sideOf(mesh, topology, labels[i]) + ")";
   });
   const auto require = [&](int label, const std::string& name, const std::string& place) {
     if (std::binary_search(labels.begin(), labels.end(), label)) return;
@@ -109,8 +110,8 @@ void findUnused(const LintInput& input, size_t b, const Topology& topology, Faul
     edgeTo[topology.boundary[e].to] = e;
   }
   const auto used = [&](int label) { return label != noLabel && uses.count(label) != 0; };
-  const auto name = [](int label) {
-    return label == noLabel ? std::string("no label") : "label " + std::to_string(label);
+  const auto name = [&](int label) {
+    return label == noLabel ? std::string("no label") : labelText(mesh, label);
   };
   const auto straight = [&](const BoundaryEdge& one, const BoundaryEdge& two) {
     return normal(mesh, one).normalized().dot(normal(mesh, two).normalized()) > sameDirection;
@@ -153,7 +154,7 @@ void findUnused(const LintInput& input, size_t b, const Topology& topology, Faul
     if (label != noLabel && !used(label) && !named[label] && number <= stray &&
         topology.boundary.size() >= many * number * edges.size())
       faults.add("stray-label", mesh.name + ": label " + std::to_string(label),
-                 body + "label " + std::to_string(label) + " is on " + std::to_string(number) + " of " +
+                 body + labelText(mesh, label) + " is on " + std::to_string(number) + " of " +
                      std::to_string(topology.boundary.size()) +
                      " boundary edges, and the scene says nothing of it");
 }

@@ -1,8 +1,10 @@
 #include "lint/lint.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "base/digits.h"
 #include "base/fault_error.h"
 #include "contact/interface.h"
 #include "plan/steps.h"
@@ -22,6 +24,13 @@ std::pair<std::string, std::string> splitPlace(const std::string& message) {
   const size_t end = message.find(": ");
   if (end == std::string::npos) return {"", message};
   return {message.substr(0, end), message.substr(end + 2)};
+}
+
+/// A place that was computed: what is rounding beside the size of a body is 0.
+std::string placeText(const Point& place, double size) {
+  constexpr double rounding = 1e-12;
+  const auto number = [&](double x) { return std::abs(x) < rounding * size ? "0" : digits(x, 4); };
+  return "(" + number(place.x()) + ", " + number(place.y()) + ")";
 }
 
 /// \param id  of faults that have none of their own.
@@ -52,6 +61,23 @@ double interferenceOf(const ContactDescription& contact, const LintInput& input)
   } catch (const InputError&) {
     return 0;  // named elsewhere
   }
+}
+
+/// Warnings that say nothing beside what causes them.
+void dropConsequences(Faults& faults) {
+  static const std::vector<std::string> ofLoads{
+      "no-load",      "yields-at-once", "large-strain",          "large-displacement",
+      "never-yields", "lands-on-yield", "few-steps-across-yield"};
+  static const std::vector<std::pair<std::string, std::vector<std::string>>> consequences{
+      {"missing-label", ofLoads},
+      {"data", ofLoads},
+      {"contact-penetration", {"bodies-overlap"}},
+      {"contact-missing", {"body-alone"}},
+      {"bodies-overlap", {"body-alone"}},
+      {"contact-size-ratio", {"pressure-alternates"}}};
+  for (const auto& [cause, others] : consequences)
+    if (faults.has(cause))
+      for (const std::string& id : others) faults.drop(id);
 }
 
 void runChecks(const LintInput& input, Faults& faults) {
@@ -164,6 +190,7 @@ LintReport lint(const std::string& path, const std::vector<std::string>& setting
   const SceneDescription solved = asSolved(scene);
   runChecks(inputOf(solved, known), report.faults);
   if (report.faults.count(Severity::error) == 0) build({scene, std::move(meshes)}, report);
+  dropConsequences(report.faults);
   return report;
 }
 
@@ -173,6 +200,7 @@ Faults lintResolved(const ResolvedScene& resolved) {
   for (const TriangleMesh& mesh : resolved.meshes) meshes.push_back(&mesh);
   Faults faults(scene.allowed);
   runChecks(inputOf(scene, std::move(meshes)), faults);
+  dropConsequences(faults);
   return faults;
 }
 
@@ -181,7 +209,8 @@ void lintModel(const SceneDescription& scene, const Model& model, Faults& faults
   for (size_t b = 0; b < model.bodies.size(); ++b)
     if (const auto centre = freeRotation(model, static_cast<int>(b)))
       faults.add("free-rotation", scene.bodies[b].where,
-                 "body " + scene.bodies[b].name + " may turn about " + shortest(*centre) +
+                 "body " + scene.bodies[b].name + " may turn about " +
+                     placeText(*centre, extent(model.bodies[b].mesh())) +
                      ": neither its supports nor contact without friction hold it");
   if (scene.time.controlled()) return;  // steps see what there is
   for (const std::string& warning : loadsBetweenSteps(scene, model)) {

@@ -3,10 +3,12 @@
 #include <cstdlib>
 
 #include "base/counted.h"
+#include "base/digits.h"
 #include "base/printable.h"
 #include "lint/held_dofs.h"
 #include "lint/lint.h"
 #include "mesh/boundary_line.h"
+#include "mesh/label_text.h"
 
 namespace mortier {
 namespace {
@@ -34,12 +36,12 @@ void checkDatum(const LintInput& input, const SampledDatum& datum, Faults& fault
     const double most = datum.largestIn(input.scene.time);
     if (most > large * datum.size)
       faults.add("large-displacement", placeOf(*datum.value),
-                 subject + "a displacement of " + shortest(most) + " " + length +
-                     " is prescribed on a body of " + shortest(datum.size) + " " + length);
+                 subject + "a displacement of " + digits(most, 4) + " " + length +
+                     " is prescribed on a body of " + digits(datum.size, 4) + " " + length);
   } else if ((datum.kind == Kind::traction || datum.kind == Kind::force) && flows(body) &&
              datum.largest(0) > 0) {
     faults.add("initial-load", placeOf(*datum.value),
-               subject + "a load of " + shortest(datum.largest(0)) + " " +
+               subject + "a load of " + digits(datum.largest(0), 4) + " " +
                    (datum.kind == Kind::force ? input.scene.units.bodyForce() : input.scene.units.stress) +
                    " acts at t = 0: it comes at once, the body responds elastically before it flows");
   }
@@ -71,7 +73,7 @@ void checkHeldLoads(const LintInput& input, size_t b, Faults& faults) {
     }
     if (all)
       faults.add("load-on-support", c.where,
-                 "body " + input.scene.bodies[b].name + ": every node of label " + std::to_string(c.label) +
+                 "body " + input.scene.bodies[b].name + ": every node of " + labelText(mesh, c.label) +
                      " is held in the direction of its traction");
   }
 }

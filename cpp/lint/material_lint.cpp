@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/counted.h"
+#include "base/digits.h"
 #include "lint/lint.h"
 
 namespace mortier {
@@ -65,7 +66,7 @@ void checkElasticity(const LintInput& input, size_t b, const PlacedMaterial& mat
                subject + "poisson = " + shortest(e.poisson) + " is negative");
   if (nominal > large * e.young)
     faults.add("large-strain", material.where("young"),
-               subject + "the loads are of the order of " + shortest(nominal) + " " + unit +
+               subject + "the loads are of the order of " + digits(nominal, 4) + " " + unit +
                    ", young = " + shortest(e.young) + " " + unit + ": strains of " +
                    shortest(std::round(100 * nominal / e.young)) + " %");
 }
@@ -93,11 +94,11 @@ void checkSteps(const LintInput& input, const PlacedMaterial& material, const Vi
       2 * flow.viscosity / relaxingModulus(material.description.elasticity, input.scene.plane);
   if (step > tooStiff * relaxation)
     faults.add("viscosity-small", material.where("viscosity"),
-               subject + "a step is " + shortest(step / relaxation) +
+               subject + "a step is " + digits(step / relaxation, 4) +
                    " relaxation times long, more than doubles resolve");
   if (afterFirstStep > far * flow.yieldStress)
     faults.add("yields-at-once", input.where({"time", "steps"}),
-               subject + "the first step goes to " + shortest(afterFirstStep) + " " + unit +
+               subject + "the first step goes to " + digits(afterFirstStep, 4) + " " + unit +
                    ", with yield_stress = " + shortest(flow.yieldStress) + " " + unit);
   constexpr int few = 10;
   if (time.scheme == Scheme::backwardEuler && largest > flow.yieldStress && time.steps < few)
@@ -111,7 +112,7 @@ void checkSteps(const LintInput& input, const PlacedMaterial& material, const Vi
   constexpr double lands = 1e-9;
   if (hard && firstYield > 0 && std::abs(firstYield / step - std::round(firstYield / step)) < lands)
     faults.add("lands-on-yield", input.where({"time", "steps"}),
-               subject + "a step ends at t = " + shortest(firstYield) + " " + input.scene.units.time +
+               subject + "a step ends at t = " + digits(firstYield, 4) + " " + input.scene.units.time +
                    ", where the traction reaches the yield stress");
 }
 
@@ -133,7 +134,7 @@ void checkFlow(const LintInput& input, const PlacedMaterial& material, const Vis
   }
   if (largest > 0 && largest * unreachable < flow.yieldStress) {
     faults.add("never-yields", yieldPlace,
-               subject + yield + ", the loads are at most of the order of " + shortest(largest) + " " +
+               subject + yield + ", the loads are at most of the order of " + digits(largest, 4) + " " +
                    input.scene.units.stress);
     return;
   }
@@ -141,7 +142,7 @@ void checkFlow(const LintInput& input, const PlacedMaterial& material, const Vis
   const std::string unit = " " + input.scene.units.time;
   if (time.end < frozen * relaxation)
     faults.add("viscosity-large", material.where("viscosity"),
-               subject + "relaxes in 2 viscosity/E = " + shortest(relaxation) + unit + ", the run ends at " +
+               subject + "relaxes in 2 viscosity/E = " + digits(relaxation, 4) + unit + ", the run ends at " +
                    shortest(time.end) + unit + ": nothing has time to flow");
   if (!time.controlled() && flow.viscosity > 0)
     checkSteps(input, material, flow, largest, afterFirstStep, firstYield, faults);
@@ -157,15 +158,15 @@ void checkCreep(const LintInput& input, const PlacedMaterial& material, const No
   const double rate = creep.referenceRate * std::pow(largest / creep.referenceStress, creep.exponent) *
                       relaxingModulus(material.description.elasticity, input.scene.plane) /
                       largest;  // elastic strains [1/s]
-  const std::string loads = material.subject + "under loads of the order of " + shortest(largest) + " " +
+  const std::string loads = material.subject + "under loads of the order of " + digits(largest, 4) + " " +
                             input.scene.units.stress + " ";
   if (rate * time.end < frozen)
     faults.add("viscosity-large", material.where("reference_rate"),
                loads + "the run of " + shortest(time.end) + " " + input.scene.units.time + " creeps by " +
-                   shortest(rate * time.end) + " of the elastic strain: nothing has time to flow");
+                   digits(rate * time.end, 4) + " of the elastic strain: nothing has time to flow");
   if (!time.controlled() && rate * time.end / time.steps > tooStiff)
     faults.add("viscosity-small", material.where("reference_rate"),
-               loads + "a step creeps by " + shortest(rate * time.end / time.steps) +
+               loads + "a step creeps by " + digits(rate * time.end / time.steps, 4) +
                    " times the elastic strain, more than doubles resolve");
 }
 
@@ -247,7 +248,7 @@ void lintMaterials(const LintInput& input, Faults& faults) {
   if (time.scheme == Scheme::crankNicolson && stiffest > ringing)
     faults.add("scheme-rings", input.where({"time", "scheme"}),
                "crank-nicolson multiplies an overstress by almost -1 in every step: a step is " +
-                   shortest(2 * stiffest) + " relaxation times long");
+                   digits(2 * stiffest, 4) + " relaxation times long");
 }
 
 }  // namespace mortier

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/counted.h"
+#include "base/digits.h"
 #include "base/disjoint_sets.h"
 #include "lint/lint.h"
 #include "mesh/components.h"
@@ -15,7 +16,7 @@ namespace {
 constexpr double coincident = 1e-9;
 
 std::string at(const Point& p) {
-  return "(" + shortest(p.x()) + ", " + shortest(p.y()) + ")";
+  return "(" + digits(p.x(), 4) + ", " + digits(p.y(), 4) + ")";
 }
 
 std::string triangle(const TriangleMesh& mesh, int t) {
@@ -199,8 +200,8 @@ void findLostDigits(const TriangleMesh& mesh, const std::string& length, Faults&
   const double distance = std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
   if (distance <= far * extent(mesh)) return;
   faults.add("far-from-origin", mesh.name,
-             "coordinates up to " + shortest(distance) + " " + length + " for an extent of " +
-                 shortest(extent(mesh)) + " " + length + ": " +
+             "coordinates up to " + digits(distance, 7) + " " + length + " for an extent of " +
+                 digits(extent(mesh), 4) + " " + length + ": " +
                  shortest(std::floor(std::log10(distance / extent(mesh)))) +
                  " of 16 digits say where the mesh is, not what it is");
 }

@@ -5,12 +5,13 @@
 #include <unordered_map>
 
 #include "base/error.h"
+#include "mesh/label_text.h"
 
 namespace mortier {
 namespace {
 
 [[noreturn]] void fail(const TriangleMesh& mesh, int label, const std::string& what) {
-  throw InputError(mesh.name + ": boundary label " + std::to_string(label) + " " + what);
+  throw InputError(mesh.name + ": boundary " + labelText(mesh, label) + " " + what);
 }
 
 std::string describeVertex(const TriangleMesh& mesh, int v) {

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "base/digits.h"
 #include "base/fault_error.h"
 
 namespace mortier {
@@ -98,13 +99,13 @@ class Validator {
       const double square = longestEdgeSquared(mesh_, t);
       const double area = doubleArea(mesh_, t);
       if (square > 0 && !(square > smallestSquare && square < largestSquare)) {
-        failHere(": longest edge " + text(std::sqrt(square)) + " m, expected between 1e-140 and 1e140 m");
+        failHere(": longest edge " + text(std::sqrt(square)) + ", expected between 1e-140 and 1e140");
       }
       if (area > degenerateRatio * square) continue;
       if (area < -degenerateRatio * square)
         failHere(" is clockwise, expected counterclockwise", "clockwise-triangle");
-      failHere(" is degenerate: area " + text(area / 2) + " m^2, longest edge " + text(std::sqrt(square)) +
-                   " m, expected three corners that are not in line",
+      failHere(" is degenerate: area " + digits(area / 2, 4) + ", longest edge " +
+                   digits(std::sqrt(square), 4) + ", expected three corners that are not in line",
                "degenerate-triangle");
     }
   }

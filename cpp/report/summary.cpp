@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/ranks.h"
+#include "material/stress.h"
 #include "report/clock.h"
 #include "report/fields.h"
 #include "time/measure.h"
@@ -95,8 +96,12 @@ Json finalState(const Model& model, const State& state, const StepReport& last) 
   Point least = Point::Constant(infinity);
   Point largest = -least;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
-    const Vector ofBody = cellFields(model.bodies[b], state.bodies[b]).vonMises;
-    vonMises = {std::min(vonMises[0], ofBody.minCoeff()), std::max(vonMises[1], ofBody.maxCoeff())};
+    const Matrix& stress = state.bodies[b].stress;
+    for (Eigen::Index i = 0; i < stress.cols(); ++i) {
+      const double value =
+          mortier::vonMises(stress.col(i).head(model.bodies[b].material().tensorComponents()));
+      vonMises = {std::min(vonMises[0], value), std::max(vonMises[1], value)};
+    }
     const Eigen::Map<const Matrix> u(state.bodies[b].displacement.data(), 2, model.bodies[b].nodes());
     least = least.cwiseMin(u.rowwise().minCoeff());
     largest = largest.cwiseMax(u.rowwise().maxCoeff());

@@ -82,7 +82,7 @@ Point vertexPoint(const TriangleMesh& mesh, const Point& point, const std::strin
   if (!(distance(nearest) <= near * shortestEdge))
     throw InputError(place + ": point = " + shortest(point) + ", expected a vertex of " + mesh.name +
                      ": the nearest one is at " + shortest(mesh.vertices[nearest]) + ", " +
-                     digits(distance(nearest), 3) + " m away");
+                     digits(distance(nearest), 3) + " away");
   for (int v = 0; v < static_cast<int>(mesh.vertices.size()); ++v)
     if (v != nearest && distance(v) <= near * shortestEdge)
       throw InputError(place + ": point = " + shortest(point) + ", expected one vertex of " + mesh.name +

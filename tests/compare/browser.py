@@ -77,6 +77,10 @@ class Browser:
         """The value that a function body of JavaScript returns, a promise's too."""
         return self.send("POST", "/execute/sync", {"script": script, "args": list(arguments)})
 
+    def run_async(self, script):
+        """The same of a body that awaits."""
+        return self.run(f"return (async () => {{{script}}})()")
+
     def messages(self):
         """All that stands in the console since the last call."""
         return [entry["message"] for entry in self.send("POST", "/se/log", {"type": "browser"})]

@@ -1,12 +1,16 @@
 """mortier compare: both codes, a result that was kept, other meshes, another code's files."""
+import json
 import os
+import re
 import stat
+import subprocess
+import textwrap
 import unittest
 
 import meshio
 import numpy as np
 
-from support import OfTwoBlocks, mortier
+from support import PROGRAM, ROOT, OfTwoBlocks, mortier
 import results
 
 
@@ -55,6 +59,65 @@ class Compare(OfTwoBlocks):
         self.assertIn("displacement upper", self.beyond(lines))
         lines = self.compare(*changed, "--within", "0.01", "--picture", "d.svg")
         self.assertEqual(lines[-1], "scene.toml: agrees; d.svg")
+
+    def test_numbers_as_a_small_file(self):
+        """With the settings of the run and the tolerance; the same bytes again; no numbers of rounding."""
+        self.write(self.read("scene.toml") + '[[quantity]]\nname = "foot"\n'
+                   'reaction = { body = "lower", label = 1 }\ncomponent = "y"\n')
+        given = ("--set", 'body.upper.boundary.3.ty="-9*t"', "--within", "1e-3")
+        self.assertIn("kept, ", self.compare("--accept", "kept/scene.json", *given)[-1])
+        text = self.read("kept/scene.json")
+        self.assertLess(len(text), 1500)
+        kept = json.loads(text)
+        self.assertEqual(kept["quantities"], {"foot": {"value": 9.0, "unit": "N/m"}})
+        self.assertEqual(kept["settings"], ['body.upper.boundary.3.ty="-9*t"'])
+        self.compare("--accept", "kept/scene.json", *given)
+        self.assertEqual(self.read("kept/scene.json"), text)
+        lines = self.compare("--against", "kept/scene.json")  # with the settings and the tolerance
+        self.assertEqual(lines[-1], "scene.toml: agrees")
+        self.assertTrue(all(line.split()[-1] == "1e-03" for line in lines[1:-1]), lines)
+        for factor, code in ((1.0005, 0), (1.002, 1)):
+            kept["quantities"]["foot"]["value"] = 9 * factor
+            self.write(json.dumps(kept), "kept/changed.json")
+            lines = self.compare("--against", "kept/changed.json", code=code)
+            self.assertEqual(self.beyond(lines), ["foot"] if code else [])
+        lines = self.compare("--against", "kept/scene.json", "--set", "time.end=2", code=1)
+        self.assertIn("foot", self.beyond(lines))
+        kept["quantities"]["other"] = kept["quantities"]["foot"]
+        self.write(json.dumps(kept), "kept/changed.json")
+        self.assertIn("other: in one of them alone", self.compare("--against", "kept/changed.json", code=1))
+
+    def test_files_of_numbers_that_are_none(self):
+        self.compare("--accept", "scene.json")
+        sound = json.loads(self.read("scene.json"))
+        changes = [{"by": "x"}, {"settings": [3]}, {"within": -1}, {"final": {"time": "x"}}, {"peaks": {}},
+                   {"quantities": {"a": {"value": None, "unit": ""}}}, {"final": 3}]
+        for text in ("", "{", "[]", *(json.dumps({**sound, **change}) for change in changes)):
+            with self.subTest(text[:200]):
+                self.write(text, "changed.json")
+                self.assertIn("changed.json: ", self.compare("--against", "changed.json", code=2))
+                self.assertIn("changed.json: in the way", self.compare("--accept", "changed.json", code=2))
+                self.assertEqual(self.read("changed.json"), text)
+        self.compare("--against", "nowhere.json", code=2)
+
+    def test_the_example_for_ci(self):
+        """The script of the workflow, as a shell runs it."""
+        text = (ROOT / "examples" / "check-results.yml").read_text()
+        script = textwrap.dedent(re.search(r"- name: Compare\n        run: \|\n(.*)", text, re.S)[1])
+        (self.folder / "bin").mkdir()
+        (self.folder / "bin" / "mortier").symlink_to(PROGRAM)
+        self.compare("--accept", "scene.json")
+
+        def run():
+            path = {**os.environ, "PATH": f"{self.folder / 'bin'}:{os.environ['PATH']}"}
+            return subprocess.run(["sh", "-e", "-c", script], cwd=self.folder, env=path,
+                                  capture_output=True, text=True)
+
+        self.assertEqual(run().returncode, 0)
+        self.write(self.read("scene.toml").replace("-10*t", "-11*t"))
+        done = run()
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("scene.toml: differs", done.stdout)
 
     def test_a_picture_never_takes_the_place_of_a_file_of_others(self):
         self.compare("--accept", "kept")
@@ -114,7 +177,8 @@ class Compare(OfTwoBlocks):
             (["--against", "upper=none.vtu", "--within", "1"], "none.vtu: cannot be read"),
             (["--within", "0.1"], "--within: for --against only"),
             (["--against", ".", "--within", "nan"], "nan: expected a number"),
-            (["--accept", "kept", "--within", "1"], "--accept: keeps a result"),
+            (["--accept", "kept", "--within", "1"], "--within: kept with the numbers of --accept FILE.json"),
+            (["--accept", "kept", "--against", "kept"], "--accept: keeps a result"),
             (["--picture", "a.pdf"], "--picture a.pdf: expected a file NAME.png or NAME.svg"),
             (["--set", "time.steps=-1"], "--set time.steps=-1"),
             (["--set", "nix=1"], "--set nix=1")]

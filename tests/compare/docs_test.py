@@ -97,8 +97,9 @@ class Tutorial(InFolder):
         # No bound, as `check` says and the page shows; what is kept has the accuracy that was asked for.
         bound = told["mortier check press.toml --set accuracy.bound=true"]
         self.assertIn(re.search(r"^left out   accuracy: .*$", TUTORIAL.read_text(), re.M)[0], bound)
-        kept = json.loads(self.read("kept/summary.json"))
-        self.assertEqual(kept["accuracy"]["asked"], 0.02)
+        kept = json.loads(self.read("press.json"))
+        self.assertEqual(kept["settings"], ["accuracy.energy=0.02"])
+        self.assertAlmostEqual(kept["quantities"]["force"]["value"] / float(found), 1, delta=1e-6)
         self.assertIn("press.toml: agrees", told[tutorial.commands()[-1]])
 
 

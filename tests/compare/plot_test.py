@@ -15,6 +15,7 @@ import curves
 import files
 from ending import Wrong
 import pictures
+import recovery
 import results
 import runs
 
@@ -76,7 +77,7 @@ class Pictures(InSharedFolder):
     def test_what_is_drawn_is_what_the_files_hold(self):
         column = pictures.view(runs.Result(self.folder / "interpolation"))
         with pictures.plt.rc_context(pictures.STYLE):
-            figure = pictures.fields([column], "von_mises", scale=3)
+            figure = pictures.fields([column], "von_mises", scale=3, raw=True)
             of_mesh = [c for c in figure.axes[0].collections if c.get_array() is not None]
             for (name, body), drawn in zip(column.run.bodies.items(), of_mesh):
                 np.testing.assert_array_equal(drawn.get_array(), body.cells["von_mises"])
@@ -162,6 +163,54 @@ class Pictures(InSharedFolder):
         self.assertEqual(line.name, "length along the line")
         self.assertLess(np.ptp(line.nonmortar_trace[:, 1]), 1e-3)
         self.assertLess(np.ptp(line.mortar_trace[:, :, 1]), 1e-3)
+
+    def test_the_nonmortar_body_is_where_it_is(self):
+        for name, swapped in (("interpolation", False), ("below", True)):
+            if swapped:
+                solve(self.folder, name, "contact.variant=interpolation", "contact.swap=true")
+            run = results.read_mortier(self.folder / name)
+            line = runs.Result(self.folder / name).lines(run)[0]
+            self.assertEqual(line.nonmortar, "lower" if swapped else "upper")
+            for body in ("upper", "lower"):
+                ordinates = line.placed(run.bodies[body].points, 0 * run.bodies[body].displacement)[:, 1]
+                self.assertGreaterEqual((1 if body == "upper" else -1) * ordinates.mean(), 0.1)
+
+    def test_rounding_is_not_drawn(self):
+        """The overlap of the bodies with mortar is rounding, with interpolation it is not."""
+        for name, drawn in (("mortar", False), ("interpolation", True)):
+            figure = curves.history([pictures.view(runs.Result(self.folder / name))])
+            titles = [axes.get_title(loc="left") for axes in figure.axes]
+            self.assertEqual("overlap of the bodies [m^2]" in titles, drawn)
+            self.assertIn("contact force [N/m]", titles)
+            self.assertIn("contact force [N/m] over displacement", titles)
+            pictures.plt.close(figure)
+
+    def test_recovered_values_are_means_and_constants_stay(self):
+        column = pictures.view(runs.Result(self.folder / "interpolation"))
+        field = column.result.fields(column.run)["s22"]
+        shown = pictures.shown_values(column, field, raw=False)
+        for name, body in column.run.bodies.items():
+            corners = body.points[body.triangles]
+            area = np.abs(np.linalg.det(np.stack([corners[:, 1] - corners[:, 0],
+                                                  corners[:, 2] - corners[:, 0]], 1))) / 2
+            vertex = body.triangles[7, 1]
+            around = (body.triangles == vertex).any(1)
+            expected = (area * body.stress[:, 1])[around].sum() / area[around].sum()
+            self.assertAlmostEqual(shown[name][7, 1], expected, delta=1e-12 * abs(expected))
+            np.testing.assert_allclose(recovery.averaged(body, np.full(len(body.triangles), 3.0)), 3)
+            # two regions that meet are not mixed
+            body.cells["region"] = (np.arange(len(body.triangles)) < 20).astype(float)
+            two = recovery.averaged(body, body.cells["region"])
+            self.assertEqual(set(np.unique(two)), {0.0, 1.0})
+
+    def test_the_scale_counts_areas(self):
+        """A refined corner has many triangles and little area."""
+        body = results.Body(np.zeros((8, 2)), np.zeros((2, 3)), np.array(
+            [[0, 0], [1, 0], [0, 1], [1, 1], [2, 0], [2.001, 0], [2, 0.001], [3, 3]], float),
+            np.array([[0, 1, 2], [1, 3, 2], *[[4, 5, 6]] * 50]))
+        field = runs.Field("s11", "", "", False, False, None)
+        values = {"a": np.array([1.0, 2.0, *[100.0] * 50])}
+        self.assertEqual(runs.top_of(field, {"a": body}, values), 2)
 
     def test_animation(self):
         self.plot("interpolation", "--animate", "--out", "a.gif")
@@ -319,9 +368,15 @@ class Refused(InFolder):
         deep = "x"
         for _ in range(800):
             deep = {"a": deep}
-        path.write_text(json.dumps({**summary, "accuracy": deep}))
-        code, _, errors = view(self.folder, "report", "run")
-        self.assertEqual((code, errors.count("\n")), (2, 1), errors)
+        for change in ({"accuracy": deep}, {"accuracy": {"bodies": deep, "bound": deep, "asked": deep}},
+                       {"bodies": [{**each, "material": deep} for each in summary["bodies"]]},
+                       {"quantities": {"a": deep, "b": {"value": "x"}}}, {"peaks": 3, "final": {
+                           **summary["final"], "contact_force": 1, "von_mises_max": 2, "active_nodes": 0}},
+                       {"rounds": [3, {"triangles": "x"}], "settings": deep, "scheme": [], "plane": {}}):
+            with self.subTest(str(change)[:60]):  # only what is of the expected form is shown
+                path.write_text(json.dumps({**summary, **change}))
+                code, _, errors = view(self.folder, "report", "run")
+                self.assertEqual((code, errors), (0, ""))
 
     def test_titles_are_shown_as_they_are(self):
         path = self.folder / "run" / "summary.json"

@@ -1,9 +1,11 @@
 """The documentation as a site (docs/site.py): its links, and its pages in headless Chromium, where nothing is
 fetched from elsewhere and formulas are formulas."""
+import json
 import re
 import shutil
 import subprocess
 import sys
+import time
 import unittest
 import urllib.parse
 from html.parser import HTMLParser
@@ -29,6 +31,20 @@ for (const e of document.querySelectorAll('math')) {
 }
 for (const e of document.images) if (!(e.complete && e.naturalWidth > 0)) faults.push('no picture: ' + e.src);
 return faults"""
+# Waits until every picture is decoded. On a loaded machine the browser may drop requests of a page:
+# it is asked for such a picture again, a few times; the addresses of those are returned.
+PICTURES = """
+const again = new Set(), pause = t => new Promise(done => setTimeout(done, t));
+await Promise.all([...document.images].map(async image => {
+  for (let tries = 0; tries < 4; tries++) {
+    try { return await image.decode(); } catch (error) {
+      again.add(image.src);
+      await pause(200 * 2 ** tries);
+      image.src = image.src;
+    }
+  }
+}));
+return [...again]"""
 
 
 def make(root, out):
@@ -100,6 +116,9 @@ class Site(InSharedFolder):
         for path in self.pages:
             with self.subTest(str(path.relative_to(self.site))):
                 browser.send("POST", "/url", {"url": path.as_uri()})
+                dropped = browser.run_async(PICTURES)
+                if dropped:
+                    print(f"{path.name}: loaded again: {dropped}")
                 self.assertEqual(browser.run(WRONG), [])
                 browser.size(360, 740)
                 self.assertLessEqual(browser.run("return document.documentElement.scrollWidth"), 360)
@@ -110,15 +129,61 @@ class Site(InSharedFolder):
                     self.assertIn(f"{folder}/formulas.ttf", asked)
                 elsewhere = [address for address in asked if not address.startswith((f"{folder}/", "data:"))]
                 self.assertEqual(elsewhere, [])
-                self.assertEqual(browser.messages(), [])
+                self.assertEqual([message for message in browser.messages()
+                                  if not any(address in message for address in dropped)], [])
         # The checks see a formula that is none.
         broken = self.folder / "broken.html"
         broken.write_text("<main>$\\dot x$ <math></math><img src=none.png></main>")
         browser.send("POST", "/url", {"url": broken.as_uri()})
+        self.assertEqual(len(browser.run_async(PICTURES)), 1)
         faults = [fault.split(":")[0] for fault in browser.run(WRONG)]
         self.assertEqual(faults, ["TeX", "no size", "no picture"])
         self.assertNotEqual(browser.messages(), [])
         self.assertIn(f"{self.folder.resolve().as_uri()}/none.png", browser.requests(broken))
+
+    def test_search(self):
+        """Words are found where they stand, in pages at any depth; the index is loaded when it is needed."""
+        browser = Browser(network=True)
+        self.addCleanup(browser.close)
+        index = f"{self.site.resolve().as_uri()}/search-index.js"
+        hits = "return [...document.querySelectorAll('#found a')].map(a => [a.href, a.textContent])"
+        for page in ("index.html", "docs/scene.html", "docs/notebooks/note.html"):
+            path = self.site / page
+            browser.send("POST", "/url", {"url": path.as_uri()})
+            self.assertNotIn(index, browser.requests(path))
+            browser.press("#search", "scheduler address workers")
+            self.wait(browser, "return document.querySelectorAll('#found a').length > 0")
+            self.assertIn(index, browser.requests(path))
+            address, words = browser.run(hits)[0]
+            self.assertIn("docs/study.html#", address)
+            self.assertIn("scheduler", words)
+            self.assertTrue(browser.run("return document.querySelectorAll('#found mark').length > 1"))
+            browser.press("#search", "\ue007")  # enter: the first one
+            self.wait(browser, "return location.pathname.endsWith('docs/study.html')")
+        browser.press("#search", "zqxj")
+        self.wait(browser, "return document.getElementById('found').textContent === 'nothing found'")
+        browser.size(360, 740)
+        self.assertLessEqual(browser.run("return document.documentElement.scrollWidth"), 360)
+        browser.size(1280, 900)
+        self.assertEqual(browser.messages(), [])
+
+    def wait(self, browser, condition):
+        for _ in range(200):
+            if browser.run(condition):
+                return
+            time.sleep(0.05)
+        self.fail(condition)
+
+    def test_every_address_of_the_index_is_a_heading(self):
+        text = (self.site / "search-index.js").read_text()
+        sections = json.loads(text.removeprefix("window.searchIndex = ").rstrip(";\n"))
+        self.assertGreater(len(sections), 150)
+        self.assertLess(len(text), 1e6)
+        for page, anchor, title, words in sections:
+            self.assertIn(anchor, self.pages[(self.site / page).resolve()].names, page)
+            self.assertTrue(title)
+            self.assertNotIn("<", title)
+        self.assertTrue(any("mean of the contact pressure" in words for *_, words in sections))
 
     def test_what_is_wrong_is_named_and_nothing_is_written(self):
         copy = self.folder / "copy"

@@ -9,7 +9,7 @@ from pathlib import Path
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "tutorial.md"
 MADE = ("out/press/summary.json", "out/press.plots/fields.png", "out/press.html", "pressures.png",
-        "kept/summary.json")
+        "press.json")
 
 
 def files():

@@ -26,7 +26,6 @@ from user_scenes import UserScene
 
 ROOT = Path(os.environ.get("MORTIER_ROOT", Path(__file__).resolve().parents[2]))
 FREEFEM = os.environ.get("FREEFEM", "FreeFem++-nw")
-PATIENCE = 120  # s a command
 STUDY = """\
 scene = "scene.toml"
 [[error]]
@@ -59,8 +58,8 @@ class Walk:
     """One scene through all commands: `ways` is command -> done, refused or failed; `findings` says of what
     failed why."""
 
-    def __init__(self, program, folder, scene):
-        self.program, self.folder, self.scene = program, folder, scene
+    def __init__(self, program, folder, scene, patience):
+        self.program, self.folder, self.scene, self.patience = program, folder, scene, patience
         self.ways, self.findings, self.seconds = {}, [], {}
         (folder / "scene.toml").write_text("\n".join(scene.text) + "\n")
         (folder / "study.toml").write_text(STUDY)
@@ -75,8 +74,8 @@ class Walk:
             Path(self.program).parent / "python"), "MPLBACKEND": "agg"}
         try:
             return subprocess.run([str(word) for word in command], cwd=self.folder, env=environment,
-                                  text=True, capture_output=True, errors="replace", timeout=PATIENCE,
-                                  **options)
+                                  text=True, capture_output=True, errors="replace",
+                                  timeout=self.patience, **options)
         except subprocess.TimeoutExpired:
             return subprocess.CompletedProcess(command, "too long", "", "")
         finally:
@@ -215,19 +214,19 @@ class Walk:
                 self.fail("restart", "other numbers")
 
 
-def walk(program, seed, keep=None):
+def walk(program, seed, keep=None, patience=120):
     with tempfile.TemporaryDirectory(prefix=f"walk-{seed}-") as temporary:
         folder = Path(keep or temporary) / str(seed)
         folder.mkdir(parents=True, exist_ok=True)
-        each = Walk(program, folder.resolve(), UserScene(seed))
+        each = Walk(program, folder.resolve(), UserScene(seed), patience)
         each.go()
         return seed, each
 
 
-def explore(program, seeds, jobs=1, keep=None, watch=lambda seed, each: None):
+def explore(program, seeds, jobs=1, keep=None, watch=lambda seed, each: None, patience=120):
     program, walks = str(Path(program).resolve()), []
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for seed, each in pool.map(lambda number: walk(program, number, keep), seeds):
+        for seed, each in pool.map(lambda number: walk(program, number, keep, patience), seeds):
             watch(seed, each)
             walks.append((seed, each))
     return walks
@@ -241,6 +240,7 @@ def main():
     parser.add_argument("--seed", type=int, default=0, help="number of the first scene")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--keep", help="folder of the scenes and results")
+    parser.add_argument("--patience", type=float, default=120, help="seconds of a command")
     options = parser.parse_args()
 
     def watch(seed, each):
@@ -248,7 +248,8 @@ def main():
             print(f"{seed:5} {each.scene.geometry:7} {finding}", flush=True)
 
     seeds = range(options.seed, options.seed + options.count)
-    walks = explore(options.mortier, seeds, options.jobs, options.keep, watch)
+    walks = explore(options.mortier, seeds, options.jobs, options.keep, watch,
+                    options.patience)
     count = collections.Counter((way, how) for _, each in walks for way, how in each.ways.items())
     print(f"{'':10}{'done':>9}{'refused':>9}{'failed':>9}")
     for way in dict.fromkeys(way for way, _ in count):

@@ -105,7 +105,7 @@ TEST(Interface, wrongPairsAreRefused) {
   expect(pair(bottom, 2), blocks.lower, "an angle of 90 degrees, expected 180");
   expect(pair(bottom, top), block({2, -1}, {3, 0}, 6), "overlap at no nonmortar node");
   expect(pair(bottom, top), block({0.3, -1}, {0.45, 0}, 6), "overlap at no nonmortar node");
-  expect(pair(bottom, top), block({0, -1}, {1, 0.125}, 6), "penetrate each other by 0.125 m as meshed");
+  expect(pair(bottom, top), block({0, -1}, {1, 0.125}, 6), "penetrate each other by 0.125 as meshed");
 }
 
 // The forces are the transpose of the gap, they balance, and so do their moments: linear functions are

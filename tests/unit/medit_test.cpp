@@ -108,7 +108,7 @@ TEST(Medit, namesTheLineOfAFault) {
       {"1 2 3 7", "1 2.5 3 7", ":15: '2.5', expected a vertex number"},
       {"1 3 4 8", "1 4 3 8", ":16: triangle 2 (1 4 3) is clockwise, expected counterclockwise"},
       {"1 3 4 8", "3 3 4 8", ":16: triangle 2 (3 3 4) is degenerate"},
-      {"1 1 0", "1 1e-13 0", ":15: triangle 1 (1 2 3) is degenerate: area 5e-14 m^2, longest edge 1 m"},
+      {"1 1 0", "1 1e-13 0", ":15: triangle 1 (1 2 3) is degenerate: area 5e-14, longest edge 1"},
       {"Triangles\n2", "Triangles\n3\n2 3 1 5", ":16: triangle 2 (1 2 3) repeats triangle 1"},
       {"Triangles\n2", "Triangles\n3\n1 2 4 5", ":16: triangles 1 and 2 lie on the same side of edge 1 2"},
       {"4 8", "4 8 Triangles 0", ":16: 'Triangles', expected this section once"},

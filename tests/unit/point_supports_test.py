@@ -92,8 +92,8 @@ component = "y"
 
     def test_a_point_is_a_vertex_to_a_thousandth_of_the_edges(self):
         self.solve(AT_THE_BASE.replace("[2, 0]", "[1.9999, 1e-4]"))
-        for at, message in (("[1.999, 0]", "the nearest one is at [2, 0], 0.001 m away"),
-                            ("[2.2, 0.1]", "the nearest one is at [2, 0], 0.224 m away")):
+        for at, message in (("[1.999, 0]", "the nearest one is at [2, 0], 0.001 away"),
+                            ("[2.2, 0.1]", "the nearest one is at [2, 0], 0.224 away")):
             self.write(FREE.replace("POINTS", AT_THE_BASE.replace("[2, 0]", at)))
             done = self.mortier("run", "scene.toml", "--quiet", code=2)
             self.assertIn(f"scene.toml:12: body block: point = {at}, expected a vertex of ", done.stderr)

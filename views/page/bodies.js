@@ -1,27 +1,39 @@
 // ---- Colours ----------------------------------------------------------------------------------------------
+const SHADES = 1024, BANDS = 10;
 const tables = Object.fromEntries(Object.entries(data.colours).map(([name, stops]) => {
   const rgb = stops.map(stop => [0, 2, 4].map(i => parseInt(stop.slice(i, i + 2), 16)));
-  return [name, Uint32Array.from({length: 256}, (_, i) => {
-    const at = i / 255 * (rgb.length - 1), k = Math.min(Math.floor(at), rgb.length - 2), f = at - k;
+  return [name, Uint32Array.from({length: SHADES}, (_, i) => {
+    const at = i / (SHADES - 1) * (rgb.length - 1), k = Math.min(Math.floor(at), rgb.length - 2), f = at - k;
     const [red, green, blue] = rgb[k].map((each, c) => Math.round(each + f * (rgb[k + 1][c] - each)));
     return (255 << 24 | blue << 16 | green << 8 | red) >>> 0;
   })];
 }));
+const banded = table => table.map((_, i) => {
+  const band = Math.floor(i / SHADES * BANDS);
+  return table[Math.round(band / (BANDS - 1) * (SHADES - 1))];
+});
 function colourRange({runs}) {  // one for all runs of a group; a corner must not take all the colours
   const signed = fieldOf(runs[0], now.field).signed;
   const found = runs.flatMap(
       run => (now.wide ? run.ranges : [run.ranges[stepOf(run)]]).map(each => each[now.field]));
-  let low = Math.min(...found.map(each => each[0])), high = Math.max(...found.map(each => each[1])),
-      cut = false;
+  const least = Math.min(...found.map(each => each[0])), most = Math.max(...found.map(each => each[1]));
+  let low = least, high = most;
   const top = Math.max(...found.map(each => each[2])), size = Math.max(Math.abs(low), Math.abs(high));
-  if (signed) { cut = top < 0.7 * size && top > 0; high = cut ? top : size; low = -high; }
+  if (signed) { high = top < 0.7 * size && top > 0 ? top : size; low = -high; }
   else {
-    cut = top < 0.7 * high && top > 0;
-    if (cut) high = top;
+    if (top < 0.7 * high && top > 0) high = top;
     if (high - low > 0.5 * Math.abs(high)) low = Math.min(0, low);
   }
   if (!(high - low > 1e-9 * size)) { const margin = 0.1 * size || 1; low -= margin; high += margin; }
-  return {low, high, cut, largest: size, table: tables[signed ? "signed" : "plain"], signed};
+  const chosen = now.ranges[now.field] || {}, automatic = {low, high};
+  if (chosen.low !== undefined) low = chosen.low;
+  if (chosen.high !== undefined) high = chosen.high;
+  if (!(high > low)) { low = automatic.low; high = automatic.high; }
+  const table = tables[signed ? "signed" : "plain"], slight = 1e-6 * (high - low);
+  return {
+    low, high, automatic, signed, below: least < low - slight, above: most > high + slight,
+    table: now.bands ? banded(table) : table
+  };
 }
 
 // ---- Bodies: triangles are painted pixel by pixel, and each pixel knows its triangle ----------------------
@@ -50,7 +62,7 @@ function everything({runs}) {
   const width = Math.max(box[1] - box[0], 1e-300), height = Math.max(box[3] - box[2], 1e-300);
   const seen = panels[0].canvas.clientWidth || 1;
   const aspect = Math.min(
-      Math.max(height / width, 0.5), 1.25, Math.max(0.5, 0.72 * window.innerHeight / seen));
+      Math.max(height / width, 0.4), 1.25, Math.max(0.4, 0.72 * window.innerHeight / seen));
   return {
     x: (box[0] + box[1]) / 2,
     y: (box[2] + box[3]) / 2,
@@ -58,6 +70,8 @@ function everything({runs}) {
     aspect
   };
 }
+const CURVED = 0.3;  // pixels of a side off its chord, from which on it is drawn as a curve
+const PIECES = 6;    // of a side of a triangle with a curved side
 function paint(panel, range) {
   const {run, canvas, context} = panel, {view} = run.group, ratio = Math.min(window.devicePixelRatio || 1, 2);
   const w = Math.max(1, Math.round(canvas.clientWidth * ratio)), h = Math.max(1, Math.round(w * view.aspect));
@@ -67,70 +81,105 @@ function paint(panel, range) {
                                                             : new Int32Array(w * h).fill(-1);
   const perLength = w / (2 * view.half), X = x => (x - view.x) * perLength + w / 2,
         Y = y => h / 2 - (y - view.y) * perLength;
-  const step = stepOf(run), byVertex = fieldOf(run, now.field).vertex, lines = [], offsets = [];
+  const step = stepOf(run), lines = [], offsets = [], perValue = SHADES / (range.high - range.low);
+  const key = [step, now.field, now.raw].join();
+  if (panel.key !== key) {
+    panel.key = key;
+    panel.shown = run.bodies.map((_, b) => shownValues(run, step, b));
+    panel.extremes = extremes(panel.shown);
+  }
   const colour = value => range.table[Math.max(
-      0, Math.min(255, Math.floor((value - range.low) / (range.high - range.low) * 256)))];
+      0, Math.min(SHADES - 1, Math.floor((value - range.low) * perValue)))];
+  // a triangle in pixels; values at its corners, or one
+  const fill = (ax, ay, bx, by, cx, cy, number, va, vb, vc) => {
+    const top = Math.max(0, Math.ceil(Math.min(ay, by, cy) - 0.5)),
+          end = Math.min(h - 1, Math.ceil(Math.max(ay, by, cy) - 0.5) - 1);
+    const flat = vb === undefined ? colour(va) : 0, det = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay);
+    const gx = flat ? 0 : ((vb - va) * (cy - ay) - (vc - va) * (by - ay)) / det;
+    const gy = flat ? 0 : ((vc - va) * (bx - ax) - (vb - va) * (cx - ax)) / det;
+    for (let y = top; y <= end; y++) {
+      const at = y + 0.5;
+      let left = Infinity, right = -Infinity;
+      for (let s = 0; s < 3; s++) {  // an edge cuts the row in the same place for both its triangles
+        const ux = s === 0 ? ax : s === 1 ? bx : cx, uy = s === 0 ? ay : s === 1 ? by : cy;
+        const vx = s === 0 ? bx : s === 1 ? cx : ax, vy = s === 0 ? by : s === 1 ? cy : ay;
+        if ((uy <= at) === (vy <= at)) continue;
+        const x = uy < vy ? ux + (at - uy) * (vx - ux) / (vy - uy) : vx + (at - vy) * (ux - vx) / (uy - vy);
+        if (x < left) left = x;
+        if (x > right) right = x;
+      }
+      const from = Math.max(0, Math.ceil(left - 0.5)), to = Math.min(w - 1, Math.ceil(right - 0.5) - 1),
+            row = y * w;
+      for (let x = from; x <= to; x++) {
+        pixels[row + x] = flat || colour(va + gx * (x + 0.5 - ax) + gy * (at - ay));
+        owner[row + x] = number;
+      }
+    }
+  };
   let first = 0;
   run.bodies.forEach((body, b) => {
     const fields = run.steps[step].fields[b], {corners, vertices, triangles} = body,
-          px = new Float64Array(vertices), py = new Float64Array(vertices);
+          {flat, corner} = panel.shown[b], px = new Float64Array(vertices), py = new Float64Array(vertices);
     for (let v = 0; v < vertices; v++) {
       px[v] = X(body.x[v] + now.scale * scaled(fields.ux.q[v], fields.ux.e));
       py[v] = Y(body.y[v] + now.scale * scaled(fields.uy.q[v], fields.uy.e));
     }
-    const values = now.field === "u"
-        ? real(fields.ux).map((x, v) => Math.hypot(x, scaled(fields.uy.q[v], fields.uy.e)))
-        : real(fields[now.field]);
-    let seen = 0, area = 0;
+    const bent = new Map();  // triangle -> its curved sides: corners, and how far the middle is off the chord
+    body.from.forEach((from, i) => {
+      const to = body.to[i], middle = body.middle[i];
+      if (middle === from) return;
+      const dx = px[middle] - (px[from] + px[to]) / 2, dy = py[middle] - (py[from] + py[to]) / 2;
+      if (Math.hypot(dx, dy) > CURVED * ratio)
+        bent.set(body.owner[i], [...(bent.get(body.owner[i]) || []), [from, to, dx, dy]]);
+    });
     for (let t = 0; t < triangles; t++) {
       const i = corners[3 * t], j = corners[3 * t + 1], k = corners[3 * t + 2];
       const ax = px[i], ay = py[i], bx = px[j], by = py[j], cx = px[k], cy = py[k];
-      const top = Math.max(0, Math.ceil(Math.min(ay, by, cy) - 0.5)),
-            end = Math.min(h - 1, Math.ceil(Math.max(ay, by, cy) - 0.5) - 1);
       if (Math.max(ax, bx, cx) < 0 || Math.min(ax, bx, cx) > w || Math.max(ay, by, cy) < 0 ||
           Math.min(ay, by, cy) > h)
         continue;
-      const det = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay);
-      seen++;
-      area += Math.abs(det) / 2;
-      const flat = byVertex ? 0 : colour(values[t]);
-      const gx = byVertex ? ((values[j] - values[i]) * (cy - ay) - (values[k] - values[i]) * (by - ay)) / det
-                          : 0;
-      const gy = byVertex ? ((values[k] - values[i]) * (bx - ax) - (values[j] - values[i]) * (cx - ax)) / det
-                          : 0;
-      for (let y = top; y <= end; y++) {
-        const at = y + 0.5;
-        let left = Infinity, right = -Infinity;
-        for (let s = 0; s < 3; s++) {  // an edge cuts the row in the same place for both its triangles
-          const ux = s === 0 ? ax : s === 1 ? bx : cx, uy = s === 0 ? ay : s === 1 ? by : cy;
-          const vx = s === 0 ? bx : s === 1 ? cx : ax, vy = s === 0 ? by : s === 1 ? cy : ay;
-          if ((uy <= at) === (vy <= at)) continue;
-          const x = uy < vy ? ux + (at - uy) * (vx - ux) / (vy - uy) : vx + (at - vy) * (ux - vx) / (uy - vy);
-          if (x < left) left = x;
-          if (x > right) right = x;
+      const values = flat ? [flat[t]] : [corner[3 * t], corner[3 * t + 1], corner[3 * t + 2]];
+      if (!bent.has(t)) { fill(ax, ay, bx, by, cx, cy, first + t, ...values); continue; }
+      const at = (p, q) => {  // of the barycentric grid: place and value
+        const r = PIECES - p - q, part = new Map([[i, p / PIECES], [j, q / PIECES], [k, r / PIECES]]);
+        let x = (p * ax + q * bx + r * cx) / PIECES, y = (p * ay + q * by + r * cy) / PIECES;
+        for (const [from, to, dx, dy] of bent.get(t)) {
+          const bubble = 4 * part.get(from) * part.get(to);
+          x += bubble * dx;
+          y += bubble * dy;
         }
-        const from = Math.max(0, Math.ceil(left - 0.5)), to = Math.min(w - 1, Math.ceil(right - 0.5) - 1),
-              row = y * w;
-        for (let x = from; x <= to; x++) {
-          pixels[row + x] = byVertex ? colour(values[i] + gx * (x + 0.5 - ax) + gy * (at - ay)) : flat;
-          owner[row + x] = first + t;
-        }
+        return [x, y, flat ? flat[t] : (p * values[0] + q * values[1] + r * values[2]) / PIECES];
+      };
+      for (let p = 0; p < PIECES; p++) for (let q = 0; p + q < PIECES; q++) {
+          const small = [[at(p, q), at(p + 1, q), at(p, q + 1)]];
+          if (p + q + 2 <= PIECES) small.push([at(p + 1, q), at(p + 1, q + 1), at(p, q + 1)]);
+          for (const [[x1, y1, v1], [x2, y2, v2], [x3, y3, v3]] of small)
+            fill(x1, y1, x2, y2, x3, y3, first + t, ...(flat ? [v1] : [v1, v2, v3]));
       }
     }
-    lines.push({body, px, py, edges: now.mesh && seen && Math.sqrt(area / seen) > 5 * ratio});
+    lines.push({body, px, py});
     offsets.push(first);
     first += triangles;
   });
   context.putImageData(image, 0, 0);
-  const ink = getComputedStyle(document.body).color;
-  for (const {body, px, py, edges} of lines) {
-    if (edges) {
+  const ink = getComputedStyle(document.body).color, least = 80 * ratio * ratio;  // twice the area
+  for (const {body, px, py} of lines) {
+    const curve = (x, y, i) => {  // through the middle
+      const from = body.from[i], to = body.to[i], middle = body.middle[i];
+      context.moveTo(x(from), y(from));
+      if (middle === from) context.lineTo(x(to), y(to));
+      else
+        context.quadraticCurveTo(
+            2 * x(middle) - (x(from) + x(to)) / 2, 2 * y(middle) - (y(from) + y(to)) / 2, x(to), y(to));
+    };
+    if (now.mesh) {
       context.beginPath();
-      for (let t = 0; t < body.triangles; t++) {
+      for (let t = 0; t < body.triangles; t++) {  // edges of small ones would darken what is refined
         const [i, j, k] = [body.corners[3 * t], body.corners[3 * t + 1], body.corners[3 * t + 2]];
         if (Math.max(px[i], px[j], px[k]) < 0 || Math.min(px[i], px[j], px[k]) > w ||
             Math.max(py[i], py[j], py[k]) < 0 || Math.min(py[i], py[j], py[k]) > h)
           continue;
+        if (Math.abs((px[j] - px[i]) * (py[k] - py[i]) - (px[k] - px[i]) * (py[j] - py[i])) < least) continue;
         context.moveTo(px[i], py[i]);
         context.lineTo(px[j], py[j]);
         context.lineTo(px[k], py[k]);
@@ -140,10 +189,7 @@ function paint(panel, range) {
     }
     const outline = (x, y, dash, width, style) => {
       context.beginPath();
-      body.from.forEach((v, i) => {
-        context.moveTo(x(v), y(v));
-        context.lineTo(x(body.to[i]), y(body.to[i]));
-      });
+      body.from.forEach((_, i) => curve(x, y, i));
       context.setLineDash(dash);
       context.strokeStyle = style;
       context.lineWidth = width;
@@ -157,23 +203,58 @@ function paint(panel, range) {
   canvas.dataset.view = [view.x, view.y, view.half];
   Object.assign(
       panel, {owner, offsets, step, px: lines.map(each => each.px), py: lines.map(each => each.py), ratio});
-  const strip = panel.bar.getContext("2d"), shades = strip.createImageData(256, 1);
+  markExtremes(panel, range);
+  drawLegend(panel, range);
+}
+function markExtremes(panel, range) {  // where the field is largest, and smallest where it has two signs
+  const {run, context, ratio} = panel, field = fieldOf(run, now.field);
+  const marked = [["largest", panel.extremes[0]], ...(range.signed ? [["smallest", panel.extremes[1]]] : [])];
+  const [most, least] = panel.extremes;
+  const rounding = most ? 1e-9 * Math.max(Math.abs(most.value), Math.abs(least.value)) : 0;
+  if (["viscoplastic", "region"].includes(field.name) || !most || !(most.value - least.value > rounding)) {
+    panel.most.textContent = "";
+    return;
+  }
+  const style = getComputedStyle(document.body);
+  context.font = `${12 * ratio}px system-ui, sans-serif`;
+  panel.most.textContent = marked.map(([word, {value, b, t, corner}]) => {
+    const body = run.bodies[b], v = [0, 1, 2].map(c => body.corners[3 * t + c]),
+          mean = of => corner < 0 ? (of[v[0]] + of[v[1]] + of[v[2]]) / 3 : of[v[corner]];
+    const x = mean(panel.px[b]), y = mean(panel.py[b]), text = short(value, 4);
+    context.beginPath();
+    context.arc(x, y, 4 * ratio, 0, 2 * Math.PI);
+    const right = x + 8 * ratio + context.measureText(text).width < context.canvas.width;
+    context.textAlign = right ? "left" : "right";
+    const to = [text, x + (right ? 8 : -8) * ratio, Math.max(y - 6 * ratio, 14 * ratio)];
+    for (const [width, ink] of [[3 * ratio, style.backgroundColor], [1.4 * ratio, style.color]]) {
+      context.lineWidth = width; context.strokeStyle = ink; context.stroke();
+    }
+    context.lineWidth = 3 * ratio; context.strokeStyle = style.backgroundColor; context.strokeText(...to);
+    context.fillStyle = style.color; context.fillText(...to);
+    return `${word} ${of(text, field.unit)} in ${body.name} at (${short(mean(body.x), 4)}, ${
+        short(mean(body.y), 4)})`;
+  }).join("; ");
+}
+function drawLegend(panel, range) {
+  const strip = panel.bar.getContext("2d"), shades = strip.createImageData(SHADES, 1);
   new Uint32Array(shades.data.buffer).set(range.table);
   strip.putImageData(shades, 0, 0);
-  const shownField = fieldOf(run, now.field);
-  panel.legend.textContent = withUnit(shownField.words, shownField.unit);
-  const marks = ticks(range.low, range.high, 5);
+  const field = fieldOf(panel.run, now.field),
+        kind = now.raw || !recoverable(field.name) ? "" : ", recovered at the vertices";
+  panel.legend.textContent = withUnit(field.words, field.unit) + kind;
+  const marks = now.bands ? Array.from({length: BANDS / 2 + 1}, (_, i) => range.low + 2 * i / BANDS *
+                                (range.high - range.low))
+                          : ticks(range.low, range.high, 5);
   panel.scale.replaceChildren(...marks.map((value, i) => {
     const part = 100 * (value - range.low) / (range.high - range.low), mark = $("span"),
-          last = i === marks.length - 1, first = i === 0 && range.signed,
-          beyond = range.cut && (last ? " \u2192" : first ? "\u2190 " : ""),
-          words = short(value, 5);
-    mark.textContent = !beyond ? words : i ? words + beyond : beyond + words;
+          words = short(value, now.bands ? 3 : 5);
+    mark.textContent = i === marks.length - 1 && range.above ? `${words} \u2192`
+        : i === 0 && range.below                             ? `\u2190 ${words}`
+                                                             : words;
     mark.style.left = `${part}%`;
     mark.style.transform = `translateX(${part < 8 ? 0 : part > 92 ? -100 : -50}%)`;
     return mark;
   }));
-  panel.scale.title = range.cut ? `largest: ${short(range.largest, 5)}` : "";
 }
 function hover(panel, x, y) {  // in CSS pixels of the canvas
   const {run, canvas, owner, ratio} = panel, i = Math.floor(x * ratio), j = Math.floor(y * ratio);
@@ -189,18 +270,17 @@ function hover(panel, x, y) {  // in CSS pixels of the canvas
   while (panel.offsets[b] > found) b--;
   const t = found - panel.offsets[b], body = run.bodies[b], fields = run.steps[panel.step].fields[b],
         field = fieldOf(run, now.field);
-  const near = [0, 1, 2]
-                   .map(c => body.corners[3 * t + c])
-                   .reduce(
-                       (best, v) => Math.hypot(panel.px[b][v] - i, panel.py[b][v] - j) <
-                               Math.hypot(panel.px[b][best] - i, panel.py[b][best] - j)
-                           ? v
-                           : best);
-  const value = valueOf(fields, now.field, field.vertex ? near : t);
+  const far = v => Math.hypot(panel.px[b][v] - i, panel.py[b][v] - j);
+  const corner = [0, 1, 2].reduce(
+      (best, c) => far(body.corners[3 * t + c]) < far(body.corners[3 * t + best]) ? c : best);
+  const near = body.corners[3 * t + corner], value = valueOf(fields, now.field, field.vertex ? near : t);
   const say = (name, at) => `${name} ${of(valueOf(fields, name, at), fieldOf(run, name).unit)}`;
+  const recovered = panel.shown[b].corner && !field.vertex
+      ? `; recovered at vertex ${near} ${of(short(panel.shown[b].corner[3 * t + corner], 4), field.unit)}`
+      : "";
   const more = run.order.filter(name => /^s\d/.test(name)).map(name => say(name, t)).join(", ");
   panel.read.textContent = `${field.words} ${of(value, field.unit)} at ${body.name}, ` +
-      `${field.vertex ? `vertex ${near}, ` : ""}triangle ${t}: ${more}; ${say("ux", near)}, ${
+      `${field.vertex ? `vertex ${near}, ` : ""}triangle ${t}: ${more}${recovered}; ${say("ux", near)}, ${
                                say("uy", near)} at vertex ${near}; ` +
       `estimated error ${valueOf(fields, "error", t)}`;
   Object.assign(panel.read.dataset, {body: body.name, triangle: t, vertex: near, value});

@@ -3,19 +3,25 @@ const page = document.getElementById("page"), now = {
   field: "von_mises",
   step: 0,
   scale: 1,
-  wide: true,
+  wide: false,
   mesh: true,
-  ghost: true
+  ghost: true,
+  raw: false,
+  bands: false,
+  ranges: {}  // of a field: ends that were set
 };
+const nearest = (run, t) => run.steps.reduce(
+    (best, each, i) => Math.abs(each.time - t) < Math.abs(run.steps[best].time - t) ? i : best, 0);
 const longest = runs.reduce((a, b) => b.steps.length > a.steps.length ? b : a);
-const stepOf = run => {  // that of the run nearest in time
-  const t = longest.steps[now.step].time;
-  let best = 0;
-  run.steps.forEach((each, i) => {
-    if (Math.abs(each.time - t) < Math.abs(run.steps[best].time - t)) best = i;
-  });
-  return best;
-};
+// All panels show one time: the slider stops where every run has a step; if there is no such time but one, at
+// the steps of the longest run, beside which others show their nearest.
+const all = longest.steps.map(each => each.time), close = 1e-6 * Math.max(...all.map(Math.abs));
+const shared = all.filter(
+    t => runs.every(run => Math.abs(run.steps[nearest(run, t)].time - t) <= close));
+const times = shared.length > 1 || all.length === 1 ? shared.length ? shared : all : all;
+const timeNow = () => times[now.step];
+const stepOf = run => nearest(run, timeNow());
+
 page.append($("h1", {}, [...new Set(runs.map(run => run.title))].join(", ")));
 for (const run of runs) {
   if (run.failed) page.append($("p", {class: "bad"}, `${run.name} stopped early: ${run.failed}`));
@@ -24,16 +30,22 @@ for (const run of runs) {
         $("p", {class: "soft"},
           `${run.name}: ${run.steps.length} of ${run.keptSteps} kept steps are in this page.`));
 }
-
-const asked = runs.flatMap(run => run.asked.map(row => [run.name, ...row]));  // what the scene asks for
+const key = () => $(
+    "p", {class: "key"},
+    ...runs.map((run, r) => $("span", {}, $("i", {class: `b${r % 4}`}), run.name)));
+if (runs.length > 1) page.append(key());
+function table(attributes, heads, rows) {
+  const row = (tag, cells) => $("tr", {}, ...cells.map(cell => $(tag, {}, cell)));
+  const body = rows.map(cells => row("td", cells));
+  return $("div", {class: "wide"}, $("table", attributes, row("th", heads), ...body));
+}
+const quantities = runs.flatMap(run => run.quantities.map(row => [run.name, ...row]));
 const askedBox = $("div", {class: "charts", id: "asked"});
-if (asked.length) {
+if (quantities.length) {
   const heads = ["run", "quantity", "value", "unit", "at", "smallest", "largest", "error"],
-        shown = heads.map((_, i) => asked.some(row => row[i] !== "") && (i > 0 || runs.length > 1)),
-        row = (tag, cells) => $("tr", {}, ...cells.flatMap((cell, i) => shown[i] ? [$(tag, {}, cell)] : []));
-  page.append(
-      $("div", {class: "wide"},
-        $("table", {id: "quantities"}, row("th", heads), ...asked.map(cells => row("td", cells)))));
+        used = heads.map((_, i) => i > 0 ? quantities.some(row => row[i] !== "") : runs.length > 1),
+        chosen = cells => cells.filter((_, i) => used[i]);
+  page.append(table({id: "quantities"}, chosen(heads), quantities.map(chosen)));
 }
 page.append(askedBox);
 
@@ -42,18 +54,23 @@ function control(words, element, output) {
   return element;
 }
 const controls = page.appendChild($("div", {class: "controls"}));
+const stepOutput = $("output", {for: "step"}), scaleOutput = $("output", {for: "scale"});
+const stepSlider = control(
+    "time", $("input", {type: "range", id: "step", min: 0, max: times.length - 1, step: 1}), stepOutput);
+now.step = times.length - 1;
+stepSlider.value = now.step;
+stepSlider.disabled = times.length < 2;
 const common = runs[0].fields.filter(field => runs.every(run => fieldOf(run, field.name)));
 const fieldMenu = control(
     "field",
     $("select", {id: "field"},
       ...common.map(field => $("option", {value: field.name}, withUnit(field.words, field.unit)))));
-const stepOutput = $("output", {for: "step"}), scaleOutput = $("output", {for: "scale"});
-const stepSlider = control(
-    "step", $("input", {type: "range", id: "step", min: 0, max: longest.steps.length - 1, step: 1}),
-    stepOutput);
-now.step = longest.steps.length - 1;
-stepSlider.value = now.step;
-stepSlider.disabled = longest.steps.length < 2;
+const choice = (id, words, options) => control(
+    words, $("select", {id}, ...options.map(([value, each]) => $("option", {value}, each))));
+const valuesMenu = choice("values", "values", [["recovered", "recovered"], ["raw", "of the triangles"]]);
+const coloursMenu = choice("colours", "colours", [["smooth", "smooth"], ["bands", "bands"]]);
+const lowBox = control("from", $("input", {type: "number", id: "low", step: "any"})),
+      highBox = control("to", $("input", {type: "number", id: "high", step: "any"}));
 const natural = Math.min(...runs.map(run => run.scale));
 const scales = [...new Set([
                  0, 1, natural,
@@ -70,9 +87,16 @@ const box = (id, words, checked) => {
   return control(words, element);
 };
 const meshBox = box("mesh", "meshes", true), ghostBox = box("ghost", "undeformed", true),
-      wideBox = box("wide", "fix colour range", false);
+      wideBox = box("wide", "one range for all times", false);
 const whole = controls.appendChild($("button", {type: "button", id: "whole"}, "reset view"));
 
+const contactBox = $("div", {class: "charts", id: "contact"});
+page.append($("section", {}, $("h2", {}, "Contact ", $("span", {class: "soft when"})), contactBox, $(
+    "p", {class: "soft"},
+    "Band: from the contact pressure to the normal stress that is recovered in the nonmortar body; its " +
+    "width estimates the error. Gap: marks are the weighted gaps of the nodes, lines the distance between " +
+    "the deformed meshes.")));
+page.append($("h2", {}, "Bodies ", $("span", {class: "soft when"})));
 const grid = page.appendChild($("div", {class: "runs"}));
 const panels = runs.map((run, r) => {
   const canvas = $("canvas", {
@@ -82,10 +106,11 @@ const panels = runs.map((run, r) => {
     "aria-label": `Deformed bodies of ${run.name}. Arrow keys move, plus and minus zoom, 0 shows everything.`
   });
   const read = $("p", {class: "read", id: `read${r}`, "aria-live": "polite"}),
-        bar = $("canvas", {width: 256, height: 1}), legend = $("div"), scale = $("div", {class: "scale"});
-  const contact = $("div", {class: "contact"});
+        time = $("span", {class: "soft"}), bar = $("canvas", {width: SHADES, height: 1}),
+        legend = $("div"), scale = $("div", {class: "scale"}),
+        most = $("p", {class: "most", id: `most${r}`});
   grid.append(
-      $("section", {class: "run"}, $("h3", {}, $("i", {class: `dot b${r % 4}`}), run.name),
-        $("div", {class: "picture"}, canvas), $("div", {class: "bar"}, legend, bar, scale), read, contact));
-  return {run, r, canvas, read, bar, legend, scale, contact, context: canvas.getContext("2d")};
+      $("section", {class: "run"}, $("h3", {}, $("i", {class: `dot b${r % 4}`}), `${run.name} `, time),
+        $("div", {class: "picture"}, canvas), $("div", {class: "bar"}, legend, bar, scale), most, read));
+  return {run, r, canvas, read, bar, legend, scale, most, time, context: canvas.getContext("2d")};
 });

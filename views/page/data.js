@@ -9,7 +9,10 @@ function put(element, attributes, children) {
 }
 const withUnit = (words, unit) => unit ? `${words} [${unit}]` : words;
 const of = (value, unit) => unit ? `${value} ${unit}` : String(value);
-const short = (value, digits = 4) => value === 0 ? "0" : String(Number(value.toPrecision(digits)));
+function short(value, digits = 4) {  // 0.00002 as 2e-5
+  const rounded = Number(value.toPrecision(digits)), size = Math.abs(rounded);
+  return size > 0 && size < 1e-3 ? rounded.toExponential() : String(rounded);
+}
 
 // ---- Data (views/coding.py): integers times 10^e, predicted, deflated -------------------------------------
 const powers = Array.from({length: 309}, (_, e) => Number(`1e${e}`));
@@ -55,12 +58,22 @@ function real({e, q}) {
 }
 async function loadMesh(body) {
   const {vertices: nv, triangles: nt, edges: ne} = body;
-  const a = arrays(await unpack(body.mesh.d), body.mesh.f, [nv, nv, nt, nt, nt, ne, ne, nt]);
+  const a = arrays(await unpack(body.mesh.d), body.mesh.f, [nv, nv, nt, nt, nt, ne, ne, ne, ne, nt]);
   const t = new Int32Array(3 * nt);
   for (let i = 0; i < nt; i++) {
     t[3 * i] = a[2].q[i]; t[3 * i + 1] = a[2].q[i] + a[3].q[i]; t[3 * i + 2] = a[2].q[i] + a[4].q[i];
   }
-  Object.assign(body, {x: real(a[0]), y: real(a[1]), corners: t, from: a[5].q, to: a[6].q, region: a[7]});
+  const from = a[5].q, middle = from.map((v, i) => v + a[8].q[i]);  // = from where sides are straight
+  Object.assign(body, {
+    x: real(a[0]), y: real(a[1]), corners: t, from, to: a[6].q, owner: a[7].q, middle, region: a[9]
+  });
+  const numbers = new Map();  // of the regions, from 0
+  body.part = Int32Array.from(a[9].q, r => numbers.get(r) ?? numbers.set(r, numbers.size).get(r));
+  body.parts = Math.max(1, numbers.size);
+  body.area = Float64Array.from({length: nt}, (_, i) => {
+    const [p, q, r] = [t[3 * i], t[3 * i + 1], t[3 * i + 2]], {x, y} = body;
+    return Math.abs((x[q] - x[p]) * (y[r] - y[p]) - (x[r] - x[p]) * (y[q] - y[p])) / 2;
+  });
 }
 const loadStep = (run, i) => run.steps[i].loaded ??= readStep(run, i);
 async function readStep(run, i) {  // body number -> field name -> {e, q}
@@ -74,19 +87,19 @@ async function readStep(run, i) {  // body number -> field name -> {e, q}
   const bytes = await unpack(step.d), names = run.order, n = names.length;
   const lengths = run.bodies.flatMap(
       body => names.map(name => fieldOf(run, name).vertex ? body.vertices : body.triangles));
-  const stresses = ["s11", "s22", "s12", "s33"].filter(name => names.includes(name));
+  const stresses = stressNames.filter(name => names.includes(name));
   step.all = arrays(bytes, step.f, lengths, earlier, (found, k, e) => {
     const first = k - k % n, s = stresses.map(name => found[first + names.indexOf(name)]);
-    const [s11, s22, s12, s33] = s.map(real), guess = new Float64Array(s11.length);
-    for (let j = 0; j < guess.length; j++) {
-      const a = s11[j], b = s22[j], c = s12[j], d = s33 ? s33[j] : 0;
-      guess[j] = Math.floor(
-          scaled(Math.sqrt(Math.max(a * a + b * b - a * b + d * (d - a - b) + 3 * c * c, 0)), -e) + 0.5);
-    }
-    return guess;
+    const all = s.map(real);
+    return Float64Array.from(all[0], (_, j) => Math.floor(scaled(vonMises(all, j), -e) + 0.5));
   });
   step.fields = run.bodies.map((body, b) =>
     ({...Object.fromEntries(names.map((name, k) => [name, step.all[b * n + k]])), region: body.region}));
+}
+const stressNames = ["s11", "s22", "s12", "s33"];
+function vonMises([s11, s22, s12, s33], i) {
+  const a = s11[i], b = s22[i], c = s12[i], d = s33 ? s33[i] : 0;
+  return Math.sqrt(Math.max(a * a + b * b - a * b + d * (d - a - b) + 3 * c * c, 0));
 }
 const fieldOf = (run, name) => run.fields.find(field => field.name === name);
 function valueOf(fields, name, i) {  // a number with the decimals that it has

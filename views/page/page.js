@@ -12,32 +12,56 @@ function redraw() {  // once a frame, when the data of the step are there
       if (group.fit) { group.view = everything(group); group.fit = false; }
       group.range = colourRange(group);
     }
+    const {automatic} = panels[0].run.group.range;
+    lowBox.placeholder = short(automatic.low, 4);
+    highBox.placeholder = short(automatic.high, 4);
     for (const panel of panels) {
       paint(panel, panel.run.group.range);
       if (panel.last) hover(panel, ...panel.last); else hover(panel, -1, -1);
     }
   })();
 }
-async function change() {
+async function change(event) {
+  const ends = now.ranges[fieldMenu.value] || {};
+  if (event && [lowBox, highBox].includes(event.target)) {
+    const end = event.target === lowBox ? "low" : "high", value = event.target.valueAsNumber;
+    now.ranges[fieldMenu.value] = {...ends, [end]: Number.isFinite(value) ? value : undefined};
+  } else {
+    lowBox.value = ends.low ?? "";
+    highBox.value = ends.high ?? "";
+  }
   Object.assign(now, {
     field: fieldMenu.value,
     step: Number(stepSlider.value),
     scale: scales[Number(scaleSlider.value)],
     wide: wideBox.checked,
     mesh: meshBox.checked,
-    ghost: ghostBox.checked
+    ghost: ghostBox.checked,
+    raw: valuesMenu.value === "raw",
+    bands: coloursMenu.value === "bands"
   });
-  const step = longest.steps[now.step],
-        words = `${step.step}, t = ${short(step.time, 6)} ${longest.units.time}`;
+  valuesMenu.disabled = !recoverable(now.field);
+  const words = `t = ${short(timeNow(), 6)} ${longest.units.time}`.trim();
   stepOutput.textContent = words;
   stepSlider.setAttribute("aria-valuetext", words);
+  document.querySelectorAll(".when").forEach(each => { each.textContent = words; });
+  for (const {run, time} of panels) {
+    const {step, time: t} = run.steps[stepOf(run)], same = Math.abs(t - timeNow()) <= close;
+    time.textContent = same ? `step ${step}` : `step ${step}, t = ${short(t, 6)} ${run.units.time}`;
+  }
   scaleOutput.textContent = String(now.scale);
   scaleSlider.setAttribute("aria-valuetext", String(now.scale));
-  panels.forEach(drawContact);
-  drawHistories();
+  drawCharts();
   await redraw();
 }
-for (const element of [fieldMenu, stepSlider, scaleSlider, wideBox, meshBox, ghostBox])
+let drawnWidth = 0;
+function drawCharts() {
+  drawnWidth = page.clientWidth;
+  drawContact();
+  drawHistories();
+}
+for (const element of [fieldMenu, valuesMenu, coloursMenu, lowBox, highBox, stepSlider, scaleSlider, wideBox,
+                       meshBox, ghostBox])
   element.addEventListener("input", change);
 whole.addEventListener("click", () => { groups.forEach(group => { group.fit = true; }); redraw(); });
 function zoom(group, factor, x = group.view.x, y = group.view.y) {
@@ -110,26 +134,34 @@ for (const panel of panels) {
     event.preventDefault();
   });
 }
-new ResizeObserver(() => { if (runs[0].group.view) redraw(); }).observe(grid);
+new ResizeObserver(() => {
+  if (page.clientWidth !== drawnWidth) drawCharts();
+  if (runs[0].group.view) redraw();
+}).observe(grid);
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => redraw());
 
-page.append($("h2", {}, "Histories"));
-if (runs.length > 1)
-  page.append($(
-      "div", {class: "key"}, ...runs.map((run, r) => $("span", {}, $("i", {class: `b${r % 4}`}), run.name))));
-page.append(historyBox);
+const historyBox = $("div", {class: "charts", id: "histories"});
+page.append($("h2", {}, "Histories"), historyBox);
 for (const run of runs)
   if (run.history.every > 1)
     page.append(
         $("p", {class: "soft"}, `${run.name}: every ${run.history.every}th row of history.csv is drawn.`));
-for (const title of Object.keys(runs[0].tables)) {
-  const keys = [...new Set(runs.flatMap(run => run.tables[title].map(([key]) => key)))];
-  const table = $("table", {}, $("tr", {}, $("th", {}, ""), ...runs.map(run => $("th", {}, run.name))));
-  for (const key of keys)
-    table.append(
-        $("tr", {}, $("td", {}, key.replaceAll("_", " ")),
-          ...runs.map(run => $("td", {}, (run.tables[title].find(each => each[0] === key) || ["", ""])[1]))));
-  page.append($("h2", {}, title), $("div", {class: "wide"}, table));
+for (const title of new Set(runs.flatMap(run => Object.keys(run.tables)))) {
+  const names = [...new Set(runs.flatMap(run => (run.tables[title] || []).map(([name]) => name)))];
+  const value = (run, name) => ((run.tables[title] || []).find(each => each[0] === name) || ["", ""])[1];
+  page.append(
+      $("h2", {}, title),
+      table({}, ["", ...runs.map(run => run.name)], names.map(name => [
+        name, ...runs.map(run => value(run, name))
+      ])));
+}
+for (const title of new Set(runs.flatMap(run => Object.keys(run.grids)))) {
+  page.append($("h2", {}, title));
+  for (const run of runs.filter(each => each.grids[title])) {
+    const [heads, ...rows] = run.grids[title];
+    if (runs.length > 1) page.append($("h3", {}, run.name));
+    page.append(table({}, heads, rows));
+  }
 }
 page.append($("h2", {}, "What was modelled and left out"));
 for (const run of runs) {
@@ -138,17 +170,14 @@ for (const run of runs) {
         $("p", {class: "soft"}, `${run.name}: not known: the scene is not where it was, or not as it was.`));
     continue;
   }
-  const rows = run.plan.map(
-      ([modelled, part, what, why]) => $(
-          "tr", {}, $("td", {}, modelled ? "modelled" : "left out"), $("td", {}, part), $("td", {}, what),
-          $("td", {}, why)));
-  page.append(
-      $("details", {}, $("summary", {}, run.name), $("div", {class: "wide"}, $("table", {}, ...rows))));
+  const rows = run.plan.map(([modelled, ...words]) => [modelled ? "modelled" : "left out", ...words]);
+  page.append($("details", {}, $("summary", {}, run.name), table({}, ["", "part", "what", "why"], rows)));
 }
 page.append($("h2", {}, "Scene"));
 for (const run of runs)
   page.append(
       $("details", {}, $("summary", {}, `${run.name}: ${run.path}`),
+        ...(run.settings.length ? [$("p", {}, `changed by --set: ${run.settings.join("; ")}`)] : []),
         $("pre", {class: "scene"}, run.scene === null ? "not kept in this result" : run.scene)));
 
 await Promise.all(runs.flatMap(run => run.bodies.map(loadMesh)));
