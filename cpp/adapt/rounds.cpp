@@ -60,9 +60,10 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
   ++done_;
   meshes_.learn(result.errors);
   trusted_ = result.energy > 0 ? std::sqrt((sum + meshes_.unseen()) / result.energy) : 0;
-  if (done_ > 1 && trusted_ + result.time <= least_ * asked) {
+  if (done_ > 1 && trusted_ + result.time <= leastOf(asked) * asked) {
     const std::optional<double> bound = result.bound ? result.bound() : std::nullopt;
     if (!bound || *bound <= asked) return Verdict::reached;
+    // Aimed at only: on coarse meshes bounds may be many times the error, and fall faster than it.
     least_ = careful * trusted_ / std::min(*bound, 1.0);
   }
   const double ofMeshes = least_ * asked - timeShare();
