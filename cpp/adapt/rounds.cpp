@@ -60,11 +60,14 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
   ++done_;
   meshes_.learn(result.errors);
   trusted_ = result.energy > 0 ? std::sqrt((sum + meshes_.unseen()) / result.energy) : 0;
-  if (done_ > 1 && trusted_ + result.time <= leastOf(asked) * asked) {
+  const double error = trusted_ + result.time;
+  // Bounds of coarse meshes are many times the error, and fall faster.
+  const bool far = error > least_ * asked && trusted_ > bounded_ / 2;
+  if (done_ > 1 && error <= leastOf(asked) * asked && !far) {
     const std::optional<double> bound = result.bound ? result.bound() : std::nullopt;
     if (!bound || *bound <= asked) return Verdict::reached;
-    // Aimed at only: on coarse meshes bounds may be many times the error, and fall faster than it.
     least_ = careful * trusted_ / std::min(*bound, 1.0);
+    bounded_ = trusted_;
   }
   const double ofMeshes = least_ * asked - timeShare();
 
