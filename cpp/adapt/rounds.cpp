@@ -96,10 +96,14 @@ Rounds::Verdict Rounds::judge(const RoundResult& result, double seconds) {
   ++done_;
   meshes_.learn(result.errors);
   corrected_ = result.energy > 0 ? std::sqrt((sum + meshes_.unresolved()) / result.energy) : 0;
-  if (done_ > 1 && corrected_ + result.time <= least_ * asked) {
+  const double error = corrected_ + result.time;
+  // Bounds of coarse meshes are many times the error, and fall faster.
+  const bool far = error > least_ * asked && corrected_ > bounded_ / 2;
+  if (done_ > 1 && error <= leastOf(asked) * asked && !far) {
     const std::optional<double> bound = result.bound ? result.bound() : std::nullopt;
     if (!bound || *bound <= asked) return Verdict::reached;
     least_ = careful * corrected_ / std::min(*bound, 1.0);
+    bounded_ = corrected_;
   }
   const double ofMeshes = least_ * asked - timeShare();
 

@@ -107,7 +107,8 @@ class Rounds {
   double meshError_ = 0;                                     ///< as estimated in the last round, relative
   double lowest_ = std::numeric_limits<double>::infinity();  ///< of the rounds before
   double corrected_ = 0;                                     ///< corrected for unbounded stresses
-  double least_;  ///< part of what is asked for that the estimate has to be below
+  double least_;        ///< part of what is asked for that the estimate has to be below
+  double bounded_ = 0;  ///< estimate when there last was a bound, which was too large
   int done_ = 0;
   int shortfalls_ = 0;
   std::string reason_;

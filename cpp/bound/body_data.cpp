@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "base/datum.h"
 #include "bound/loaded_body.h"
@@ -210,9 +211,10 @@ class Reading {
     };
     for (const PrescribedDisplacement& held : place_.body.conditions().displacements) {
       if (held.label != label) continue;
-      hold(known, direction(held.component));
-      if (!holds(side, direction(held.component))) data_.curvedSupport = true;
-      readDisplacement(e, direction(held.component), held.value);
+      const std::optional<Point> along = heldAlong(side, direction(held.component));
+      if (!along) data_.curvedSupport = true;
+      hold(known, along.value_or(direction(held.component)));
+      readDisplacement(e, along.value_or(direction(held.component)), held.value);
     }
     for (const Traction& traction : place_.body.conditions().tractions)
       if (traction.label == label) readTraction(e, fan, direction(traction.component), traction.value);
@@ -257,15 +259,29 @@ class Reading {
     data_.carried[t] += datum.off * std::sqrt(length) * carriesTraction(fan, place_.compliances[t]);
   }
 
-  /// Whether the supports of both ends of a side hold it along a direction.
-  [[nodiscard]] bool holds(const Side& side, const Point& direction) const {
+  /// The direction, that of a side but for rounded coordinates, along which the supports of both its ends
+  /// hold it; none where there is none.
+  [[nodiscard]] std::optional<Point> heldAlong(const Side& side, const Point& direction) const {
+    constexpr double nearly = 1e-3;
     const std::vector<NodeSupport>& supports = place_.body.supports().nodes();
-    return std::all_of(side.vertices.begin(), side.vertices.end(), [&](int vertex) {
+    std::optional<Point> found;
+    bool alone = false;  // at a node that is held along no other direction
+    for (const int vertex : side.vertices) {
       const auto at = std::lower_bound(supports.begin(), supports.end(), vertex,
                                        [](const NodeSupport& each, int node) { return each.node < node; });
-      if (at == supports.end() || at->node != vertex) return false;
-      return at->count == 2 || isAlong(at->directions[0], direction);
-    });
+      if (at == supports.end() || at->node != vertex) return std::nullopt;
+      const auto end = at->directions.begin() + at->count;
+      const auto own = std::find_if(at->directions.begin(), end, [&](const Point& each) {
+        return std::abs(each.x() * direction.y() - each.y() * direction.x()) <= nearly;
+      });
+      const bool one = at->count == 1;
+      if (own == end && one) return std::nullopt;
+      if (own == end || (found && !one)) continue;
+      if (alone && !isAlong(*found, *own)) return std::nullopt;
+      found = own->dot(direction) > 0 ? *own : Point(-*own);
+      alone = one;
+    }
+    return found ? found : direction;
   }
 
   /// What initial and thermal stresses are beside those at the points of the body.

@@ -14,10 +14,11 @@ namespace {
 
 /// Points of an edge that are closer than this part of it are one.
 constexpr double samePoint = 1e-6;
-/// Lines that make a smaller angle are parallel [rad], and those whose ends are off by less, over the largest
-/// coordinate.
-constexpr double parallel = 1e-9;
-constexpr double rounding = 1e-14;
+/// Directions of contact that make a smaller angle are one [rad].
+constexpr double sameDirection = 1e-9;
+/// Sides that make a smaller angle are parallel [rad]: tractions are those of a pressure along the direction
+/// of contact, whatever the sides, which coordinates of a few digits turn from it.
+constexpr double parallel = 1e-3;
 /// Pieces of a side whose tractions are not linear: no more, and until these leave no more than a part of
 /// the tractions.
 constexpr size_t mostPieces = 16;
@@ -207,12 +208,10 @@ int rowAt(const ContactInterface& interface, int vertex, const Point& normal) {
 /// What is wrong with a piece for tractions that are equal on both sides; empty where nothing is.
 std::string faultOf(const RefinedPiece& piece, const TriangleMesh& nonmortar, const TriangleMesh& mortar) {
   const auto across = [&](const TriangleMesh& mesh, const Edge& edge) {
-    const Point& first = mesh.vertices[edge[0]];
-    const Point along = mesh.vertices[edge[1]] - first;
-    return std::abs(along.dot(piece.normals[0])) <=
-           parallel * along.norm() + rounding * first.cwiseAbs().maxCoeff();
+    const Point along = mesh.vertices[edge[1]] - mesh.vertices[edge[0]];
+    return std::abs(along.dot(piece.normals[0])) <= parallel * along.norm();
   };
-  if ((piece.normals[0] - piece.normals[1]).norm() > parallel || !across(nonmortar, piece.nonmortar))
+  if ((piece.normals[0] - piece.normals[1]).norm() > sameDirection || !across(nonmortar, piece.nonmortar))
     return "is not straight";
   return across(mortar, piece.mortar) ? "" : "is not parallel on both sides";
 }

@@ -6,8 +6,8 @@
 namespace mortier {
 namespace {
 
-/// A part whose nodes lie on its chord up to this part of its length is straight.
-constexpr double straightness = 1e-9;
+/// A part whose nodes lie on its chord up to this part of its length is straight: coordinates may be rounded.
+constexpr double straightness = 1e-6;
 
 /// Perpendicular to a direction, away from the body on its left.
 Point outward(const Point& t) {

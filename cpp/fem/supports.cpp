@@ -13,8 +13,8 @@ namespace {
 /// Sides that turn by less are smooth.
 const double cornerCosine = std::cos(40 * std::numbers::pi / 180);
 
-/// Directions whose sine is below this are the same.
-constexpr double sameDirection = 1e-6;
+/// Directions whose sine is below this are the same: straight sides have one, whatever coordinates round.
+constexpr double sameDirection = 1e-5;
 
 /// A stretch of the boundary seen from one of its nodes.
 struct Side {
@@ -79,6 +79,32 @@ Point normalAt(const SidesOfNodes& sides, int node, const Side& side) {
   return side.normal;
 }
 
+Point upwards(const Point& direction) {
+  return direction.y() < 0 ? Point(-direction) : direction;
+}
+
+/// By the angle from the x axis.
+bool isBefore(const Point& a, const Point& b) {
+  return cross(a, b) > 0;
+}
+
+/// The axis or the mean of all directions that are the same as this one.
+/// \param all  upwards, sorted
+Point oneOf(const std::vector<Point>& all, const Point& direction) {
+  const Point own = upwards(direction);
+  Point mean(0, 0);
+  for (const Point& same : {Point(1, 0), Point(0, 1)})
+    if (parallel(same, own)) mean = own.dot(same) > 0 ? same : Point(-same);
+  if (mean.isZero(0)) {
+    const Point aside(-sameDirection * own.y(), sameDirection * own.x());
+    for (auto each = std::lower_bound(all.begin(), all.end(), own - aside, isBefore);
+         each != all.end() && parallel(*each, own); ++each)
+      mean += *each;
+    mean.normalize();
+  }
+  return mean.dot(direction) > 0 ? mean : Point(-mean);
+}
+
 }  // namespace
 
 void Supports::hold(NodeSupport& support, const Point& direction, int condition) {
@@ -99,6 +125,19 @@ Supports::Supports(const TriangleMesh& mesh, const ElementNodes& nodes,
                    const std::vector<PrescribedDisplacement>& conditions) {
   const SidesOfNodes sides = sidesOf(mesh, nodes, conditions);
   std::map<int, NodeSupport> held;
+  const auto directionAt = [&](size_t c, size_t e, int node) -> Point {
+    const std::vector<Side>& here = sides.at(node);
+    const auto side =
+        std::find_if(here.begin(), here.end(), [&](const Side& s) { return s.edge == static_cast<int>(e); });
+    const Point n = normalAt(sides, node, *side);
+    return conditions[c].component == alongNormal ? n : Point(-n.y(), n.x());
+  };
+  std::vector<Point> directions;
+  for (size_t c = 0; c < conditions.size(); ++c)
+    for (size_t e = 0; isTurned(conditions[c].component) && e < nodes.boundary.size(); ++e)
+      if (conditions[c].actsOn(mesh.boundaryLabels[nodes.boundary[e].edge]))
+        for (const int node : nodes.boundary[e].nodes) directions.push_back(upwards(directionAt(c, e, node)));
+  std::sort(directions.begin(), directions.end(), isBefore);
   // Axes first: a normal that is one of them up to rounding gives way.
   for (const bool turned : {false, true})
     for (size_t c = 0; c < conditions.size(); ++c) {
@@ -128,11 +167,7 @@ Supports::Supports(const TriangleMesh& mesh, const ElementNodes& nodes,
             hold(support, axis(component), static_cast<int>(c));
             continue;
           }
-          const std::vector<Side>& here = sides.at(node);
-          const auto side = std::find_if(here.begin(), here.end(),
-                                         [&](const Side& s) { return s.edge == static_cast<int>(e); });
-          const Point n = normalAt(sides, node, *side);
-          hold(support, component == alongNormal ? n : Point(-n.y(), n.x()), static_cast<int>(c));
+          hold(support, oneOf(directions, directionAt(c, e, node)), static_cast<int>(c));
         }
       }
     }

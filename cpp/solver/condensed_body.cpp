@@ -200,8 +200,10 @@ void CondensedBody::useSchurComplement(Factors& factors) {
     S.noalias() += stiffness * contact_.R * contact_.R.transpose();
   }
   const bool symmetric = body_.material().symmetricTangent();
-  factorised_ = schurFactor_.factorise(std::move(S), symmetric) || !symmetric;
-  if (!factorised_) factors.failure = "body " + body_.name() + ": its tangent is not positive definite";
+  factorised_ = schurFactor_.factorise(std::move(S), symmetric);
+  if (!factorised_)
+    factors.failure =
+        "body " + body_.name() + ": its tangent is " + (symmetric ? "not positive definite" : "singular");
 }
 
 void CondensedBody::addCompliance(Matrix& W) const {

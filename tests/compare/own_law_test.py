@@ -37,6 +37,35 @@ steps = 5
 """
 
 
+SOFTENING = """\
+check.allow = ["large-strain", "mesh-coarse"]
+[[body]]
+name = "upper"
+mesh = { shape = "rectangle", cells = 2, lower = [0, 0], upper = [1, 1] }
+boundary = [ { label = 4, ux = 0 }, { label = 3, ty = "-1e5*t" } ]
+[body.material]
+young = 1e3
+poisson = 0.3
+law = "expression"
+rate11 = "flow*(s11-mean)"
+rate22 = "flow*(s22-mean)"
+rate12 = "flow*s12"
+parameters = { mean = "(s11+s22)/3", mises = "sqrt(s11^2+s22^2-s11*s22+3*s12^2)", flow = "0.1*tan(mises/20)" }
+[[body]]
+name = "lower"
+mesh = { shape = "rectangle", cells = 3, lower = [0, -1], upper = [1, 0] }
+material = { young = 1e3, poisson = 0.3 }
+boundary = [ { label = 4, ux = 0 }, { label = 1, uy = 0 } ]
+[contact]
+nonmortar = { body = "upper", label = 1 }
+mortar = { body = "lower", label = 3 }
+[time]
+end = 1
+scheme = "sdirk2"
+tolerance = 1e-2
+"""
+
+
 def along_deviator(factor, parameters, more=""):
     """A law whose rate is a factor times the deviator."""
     lines = [f'rate{c} = "({factor})*(s{c}{"" if c == "12" else " - mean"}){more.format(c=c)}"'
@@ -308,6 +337,12 @@ class Hostile(InFolder):
         self.write(hot.format(law="expansion = 1e-6\n" + NORTON))
         self.reject("scene.toml:4: body upper: temperature, expected none beside such a law",
                     "freefem", "scene.toml", "out.edp")
+
+    def test_a_tangent_that_is_singular_ends_a_step(self):
+        # Beyond the pole of the tangent function the law softens: LU of the contact nodes may have no pivot.
+        self.write(SOFTENING)
+        done = self.mortier("run", "scene.toml", "--quiet", "--threads", "1", "--out", "out", code=1)
+        self.assertRegex(done.stderr, r"^mortier: scene.toml: step \d+ at t = ")
 
     def test_steps_that_cannot_be_solved_are_one_line(self):
         pushed = SCENE.replace('ty = "-1e8*(1 + 0.5*x)*min(t, 0.3)"', 'uy = "-1e-4*t"')

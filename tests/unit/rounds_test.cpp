@@ -67,6 +67,19 @@ TEST(Rounds, aBoundHasToBeSmallEnoughToo) {
   EXPECT_EQ(asked, 2);
 }
 
+// Bounds of coarse meshes are many times the error, and fall faster.
+TEST(Rounds, aBoundThatWasFarTooLargeIsAskedForAgain) {
+  Rounds rounds(sceneOf(0.1));
+  const auto judge = [&](double error, double bound) {
+    RoundResult result = resultOf(rounds, error);
+    result.bound = [bound] { return bound; };
+    return rounds.judge(result, 1);
+  };
+  EXPECT_EQ(judge(0.2, 5), Rounds::Verdict::goOn);
+  EXPECT_EQ(judge(0.05, 5), Rounds::Verdict::goOn);
+  EXPECT_EQ(judge(0.02, 0.08), Rounds::Verdict::reached);
+}
+
 TEST(Rounds, whereThereIsNoBoundTheEstimateEndsThem) {
   Rounds rounds(sceneOf(0.1));
   EXPECT_EQ(rounds.judge(resultOf(rounds, 0.5), 1), Rounds::Verdict::goOn);
