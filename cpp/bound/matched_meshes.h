@@ -45,7 +45,7 @@ struct MatchedMeshes {
   std::vector<CutMesh> bodies;
   std::vector<MatchedPiece> pieces;
   double apart = 0;  ///< points that are one in them are no farther apart [m]
-  /// Why there are none: a line that is not straight, or whose sides are not parallel.
+  /// Why there are none: a line that is not straight, or whose sides are not parallel, to rounding.
   std::string obstacle;
 };
 

@@ -88,7 +88,8 @@ bool isBefore(const Point& a, const Point& b) {
   return cross(a, b) > 0;
 }
 
-/// The axis or the mean of all directions that are the same as this one.
+/// The axis or the mean of all directions that are the same as this one: nodes of a straight side may lie
+/// beside it by the rounding of their coordinates, and would hold the body along the side.
 /// \param all  upwards, sorted
 Point oneOf(const std::vector<Point>& all, const Point& direction) {
   const Point own = upwards(direction);

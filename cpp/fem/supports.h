@@ -57,8 +57,6 @@ struct FurtherMotion {
 /// The normal of a node is that of the circle through it and its neighbours on the sides with a normal or
 /// tangential condition, so it is exact on straight sides and on circles whatever the spacing. Where such
 /// sides meet in a corner (they turn by 40 degrees or more) each has its own normal, and the node is held.
-/// Directions that differ by less than 1e-5 are one, their mean or an axis: nodes of straight sides may lie
-/// beside them by the rounding of their coordinates, and would hold the body along the sides.
 class Supports {
  public:
   Supports() = default;

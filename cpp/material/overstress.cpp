@@ -22,7 +22,7 @@ OverstressFlow::OverstressFlow(const Pair& e, const Pair& a, const Overstress& l
     : e_{e[0], e[1], e[1]},
       a_{a[0], a[1], a[1]},
       least_(std::min(e[0] * a[0], e[1] * a[1])),
-      onSurface_(1 - 1e-7),
+      onSurface_(law.viscous() ? 1 - 1e-10 : 1 - 1e-7),
       law_(law) {}
 
 Lanes OverstressFlow::mises(const LaneVector& z) const {
