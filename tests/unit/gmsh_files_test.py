@@ -314,7 +314,7 @@ every = 1
         self.write('SetFactory("OpenCASCADE"); Merge "plate.step";\n'
                    'Physical Curve("hole", 7) = {5}; Physical Surface("plate", 1) = {1};\n', "named.geo")
         self.assertRegex(self.mortier("mesh", "info", "plate.step").stdout,
-                         r"(?s)x 0 \.\. 20, y 0 \.\. 10 .*label 1 .*length 20\n.*label 5 .*region 1 ")
+                         r"(?s)x 0 \.\. 20, y 0 \.\. 10\n.*label 1 .*length 20\n.*label 5 .*region 1 ")
         self.assertIn("x 0 .. 20000,", self.mortier("mesh", "info", "metres.step").stdout)
         self.assertRegex(self.mortier("mesh", "info", "named.geo").stdout, "label 7 .*, hole\n")
         self.write("""[[body]]
