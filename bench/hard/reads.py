@@ -65,7 +65,7 @@ def off_punch(run):
 
 
 def off_cone(run):
-    """The largest deviation of a nodal pressure from E tan/(2 (1 - nu^2)) arcosh(a/r), a = 2 depth/(pi tan)."""
+    """The largest deviation of a nodal pressure from E t/(2 (1 - nu^2)) arcosh(a/r), a = 2 depth/(pi t)."""
     a, unit = 2 / math.pi, 1000 / (1 - 0.3**2) * 0.02 / 2
     r, p = pressures(run)
     inside = (r > 0.1 * a) & (r < 0.85 * a)

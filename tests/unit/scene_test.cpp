@@ -129,9 +129,8 @@ TEST_F(SceneFiles, pressuresDoNotAlternateByDefault) {
             "fewer nodes as its edges are 1.5 times as short and its young is 3.3 times as large");
   EXPECT_EQ(contact({"contact.swap=true", stiff, "contact.variant=mortar"}).variant, CouplingKind::mortar);
   EXPECT_EQ(contact({"contact.swap=true", stiff, "accuracy.energy=0.1"}).variant, CouplingKind::mortar);
-  const std::vector<std::string> free{
-      "contact.nonmortar=", "contact.mortar=",
-      "contact.sides=[{body=\"upper\", label=1}, {body=\"lower\", label=3}]"};
+  const std::vector<std::string> free{"contact.nonmortar=", "contact.mortar=",
+                                      "contact.sides=[{body=\"upper\", label=1}, {body=\"lower\", label=3}]"};
   const auto nonmortar = [&](std::vector<std::string> more) {
     more.insert(more.begin(), free.begin(), free.end());
     return contact(more).nonmortar.body;
