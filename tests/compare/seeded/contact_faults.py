@@ -127,7 +127,7 @@ def _(case):
 def _(case):
     case.upper = Mesh(0, 0, 1, 1, 15, 6)
     case.lower = Mesh(0, -1, 1, 0, 3, 3)
-    case.replace("label = 3 }\n", "label = 3 }\nvariant = \"mortar\"\n")
+    case.replace("label = 3 }\n", "label = 3 }\nvariant = \"weighted\"\n")
 
 
 @fault("friction-large", "[contact]")
