@@ -46,7 +46,7 @@ def main():
         print(f"figures: {error}", file=sys.stderr)
         return 2
     arguments.out.mkdir(parents=True, exist_ok=True)
-    style = {"norm": stress_norm(views), "colours": COLOURS}
+    style = {"norm": stress_norm(views), "colours": COLOURS, "raw": True}  # constant on triangles: the note's
     with pictures.plt.rc_context(pictures.STYLE):
         figures = {"figure-1-mortar": pictures.fields(views[:1], **style),
                    "figure-2-interpolation": pictures.fields(views[1:], **style),

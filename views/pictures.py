@@ -146,11 +146,15 @@ def mark_extremes(axes, view, scale, field, values):
         name = end(values, key=lambda each: getattr(values[each], end.__name__)())
         found, body = values[name], view.run.bodies[name]
         at = np.unravel_index(getattr(found, f"arg{end.__name__}")(), found.shape)
-        corners = shapes.placed(body, scale)[body.triangles[at[0]]]
+        points = shapes.placed(body, scale)
+        corners = points[body.triangles[at[0]]]
         place = corners[at[1]] if len(at) == 2 else corners.mean(0)
         axes.plot(*place, marker="o", ms=5, mfc="none", mec=INK, mew=1, zorder=8, clip_on=True)
-        axes.annotate(f"{found[at]:.4g}", place, (4, 4), textcoords="offset points", fontsize=8, zorder=8,
-                      annotation_clip=True, path_effects=[withStroke(linewidth=2, foreground="white")])
+        left = place[0] > points[:, 0].mean()  # the words stay within the body
+        words = axes.annotate(f"{found[at]:.4g}", place, (-6 if left else 6, 4), textcoords="offset points",
+                              ha="right" if left else "left", fontsize=8, zorder=8, annotation_clip=True,
+                              path_effects=[withStroke(linewidth=2, foreground="white")])
+        words.set_in_layout(False)
 
 
 def draw_whole(axes, view, scale, window, field, values, norm, colours):
