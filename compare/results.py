@@ -242,7 +242,7 @@ def jump(run, upper="upper", lower="lower"):
 
 
 def checked(path, times=10):
-    """The path of a regular file that can be read; memory must hold so many times its size."""
+    """The path of a regular file that can be read; its size, `times` over, must fit into memory."""
     most = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // times
     try:
         facts = os.stat(path)

@@ -96,7 +96,7 @@ def step_block(result, run, fields, earlier, many):
 
 
 def without_noise(kind, values):
-    """A component that is nothing but rounding beside the others of its kind becomes 0."""
+    """A component below the rounding of the others of its kind becomes 0."""
     largest = {name: max(np.abs(each).max(initial=0) for each in of.values()) for name, of in kind.items()}
     top = max(largest.values(), default=0)
     for name, of in kind.items():

@@ -34,13 +34,13 @@ namespace mortier {
 /// that of each triangle is the largest that it had at any time.
 class ErrorHistory {
  public:
-  /// \param error  of the states that are told of
+  /// \param error  of the states of the run
   ErrorHistory(const Model& model, CurrentSpaceError& error) : model_(model), error_(error) {}
   /// A state of the run, in their order; the initial state (step 0) begins anew.
   void add(const StepReport& report);
 
   /// By bodies and triangles [J/m]: the shares, whose sum is the largest error of any state, squared. 0 where
-  /// that is nothing but rounding.
+  /// that is rounding.
   [[nodiscard]] std::vector<Vector> errors() const;
   /// The largest energy of the recovered stress of any state [J/m].
   [[nodiscard]] double energy() const { return energy_; }

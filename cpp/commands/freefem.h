@@ -11,12 +11,12 @@
 namespace mortier {
 
 /// Why `mortier freefem` would refuse the scene, in the same words; empty where it would not.
-/// \param stepsGiven  whether it is told the steps of a run
+/// \param stepsGiven  whether the steps of a run are given
 std::string freefemObstacle(const SceneDescription& scene, const Model& model, bool stepsGiven);
 /// \throws InputError for the first thing in the scene that the FreeFEM method does not know
 void requireFreefemKnows(const SceneDescription& scene, const Model& model, bool stepsGiven);
 
-/// One macro for all bodies or interfaces with what it is of; nothing where that is empty.
+/// One macro for all bodies or interfaces, with its text; empty where the text is.
 std::string freefemMacro(const std::string& name, const std::string& text, const std::string& comment);
 /// What materials have beside isotropic elasticity and Perzyna's law: macros and numbers of every body
 /// (freefem/README.md); nothing where no body has any of it.

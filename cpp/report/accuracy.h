@@ -66,7 +66,7 @@ struct AccuracyMemory {
 class AccuracyRecord {
  public:
   /// \param memory  of an earlier part of the run; kept up to date.
-  /// \param error  of the states that are told of
+  /// \param error  of the states of the run
   AccuracyRecord(const Model& model, CurrentSpaceError& error, AccuracyMemory& memory)
       : model_(model), error_(error), memory_(memory) {}
   /// Whether add() needs the state.
