@@ -133,8 +133,8 @@ nonmortar | | | `{ body = "name", label = 1 }` | the side that carries the conta
 mortar | | | `{ body = "name", label = 3 }` | the other side
 sides | | | `[{ body = "a", label = 1 }, { body = "b", label = 3 }]` | the two sides in any order, in place of
   `nonmortar` and `mortar`: the program chooses (below)
-variant | | `"mortar"`, with `degree = 2` `"weighted"`; `"coarsened"` where the pressure would alternate
-  otherwise ([below](#contact-lines)) | `"interpolation"`, `"mortar"`, `"weighted"`,
+variant | | `"mortar"`, with `degree = 2` `"weighted"`; `"coarsened"` where the nonmortar side is
+  finer and stiffer ([below](#contact-lines)) | `"interpolation"`, `"mortar"`, `"weighted"`,
   `"coarsened"` | what must not become negative, as a gap and as a force: the values of the gap at the nodes,
   its projection, its means weighted with the hat functions of the nonmortar vertices, whose pressure is
   nowhere negative, or the same with fewer vertices where the nonmortar side is finer and stiffer, whose

@@ -84,8 +84,9 @@ struct Alternation {
 std::optional<Alternation> alternation(const SceneDescription& scene, const ContactDescription& contact,
                                        const std::vector<const TriangleMesh*>& meshes);
 
-/// Takes `coarsened` for contacts with such a side, and says why in `choice`; not with [accuracy], which
-/// refines the meshes or bounds the error of the rows by default. A second call changes nothing.
+/// Takes `coarsened` for contacts with such a side of a stiffer body, and says why in `choice`; not with
+/// [accuracy], which refines the meshes or bounds the error of the rows by default. A second call changes
+/// nothing.
 void decideVariants(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes);
 
 }  // namespace mortier

@@ -109,7 +109,7 @@ std::optional<Alternation> alternation(const SceneDescription& scene, const Cont
 void decideVariants(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes) {
   if (scene.accuracy.bound || scene.accuracy.asked() > 0) return;
   for (ContactDescription& contact : scene.contacts) {
-    if (contact.variantGiven) continue;
+    if (contact.variantGiven || !stiffer(scene, contact, contact.nonmortar, contact.mortar)) continue;
     const auto found = alternation(scene, contact, meshes);
     if (!found) continue;
     contact.variantGiven = true;
