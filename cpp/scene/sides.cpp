@@ -88,8 +88,8 @@ void decideSides(SceneDescription& scene, const std::vector<const TriangleMesh*>
 
 std::optional<Alternation> alternation(const SceneDescription& scene, const ContactDescription& contact,
                                        const std::vector<const TriangleMesh*>& meshes) {
-  // Nodal pressures are off by more than 2 % beyond one of these pairs (docs/measurements.md): the least
-  // ratio of nodes, and of nodes times stiffness.
+  // Nodal pressures are off by more than 2 % beyond one of these pairs, at degree 2 beyond the first one
+  // (docs/measurements.md): the least ratio of nodes, and of nodes times stiffness.
   constexpr double limits[][2] = {{1.1, 4}, {1.5, 1.25}};
   const auto edgesOf = [&](const SideDescription& side) {
     return meanEdge(scene, side, meshes).has_value() ? meshes[bodyIndex(scene, side.body)] : nullptr;
@@ -101,8 +101,8 @@ std::optional<Alternation> alternation(const SceneDescription& scene, const Cont
   const double edges = edgeRatio(*nonmortar, contact.nonmortar.label, *mortar, contact.mortar.label);
   const double nodes = edges / (rowDegree(contact.variant, scene.degree) < scene.degree ? 2 : 1);
   const double stiffness = stiffnessRatio(scene, contact.nonmortar, contact.mortar);
-  for (const auto& [finer, product] : limits)
-    if (nodes > finer && nodes * stiffness > product) return Alternation{edges, stiffness};
+  const auto beyond = [&](const auto& limit) { return nodes > limit[0] && nodes * stiffness > limit[1]; };
+  if (beyond(limits[0]) || (scene.degree == 1 && beyond(limits[1]))) return Alternation{edges, stiffness};
   return std::nullopt;
 }
 
