@@ -55,7 +55,7 @@ int main(int count, char** arguments) {
       {"stiffer body", [](const MeshPair& p) { return p.young[0] <= p.young[1] ? 1 : 0; }},
       {"softer or finer",
        [](const MeshPair& p) {
-         constexpr double clearly = 2;  // as scene/sides.cpp
+         constexpr double clearly = 100;  // as scene/sides.cpp
          if (p.young[0] > clearly * p.young[1] || p.young[1] > clearly * p.young[0])
            return p.young[0] <= p.young[1] ? 0 : 1;
          return p.cells[0] >= p.cells[1] ? 0 : 1;

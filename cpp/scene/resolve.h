@@ -57,8 +57,8 @@ bool flowLocks(const SceneDescription& scene, const MaterialDescription& materia
 void decideVolumes(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes);
 
 // Which side of a contact is nonmortar where the scene leaves it open (`sides`), measured by
-// bench/nonmortar_side: the softer body, whose energy error is as small and whose nodal pressures do not
-// alternate; the finer mesh along the contact where the moduli are alike, and with interpolation.
+// bench/nonmortar_side: the finer mesh along the contact, or the softer body where the other is far stiffer (but
+// with interpolation).
 
 /// Young's modulus of the body of one side over that of the other's.
 double stiffnessRatio(const SceneDescription& scene, const SideDescription& one,
@@ -66,7 +66,7 @@ double stiffnessRatio(const SceneDescription& scene, const SideDescription& one,
 
 /// Whether one body of a contact is so much stiffer than the other that it is to be mortar.
 bool stiffer(const SceneDescription& scene, const ContactDescription& contact, const SideDescription& one,
-             const SideDescription& other);
+             const SideDescription& other, double times = 2);
 
 /// Puts the chosen side first in every contact that leaves the choice open, and says why in `choice`; labels
 /// are numbers (scene/resolve.h). A second call changes nothing. Contacts with a mesh that is missing

@@ -57,13 +57,13 @@ double stiffnessRatio(const SceneDescription& scene, const SideDescription& one,
 }
 
 bool stiffer(const SceneDescription& scene, const ContactDescription& contact, const SideDescription& one,
-             const SideDescription& other) {
-  constexpr double clearly = 2;
-  return contact.variant != CouplingKind::interpolation && stiffnessRatio(scene, one, other) > clearly;
+             const SideDescription& other, double times) {
+  return contact.variant != CouplingKind::interpolation && stiffnessRatio(scene, one, other) > times;
 }
 
 void decideSides(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes) {
   constexpr double equal = 1e-9;  // then the side named first
+  constexpr double far = 100;     // a coarse soft side may touch between its nodes
   for (ContactDescription& contact : scene.contacts) {
     if (contact.sidesGiven || !contact.choice.empty()) continue;
     const auto edge1 = meanEdge(scene, contact.nonmortar, meshes);
@@ -73,12 +73,12 @@ void decideSides(SceneDescription& scene, const std::vector<const TriangleMesh*>
     const bool alike = !secondIsFiner && *edge2 <= (1 + equal) * *edge1;
     contact.choice =
         alike ? "both meshes are as fine, nonmortar is the side named first" : "nonmortar is the finer mesh";
-    const bool firstIsStiffer = stiffer(scene, contact, contact.nonmortar, contact.mortar);
-    const bool secondIsStiffer = stiffer(scene, contact, contact.mortar, contact.nonmortar);
+    const bool firstIsStiffer = stiffer(scene, contact, contact.nonmortar, contact.mortar, far);
+    const bool secondIsStiffer = stiffer(scene, contact, contact.mortar, contact.nonmortar, far);
     const bool second = firstIsStiffer || (secondIsFiner && !secondIsStiffer);
     if (firstIsStiffer || secondIsStiffer)
       contact.choice =
-          contact.otherSide ? "nonmortar is the stiffer body (swap)" : "nonmortar is the softer body";
+          contact.otherSide ? "nonmortar is the far stiffer body (swap)" : "nonmortar is the far softer body";
     else if (contact.otherSide)
       contact.choice = alike ? "both meshes are as fine, nonmortar is the side named last (swap)"
                              : "nonmortar is the coarser mesh (swap)";
