@@ -57,8 +57,8 @@ bool flowLocks(const SceneDescription& scene, const MaterialDescription& materia
 void decideVolumes(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes);
 
 // Which side of a contact is nonmortar where the scene leaves it open (`sides`), measured by
-// bench/nonmortar_side: the finer mesh along the contact, or the softer body where the other is far stiffer (but
-// with interpolation).
+// bench/nonmortar_side: the finer mesh along the contact, or the softer body where the other is far stiffer
+// (but with interpolation).
 
 /// Young's modulus of the body of one side over that of the other's.
 double stiffnessRatio(const SceneDescription& scene, const SideDescription& one,

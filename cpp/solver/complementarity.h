@@ -28,7 +28,7 @@ struct ContactProblem {
   Matrix W;                 ///< conditions x conditions; W_ii = 0 where no free motion changes one [m^2/N]
   bool symmetric = true;    ///< whether W is
   Matrix G;                 ///< conditions x rigid motions, none where all bodies are supported
-  double forceScale = 0;    ///< a contact force beside which an imbalance is rounding [N/m]
+  double forceScale = 0;    ///< scale of contact forces; rounding of the balance is relative to it [N/m]
   double proximal = 1e-9;   ///< weight of the proximal terms to begin with, over stiffness or compliance [-]
   FrictionRows along = {};  ///< none without friction
 
