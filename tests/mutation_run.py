@@ -118,10 +118,13 @@ class Tree:
             command = ["/usr/bin/python3", script, "-f"]
             if not all(map(self.make, ("mortier", *LOADED.values()))):
                 return "does not compile"
-        elif not self.make(pathlib.Path(test).name):
+        elif not self.make(f"{pathlib.Path(test).parent}_tests"):
             return "does not compile"
         else:
-            command = [self.build / "tests" / pathlib.Path(test).name, "--gtest_fail_fast", "--gtest_brief=1"]
+            text = (self.source / "tests" / f"{test}.cpp").read_text()
+            suites = sorted(set(re.findall(r"^TEST(?:_F|_P)?\((\w+),", text, re.MULTILINE)))
+            command = [self.build / "tests" / f"{pathlib.Path(test).parent}_tests", "--gtest_fail_fast",
+                       "--gtest_brief=1", "--gtest_filter=" + ":".join(f"{suite}.*" for suite in suites)]
         environment = dict(os.environ, MORTIER=str(self.build / "mortier"), MORTIER_ROOT=str(self.source))
         environment |= {name: str(self.build / f"tests/lib{target}.so") for name, target in LOADED.items()}
         begin = time.monotonic()

@@ -207,7 +207,7 @@ def other_rows():
               read=number(r"(\d+) cases beyond"))
     yield Row("Inf-sup constant of nodal pressures", "0 where all nodes have a row (El-Abbasi, Bathe 2001)",
               "coarsened, least of ratios 1.1 to 8, degrees 1 and 2", command=(
-                  "build/tests/coupling_test", "--gtest_filter=Coupling.coarsenedRowsKeepTheInfSupConstant"),
+                  "build/tests/unit_tests", "--gtest_filter=Coupling.coarsenedRowsKeepTheInfSupConstant"),
               read=number(r"inf-sup constant ([\d.e+-]+)", min), exact=0.1, within=0.1, at_least=True)
     yield Row("Friction in Siconos", "fc2d_lexicolemke", "largest difference of forces, one solution",
               command=("build/bench/siconos",), read=number(r"largest difference ([\d.e+-]+)"), within=1e-9)

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double unknownRate = std::numeric_limits<double>::infinity();
 /// The largest reduction of a size in one round.
-constexpr double least = 1.0 / 8;
+constexpr double leastReduction = 1.0 / 8;
 /// Stresses are unbounded where errors fall like this power of the area, or more slowly; a slower one is not
 /// believed.
 constexpr double bounded = 1.1;
@@ -27,7 +27,7 @@ double scaleOfSizes(const std::vector<Vector>& errors, double aim, int degree) {
     for (const double square : error) {
       if (!(square > 0)) continue;
       const double root = std::pow(std::sqrt(square), power);
-      low = std::min(low, root * least);
+      low = std::min(low, root * leastReduction);
       high = std::max(high, root);
     }
   for (int i = 0; i < 60 && high > 0; ++i) {
@@ -37,7 +37,8 @@ double scaleOfSizes(const std::vector<Vector>& errors, double aim, int degree) {
     for (const Vector& error : errors)
       for (const double square : error)
         if (square > 0)
-          sum += square * std::pow(std::clamp(middle * std::pow(square, -power / 2), least, 1.0), 2 * degree);
+          sum += square *
+                 std::pow(std::clamp(middle * std::pow(square, -power / 2), leastReduction, 1.0), 2 * degree);
     (sum > aim * aim ? high : low) = middle;
   }
   return low;
@@ -136,7 +137,7 @@ void AdaptedMeshes::refine(const std::vector<Vector>& errors, double aim) {
     Vector reduction = Vector::Ones(errors[b].size());
     for (Eigen::Index t = 0; t < reduction.size(); ++t)
       if (errors[b][t] > 0)
-        reduction[t] = std::clamp(c * std::pow(errors[b][t], -0.5 / (degree_ + 1)), least, 1.0);
+        reduction[t] = std::clamp(c * std::pow(errors[b][t], -0.5 / (degree_ + 1)), leastReduction, 1.0);
     cutToSize(bodies_[b], reduction, marked[b]);
     cutAtSingularities(bodies_[b], negligible * aim * aim);
   }

@@ -14,16 +14,17 @@
 namespace mortier {
 namespace {
 
-struct Cut {
+struct CornerCut {
   size_t edge = 0;  ///< of the boundary
   Point at;
 };
 
 /// Where the nearest edge of the line is to be cut.
-std::optional<Cut> cutAt(const TriangleMesh& mesh, const CurvedEdges& curves, int label, const Point& place) {
+std::optional<CornerCut> cutAt(const TriangleMesh& mesh, const CurvedEdges& curves, int label,
+                               const Point& place) {
   constexpr double nextToAVertex = 0.1;
   double least = std::numeric_limits<double>::infinity();
-  std::optional<Cut> cut;
+  std::optional<CornerCut> cut;
   for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
     if (mesh.boundaryLabels[e] != label) continue;
     const auto& [a, b] = mesh.boundaryEdges[e];
@@ -39,12 +40,12 @@ std::optional<Cut> cutAt(const TriangleMesh& mesh, const CurvedEdges& curves, in
     if (curved || apart || part < nextToAVertex || part > 1 - nextToAVertex)
       cut.reset();
     else
-      cut = Cut{e, at};
+      cut = CornerCut{e, at};
   }
   return cut;
 }
 
-void apply(TriangleMesh& mesh, const Cut& cut) {
+void apply(TriangleMesh& mesh, const CornerCut& cut) {
   const auto [a, b] = mesh.boundaryEdges[cut.edge];
   const auto m = static_cast<int>(mesh.vertices.size());
   mesh.vertices.push_back(cut.at);
@@ -88,7 +89,7 @@ std::vector<Point> cornersOf(const TriangleMesh& mesh, int label) {
 
 void cutFacing(TriangleMesh& mesh, const CurvedEdges& curves, int label, const std::vector<Point>& places) {
   for (const Point& place : places)
-    if (const std::optional<Cut> cut = cutAt(mesh, curves, label, place)) apply(mesh, *cut);
+    if (const std::optional<CornerCut> cut = cutAt(mesh, curves, label, place)) apply(mesh, *cut);
 }
 
 std::vector<char> longerThanFacing(const TriangleMesh& mesh, int label, const TriangleMesh& other,

@@ -14,7 +14,7 @@ namespace mortier {
 namespace {
 
 /// An estimate may be this part of the error, so that it has to be below this part of what is asked.
-constexpr double least = 0.9;
+constexpr double leastShare = 0.9;
 constexpr double careful = 0.75;         // aims are this part of what is asked
 constexpr double reductionOfARound = 4;  // by which a round divides the error, about
 
@@ -22,7 +22,7 @@ constexpr double reductionOfARound = 4;  // by which a round divides the error, 
 double leastOf(double asked) {
   constexpr double small = 0.01;
   constexpr double large = 0.1;
-  return least * (1 - 2 * (std::clamp(asked, small, large) - small));
+  return leastShare * (1 - 2 * (std::clamp(asked, small, large) - small));
 }
 
 int nodesOf(const AdaptedMeshes& meshes, size_t bodies, int degree) {
@@ -133,7 +133,7 @@ Rounds::Verdict Rounds::judgeAim(RoundResult result, double seconds) {
   meshError_ = corrected_ = size > 0 ? std::sqrt(aim.error / size) : 0;
   meshes_.learn(result.errors);
   const double asked = std::sqrt(description_.accuracy.tolerance);
-  least_ = aim.proved ? 1 : least;
+  least_ = aim.proved ? 1 : leastShare;
   if ((aim.proved || done_ > 1) && corrected_ <= least_ * asked) return Verdict::reached;
   return goOn(result, least_ * asked, seconds);
 }
@@ -150,7 +150,7 @@ Rounds::Verdict Rounds::goOn(const RoundResult& result, double ofMeshes, double 
   if (!std::isfinite(meshError_)) return stop("no stress of finite energy meets the data");
   shortfalls_ = aim_ > 0 && meshError_ > short_ * aim_ && !fell ? shortfalls_ + 1 : 0;
   if (shortfalls_ >= often) return stop("the error does not fall as it should");
-  const double excess = corrected_ / (careful / least * ofMeshes);
+  const double excess = corrected_ / (careful / leastShare * ofMeshes);
   const double toCome = std::max(1.0, std::round(std::log(excess) / std::log(reductionOfARound)));
   const double factor = std::clamp(std::pow(excess, -1 / toCome), 1.0 / 8, done_ == 1 ? first : careful);
   double cost = result.seconds;

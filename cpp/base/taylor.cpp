@@ -6,7 +6,6 @@
 namespace mortier {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int order = Taylor::order;
 
 /// Outwards by what a few roundings are.

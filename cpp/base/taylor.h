@@ -8,16 +8,15 @@
 #include <cmath>
 #include <limits>
 
+#include "base/types.h"
+
 namespace mortier {
 
 struct Interval {
   double least = 0;
   double largest = 0;
 
-  static Interval anything() {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    return {-infinity, infinity};
-  }
+  static Interval anything() { return {-infinity, infinity}; }
   [[nodiscard]] bool holds(double x) const { return least <= x && x <= largest; }
   [[nodiscard]] bool isZero() const { return least == 0 && largest == 0; }
   [[nodiscard]] bool finite() const { return std::isfinite(least) && std::isfinite(largest); }

@@ -14,7 +14,6 @@
 namespace mortier {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Directions that make a smaller angle are one [rad], and displacements that differ by less, over the
 /// largest.
 constexpr double same = 1e-9;

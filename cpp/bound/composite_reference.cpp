@@ -22,9 +22,6 @@ const Point centre = (referenceCorners[0] + referenceCorners[1] + referenceCorne
 std::array<Point, 3> cornersOf(int part) {
   return {referenceCorners[part], referenceCorners[(part + 1) % 3], centre};
 }
-Point turned(const Point& v) {
-  return {-v.y(), v.x()};
-}
 /// In a part, of no mean over the triangle and with the couple 1.
 Point turningForce(int part) {
   double couple = 0;

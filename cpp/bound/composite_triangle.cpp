@@ -201,20 +201,20 @@ double CompositeTriangle::defect(const Moments& m) const {
 
 MomentMatrix momentsOfAiry(const std::array<Point, 3>& corners) {
   MomentMatrix result = MomentMatrix::Zero();
-  const auto turned = [](const Point& v) { return Point(v.y(), -v.x()); };  // J
+  const auto J = [](const Point& v) { return Point(v.y(), -v.x()); };
   for (int k = 0; k < 3; ++k) {
     const int last = (k + 1) % 3;
     const Point side = corners[last] - corners[k];
     const double length = side.norm();
     Eigen::Matrix<double, 2, 12> mean = Eigen::Matrix<double, 2, 12>::Zero();
-    mean.col(3 * k) = -turned(side) / (length * length);
-    mean.col(3 * last) = turned(side) / (length * length);
-    mean.col(9 + k) = turned(turned(side)) / length;
+    mean.col(3 * k) = -J(side) / (length * length);
+    mean.col(3 * last) = J(side) / (length * length);
+    mean.col(9 + k) = J(J(side)) / length;
     result.middleRows<2>(4 * k) += mean;
     result.middleRows<2>(4 * k + 2) -= mean;
     for (int c = 0; c < 2; ++c) {
-      result.block<2, 1>(4 * k, 3 * k + 1 + c) -= turned(Point::Unit(c));
-      result.block<2, 1>(4 * k + 2, 3 * last + 1 + c) += turned(Point::Unit(c));
+      result.block<2, 1>(4 * k, 3 * k + 1 + c) -= J(Point::Unit(c));
+      result.block<2, 1>(4 * k + 2, 3 * last + 1 + c) += J(Point::Unit(c));
     }
   }
   return result;

@@ -20,9 +20,8 @@ namespace {
 
 /// |s|^2 of the stresses that roundings of the displacements make [J/m].
 double roundingOf(const LoadedBody& body) {
-  constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();
   const double moved = body.place().displacement.lpNorm<Eigen::Infinity>();
-  const double strain = roundings * moved * body.body().largestGradient();
+  const double strain = roundingOfSums * moved * body.body().largestGradient();
   double sum = 0;
   for (size_t t = 0; t < body.parents().size(); ++t)
     sum += body.body().weights()[t] * strain * strain * body.place().moduli[t].norm();

@@ -14,16 +14,9 @@
 namespace mortier {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();  // of a sum of a few terms
-
 std::string obstacleOf(const Model& model, const Steps& steps) {
   if (!steps.backwardEuler) return otherScheme;
   return FlowPotential::obstacleOf(model);
-}
-
-double largestOf(const Vector& v) {
-  return v.size() == 0 ? 0 : v.cwiseAbs().maxCoeff();
 }
 
 /// Whether a datum is linear in time between two times, anywhere in a box.
@@ -81,7 +74,7 @@ FlowBoundRecord::FlowBoundRecord(const Model& model, Steps steps, const State& s
   for (const Body& body : model.bodies) {
     viscosities_.push_back(leastViscosity(body));
     for (const Point& x : body.mesh().vertices)
-      rounding_ = std::max(rounding_, roundings * x.cwiseAbs().maxCoeff());
+      rounding_ = std::max(rounding_, roundingOfSums * x.cwiseAbs().maxCoeff());
   }
   keep(state);
 }
@@ -120,7 +113,7 @@ double FlowBoundRecord::misfitTo(const State& state) const {
       const double rise = d.dot(rate1.col(i) - rate0.col(i));
       const double most = d.squaredNorm() / (2 * viscosities_[b]);
       // A stress on the yield surface has an overstress of rounding.
-      const double rounding = roundings * state.bodies[b].stress.col(i).norm() / d.norm();
+      const double rounding = roundingOfSums * state.bodies[b].stress.col(i).norm() / d.norm();
       if (!(rise > rounding * most)) continue;
       const double rest = 1 - std::min(1.0, rise / most);
       misfit += body.weights()[i] * most * (1 - rest * rest * rest) / 6;

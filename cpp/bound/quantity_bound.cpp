@@ -13,9 +13,7 @@
 namespace mortier {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Of sums of a few terms.
-constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();
 /// Vertices of contact lines: motions there and glue make a dense system (glued_bodies.h).
 constexpr size_t mostFacing = 1000;
 
@@ -59,7 +57,8 @@ class Enclosing {
         const Moments d = body.momentsOf(t) - element.momentsOf(lifted[t]) - element.momentsOfLoad(f);
         const Moments load = element.loadProduct(f);
         products_[b].emplace_back(element.energy() * d + load);
-        sizes_[b].emplace_back(roundings * (element.energy().cwiseAbs() * d.cwiseAbs() + load.cwiseAbs()));
+        sizes_[b].emplace_back(roundingOfSums *
+                               (element.energy().cwiseAbs() * d.cwiseAbs() + load.cwiseAbs()));
         const double square = element.energyOf(d, f);
         const double data = body.data().carried[t] + body.data().strained[t];
         misfits_[b][t] = data > 0 ? std::pow(std::sqrt(std::max(square, 0.0)) + data, 2) / 4 : square / 4;
@@ -110,10 +109,10 @@ class Enclosing {
  private:
   [[nodiscard]] Enclosure enclose(const Functional& functional, const Goal& goal) const {
     if (!goal.obstacle.empty()) return {goal.obstacle};
-    Enclosure result{"no adjoint displacement and stress were found", -infinite, infinite};
-    double least = infinite;
+    Enclosure result{"no adjoint displacement and stress were found", -infinity, infinity};
+    double least = infinity;
     // First as if contact stayed as it is, then with z and q cut to what costs nothing in R.
-    double c = infinite;
+    double c = infinity;
     for (int i = 0; i < tries; ++i) {
       const std::optional<Trial> trial = attempt(functional, goal, c);
       if (!trial) break;

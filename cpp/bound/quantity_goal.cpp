@@ -11,7 +11,7 @@ namespace mortier {
 namespace {
 
 /// Of directions, and of jumps that are one.
-constexpr double rounding = 1e-9;
+constexpr double roundingOfGoals = 1e-9;
 
 /// Boundary values of z: -e in the directions that the supports of the label hold. \returns why they are
 /// none of a continuous displacement that is linear on sides; empty where they are
@@ -46,7 +46,7 @@ std::string reactionValues(const Functional& functional, const Body& body, Vecto
                                                                  : along;
       for (const int v : {a, b}) {
         const double expected = own ? -d.dot(functional.at(mesh.vertices[v])) : 0;
-        if (std::abs(d.dot(z.segment<2>(2 * v)) - expected) > rounding * size)
+        if (std::abs(d.dot(z.segment<2>(2 * v)) - expected) > roundingOfGoals * size)
           return "another support holds the body in the same direction where its own ends";
       }
     }
@@ -70,7 +70,7 @@ std::string weigh(const Admissible& pair, const Functional& functional, Vector& 
       }
       const int i = pair.lifting.facingOfPiece[k][end];
       if (std::exchange(seen[i], 1) != 0 &&
-          std::abs(r[i] - value) > rounding * std::max(std::abs(r[i]), std::abs(value)))
+          std::abs(r[i] - value) > roundingOfGoals * std::max(std::abs(r[i]), std::abs(value)))
         return "contact goes on beyond its label";
       r[i] = value;
     }
@@ -112,8 +112,9 @@ int triangleAt(const TriangleMesh& mesh, const Point& x) {
     const auto& v = mesh.triangles[t];
     bool inside = true;
     for (int i = 0; i < 3; ++i)
-      inside = inside && cross(mesh.vertices[v[(i + 1) % 3]] - mesh.vertices[v[i]],
-                               x - mesh.vertices[v[i]]) >= -rounding * doubleArea(mesh, static_cast<int>(t));
+      inside =
+          inside && cross(mesh.vertices[v[(i + 1) % 3]] - mesh.vertices[v[i]], x - mesh.vertices[v[i]]) >=
+                        -roundingOfGoals * doubleArea(mesh, static_cast<int>(t));
     if (inside) return static_cast<int>(t);
   }
   return -1;

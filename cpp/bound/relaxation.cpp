@@ -22,11 +22,7 @@ constexpr size_t few = 1000;
 constexpr double thin = 0.2;
 
 /// Of directions that are one.
-constexpr double rounding = 1e-9;
-
-Point turned(const Point& v) {  // J v
-  return {v.y(), -v.x()};
-}
+constexpr double roundingOfDirections = 1e-9;
 
 }  // namespace
 
@@ -124,10 +120,10 @@ bool Relaxation::solve(bool directly, double part, int most) {
     const Eigen::Vector3d second = modesAt(sides_.all()[side].vertices[1]);
     const Point along = alongOf(side);
     const double square = along.squaredNorm();
-    const Point mean = (second[0] - first[0]) / square * turned(along) -
+    const Point mean = (second[0] - first[0]) / square * -turned(along) -
                        system.atSide(side) / std::sqrt(square) * along;  // J of it
-    moments_[side][0] += mean - turned(first.tail<2>());
-    moments_[side][1] += turned(second.tail<2>()) - mean;
+    moments_[side][0] += mean + turned(first.tail<2>());
+    moments_[side][1] -= turned(second.tail<2>()) + mean;
   }
   return found;
 }
@@ -136,7 +132,7 @@ bool Relaxation::mayChange(int side) const {
   if (sides_.all()[side].triangles[1] >= 0) return true;
   const auto& [count, known, moments] = known_[side];
   for (int k = 0; k < count; ++k)
-    if (std::abs(alongOf(side).normalized().dot(known[k])) > rounding) return false;
+    if (std::abs(alongOf(side).normalized().dot(known[k])) > roundingOfDirections) return false;
   return true;
 }
 
@@ -154,8 +150,9 @@ Eigen::Matrix3d Relaxation::allowedModes(int vertex) const {
     if (sides_.all()[side].triangles[1] >= 0) continue;
     for (int k = 0; k < known_[side].count; ++k) {
       const Point& d = known_[side].known[k];
-      if (std::abs(d.dot(turned(alongOf(side).normalized()))) > rounding) allowed(0, 0) = 0;
-      if (directions == 1 && std::abs(d.dot(turned(allowed.block<2, 1>(1, 1)))) > rounding) directions = 0;
+      if (std::abs(d.dot(turned(alongOf(side).normalized()))) > roundingOfDirections) allowed(0, 0) = 0;
+      if (directions == 1 && std::abs(d.dot(turned(allowed.block<2, 1>(1, 1)))) > roundingOfDirections)
+        directions = 0;
       directions = std::min(directions, 1);
       allowed.bottomRightCorner<2, 2>() << (directions == 1 ? d : Point(0, 0)), Point(0, 0);
     }

@@ -7,12 +7,11 @@
 namespace mortier {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Differences that are rounding, over the values.
-constexpr double rounding = 1e-12;
-constexpr int budget = 3000;         ///< pieces of a side
-constexpr double narrowest = 1e-14;  ///< piece
-constexpr double negligible = 1e-2;  ///< of the square of what is off
+/// Differences that are roundingOfValues, over the values.
+constexpr double roundingOfValues = 1e-12;
+constexpr int budget = 3000;             ///< pieces of a side
+constexpr double narrowest = 1e-14;      ///< piece
+constexpr double negligibleRest = 1e-2;  ///< of the square of what is off
 
 struct Piece {
   double begin = 0, end = 1;
@@ -136,7 +135,7 @@ void refine(const Resolving& function, std::vector<Piece>& pieces, Weight weight
 }  // namespace
 
 bool SideDatum::linear() const {
-  return off <= rounding * size;
+  return off <= roundingOfValues * size;
 }
 
 SideDatum SideDatum::times(double part) const {
@@ -175,11 +174,12 @@ SideDatum onSide(const Datum& datum, const Point& first, const Point& last, doub
     return piece.off * piece.off * piece.width();
   };
   refine(function, pieces, squareOf, [&] {
-    return std::max(negligible * negligible * largest * largest, std::pow(0.1 * rounding * result.size, 2));
+    return std::max(negligibleRest * negligibleRest * largest * largest,
+                    std::pow(0.1 * roundingOfValues * result.size, 2));
   });
   refine(
       function, pieces, [](const Piece& piece) { return piece.momentError; },
-      [&] { return 0.1 * rounding * result.size; });
+      [&] { return 0.1 * roundingOfValues * result.size; });
   double squares = 0;
   double slopes = 0;
   for (const Piece& piece : pieces) {

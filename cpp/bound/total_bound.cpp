@@ -15,14 +15,8 @@
 namespace mortier {
 namespace {
 
-constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();  // of a sum of a few terms
-
 /// How a piece of a contact line has been so far.
 enum Touch : char { unknown, closed, open };
-
-double largestOf(const Vector& v) {
-  return v.size() == 0 ? 0 : v.cwiseAbs().maxCoeff();
-}
 
 /// The law by which s^ is made near s: what flows at all flows as long as the run has taken.
 double weightAt(double time) {
@@ -105,7 +99,7 @@ bool TotalBoundRecord::closes(const std::vector<Contact>& contact) const {
   for (const RunFields& body : now_->bodies) largest = std::max(largest, largestOf(body.displacement));
   for (size_t i = 0; i < contact.size(); ++i)
     for (int end = 0; end < 2; ++end)
-      if (contact[i].gap[end] < now_->contact[i].gap[end] - roundings * largest) return true;
+      if (contact[i].gap[end] < now_->contact[i].gap[end] - roundingOfSums * largest) return true;
   return false;
 }
 
@@ -144,7 +138,7 @@ void TotalBoundRecord::classify(const std::vector<Contact>& contact, int number,
   for (size_t i = 0; i < contact.size() && memory.moved.empty(); ++i) {
     const auto& [pressure, gap, length] = contact[i];
     const bool presses = std::max(pressure[0], pressure[1]) > 0;
-    const bool gapes = std::max(gap[0], gap[1]) > roundings * largest;
+    const bool gapes = std::max(gap[0], gap[1]) > roundingOfSums * largest;
     if (presses && gapes) memory.moved = "a pressure and a gap overlap at an end of contact" + inStep(number);
     if (!presses && !gapes) continue;
     const char now = presses ? closed : open;

@@ -7,8 +7,7 @@
 namespace mortier {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double rounding = 1e-13;
+constexpr double roundingOfMeans = 1e-13;
 
 /// Mean of (values)^2, the values linear.
 double meanSquare(const Eigen::Vector3d& v) {
@@ -152,7 +151,7 @@ TriangleDatum DataOnTriangles::on(int datum, const std::array<Point, 3>& corners
     const auto [square, rest, size] = project();
     constexpr double enough = 0.01;
     constexpr double exact = 1e-7;
-    const double nothing = rounding * rounding * size * size;
+    const double nothing = roundingOfMeans * roundingOfMeans * size * size;
     if (rest <= std::max(enough * square, nothing) && result.error <= exact * size) break;
     std::vector<Part> finer;
     const double little = enough / 4 * std::max(square, nothing);
@@ -168,7 +167,8 @@ TriangleDatum DataOnTriangles::on(int datum, const std::array<Point, 3>& corners
   }
   project();
   result.known = std::isfinite(result.rest);
-  if (result.rest <= rounding * std::sqrt(meanSquare({result.linear[0], result.linear[1], result.linear[2]})))
+  if (result.rest <=
+      roundingOfMeans * std::sqrt(meanSquare({result.linear[0], result.linear[1], result.linear[2]})))
     result.rest = 0;
   return result;
 }

@@ -14,17 +14,10 @@ namespace mortier {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
-using Triplets = std::vector<Eigen::Triplet<double>>;
 using Factor = Eigen::SimplicialLDLT<Sparse>;
 
 /// Smaller entries of C, which has no unit, change no bit of what is computed with them.
 constexpr double nothing = 1e-25;
-
-Sparse assembled(Eigen::Index rows, Eigen::Index columns, const Triplets& entries) {
-  Sparse matrix(rows, columns);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
-}
 
 /// Entries of a row at the nodes of an element: columns 2 node + component.
 void addEntries(int row, const EdgeNodes& nodes, const EdgeValues& values, const Point& direction,

@@ -56,6 +56,15 @@
 
 namespace mortier {
 
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+inline Eigen::SparseMatrix<double> assembled(Eigen::Index rows, Eigen::Index columns,
+                                             const Triplets& entries) {
+  Eigen::SparseMatrix<double> matrix(rows, columns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
 enum class CouplingKind { interpolation, mortar, weighted, coarsened };
 
 /// A trace node between two rows whose functions its pressure interpolates.

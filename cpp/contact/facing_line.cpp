@@ -11,7 +11,7 @@ namespace {
 /// Lines face each other up to this angle between their directions: cos 60 degrees.
 constexpr double facing = 0.5;
 /// Abscissae closer to an end of the part than this part of the element there are on it.
-constexpr double sameEnd = 1e-9;
+constexpr double sameEdgeEnd = 1e-9;
 /// Places on an element that differ by less are one.
 constexpr double sameSight = 4e-16;
 
@@ -208,8 +208,8 @@ class Search {
     const double atFirst = part_.s[1] - part_.s[0];
     const double atLast = part_.s[part_.s.size() - 1] - part_.s[part_.s.size() - 2];
     for (double& s : line.s) {
-      if (std::abs(s) <= sameEnd * atFirst) s = 0;
-      if (std::abs(s - part_.length()) <= sameEnd * atLast) s = part_.length();
+      if (std::abs(s) <= sameEdgeEnd * atFirst) s = 0;
+      if (std::abs(s - part_.length()) <= sameEdgeEnd * atLast) s = part_.length();
     }
     return line;
   }

@@ -20,8 +20,6 @@ constexpr double touchingInFile = 1e-9;
 /// curve, far below that of bodies in the wrong place.
 constexpr double largestPenetration = 1e-2;
 
-using Triplets = std::vector<Eigen::Triplet<double>>;
-
 double lengthOf(const BoundaryLine& line) {
   double length = 0;
   for (size_t i = 1; i < line.points.size(); ++i) length += (line.points[i] - line.points[i - 1]).norm();
@@ -108,12 +106,6 @@ ConstraintRows turned(const ConstraintRows& rows) {
   ConstraintRows result(rows.rows(), rows.cols());
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
-}
-
-Eigen::SparseMatrix<double> assembled(Eigen::Index rows, Eigen::Index columns, const Triplets& entries) {
-  Eigen::SparseMatrix<double> matrix(rows, columns);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
 }
 
 /// \throws InputError when the distances are not such as the user wants them.

@@ -1,5 +1,4 @@
 // What a body does in every iteration, triangle by triangle.
-#include <numbers>
 
 #include "base/double_double.h"
 #include "base/lanes.h"
@@ -8,8 +7,6 @@
 
 namespace mortier {
 namespace {
-
-constexpr double overRoot2 = std::numbers::sqrt2 / 2;
 
 /// What a displacement makes of the polynomials of patches, found once for points that lie near each other.
 template <class Value, class Find>

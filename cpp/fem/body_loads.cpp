@@ -12,7 +12,7 @@ namespace mortier {
 namespace {
 
 template <class Element>
-std::vector<Point> placesOf(const ElementNodes& nodes, size_t triangle) {
+std::vector<Point> placesIn(const ElementNodes& nodes, size_t triangle) {
   std::vector<Point> x;
   for (int a = 0; a < Element::nodes; ++a) x.push_back(nodes.places[nodes.of(triangle)[a]]);
   return x;
@@ -110,7 +110,7 @@ void Body::addForces(double t, Vector& f, bool steady) const {
       if (isSteady != steady) continue;
       const bool exact = force.value.degree <= std::max(1, Element::loadExact - (axisymmetric_ ? 1 : 0));
       for (size_t tri = 0; tri < mesh_.triangles.size(); ++tri) {
-        const std::vector<Point> places = placesOf<Element>(nodes_, tri);
+        const std::vector<Point> places = placesIn<Element>(nodes_, tri);
         std::array<Point, Element::nodes> x;
         std::copy(places.begin(), places.end(), x.begin());
         const auto add = [&](const Barycentric& at, const auto& toNode, auto density) {
@@ -144,7 +144,7 @@ Vector Body::atPoints(const Datum& datum, double t) const {
   withElement(degree(), [&](auto element) {
     using Element = decltype(element);
     for (size_t tri = 0; tri < mesh_.triangles.size(); ++tri) {
-      const ResolvedTriangle triangle = onTriangle(datum, placesOf<Element>(nodes_, tri), t);
+      const ResolvedTriangle triangle = onTriangle(datum, placesIn<Element>(nodes_, tri), t);
       const std::vector<double> projected =
           projection(triangle, degree() - 1, {Element::interior.begin(), Element::interior.end()});
       for (int i = 0; i < Element::points; ++i)

@@ -1,15 +1,10 @@
 // The tangent of a body: triangles whose nodes are free (fem/tangent_assembly.cpp), the others, and patches.
-#include <numbers>
 
 #include "fem/body.h"
 #include "fem/element.h"
 
 namespace mortier {
-namespace {
-
-constexpr double overRoot2 = std::numbers::sqrt2 / 2;
-
-}  // namespace
+namespace {}  // namespace
 
 template <class Element>
 Eigen::Matrix<double, 2 * Element::nodes, 2 * Element::nodes> Body::triangleTangent(

@@ -11,17 +11,17 @@
 namespace mortier {
 namespace {
 
-using Terms = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+using Monomials = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 
-Terms termsOf(double s, int degree) {
-  Terms terms(degree + 1);
+Monomials termsOf(double s, int degree) {
+  Monomials terms(degree + 1);
   for (int k = 0; k <= degree; ++k) terms[k] = k == 0 ? 1 : terms[k - 1] * (2 * s - 1);
   return terms;
 }
-Terms termsOf(const std::array<double, 3>& b, int degree) {
-  if (degree == 0) return Terms::Ones(1);
-  if (degree == 1) return Terms{{b[0], b[1], b[2]}};
-  return Terms{{b[0] * b[0], b[1] * b[1], b[2] * b[2], b[0] * b[1], b[1] * b[2], b[2] * b[0]}};
+Monomials termsOf(const std::array<double, 3>& b, int degree) {
+  if (degree == 0) return Monomials::Ones(1);
+  if (degree == 1) return Monomials{{b[0], b[1], b[2]}};
+  return Monomials{{b[0] * b[0], b[1] * b[1], b[2] * b[2], b[0] * b[1], b[1] * b[2], b[2] * b[0]}};
 }
 
 template <class Place>
@@ -30,7 +30,7 @@ Eigen::VectorXd projectionOf(const Resolved<Place>& resolved, int degree) {
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
   for (const auto& [at, weight, value] : resolved.samples) {
-    const Terms terms = termsOf(at, degree);
+    const Monomials terms = termsOf(at, degree);
     normal += weight * terms * terms.transpose();
     right += weight * value * terms;
   }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/LU>
 
@@ -11,6 +12,8 @@
 #include "mesh/edge_element.h"
 
 namespace mortier {
+
+inline constexpr double overRoot2 = std::numbers::sqrt2 / 2;
 
 using Barycentric = std::array<double, 3>;
 

@@ -3,16 +3,17 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <functional>
-#include <numbers>
 #include <numeric>
 #include <queue>
 #include <utility>
+
+#include "fem/element.h"
 
 namespace mortier {
 namespace {
 
 /// Parts that share sides: of each part the neighbours, ascending, and how many sides they share.
-struct Neighbours {
+struct TriangleGraph {
   std::vector<int> from;
   std::vector<std::pair<int, int>> list;
 };
@@ -45,8 +46,8 @@ std::vector<std::array<int, 2>> innerSides(const TriangleMesh& mesh) {
   return pairs;
 }
 
-Neighbours neighboursOf(const std::vector<std::array<int, 2>>& sides, const std::vector<int>& part,
-                        int count) {
+TriangleGraph neighboursOf(const std::vector<std::array<int, 2>>& sides, const std::vector<int>& part,
+                           int count) {
   std::vector<int> from(count + 1, 0);
   const auto forEachBoth = [&](auto visit) {
     for (const auto& [a, b] : sides) {
@@ -60,7 +61,7 @@ Neighbours neighboursOf(const std::vector<std::array<int, 2>>& sides, const std:
   std::vector<int> all(from.back());
   std::vector<int> next(from.begin(), from.end() - 1);
   forEachBoth([&](int a, int b) { all[next[a]++] = b; });
-  Neighbours result;
+  TriangleGraph result;
   result.from.assign(1, 0);
   for (int p = 0; p < count; ++p) {
     std::sort(all.begin() + from[p], all.begin() + from[p + 1]);
@@ -77,7 +78,7 @@ Neighbours neighboursOf(const std::vector<std::array<int, 2>>& sides, const std:
 /// Joins parts in twos: first those with the fewest neighbours that are free, each with the free one that it
 /// shares most sides with. One that stays alone joins the smallest neighbour. \returns how many there are
 int joinInTwos(const std::vector<std::array<int, 2>>& sides, std::vector<int>& part, int count) {
-  const Neighbours neighbours = neighboursOf(sides, part, count);
+  const TriangleGraph neighbours = neighboursOf(sides, part, count);
   const auto forEachNeighbour = [&](int p, auto visit) {
     for (int i = neighbours.from[p]; i < neighbours.from[p + 1]; ++i) visit(neighbours.list[i]);
   };
@@ -175,7 +176,6 @@ VolumePatches::VolumePatches(const std::vector<int>& patchOf, const ElementNodes
       ofTriangle_(nodes.perTriangle()),
       points_(nodes.degree == 1 ? 1 : 3),
       terms_(nodes.degree == 1 ? 1 : 3) {
-  constexpr double overRoot2 = std::numbers::sqrt2 / 2;
   findPatches(nodes);
   const int n = ofTriangle_;
   basis_.resize(terms_ * weights.size());

@@ -21,7 +21,7 @@ std::string placeOf(const Expression& expression) {
   return expression.where.substr(0, end);
 }
 
-bool flows(const BodyDescription& body) {
+bool flowsAnywhere(const BodyDescription& body) {
   const auto materials = materialsOf(body);
   return std::any_of(materials.begin(), materials.end(),
                      [](const MaterialDescription* m) { return m->flows(); });
@@ -38,7 +38,7 @@ void checkDatum(const LintInput& input, const SampledDatum& datum, Faults& fault
       faults.add("large-displacement", placeOf(*datum.value),
                  subject + "a displacement of " + digits(most, 4) + " " + length +
                      " is prescribed on a body of " + digits(datum.size, 4) + " " + length);
-  } else if ((datum.kind == Kind::traction || datum.kind == Kind::force) && flows(body) &&
+  } else if ((datum.kind == Kind::traction || datum.kind == Kind::force) && flowsAnywhere(body) &&
              datum.largest(0) > 0) {
     faults.add("initial-load", placeOf(*datum.value),
                subject + "a load of " + digits(datum.largest(0), 4) + " " +
@@ -171,7 +171,7 @@ void lintLoads(const LintInput& input, Faults& faults) {
         "other than 0");
     return;
   }
-  const bool elastic = std::none_of(input.scene.bodies.begin(), input.scene.bodies.end(), flows);
+  const bool elastic = std::none_of(input.scene.bodies.begin(), input.scene.bodies.end(), flowsAnywhere);
   if (elastic && !changes && !time.controlled() && time.steps > 1)
     faults.add("constant-loads", input.where({"time", "steps"}),
                "nothing depends on time: of " + std::to_string(time.steps) + " steps the first one says all");

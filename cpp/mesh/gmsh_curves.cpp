@@ -15,7 +15,7 @@
 namespace mortier {
 namespace {
 
-const Point unknown = Point::Constant(std::numeric_limits<double>::quiet_NaN());
+const Point unknownPoint = Point::Constant(std::numeric_limits<double>::quiet_NaN());
 
 /// Of a curve that has a shape, not of a line or of one that is its mesh; else empty.
 std::string shapeOf(const Gmsh& gmsh, int curve) {
@@ -37,9 +37,9 @@ Point middleOn(const Gmsh& gmsh, int curve, double z, const Point& a, const Poin
                                                 &parameter.size);
   const std::vector<double> x = gmsh.take(found);
   gmsh.take(parameter);
-  if (x.size() < 3) return unknown;
+  if (x.size() < 3) return unknownPoint;
   const Point point(x[0], x[1]);
-  return (point - a - half).norm() < half.norm() ? point : unknown;
+  return (point - a - half).norm() < half.norm() ? point : unknownPoint;
 }
 
 /// A curve of Gmsh by its parameter.
@@ -91,7 +91,7 @@ class GmshCurve {
     gmsh_->call<decltype(gmshModelGetValue)>("gmshModelGetValue", 1, curve_, u.data(), u.size(),
                                              &coordinates.data, &coordinates.size);
     const std::vector<double> x = gmsh_->take(coordinates);
-    std::vector<Point> result(u.size(), unknown);
+    std::vector<Point> result(u.size(), unknownPoint);
     for (size_t i = 0; 3 * i + 2 < x.size(); ++i) result[i] = {x[3 * i], x[3 * i + 1]};
     return result;
   }
@@ -168,7 +168,7 @@ bool isStraight(const SampledCurve& curve) {
 
 std::vector<KnownEdge> knownEdges(const Gmsh& gmsh, int curve, const std::vector<size_t>& ends,
                                   const PlaneNodes& nodes) {
-  std::vector<KnownEdge> edges(ends.size() / 2, {unknown});
+  std::vector<KnownEdge> edges(ends.size() / 2, {unknownPoint});
   const std::string shape = shapeOf(gmsh, curve);
   if (shape.empty()) return edges;
   std::optional<GmshCurve> byParameter = shape == "Circle" ? std::nullopt : curveOf(gmsh, curve);

@@ -12,7 +12,7 @@ namespace mortier {
 namespace {
 
 constexpr double rounding = 1e-12;  // of the line's length
-constexpr double near = 1e-2;       // the same: points of a curve are not on the polygon
+constexpr double nearness = 1e-2;   // the same: points of a curve are not on the polygon
 
 struct Nearest {
   double place = 0;
@@ -44,8 +44,8 @@ LinePart::LinePart(const BoundaryLine& line, const Point& from, const Point& to,
   const Nearest first = nearest(points_, places_, from);
   const Nearest last = nearest(points_, places_, to);
   const double length = places_.back();
-  if (first.distance > near * length) throw InputError("from is not on the line, expected a point of it");
-  if (last.distance > near * length) throw InputError("to is not on the line, expected a point of it");
+  if (first.distance > nearness * length) throw InputError("from is not on the line, expected a point of it");
+  if (last.distance > nearness * length) throw InputError("to is not on the line, expected a point of it");
   std::tie(begin_, end_) = std::minmax(first.place, last.place);
   if (!(end_ - begin_ > rounding * length))
     throw InputError("from and to are one point of the line, expected two");

@@ -13,7 +13,7 @@ namespace mortier {
 
 namespace {
 
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+[[gnu::format(printf, 1, 2)]] std::string formatted(const char* pattern, ...) {
   std::va_list arguments;
   va_start(arguments, pattern);
   char text[512];
@@ -33,8 +33,8 @@ std::string heldEnds(const ContactInterface& interface) {
 /// What a reader may have meant as a circle.
 std::string polygon(const ContactInterface& interface) {
   if (interface.polygonTurn() == 0) return "";
-  return format("; a polygon, not a circle: it turns by %.3g degrees at a node",
-                interface.polygonTurn() * 180 / M_PI);
+  return formatted("; a polygon, not a circle: it turns by %.3g degrees at a node",
+                   interface.polygonTurn() * 180 / M_PI);
 }
 
 /// A line for each law of a body, with its parameters.
@@ -44,7 +44,7 @@ std::string materials(const Body& body, const Units& units) {
     text += "material   " + body.name() + " " + law.text();
     for (const auto& [name, value, unit] : law.parameters) {
       const auto known = unitOf(unit);
-      text += format(", %s %.6g", name.c_str(), value) +
+      text += formatted(", %s %.6g", name.c_str(), value) +
               (known ? " " + units.nameOf(known->dimension) : std::string());
     }
     text += "\n";
@@ -74,24 +74,25 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
     constexpr double noticeable = 1e-6;
     const double size = extent(model.bodies[interface.pair().nonmortar.body].mesh());
     const std::string pressed = least < -noticeable * size
-                                    ? format("; interference %.3g ", -least) + facts.units.length
+                                    ? formatted("; interference %.3g ", -least) + facts.units.length
                                     : std::string();
     const std::string chosen = k < facts.choices.size() ? facts.choices[k] : "";
-    text += format("interface  %s, %zu nonmortar (%s) x %zu mortar (%s) nodes, overlap %.3f%s%s%s%s%s\n",
-                   facts.variants[k].c_str(), interface.nonmortarNodes().size(),
-                   model.bodies[interface.pair().nonmortar.body].name().c_str(),
-                   interface.mortarNodes().size(), model.bodies[interface.pair().mortar.body].name().c_str(),
-                   interface.overlap(), chosen.empty() ? "" : "; ", chosen.c_str(),
-                   heldEnds(interface).c_str(), pressed.c_str(), polygon(interface).c_str());
+    text +=
+        formatted("interface  %s, %zu nonmortar (%s) x %zu mortar (%s) nodes, overlap %.3f%s%s%s%s%s\n",
+                  facts.variants[k].c_str(), interface.nonmortarNodes().size(),
+                  model.bodies[interface.pair().nonmortar.body].name().c_str(),
+                  interface.mortarNodes().size(), model.bodies[interface.pair().mortar.body].name().c_str(),
+                  interface.overlap(), chosen.empty() ? "" : "; ", chosen.c_str(),
+                  heldEnds(interface).c_str(), pressed.c_str(), polygon(interface).c_str());
   }
   return text;
 }
 
 std::string logStepsHeader(const Units& units) {
-  return format("%6s  %10s  %4s  %13s  %10s  %16s  %10s  %12s  %10s\n", "step",
-                ("time[" + units.time + "]").c_str(), "iter", "active(+/-)", "|residual|",
-                ("penetration[" + units.area() + "]").c_str(), ("max p[" + units.stress + "]").c_str(),
-                "viscoplastic", ("force[" + units.forcePerDepth() + "]").c_str());
+  return formatted("%6s  %10s  %4s  %13s  %10s  %16s  %10s  %12s  %10s\n", "step",
+                   ("time[" + units.time + "]").c_str(), "iter", "active(+/-)", "|residual|",
+                   ("penetration[" + units.area() + "]").c_str(), ("max p[" + units.stress + "]").c_str(),
+                   "viscoplastic", ("force[" + units.forcePerDepth() + "]").c_str());
 }
 
 std::string logRoundsHeader() {
@@ -100,8 +101,8 @@ std::string logRoundsHeader() {
 
 std::string logRound(const std::vector<RoundFacts>& rounds) {
   const RoundFacts& last = rounds.back();
-  return format("%6zu  %9zu  %8d  %5d  %8.3g %%  %8.2g %%  %7.3g\n", rounds.size(), last.triangles,
-                last.unknowns, last.steps, 100 * last.mesh, 100 * last.time, last.seconds);
+  return formatted("%6zu  %9zu  %8d  %5d  %8.3g %%  %8.2g %%  %7.3g\n", rounds.size(), last.triangles,
+                   last.unknowns, last.steps, 100 * last.mesh, 100 * last.time, last.seconds);
 }
 
 std::string logRow(const StepReport& r) {
@@ -112,16 +113,17 @@ std::string logRow(const StepReport& r) {
     remarks += "  one of " + std::to_string(found) + " solutions";
   else if (r.solutions.ambiguous)
     remarks += "  several solutions possible";
-  const std::string change = format("%d (+%d/-%d)", r.active, r.joined, r.left);
-  return format("%6d  %10.5g  %4d  %13s  %10.1e  %16.1e  %10.5g  %11.0f%%  %10.5g%s\n", r.step, r.time,
-                r.iterations, change.c_str(),
-                std::max(r.certificate.forceBalance, r.certificate.materialResidual), r.penetration,
-                r.maxPressure, 100 * r.viscoplasticFraction, r.contactForce, remarks.c_str());
+  const std::string change = formatted("%d (+%d/-%d)", r.active, r.joined, r.left);
+  return formatted("%6d  %10.5g  %4d  %13s  %10.1e  %16.1e  %10.5g  %11.0f%%  %10.5g%s\n", r.step, r.time,
+                   r.iterations, change.c_str(),
+                   std::max(r.certificate.forceBalance, r.certificate.materialResidual), r.penetration,
+                   r.maxPressure, 100 * r.viscoplasticFraction, r.contactForce, remarks.c_str());
 }
 
 std::string logTrial(double error, double tolerance) {
-  return format("           error in time %.2g, tolerance %.2g: begun again with smaller errors of a step\n",
-                error, tolerance);
+  return formatted(
+      "           error in time %.2g, tolerance %.2g: begun again with smaller errors of a step\n", error,
+      tolerance);
 }
 
 namespace {
@@ -134,13 +136,13 @@ std::string logStatus(const RunReport& report, const std::string& folder) {
     text += " after " + counted(report.steps, "step");
   }
   return text +
-         format("   newton %d   factorisations %d   %.3g s (solve %.0f%%)   %.0f MiB   ", report.iterations,
-                report.factorisations, wall, 100 * share, peakMemory()) +
+         formatted("   newton %d   factorisations %d   %.3g s (solve %.0f%%)   %.0f MiB   ",
+                   report.iterations, report.factorisations, wall, 100 * share, peakMemory()) +
          folder + "\n";
 }
 
 std::string logVerification(const Certificate& w) {
-  return format(
+  return formatted(
       "verification (worst step)  |force balance| %.1e   material residual %.1e   |gap| on active %.1e   "
       "penetration of open %.1e   complementarity %.1e   sign %.1e   rounding %.1e\n",
       w.forceBalance, w.materialResidual, w.gapOnActive, w.openPenetration, w.complementarity, w.sign,
@@ -154,9 +156,9 @@ std::string logBound(const EnergyBound& bound) {
     return "           guaranteed: nothing below 100 %, the meshes are too coarse\n";
   constexpr double rounding = 1e-12;
   if (bound.bound <= rounding * bound.norm) return "           guaranteed: below rounding\n";
-  std::string text = format("           guaranteed: at most %.2g %%", 100 * relative);
+  std::string text = formatted("           guaranteed: at most %.2g %%", 100 * relative);
   if (bound.oscillation > rounding)
-    text += format(", %.1g %% of it for data between the nodes", 100 * bound.oscillation);
+    text += formatted(", %.1g %% of it for data between the nodes", 100 * bound.oscillation);
   return text + "\n";
 }
 
@@ -167,8 +169,8 @@ std::string logFlow(const FlowBound& bound) {
   if (any && !std::isfinite(bound.factor)) return none + bound.moved + "\n";
   const double error = (any ? bound.factor : 1) * bound.strain;
   if (error > 0 && !(error < bound.strainNorm)) return none + "nothing below 100 %, steps are too long\n";
-  std::string text = format("           guaranteed in time: viscoplastic strain to %.2g %%",
-                            error > 0 ? 100 * error / (bound.strainNorm - error) : 0);
+  std::string text = formatted("           guaranteed in time: viscoplastic strain to %.2g %%",
+                               error > 0 ? 100 * error / (bound.strainNorm - error) : 0);
   if (!any && !(bound.factor <= 1)) text += ", contact closed and open as in the run";
   return text + "\n";
 }
@@ -179,13 +181,13 @@ std::string logTotal(const TotalBound& bound) {
   const bool any = !bound.moved.empty();
   const double error = (any ? bound.any : bound.fixed).strain;
   if (error > 0 && !(error < bound.strainNorm)) return none + "nothing below 100 %\n";
-  std::string text = format("           guaranteed of steps and meshes: viscoplastic strain to %.2g %%",
-                            error > 0 ? 100 * error / (bound.strainNorm - error) : 0);
+  std::string text = formatted("           guaranteed of steps and meshes: viscoplastic strain to %.2g %%",
+                               error > 0 ? 100 * error / (bound.strainNorm - error) : 0);
   if (!any && !(bound.closes.empty() && bound.any.strain <= bound.fixed.strain)) {
     text += ", contact closed and open as in the run";
     if (bound.closes.empty() && bound.any.strain < bound.strainNorm)
-      text += format("; to %.2g %% whatever contact does",
-                     100 * bound.any.strain / (bound.strainNorm - bound.any.strain));
+      text += formatted("; to %.2g %% whatever contact does",
+                        100 * bound.any.strain / (bound.strainNorm - bound.any.strain));
   }
   return text + "\n";
 }
@@ -196,8 +198,8 @@ std::string logStep(const EnergyBound& bound) {
   std::string parts;
   const auto add = [&](const char* what, double error, double norm) {
     if (!(2 * error < norm)) return;  // not below 100 % of the exact one
-    parts +=
-        (parts.empty() ? "" : ", ") + std::string(what) + format(" to %.2g %%", 100 * error / (norm - error));
+    parts += (parts.empty() ? "" : ", ") + std::string(what) +
+             formatted(" to %.2g %%", 100 * error / (norm - error));
   };
   add("viscoplastic strain", bound.strain, bound.strainNorm);
   add("stress", bound.bound, bound.norm);
@@ -211,21 +213,23 @@ std::string logAccuracy(const RunFacts& facts, const Model& model, const Accurac
   if (accuracy.all == 0) {
     text += "below rounding\n";
   } else {
-    text += format("%.2g %%", 100 * accuracy.all);
+    text += formatted("%.2g %%", 100 * accuracy.all);
     for (size_t b = 0; b < model.bodies.size(); ++b)
-      text += (b == 0 ? " (" : ", ") + model.bodies[b].name() + format(" %.2g %%", 100 * accuracy.bodies[b]);
+      text +=
+          (b == 0 ? " (" : ", ") + model.bodies[b].name() + formatted(" %.2g %%", 100 * accuracy.bodies[b]);
     text += "), largest in " + accuracy.worstBody +
-            format(" at (%.4g, %.4g)\n", accuracy.worst[0], accuracy.worst[1]);
+            formatted(" at (%.4g, %.4g)\n", accuracy.worst[0], accuracy.worst[1]);
   }
   double sagitta = 0;
   for (const ContactInterface& interface : model.interfaces) sagitta = std::max(sagitta, interface.sagitta());
   if (sagitta > 0)
-    text += format("           not in it: contact between polygons that are off their curves by up to %.2g ",
-                   sagitta) +
-            facts.units.length + "\n";
+    text +=
+        formatted("           not in it: contact between polygons that are off their curves by up to %.2g ",
+                  sagitta) +
+        facts.units.length + "\n";
   if (accuracy.largest > 0 && accuracy.largestTime < accuracy.time)
-    text += format("           largest of the run: %.2g %% of its largest stress, at t = %.5g %s\n",
-                   100 * accuracy.largest, accuracy.largestTime, facts.units.time.c_str());
+    text += formatted("           largest of the run: %.2g %% of its largest stress, at t = %.5g %s\n",
+                      100 * accuracy.largest, accuracy.largestTime, facts.units.time.c_str());
   if (accuracy.bound) text += logBound(*accuracy.bound);
   if (accuracy.bound && accuracy.flow) text += logFlow(*accuracy.flow);
   if (accuracy.bound && accuracy.total) text += logTotal(*accuracy.total);
@@ -244,8 +248,8 @@ std::string logPeaks(const Peaks& peaks, const StepReport& last, const Units& un
     constexpr double same = 1e-9;
     if (!(peak.value > (1 + same) * end)) return;
     text += (text.empty() ? "peaks      " : ", ") + std::string(name) +
-            format(" %.5g %s at t = %.5g %s (%.5g at the end)", peak.value, unit.c_str(), peak.time,
-                   units.time.c_str(), end);
+            formatted(" %.5g %s at t = %.5g %s (%.5g at the end)", peak.value, unit.c_str(), peak.time,
+                      units.time.c_str(), end);
   };
   add("von Mises", peaks.vonMises, last.vonMises, units.stress);
   add("pressure", peaks.pressure, last.maxPressure, units.stress);
@@ -254,13 +258,13 @@ std::string logPeaks(const Peaks& peaks, const StepReport& last, const Units& un
   if (!text.empty()) text += "\n";
   constexpr double noticeable = 0.5;
   if (peaks.sliding.value > noticeable)
-    text += format(
+    text += formatted(
         "warning    bodies slide along each other by up to %.3g edges at t = %.5g %s; slips are taken as "
         "small "
         "here\n",
         peaks.sliding.value, peaks.sliding.time, units.time.c_str());
   if (peaks.motion.value > 1)
-    text += format(
+    text += formatted(
         "warning    displacements reach %.2g times the size of a body at t = %.5g %s; they are taken as "
         "small "
         "here\n",
@@ -278,22 +282,22 @@ std::string logQuantities(const RunFacts& facts, const Model& model, const State
   const std::vector<double> values = evaluate(quantities, model, state);
   std::string text;
   for (size_t i = 0; i < quantities.size(); ++i) {
-    text += (i == 0 ? "quantities " : ", ") + quantities[i].name + format(" %.7g ", values[i]) +
+    text += (i == 0 ? "quantities " : ", ") + quantities[i].name + formatted(" %.7g ", values[i]) +
             quantities[i].unit(facts.units);
     if (const auto place = placeOf(quantities[i], model, state))
-      text += format(" at (%.4g, %.4g)", place->x(), place->y());
+      text += formatted(" at (%.4g, %.4g)", place->x(), place->y());
     const std::optional<RoundChange> change = changeInRounds(facts, i);
     if (change && change->grows)
-      text += format(" (grows with every round, the last time by %.2g %%: stresses are unbounded there)",
-                     100 * change->size / values[i]);
+      text += formatted(" (grows with every round, the last time by %.2g %%: stresses are unbounded there)",
+                        100 * change->size / values[i]);
     else if (change && values[i] != 0)
-      text += format(" (changed by %.2g %% in the last round)", 100 * change->size / std::abs(values[i]));
+      text += formatted(" (changed by %.2g %% in the last round)", 100 * change->size / std::abs(values[i]));
     if (!bound || bound->quantities.empty()) continue;
     const Enclosure& enclosure = bound->quantities[i];
     if (enclosure.obstacle.empty())
-      text += format(" +- %.2g (guaranteed)", enclosure.error(values[i]));
+      text += formatted(" +- %.2g (guaranteed)", enclosure.error(values[i]));
     else if (enclosure.estimate)
-      text += format(" +- %.2g (an estimate)", *enclosure.estimate);
+      text += formatted(" +- %.2g (an estimate)", *enclosure.estimate);
     else if (bound->obstacle.empty())
       text += " (no bound: " + enclosure.obstacle + ")";
   }
@@ -306,15 +310,15 @@ std::string logRanges(const RunFacts& facts, const std::vector<QuantityRange>& r
     const QuantityRange& range = ranges[i];
     const char* unit = facts.units.time.c_str();
     text += (i == 0 ? "range      " : ", ") + facts.quantities[i].name +
-            format(" %.5g (t = %.5g %s) to %.5g (t = %.5g %s)", range.smallest, range.smallestTime, unit,
-                   range.largest, range.largestTime, unit);
+            formatted(" %.5g (t = %.5g %s) to %.5g (t = %.5g %s)", range.smallest, range.smallestTime, unit,
+                      range.largest, range.largestTime, unit);
   }
   return text.empty() ? text : text + "\n";
 }
 
 std::string logTimeError(const RunFacts& facts, const RunReport& report) {
   if (!(facts.tolerance > 0)) return "";
-  return format(
+  return formatted(
       "accuracy   estimated error in time of displacement and stress, worst step: %.2g (tolerance %.2g%s)\n",
       report.timeError, facts.tolerance, report.timeError > facts.tolerance ? ", not reached" : "");
 }
@@ -323,9 +327,11 @@ std::string logSpecial(const SpecialConditions& special) {
   if (special.idle == 0 && special.dependent == 0) return "";
   std::string text = "conditions ";
   if (special.idle > 0)
-    text += format(" %d idle: both sides are held there%s", special.idle, special.dependent > 0 ? ";" : "");
+    text +=
+        formatted(" %d idle: both sides are held there%s", special.idle, special.dependent > 0 ? ";" : "");
   if (special.dependent > 0)
-    text += format(" %d dependent on others: the contact forces are one choice of many", special.dependent);
+    text +=
+        formatted(" %d dependent on others: the contact forces are one choice of many", special.dependent);
   return text + "\n";
 }
 

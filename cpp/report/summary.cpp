@@ -91,7 +91,6 @@ Json rounds(const RunFacts& facts) {
 }
 
 Json finalState(const Model& model, const State& state, const StepReport& last) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   Point vonMises(infinity, -infinity);
   Point least = Point::Constant(infinity);
   Point largest = -least;

@@ -11,8 +11,6 @@
 namespace mortier {
 namespace {
 
-using Kind = Quantity::Kind;
-
 /// Whether a label is a side of a contact, of one with friction if that is asked for.
 bool isInContact(const Model& model, int body, int label, bool rough) {
   return std::any_of(model.interfaces.begin(), model.interfaces.end(),
@@ -32,27 +30,29 @@ std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model
     const auto refuse = [&](const std::string& what) {
       throw InputError(description.where + ": quantity " + quantity.name + ": " + what);
     };
-    const bool atPoint = quantity.kind == Kind::reaction && description.point;
+    const bool atPoint = quantity.kind == Quantity::Kind::reaction && description.point;
     if (atPoint) quantity.point = description.point;
     const std::string label =
         (atPoint ? "point " + shortest(*description.point) : "label " + std::to_string(quantity.label)) +
         " of body " + body.name();
-    if (quantity.kind == Kind::reaction && firstSupport(body, quantity.label, quantity.point) < 0)
+    if (quantity.kind == Quantity::Kind::reaction && firstSupport(body, quantity.label, quantity.point) < 0)
       refuse(label + " has no prescribed displacement, expected one that has: supports alone react");
-    const bool isOfContact = quantity.kind == Kind::contactForce || quantity.kind == Kind::largestPressure ||
-                             quantity.kind == Kind::contactLength || quantity.kind == Kind::meanPressure;
+    const bool isOfContact =
+        quantity.kind == Quantity::Kind::contactForce || quantity.kind == Quantity::Kind::largestPressure ||
+        quantity.kind == Quantity::Kind::contactLength || quantity.kind == Quantity::Kind::meanPressure;
     if (isOfContact && !isInContact(model, quantity.body, quantity.label, false))
       refuse(label + " is no side of a contact, expected one");
-    if (quantity.kind == Kind::frictionWork && !isInContact(model, quantity.body, quantity.label, true))
+    if (quantity.kind == Quantity::Kind::frictionWork &&
+        !isInContact(model, quantity.body, quantity.label, true))
       refuse(label + " is no side of a contact with friction, expected one");
-    if (quantity.kind == Kind::displacement) {
+    if (quantity.kind == Quantity::Kind::displacement) {
       quantity.mean = description.point
                           ? meanAt(body.mesh(), body.elementNodes(), *description.point)
                           : meanOn(body.mesh(), body.elementNodes(), quantity.label, body.axisymmetric());
       if (quantity.mean.empty())
         refuse("point = " + shortest(*description.point) + ", expected a point of body " + body.name());
     }
-    if (quantity.kind == Kind::meanPressure) {
+    if (quantity.kind == Quantity::Kind::meanPressure) {
       const BoundaryLine line = boundaryLine(body.mesh(), quantity.label);
       try {
         quantity.part = description.part ? LinePart(line, description.part->from, description.part->to,

@@ -12,8 +12,6 @@ namespace {
 using Op = Formulas::Op;
 using Operation = Formulas::Operation;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 Interval range(double a, double b) {
   return std::isnan(a) || std::isnan(b) ? Interval::anything() : Interval{std::min(a, b), std::max(a, b)};
 }

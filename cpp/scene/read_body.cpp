@@ -22,22 +22,22 @@ void addCondition(BodyDescription& body, const ConditionDescription& added) {
 
 void readBoundary(const Node& node, BodyDescription& body) {
   const TableReader table(node, "body.boundary", "body " + body.name);
-  using Kind = ConditionDescription::Kind;
+  using Datum = ConditionDescription::Kind;
   const TableReader::Label label = table.label("label");
   const size_t before = body.conditions.size();
-  const auto add = [&](const std::string& key, Kind kind, int component) {
+  const auto add = [&](const std::string& key, Datum kind, int component) {
     if (std::optional<Expression> datum = table.datum(key))
       addCondition(
           body, {kind, label.number, label.name, component,
                  key == "pressure" ? negated(std::move(*datum)) : std::move(*datum), table.find(key)->where});
   };
-  add("ux", Kind::displacement, alongX);
-  add("uy", Kind::displacement, alongY);
-  add("un", Kind::displacement, alongNormal);
-  add("ut", Kind::displacement, alongTangent);
-  add("tx", Kind::traction, alongX);
-  add("ty", Kind::traction, alongY);
-  add("pressure", Kind::traction, alongNormal);
+  add("ux", Datum::displacement, alongX);
+  add("uy", Datum::displacement, alongY);
+  add("un", Datum::displacement, alongNormal);
+  add("ut", Datum::displacement, alongTangent);
+  add("tx", Datum::traction, alongX);
+  add("ty", Datum::traction, alongY);
+  add("pressure", Datum::traction, alongNormal);
   if (body.conditions.size() == before)
     table.refuse(node, "boundary label " + label.text() +
                            " has no condition, expected one of ux, uy, un, ut, tx, ty, pressure");

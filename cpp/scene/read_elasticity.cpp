@@ -4,7 +4,7 @@
 namespace mortier {
 namespace {
 
-enum Kind { isotropic, orthotropic, general };
+enum Symmetry { isotropic, orthotropic, general };
 
 /// NaN where it is not given: plane strain asks for it then.
 Orthotropy readOrthotropy(const TableReader& table) {
@@ -62,7 +62,7 @@ Anisotropy AnisotropyDescription::in(Plane plane) const {
 
 void readElasticity(const TableReader& table, MaterialDescription& material) {
   const Keys& kinds = keyAt("body.material", "elasticity").words;
-  const auto kind = table.choice<Kind>("elasticity");
+  const auto kind = table.choice<Symmetry>("elasticity");
   table.requireBeside("elasticity", kinds[kind]);
   if (kind != isotropic)
     table.rejectIfGiven({"young", "poisson"}, "it beside elasticity = \"isotropic\" only");

@@ -14,7 +14,7 @@ namespace {
 constexpr double motionTolerance = 1e-14;
 
 /// A support along the contact normal leaves no more than this part of a row.
-constexpr double negligible = 1e-14;
+constexpr double negligibleShare = 1e-14;
 
 /// Entries of the rows of an interface on one body as (row, node, vector).
 template <class Visit>
@@ -51,7 +51,7 @@ void ContactDofs::findEquations(const Model& model, int body, const std::vector<
     const auto visitParts = [&](int first) {
       return [&, first](int row, int node, const Point& vector) {
         for (const auto& [equation, value] : model.bodies[body].parts(node, vector))
-          if (equation >= 0 && std::abs(value) > negligible * vector.norm())
+          if (equation >= 0 && std::abs(value) > negligibleShare * vector.norm())
             visit(first + row, equation, value);
       };
     };
@@ -105,7 +105,7 @@ std::string ContactDofs::describe(const Model& model, int body, const Vector& z)
 }
 
 Vector ContactDofs::rigidForce(const Model& model, int body, const Vector& load) const {
-  constexpr double roundingOfSums = 1e-14;
+  constexpr double roundingOfTotals = 1e-14;
   Vector own = load;
   for (Eigen::Index dof = 0; dof < own.size() && model.inParts(); ++dof)
     if (model.parts[body].owned[dof / 2] == 0) own[dof] = 0;
@@ -116,7 +116,7 @@ Vector ContactDofs::rigidForce(const Model& model, int body, const Vector& load)
   model.sum(sums.data(), sums.size());
   Vector force = sums.head(n);
   for (Eigen::Index i = 0; i < n; ++i)
-    if (std::abs(force[i]) <= roundingOfSums * sums[n + i]) force[i] = 0;
+    if (std::abs(force[i]) <= roundingOfTotals * sums[n + i]) force[i] = 0;
   return force;
 }
 

@@ -12,7 +12,7 @@ namespace mortier {
 namespace {
 
 /// Residuals of sets that are right, and of those that differ by ties, are below it [-].
-constexpr double rounding = 1e-13;
+constexpr double roundingOfForces = 1e-13;
 
 signed char signOf(double value) {
   return static_cast<signed char>((value > 0 ? 1 : 0) - (value < 0 ? 1 : 0));
@@ -72,7 +72,7 @@ void FrictionSystem::holdIdle(FrictionSets& sets) const {
     if (idle(i)) sets.closed[i] = 0;
   for (Eigen::Index row = n; row < q_.size(); ++row) {
     if (!idle(row)) continue;
-    const bool moves = std::abs(q_[row]) > rounding * q_.lpNorm<Eigen::Infinity>();
+    const bool moves = std::abs(q_[row]) > roundingOfForces * q_.lpNorm<Eigen::Infinity>();
     sets.slip[row - n] = moves ? signOf(-q_[row]) : 0;
   }
 }
@@ -264,7 +264,7 @@ std::optional<FrictionSolution> FrictionSystem::newton(FrictionSets sets) const 
     if (!trial) return std::nullopt;
     FrictionSets following = next(*trial);
     const double off = residual(*trial);
-    if (following == sets || off <= rounding) return clipped(*trial);
+    if (following == sets || off <= roundingOfForces) return clipped(*trial);
     const int wrong = distance(sets, following);
     if (wrong < fewest || off < least) left = patience;
     fewest = std::min(fewest, wrong);
@@ -284,7 +284,7 @@ std::optional<FrictionSolution> FrictionSystem::changeSingly(FrictionSets sets, 
     if (!trial) return std::nullopt;
     FrictionSets following = next(*trial);
     const int wrong = distance(sets, following);
-    if (wrong == 0 || residual(*trial) <= rounding) return clipped(*trial);
+    if (wrong == 0 || residual(*trial) <= roundingOfForces) return clipped(*trial);
     if (wrong < best) {
       best = wrong;
       left = patience;

@@ -6,8 +6,7 @@
 
 #include "theory/adapted.h"
 
-namespace mortier {
-namespace {
+namespace mortier::adapted_test {
 
 using namespace scenes;
 
@@ -61,5 +60,4 @@ TEST(Adapted, ordersAreThoseOfTheDegreeWhereStressesAreUnbounded) {
   EXPECT_NEAR(quadratic, -1, 0.15);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::adapted_test

@@ -7,8 +7,7 @@
 #include "base/error.h"
 #include "theory/axisymmetric.h"
 
-namespace mortier {
-namespace {
+namespace mortier::axisymmetric_contact_test {
 
 using namespace scenes;
 
@@ -275,5 +274,4 @@ TEST(AxisymmetricContact, flatPunch) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::axisymmetric_contact_test

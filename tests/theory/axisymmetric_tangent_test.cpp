@@ -7,8 +7,7 @@
 #include "material/overstress.h"
 #include "theory/axisymmetric.h"
 
-namespace mortier {
-namespace {
+namespace mortier::axisymmetric_tangent_test {
 
 using namespace scenes;
 
@@ -92,5 +91,4 @@ TEST(AxisymmetricTangent, isThatOfDifferences) {
   EXPECT_LE(worst, 1e-7);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::axisymmetric_tangent_test

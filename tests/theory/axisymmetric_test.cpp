@@ -9,8 +9,7 @@
 #include "fem/rigid_modes.h"
 #include "material/norton.h"
 
-namespace mortier {
-namespace {
+namespace mortier::axisymmetric_test {
 
 using namespace scenes;
 
@@ -256,5 +255,4 @@ TEST(Axisymmetric, tubeCreepsAtTheKnownRate) {
   EXPECT_LE(errors.back(), 5e-3);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::axisymmetric_test

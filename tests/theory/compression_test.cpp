@@ -6,8 +6,7 @@
 
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::compression_test {
 
 using namespace scenes;
 
@@ -170,5 +169,4 @@ TEST(Compression, interpolationFailsByTheKnownFigures) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::compression_test

@@ -7,8 +7,7 @@
 #include "theory/time_cases.h"
 #include "time/breaks.h"
 
-namespace mortier {
-namespace {
+namespace mortier::controlled_march_test {
 
 using namespace scenes;
 
@@ -185,5 +184,4 @@ TEST(ControlledMarch, aPilotThatPassesYieldIsCheap) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::controlled_march_test

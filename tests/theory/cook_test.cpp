@@ -7,8 +7,7 @@
 #include "material/plane_strain.h"
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::cook_test {
 
 using namespace scenes;
 
@@ -63,5 +62,4 @@ TEST(Cook, nearlyIncompressiblePlaneStrainLocksByTheKnownFigures) {
   EXPECT_NEAR(crossed, 18.45, 0.02 * 18.45);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::cook_test

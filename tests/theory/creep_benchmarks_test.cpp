@@ -13,8 +13,7 @@
 #include "material/norton.h"
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::creep_benchmarks_test {
 
 using namespace scenes;
 
@@ -209,5 +208,4 @@ TEST(CreepBenchmarks, bentBeamTendsToTheSteadyStresses) {
   EXPECT_LE(worst, 5e-3 * largest);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::creep_benchmarks_test

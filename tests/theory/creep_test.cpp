@@ -7,8 +7,7 @@
 #include "material/norton.h"
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::creep_test {
 
 using namespace scenes;
 
@@ -187,5 +186,4 @@ TEST(Norton, hardStepsAreSolved) {
         }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::creep_test

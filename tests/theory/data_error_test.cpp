@@ -12,8 +12,7 @@
 #include "mesh/generate.h"
 #include "time/space_error.h"
 
-namespace mortier {
-namespace {
+namespace mortier::data_error_test {
 
 constexpr double pi = std::numbers::pi;
 constexpr int fine = 32;  // cells of the reference along a side
@@ -186,5 +185,4 @@ TEST(DataError, smoothDataAddLittle) {
   expectSeen({held(), {{3, alongY, of([](double x, double) { return std::sin(3 * x); })}}, {}}, 0.75, 1.1);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::data_error_test

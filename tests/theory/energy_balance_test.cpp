@@ -14,8 +14,7 @@
 #include "theory/scenes.h"
 #include "time/step_taker.h"
 
-namespace mortier {
-namespace {
+namespace mortier::energy_balance_test {
 
 using namespace scenes;
 using Kind = Quantity::Kind;
@@ -345,5 +344,4 @@ TEST(EnergyBalance, isNotCountedWhereNobodyAsks) {
   EXPECT_GT(valueOf(Kind::storedEnergy, 0, model, state), 0);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::energy_balance_test

@@ -11,8 +11,7 @@
 #include "theory/random_scene.h"
 #include "theory/refined_model.h"
 
-namespace mortier {
-namespace {
+namespace mortier::energy_bound_test {
 
 using namespace scenes;
 
@@ -149,5 +148,4 @@ TEST(EnergyBound, isAboveTheErrorOfRandomScenes) {
   EXPECT_GE(bounded, count * 4 / 5);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::energy_bound_test

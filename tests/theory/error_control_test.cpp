@@ -12,8 +12,7 @@
 #include "time/error_norms.h"
 #include "time/step_taker.h"
 
-namespace mortier {
-namespace {
+namespace mortier::error_control_test {
 
 using namespace scenes;
 
@@ -258,5 +257,4 @@ TEST(ErrorControl, twentyReversals) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::error_control_test

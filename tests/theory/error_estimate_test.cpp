@@ -7,8 +7,7 @@
 
 #include "theory/half_open_contact.h"
 
-namespace mortier {
-namespace {
+namespace mortier::error_estimate_test {
 
 using namespace scenes;
 
@@ -149,5 +148,4 @@ TEST(ErrorEstimate, tellsFalseStressesOfInterpolation) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::error_estimate_test

@@ -8,8 +8,7 @@
 #include "material/plane_strain.h"
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::exact_contact_test {
 
 using namespace scenes;
 
@@ -265,5 +264,4 @@ TEST(Receding, layerOnAHalfPlane) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::exact_contact_test

@@ -9,8 +9,7 @@
 #include "theory/scenes.h"
 #include "time/breaks.h"
 
-namespace mortier {
-namespace {
+namespace mortier::fast_relaxation_test {
 
 using namespace scenes;
 
@@ -156,5 +155,4 @@ TEST(Relaxation, bodiesWithoutStressStayAtRest) {
     }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::fast_relaxation_test

@@ -8,8 +8,7 @@
 
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::fits_test {
 
 using namespace scenes;
 
@@ -136,5 +135,4 @@ TEST(PinInAHole, pressuresAreThoseOfTheDistanceOfTheCircles) {
     }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::fits_test

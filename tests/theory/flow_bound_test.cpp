@@ -10,8 +10,7 @@
 #include "material/plane_strain.h"
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::flow_bound_test {
 
 using namespace scenes;
 
@@ -284,5 +283,4 @@ TEST(FlowBound, goesOnFromAStateAsIfItHadNotStopped) {
   EXPECT_EQ(whole.begin, parts.begin);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::flow_bound_test

@@ -5,8 +5,7 @@
 
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::friction_steps_test {
 
 using namespace scenes;
 
@@ -83,5 +82,4 @@ TEST(FrictionBesideFlow, schemesTendToOneAnswer) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::friction_steps_test

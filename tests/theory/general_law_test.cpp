@@ -11,8 +11,7 @@
 #include "time/march.h"
 #include "unit/relaxing_law.h"
 
-namespace mortier {
-namespace {
+namespace mortier::general_law_test {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -115,5 +114,4 @@ TEST(GeneralLaw, blocksInContactCreepAsTheExponentialSays) {
   EXPECT_NEAR(errors[0] / errors[1], 2, 0.2);  // backward Euler
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::general_law_test

@@ -12,8 +12,7 @@
 #include "theory/scenes.h"
 #include "time/space_error.h"
 
-namespace mortier {
-namespace {
+namespace mortier::goal_test {
 
 using namespace scenes;
 
@@ -99,5 +98,4 @@ TEST(Goal, takesNoMoreUnknownsThanTheEnergyNormAndHalfOfEqualMeshes) {
     EXPECT_LE(std::abs(each->back().force - exact), each->back().error + error);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::goal_test

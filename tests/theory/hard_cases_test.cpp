@@ -8,8 +8,7 @@
 #include "solver/solve_step.h"
 #include "solver/viscosity_walk.h"
 
-namespace mortier {
-namespace {
+namespace mortier::hard_cases_test {
 
 using namespace hardcases;
 
@@ -136,5 +135,4 @@ TEST(HardCases, proximalWeightAndStartOfTheInteriorPathDoNotMatter) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::hard_cases_test

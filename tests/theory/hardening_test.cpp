@@ -7,8 +7,7 @@
 #include "material/overstress.h"
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::hardening_test {
 
 using namespace scenes;
 
@@ -279,5 +278,4 @@ TEST(Hardening, barsShakeDownOrRatchetAtBreesLimits) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::hardening_test

@@ -6,8 +6,7 @@
 
 #include "theory/stacks.h"
 
-namespace mortier {
-namespace {
+namespace mortier::interface_patch_test {
 
 using namespace scenes;
 
@@ -236,5 +235,4 @@ TEST(ConditionsMeet, interfacesThatShareANode) {
       }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::interface_patch_test

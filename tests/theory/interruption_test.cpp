@@ -8,8 +8,7 @@
 #include "theory/scenes.h"
 #include "unit/enumerated_contact.h"
 
-namespace mortier {
-namespace {
+namespace mortier::interruption_test {
 
 using namespace scenes;
 
@@ -83,5 +82,4 @@ TEST_F(Interruption, stopsAMarch) {
     }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::interruption_test

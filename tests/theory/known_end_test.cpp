@@ -6,8 +6,7 @@
 
 #include "theory/half_open_contact.h"
 
-namespace mortier {
-namespace {
+namespace mortier::known_end_test {
 
 using namespace scenes;
 
@@ -150,5 +149,4 @@ TEST(KnownEnd, rigidNonmortarLineFinerThanTheBodyIsSolved) {
   EXPECT_LE(worst, 0.5);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::known_end_test

@@ -9,8 +9,7 @@
 #include "material/plane_strain.h"
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::limit_loads_test {
 
 using namespace scenes;
 
@@ -142,5 +141,4 @@ TEST(LimitLoads, oneDiagonalACellLocks) {
   EXPECT_GE(rising.last / both.last, 1.15);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::limit_loads_test

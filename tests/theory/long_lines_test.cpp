@@ -9,8 +9,7 @@
 #include "theory/random_line.h"
 #include "theory/random_scene.h"
 
-namespace mortier {
-namespace {
+namespace mortier::long_lines_test {
 
 using namespace scenes;
 
@@ -204,5 +203,4 @@ TEST(LongLines, twoLinesBetweenTwoBodies) {
   EXPECT_NEAR(result.state.contactForce[0].sum() + result.state.contactForce[1].sum(), 1.2, 1e-9);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::long_lines_test

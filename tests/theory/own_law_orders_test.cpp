@@ -10,8 +10,7 @@
 #include "theory/controlled_runs.h"
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::own_law_orders_test {
 
 using namespace scenes;
 
@@ -213,5 +212,4 @@ TEST(OwnLawOrders, aHeatedBarFlowsWithTheOrderOfTheScheme) {
   });
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::own_law_orders_test

@@ -7,8 +7,7 @@
 
 #include "theory/shaken_square.h"
 
-namespace mortier {
-namespace {
+namespace mortier::patch_test {
 
 using namespace scenes;
 
@@ -147,5 +146,4 @@ TEST(Patch, interpolationFails) {
     }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::patch_test

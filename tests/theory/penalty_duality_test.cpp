@@ -6,8 +6,7 @@
 #include "material/parts.h"
 #include "theory/hard_cases.h"
 
-namespace mortier {
-namespace {
+namespace mortier::penalty_duality_test {
 
 using namespace scenes;
 
@@ -196,5 +195,4 @@ TEST(PenaltyDuality, namesTheBodyThatContactCannotHold) {
   EXPECT_NE(result.report.reason.find("body upper"), std::string::npos) << result.report.reason;
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::penalty_duality_test

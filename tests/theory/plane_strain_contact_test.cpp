@@ -11,8 +11,7 @@
 #include "theory/scenes.h"
 #include "time/initial_balance.h"
 
-namespace mortier {
-namespace {
+namespace mortier::plane_strain_contact_test {
 
 using namespace scenes;
 
@@ -272,5 +271,4 @@ TEST(PlaneStrainContact, unitsOfPowersOfTwoChangeNoBit) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::plane_strain_contact_test

@@ -8,8 +8,7 @@
 #include "mesh/generate.h"
 #include "time/march.h"
 
-namespace mortier {
-namespace {
+namespace mortier::point_supports_test {
 
 using Supports = std::vector<PrescribedDisplacement>;
 
@@ -81,5 +80,4 @@ TEST(PointSupports, andSoDoLabelsThatMoveWithTheSolution) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::point_supports_test

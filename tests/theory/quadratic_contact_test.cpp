@@ -9,8 +9,7 @@
 #include "theory/half_open_contact.h"
 #include "theory/shaken_square.h"
 
-namespace mortier {
-namespace {
+namespace mortier::quadratic_contact_test {
 
 using namespace scenes;
 
@@ -281,5 +280,4 @@ TEST(QuadraticContact, curvedLines) {
     }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::quadratic_contact_test

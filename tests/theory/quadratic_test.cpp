@@ -10,8 +10,7 @@
 #include "material/plane_strain.h"
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::quadratic_test {
 
 using namespace scenes;
 
@@ -289,5 +288,4 @@ TEST(Quadratic, curvedSidesCarryTheOrder) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::quadratic_test

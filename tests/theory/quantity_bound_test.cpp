@@ -17,8 +17,7 @@
 #include "time/mean_pressure.h"
 #include "time/quantity.h"
 
-namespace mortier {
-namespace {
+namespace mortier::quantity_bound_test {
 
 using namespace scenes;
 using Kind = Functional::Kind;
@@ -238,5 +237,4 @@ TEST(QuantityBound, enclosesTheValuesOfRandomScenes) {
   EXPECT_GE(bounded, count * 4 / 5);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::quantity_bound_test

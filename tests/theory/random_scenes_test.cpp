@@ -6,8 +6,7 @@
 
 #include "theory/random_scene.h"
 
-namespace mortier {
-namespace {
+namespace mortier::random_scenes_test {
 
 using namespace scenes;
 
@@ -39,5 +38,4 @@ TEST(RandomScenes, agreeWithTrialOfAllActiveSets) {
             << worstDisplacement << "\n";
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::random_scenes_test

@@ -6,8 +6,7 @@
 #include "theory/half_open_contact.h"
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::rates_test {
 
 using namespace scenes;
 
@@ -72,5 +71,4 @@ TEST(Rates, backwardEulerIsOfFirstOrder) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::rates_test

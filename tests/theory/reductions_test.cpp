@@ -7,8 +7,7 @@
 #include "material/interior_path.h"
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::reductions_test {
 
 using namespace scenes;
 
@@ -205,5 +204,4 @@ TEST(Reductions, oneBodyNeedsNoContact) {
   expectSameFields(one, two);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::reductions_test

@@ -9,8 +9,7 @@
 #include "theory/scenes.h"
 #include "time/initial_balance.h"
 
-namespace mortier {
-namespace {
+namespace mortier::regions_test {
 
 using namespace scenes;
 
@@ -116,5 +115,4 @@ TEST(InitialStress, thatNothingBalancesIsRefused) {
   EXPECT_THROW(balanceInitialStress(model, state, {}), UnheldBodyError);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::regions_test

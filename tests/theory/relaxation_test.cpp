@@ -7,8 +7,7 @@
 
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::relaxation_test {
 
 using namespace scenes;
 
@@ -133,5 +132,4 @@ TEST(Viscoelastic, initialStressIsElastic) {
   EXPECT_NEAR(state.bodies[0].stress(2, 0) / std::sqrt(2), 3 * 0.25, 1e-3);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::relaxation_test

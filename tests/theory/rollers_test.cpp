@@ -9,8 +9,7 @@
 
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::rollers_test {
 
 using namespace scenes;
 
@@ -155,5 +154,4 @@ TEST(Pressure, aSectorBetweenSlopedRollersTendsToLamesRing) {
   EXPECT_LE(errors.back(), 2e-3);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::rollers_test

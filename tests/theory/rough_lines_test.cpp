@@ -8,8 +8,7 @@
 #include "time/measure.h"
 #include "time/quantity.h"
 
-namespace mortier {
-namespace {
+namespace mortier::rough_lines_test {
 
 using namespace scenes;
 
@@ -314,5 +313,4 @@ TEST(RoughLines, blockHeldByABrokenLineAlone) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::rough_lines_test

@@ -10,8 +10,7 @@
 
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::rounding_test {
 
 using namespace scenes;
 
@@ -97,5 +96,4 @@ TEST(Rounding, turnedAndRenumberedScenesDifferByWhatTheCertificateSays) {
     }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::rounding_test

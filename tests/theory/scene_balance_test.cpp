@@ -13,8 +13,7 @@
 #include "scene/resolve.h"
 #include "time/nodal_forces.h"
 
-namespace mortier {
-namespace {
+namespace mortier::scene_balance_test {
 
 using Kind = Quantity::Kind;
 using Component = Quantity::Component;
@@ -160,5 +159,4 @@ INSTANTIATE_TEST_SUITE_P(Shipped, SceneBalance, testing::ValuesIn(shippedScenes(
                            return name;
                          });
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::scene_balance_test

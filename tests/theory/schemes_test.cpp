@@ -10,8 +10,7 @@
 #include "theory/pressed_blocks.h"
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::schemes_test {
 
 using namespace scenes;
 
@@ -316,5 +315,4 @@ TEST(Schemes, allEndWithTheSameCertificate) {
     }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::schemes_test

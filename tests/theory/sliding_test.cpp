@@ -7,8 +7,7 @@
 #include "theory/scenes.h"
 #include "time/quantity.h"
 
-namespace mortier {
-namespace {
+namespace mortier::sliding_test {
 
 using namespace scenes;
 
@@ -246,5 +245,4 @@ TEST(Sliding, stickZoneIsThatOfCattaneoAndMindlin) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::sliding_test

@@ -8,8 +8,7 @@
 #include "theory/scenes.h"
 #include "time/quantity.h"
 
-namespace mortier {
-namespace {
+namespace mortier::slip_control_test {
 
 using namespace scenes;
 
@@ -153,5 +152,4 @@ TEST(SlipControl, keepsTheEnergy) {
   EXPECT_GT(flowed, 0.01 * largest);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::slip_control_test

@@ -12,8 +12,7 @@
 #include "theory/refined_model.h"
 #include "time/step_taker.h"
 
-namespace mortier {
-namespace {
+namespace mortier::step_bound_test {
 
 using namespace scenes;
 
@@ -204,5 +203,4 @@ TEST(StepBound, isAboveTheErrorOfRandomScenes) {
   EXPECT_GE(flowing, count / 2);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::step_bound_test

@@ -8,8 +8,7 @@
 #include "material/plane_strain.h"
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::thick_cylinder_test {
 
 using namespace scenes;
 
@@ -161,5 +160,4 @@ TEST(ThickCylinder, limitPressureDividesRestFromFlow) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::thick_cylinder_test

@@ -7,8 +7,7 @@
 #include "material/elasticity.h"
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::thin_friction_test {
 
 using namespace scenes;
 
@@ -109,5 +108,4 @@ TEST(ThinFriction, stiffPlatesOnSoftBlocksAreSolved) {
     }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::thin_friction_test

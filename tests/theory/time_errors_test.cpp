@@ -8,8 +8,7 @@
 
 #include "theory/controlled_runs.h"
 
-namespace mortier {
-namespace {
+namespace mortier::time_errors_test {
 
 using namespace timeerrors;
 
@@ -125,5 +124,4 @@ TEST(TimeErrors, randomRunsAreAsAccurateAsTheySay) {
   EXPECT_GE(good, 0.95 * runs);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::time_errors_test

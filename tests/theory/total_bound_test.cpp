@@ -13,8 +13,7 @@
 #include "theory/random_scene.h"
 #include "theory/refined_model.h"
 
-namespace mortier {
-namespace {
+namespace mortier::total_bound_test {
 
 using namespace scenes;
 
@@ -366,5 +365,4 @@ TEST(TotalBound, goesOnFromAStateAsIfItHadNotStopped) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::total_bound_test

@@ -4,8 +4,7 @@
 #include "base/error.h"
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::unheld_test {
 
 using namespace scenes;
 
@@ -146,5 +145,4 @@ TEST(Unheld, motionsThatNoClosedContactHoldsAreNamed) {
   EXPECT_EQ(run(model(0.3), 1, 1).report.status, Status::converged);  // both flanks hold it
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::unheld_test

@@ -6,8 +6,7 @@
 
 #include "theory/hard_cases.h"
 
-namespace mortier {
-namespace {
+namespace mortier::units_test {
 
 using namespace hardcases;
 
@@ -67,5 +66,4 @@ TEST(Units, millimetresAndMegapascalsTakeAsManyIterations) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::units_test

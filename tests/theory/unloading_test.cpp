@@ -9,8 +9,7 @@
 
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::unloading_test {
 
 using namespace scenes;
 
@@ -135,5 +134,4 @@ TEST(Unloading, onOtherMeshes) {
       }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::unloading_test

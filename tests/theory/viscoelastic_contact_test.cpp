@@ -11,8 +11,7 @@
 #include "material/viscoelastic.h"
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::viscoelastic_contact_test {
 
 using namespace scenes;
 
@@ -125,5 +124,4 @@ TEST(ViscoelasticContact, growsAsLeeAndRadokSay) {
   EXPECT_GT(last, 1.3 * first);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::viscoelastic_contact_test

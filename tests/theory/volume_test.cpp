@@ -13,8 +13,7 @@
 #include "material/plane_strain.h"
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::volume_test {
 
 using namespace scenes;
 
@@ -327,5 +326,4 @@ TEST(AveragedVolume, freeThermalStrainIsNoStress) {
     }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::volume_test

@@ -5,8 +5,7 @@
 
 #include "unit/enumerated_contact.h"
 
-namespace mortier {
-namespace {
+namespace mortier::active_factor_test {
 
 Vector solutionOn(const Matrix& W, const std::vector<char>& active, const Vector& f) {
   std::vector<int> set;
@@ -63,5 +62,4 @@ TEST(ActiveFactor, seesThatASetIsSingular) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::active_factor_test

@@ -7,8 +7,7 @@
 #include "mesh/boundary_line.h"
 #include "mesh/shape.h"
 
-namespace mortier {
-namespace {
+namespace mortier::adapt_test {
 
 TriangleMesh square(int cells) {
   return crissCrossMesh({.lower = {0, 0}, .upper = {1, 1}, .cellsX = cells, .cellsY = cells});
@@ -212,5 +211,4 @@ TEST(FacingCorners, roundLinesHaveNone) {
   EXPECT_EQ(cornersOf(annulusMesh({{0, 0}, 1, 2, 1, 6, 3}), 2).size(), 2U);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::adapt_test

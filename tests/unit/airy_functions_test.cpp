@@ -11,8 +11,7 @@
 #include "mesh/generate.h"
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::airy_functions_test {
 
 using namespace scenes;
 
@@ -137,5 +136,4 @@ TEST(Relaxation, iterationsEndWhereTheySayTheyDo) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::airy_functions_test

@@ -7,8 +7,7 @@
 
 #include "base/error.h"
 
-namespace mortier {
-namespace {
+namespace mortier::anisotropy_test {
 
 constexpr double rounding = 1e-12;
 
@@ -189,5 +188,4 @@ TEST(Anisotropy, whatIsNotEllipticIsRefusedWithItsEigenvalue) {
   EXPECT_EQ(messageOf([&] { anisotropyOf(stiffness, Plane::stress); }), "expected a symmetric matrix");
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::anisotropy_test

@@ -8,8 +8,7 @@
 #include <numbers>
 #include <random>
 
-namespace mortier {
-namespace {
+namespace mortier::arcs_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -132,5 +131,4 @@ TEST(Arcs, distanceAlongALine) {
   EXPECT_NEAR(distanceToArc({0, 0}, {1, 0}, 1e-9, {0.5, 0}, {0, -1}), 1.25e-10, 1e-24);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::arcs_test

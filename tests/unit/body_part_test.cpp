@@ -19,8 +19,7 @@
 #include "unit/dense_reference.h"
 #include "unit/thread_ranks.h"
 
-namespace mortier {
-namespace {
+namespace mortier::body_part_test {
 
 constexpr double rounding = 1e-12;
 
@@ -108,7 +107,7 @@ TEST(BodyPart, sumsOfAllPartsAreThoseOfTheBody) {
     body.material().linearise({0.1, stress, strain}, stress, law, 0, body.points());
     std::vector<double> values;
     body.tangent(law, values);
-    const Matrix tangent = dense(body.pattern(), values);
+    const Matrix tangent = denseOf(body.pattern(), values);
 
     Vector force = Vector::Zero(body.dofs());
     Vector load = force;
@@ -124,7 +123,7 @@ TEST(BodyPart, sumsOfAllPartsAreThoseOfTheBody) {
       own.material().linearise({0.1, ownStress, ownStrain}, ownStress, ownLaw, 0, own.points());
       std::vector<double> ownValues;
       own.tangent(ownLaw, ownValues);
-      const Matrix K = dense(own.pattern(), ownValues);
+      const Matrix K = denseOf(own.pattern(), ownValues);
       const Matrix thermal = gatheredPoints(part, all, own.thermalStrain(2));
       const Matrix predictor = gatheredPoints(part, all, ownLaw.predictor);
       Vector forces = own.internalForce(ownStress);
@@ -246,5 +245,4 @@ TEST(BodyPart, ranksChooseTheSameSteps) {
   for (const int ranks : {2, 3}) expectSameMarch(cases[3], ranks, plan, 0);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::body_part_test

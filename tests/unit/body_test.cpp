@@ -14,8 +14,9 @@
 #include "unit/dense_reference.h"
 #include "unit/plate.h"
 
-namespace mortier {
-namespace {
+namespace mortier::body_test {
+
+using namespace plate;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 Vector randomVector(Eigen::Index n, std::mt19937& random) {
@@ -60,10 +61,10 @@ TEST(Body, weightsSumToTheArea) {
 }
 
 /// K of a body over equations, all of it.
-Matrix dense(const Body& plate, const Matrix& moduli) {
+Matrix denseOf(const Body& plate, const Matrix& moduli) {
   std::vector<double> values;
   plate.tangent(moduli, values);
-  return dense(plate.pattern(), values);
+  return denseOf(plate.pattern(), values);
 }
 
 // The internal force of the stresses that a step from zero ends at, as a function of the displacement.
@@ -101,14 +102,14 @@ TEST(Body, tangentMatchesFiniteDifferenceOfInternalForce) {
           free[plate.equations()[dof]] = d[dof];
           expected[plate.equations()[dof]] = difference[dof];
         }
-      const Matrix K = dense(plate, law.moduli);
+      const Matrix K = denseOf(plate, law.moduli);
       EXPECT_LE((K * free - expected).cwiseAbs().maxCoeff(), tolerance * expected.cwiseAbs().maxCoeff());
       if (plate.pattern().symmetric) {
         // The lower triangle of the moduli says the same.
         Matrix lower(6, plate.points());
         const int rows[] = {0, 1, 2, 4, 5, 8};
         for (int i = 0; i < 6; ++i) lower.row(i) = law.moduli.row(rows[i]);
-        EXPECT_LE((dense(plate, lower) - K).cwiseAbs().maxCoeff(), 4 * epsilon * K.cwiseAbs().maxCoeff());
+        EXPECT_LE((denseOf(plate, lower) - K).cwiseAbs().maxCoeff(), 4 * epsilon * K.cwiseAbs().maxCoeff());
         Linearisation half{Matrix(3, plate.points()), Matrix(6, plate.points())};
         plate.material().linearise({0.1, stress0, strainOf(plate, u)}, law.predictor, half, 0,
                                    plate.points());
@@ -245,5 +246,4 @@ TEST(Body, strainBesideAShiftKeepsItsDigits) {
   EXPECT_GE(strain.cwiseAbs().maxCoeff(), 10 * tolerance);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::body_test

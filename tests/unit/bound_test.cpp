@@ -12,8 +12,7 @@
 #include "theory/half_open_contact.h"
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::bound_test {
 
 using namespace scenes;
 
@@ -283,5 +282,4 @@ TEST(SpreadPressures, haveTheForceAndTheMomentOfTheNodalForces) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::bound_test

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace mortier {
-namespace {
+namespace mortier::breaks_test {
 
 using Times = std::vector<double>;
 
@@ -109,5 +108,4 @@ TEST(Courses, theEndsOfTheRunAreNoBreaksOfATable) {
   EXPECT_EQ(course.times, (Times{0, 0.25, 1}));
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::breaks_test

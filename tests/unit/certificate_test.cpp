@@ -10,8 +10,7 @@
 #include "time/march.h"
 #include "time/measure.h"
 
-namespace mortier {
-namespace {
+namespace mortier::certificate_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -133,5 +132,4 @@ TEST(Certificate, aBodyWithoutANumberIsNotSolved) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::certificate_test

@@ -16,8 +16,7 @@
 #include "report/checkpoint_members.h"
 #include "unit/blocks_of_one_cell.h"
 
-namespace mortier {
-namespace {
+namespace mortier::checkpoint_test {
 
 Checkpoint checkpointOf(const Model& model) {
   Checkpoint checkpoint;
@@ -183,5 +182,4 @@ TEST(Checkpoint, damagedFilesAreNamed) {
   fs::remove_all(folder);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::checkpoint_test

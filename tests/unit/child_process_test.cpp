@@ -18,8 +18,7 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 
-namespace mortier {
-namespace {
+namespace mortier::child_process_test {
 
 std::string errorOf(const std::function<std::string()>& work, double seconds = 60) {
   try {
@@ -99,5 +98,4 @@ TEST(ChildProcess, startsNothingAndChangesNoFile) {
   fs::remove_all(folder);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::child_process_test

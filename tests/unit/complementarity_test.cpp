@@ -7,8 +7,7 @@
 #include "unit/enumerated_contact.h"
 #include "unit/load_patterns.h"
 
-namespace mortier {
-namespace {
+namespace mortier::complementarity_test {
 
 using Outcome = ContactSolution::Outcome;
 
@@ -292,5 +291,4 @@ TEST(Complementarity, nothingToSolveIsSolved) {
             Outcome::solved);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::complementarity_test

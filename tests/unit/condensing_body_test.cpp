@@ -9,8 +9,7 @@
 #include "mesh/generate.h"
 #include "unit/dense_reference.h"
 
-namespace mortier {
-namespace {
+namespace mortier::condensing_body_test {
 
 std::vector<double> stiffness(const Body& body, std::mt19937& random, bool symmetric) {
   std::uniform_real_distribution<double> value(0, 1);
@@ -105,5 +104,4 @@ TEST(CondensingSolver, bodyHeldByItsKeptEquationsIsRegular) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::condensing_body_test

@@ -10,8 +10,7 @@
 #include "linear/elimination.h"
 #include "unit/dense_reference.h"
 
-namespace mortier {
-namespace {
+namespace mortier::condensing_solver_test {
 
 TEST(CondensingSolver, randomMatricesAgreeWithDenseElimination) {
   std::mt19937 random(1);
@@ -172,5 +171,4 @@ TEST(CondensingSolver, singularAndIndefiniteMatricesAreReported) {
     }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::condensing_solver_test

@@ -7,8 +7,7 @@
 
 #include "unit/pulled_square.h"
 
-namespace mortier {
-namespace {
+namespace mortier::controller_test {
 
 using namespace pulled;
 
@@ -245,5 +244,4 @@ TEST(Controller, aRunThatCrawlsIsGivenUpWithTheReasonOfItsAttempts) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::controller_test

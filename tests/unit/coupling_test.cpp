@@ -12,8 +12,7 @@
 #include "unit/random_trace.h"
 #include "unit/straight_lines.h"
 
-namespace mortier {
-namespace {
+namespace mortier::coupling_test {
 
 constexpr CouplingKind kinds[] = {CouplingKind::interpolation, CouplingKind::mortar};
 
@@ -403,5 +402,4 @@ TEST(Coupling, nodesCloserThanRoundingDoNoHarm) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::coupling_test

@@ -5,8 +5,7 @@
 #include "unit/curved_lines.h"
 #include "unit/messages.h"
 
-namespace mortier {
-namespace {
+namespace mortier::curved_distance_test {
 
 using namespace curved;
 
@@ -18,7 +17,7 @@ TEST(CurvedDistance, distanceAlongTheNormal) {
   const TriangleMesh lower = mapped(random, 47, -0.5 - distance, -distance, bow(2));
   for (const CouplingKind kind : kinds)
     for (const bool upperNonmortar : {true, false}) {
-      const ContactInterface interface = Pair{upper, lower}.meet(kind, upperNonmortar);
+      const ContactInterface interface = LinePair{upper, lower}.meet(kind, upperNonmortar);
       EXPECT_LE((interface.initialDistance().array() - distance).abs().maxCoeff(), circleRounding);
       EXPECT_EQ(interface.sagitta(), 0);
       // The lower body grows by as much.
@@ -36,7 +35,7 @@ TEST(CurvedDistance, distanceAlongTheNormal) {
 TEST(CurvedDistance, distanceOfTwoCircles) {
   std::mt19937 random(8);
   const double moved = 0.01;
-  Pair pair = pairOf(random, 60, 47, bow(1));
+  LinePair pair = pairOf(random, 60, 47, bow(1));
   for (Point& x : pair.lower.vertices) x.y() -= moved;
   for (const bool upperNonmortar : {true, false}) {
     const ContactInterface interface = pair.meet(CouplingKind::interpolation, upperNonmortar);
@@ -54,7 +53,7 @@ TEST(CurvedDistance, distanceOfTwoCircles) {
 }
 
 /// A half disc on a wall, or on another half disc that is mirrored below it.
-Pair discOn(double wall, double otherRadius) {
+LinePair discOn(double wall, double otherRadius) {
   TriangleMesh disc = halfDiscMesh({.lowest = {0, 0}, .radius = 1, .core = 0.3, .cells = 7});
   TriangleMesh below = crissCrossMesh({.lower = {-1, -1}, .upper = {1, 0}, .cellsX = 23, .cellsY = 4});
   if (otherRadius > 0) {
@@ -74,7 +73,7 @@ TEST(CurvedDistance, directionDoesNotDependOnTheSide) {
     for (const CouplingKind kind : kinds)
       for (const bool upperNonmortar : {true, false})
         for (const double wall : {0.0, 0.01}) {
-          const Pair pair = discOn(wall, radius);
+          const LinePair pair = discOn(wall, radius);
           const ContactInterface interface = pair.meet(kind, upperNonmortar);
           EXPECT_LE(imbalance(interface, upperNonmortar ? pair.upper : pair.lower,
                               upperNonmortar ? pair.lower : pair.upper, random),
@@ -96,13 +95,13 @@ TEST(CurvedDistance, directionDoesNotDependOnTheSide) {
 // Meshes of one curve overlap and part by the sag of their elements; those of one circle touch.
 TEST(CurvedDistance, initialGap) {
   std::mt19937 random(6);
-  const Pair circle = pairOf(random, 12, 17, bow(2));
+  const LinePair circle = pairOf(random, 12, 17, bow(2));
   EXPECT_EQ(circle.meet(CouplingKind::mortar, true, {.initial = InitialGap::reject})
                 .initialDistance()
                 .cwiseAbs()
                 .maxCoeff(),
             0);
-  const Pair pair = pairOf(random, 12, 17, wave(0.05));
+  const LinePair pair = pairOf(random, 12, 17, wave(0.05));
   const auto message = [&](const InterfaceOptions& options) {
     return messageOf([&] { return pair.meet(CouplingKind::mortar, true, options); });
   };
@@ -125,5 +124,4 @@ TEST(CurvedDistance, initialGap) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::curved_distance_test

@@ -8,8 +8,7 @@
 
 #include "unit/curved_lines.h"
 
-namespace mortier {
-namespace {
+namespace mortier::curved_interface_test {
 
 using namespace curved;
 
@@ -20,7 +19,8 @@ TEST(CurvedInterface, forceAndMomentBalance) {
   std::uniform_real_distribution<double> value(-1, 1);
   double worst = 0;
   for (int trial = 0; trial < 200; ++trial) {
-    Pair pair = pairOf(random, cells(random), cells(random), bow(2 * std::abs(value(random)), value(random)));
+    LinePair pair =
+        pairOf(random, cells(random), cells(random), bow(2 * std::abs(value(random)), value(random)));
     if (trial % 4 == 1) pair = pairOf(random, cells(random), cells(random), wave(0.05 * value(random)));
     if (trial % 4 == 2) {  // shifted: it overlaps in part, at a distance
       pair = pairOf(random, cells(random), cells(random), bow(1));
@@ -78,7 +78,7 @@ TEST(CurvedInterface, closedLines) {
     return mesh;
   };
   const double distance = 0.05;
-  const Pair pair{ring(48, 1 + distance, 2, 0.3), ring(37, 0.5, 1, 0)};
+  const LinePair pair{ring(48, 1 + distance, 2, 0.3), ring(37, 0.5, 1, 0)};
   for (const CouplingKind kind : kinds)
     for (const bool upperNonmortar : {true, false}) {
       const ContactInterface interface = pair.meet(kind, upperNonmortar);
@@ -90,7 +90,7 @@ TEST(CurvedInterface, closedLines) {
                 balance);
     }
   for (const double turned : {0.0, 1.0, 2.0, 3.0, 4.0, 5.0}) {
-    const Pair part{pair.upper, mapped(random, 9, -0.5, 0, bow(1.5, turned))};
+    const LinePair part{pair.upper, mapped(random, 9, -0.5, 0, bow(1.5, turned))};
     for (const CouplingKind kind : kinds)
       for (const bool upperNonmortar : {true, false}) {
         const ContactInterface interface = part.meet(kind, upperNonmortar);
@@ -106,7 +106,7 @@ TEST(CurvedInterface, closedLines) {
 TEST(CurvedInterface, aLineThatIsLongerFacesAllOfTheOther) {
   std::mt19937 random(11);
   for (int trial = 0; trial < 20; ++trial) {
-    const Pair pair{mapped(random, 13, 0, 0.5, bow(0.8)), mapped(random, 10, -0.5, 0, bow(1.1))};
+    const LinePair pair{mapped(random, 13, 0, 0.5, bow(0.8)), mapped(random, 10, -0.5, 0, bow(1.1))};
     for (const CouplingKind kind : kinds) {
       const ContactInterface interface = pair.meet(kind, true);
       EXPECT_EQ(interface.rows(), 14);
@@ -176,7 +176,7 @@ TEST(CurvedInterface, cornersCutTheLine) {
 // The closures of Gamma_C and of the Dirichlet boundary meet.
 TEST(CurvedInterface, heldEndsAreMerged) {
   std::mt19937 random(7);
-  const Pair pair = pairOf(random, 6, 9, [](const Point& x) { return x; });
+  const LinePair pair = pairOf(random, 6, 9, [](const Point& x) { return x; });
   const auto onLeft = [](const TriangleMesh& mesh) {
     return [&mesh](int v, const Point&) { return mesh.vertices[v].x() == 0; };
   };
@@ -196,5 +196,4 @@ TEST(CurvedInterface, heldEndsAreMerged) {
   EXPECT_EQ(pair.meet(CouplingKind::mortar, true, {.nonmortarHeld = onLeft(pair.upper)}).rows(), 6);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::curved_interface_test

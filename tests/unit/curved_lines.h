@@ -35,7 +35,7 @@ TriangleMesh mapped(std::mt19937& random, int cells, double lower, double upper,
 }
 
 /// Two bodies that meet on y = 0 before they are mapped; the upper one is nonmortar or the lower one.
-struct Pair {
+struct LinePair {
   TriangleMesh upper;
   TriangleMesh lower;
 
@@ -49,7 +49,7 @@ struct Pair {
 };
 
 template <class Map>
-Pair pairOf(std::mt19937& random, int upperCells, int lowerCells, Map map) {
+LinePair pairOf(std::mt19937& random, int upperCells, int lowerCells, Map map) {
   return {mapped(random, upperCells, 0, 0.5, map), mapped(random, lowerCells, -0.5, 0, map)};
 }
 

@@ -10,8 +10,7 @@
 #include "material/plane_strain.h"
 #include "scene/known_datum.h"
 
-namespace mortier {
-namespace {
+namespace mortier::data_misfit_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -212,5 +211,4 @@ TEST(InitialStress, isTheMeanOfTriangles) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::data_misfit_test

@@ -9,8 +9,7 @@
 #include "base/interrupt.h"
 #include "unit/enumerated_contact.h"
 
-namespace mortier {
-namespace {
+namespace mortier::dense_factor_test {
 
 TEST(DenseFactor, solves) {
   constexpr double tolerance = 1e-11;  // condition numbers up to 1e4
@@ -64,5 +63,4 @@ TEST(DenseFactor, isInterruptedBetweenItsBlocks) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::dense_factor_test

@@ -10,8 +10,7 @@
 
 #include "base/types.h"
 
-namespace mortier {
-namespace {
+namespace mortier::dense_kernels_test {
 
 struct Size {
   int n, pivots;
@@ -136,5 +135,4 @@ TEST(DenseKernels, solvesAndProducts) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::dense_kernels_test

@@ -43,7 +43,7 @@ struct System {
   }
 };
 
-inline Matrix dense(const SparsePattern& pattern, const std::vector<double>& values) {
+inline Matrix denseOf(const SparsePattern& pattern, const std::vector<double>& values) {
   Matrix K = Matrix::Zero(pattern.size, pattern.size);
   for (int j = 0; j < pattern.size; ++j)
     for (int k = pattern.columnStart[j]; k < pattern.columnStart[j + 1]; ++k) {
@@ -94,7 +94,7 @@ inline void compare(const Engine& engine, const System& system, const std::vecto
                (system.pattern.symmetric ? "symmetric" : "unsymmetric"));
   const auto solver = engine.make(system.pattern, kept);
   ASSERT_TRUE(solver->factorise(system.values));
-  const Matrix K = dense(system.pattern, system.values);
+  const Matrix K = denseOf(system.pattern, system.values);
   const std::vector<int> interior = others(system.pattern.size, kept);
   const Matrix Kbb = K(interior, interior);
   const Eigen::PartialPivLU<Matrix> lu(Kbb.size() > 0 ? Kbb : Matrix::Identity(1, 1));

@@ -8,8 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace mortier {
-namespace {
+namespace mortier::element_tree_test {
 
 std::vector<Point> arc(int elements, double radius) {
   std::vector<Point> points;
@@ -54,5 +53,4 @@ TEST(ElementTree, farthestNode) {
   EXPECT_EQ(farthestNode(line, {{1, 0}, {1, 0.1}}), 39);  // the last node of a closed line is its first
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::element_tree_test

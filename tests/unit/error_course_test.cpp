@@ -7,8 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace mortier {
-namespace {
+namespace mortier::error_course_test {
 
 TEST(StepWeights, areIntegralsOfPowersOverTheGrowth) {
   for (const auto& [rho0, rho1] :
@@ -93,5 +92,4 @@ TEST(ErrorCourse, hasTheLargestIntegralOfARate) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::error_course_test

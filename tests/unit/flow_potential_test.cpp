@@ -8,8 +8,7 @@
 #include "theory/scenes.h"
 #include "unit/enumerated_contact.h"
 
-namespace mortier {
-namespace {
+namespace mortier::flow_potential_test {
 
 using namespace scenes;
 
@@ -70,5 +69,4 @@ TEST(FlowPotential, excessIsThatOfThePotential) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::flow_potential_test

@@ -7,8 +7,7 @@
 #include "base/error.h"
 #include "scene/expression.h"
 
-namespace mortier {
-namespace {
+namespace mortier::formulas_test {
 
 using Slopes = Differentiated<4>;
 
@@ -174,5 +173,4 @@ TEST(Formulas, rejectsInOneLine) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::formulas_test

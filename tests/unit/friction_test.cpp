@@ -11,8 +11,7 @@
 #include "unit/half_plane_friction.h"
 #include "unit/load_patterns.h"
 
-namespace mortier {
-namespace {
+namespace mortier::friction_test {
 
 FrictionSets open(int n) {
   return {std::vector<char>(n, 0), std::vector<signed char>(n, 1)};
@@ -394,5 +393,4 @@ TEST(Friction, dependentConditionsShareTheLoad) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::friction_test

@@ -12,8 +12,7 @@
 
 #include "fuzz/readers.h"
 
-namespace mortier {
-namespace {
+namespace mortier::fuzz_corpus_test {
 
 std::vector<std::string> corpus() {
   std::vector<std::filesystem::path> paths;
@@ -78,5 +77,4 @@ TEST(Readers, takeOrRefuseWhatBecomesOfIt) {
   EXPECT_GT(refused, each);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::fuzz_corpus_test

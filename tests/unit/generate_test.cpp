@@ -12,8 +12,7 @@
 #include "mesh/boundary_line.h"
 #include "unit/mesh_measures.h"
 
-namespace mortier {
-namespace {
+namespace mortier::generate_test {
 
 constexpr Cut cuts[] = {Cut::rising, Cut::falling, Cut::both};
 
@@ -218,5 +217,4 @@ TEST(HalfDisc, isRoundSymmetricAndFineAtItsLowestPoint) {
     EXPECT_THROW(halfDiscMesh(wrong), InputError);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::generate_test

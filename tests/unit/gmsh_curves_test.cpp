@@ -19,8 +19,7 @@
 #include "mesh/read.h"
 #include "unit/mesh_measures.h"
 
-namespace mortier {
-namespace {
+namespace mortier::gmsh_curves_test {
 
 /// Of the size of a curve: far below what a mesh of a million edges is off it, far above rounding.
 constexpr double onCurve = 1e-10;
@@ -244,5 +243,4 @@ TEST(GmshCurves, geometriesThatDoNotEndAreRefused) {
   std::remove(path.c_str());
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::gmsh_curves_test

@@ -9,8 +9,7 @@
 #include "mesh/generate.h"
 #include "unit/messages.h"
 
-namespace mortier {
-namespace {
+namespace mortier::interface_test {
 
 constexpr int bottom = 1;
 constexpr int top = 3;
@@ -192,5 +191,4 @@ TEST(Interface, interpenetrationCountsWhatFacesOnly) {
   EXPECT_EQ(interface.rows(), 3);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::interface_test

@@ -9,8 +9,7 @@
 
 #include "unit/one_point.h"
 
-namespace mortier {
-namespace {
+namespace mortier::interior_path_test {
 
 /// One step of the method at a point whose strain does not change. \returns the length of the step.
 double follow(InteriorPath& path, const Matrix& strain, Matrix& stress) {
@@ -137,5 +136,4 @@ TEST(InteriorPath, aLinearLawHasNone) {
   EXPECT_EQ(elasticMaterial({3e11, 0.3})->interiorPath(1, Matrix::Zero(3, 1)), nullptr);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::interior_path_test

@@ -11,8 +11,7 @@
 
 #include "base/error.h"
 
-namespace mortier {
-namespace {
+namespace mortier::line_part_test {
 
 const BoundaryLine bent{{0, 1, 2}, {{0, 0}, {3, 0}, {3, 4}}};  // 7 long
 
@@ -82,5 +81,4 @@ TEST(LinePart, refusesWhatIsNoPart) {
   EXPECT_THROW(LinePart(closed, {2, 0}, {3, 2}, 0), InputError);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::line_part_test

@@ -11,8 +11,7 @@
 #include "mesh/boundary_line.h"
 #include "mesh/generate.h"
 
-namespace mortier {
-namespace {
+namespace mortier::lint_test {
 
 TEST(Faults, kindsHaveIdsOfTheirOwnAndRemedies) {
   std::set<std::string> ids;
@@ -88,5 +87,4 @@ TEST(Topology, countsTheEdgesOfAGrid) {
   EXPECT_EQ(distanceToSegment({-3, 4}, {Point(0, 0), Point(7, 0)}), 5);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::lint_test

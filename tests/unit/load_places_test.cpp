@@ -9,8 +9,7 @@
 #include "scene/load_courses.h"
 #include "unit/scene_folder.h"
 
-namespace mortier {
-namespace {
+namespace mortier::load_places_test {
 
 constexpr double end = 1;
 constexpr int top = 3;
@@ -110,5 +109,4 @@ boundary = [{ label = 1, ux = 0, uy = 0 }]
   EXPECT_LT(least, -0.9);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::load_places_test

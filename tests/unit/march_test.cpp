@@ -9,8 +9,7 @@
 #include "material/stress.h"
 #include "unit/pulled_square.h"
 
-namespace mortier {
-namespace {
+namespace mortier::march_test {
 
 using namespace pulled;
 
@@ -246,5 +245,4 @@ TEST(March, aBodyThatNothingHoldsIsNamedBeforeTheFirstStep) {
   EXPECT_THROW(run(model, {}), UnheldBodyError);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::march_test

@@ -7,8 +7,7 @@
 #include "base/error.h"
 #include "base/units.h"
 
-namespace mortier {
-namespace {
+namespace mortier::measures_test {
 
 double inUnits(const Units& units, double number, const std::string& unit) {
   Measure measure = unitOf(unit).value();
@@ -88,5 +87,4 @@ TEST(Units, standBehindNumbersAlone) {
     EXPECT_FALSE(numberAndUnit(text)) << text;
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::measures_test

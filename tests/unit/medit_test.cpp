@@ -16,8 +16,7 @@
 #include "mesh/generate.h"
 #include "unit/messages.h"
 
-namespace mortier {
-namespace {
+namespace mortier::medit_test {
 
 // A file of this process, removed at the end of the test.
 class TemporaryFile {
@@ -264,5 +263,4 @@ TEST(Medit, survivesMutations) {
   EXPECT_LT(readable, 600);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::medit_test

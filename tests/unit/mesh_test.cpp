@@ -7,8 +7,7 @@
 #include "mesh/triangle_mesh.h"
 #include "unit/messages.h"
 
-namespace mortier {
-namespace {
+namespace mortier::mesh_test {
 
 TEST(TriangleMesh, measuresTriangles) {
   TriangleMesh mesh;
@@ -96,5 +95,4 @@ TEST(BoundaryLine, refusesWhatIsNoLine) {
   EXPECT_NE(fault(1).find("branches in vertex 1 at (0, 0)"), std::string::npos) << fault(1);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::mesh_test

@@ -10,8 +10,7 @@
 #include "material/interior_path.h"
 #include "unit/plane_strain_point.h"
 
-namespace mortier {
-namespace {
+namespace mortier::norton_test {
 
 /// The step in extended precision on three directions:
 ///   s = given/(1/e + theta a),  given = E^-1 s0 + strain,  log theta by bisection.
@@ -230,5 +229,4 @@ TEST(Norton, stressesOfZeroAndOfAnySizeAreNumbers) {
       }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::norton_test

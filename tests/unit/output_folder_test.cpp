@@ -6,8 +6,7 @@
 #include "base/error.h"
 #include "unit/result_folder.h"
 
-namespace mortier {
-namespace {
+namespace mortier::output_folder_test {
 
 TEST_F(Output, numbersReadBackBitByBit) {
   const std::vector<double> values{0.1, -1.0 / 3, 1e-300, 5e-324, 3e11, 0};
@@ -182,5 +181,4 @@ TEST_F(Output, linksToAResultAreFollowed) {
   EXPECT_EQ(contentOf(path + "/far/out/summary.json"), "new");
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::output_folder_test

@@ -11,8 +11,7 @@
 #include "base/error.h"
 #include "unit/plane_strain_point.h"
 
-namespace mortier {
-namespace {
+namespace mortier::overstress_test {
 
 constexpr Elasticity elasticity{200, 0.3};
 
@@ -268,5 +267,4 @@ TEST(Overstress, rejectsWhatIsNoLaw) {
     EXPECT_THROW(make(law), InputError);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::overstress_test

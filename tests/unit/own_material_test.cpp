@@ -11,8 +11,7 @@
 #include "material/rate_law.h"
 #include "material/viscoelastic.h"
 
-namespace mortier {
-namespace {
+namespace mortier::own_material_test {
 
 template <class Number>
 Number mises(const Components<Number>& s) {
@@ -329,5 +328,4 @@ TEST(OwnMaterial, rejectsARateThatIsNoNumberAtRest) {
   EXPECT_THROW(ownMaterial({-1, 0.3}, named(rateLaw(Broken())), Plane::strain), InputError);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::own_material_test

@@ -8,8 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace mortier {
-namespace {
+namespace mortier::parallel_test {
 
 std::vector<int> randomForest(std::mt19937& random, int n) {
   std::vector<int> parent(n, -1);
@@ -125,5 +124,4 @@ TEST(Threads, exceptionsComeOutAndTheThreadsStay) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::parallel_test

@@ -10,8 +10,9 @@
 #include "unit/one_point.h"
 #include "unit/plate.h"
 
-namespace mortier {
-namespace {
+namespace mortier::parts_test {
+
+using namespace plate;
 
 const Elasticity soft{10, 0.2};
 const Elasticity hard{100, 0.3};
@@ -204,5 +205,4 @@ TEST(Parts, statesAndReportsMeetTheMaterialOfEveryBlock) {
   EXPECT_NEAR(last.energy, energy, 1e-12 * energy);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::parts_test

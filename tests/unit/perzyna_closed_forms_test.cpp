@@ -5,8 +5,7 @@
 
 #include "unit/one_point.h"
 
-namespace mortier {
-namespace {
+namespace mortier::perzyna_closed_forms_test {
 
 /// Viscoplastic strain under a stress that grows to 10 t along a direction: N backward Euler steps, each
 /// begun with the strain that must lead to that stress.
@@ -107,5 +106,4 @@ TEST(PerzynaClosedForms, stiffStepLandsOnTheYieldSurface) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::perzyna_closed_forms_test

@@ -12,8 +12,7 @@
 #include "base/error.h"
 #include "unit/one_point.h"
 
-namespace mortier {
-namespace {
+namespace mortier::perzyna_test {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
@@ -232,5 +231,4 @@ TEST(Perzyna, wrongConstantsAreNamed) {
   EXPECT_NE(message({1, 0.3}, {std::numeric_limits<double>::infinity(), 1}), "");
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::perzyna_test

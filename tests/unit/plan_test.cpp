@@ -8,8 +8,7 @@
 #include "plan/plan.h"
 #include "unit/scene_folder.h"
 
-namespace mortier {
-namespace {
+namespace mortier::plan_test {
 
 /// Two blocks on meshes of 3 and 2 cells, one diagonal a cell.
 class PlanFiles : public SceneFolder {
@@ -176,5 +175,4 @@ TEST_F(PlanFiles, estimatesThatAreKnownToBeWrongAreNamed) {
   EXPECT_EQ(doubts({"contact.variant=interpolation"}).size(), 1u);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::plan_test

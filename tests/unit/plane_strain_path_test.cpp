@@ -8,8 +8,7 @@
 #include "material/interior_path.h"
 #include "unit/plane_strain_point.h"
 
-namespace mortier {
-namespace {
+namespace mortier::plane_strain_path_test {
 
 // What regularise() leaves is nothing where the law holds, and its fixed point is the law.
 TEST(PlaneStrain, regularisedLawEndsAtTheLaw) {
@@ -113,5 +112,4 @@ TEST(PlaneStrain, pathModuliAreTheDerivativeOfItsSteps) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::plane_strain_path_test

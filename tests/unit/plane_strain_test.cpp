@@ -12,8 +12,7 @@
 #include "material/stress.h"
 #include "unit/plane_strain_point.h"
 
-namespace mortier {
-namespace {
+namespace mortier::plane_strain_test {
 
 TEST(PlaneStrain, elasticityIsThatOfThreeDimensions) {
   const Elasticity elasticity{200, 0.3};
@@ -269,5 +268,4 @@ TEST(PlaneStrain, wrongConstantsAreNamed) {
   EXPECT_THROW(planeStrainPerzynaMaterial({1, 0.3}, {1, -2}), InputError);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::plane_strain_test

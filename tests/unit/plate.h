@@ -7,7 +7,7 @@
 #include "material/perzyna.h"
 #include "mesh/generate.h"
 
-namespace mortier {
+namespace mortier::plate {
 
 constexpr int bottom = 1;
 constexpr int right = 2;
@@ -48,4 +48,4 @@ inline Matrix strainOf(const Body& plate, const Vector& u) {
   return strain;
 }
 
-}  // namespace mortier
+}  // namespace mortier::plate

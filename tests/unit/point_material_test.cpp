@@ -10,8 +10,7 @@
 #include "unit/one_point.h"
 #include "unit/relaxing_law.h"
 
-namespace mortier {
-namespace {
+namespace mortier::point_material_test {
 
 template <int n>
 void expectGeneralLaw() {
@@ -94,5 +93,4 @@ TEST(PointMaterial, saysWhatItIs) {
   EXPECT_EQ(elasticMaterial({1, 0.3})->laws().front().text(), "elastic");
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::point_material_test

@@ -5,7 +5,7 @@
 
 #include <random>
 
-using namespace mortier;
+namespace mortier::printable_test {
 
 // The first and last characters of each number of bytes are there.
 TEST(Printable, visibleTextStays) {
@@ -50,3 +50,5 @@ TEST(Printable, isNeutralToItsOwnResult) {
     EXPECT_EQ(once.find('\n'), std::string::npos);
   }
 }
+
+}  // namespace mortier::printable_test

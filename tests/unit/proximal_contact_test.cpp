@@ -10,8 +10,7 @@
 
 #include "unit/load_patterns.h"
 
-namespace mortier {
-namespace {
+namespace mortier::proximal_contact_test {
 
 TEST(ProximalContact, closesASetToRounding) {
   constexpr int n = 300;
@@ -51,5 +50,4 @@ TEST(ProximalContact, closesASetToRounding) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::proximal_contact_test

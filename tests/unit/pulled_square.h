@@ -12,6 +12,8 @@
 
 namespace mortier::pulled {
 
+using namespace plate;
+
 constexpr double young = 100;
 
 /// Yields at a stress of 1.

@@ -12,8 +12,7 @@
 #include "mesh/generate.h"
 #include "unit/dense_reference.h"
 
-namespace mortier {
-namespace {
+namespace mortier::quadratic_body_test {
 
 constexpr int quadratic = 2;
 
@@ -117,7 +116,7 @@ TEST(QuadraticBody, tangentIsThatOfTheInternalForce) {
       plate.material().linearise({0.1, zero, zero}, stress, law, 0, plate.points());
       std::vector<double> values;
       plate.tangent(law.moduli, values);
-      const Matrix K = dense(plate.pattern(), values);
+      const Matrix K = denseOf(plate.pattern(), values);
       const Vector x = Vector::NullaryExpr(K.rows(), [&] { return normal(random); });
       Matrix change = zero;
       plate.addStressOf(plate.spread(x), law, change, 0, plate.points());
@@ -188,5 +187,4 @@ TEST(QuadraticBody, aSideThatTurnsATriangleInsideOutIsRefused) {
   EXPECT_THROW(Body("plate", broken, elasticMaterial({1, 0.3}), {}, quadratic), InputError);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::quadratic_body_test

@@ -9,8 +9,7 @@
 #include "mesh/generate.h"
 #include "time/march.h"
 
-namespace mortier {
-namespace {
+namespace mortier::quantity_test {
 
 using Kind = Quantity::Kind;
 using Component = Quantity::Component;
@@ -232,5 +231,4 @@ TEST(Quantity, meanOnACurveIsByItsLength) {
   EXPECT_LT((found - Point(0.5, 0.4999)).norm(), 1e-12);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::quantity_test

@@ -11,8 +11,7 @@
 #include "mesh/generate.h"
 #include "unit/mesh_measures.h"
 
-namespace mortier {
-namespace {
+namespace mortier::refine_test {
 
 /// Conforming, triangles counterclockwise, every edge of one triangle labelled, as it was before.
 void expectSound(TriangleMesh mesh) {
@@ -238,5 +237,4 @@ TEST(Refine, knownMiddlesOfEdgesGoOn) {
   EXPECT_GT(kept, 0);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::refine_test

@@ -6,8 +6,7 @@
 #include "material/plane_strain.h"
 #include "unit/one_point.h"
 
-namespace mortier {
-namespace {
+namespace mortier::regularised_law_test {
 
 constexpr Elasticity elasticity{100, 0.3};
 constexpr double viscosity = 2;
@@ -68,5 +67,4 @@ TEST(RegularisedLaw, isTheLawAtTheStrainThatThePenaltyAdds) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::regularised_law_test

@@ -13,8 +13,7 @@
 #include "unit/blocks_of_one_cell.h"
 #include "unit/result_folder.h"
 
-namespace mortier {
-namespace {
+namespace mortier::report_test {
 
 /// Two unit squares of one cell each, stressed by (0, -2, 0), the lower one elastic.
 struct Blocks {
@@ -212,5 +211,4 @@ TEST(Log, rowsStandUnderTheirHeader) {
             logRoundsHeader().size());
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::report_test

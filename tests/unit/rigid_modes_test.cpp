@@ -11,8 +11,9 @@
 #include "base/error.h"
 #include "unit/plate.h"
 
-namespace mortier {
-namespace {
+namespace mortier::rigid_modes_test {
+
+using namespace plate;
 
 TEST(RigidModes, supportsLeaveTheRestFree) {
   struct Case {
@@ -135,5 +136,4 @@ TEST(RigidModes, meshesThatFallToPiecesAreRefused) {
   EXPECT_THROW(rigidModes(elastic(ring(400))), InputError);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::rigid_modes_test

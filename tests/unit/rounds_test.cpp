@@ -7,8 +7,7 @@
 #include "base/interrupt.h"
 #include "mesh/generate.h"
 
-namespace mortier {
-namespace {
+namespace mortier::rounds_test {
 
 ResolvedScene sceneOf(double accuracy) {
   ResolvedScene scene;
@@ -229,5 +228,4 @@ TEST(Rounds, anInfiniteErrorEndsThem) {
   EXPECT_NE(rounds.reason().find("finite energy"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::rounds_test

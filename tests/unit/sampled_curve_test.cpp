@@ -12,8 +12,7 @@
 #include "mesh/refine.h"
 #include "mesh/regions.h"
 
-namespace mortier {
-namespace {
+namespace mortier::sampled_curve_test {
 
 template <class Curve>
 SampledCurve sampledFrom(const Curve& at, double tolerance) {
@@ -181,5 +180,4 @@ TEST(EdgeCurve, partsOfAMeshKeepTheirs) {
   EXPECT_FALSE(edgesOn(mesh, 1).empty());
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::sampled_curve_test

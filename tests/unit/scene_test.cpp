@@ -14,8 +14,7 @@
 #include "unit/messages.h"
 #include "unit/scene_folder.h"
 
-namespace mortier {
-namespace {
+namespace mortier::scene_test {
 
 const std::string twoBlocks = R"toml(title = "two blocks"
 [[body]]
@@ -439,5 +438,4 @@ TEST(Settings, areTomlWhereTheyAreToml) {
   EXPECT_EQ(parseSetting("1\nother = 2", "").kind, Node::Kind::string);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::scene_test

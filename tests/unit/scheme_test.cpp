@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-namespace mortier {
-namespace {
+namespace mortier::scheme_test {
 
 constexpr double rounding = 1e-15;
 
@@ -31,5 +30,4 @@ TEST(Scheme, exactForRatesBelowItsOrder) {
   EXPECT_NEAR(error(twoHalfSteps(), 1), error(tableau(Scheme::backwardEuler), 1) / 2, rounding);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::scheme_test

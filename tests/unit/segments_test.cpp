@@ -6,8 +6,7 @@
 
 #include "unit/random_trace.h"
 
-namespace mortier {
-namespace {
+namespace mortier::segments_test {
 
 TEST(Segments, coverTheOverlapOnce) {
   std::mt19937 random(5);
@@ -33,5 +32,4 @@ TEST(Segments, coverTheOverlapOnce) {
   EXPECT_TRUE(commonRefinement({0, 1}, {5, 6}).empty());
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::segments_test

@@ -9,8 +9,7 @@
 #include "linear/partition.h"
 #include "unit/thread_ranks.h"
 
-namespace mortier {
-namespace {
+namespace mortier::shared_solver_test {
 
 constexpr double rounding = 1e-11;
 
@@ -205,5 +204,4 @@ TEST(Partition, partsHaveTheSizesThatTheyAreToHave) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::shared_solver_test

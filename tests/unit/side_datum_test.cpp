@@ -10,8 +10,7 @@
 #include "scene/expression.h"
 #include "scene/finite_value.h"
 
-namespace mortier {
-namespace {
+namespace mortier::side_datum_test {
 
 Datum formula(const std::string& text) {
   return finiteValue(parseExpression(text, "here"));
@@ -94,5 +93,4 @@ TEST(TriangleDatum, boundsTheErrorOfItsIntegrals) {
   missed("exp(-((x - 0.2)^2 + (y - 0.2)^2)/1e-4)", 2 * std::numbers::pi * 1e-4);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::side_datum_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mortier {
-namespace {
+namespace mortier::smooth_part_test {
 
 TEST(SmoothPart, oneBentElementBetweenCornersHasTheNormalsOfItsParabola) {
   for (const double bow : {-0.1, 0.2}) {
@@ -22,5 +21,4 @@ TEST(SmoothPart, oneBentElementBetweenCornersHasTheNormalsOfItsParabola) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::smooth_part_test

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace mortier {
-namespace {
+namespace mortier::step_ends_test {
 
 constexpr double pi = std::numbers::pi;
 constexpr double missed = 0.01;
@@ -68,5 +67,4 @@ TEST(StepEnds, missNoPulseAndPassNoBreak) {
   EXPECT_EQ(of.breakAfter(0.3), 1);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::step_ends_test

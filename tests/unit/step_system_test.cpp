@@ -12,8 +12,7 @@
 #include "time/march.h"
 #include "unit/dense_reference.h"
 
-namespace mortier {
-namespace {
+namespace mortier::step_system_test {
 
 constexpr double rounding = 1e-12;
 
@@ -40,14 +39,14 @@ Model squares(std::shared_ptr<const Material> material, double shear = 0) {
 Matrix tangentOf(const Body& body, const Matrix& moduli) {
   std::vector<double> values;
   body.tangent(moduli, values);
-  return dense(body.pattern(), values);
+  return denseOf(body.pattern(), values);
 }
 
 /// The rows of C over the equations of a body.
 Matrix rowsOf(const Body& body, const ConstraintRows& C) {
   Matrix rows(C.rows(), body.freeDofs());
-  const Matrix dense(C);
-  for (Eigen::Index i = 0; i < dense.rows(); ++i)
+  const Matrix denseOf(C);
+  for (Eigen::Index i = 0; i < denseOf.rows(); ++i)
     rows.row(i) = body.gather(dense.row(i).transpose()).transpose();
   return rows;
 }
@@ -179,5 +178,4 @@ TEST(StepSystem, restIsFoundOnlyWhereNothingChanges) {
   EXPECT_FALSE(rest(system, system.step(state, later), iterate).converged());
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::step_system_test

@@ -7,8 +7,7 @@
 #include "mesh/generate.h"
 #include "theory/scenes.h"
 
-namespace mortier {
-namespace {
+namespace mortier::strictness_test {
 
 using namespace scenes;
 
@@ -128,5 +127,4 @@ TEST(Strictness, seesPenetrationThatALiftHasLeft) {
   EXPECT_EQ(broken(), expected);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::strictness_test

@@ -11,8 +11,9 @@
 #include "unit/dense_reference.h"
 #include "unit/plate.h"
 
-namespace mortier {
-namespace {
+namespace mortier::supports_test {
+
+using namespace plate;
 
 /// The plate turned by an angle about the origin.
 TriangleMesh turnedPlate(double angle) {
@@ -150,7 +151,7 @@ TEST(Supports, tangentOfTurnedNodesIsThatOfTheBodyTurned) {
     plate.tangent(moduli, values);
     ASSERT_EQ(plate.pattern().symmetric, symmetric);
     const Vector x = vector(plate.freeDofs());
-    const Vector Kx = dense(plate.pattern(), values) * x;
+    const Vector Kx = denseOf(plate.pattern(), values) * x;
     Matrix stress = Matrix::Zero(3, plate.points());
     plate.addStressOf(plate.spread(x), {{}, moduli}, stress, 0, plate.points());
     const Vector expected = plate.gather(plate.internalForce(stress));
@@ -207,5 +208,4 @@ TEST(Supports, rollersLeaveTheMotionAlongThem) {
   EXPECT_EQ(rigidModes(bodyOf(ring(17, random), {{1, alongTangent, constant(0)}})).cols(), 0);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::supports_test

@@ -4,8 +4,7 @@
 
 #include <random>
 
-namespace mortier {
-namespace {
+namespace mortier::two_part_vector_test {
 
 // Powers of two, so that every sum is known exactly: 1e5 changes below the rounding of the entry, and back
 // again.
@@ -48,5 +47,4 @@ TEST(TwoPartVector, componentsAreSetInBothParts) {
   EXPECT_NEAR(across.dot(u.low.head<2>()), across.dot(Point(1e-20, 2e-20)), 1e-35);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::two_part_vector_test

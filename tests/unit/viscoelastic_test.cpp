@@ -7,8 +7,7 @@
 #include "base/error.h"
 #include "material/interior_path.h"
 
-namespace mortier {
-namespace {
+namespace mortier::viscoelastic_test {
 
 // Linear in stress and strain: the predictor is on the law, and the moduli take it to that of another strain.
 TEST(Viscoelastic, predictorAndModuliAreExact) {
@@ -80,5 +79,4 @@ TEST(Viscoelastic, rejectsWhatDoesNotRelax) {
     EXPECT_THROW(make(law), InputError);
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::viscoelastic_test

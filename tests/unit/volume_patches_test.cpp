@@ -14,8 +14,7 @@
 #include "mesh/generate.h"
 #include "unit/dense_reference.h"
 
-namespace mortier {
-namespace {
+namespace mortier::volume_patches_test {
 
 constexpr double root2 = std::numbers::sqrt2;
 
@@ -160,7 +159,7 @@ TEST(VolumePatches, forcesAndTangentAreThoseOfTheStrain) {
       Threads some(threads);
       std::vector<double> values;
       plate.tangent(law, values, some);
-      const Matrix K = dense(plate.pattern(), values);
+      const Matrix K = denseOf(plate.pattern(), values);
       const Vector x = Vector::NullaryExpr(K.rows(), [&] { return normal(random); });
       Matrix change = zero;
       plate.addStressOf(plate.spread(x), law, change, 0, plate.points());
@@ -174,5 +173,4 @@ TEST(VolumePatches, forcesAndTangentAreThoseOfTheStrain) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::volume_patches_test

@@ -15,8 +15,7 @@
 #include "unit/messages.h"
 #include "unit/result_folder.h"
 
-namespace mortier {
-namespace {
+namespace mortier::whole_file_test {
 
 using WholeFile = Folder;
 
@@ -77,5 +76,4 @@ TEST_F(WholeFile, whatIsNoFileOrTooLargeIsRefused) {
               each + ": larger than 3 MiB, expected a scene");
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::whole_file_test

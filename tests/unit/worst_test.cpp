@@ -4,8 +4,7 @@
 
 #include <limits>
 
-namespace mortier {
-namespace {
+namespace mortier::worst_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -37,5 +36,4 @@ TEST(Worst, aNaNStaysWhateverComesAfterIt) {
   EXPECT_TRUE(std::isnan(worse(1, nan)));
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::worst_test

@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace mortier {
-namespace {
+namespace mortier::yield_domain_test {
 
 using Eigen::Array3d;
 
@@ -222,5 +221,4 @@ TEST(YieldDomain, unitsOfPowersOfTwoChangeNoBit) {
   }
 }
 
-}  // namespace
-}  // namespace mortier
+}  // namespace mortier::yield_domain_test
