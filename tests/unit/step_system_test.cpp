@@ -45,8 +45,8 @@ Matrix tangentOf(const Body& body, const Matrix& moduli) {
 /// The rows of C over the equations of a body.
 Matrix rowsOf(const Body& body, const ConstraintRows& C) {
   Matrix rows(C.rows(), body.freeDofs());
-  const Matrix denseOf(C);
-  for (Eigen::Index i = 0; i < denseOf.rows(); ++i)
+  const Matrix dense(C);
+  for (Eigen::Index i = 0; i < dense.rows(); ++i)
     rows.row(i) = body.gather(dense.row(i).transpose()).transpose();
   return rows;
 }
