@@ -289,6 +289,9 @@ def scene_cases():
         *(SceneCase("sloped", "coarsened", f"degree {degree}, finer and stiffer side nonmortar",
                     ("contact.swap=true", "contact.gap=1e-5*x^2+2e-6", "body.upper.material.young=1e4",
                      f"degree={degree}")) for degree in (1, 2)),
+        SceneCase("sloped", "coarsened", "finer and stiffer side nonmortar, on a wall",
+                  ("contact.swap=true", "contact.gap=1e-5*x^2+2e-6", "body.upper.material.young=1e4",
+                   "body.upper.boundary=[{label=1, ux=0, uy=0}]")),
         # Laws beside each other
         *(SceneCase("sloped", variant, f"{upper} on {lower}",
                     (*beside(upper, lower), "time.steps=3", "contact.sliding=allow", *more))

@@ -115,9 +115,6 @@ const std::vector<FaultKind>& faultKinds() {
        "refine the coarse side: it decides the error"},
       {"nonmortar-coarser", warning, "the nonmortar side is much the coarser one",
        "exchange the sides (contact.swap), or refine it"},
-      {"nonmortar-stiffer", warning, "the nonmortar body is much the stiffer one",
-       "leave out contact.variant, or exchange the sides (contact.swap): the pressure is then discretised on "
-       "the softer body"},
       {"pressure-alternates", warning,
        "the nonmortar side is so much finer and stiffer that pressures may alternate from node to node",
        "leave out contact.variant, or exchange the sides (contact.swap)"},

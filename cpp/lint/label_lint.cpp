@@ -4,10 +4,10 @@
 
 #include "base/counted.h"
 #include "base/error.h"
-#include "lint/held_dofs.h"
 #include "lint/lint.h"
 #include "mesh/boundary_line.h"
 #include "mesh/label_text.h"
+#include "scene/held_dofs.h"
 #include "scene/resolve.h"
 
 namespace mortier {

@@ -5,10 +5,10 @@
 #include "base/counted.h"
 #include "base/digits.h"
 #include "base/printable.h"
-#include "lint/held_dofs.h"
 #include "lint/lint.h"
 #include "mesh/boundary_line.h"
 #include "mesh/label_text.h"
+#include "scene/held_dofs.h"
 
 namespace mortier {
 namespace {
@@ -52,7 +52,7 @@ bool holdsEdge(const std::vector<ConditionDescription>& conditions, int label, c
                const Point& to, std::optional<int> axis) {
   return std::any_of(conditions.begin(), conditions.end(), [&](const ConditionDescription& c) {
     return c.kind == ConditionDescription::Kind::displacement && c.actsOn(label) &&
-           axisOf(c, from, to) == axis;
+           axisOf(c.component, from, to) == axis;
   });
 }
 
@@ -66,7 +66,7 @@ void checkHeldLoads(const LintInput& input, size_t b, Faults& faults) {
     const auto edges = edgesOn(mesh, c.label);
     bool all = !edges.empty();
     for (const auto& [from, to] : edges) {
-      const auto axis = axisOf(c, mesh.vertices[from], mesh.vertices[to]);
+      const auto axis = axisOf(c.component, mesh.vertices[from], mesh.vertices[to]);
       for (const int v : {from, to}) all = all && axis && held[2 * v + *axis] != 0;
       if (input.scene.degree > 1)
         all = all && holdsEdge(conditions, c.label, mesh.vertices[from], mesh.vertices[to], axis);

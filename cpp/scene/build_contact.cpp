@@ -28,11 +28,13 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
     target->body = bodyIndex(scene, side->body);
     target->label = side->label;
   }
+  std::vector<const TriangleMesh*> meshes;
+  for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
   InterfaceOptions options;
   options.initial = contact.initial;
   options.friction = contact.friction;
   options.axisymmetric = scene.plane == Plane::axisymmetric;
-  options.stiffness = stiffnessRatio(scene, contact.nonmortar, contact.mortar);
+  options.stiffness = stiffnessRatio(scene, contact.nonmortar, contact.mortar, meshes);
   if (contact.gap) {
     const Body& body = model.bodies[pair.nonmortar.body];
     std::vector<Point> points;
@@ -46,8 +48,6 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
         return value(x.x(), x.y(), t);
       };
   }
-  std::vector<const TriangleMesh*> meshes;
-  for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
   std::vector<ContactPair> pairs{pair};
   std::vector<bool> rough{contact.friction.any()};
   for (const ContactInterface& interface : model.interfaces) {

@@ -60,13 +60,10 @@ void decideVolumes(SceneDescription& scene, const std::vector<const TriangleMesh
 // bench/nonmortar_side: the finer mesh along the contact, or the softer body where the other is far stiffer
 // (but with interpolation).
 
-/// Young's modulus of the body of one side over that of the other's.
-double stiffnessRatio(const SceneDescription& scene, const SideDescription& one,
-                      const SideDescription& other);
-
-/// Whether one body of a contact is so much stiffer than the other that it is to be mortar.
-bool stiffer(const SceneDescription& scene, const ContactDescription& contact, const SideDescription& one,
-             const SideDescription& other, double times = 2);
+/// Young's modulus of the body of one side over that of the other's. A side whose normal motion is prescribed
+/// is infinitely stiff.
+double stiffnessRatio(const SceneDescription& scene, const SideDescription& one, const SideDescription& other,
+                      const std::vector<const TriangleMesh*>& meshes);
 
 /// Puts the chosen side first in every contact that leaves the choice open, and says why in `choice`; labels
 /// are numbers (scene/resolve.h). A second call changes nothing. Contacts with a mesh that is missing
@@ -79,14 +76,13 @@ void decideSides(SceneDescription& scene, const std::vector<const TriangleMesh*>
 /// all its nodes have a row.
 struct Alternation {
   double edges = 1;      ///< length of the mortar edges over that of the nonmortar edges [-]
-  double stiffness = 1;  ///< Young's modulus of the nonmortar body over that of the mortar body [-]
+  double stiffness = 1;  ///< stiffnessRatio of the nonmortar to the mortar side [-]
 };
 std::optional<Alternation> alternation(const SceneDescription& scene, const ContactDescription& contact,
                                        const std::vector<const TriangleMesh*>& meshes);
 
-/// Takes `coarsened` for contacts with such a side of a stiffer body, and says why in `choice`; not with
-/// [accuracy], which refines the meshes or bounds the error of the rows by default. A second call changes
-/// nothing.
+/// Takes `coarsened` for contacts with such a side, and says why in `choice`; not with [accuracy], which
+/// refines the meshes or bounds the error of the rows by default. A second call changes nothing.
 void decideVariants(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes);
 
 }  // namespace mortier

@@ -125,7 +125,18 @@ TEST_F(SceneFiles, pressuresDoNotAlternateByDefault) {
   EXPECT_EQ(contact({stiff}).variant, CouplingKind::mortar);
   EXPECT_EQ(contact({"contact.swap=true", stiff}).variant, CouplingKind::coarsened);
   EXPECT_EQ(contact({"contact.swap=true", stiff}).choice,
-            "fewer nodes as its edges are 1.5 times as short and its young is 3.3 times as large");
+            "fewer nodes as its edges are 1.5 times as short and its body is 3.3 times as stiff");
+  const std::string fine = "body.lower.mesh={shape=\"rectangle\", lower=[0, -1], upper=[1, 0], cells=[4, 4]}";
+  EXPECT_EQ(contact({fine}).variant, CouplingKind::mortar);
+  EXPECT_EQ(contact({"contact.swap=true", fine}).variant, CouplingKind::coarsened);
+  EXPECT_EQ(contact({"contact.swap=true", fine, "body.lower.material.young=3e11"}).choice,
+            "fewer nodes as its edges are 2 times as short");
+  // A prescribed side is a wall: it follows no pressure, and the other body tells all nodes apart.
+  const std::string wall = "body.upper.boundary=[{label=1, uy=\"-t\"}]";
+  EXPECT_EQ(contact({"contact.swap=true", fine, wall}).variant, CouplingKind::mortar);
+  EXPECT_EQ(contact({"contact.swap=true", stiff, wall}).variant, CouplingKind::mortar);
+  EXPECT_EQ(contact({"contact.swap=true", fine, "body.upper.boundary=[{label=1, ux=0}]"}).variant,
+            CouplingKind::coarsened);
   EXPECT_EQ(contact({"contact.swap=true", stiff, "contact.variant=mortar"}).variant, CouplingKind::mortar);
   EXPECT_EQ(contact({"contact.swap=true", stiff, "accuracy.energy=0.1"}).variant, CouplingKind::mortar);
   const std::vector<std::string> free{"contact.nonmortar=", "contact.mortar=",
@@ -136,6 +147,7 @@ TEST_F(SceneFiles, pressuresDoNotAlternateByDefault) {
   };
   EXPECT_EQ(nonmortar({}), "lower");
   EXPECT_EQ(nonmortar({"body.lower.material.young=1e14"}), "upper");
+  EXPECT_EQ(nonmortar({"body.lower.boundary=[{label=3, uy=0}]"}), "upper");
   EXPECT_EQ(nonmortar({stiff, "contact.variant=interpolation"}), "lower");
 }
 

@@ -117,12 +117,6 @@ def _(case):
     case.lower = Mesh(0, -1, 1, 0, 32, 16)
 
 
-@fault("nonmortar-stiffer", "scene.toml:24")
-def _(case):
-    lower = case.scene.index('name = "lower"')
-    case.scene = case.scene[:lower] + case.scene[lower:].replace("young = 3e11", "young = 2e9")
-
-
 @fault("pressure-alternates", "[contact]")
 def _(case):
     case.upper = Mesh(0, 0, 1, 1, 15, 6)

@@ -1,4 +1,4 @@
-#include "lint/held_dofs.h"
+#include "scene/held_dofs.h"
 
 #include <cmath>
 
@@ -7,11 +7,11 @@
 
 namespace mortier {
 
-std::optional<int> axisOf(const ConditionDescription& condition, const Point& from, const Point& to) {
+std::optional<int> axisOf(int component, const Point& from, const Point& to) {
   constexpr double aligned = 1e-9;
-  if (condition.component == alongX || condition.component == alongY) return condition.component;
+  if (component == alongX || component == alongY) return component;
   Point along = (to - from).normalized();
-  if (condition.component == alongNormal) along = {along.y(), -along.x()};
+  if (component == alongNormal) along = {along.y(), -along.x()};
   if (std::abs(along.y()) < aligned) return 0;
   if (std::abs(along.x()) < aligned) return 1;
   return std::nullopt;
@@ -27,7 +27,7 @@ std::vector<char> heldDofs(const TriangleMesh& mesh, const std::vector<Condition
       continue;
     }
     for (const auto& [a, b] : edgesOn(mesh, condition.label)) {
-      if (const auto axis = axisOf(condition, mesh.vertices[a], mesh.vertices[b]))
+      if (const auto axis = axisOf(condition.component, mesh.vertices[a], mesh.vertices[b]))
         for (const int v : {a, b}) held[2 * v + *axis] = 1;
     }
   }

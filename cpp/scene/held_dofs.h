@@ -9,8 +9,8 @@
 
 namespace mortier {
 
-/// The axis (0: x, 1: y) along which a condition acts on an edge; none where its direction is oblique.
-std::optional<int> axisOf(const ConditionDescription& condition, const Point& from, const Point& to);
+/// The axis (0: x, 1: y) along which a component (fem/supports.h) of an edge is; none where it is oblique.
+std::optional<int> axisOf(int component, const Point& from, const Point& to);
 
 /// Per dof 2 vertex + axis, whether a displacement is prescribed.
 std::vector<char> heldDofs(const TriangleMesh& mesh, const std::vector<ConditionDescription>& conditions);
