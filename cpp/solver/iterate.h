@@ -32,10 +32,10 @@ struct StrainShift {
 
 /// What is asked of a step.
 struct StepData {
-  double time = 0;            ///< t1: loads and prescribed displacements are taken here [s]
-  double weight = 0;          ///< time step times the scheme's diagonal coefficient [s]
+  double time = 0;                 ///< t1: loads and prescribed displacements are taken here [s]
+  double weight = 0;               ///< time step times the scheme's diagonal coefficient [s]
   std::vector<StrainShift> shift;  ///< per body; empty for none
-  bool startSolved = false;   ///< the start of the step is the solution of the one before
+  bool startSolved = false;        ///< the start of the step is the solution of the one before
   /// What of `shift` is a change of thermal strain, per body; empty for none.
   std::vector<Matrix> thermal = {};
 };

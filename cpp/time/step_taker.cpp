@@ -128,7 +128,7 @@ StepOutcome StepTaker::solveStages(double t1, Effort effort) {
     }
     if (tableau_.stages.size() > 1) {
       rates_.push_back(ratesOf(iterate, data.weight));
-      flows_.push_back(flowsOf(data, iterate));
+      if (i + 1 < tableau_.stages.size()) flows_.push_back(flowsOf(data, iterate));
     }
     solutions_.push_back(std::move(iterate));
   }
@@ -195,15 +195,15 @@ std::vector<StrainShift> StepTaker::flowsOf(const StepData& data, const Iterate&
   std::vector<StrainShift> flows;
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const auto& [increment, stress, strain] = stage.bodies[b];
-    Matrix elastic = strain;
-    if (!model_.bodies[b].material().linear()) {
-      model_.bodies[b].material().elasticStrain(stress - state_.bodies[b].stress, elastic);
-      for (int i = 0; i < elastic.cols(); ++i)
-        if (rates_.back()[b].col(i).isZero(0)) elastic.col(i) = strain.col(i);
-    }
+    StrainShift& flow = flows.emplace_back();
+    if (rates_.back()[b].isZero(0)) continue;
+    Matrix taken;
+    model_.bodies[b].material().elasticStrain(stress - state_.bodies[b].stress, taken);
+    for (int i = 0; i < taken.cols(); ++i)
+      if (rates_.back()[b].col(i).isZero(0)) taken.col(i) = strain.col(i);
     const bool shifted = !data.shift.empty();
-    if (shifted) elastic += data.shift[b].strain;
-    flows.push_back({-elastic, shifted ? data.shift[b].takenFrom(increment) : increment});
+    if (shifted) taken += data.shift[b].strain;
+    flow = {-taken, shifted ? data.shift[b].takenFrom(increment) : increment};
   }
   return flows;
 }
