@@ -34,22 +34,14 @@ struct TwoPartVector {
     low[i] = 0;
   }
 
-  /// Of the product no more is rounded than of a sum.
-  void addMultiple(double factor, const TwoPartVector& other) {
-    for (Eigen::Index i = 0; i < high.size(); ++i) {
-      DoubleDouble sum{high[i], low[i]};
-      DoubleDouble product = DoubleDouble::product(factor, other.high[i]);
-      product.low += factor * other.low[i];
-      sum += product;
-      high[i] = sum.high;
-      low[i] = sum.low;
-    }
-  }
-
   /// The difference, rounded once.
   [[nodiscard]] Vector minus(const TwoPartVector& other) const {
     return (high - other.high) + (low - other.low);
   }
 };
+
+inline TwoPartVector operator*(double factor, const TwoPartVector& v) {
+  return {factor * v.high, factor * v.low};
+}
 
 }  // namespace mortier

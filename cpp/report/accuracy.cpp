@@ -42,8 +42,8 @@ Accuracy AccuracyRecord::atEnd(const Peaks& peaks) {
     allRounding += rounding;
     const double nothing = rounding + negligible * largestEnergy;
     const bool real = estimate.error.sum() > nothing;
-    const bool rigid = !(estimate.energy > nothing);
-    const double own = rigid ? energy : estimate.energy;
+    // The energy of a body without stress is rounding: its error is over that of all bodies.
+    const double own = estimate.energy > nothing ? estimate.energy : energy;
     result.bodies.push_back(real && own > 0 ? std::sqrt(estimate.error.sum() / own) : 0);
     if (!real) continue;
     error += estimate.error.sum();

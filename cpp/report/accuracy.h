@@ -20,7 +20,7 @@ namespace mortier {
 /// steps in time add is not in them. Errors that are nothing but rounding are 0.
 struct Accuracy {
   double all = 0;              ///< of the last state, over its own stress
-  std::vector<double> bodies;  ///< the same of each body; where its stress is rounding, over that of all
+  std::vector<double> bodies;  ///< the same of each body
   std::string worstBody;       ///< the body of the triangle with the largest error, and its centre [m]
   Point worst = Point::Zero();
   double largest = 0;      ///< of any step at which it was estimated, over the largest stress of the run

@@ -65,17 +65,14 @@ std::unique_ptr<CondensingSolver> CondensedBody::newSolver() const {
   return solver;
 }
 
-void CondensedBody::linearise(const StrainShift* shift, BodyIterate& iterate, const BodyLaw& law) {
+void CondensedBody::linearise(const Matrix* shift, BodyIterate& iterate, const BodyLaw& law) {
   iterate.strain.resizeLike(iterate.stress);
   law_.elastic = 0;
-  const TwoPartVector rest = shift != nullptr ? shift->takenFrom(iterate.increment) : TwoPartVector{};
-  const TwoPartVector& u = shift != nullptr ? rest : iterate.increment;
-  const Matrix* strain = shift != nullptr ? &shift->strain : nullptr;
   std::mutex lock;
   Worst change;
   forEachBlock(body_.points(), threads_, [&](int begin, int end) {
     stopIfInterrupted();
-    body_.strain(u, strain, iterate.strain, begin, end);
+    body_.strain(iterate.increment, shift, iterate.strain, begin, end);
     if (!law.inBlock) return;
     const LawReport report = law.inBlock(iterate, law_, begin, end);
     const std::scoped_lock locked(lock);

@@ -34,7 +34,7 @@ class CondensedBody {
   [[nodiscard]] const ContactDofs& contact() const { return contact_; }
 
   /// The strain of the iterate, and the law there.
-  void linearise(const StrainShift* shift, BodyIterate& iterate, const BodyLaw& law);
+  void linearise(const Matrix* shift, BodyIterate& iterate, const BodyLaw& law);
   /// What a part has found where it was linearised, which is to become what all have; the largest each.
   struct LawFacts {
     double change = 0;     ///< of stress; infinite for NaN [Pa]

@@ -58,20 +58,17 @@ void addThermalStrain(const Model& model, const State& state0, StepData& data) {
                                ? Matrix(body.thermalStrain(data.time) - state0.bodies[b].thermalStrain)
                                : Matrix(Matrix::Zero(body.material().components(), body.points())));
     if (shifted)
-      data.shift[b].strain += data.thermal[b];
+      data.shift[b] += data.thermal[b];
     else
-      data.shift.push_back({data.thermal[b]});
+      data.shift.push_back(data.thermal[b]);
   }
 }
 
 void updateStrain(const Model& model, const Step& step, size_t body, Iterate& iterate) {
   BodyIterate& unknowns = iterate.bodies[body];
   unknowns.strain.resizeLike(unknowns.stress);
-  const Body& of = model.bodies[body];
-  if (const StrainShift* shift = step.shift(body))
-    of.strain(shift->takenFrom(unknowns.increment), &shift->strain, unknowns.strain, 0, of.points());
-  else
-    of.strain(unknowns.increment, nullptr, unknowns.strain, 0, of.points());
+  model.bodies[body].strain(unknowns.increment, step.shift(body), unknowns.strain, 0,
+                            model.bodies[body].points());
 }
 
 double largestMotion(const Iterate& iterate) {

@@ -9,33 +9,12 @@
 
 namespace mortier {
 
-/// What is taken from the strain of an increment: B displacement + strain. Flow that is large beside the
-/// elastic strain is carried as a displacement: rounded at points it would be incompatible, and stress.
-struct StrainShift {
-  Matrix strain;                    ///< components x points [-]
-  TwoPartVector displacement = {};  ///< dofs [m]; empty for none
-
-  /// The increment less the displacement.
-  [[nodiscard]] TwoPartVector takenFrom(TwoPartVector increment) const {
-    if (displacement.high.size() > 0) increment.addMultiple(-1, displacement);
-    return increment;
-  }
-  /// The strain of both.
-  [[nodiscard]] Matrix value(const Body& body) const {
-    if (displacement.high.size() == 0) return strain;
-    Matrix all(strain.rows(), strain.cols());
-    body.strain(displacement, nullptr, all, 0, body.points());
-    return all + strain;
-  }
-  [[nodiscard]] bool none() const { return displacement.high.size() == 0 && strain.isZero(0); }
-};
-
 /// What is asked of a step.
 struct StepData {
-  double time = 0;                 ///< t1: loads and prescribed displacements are taken here [s]
-  double weight = 0;               ///< time step times the scheme's diagonal coefficient [s]
-  std::vector<StrainShift> shift;  ///< per body; empty for none
-  bool startSolved = false;        ///< the start of the step is the solution of the one before
+  double time = 0;            ///< t1: loads and prescribed displacements are taken here [s]
+  double weight = 0;          ///< time step times the scheme's diagonal coefficient [s]
+  std::vector<Matrix> shift;  ///< per body, components x points; empty for none
+  bool startSolved = false;   ///< the start of the step is the solution of the one before
   /// What of `shift` is a change of thermal strain, per body; empty for none.
   std::vector<Matrix> thermal = {};
 };
@@ -47,7 +26,7 @@ struct Step {
   const std::vector<Vector>& loads;  ///< per body, nodal forces (dofs) at t1 [N/m]
   std::vector<Matrix> strains0;      ///< per body, B u0 + shift; empty where its law does not depend on it
 
-  [[nodiscard]] const StrainShift* shift(size_t body) const {
+  [[nodiscard]] const Matrix* shift(size_t body) const {
     return data.shift.empty() ? nullptr : &data.shift[body];
   }
   /// What the strain of an iterate is added to for the total strain;

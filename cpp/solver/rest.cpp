@@ -29,7 +29,7 @@ StepOutcome rest(StepSystem& system, const Step& step, Iterate& iterate) {
   StepOutcome outcome;
   outcome.rung = Rung::rest;
   const Model& model = system.model();
-  const auto none = [](const StrainShift& shift) { return shift.none(); };
+  const auto none = [](const Matrix& shift) { return shift.isZero(0); };
   if (!sameData(system, step) || flows(model, step.state0) ||
       model.any(!std::all_of(step.data.shift.begin(), step.data.shift.end(), none)))
     return outcome;

@@ -61,7 +61,7 @@ Step StepSystem::step(const State& state0, const StepData& data) {
     if (!body.material().needsTotalStrain()) continue;
     Matrix& strain = step.strains0[b];
     strain = totalStrain(body.material(), state0.bodies[b]);
-    if (const StrainShift* shift = step.shift(b)) strain += shift->value(body);
+    if (const Matrix* shift = step.shift(b)) strain += *shift;
     if (!data.thermal.empty()) strain -= data.thermal[b];
   }
   return step;

@@ -105,15 +105,15 @@ StepOutcome StepTaker::hold(StepOutcome outcome) {
 StepOutcome StepTaker::solveStages(double t1, Effort effort) {
   const double k = t1 - state_.time;
   rates_.clear();
-  flows_.clear();
   solutions_.clear();
   unsolved_.reset();
   if (tableau_.explicitFirst) rates_.push_back(startingRates());
   StepOutcome total;
   for (size_t i = 0; i < tableau_.stages.size(); ++i) {
     const Stage& stage = tableau_.stages[i];
+    shiftOf(stage, k);
     const double time = stage.time == 1 ? t1 : state_.time + stage.time * k;
-    StepData data{time, stage.diagonal * k, shiftOf(stage, k), startSolved_ || memory_.run.steps > 0};
+    StepData data{time, stage.diagonal * k, shift_, startSolved_ || memory_.run.steps > 0};
     addThermalStrain(model_, state_, data);
     Iterate iterate = guess(i, k);
     StepOutcome outcome = solveStep(system_, state_, data, iterate, effort);
@@ -126,10 +126,7 @@ StepOutcome StepTaker::solveStages(double t1, Effort effort) {
       unsolved_.emplace(data, std::move(iterate));
       return total;
     }
-    if (tableau_.stages.size() > 1) {
-      rates_.push_back(ratesOf(iterate, data.weight));
-      if (i + 1 < tableau_.stages.size()) flows_.push_back(flowsOf(data, iterate));
-    }
+    if (tableau_.stages.size() > 1) rates_.push_back(ratesOf(iterate, data.weight));
     solutions_.push_back(std::move(iterate));
   }
   return total;
@@ -166,46 +163,13 @@ std::string StepTaker::stressAt(const StuckPlace& place) const {
   return text.str();
 }
 
-/// sum_{j<i} a_ij k G_j, in shift_ rounded.
-std::vector<StrainShift> StepTaker::shiftOf(const Stage& stage, double k) {
+/// sum_{j<i} a_ij k G_j
+void StepTaker::shiftOf(const Stage& stage, double k) {
   shift_.clear();
-  std::vector<StrainShift> shift;
-  const size_t given = rates_.size() - flows_.size();  // rates at the start
   for (size_t b = 0; b < model_.bodies.size() && !stage.before.empty(); ++b) {
-    const Body& body = model_.bodies[b];
-    shift_.push_back(Matrix::Zero(body.material().components(), body.points()));
-    StrainShift& all = shift.emplace_back(StrainShift{shift_[b]});
-    for (size_t j = 0; j < stage.before.size(); ++j) {
-      const Matrix flow = stage.before[j] * k * rates_[j][b];
-      shift_[b] += flow;
-      if (j < given) all.strain += flow;
-      if (j < given || flow.isZero(0)) continue;
-      const StrainShift& there = flows_[j - given][b];
-      const double factor = stage.before[j] / tableau_.stages[j - given].diagonal;
-      if (all.displacement.high.size() == 0) all.displacement = TwoPartVector::zero(body.dofs());
-      all.displacement.addMultiple(factor, there.displacement);
-      all.strain += factor * there.strain;
-    }
+    shift_.push_back(Matrix::Zero(model_.bodies[b].material().components(), model_.bodies[b].points()));
+    for (size_t j = 0; j < stage.before.size(); ++j) shift_[b] += stage.before[j] * k * rates_[j][b];
   }
-  return shift;
-}
-
-/// a_jj k G_j of a solved stage: the strain of its increment less what is elastic.
-std::vector<StrainShift> StepTaker::flowsOf(const StepData& data, const Iterate& stage) const {
-  std::vector<StrainShift> flows;
-  for (size_t b = 0; b < model_.bodies.size(); ++b) {
-    const auto& [increment, stress, strain] = stage.bodies[b];
-    StrainShift& flow = flows.emplace_back();
-    if (rates_.back()[b].isZero(0)) continue;
-    Matrix taken;
-    model_.bodies[b].material().elasticStrain(stress - state_.bodies[b].stress, taken);
-    for (int i = 0; i < taken.cols(); ++i)
-      if (rates_.back()[b].col(i).isZero(0)) taken.col(i) = strain.col(i);
-    const bool shifted = !data.shift.empty();
-    if (shifted) taken += data.shift[b].strain;
-    flow = {-taken, shifted ? data.shift[b].takenFrom(increment) : increment};
-  }
-  return flows;
 }
 
 /// In steady flow the last increments, scaled to the step, are a good guess; a hard step before makes them a

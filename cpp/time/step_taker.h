@@ -92,8 +92,7 @@ class StepTaker {
   StepOutcome solveStages(double t1, Effort effort);
   StepOutcome hold(StepOutcome outcome);
   Iterate guess(size_t stage, double k);
-  std::vector<StrainShift> shiftOf(const Stage& stage, double k);
-  [[nodiscard]] std::vector<StrainShift> flowsOf(const StepData& data, const Iterate& stage) const;
+  void shiftOf(const Stage& stage, double k);
   /// G at the start of the step.
   [[nodiscard]] std::vector<Matrix> startingRates() const;
   /// G of a solved stage, `weight` its time step times its diagonal coefficient [s].
@@ -131,7 +130,6 @@ class StepTaker {
   std::vector<Iterate> solutions_;                        ///< by stage
   std::optional<std::pair<StepData, Iterate>> unsolved_;  ///< the stage that was not
   std::vector<std::vector<Matrix>> rates_;                ///< G by stage and body
-  std::vector<std::vector<StrainShift>> flows_;           ///< a_jj k G_j by implicit stage and body
   std::vector<Matrix> shift_;                             ///< of the last stage
   std::vector<Response> reached_;                         ///< of the error last taken through the stages
   double t1_ = 0;

@@ -31,14 +31,7 @@ TEST(TwoPartVector, differencesAreThoseOfTheSums) {
   const Vector change = vector(1e-18);
   a += change;
   EXPECT_LE((a.minus(b) - change).cwiseAbs().maxCoeff(), 1e-32);
-}
-
-TEST(TwoPartVector, multiplesAreAddedInTwicePrecision) {
-  const double third = 1.0 / 3;
-  TwoPartVector u{Vector::Constant(1, -third), Vector::Zero(1)};
-  const TwoPartVector v{Vector::Constant(1, 1 + 0x1p-52), Vector::Constant(1, 0x1p-60)};
-  u.addMultiple(third, v);
-  EXPECT_NEAR(u.value()[0] / (third * (0x1p-52 + 0x1p-60)), 1, 1e-14);
+  EXPECT_EQ((0.5 * a).value(), 0.5 * a.value());
 }
 
 TEST(TwoPartVector, componentsAreSetInBothParts) {
