@@ -47,7 +47,7 @@ class PressedBall(InFolder):
         self.mortier("run", "scene.toml", "--quiet", "--out", "out")
         self.summary = json.loads(self.read("out/summary.json"))
 
-    # A law without viscosity is the same for every viscosity of the continuation: 2,073 linear solves with it.
+    # A law without viscosity is the same at every stage of the continuation: 2,073 linear solves with it.
     def test_plasticity_does_not_try_other_viscosities(self):
         self.assertLess(self.summary["newton_iterations"], 1000)
 
