@@ -35,13 +35,16 @@ Accuracy AccuracyRecord::atEnd(const Peaks& peaks) {
   double largest = 0;
   double allRounding = negligible * largestEnergy;
   const CurrentSpaceError::Estimates estimates = error_.estimates();
+  for (const ErrorEstimate& estimate : *estimates) energy += estimate.energy;
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const ErrorEstimate& estimate = (*estimates)[b];
     const double rounding = error_.roundingOf(b, peaks.displacement.value);
     allRounding += rounding;
-    energy += estimate.energy;
-    const bool real = estimate.error.sum() > rounding + negligible * largestEnergy;
-    result.bodies.push_back(real ? estimate.relative() : 0);
+    const double nothing = rounding + negligible * largestEnergy;
+    const bool real = estimate.error.sum() > nothing;
+    // The energy of a body without stress is rounding: its error is over that of all bodies.
+    const double own = estimate.energy > nothing ? estimate.energy : energy;
+    result.bodies.push_back(real && own > 0 ? std::sqrt(estimate.error.sum() / own) : 0);
     if (!real) continue;
     error += estimate.error.sum();
     Eigen::Index worst = 0;
