@@ -277,6 +277,7 @@ std::string logQuantities(const RunFacts& facts, const Model& model, const State
   const std::vector<Quantity>& quantities = facts.quantities;
   const std::vector<double> values = evaluate(quantities, model, state);
   std::string text;
+  bool known = true;  // something of every error
   for (size_t i = 0; i < quantities.size(); ++i) {
     text += (i == 0 ? "quantities " : ", ") + quantities[i].name + format(" %.7g ", values[i]) +
             quantities[i].unit(facts.units);
@@ -288,7 +289,10 @@ std::string logQuantities(const RunFacts& facts, const Model& model, const State
                      100 * change->size / values[i]);
     else if (change && values[i] != 0)
       text += format(" (changed by %.2g %% in the last round)", 100 * change->size / std::abs(values[i]));
-    if (!bound || bound->quantities.empty()) continue;
+    const bool asked = bound && !bound->quantities.empty();
+    const bool bounded = asked && (bound->quantities[i].obstacle.empty() || bound->quantities[i].estimate);
+    known = known && (change || bounded);
+    if (!asked) continue;
     const Enclosure& enclosure = bound->quantities[i];
     if (enclosure.obstacle.empty())
       text += format(" +- %.2g (guaranteed)", enclosure.error(values[i]));
@@ -297,7 +301,12 @@ std::string logQuantities(const RunFacts& facts, const Model& model, const State
     else if (bound->obstacle.empty())
       text += " (no bound: " + enclosure.obstacle + ")";
   }
-  return text.empty() ? text : text + "\n";
+  if (!text.empty()) text += "\n";
+  if (!known)
+    text +=
+        "           their errors are not estimated on one mesh: --accuracy 0.02 refines it and shows how they "
+        "change\n";
+  return text;
 }
 
 std::string logRanges(const RunFacts& facts, const std::vector<QuantityRange>& ranges) {

@@ -317,10 +317,9 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
     if (const auto place = placeOf(facts.quantities[i], model, state))
       quantity["at"] = {place->x(), place->y()};
     if (i < report.quantities.size()) quantity.update(jsonOf(report.quantities[i]));
-    if (const std::optional<RoundChange> change = changeInRounds(facts, i)) {
-      quantity["change_in_last_round"] = change->size;
-      if (change->grows) quantity["grows_with_rounds"] = true;
-    }
+    const std::optional<RoundChange> change = changeInRounds(facts, i);
+    quantity["change_in_last_round"] = change ? Json(change->size) : Json(nullptr);
+    if (change && change->grows) quantity["grows_with_rounds"] = true;
     if (accuracy.bound) quantity["bound"] = jsonOf(*accuracy.bound, i, values[i]);
   }
   Json& errors = json["accuracy"] = jsonOf(facts, model, accuracy);
