@@ -8,6 +8,7 @@
 #include "base/counted.h"
 #include "report/clock.h"
 #include "report/summary.h"
+#include "time/unbounded_order.h"
 
 namespace mortier {
 
@@ -281,10 +282,13 @@ std::string logQuantities(const RunFacts& facts, const Model& model, const State
   for (size_t i = 0; i < quantities.size(); ++i) {
     text += (i == 0 ? "quantities " : ", ") + quantities[i].name + format(" %.7g ", values[i]) +
             quantities[i].unit(facts.units);
-    if (const auto place = placeOf(quantities[i], model, state))
-      text += format(" at (%.4g, %.4g)", place->x(), place->y());
+    const std::optional<Point> place = placeOf(quantities[i], model, state);
+    if (place) text += format(" at (%.4g, %.4g)", place->x(), place->y());
+    const double order = place ? unboundedOrder(model, state, *place) : 0;
     const std::optional<RoundChange> change = changeInRounds(facts, i);
-    if (change && change->grows)
+    if (order > 0)
+      text += format(" (no limit: stresses are unbounded there, about like r^-%.1f)", order);
+    else if (change && change->grows)
       text += format(" (grows with every round, the last time by %.2g %%: stresses are unbounded there)",
                      100 * change->size / values[i]);
     else if (change && values[i] != 0)
@@ -304,7 +308,8 @@ std::string logQuantities(const RunFacts& facts, const Model& model, const State
   if (!text.empty()) text += "\n";
   if (!known)
     text +=
-        "           their errors are not estimated on one mesh: --accuracy 0.02 refines it and shows how they "
+        "           their errors are not estimated on one mesh: --accuracy 0.02 refines it and shows how "
+        "they "
         "change\n";
   return text;
 }
