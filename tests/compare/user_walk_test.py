@@ -138,13 +138,13 @@ class Found(OfTwoBlocks):
         self.assertLess(force["change_in_last_round"], 0.01 * abs(force["value"]))
 
     def test_on_one_mesh_no_error_of_quantities_is_known_and_it_is_said(self):
-        why = "they are not estimated on one mesh; --accuracy, or accuracy.energy, refines it and shows how " \
-              "the values change"
+        why = "they are not estimated on one mesh; --accuracy, or accuracy.energy, refines it and " \
+              "shows how the values change"
         self.write(PUNCH)
         self.assertEqual(self.left_out()["accuracy"], why)
         self.assertNotIn("accuracy", self.left_out("--set", "accuracy.energy=0.1"))
         told = self.mortier("run", "scene.toml", "--out", "out").stdout
-        self.assertIn("\n           their errors are not estimated on one mesh: --accuracy 0.02 refines", told)
+        self.assertIn("\n           their errors are not estimated on one mesh: --accuracy 0.02", told)
         quantities = json.loads(self.read("out/summary.json"))["quantities"]
         self.assertEqual([each["change_in_last_round"] for each in quantities.values()], [None, None])
         self.assertNotIn("unbounded_order", quantities["highest"])  # too coarse to tell
