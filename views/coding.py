@@ -1,8 +1,8 @@
 """Fields as few bytes: decimals of a fixed place, predicted, deflated. views/page/data.js reads them back.
 
 An array of numbers becomes integers times 10^e, with so many digits for its largest value; what is kept is
-what a prediction misses: from the number before it, from the same place one step earlier, or from two steps
-as if they went on. Signs are folded into the last bit
+what a prediction misses: from the number before it, from the same place in the block that was coded before,
+or from two such blocks as if they went on. Signs are folded into the last bit
 (0, -1, 1, -2, ... become 0, 1, 2, 3, ...) and bytes of the same weight stand together.
 """
 import base64
@@ -50,7 +50,7 @@ class Block:
     def __init__(self, earlier=None):
         self.earlier, self.integers, self.forms, self.parts = earlier, [], [], []
         if earlier is not None and earlier.earlier is not None:
-            earlier.earlier.earlier = None  # two steps are all that is looked back at
+            earlier.earlier.earlier = None  # two are all that is looked back at
 
     def add(self, values, digits, given=None):
         """given: (function of e that predicts integers); else the better one of the other two."""
@@ -72,10 +72,10 @@ class Block:
         self.parts.append(data)
         return q, e
 
-    def back(self, steps, e):
-        """The integers of the same array so many steps earlier, times 10^e here;
+    def back(self, blocks, e):
+        """The integers of the same array so many blocks earlier, times 10^e here;
         None where they are too different."""
-        block = self.earlier if steps == 1 else self.earlier and self.earlier.earlier
+        block = self.earlier if blocks == 1 else self.earlier and self.earlier.earlier
         if block is None:
             return None
         q, e0 = block.integers[len(self.integers)]

@@ -93,7 +93,10 @@ def called(code, solve, folder, settings, scene, **options):
         if not error.output and not error.code > 1:
             package = " (Debian package freefem++)" if code == "FreeFEM" else ""
             raise OSError(0, f"{shown(error)}{package}") from error
-        raise CodeFailed(error.output or str(error), error.code) from error
+        # What a failed run has kept is deleted with the folder of the comparison.
+        words = re.sub(rf"; the [^;]* is in {re.escape(str(folder))}[^\n]*",
+                       "; mortier run keeps the last state", error.output or str(error))
+        raise CodeFailed(words, error.code) from error
 
 
 def against(places):

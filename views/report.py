@@ -131,7 +131,7 @@ def run_data(result, share):
         bodies.append({"name": name, "vertices": len(body.points), "triangles": len(body.triangles),
                        "edges": edges, "mesh": block.json()})
     steps, lines, earlier, ranges, recovered = [], [], None, [], {}
-    for step, time in kept:
+    for step, time in reversed(kept):  # each from the later ones: the page shows the last one first
         run = result.at(step)
         block, of_step = step_block(result, run, fields, earlier, len(kept) * triangles > MANY)
         earlier = block
@@ -150,6 +150,8 @@ def run_data(result, share):
                                       **({"shear": numbers(line.shear), "slipping": line.slipping.tolist()}
                                          if line.shear is not None else {}),
                                       "jump": [numbers(each) for each in jump] if jump is not None else None})
+    for backwards in (steps, ranges, *(line["steps"] for line in lines)):
+        backwards.reverse()
     listed = [{"name": name, "words": field.words, "unit": field.unit, "vertex": field.by_vertex,
                "signed": field.signed}
               for name, field in fields.items()]

@@ -161,6 +161,8 @@ def error_of(each):
     for key, words in (("error", "guaranteed"), ("estimate", "estimated")):
         if number(bound.get(key)) is not None:
             return f"\u00b1 {number(bound[key], 3)}, {words}"
+    if number(each.get("unbounded_order")) is not None:
+        return f"no limit: stresses are unbounded there, about like r^-{each['unbounded_order']:.1f}"
     if each.get("grows_with_rounds"):
         return "no limit: it grows with every refinement"
     if number(each.get("change_in_last_round")) is not None:

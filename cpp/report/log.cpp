@@ -8,6 +8,7 @@
 #include "base/counted.h"
 #include "report/clock.h"
 #include "report/summary.h"
+#include "time/unbounded_order.h"
 
 namespace mortier {
 
@@ -281,18 +282,25 @@ std::string logQuantities(const RunFacts& facts, const Model& model, const State
   const std::vector<Quantity>& quantities = facts.quantities;
   const std::vector<double> values = evaluate(quantities, model, state);
   std::string text;
+  bool known = true;  // something of every error
   for (size_t i = 0; i < quantities.size(); ++i) {
     text += (i == 0 ? "quantities " : ", ") + quantities[i].name + formatted(" %.7g ", values[i]) +
             quantities[i].unit(facts.units);
-    if (const auto place = placeOf(quantities[i], model, state))
-      text += formatted(" at (%.4g, %.4g)", place->x(), place->y());
+    const std::optional<Point> place = placeOf(quantities[i], model, state);
+    if (place) text += formatted(" at (%.4g, %.4g)", place->x(), place->y());
+    const double order = place ? unboundedOrder(model, state, *place) : 0;
     const std::optional<RoundChange> change = changeInRounds(facts, i);
-    if (change && change->grows)
+    if (order > 0)
+      text += formatted(" (no limit: stresses are unbounded there, about like r^-%.1f)", order);
+    else if (change && change->grows)
       text += formatted(" (grows with every round, the last time by %.2g %%: stresses are unbounded there)",
                         100 * change->size / values[i]);
     else if (change && values[i] != 0)
       text += formatted(" (changed by %.2g %% in the last round)", 100 * change->size / std::abs(values[i]));
-    if (!bound || bound->quantities.empty()) continue;
+    const bool asked = bound && !bound->quantities.empty();
+    const bool bounded = asked && (bound->quantities[i].obstacle.empty() || bound->quantities[i].estimate);
+    known = known && (change || bounded);
+    if (!asked) continue;
     const Enclosure& enclosure = bound->quantities[i];
     if (enclosure.obstacle.empty())
       text += formatted(" +- %.2g (guaranteed)", enclosure.error(values[i]));
@@ -301,7 +309,13 @@ std::string logQuantities(const RunFacts& facts, const Model& model, const State
     else if (bound->obstacle.empty())
       text += " (no bound: " + enclosure.obstacle + ")";
   }
-  return text.empty() ? text : text + "\n";
+  if (!text.empty()) text += "\n";
+  if (!known)
+    text +=
+        "           their errors are not estimated on one mesh: --accuracy 0.02 refines it and shows how "
+        "they "
+        "change\n";
+  return text;
 }
 
 std::string logRanges(const RunFacts& facts, const std::vector<QuantityRange>& ranges) {

@@ -12,6 +12,7 @@
 #include "report/clock.h"
 #include "report/fields.h"
 #include "time/measure.h"
+#include "time/unbounded_order.h"
 
 namespace mortier {
 
@@ -313,13 +314,15 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
   for (size_t i = 0; i < values.size(); ++i) {
     Json& quantity = json["quantities"][facts.quantities[i].name];
     quantity = {{"value", values[i]}, {"unit", facts.quantities[i].unit(facts.units)}};
-    if (const auto place = placeOf(facts.quantities[i], model, state))
+    if (const auto place = placeOf(facts.quantities[i], model, state)) {
       quantity["at"] = {place->x(), place->y()};
-    if (i < report.quantities.size()) quantity.update(jsonOf(report.quantities[i]));
-    if (const std::optional<RoundChange> change = changeInRounds(facts, i)) {
-      quantity["change_in_last_round"] = change->size;
-      if (change->grows) quantity["grows_with_rounds"] = true;
+      if (const double order = unboundedOrder(model, state, *place); order > 0)
+        quantity["unbounded_order"] = order;
     }
+    if (i < report.quantities.size()) quantity.update(jsonOf(report.quantities[i]));
+    const std::optional<RoundChange> change = changeInRounds(facts, i);
+    quantity["change_in_last_round"] = change ? Json(change->size) : Json(nullptr);
+    if (change && change->grows) quantity["grows_with_rounds"] = true;
     if (accuracy.bound) quantity["bound"] = jsonOf(*accuracy.bound, i, values[i]);
   }
   Json& errors = json["accuracy"] = jsonOf(facts, model, accuracy);

@@ -51,6 +51,15 @@ class Compare(OfTwoBlocks):
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertIn("no-such-code: No such file or directory (Debian package freefem++)", done.stderr)
 
+    def test_a_run_that_fails_names_no_folder_that_is_deleted(self):
+        done = mortier("compare", ROOT / "scenes/compression.toml", "--set", "contact.variant=interpolation",
+                       "solver.max_iterations=2", "time.steps=20", cwd=self.folder)
+        last = done.stderr.splitlines()[-1]
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("did not converge in 2 iterations", last)
+        self.assertTrue(last.endswith("; mortier run keeps the last state"), last)
+        self.assertNotIn("mortier-compare-", done.stderr)
+
     def test_a_kept_result(self):
         self.compare("--accept", "kept/scene")
         self.assertEqual(self.compare("--against", "kept/scene")[-1], "scene.toml: agrees")

@@ -53,7 +53,7 @@ class Notebooks(unittest.TestCase):
 
     def test_all_are_known(self):
         self.assertEqual({path.name for path in FOLDER.iterdir()},
-                         {"error-against-cost.ipynb", "note.ipynb", "own-part.ipynb"})
+                         {"error-against-cost.ipynb", "lesson.ipynb", "note.ipynb", "own-part.ipynb"})
 
     def test_note(self):
         names, _, values = self.execute("note")
@@ -68,6 +68,15 @@ class Notebooks(unittest.TestCase):
         self.assertIn("[sliver]", printed)
         self.assertAlmostEqual(names["pressure"][-1] / names["hertz"][-1], 1, delta=0.01)
         self.assertAlmostEqual(names["side"].force.sum(), names["force"][-1], delta=1e-9 * names["force"][-1])
+
+    def test_lesson(self):
+        names, _, _ = self.execute("lesson")
+        self.assertAlmostEqual(names["power"], 0.5, delta=0.05)
+        self.assertAlmostEqual(names["growth"], 0.5, delta=0.05)
+        self.assertAlmostEqual(names["order"], 0.5, delta=0.1)
+        self.assertLess(abs(names["forces"][-1] / names["forces"][-2] - 1), 0.01)
+        self.assertLess(names["worst"]["mortar"], 1e-12)
+        self.assertGreater(names["worst"]["interpolation"], 0.5)
 
     def test_error_against_cost(self):
         names, printed, _ = self.execute("error-against-cost")

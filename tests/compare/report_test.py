@@ -118,8 +118,9 @@ def choose(browser, name, value):
 
 def settled(browser):
     """Waits until the page has drawn what was asked for."""
-    browser.run("return new Promise(done => setTimeout(() => requestAnimationFrame(() => "
-                "requestAnimationFrame(() => done(1))), 50))")
+    browser.run("return new Promise(done => { const wait = () => document.querySelector('[aria-busy]') ? "
+                "setTimeout(wait, 10) : requestAnimationFrame(() => requestAnimationFrame(() => done(1))); "
+                "setTimeout(wait, 50); })")
 
 
 class Pages(InSharedFolder):
@@ -175,6 +176,10 @@ class Pages(InSharedFolder):
     def test_hovered_values_are_those_of_the_files(self):
         path, milliseconds = self.page("mortar", "interpolation")
         self.assertLess(path.stat().st_size, 2e6)  # of two runs
+        for run in json.loads(re.search(r'id="data">(.*)</script>', path.read_text())[1])["runs"]:
+            last = {how for _, how, _ in run["steps"][-1]["f"]}
+            self.assertLessEqual(last, {coding.BEFORE, coding.GIVEN},
+                                 "what is seen first needs no other step")
         self.assertLess(milliseconds, 10000)
         for step in (100, 37, 0):
             choose(self.browser, "step", step)

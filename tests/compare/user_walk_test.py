@@ -129,13 +129,46 @@ class Found(OfTwoBlocks):
     def test_values_without_a_limit_are_named_and_others_say_how_they_change(self):
         self.write(PUNCH)
         told = self.mortier("run", "scene.toml", "--out", "out", "--accuracy", "0.03").stdout
-        self.assertRegex(told, r"highest .* \(grows with every round, the last time by \d+ %: stresses are "
-                               r"unbounded there\), force \S+ N/m \(changed by 0\.\d+ % in the last round\)")
+        self.assertRegex(told, r"highest .* \(no limit: stresses are unbounded there, about like r\^-0\.5\), "
+                               r"force \S+ N/m \(changed by 0\.\d+ % in the last round\)")
         summary = json.loads(self.read("out/summary.json"))
         highest, force = (summary["quantities"][name] for name in ("highest", "force"))
-        self.assertTrue(highest["grows_with_rounds"])
-        self.assertNotIn("grows_with_rounds", force)
+        self.assertAlmostEqual(highest["unbounded_order"], 0.5, delta=0.05)
+        self.assertNotIn("unbounded_order", force)
         self.assertLess(force["change_in_last_round"], 0.01 * abs(force["value"]))
+
+    def test_on_one_mesh_no_error_of_quantities_is_known_and_it_is_said(self):
+        why = "they are not estimated on one mesh; --accuracy, or accuracy.energy, refines it and " \
+              "shows how the values change"
+        self.write(PUNCH)
+        self.assertEqual(self.left_out()["accuracy"], why)
+        self.assertNotIn("accuracy", self.left_out("--set", "accuracy.energy=0.1"))
+        told = self.mortier("run", "scene.toml", "--out", "out").stdout
+        self.assertIn("\n           their errors are not estimated on one mesh: --accuracy 0.02", told)
+        quantities = json.loads(self.read("out/summary.json"))["quantities"]
+        self.assertEqual([each["change_in_last_round"] for each in quantities.values()], [None, None])
+        self.assertNotIn("unbounded_order", quantities["highest"])  # too coarse to tell
+        told = self.mortier("run", "scene.toml", "--out", "out", "--set", "accuracy.bound=true").stdout
+        self.assertIn("(guaranteed)", told)
+        self.assertNotIn("not estimated on one mesh", told)
+
+    def test_orders_of_unbounded_stresses_on_one_mesh(self):
+        """Under a stiff punch 1/2 at its corners; none in the middle of a wheel (Hertz), as in a scene whose
+        mesh shows a peak of the pressure of a few edges."""
+        fine = PUNCH.replace("cells = 4", "cells = 48").replace("cells = [8, 4]", "cells = [256, 128]")
+        wheel = fine.replace('mesh = { shape = "rectangle", cells = 48, lower = [-1, 0], upper = [1, 2] }',
+                             'mesh = { shape = "halfdisc", cells = 32, radius = 4, core = 0.8, '
+                             'lowest = [0, 0] }').replace("label = 3, ux = 0, uy", "label = 2, ux = 0, uy")
+        wheel = wheel.replace('reaction = { body = "punch", label = 3 }',
+                              'reaction = { body = "punch", label = 2 }')
+        for text, order in ((fine, 0.5), (wheel, None)):
+            self.write(text)
+            self.mortier("run", "scene.toml", "--quiet", "--out", "out")
+            highest = json.loads(self.read("out/summary.json"))["quantities"]["highest"]
+            if order:
+                self.assertAlmostEqual(highest["unbounded_order"], order, delta=0.1)
+            else:
+                self.assertNotIn("unbounded_order", highest)
 
     def test_a_contact_that_never_closes_is_said(self):
         self.assertNotIn("never touched", self.mortier("run", "scene.toml").stdout)

@@ -138,8 +138,9 @@ function paint(panel, range) {
       if (Math.max(ax, bx, cx) < 0 || Math.min(ax, bx, cx) > w || Math.max(ay, by, cy) < 0 ||
           Math.min(ay, by, cy) > h)
         continue;
-      const values = flat ? [flat[t]] : [corner[3 * t], corner[3 * t + 1], corner[3 * t + 2]];
-      if (!bent.has(t)) { fill(ax, ay, bx, by, cx, cy, first + t, ...values); continue; }
+      const va = flat ? flat[t] : corner[3 * t], vb = flat ? undefined : corner[3 * t + 1],
+            vc = flat ? undefined : corner[3 * t + 2];
+      if (!bent.size || !bent.has(t)) { fill(ax, ay, bx, by, cx, cy, first + t, va, vb, vc); continue; }
       const at = (p, q) => {  // of the barycentric grid: place and value
         const r = PIECES - p - q, part = new Map([[i, p / PIECES], [j, q / PIECES], [k, r / PIECES]]);
         let x = (p * ax + q * bx + r * cx) / PIECES, y = (p * ay + q * by + r * cy) / PIECES;
@@ -148,7 +149,7 @@ function paint(panel, range) {
           x += bubble * dx;
           y += bubble * dy;
         }
-        return [x, y, flat ? flat[t] : (p * values[0] + q * values[1] + r * values[2]) / PIECES];
+        return [x, y, flat ? va : (p * va + q * vb + r * vc) / PIECES];
       };
       for (let p = 0; p < PIECES; p++) for (let q = 0; p + q < PIECES; q++) {
           const small = [[at(p, q), at(p + 1, q), at(p, q + 1)]];

@@ -23,7 +23,7 @@ async function unpack(text) {
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
-function arrays(bytes, forms, lengths, earlier, predict) {  // [{e, q}] of a block
+function arrays(bytes, forms, lengths, later, predict) {  // [{e, q}] of a block
   const found = [];
   let at = 0;
   forms.forEach(([e, how, weights], k) => {
@@ -34,8 +34,8 @@ function arrays(bytes, forms, lengths, earlier, predict) {  // [{e, q}] of a blo
     let guess = how === 2 ? predict(found, k, e) : null;
     if (how === 1 || how === 3) {
       guess = new Float64Array(n);
-      const add = (steps, factor) => {  // the same array of an earlier step, times 10^e
-        const {e: e0, q: old} = earlier[steps - 1][k];
+      const add = (blocks, factor) => {  // the same array of a later step, times 10^e
+        const {e: e0, q: old} = later[blocks - 1][k];
         if (e0 === e) for (let i = 0; i < n; i++) guess[i] += factor * old[i];
         else for (let i = 0; i < n; i++) guess[i] += factor * Math.floor(scaled(old[i], e0 - e) + 0.5);
       };
@@ -70,10 +70,12 @@ async function loadMesh(body) {
   const numbers = new Map();  // of the regions, from 0
   body.part = Int32Array.from(a[9].q, r => numbers.get(r) ?? numbers.set(r, numbers.size).get(r));
   body.parts = Math.max(1, numbers.size);
-  body.area = Float64Array.from({length: nt}, (_, i) => {
-    const [p, q, r] = [t[3 * i], t[3 * i + 1], t[3 * i + 2]], {x, y} = body;
-    return Math.abs((x[q] - x[p]) * (y[r] - y[p]) - (x[r] - x[p]) * (y[q] - y[p])) / 2;
-  });
+  const {x, y} = body;
+  body.area = new Float64Array(nt);
+  for (let i = 0; i < nt; i++) {
+    const p = t[3 * i], q = t[3 * i + 1], r = t[3 * i + 2];
+    body.area[i] = Math.abs((x[q] - x[p]) * (y[r] - y[p]) - (x[r] - x[p]) * (y[q] - y[p])) / 2;
+  }
 }
 const loadStep = (run, i) => run.steps[i].loaded ??= readStep(run, i);
 async function readStep(run, i) {  // body number -> field name -> {e, q}
@@ -82,13 +84,13 @@ async function readStep(run, i) {  // body number -> field name -> {e, q}
             form => form[1] === 3 ? 2
                 : form[1] === 1   ? 1
                                   : 0)),
-        earlier = [];  // steps that it needs
-  for (let k = 1; k <= back; k++) { await loadStep(run, i - k); earlier.push(run.steps[i - k].all); }
+        later = [];  // steps that it needs
+  for (let k = 1; k <= back; k++) { await loadStep(run, i + k); later.push(run.steps[i + k].all); }
   const bytes = await unpack(step.d), names = run.order, n = names.length;
   const lengths = run.bodies.flatMap(
       body => names.map(name => fieldOf(run, name).vertex ? body.vertices : body.triangles));
   const stresses = stressNames.filter(name => names.includes(name));
-  step.all = arrays(bytes, step.f, lengths, earlier, (found, k, e) => {
+  step.all = arrays(bytes, step.f, lengths, later, (found, k, e) => {
     const first = k - k % n, s = stresses.map(name => found[first + names.indexOf(name)]);
     const all = s.map(real);
     return Float64Array.from(all[0], (_, j) => Math.floor(scaled(vonMises(all, j), -e) + 0.5));

@@ -2,6 +2,7 @@
 let waiting = null;
 function redraw() {  // once a frame, when the data of the step are there
   if (waiting) return waiting;
+  grid.setAttribute("aria-busy", "true");
   return waiting = (async () => {
     do {  // the slider may have moved on
       await Promise.all(runs.map(run => loadStep(run, stepOf(run))));
@@ -19,6 +20,7 @@ function redraw() {  // once a frame, when the data of the step are there
       paint(panel, panel.run.group.range);
       if (panel.last) hover(panel, ...panel.last); else hover(panel, -1, -1);
     }
+    grid.removeAttribute("aria-busy");
   })();
 }
 async function change(event) {
@@ -183,3 +185,5 @@ for (const run of runs)
 await Promise.all(runs.flatMap(run => run.bodies.map(loadMesh)));
 await change();
 document.documentElement.dataset.ready = String(Math.round(performance.now()));
+for (const run of runs)  // the others, before one asks for them
+  for (let i = run.steps.length - 1; i >= 0; i--) await loadStep(run, i);

@@ -30,10 +30,16 @@ function shownValues(run, step, b) {  // {flat}: values by triangle, or {corner}
 }
 function extremes(shown) {  // the largest value of the bodies, and the smallest: value, b, t, corner
   const found = [null, null];
-  shown.forEach(({flat, corner}, b) => (flat || corner).forEach((value, i) => {
-    const place = {value, b, t: flat ? i : Math.floor(i / 3), corner: flat ? -1 : i % 3};
-    if (!found[0] || value > found[0].value) found[0] = place;
-    if (!found[1] || value < found[1].value) found[1] = place;
-  }));
+  shown.forEach(({flat, corner}, b) => {
+    const values = flat || corner;
+    let most = 0, least = 0;
+    for (let i = 1; i < values.length; i++) {
+      if (values[i] > values[most]) most = i;
+      if (values[i] < values[least]) least = i;
+    }
+    const place = i => ({value: values[i], b, t: flat ? i : Math.floor(i / 3), corner: flat ? -1 : i % 3});
+    if (values.length && !(values[most] <= found[0]?.value)) found[0] = place(most);
+    if (values.length && !(values[least] >= found[1]?.value)) found[1] = place(least);
+  });
   return found;
 }
