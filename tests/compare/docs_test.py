@@ -201,17 +201,20 @@ class Commands(InSharedFolder):
                 self.assertIn(word, help_text)
 
     def check_built(self, program, words):
-        kind, name = program.parts[1], program.name
-        if kind == "tests":
-            sources = list((ROOT / "tests").rglob(f"{name}.cpp"))
+        folder, name = program.parts[1], program.name
+        if name.endswith("_tests"):
+            sources = list((ROOT / "tests" / name.removesuffix("_tests")).glob("*_test.cpp"))
+            self.assertTrue(sources, program)
         else:
-            sources = [path for path in (ROOT / "bench").rglob("*.cpp")
-                       if path.stem in (name, name.removeprefix("bench_"))]
-        self.assertEqual(len(sources), 1, f"{program}: {len(sources)} sources")
+            names = (name, name.removeprefix("bench_"))
+            sources = [path for path in (ROOT / folder).rglob("*.cpp") if path.stem in names]
+            self.assertEqual(len(sources), 1, f"{program}: {len(sources)} sources")
+        text = "\n".join(path.read_text() for path in sources)
         for word in words:
             if word.startswith("--gtest_filter="):
-                suite = word.split("=")[1].split(".")[0]
-                self.assertRegex(sources[0].read_text(), rf"TEST(_F|_P)?\({suite},")
+                for suite, test in re.findall(r"(\w+)\.(\w+|\*)", word.split("=")[1]):
+                    test = r"\w+" if test == "*" else test
+                    self.assertRegex(text, rf"TEST(_F|_P)?\({suite},\s*{test}\)")
 
 
 def all_tests():
