@@ -60,7 +60,7 @@ class SpecialConditions(OfTwoBlocks):
 
     def test_conditions_that_depend_on_others(self):
         # Five nodes of a rigid nonmortar line see four that move.
-        log, counts = self.run_scene(lower_held(TWO_BLOCKS), "contact.swap=true")
+        log, counts = self.run_scene(lower_held(TWO_BLOCKS), "contact.swap=true", "contact.variant=mortar")
         self.assertEqual(counts, (0, 0, 1))
         self.assertIn(DEPENDENT, log)
 
