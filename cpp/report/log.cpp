@@ -312,9 +312,8 @@ std::string logQuantities(const RunFacts& facts, const Model& model, const State
   if (!text.empty()) text += "\n";
   if (!known)
     text +=
-        "           their errors are not estimated on one mesh: --accuracy 0.02 refines it and shows how "
-        "they "
-        "change\n";
+        "           their errors are not estimated on one mesh: --accuracy 0.02 refines it and shows "
+        "how they change\n";
   return text;
 }
 
