@@ -65,7 +65,7 @@ class SlidingOff(InFolder):
         self.assertAlmostEqual(sliding["edges"], 2, delta=1e-2)
 
     def test_a_short_block_stays_on_a_long_table(self):
-        self.scene(begin=0.2, end=0.4)
+        self.scene(begin=0.2, end=0.4, variant='variant = "mortar"')
         done = self.mortier("run", "scene.toml", "--out", "out")
         self.assertRegex(done.stdout, r"bodies slide along each other by up to (9\.9\d*|10(\.\d+)?) edges")
 
@@ -80,7 +80,7 @@ class SlidingOff(InFolder):
         done = self.mortier("check", "scene.toml")
         self.assertIn("contact-slides", warned(done.stderr) or done.stdout + done.stderr)
         self.assertIn("past its end", done.stdout + done.stderr)
-        self.scene(begin=0.2, end=0.4)
+        self.scene(begin=0.2, end=0.4, variant='variant = "mortar"')
         done = self.mortier("check", "scene.toml")
         self.assertRegex(done.stdout + done.stderr, "10 times the length of an edge")
         self.scene()
