@@ -45,6 +45,7 @@ fi
 root=$2
 shift 2
 mkdir -p "$root/dev/pts"
+echo "127.0.0.1 localhost $(hostname)" >"$root/etc/hosts"  # otherwise MPI waits for a name server
 { mount -t proc proc "$root/proc" && mount -t devpts -o newinstance,ptmxmode=0666 devpts "$root/dev/pts"; } ||
   impossible "proc and devpts cannot be mounted"
 ln -sfn /proc/self/fd "$root/dev/fd"
