@@ -19,6 +19,7 @@ struct NewtonLimits {
   bool anticipate = false;    ///< material/material.h
   bool elasticFirst = false;  ///< the first iteration takes the bodies as elastic
   bool turning = false;  ///< given up at once where a body that flowed is thrown far off, as where it unloads
+  bool shortens = false;  ///< a line search, where every law is linear or linearised at its strain
 };
 
 /// Newton's method from `iterate`, at this weight [s].

@@ -7,6 +7,71 @@
 #include "solver/methods.h"
 
 namespace mortier {
+namespace {
+
+/// Of each body: stresses on the law where the strain leads.
+std::vector<Matrix> stressesOnLaw(const StepSystem::Linearised& linearised, const Iterate& iterate) {
+  std::vector<Matrix> stresses;
+  for (size_t b = 0; b < iterate.bodies.size(); ++b) {
+    const Linearisation& law = linearised.law(static_cast<int>(b));
+    stresses.push_back(law.predictor);
+    for (Eigen::Index i = 0; i < stresses[b].cols(); ++i)
+      stresses[b].col(i) += stressOf(law, iterate.bodies[b].strain.col(i), static_cast<int>(i));
+  }
+  return stresses;
+}
+
+/// Where a law is linearised at its strain, a step minimises a convex energy of the displacement, and a
+/// linear solve leads down from `before`. With s* and p in equilibrium at its end, the slope on the way is
+///   integral of (s(eps) - s*) : (eps* - eps_before) + p . g_before.
+/// Shortens the way where that has become positive, to where it is nearly zero.
+StepSystem::Linearised shortened(StepSystem& system, const Step& step, double weight,
+                                 const std::vector<Matrix>& stressBefore, const Iterate& before,
+                                 StepSystem::Linearised linearised, Iterate& iterate) {
+  constexpr double flat = 0.5;  // of the slope at the beginning
+  constexpr int most = 12;
+  const Model& model = system.model();
+  const Iterate end = iterate;
+  double overlap = 0;
+  const std::vector<Vector> gapsBefore = gaps(model, step.state0, before);
+  for (size_t k = 0; k < gapsBefore.size(); ++k) overlap += end.contactForce[k].dot(gapsBefore[k]);
+  const auto slope = [&](const std::vector<Matrix>& stress) {
+    double work = 0;
+    for (size_t b = 0; b < stress.size(); ++b) {
+      const Matrix way = end.bodies[b].strain - before.bodies[b].strain;
+      const std::vector<double>& weights = model.bodies[b].weights();
+      for (Eigen::Index i = 0; i < way.cols(); ++i)
+        work += weights[i] * (stress[b].col(i) - end.bodies[b].stress.col(i)).dot(way.col(i));
+    }
+    return model.sum(work) + overlap;
+  };
+  const double first = slope(stressBefore);
+  double low = 0;
+  double high = 1;
+  double length = 1;
+  for (int i = 0; i < most; ++i) {
+    const std::vector<Matrix> stress = stressesOnLaw(linearised, iterate);
+    if (i > 0)
+      for (size_t b = 0; b < stress.size(); ++b) iterate.bodies[b].stress = stress[b];
+    const double here = slope(stress);
+    if (!(first < 0) || std::abs(here) <= -flat * first || (length == 1 && here < 0)) break;
+    (here > 0 ? high : low) = length;
+    length = (low + high) / 2;
+    for (size_t b = 0; b < iterate.bodies.size(); ++b) {
+      TwoPartVector& increment = iterate.bodies[b].increment;
+      increment = before.bodies[b].increment;
+      increment += length * end.bodies[b].increment.minus(increment);
+    }
+    for (size_t k = 0; k < end.contactForce.size(); ++k)
+      iterate.contactForce[k] =
+          before.contactForce[k] + length * (end.contactForce[k] - before.contactForce[k]);
+    linearised = system.linearise(step, iterate, weight, false);
+  }
+  return linearised;
+}
+
+}  // namespace
+
 StepOutcome newton(StepSystem& system, const Step& step, double weight, const NewtonLimits& limits,
                    Iterate& iterate) {
   // Beyond this many times the stresses that are there, or the yield stress, an iterate does not come back.
@@ -26,7 +91,7 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
       system.linearise(step, iterate, limits.elasticFirst ? 0 : weight, limits.anticipate);
   while (true) {
     const double residual = linearised.residual();
-    const bool far = residual > diverged;
+    const bool far = residual > diverged && !limits.shortens;
     if (outcome.iterations == limits.iterations || !std::isfinite(residual) ||
         (far && outcome.iterations >= 2) ||
         (far && outcome.iterations == 1 && limits.turning && flows(system.model(), step.state0))) {
@@ -39,8 +104,14 @@ StepOutcome newton(StepSystem& system, const Step& step, double weight, const Ne
     }
     ++outcome.iterations;
     const std::optional<StepSystem::Factorised> factorised = linearised.factorise(outcome);
+    const bool shortens = limits.shortens && outcome.iterations > 1;  // from where contact is solved
+    const Iterate before = shortens ? iterate : Iterate{};
+    const std::vector<Matrix> stressBefore =
+        shortens ? stressesOnLaw(linearised, iterate) : std::vector<Matrix>{};
     if (!factorised || !factorised->solve(step, iterate, outcome)) return outcome;
     linearised = system.linearise(step, iterate, weight, limits.anticipate);
+    if (shortens && linearised.residual() > limits.tolerance)
+      linearised = shortened(system, step, weight, stressBefore, before, linearised, iterate);
     // A stress that was far off the law has come back by cancellation. What that rounds stays in stiff
     // triangles, unseen by the residual, until an iteration has nothing to cancel.
     if (!(linearised.residual() <= limits.tolerance) || residual > cancelling) continue;

@@ -45,13 +45,6 @@ bool anyReturnMapping(const Model& model) {
                      [](const Body& body) { return body.material().usesReturnMapping(); });
 }
 
-/// Whether any law depends on the viscosity: that of plasticity is the same for every weight.
-bool anyViscous(const Model& model, double weight) {
-  return std::any_of(model.bodies.begin(), model.bodies.end(), [weight](const Body& body) {
-    return body.material().stiffness(weight) != body.material().stiffness(weight / 2);
-  });
-}
-
 }  // namespace
 
 // What takes many linear solves comes last, and is for projections that are not associated: with a symmetric
@@ -104,20 +97,30 @@ StepOutcome solveStep(StepSystem& system, const State& state0, const StepData& d
   const auto linear = [](const Body& body) { return body.material().linear(); };
   if (effort == Effort::little || std::all_of(bodies.begin(), bodies.end(), linear)) return total;
   const bool unique = system.uniqueSolutions();
-  const bool viscous = anyViscous(system.model(), data.weight);
+  // A way down to the one solution; no other viscosity shows a shorter one.
+  const bool descends = unique && std::all_of(bodies.begin(), bodies.end(), [&](const Body& body) {
+                          return linear(body) || body.material().usesReturnMapping();
+                        });
+  if (unsolved(usualIterations) && descends) {
+    NewtonLimits searching{iterationsLeft(usualIterations), options.tolerance};
+    searching.shortens = true;
+    Iterate searched = startingIterate(state0);
+    tryMethod(Rung::newton, newton(system, step, data.weight, searching, searched));
+    if (total.converged()) guess = std::move(searched);
+  }
   ViscosityWalk walk(system.model(), step);
-  if (unsolved(usualIterations) && viscous && !unique)
+  if (unsolved(usualIterations) && !unique)
     tryMethod(
         Rung::continuation,
         lowerViscosity(system, step, walk, std::min(firstWalk, iterationsLeft(usualIterations)), guess));
   if (unsolved(usualIterations))
     tryMethod(Rung::interiorPoint, interiorPoint(system, step, iterationsLeft(usualIterations), guess));
-  if (unsolved(usualIterations) && viscous) {
+  if (unsolved(usualIterations) && !descends) {
     const int most = std::min(unique ? usualIterations : secondWalk, iterationsLeft(usualIterations));
     tryMethod(Rung::continuation, lowerViscosity(system, step, walk, most, guess));
   }
   const int longest = effort == Effort::all ? options.maxIterations : usualIterations;
-  if (unsolved(longest) && viscous && !unique)
+  if (unsolved(longest) && !unique)
     tryMethod(Rung::path,
               followCurve(system, step, walk, std::min(longWalk, iterationsLeft(longest)), guess));
   if (effort == Effort::all && !unique && unsolved(longest))
