@@ -295,19 +295,23 @@ void checkSliding(const LintInput& input, const ContactDescription& contact, con
 }  // namespace
 
 void lintContacts(const LintInput& input, Faults& faults) {
+  const auto isTool = [&](const ContactDescription& contact) {
+    return input.scene.bodies[bodyIndex(input.scene, contact.mortar.body)].isTool();
+  };
   for (size_t k = 0; k < input.scene.contacts.size(); ++k) {
     const ContactDescription& contact = input.scene.contacts[k];
     for (size_t j = 0; j < k; ++j)
       for (const SideDescription* a : {&contact.nonmortar, &contact.mortar})
         for (const SideDescription* b : {&input.scene.contacts[j].nonmortar, &input.scene.contacts[j].mortar})
-          if (a->body == b->body && a->label == b->label)
+          if (a->body == b->body && a->label == b->label && !isTool(contact) &&
+              !isTool(input.scene.contacts[j]))
             faults.add(
                 "contact-side-twice", a->where,
                 name(sideOf(input, *a, a->label)) + " is a side of another contact too, at " + b->where);
     const Side one = sideOf(input, contact.nonmortar, contact.nonmortar.label);
     const Side two = sideOf(input, contact.mortar, contact.mortar.label);
     if (one.edges == 0 || two.edges == 0) continue;  // named elsewhere
-    if (!refinesMeshes(input.scene)) compareMeshes(input, contact, one, two, faults);
+    if (!refinesMeshes(input.scene) && !isTool(contact)) compareMeshes(input, contact, one, two, faults);
     const ContactPair pair{{0, contact.nonmortar.label}, {1, contact.mortar.label}, contact.variant};
     checkFriction(contact, faults);
     const MemoryNeed need = memoryNeed({one.mesh, two.mesh}, {pair}, input.scene.degree,
