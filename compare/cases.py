@@ -87,7 +87,7 @@ class SceneCase:
 SCENES = {
     "sloped": (), "broken-line": (), "stack": (), "exact-contact": (), "edge": (), "punch": (),
     "eccentric-punch": (), "receding": (), "turned": (), "cut-ring": (), "hertz": (), "ring": (),
-    "sphere": (), "thick-cylinder": (), "open-close": ("time.scheme=backward-euler",),
+    "sphere": (), "cone": (), "thick-cylinder": (), "open-close": ("time.scheme=backward-euler",),
 }
 # Where FreeFEM's rule of degree 9 is further off the integrals of the tractions than the tolerances.
 QUADRATURE = {"edge": 1e-8}

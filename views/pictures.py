@@ -103,8 +103,9 @@ def draw_bodies(axes, run, scale=1.0, values=None, norm=None, colours=None):
         triangles = np.arange(len(x)).reshape(-1, 3)
         fine = len(triangles) > FINE
         style = {"cmap": colours, "norm": norm, "rasterized": fine}
-        if values is None:
-            axes.tripcolor(x, y, triangles, facecolors=np.full(len(triangles), 0.25 if i % 2 else 0.1),
+        if values is None or body.rigid:
+            axes.tripcolor(x, y, triangles,
+                           facecolors=np.full(len(triangles), 0.35 if body.rigid else 0.25 if i % 2 else 0.1),
                            cmap="Greys", vmin=0, vmax=1, edgecolors="face", linewidth=0.1, rasterized=fine)
         elif values[name].ndim == 2:
             paint = np.einsum("tij,tj->ti", parts, values[name][owner])

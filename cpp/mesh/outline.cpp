@@ -154,9 +154,10 @@ TriangleMesh outlineMesh(const Outline& outline) {
       ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(k));
       failed = 0;
     } else if (++failed > ring.size()) {
-      throw InputError(outline.name +
-                       ": an outline that crosses itself, turns back or runs clockwise, expected one with the "
-                       "body to its left");
+      throw InputError(
+          outline.name +
+          ": an outline that crosses itself, turns back or runs clockwise, expected one with the "
+          "body to its left");
     }
     ++k;
   }

@@ -65,7 +65,8 @@ class Planner {
     const Body& body = model_.bodies[b];
     const std::string part = "body " + body.name();
     if (body.rigid()) {
-      add(part, true, "rigid: it moves as a whole, and contact alone holds " + counted(body.freeDofs(), "motion"),
+      add(part, true,
+          "rigid: it moves as a whole, and contact alone holds " + counted(body.freeDofs(), "motion"),
           "it is a tool");
       return;
     }

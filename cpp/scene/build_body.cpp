@@ -222,7 +222,7 @@ Body buildTool(const BodyDescription& tool, TriangleMesh mesh, const SceneDescri
   }
   Conditions conditions;
   conditions.rigid = std::move(motion);
-  return {tool.name, std::move(mesh), buildMaterial(tool.material, scene.plane, {}), std::move(conditions),
+  return {tool.name,    std::move(mesh), buildMaterial(tool.material, scene.plane, {}), std::move(conditions),
           scene.degree, axisymmetric};
 }
 

@@ -12,8 +12,8 @@ namespace {
 std::optional<int> onlyLabel(const BodyDescription& tool) {
   if (!tool.isTool() || !tool.mesh.shape || tool.mesh.path == "rectangle") return std::nullopt;
   const std::vector<int>& labels = std::get<Outline>(tool.mesh.shape->of).labels;
-  if (tool.mesh.path == "polygon" && std::count(labels.begin(), labels.end(), labels[0]) !=
-                                         static_cast<std::ptrdiff_t>(labels.size()))
+  if (tool.mesh.path == "polygon" &&
+      std::count(labels.begin(), labels.end(), labels[0]) != static_cast<std::ptrdiff_t>(labels.size()))
     return std::nullopt;
   return labels[0];
 }
@@ -55,8 +55,7 @@ void readSides(const TableReader& table, const SceneDescription& scene, ContactD
   contact.mortar = readSide(*sides[1], "sides", scene);
   const int tools = (isTool(contact.nonmortar) ? 1 : 0) + (isTool(contact.mortar) ? 1 : 0);
   if (tools == 0) return;
-  if (tools == 2)
-    table.refuse(*table.find("sides"), "two tools in contact, expected a body on one side");
+  if (tools == 2) table.refuse(*table.find("sides"), "two tools in contact, expected a body on one side");
   if (isTool(contact.nonmortar)) std::swap(contact.nonmortar, contact.mortar);
   table.rejectIfGiven({"swap"}, "it only beside two bodies: of a tool and a body the body is nonmortar");
   contact.sidesGiven = true;

@@ -48,16 +48,17 @@ Outline readOutline(const TableReader& table, bool axisymmetric) {
   if (family == rectangle) {
     const Point lower = table.point("lower");
     const Point upper = table.point("upper");
-    if (!(lower.x() < upper.x() && lower.y() < upper.y())) table.reject("upper", "a point right of and above lower");
+    if (!(lower.x() < upper.x() && lower.y() < upper.y()))
+      table.reject("upper", "a point right of and above lower");
     return {{lower, {upper.x(), lower.y()}, upper, {lower.x(), upper.y()}}, {1, 2, 3, 4}};
   }
   if (family == polygon) {
-    const std::vector<Point> corners =
-        distinctPoints(table, 3, any, "three corners or more [[x, y], ...], counterclockwise, none twice in turn");
+    const std::vector<Point> corners = distinctPoints(
+        table, 3, any, "three corners or more [[x, y], ...], counterclockwise, none twice in turn");
     return {corners, labelsOf(table, corners.size())};
   }
-  const std::vector<Point> through =
-      distinctPoints(table, 3, any, "three points or more [[x, y], ...], the tool to the left, none twice in turn");
+  const std::vector<Point> through = distinctPoints(
+      table, 3, any, "three points or more [[x, y], ...], the tool to the left, none twice in turn");
   if (through.size() == 3 && through.front() == through.back())
     table.reject("points", "four points at least of a closed spline, the last one the first");
   return splineOutline(through);

@@ -171,8 +171,9 @@ void readTools(const TableReader& root, SceneDescription& scene) {
 
 void requireToolsTouch(const SceneDescription& scene) {
   for (const BodyDescription& tool : scene.bodies)
-    if (tool.isTool() && std::none_of(scene.contacts.begin(), scene.contacts.end(),
-                                      [&](const ContactDescription& c) { return c.mortar.body == tool.name; }))
+    if (tool.isTool() &&
+        std::none_of(scene.contacts.begin(), scene.contacts.end(),
+                     [&](const ContactDescription& c) { return c.mortar.body == tool.name; }))
       throw InputError(tool.where + ": tool " + tool.name + ": in no contact, expected one with a body");
 }
 

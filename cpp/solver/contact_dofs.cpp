@@ -89,7 +89,7 @@ void ContactDofs::findMotions(const Model& model, int body) {
   const Body& of = model.bodies[body];
   motions = model.inParts() ? model.parts[body].motions : rigidModes(of);
   R.resize(static_cast<Eigen::Index>(equations.size()), motions.cols());
-  for (Eigen::Index i = 0; i < motions.cols(); ++i) 
+  for (Eigen::Index i = 0; i < motions.cols(); ++i)
     R.col(i) = (of.rigid() ? Vector(motions.col(i)) : of.gather(motions.col(i)))(equations);
   basis_.setIdentity(motions.cols(), motions.cols());
   if (motions.cols() == 0) return;

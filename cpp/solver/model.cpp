@@ -33,10 +33,10 @@ bool solvesSparse(const Model& model, const SolverOptions& options) {
   double equations = 0;
   for (const ContactInterface& interface : model.interfaces) conditions += interface.rows();
   for (const Body& body : model.bodies) equations += body.freeDofs();
-  const bool dense = anyFriction(model) ||
-                     std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) {
-                       return body.rigid() && body.freeDofs() > 0;  // no stiffness stands for them
-                     });
+  const bool dense =
+      anyFriction(model) || std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) {
+        return body.rigid() && body.freeDofs() > 0;  // no stiffness stands for them
+      });
   return solvesSparse(conditions, equations, dense, options);
 }
 

@@ -207,13 +207,12 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
     return componentOf(reactionsOf[quantity.body][support], quantity);
   };
   const auto displacement = [&](const Quantity& quantity) {  // of the nodes of this rank
-    using Component = Quantity::Component;
+    const int component = quantity.component == Quantity::Component::x ? 0 : 1;
     if (quantity.whole) {
-      const Eigen::Vector3d motion =
-          model.bodies[quantity.body].motionOf(state.bodies[quantity.body].displacement);
-      return motion[quantity.component == Component::rotation ? 2 : quantity.component == Component::y ? 1 : 0];
+      const bool turns = quantity.component == Quantity::Component::rotation;
+      return model.bodies[quantity.body].motionOf(
+          state.bodies[quantity.body].displacement)[turns ? 2 : component];
     }
-    const int component = quantity.component == Component::x ? 0 : 1;
     double value = 0;
     for (const auto& [node, weight] : quantity.mean)
       value += weight * state.bodies[quantity.body].displacement[2 * node + component];
