@@ -99,6 +99,9 @@ def read_mortier(folder, step=None, failed=False):
 def mortier_run(folder, summary, tables, step):
     """One step of a run; tables are contact_tables."""
     bodies = {b["name"]: read_vtu(folder / f"{b['name']}_{step:06d}.vtu") for b in body_list(folder, summary)}
+    components = min((body.stress.shape[-1] for body in bodies.values() if not body.rigid), default=3)
+    for body in bodies.values():
+        body.stress = body.stress[:, :components] if body.rigid else body.stress
     for description in summary["bodies"]:
         require_shape(folder, description["name"], bodies[description["name"]], description.get("nodes"),
                       description.get("triangles"))

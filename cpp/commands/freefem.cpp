@@ -219,6 +219,11 @@ std::string script(const SceneDescription& scene, const Model& model,
       << "macro eachBody(what)";
   for (int b = 0; b < bodies; ++b) out << " what(" << b + 1 << ')';
   out << " //\n";
+  const auto strains = std::count_if(scene.bodies.begin(), scene.bodies.end(),
+                                     [](const BodyDescription& body) { return !body.isTool(); });
+  if (strains < bodies)
+    out << "macro rigidTools yes //  the bodies after the first so many\nint strainingBodies = " << strains
+        << ";\n";
   for (int b = 0; b < bodies; ++b) writeBody(out, scene.bodies[b], meshFiles[b], b + 1, scene.units);
   out << freefemMaterials(scene) << freefemPatches(model)
       << "\n// Boundary conditions and loads, functions of x, y and t\n";

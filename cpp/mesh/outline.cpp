@@ -93,25 +93,32 @@ Outline splineOutline(const std::vector<Point>& points) {
   }
   const double length = knots[last];
   const Matrix bend = bends(knots, values, closed);
-  const auto at = [&](double t) -> Point {
-    const double s = t * length;
-    const auto above = std::upper_bound(knots.data() + 1, knots.data() + last, s);
-    const Eigen::Index i = above - knots.data() - 1;
+  constexpr double rounding = 1e-11;  // of its length
+  SampledCurve pieces{{0}, {}};
+  for (Eigen::Index i = 0; i < last; ++i) {
     const double h = knots[i + 1] - knots[i];
-    const double b = (s - knots[i]) / h;
-    const double a = 1 - b;
-    return (a * values.row(i) + b * values.row(i + 1) +
-            ((a * a * a - a) * bend.row(i) + (b * b * b - b) * bend.row(i + 1)) * h * h / 6)
-        .transpose();
-  };
-  constexpr double tolerance = 1e-11;  // of its length
-  const auto curve = std::make_shared<const SampledCurve>(sampled(
-      [&](const std::vector<double>& places) {
-        std::vector<Point> result;
-        for (const double t : places) result.push_back(at(t));
-        return result;
-      },
-      tolerance * length));
+    const SampledCurve span = sampled(
+        [&](const std::vector<double>& places) {
+          std::vector<Point> result;
+          for (const double b : places) {
+            const double a = 1 - b;
+            result.emplace_back(
+                (a * values.row(i) + b * values.row(i + 1) +
+                 ((a * a * a - a) * bend.row(i) + (b * b * b - b) * bend.row(i + 1)) * h * h / 6)
+                    .transpose());
+          }
+          return result;
+        },
+        rounding * length);
+    if (span.points.empty())
+      throw InputError("larger distances between points: rounding of the coordinates bends the spline");
+    for (size_t k = 1; k < span.knots.size(); ++k)
+      pieces.knots.push_back((knots[i] + span.knots[k] * h) / length);
+    pieces.points.insert(pieces.points.end(), span.points.begin(),
+                         span.points.end() - (i + 1 < last ? 1 : 0));
+  }
+  pieces.knots.back() = 1;
+  const auto curve = std::make_shared<const SampledCurve>(std::move(pieces));
   Outline outline;
   for (Eigen::Index i = 0; i < last; ++i)
     for (int k = 0; k < edgesOfSpan; ++k) {

@@ -1,6 +1,7 @@
 // [[tool]]: a rigid body by its outline and its motion.
 #include <algorithm>
 
+#include "base/error.h"
 #include "scene/readers.h"
 
 namespace mortier {
@@ -30,7 +31,8 @@ std::vector<Point> distinctPoints(const TableReader& table, size_t least, size_t
 }
 
 Outline readOutline(const TableReader& table, bool axisymmetric) {
-  constexpr size_t any = 10000;
+  constexpr size_t mostCorners = 1000;
+  constexpr size_t mostPoints = 100;  // of a spline
   const auto family = table.choice<Family>("shape");
   table.requireBeside("shape", table.string("shape"));
   if (family == disc) {
@@ -54,14 +56,18 @@ Outline readOutline(const TableReader& table, bool axisymmetric) {
   }
   if (family == polygon) {
     const std::vector<Point> corners = distinctPoints(
-        table, 3, any, "three corners or more [[x, y], ...], counterclockwise, none twice in turn");
+        table, 3, mostCorners, "3 to 1000 corners [[x, y], ...], counterclockwise, none twice in turn");
     return {corners, labelsOf(table, corners.size())};
   }
   const std::vector<Point> through = distinctPoints(
-      table, 3, any, "three points or more [[x, y], ...], the tool to the left, none twice in turn");
+      table, 3, mostPoints, "3 to 100 points [[x, y], ...], the tool to the left, none twice in turn");
   if (through.size() == 3 && through.front() == through.back())
     table.reject("points", "four points at least of a closed spline, the last one the first");
-  return splineOutline(through);
+  try {
+    return splineOutline(through);
+  } catch (const InputError& error) {
+    table.reject("points", error.what());
+  }
 }
 
 /// Where the outline says nothing else: in the middle of its extents.
