@@ -150,6 +150,9 @@ TriangleMesh outlineMesh(const Outline& outline) {
     for (const EdgeCurve& curve : outline.curves)
       mesh.edgeMiddles.push_back(curve.known() ? curve.at(curve.middle()) : Point(unknown, unknown));
   }
+  double area = 0;
+  for (int k = 0; k < n; ++k) area += cross(outline.points[k], outline.points[(k + 1) % n]);
+  if (!(area > 0)) throw InputError("runs clockwise, expected the body to the left of the outline");
   std::vector<int> ring(n);
   std::iota(ring.begin(), ring.end(), 0);
   // Ears beside each other in turn: the triangles of a circle have corners all around it.
@@ -161,10 +164,7 @@ TriangleMesh outlineMesh(const Outline& outline) {
       ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(k));
       failed = 0;
     } else if (++failed > ring.size()) {
-      throw InputError(
-          outline.name +
-          ": an outline that crosses itself, turns back or runs clockwise, expected one with the "
-          "body to its left");
+      throw InputError("crosses itself or turns back, expected a simple outline");
     }
     ++k;
   }

@@ -26,6 +26,16 @@ double largestOf(const Eigen::Ref<const Matrix>& columns, Threads& threads) {
   return largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
 }
 
+/// Of a rigid body: what its motions have in place of a compliance, so that no condition is without one. As z
+/// carries them it never acts. Its material is as stiff as what it touches.
+double softnessOf(const Body& body) {
+  Matrix stress = Matrix::Zero(body.material().components(), 1);
+  stress(1, 0) = 1;
+  Matrix strain;
+  body.material().elasticStrain(stress, strain);
+  return strain.norm();
+}
+
 }  // namespace
 
 CondensedBody::CondensedBody(const Model& model, int body, const std::vector<int>& firstRow,
@@ -208,7 +218,11 @@ void CondensedBody::useSchurComplement(Factors& factors) {
 }
 
 void CondensedBody::addCompliance(Matrix& W) const {
-  if (body_.rigid()) return;
+  if (body_.rigid()) {
+    const Matrix G = contact_.C * contact_.R;
+    W += softnessOf(body_) * G * G.transpose();
+    return;
+  }
   constexpr Eigen::Index atOnce = 64;
   const Eigen::SparseMatrix<double> columns = contact_.C.transpose();  // contact dofs x contact rows
   threads_.forEach(static_cast<int>((columns.cols() + atOnce - 1) / atOnce), [&](int i) {
@@ -243,7 +257,10 @@ Vector CondensedBody::leftOver(const Vector& load, const Matrix& stress) {
 }
 
 void CondensedBody::condense(const Vector& force) {
-  if (body_.rigid()) return;
+  if (body_.rigid()) {
+    contactForce_ = contact_.motions.transpose() * force;
+    return;
+  }
   if (part_ != nullptr) {
     ownForce_ = -ownForce_;
     for (int node = 0; node < body_.nodes(); ++node)
@@ -254,7 +271,7 @@ void CondensedBody::condense(const Vector& force) {
 }
 
 Vector CondensedBody::joinCondensed() {
-  if (body_.rigid()) return Vector::Zero(static_cast<Eigen::Index>(contact_.equations.size()));
+  if (body_.rigid()) return softnessOf(body_) * (contact_.R * contactForce_);
   solver_->joinCondensed(residual_);
   contactForce_ = residual_(contact_.equations);
   return contact_.none() ? contactForce_ : solveSchur(contactForce_);
