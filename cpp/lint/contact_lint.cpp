@@ -212,8 +212,8 @@ void checkConditions(const LintInput& input, const ContactDescription& contact,
 }
 
 void checkInterface(const ContactDescription& contact, const Side& one, const Side& two,
-                    const ContactInterface& interface, double smallerExtent, const std::string& length,
-                    Faults& faults) {
+                    const ContactInterface& interface, bool tool, double smallerExtent,
+                    const std::string& length, Faults& faults) {
   constexpr double tiny = 0.25;
   constexpr double large = 0.5;
   const double gap = interface.initialDistance().minCoeff();
@@ -228,7 +228,7 @@ void checkInterface(const ContactDescription& contact, const Side& one, const Si
     faults.add("gap-large", contact.where,
                "the bodies are at least " + digits(gap, 4) + " " + length + " apart, the smaller one is " +
                    digits(smallerExtent, 4) + " " + length + " wide");
-  if (contact.variant == CouplingKind::interpolation && !meshesMatch(interface))
+  if (contact.variant == CouplingKind::interpolation && !tool && !meshesMatch(interface))
     faults.add("interpolation-unmatched", contact.where,
                "interpolation on meshes that do not match has an error of order one along the contact line");
 }
@@ -319,8 +319,8 @@ void lintContacts(const LintInput& input, Faults& faults) {
     if (need.all > availableMemory()) continue;  // buildModel tells
     try {
       const ContactInterface interface = interfaceOf(contact, one, two, false);
-      checkInterface(contact, one, two, interface, std::min(extent(*one.mesh), extent(*two.mesh)),
-                     input.scene.units.length, faults);
+      checkInterface(contact, one, two, interface, isTool(contact),
+                     std::min(extent(*one.mesh), extent(*two.mesh)), input.scene.units.length, faults);
       checkConditions(input, contact, interface, faults);
       checkSliding(input, contact, one, two, interface, faults);
     } catch (const InputError& error) {
