@@ -76,6 +76,9 @@ def shown_values(view, field, raw):
 def colours_of(field, of_views):
     """Norm, colours and at which ends values are beyond the scale: a corner must not take all the colours.
     of_views: bodies and values by triangle or corner."""
+    of_views = [({name: body for name, body in bodies.items() if not body.rigid},  # tools are grey
+                 {name: each for name, each in named.items() if not bodies[name].rigid})
+                for bodies, named in of_views]
     values = np.concatenate([each.ravel() for _, named in of_views for each in named.values()])
     low, high = values.min(), values.max()
     size = max(abs(low), abs(high))

@@ -130,8 +130,8 @@ ux, uy | m | free | datum, one of them at least | prescribed displacement
 [tool] `[[tool]]` | | none | any number | a rigid body, without material and mesh ([below](#rigid-tools))
 name | | | letters, digits, `_`, `-`; each once | names files and messages
 shape | | | `"line"`, `"disc"`, `"rectangle"`, `"polygon"`, `"spline"` | of its outline
-points | m | | `[[x, y], ...]`; with shape = "line", "polygon", "spline" | two ends, corners, or points that the
-  spline goes through; the tool lies to the left of the way
+points | m | | `[[x, y], ...]`; with shape = "line", "polygon", "spline" | two ends, corners, or points that
+  the spline goes through; the tool lies to the left of the way
 labels | | 1, 2, ... | an integer a side; with shape = "polygon" | of the sides, from the first corner on
 centre | m | | `[x, y]`; with shape = "disc" | of the circle
 radius | m | | > 0; with shape = "disc" | of the circle
@@ -174,9 +174,10 @@ body, label
   `summary.json` ([below](#quantities))
 name | | | letters, digits, `_`, `-`; each once | the column
 reaction | N/m | | `{ body = "name", label = 1 }`, `{ body = "name", point = [x, y] }`, of a tool
-  `{ body = "name" }` | what the supports of the label, or of the point, exert on the body, or what moves a tool
-contact_force | N/m | | `{ body = "name", label = 1 }`, of a tool also `{ body = "name" }` | what contact exerts
-  on the body along the label
+  `{ body = "name" }` | what the supports of the label, or of the point, exert on the body, or what moves
+  a tool
+contact_force | N/m | | `{ body = "name", label = 1 }`, of a tool also `{ body = "name" }` | what contact
+  exerts on the body along the label
 displacement | m | | `{ body = "name", point = [x, y] }`, `{ body = "name", label = 1 }`, of a tool also
   `{ body = "name" }` | at a point (where it was at t = 0), the mean over a label, or of `at`
 stored_energy | J/m | | `{ body = "name" }` | recoverable energy of the body: elastic energy, and that
@@ -197,8 +198,8 @@ friction_work | J/m | | `{ body = "name", label = 1 }` | energy dissipated by fr
 mean_pressure | Pa | | `{ body = "name", label = 1 }`, with `from = [x, y]` and `to = [x, y]`, with `margin` |
   the mean of the contact pressure over the side, or over the part of it between two points
   ([below](#quantities))
-component | | | `"x"`, `"y"`, `"moment"` (of forces), `"rotation"` (of a tool) | of reactions, contact forces and
-  displacements; moments [N] and rotations [rad] are counterclockwise
+component | | | `"x"`, `"y"`, `"moment"` (of forces), `"rotation"` (of a tool) | of reactions, contact forces
+  and displacements; moments [N] and rotations [rad] are counterclockwise
 about | m | [0, 0], of a tool `at` | `[x, y]` | the point of a moment
 [quantity.stored_energy quantity.dissipated_energy quantity.work quantity.external_work quantity.thermal_work
   quantity.largest_mises]
