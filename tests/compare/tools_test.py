@@ -212,7 +212,8 @@ class Tools(support.InFolder):
                 self.assertLess(abs(p[inside] / exact - 1).max(), 0.04)
 
     def test_full_slip(self):
-        text = (half_plane(100, [40, 10], 1, "[0, -1]", "[4, 0]") + '[[tool]]\nname = "tool"\nshape = "disc"\ncentre = [2, 2]\nradius = 2\n'
+        text = (half_plane(100, [40, 10], 1, "[0, -1]", "[4, 0]")
+                + '[[tool]]\nname = "tool"\nshape = "disc"\ncentre = [2, 2]\nradius = 2\n'
                 'fy = "-min(t, 1)"\nux = "0.05*max(t - 1, 0)"\n'
                 + ON_GROUND.replace("[time]\nend = 1\nsteps = 1",
                                     "friction = 0.3\n[time]\nend = 2\nsteps = 2")
@@ -252,7 +253,7 @@ class Tools(support.InFolder):
 
     def test_stopped_and_resumed(self):
         """A run that is killed at a step goes on from its checkpoint to the same bytes."""
-        self.write(pressed('fy = "-1*sin(20*t)^2"\nfx = "0.1*sin(20*t)^2"\nmoment = "-0.3*t"',
+        self.write(pressed('fy = "-1-0.5*sin(20*t)"\nfx = "0.1*sin(9*t)"\nmoment = "-0.2*sin(7*t)"',
                            "friction = 0.4\n") + "[output]\nevery = 1\n")
         settings = ("--set", "time.steps=400", "--checkpoint", "0")
         self.mortier("run", "scene.toml", "--out", "whole", *settings)
