@@ -192,6 +192,32 @@ class Tools(support.InFolder):
         exact = 1 / (math.pi * (1 - x[inside]**2)**0.5)
         self.assertLess(abs(p[inside] / exact - 1).max(), 0.05)
 
+    def test_prandtl(self):
+        """A flat punch on ideally plastic ground: the mean pressure tends to (2 + pi) times the shear yield
+        stress."""
+        ground = half_plane(1e5, [40, 32], 4, "[0, -4]", "[5, 0]",
+                            ', law = "viscoplastic", yield_stress = 1, viscosity = 0')
+        ground = ground.replace("focus = [0, 0]", "focus = [1, 0]")
+        ground = ground.replace("uy = 0 } ]", "uy = 0 }, { label = 4, ux = 0 }, { label = 2, ux = 0 } ]")
+        tool = ('[[tool]]\nname = "tool"\nshape = "polygon"\npoints = [[0, 0], [1, 0], [1, 1], [0, 1]]\n'
+                'uy = "-3e-4*t"\n')
+        summary, _ = self.solve('plane = "strain"\n' + ground + tool
+                                + ON_GROUND.replace("steps = 1", "steps = 20") + quantity("mean", 'reaction = { body = "tool" }', "y"))
+        mean = -self.value(summary, "mean") / ((2 + math.pi) / math.sqrt(3))
+        self.assertGreater(mean, 1)  # what displacements are left to find needs more
+        self.assertLess(mean, 1.03)
+
+    def test_a_mesh_as_a_tool(self):
+        """The outline of a mesh presses as the disc of which it is a half."""
+        self.mortier("mesh", "halfdisc", "--radius", "50", "--core", "4", "--cells", "16", "disc.mesh")
+        force = {}
+        for shape in ('mesh = "disc.mesh"', 'shape = "disc"\ncentre = [0, 50]\nradius = 50'):
+            tool = f'[[tool]]\nname = "tool"\n{shape}\nuy = "-0.2*t"\n'
+            summary, _ = self.solve('plane = "strain"\n' + half_plane(70000, [64, 40], 12) + tool + ON_GROUND
+                                    + quantity("press", 'reaction = { body = "tool" }', "y"))
+            force[shape[:4]] = self.value(summary, "press")
+        self.assertAlmostEqual(force["mesh"] / force["shap"], 1, delta=1e-6)
+
     def test_cone_and_wedge(self):
         """Sneddon: the force of a radius of contact, or of a half-width."""
         modulus = 100 / (1 - 0.09)

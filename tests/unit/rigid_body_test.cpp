@@ -3,7 +3,7 @@
 
 #include "fem/body.h"
 #include "fem/rigid_modes.h"
-#include "material/material.h"
+#include "material/elasticity.h"
 #include "mesh/outline.h"
 
 namespace mortier::rigid_body_test {
