@@ -65,18 +65,6 @@ bool isRoller(const ConditionDescription& condition) {
          (condition.component == alongNormal || condition.component == alongTangent);
 }
 
-/// A body whose boundary moves as a rigid one is free of stress, and moves so inside.
-std::string rigidMotion(const BodyDescription& tool, const std::vector<int>& labels) {
-  std::string on = "+ on(";
-  for (const int label : labels) on += std::to_string(label) + ", ";
-  const auto value = [&](int c) { return freefemExpression(tool.conditions[c].value); };
-  const auto arm = [&](const char* x, double at) {
-    return "*(" + std::string(x) + " - (" + shortest(at) + "))";
-  };
-  return on + "u1 = (" + value(0) + ") - (" + value(2) + ")" + arm("y", tool.reference->y()) + ", u2 = (" +
-         value(1) + ") + (" + value(2) + ")" + arm("x", tool.reference->x()) + ") ";
-}
-
 /// Loads by the rules that mortier takes (docs/theory.md) where these integrate them, with quadratic
 /// displacements by FreeFEM's own of degree 5; others, which mortier resolves, by those of degree 9 on
 /// edges and triangles. A macro must not be empty.
@@ -87,7 +75,7 @@ void writeConditions(std::ostream& out, const BodyDescription& body, int number,
   const int degree = scene.degree;
   std::ostringstream supports;
   std::ostringstream loads;
-  if (body.isTool()) supports << rigidMotion(body, labels);
+  if (body.isTool()) supports << freefemRigidMotion(body, labels);
   for (const ConditionDescription& c : body.conditions) {
     const std::string value = freefemExpression(c.value);
     if (c.point) continue;
