@@ -42,8 +42,8 @@ struct InitialStress {
 };
 
 /// What moves a body that does not strain: along x and y, and by an angle about a point, counterclockwise.
-/// Rotations are linear, u = theta x (x - at), as all displacements are: rows of contact keep their normals, so
-/// that a disc that turns about its centre stays where it is.
+/// Rotations are linear, u = theta x (x - at), as all displacements are: rows of contact keep their normals,
+/// so that a disc that turns about its centre stays where it is.
 struct RigidMotion {
   Point at;                    ///< [m]
   std::array<Datum, 3> held;   ///< [m], [m] and [rad], functions of time; empty where the motion is free
@@ -121,7 +121,9 @@ class Body {
   /// These motions by dofs, [m] per unit. \pre rigid()
   [[nodiscard]] const Matrix& freeMotions() const { return freeMotions_; }
   /// Displacement at the reference point and angle of a rigid displacement (dofs). \pre rigid()
-  [[nodiscard]] Eigen::Vector3d motionOf(const Vector& displacement) const { return toMotion_ * displacement; }
+  [[nodiscard]] Eigen::Vector3d motionOf(const Vector& displacement) const {
+    return toMotion_ * displacement;
+  }
   /// Resultants and moment about the reference point of nodal forces (dofs), of those components that are
   /// prescribed: the others are zero. \pre rigid()
   [[nodiscard]] Eigen::Vector3d heldForce(const Vector& nodal) const;

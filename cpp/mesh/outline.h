@@ -8,10 +8,10 @@ namespace mortier {
 
 /// A closed line without crossings, the body to its left: edge k runs from point k to the next.
 struct Outline {
-  std::vector<Point> points;          ///< [m]
-  std::vector<int> labels;            ///< by edges
+  std::vector<Point> points;           ///< [m]
+  std::vector<int> labels;             ///< by edges
   std::vector<EdgeCurve> curves = {};  ///< by edges; empty where none stands for a curve that is no circle
-  std::string name = {};              ///< for messages
+  std::string name = {};               ///< for messages
 };
 
 /// A circle, label 1. Beside the axis of revolution, with its centre on it, the half at x >= 0 and the axis
