@@ -7,8 +7,6 @@
 namespace mortier {
 namespace {
 
-enum Family { line, disc, rectangle, polygon, spline };
-
 std::vector<int> labelsOf(const TableReader& table, size_t sides) {
   std::vector<int> labels;
   for (size_t k = 0; k < sides; ++k) labels.push_back(static_cast<int>(k) + 1);
@@ -31,6 +29,7 @@ std::vector<Point> distinctPoints(const TableReader& table, size_t least, size_t
 }
 
 Outline readOutline(const TableReader& table, bool axisymmetric) {
+  enum Family { line, disc, rectangle, polygon, spline };
   constexpr size_t mostCorners = 1000;
   constexpr size_t mostPoints = 100;  // of a spline
   const auto family = table.choice<Family>("shape");
