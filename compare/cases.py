@@ -87,7 +87,7 @@ class SceneCase:
 SCENES = {
     "sloped": (), "broken-line": (), "stack": (), "exact-contact": (), "edge": (), "punch": (),
     "eccentric-punch": (), "receding": (), "turned": (), "cut-ring": (), "hertz": (), "ring": (),
-    "sphere": (), "thick-cylinder": (), "open-close": ("time.scheme=backward-euler",),
+    "sphere": (), "cone": (), "thick-cylinder": (), "open-close": ("time.scheme=backward-euler",),
 }
 # Where FreeFEM's rule of degree 9 is further off the integrals of the tractions than the tolerances.
 QUADRATURE = {"edge": 1e-8}
@@ -182,6 +182,9 @@ DISCS_RUBBED = (RING, "contact.friction=0.2", "contact.1.friction=0", "contact.1
                 "time.end=3", "time.steps=12", "body.bottom.boundary=[{label=1, ux=0, uy=0}]",
                 'body.middle.boundary=[{label=2, tx={time=[0, 1, 2, 3], value=[0, 0, 60, -20]}}]',
                 'body.top.boundary=[{label=3, uy="-1e-3*min(t, 1)"}]')
+# Half of the section of a cone as a wedge of its own.
+TURNED_TOOL = ('plane="strain"', "body.ground.boundary=[{label=1, ux=0, uy=0}, {label=4, ux=0}]",
+               'tool.cone.rotation="-0.02*t"', "tool.cone.at=[0.2, 0.1]", "time.steps=4")
 # Blocks that flow, pressed, pushed along and pulled back.
 FLOWING = (SOFT, "contact.friction=0.3", "time.end=3", "time.steps=12",
            "body.upper.mesh=shared-meshes/block-upper-3.mesh",
@@ -264,6 +267,12 @@ def scene_cases():
         SceneCase("sloped", "weighted", "a distance that changes, quadratic",
                   (SOFT, "contact.gap=(1e-3*x^2+1e-3)*cos(3*t)", "degree=2")),
         SceneCase("sphere", "weighted", "sides swapped", ("contact.swap=true",)),
+        SceneCase("cone", "weighted", "quadratic", ("degree=2", "body.ground.mesh.cells=[20, 20]")),
+        SceneCase("cone", "coarsened", "flowing, in three steps",
+                  (SOFT.replace("100", "1000", 1), "body.ground.mesh.cells=[20, 20]", "time.steps=3")),
+        SceneCase("cone", "mortar", "a wedge that turns, plane strain", TURNED_TOOL),
+        SceneCase("cone", "weighted", "a wedge that turns and rubs, plane strain",
+                  (*TURNED_TOOL, "contact.friction=0.3", 'tool.cone.ux="0.02*t"')),
         SceneCase("sloped", "mortar", "a cone that flows, around an axis",
                   (SOFT, 'plane="axisymmetric"', "time.steps=4", "body.upper.boundary.2.tx=-5*t",
                    "body.lower.boundary.2.tx=-5*t", "contact.sliding=allow")),

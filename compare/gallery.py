@@ -122,6 +122,15 @@ def sphere_radius(run):
     return np.sqrt(-constant / slope) / exact
 
 
+def cone_pressure(run):
+    """At half the radius of contact that Sneddon gives the force, over his E*/20 arcosh(a/r) there."""
+    modulus = 1000 / (1 - 0.3**2)
+    radius = np.sqrt(20 * run.contact.force.sum() / (np.pi * modulus))
+    order = np.argsort(run.contact.position[:, 0])
+    found = np.interp(radius / 2, run.contact.position[order, 0], run.contact.pressure[order])
+    return found / (modulus / 20 * np.arccosh(2))
+
+
 def creep_rate(run):
     """Radial velocity on the inner circle in the second half of the run."""
     liner = run.bodies["liner"]
@@ -163,6 +172,8 @@ GALLERY = [
     Entry("sphere", [Number("peak pressure over Hertz's", sphere_peak, 1, 1e-2, "the mesh: 9 elements"),
                      Number("radius of contact over Hertz's", sphere_radius, 1, 1e-2, "the same")], 1,
           ((0, 25), (-18, 18))),
+    Entry("cone", [Number("pressure at half the radius over Sneddon's", cone_pressure, 1, 1e-2,
+                          "the mesh: 8 elements")], 1, ((0, 4), (-3, 1))),
     Entry("receding", [Number("half-width of contact", lambda run: end_of_contact(run, 1), 1.324165, 1e-2,
                               "the mesh: an element at the end of contact is 0.08"),
                        Number("p(0)/P", receding_pressure, 0.713081, 1e-2,

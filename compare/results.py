@@ -44,6 +44,7 @@ class Body:
     elements: np.ndarray = None  # triangles x 6, middles behind corners; None where triangles are linear
     stress_at_points: np.ndarray = None  # triangles x 3 points x components [Pa]; of quadratic ones only
     cells: dict = field(default_factory=dict)  # name -> all values by triangle that the code writes
+    rigid: bool = False  # a tool: no stress of it is written, and zeros stand for it here
 
     @property
     def von_mises(self):
@@ -98,6 +99,9 @@ def read_mortier(folder, step=None, failed=False):
 def mortier_run(folder, summary, tables, step):
     """One step of a run; tables are contact_tables."""
     bodies = {b["name"]: read_vtu(folder / f"{b['name']}_{step:06d}.vtu") for b in body_list(folder, summary)}
+    components = min((body.stress.shape[-1] for body in bodies.values() if not body.rigid), default=3)
+    for body in bodies.values():
+        body.stress = body.stress[:, :components] if body.rigid else body.stress
     for description in summary["bodies"]:
         require_shape(folder, description["name"], bodies[description["name"]], description.get("nodes"),
                       description.get("triangles"))
@@ -318,8 +322,14 @@ def read_vtu(path):
             mesh = meshio.read(path)
         elements = mesh.cells_dict.get("triangle", mesh.cells_dict.get("triangle6"))
         cells = {name: values[0] for name, values in mesh.cell_data.items()}
+        if rigid := "stress" not in cells:
+            count, scalars = len(elements), ("von_mises", "viscoplastic", "error")
+            cells |= {"stress": np.zeros((count, 4)), "viscoplastic_strain": np.zeros((count, 4)),
+                      **{name: np.zeros(count) for name in scalars}}
+            if elements.shape[1] == 6:
+                cells["stress_at_points"] = np.zeros((count, 12))
         body = Body(mesh.point_data["displacement"][:, :2], cells["stress"], mesh.points[:, :2],
-                    elements[:, :3], cells=cells)
+                    elements[:, :3], cells=cells, rigid=rigid)
         if elements.shape[1] == 6 and "stress_at_points" in cells:
             body.elements = elements
             body.stress_at_points = cells["stress_at_points"].reshape(len(elements), 3, -1)

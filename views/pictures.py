@@ -76,6 +76,9 @@ def shown_values(view, field, raw):
 def colours_of(field, of_views):
     """Norm, colours and at which ends values are beyond the scale: a corner must not take all the colours.
     of_views: bodies and values by triangle or corner."""
+    of_views = [({name: body for name, body in bodies.items() if not body.rigid},  # tools are grey
+                 {name: each for name, each in named.items() if not bodies[name].rigid})
+                for bodies, named in of_views]
     values = np.concatenate([each.ravel() for _, named in of_views for each in named.values()])
     low, high = values.min(), values.max()
     size = max(abs(low), abs(high))
@@ -103,8 +106,9 @@ def draw_bodies(axes, run, scale=1.0, values=None, norm=None, colours=None):
         triangles = np.arange(len(x)).reshape(-1, 3)
         fine = len(triangles) > FINE
         style = {"cmap": colours, "norm": norm, "rasterized": fine}
-        if values is None:
-            axes.tripcolor(x, y, triangles, facecolors=np.full(len(triangles), 0.25 if i % 2 else 0.1),
+        if values is None or body.rigid:
+            axes.tripcolor(x, y, triangles,
+                           facecolors=np.full(len(triangles), 0.35 if body.rigid else 0.25 if i % 2 else 0.1),
                            cmap="Greys", vmin=0, vmax=1, edgecolors="face", linewidth=0.1, rasterized=fine)
         elif values[name].ndim == 2:
             paint = np.einsum("tij,tj->ti", parts, values[name][owner])

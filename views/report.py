@@ -129,7 +129,7 @@ def run_data(result, share):
     for name, body in first.bodies.items():
         block, edges = mesh_block(body)
         bodies.append({"name": name, "vertices": len(body.points), "triangles": len(body.triangles),
-                       "edges": edges, "mesh": block.json()})
+                       "edges": edges, "mesh": block.json(), "rigid": body.rigid})
     steps, lines, earlier, ranges, recovered = [], [], None, [], {}
     for step, time in reversed(kept):  # each from the later ones: the page shows the last one first
         run = result.at(step)

@@ -134,6 +134,7 @@ void AdaptedMeshes::refine(const std::vector<Vector>& errors, double aim) {
   const std::vector<std::vector<char>> marked = halfOfTheError(errors);
   learn(errors);
   for (size_t b = 0; b < bodies_.size(); ++b) {
+    if (errors[b].isZero(0)) continue;  // a tool
     Vector reduction = Vector::Ones(errors[b].size());
     for (Eigen::Index t = 0; t < reduction.size(); ++t)
       if (errors[b][t] > 0)

@@ -59,6 +59,8 @@ void lookAhead(SceneDescription& scene, const Model& model) {
 /// What needs whole bodies.
 std::string reasonNotToShare(const SceneDescription& scene, const Model& model) {
   if (scene.accuracy.asked() > 0) return "rounds of [accuracy] refine whole meshes";
+  for (const Body& body : model.bodies)
+    if (body.rigid()) return "tools are moved as a whole";
   if (scene.accuracy.bound) return "bounds are found of whole bodies";
   if (solvesSparse(model, scene.solver)) return "the contact matrices of a line this long are sparse";
   return "";

@@ -12,6 +12,7 @@
 #include "base/whole_file.h"
 #include "commands/command_line.h"
 #include "fem/element.h"
+#include "mesh/boundary_line.h"
 #include "mesh/gmsh.h"
 #include "mesh/medit.h"
 #include "scene/build.h"
@@ -60,7 +61,7 @@ void writeBody(std::ostream& out, const BodyDescription& body, const std::string
 using Kind = ConditionDescription::Kind;
 
 bool isRoller(const ConditionDescription& condition) {
-  return condition.kind == Kind::displacement &&
+  return condition.kind == Kind::displacement && !condition.point &&
          (condition.component == alongNormal || condition.component == alongTangent);
 }
 
@@ -68,12 +69,13 @@ bool isRoller(const ConditionDescription& condition) {
 /// displacements by FreeFEM's own of degree 5; others, which mortier resolves, by those of degree 9 on
 /// edges and triangles. A macro must not be empty.
 void writeConditions(std::ostream& out, const BodyDescription& body, int number,
-                     const SceneDescription& scene) {
+                     const SceneDescription& scene, const std::vector<int>& labels) {
   const std::string n = std::to_string(number);
   const std::string own = scene.plane == Plane::axisymmetric ? "*2*pi*x" : "";  // beside FreeFEM's rules
   const int degree = scene.degree;
   std::ostringstream supports;
   std::ostringstream loads;
+  if (body.isTool()) supports << freefemRigidMotion(body, labels);
   for (const ConditionDescription& c : body.conditions) {
     const std::string value = freefemExpression(c.value);
     if (c.point) continue;
@@ -121,7 +123,7 @@ std::string specialSupports(const SceneDescription& scene) {
       if (isRoller(c))
         rollers += "roller" + body + std::to_string(c.label) + ", " +
                    (c.component == alongNormal ? "normal" : "tangent") + value;
-      if (c.point)
+      if (c.point && !scene.bodies[b].isTool())
         points += "heldPoint" + body + shortest(c.point->x()) + ", " + shortest(c.point->y()) + ", " +
                   std::to_string(c.component + 1) + value;
     }
@@ -205,10 +207,16 @@ std::string script(const SceneDescription& scene, const Model& model,
       << "macro eachBody(what)";
   for (int b = 0; b < bodies; ++b) out << " what(" << b + 1 << ')';
   out << " //\n";
+  const auto strains = std::count_if(scene.bodies.begin(), scene.bodies.end(),
+                                     [](const BodyDescription& body) { return !body.isTool(); });
+  if (strains < bodies)
+    out << "macro rigidTools yes //  the bodies after the first so many\nint strainingBodies = " << strains
+        << ";\n";
   for (int b = 0; b < bodies; ++b) writeBody(out, scene.bodies[b], meshFiles[b], b + 1, scene.units);
   out << freefemMaterials(scene) << freefemPatches(model)
       << "\n// Boundary conditions and loads, functions of x, y and t\n";
-  for (int b = 0; b < bodies; ++b) writeConditions(out, scene.bodies[b], b + 1, scene);
+  for (int b = 0; b < bodies; ++b)
+    writeConditions(out, scene.bodies[b], b + 1, scene, boundaryLabels(model.bodies[b].mesh()));
   out << specialSupports(scene)
       << "\n// Contact: nonmortar body and label, mortar body and label; time\nint[int, int] contact = ";
   for (size_t k = 0; k < model.interfaces.size(); ++k) {

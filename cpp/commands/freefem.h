@@ -41,5 +41,7 @@ std::vector<std::string> namesIn(const std::string& text);
 std::string freefemString(const std::string& text, const std::string& where);
 /// `// text` and the end of the line, whatever the text holds.
 std::string freefemComment(const std::string& text);
+/// A body whose boundary (its labels) moves as a rigid one is free of stress, and moves so inside.
+std::string freefemRigidMotion(const BodyDescription& tool, const std::vector<int>& labels);
 
 }  // namespace mortier

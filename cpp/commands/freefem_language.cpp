@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/printable.h"
 #include "commands/freefem.h"
+#include "scene/document.h"
 
 namespace mortier {
 
@@ -145,6 +146,17 @@ std::string freefemString(const std::string& text, const std::string& where) {
 
 std::string freefemComment(const std::string& text) {
   return "// " + printable(text) + '\n';
+}
+
+std::string freefemRigidMotion(const BodyDescription& tool, const std::vector<int>& labels) {
+  std::string on = "+ on(";
+  for (const int label : labels) on += std::to_string(label) + ", ";
+  const auto value = [&](int c) { return freefemExpression(tool.conditions[c].value); };
+  const auto arm = [&](const char* x, double at) {
+    return "*(" + std::string(x) + " - (" + shortest(at) + "))";
+  };
+  return on + "u1 = (" + value(0) + ") - (" + value(2) + ")" + arm("y", tool.reference->y()) + ", u2 = (" +
+         value(1) + ") + (" + value(2) + ")" + arm("x", tool.reference->x()) + ") ";
 }
 
 }  // namespace mortier

@@ -24,6 +24,10 @@ void requireKnown(const SceneDescription& scene, bool stepsGiven) {
            "equal steps, or those of a run (--steps-of)");
   }
   for (const BodyDescription& body : scene.bodies) {
+    for (const ConditionDescription& c : body.conditions)
+      if (body.isTool() && c.kind == ConditionDescription::Kind::traction)
+        refuse(c.where + ": tool " + body.name + ": a tool that a force or a moment moves",
+               "prescribed displacements");
     const bool stressed = std::any_of(body.initialStress.begin(), body.initialStress.end(),
                                       [](const auto& component) { return component.has_value(); });
     if (stressed || !body.regions.empty()) {

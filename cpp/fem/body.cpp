@@ -47,6 +47,10 @@ Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> 
     else if (condition.point && vertexAt(mesh_, *condition.point) < 0)
       throw InputError("body " + name_ + ": a point that is held is no vertex of " + mesh_.name);
   for (const auto& condition : conditions_.tractions) requireLabel(mesh_, name_, condition.label);
+  if (rigid()) {
+    findMotions();
+    return;
+  }
   withElement(degree, [&](auto element) {
     using Element = decltype(element);
     const size_t count = Element::points * mesh_.triangles.size();
@@ -129,6 +133,7 @@ std::array<Body::Part, 2> Body::parts(int node, const Point& vector) const {
 }
 
 Vector Body::gather(const Vector& nodal) const {
+  if (rigid()) return freeMotions_.transpose() * nodal;
   Vector x(freeDofs());
   for (int dof = 0; dof < dofs(); ++dof)
     if (equations_[dof] >= 0) x[equations_[dof]] = nodal[dof];
@@ -142,6 +147,7 @@ Vector Body::gather(const Vector& nodal) const {
 }
 
 Vector Body::spread(const Vector& x) const {
+  if (rigid()) return freeMotions_ * x;
   Vector nodal = Vector::Zero(dofs());
   for (int dof = 0; dof < dofs(); ++dof)
     if (equations_[dof] >= 0) nodal[dof] = x[equations_[dof]];
@@ -161,12 +167,17 @@ std::array<double, 2> Body::prescribedAt(const NodeSupport& support, double t) c
 }
 
 void Body::prescribe(double t, Vector& u) const {
+  if (rigid()) u = withHeld(heldAt(t), u);
   for (const NodeSupport& support : supports_.nodes())
     u.segment<2>(2 * support.node) =
         prescribed(support, prescribedAt(support, t), u.segment<2>(2 * support.node));
 }
 
 void Body::prescribeIncrement(double t0, double t1, TwoPartVector& increment) const {
+  if (rigid()) {
+    increment.high = withHeld(heldAt(t1) - heldAt(t0), increment.value());
+    increment.low.setZero();
+  }
   for (const NodeSupport& support : supports_.nodes()) {
     const int dof = 2 * support.node;
     const auto [a0, b0] = prescribedAt(support, t0);

@@ -41,6 +41,15 @@ struct InitialStress {
   Datum value;
 };
 
+/// What moves a body that does not strain: along x and y, and by an angle about a point, counterclockwise.
+/// Rotations are linear, u = theta x (x - at), as all displacements are: rows of contact keep their normals,
+/// so that a disc that turns about its centre stays where it is.
+struct RigidMotion {
+  Point at;                    ///< [m]
+  std::array<Datum, 3> held;   ///< [m], [m] and [rad], functions of time; empty where the motion is free
+  std::array<Datum, 3> force;  ///< of free motions, along x and y [N/m] and the moment [N]; may be empty
+};
+
 struct Conditions {
   std::vector<PrescribedDisplacement> displacements;
   std::vector<Traction> tractions;
@@ -48,6 +57,7 @@ struct Conditions {
   std::vector<InitialStress> initialStresses = {};
   Datum temperature = {};  ///< above that at which nothing is strained [K]; none where empty
   Matrix expansion = {};   ///< thermal strain per kelvin, components of the tensor x points [1/K]
+  std::optional<RigidMotion> rigid = {};  ///< of a body that has no material, and none of the above
 };
 
 /// Places of the quadrature points of all triangles, one triangle after the other [m].
@@ -104,6 +114,20 @@ class Body {
   // the tangent of a turned support.
 
   [[nodiscard]] int freeDofs() const { return freeDofs_; }
+
+  /// Whether it does not strain. Then it has no points, no tangent and no equations of nodes: its free dofs
+  /// are the motions that are not prescribed, and gather() takes the work of nodal forces on them.
+  [[nodiscard]] bool rigid() const { return conditions_.rigid.has_value(); }
+  /// These motions by dofs, [m] per unit. \pre rigid()
+  [[nodiscard]] const Matrix& freeMotions() const { return freeMotions_; }
+  /// Displacement at the reference point and angle of a rigid displacement (dofs). \pre rigid()
+  [[nodiscard]] Eigen::Vector3d motionOf(const Vector& displacement) const {
+    return toMotion_ * displacement;
+  }
+  /// Resultants and moment about the reference point of nodal forces (dofs), of those components that are
+  /// prescribed: the others are zero. \pre rigid()
+  [[nodiscard]] Eigen::Vector3d heldForce(const Vector& nodal) const;
+
   /// Equation 2 node + 0 or 1; -1 where that motion is prescribed.
   [[nodiscard]] const std::vector<int>& equations() const { return equations_; }
   /// A vector at a node by the equations of the node (-1 where prescribed).
@@ -165,6 +189,11 @@ class Body {
   }
 
  private:
+  void findMotions();
+  /// A rigid displacement (dofs) with prescribed components in place of its own. \param held  their values
+  [[nodiscard]] Vector withHeld(const Eigen::Vector3d& held, const Vector& displacement) const;
+  [[nodiscard]] Eigen::Vector3d heldAt(double t) const;
+  [[nodiscard]] Vector rigidLoad(double t) const;
   /// \param own  by nodes, whether they have triangles; all where empty
   void numberEquations(const std::vector<char>& own = {});
   [[nodiscard]] const TangentAssembly& assembly() const;
@@ -208,6 +237,10 @@ class Body {
   bool axisymmetric_ = false;
   std::vector<double> hoops_;  ///< of all shape functions of a triangle their value over r, by points
   std::optional<VolumePatches> patches_;
+  // Of a rigid body: its three motions by dofs, those that are free, and what finds the three of a rigid
+  // displacement.
+  Matrix motions_, freeMotions_;
+  Eigen::Matrix<double, 3, Eigen::Dynamic> toMotion_;
   double largestGradient_ = 0;
   double extent_ = 0;
   Vector steady_;  ///< nodal forces of findSteadyLoads(), by dofs; empty where there are none

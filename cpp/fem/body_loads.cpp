@@ -48,6 +48,7 @@ Vector Body::load(double t) const {
   Vector f = steady_.size() > 0 ? steady_ : Vector::Zero(dofs());
   addTractions(t, f, false);
   addForces(t, f, false);
+  if (rigid()) f += rigidLoad(t);
   return f;
 }
 

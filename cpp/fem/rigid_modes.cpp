@@ -122,6 +122,7 @@ Eigen::Vector3d motionOf(const Body& body, const RigidComponents& components, in
 }  // namespace
 
 Matrix rigidModes(const Body& body) {
+  if (body.rigid()) return body.freeMotions();
   constexpr size_t most = 300;  // they are dense
   const RigidComponents components(body);
   std::vector<const NodeSupport*> supportAt(body.nodes(), nullptr);

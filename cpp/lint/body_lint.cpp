@@ -92,7 +92,7 @@ void comparePair(const LintInput& input, size_t i, size_t j, Faults& faults) {
   const std::string& length = input.scene.units.length;
   const std::string& stress = input.scene.units.stress;
   const double ratio = extent(a) / extent(b);
-  if (std::max(ratio, 1 / ratio) > units)
+  if (!one.isTool() && !two.isTool() && std::max(ratio, 1 / ratio) > units)
     faults.add("extent-ratio", ratio < 1 ? one.meshWhere : two.meshWhere,
                both + " are " + digits(extent(a), 4) + " " + length + " and " + digits(extent(b), 4) + " " +
                    length + " wide");

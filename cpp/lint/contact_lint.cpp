@@ -212,8 +212,8 @@ void checkConditions(const LintInput& input, const ContactDescription& contact,
 }
 
 void checkInterface(const ContactDescription& contact, const Side& one, const Side& two,
-                    const ContactInterface& interface, double smallerExtent, const std::string& length,
-                    Faults& faults) {
+                    const ContactInterface& interface, bool tool, double smallerExtent,
+                    const std::string& length, Faults& faults) {
   constexpr double tiny = 0.25;
   constexpr double large = 0.5;
   const double gap = interface.initialDistance().minCoeff();
@@ -228,7 +228,7 @@ void checkInterface(const ContactDescription& contact, const Side& one, const Si
     faults.add("gap-large", contact.where,
                "the bodies are at least " + digits(gap, 4) + " " + length + " apart, the smaller one is " +
                    digits(smallerExtent, 4) + " " + length + " wide");
-  if (contact.variant == CouplingKind::interpolation && !meshesMatch(interface))
+  if (contact.variant == CouplingKind::interpolation && !tool && !meshesMatch(interface))
     faults.add("interpolation-unmatched", contact.where,
                "interpolation on meshes that do not match has an error of order one along the contact line");
 }
@@ -295,19 +295,23 @@ void checkSliding(const LintInput& input, const ContactDescription& contact, con
 }  // namespace
 
 void lintContacts(const LintInput& input, Faults& faults) {
+  const auto isTool = [&](const ContactDescription& contact) {
+    return input.scene.bodies[bodyIndex(input.scene, contact.mortar.body)].isTool();
+  };
   for (size_t k = 0; k < input.scene.contacts.size(); ++k) {
     const ContactDescription& contact = input.scene.contacts[k];
     for (size_t j = 0; j < k; ++j)
       for (const SideDescription* a : {&contact.nonmortar, &contact.mortar})
         for (const SideDescription* b : {&input.scene.contacts[j].nonmortar, &input.scene.contacts[j].mortar})
-          if (a->body == b->body && a->label == b->label)
+          if (a->body == b->body && a->label == b->label && !isTool(contact) &&
+              !isTool(input.scene.contacts[j]))
             faults.add(
                 "contact-side-twice", a->where,
                 name(sideOf(input, *a, a->label)) + " is a side of another contact too, at " + b->where);
     const Side one = sideOf(input, contact.nonmortar, contact.nonmortar.label);
     const Side two = sideOf(input, contact.mortar, contact.mortar.label);
     if (one.edges == 0 || two.edges == 0) continue;  // named elsewhere
-    if (!refinesMeshes(input.scene)) compareMeshes(input, contact, one, two, faults);
+    if (!refinesMeshes(input.scene) && !isTool(contact)) compareMeshes(input, contact, one, two, faults);
     const ContactPair pair{{0, contact.nonmortar.label}, {1, contact.mortar.label}, contact.variant};
     checkFriction(contact, faults);
     const MemoryNeed need = memoryNeed({one.mesh, two.mesh}, {pair}, input.scene.degree,
@@ -315,8 +319,8 @@ void lintContacts(const LintInput& input, Faults& faults) {
     if (need.all > availableMemory()) continue;  // buildModel tells
     try {
       const ContactInterface interface = interfaceOf(contact, one, two, false);
-      checkInterface(contact, one, two, interface, std::min(extent(*one.mesh), extent(*two.mesh)),
-                     input.scene.units.length, faults);
+      checkInterface(contact, one, two, interface, isTool(contact),
+                     std::min(extent(*one.mesh), extent(*two.mesh)), input.scene.units.length, faults);
       checkConditions(input, contact, interface, faults);
       checkSliding(input, contact, one, two, interface, faults);
     } catch (const InputError& error) {

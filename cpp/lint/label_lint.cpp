@@ -203,6 +203,7 @@ void lintLabels(const LintInput& input, Faults& faults) {
     if (input.meshes[b] == nullptr) continue;
     const Topology& topology = input.topologies[b];
     findMissing(input, b, topology, faults);
+    if (input.scene.bodies[b].isTool()) continue;
     findMissingPoints(input, b, faults);
     findUnused(input, b, topology, faults);
     findLocked(input, b, faults);

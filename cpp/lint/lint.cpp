@@ -157,6 +157,7 @@ void build(ResolvedScene resolved, LintReport& report) {
 
 std::string LintInput::where(const std::vector<std::string>& keys, size_t body) const {
   const Node* at = scene.document.get();
+  if (body >= scene.bodies.size() || scene.bodies[body].isTool()) return scene.path;
   for (const std::string& key : keys) {
     const Node* next = at->isTable() ? at->find(key) : nullptr;
     if (next == nullptr) break;

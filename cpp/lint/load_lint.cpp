@@ -34,6 +34,7 @@ void checkDatum(const LintInput& input, const SampledDatum& datum, Faults& fault
   const std::string& length = input.scene.units.length;
   if (datum.kind == Kind::displacement) {
     const double most = datum.largestIn(input.scene.time);
+    if (body.isTool()) return;  // it does not strain
     if (most > large * datum.size)
       faults.add("large-displacement", placeOf(*datum.value),
                  subject + "a displacement of " + digits(most, 4) + " " + length +
@@ -147,7 +148,7 @@ void lintLoads(const LintInput& input, Faults& faults) {
   }
   for (size_t b = 0; b < input.meshes.size(); ++b) {
     complete = complete && input.meshes[b] != nullptr;
-    if (input.meshes[b] != nullptr) checkHeldLoads(input, b, faults);
+    if (input.meshes[b] != nullptr && !input.scene.bodies[b].isTool()) checkHeldLoads(input, b, faults);
   }
   if (!complete) return;
   // What presses or stresses bodies from the start.

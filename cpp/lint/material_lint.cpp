@@ -216,6 +216,7 @@ void lintMaterials(const LintInput& input, Faults& faults) {
       time.controlled() ? 0 : nominalStress(input.scene, data, time.end / time.steps);
   double stiffest = 0;
   for (size_t b = 0; b < input.scene.bodies.size(); ++b) {
+    if (input.scene.bodies[b].isTool()) continue;
     double onBody = 0;
     for (const SampledDatum& datum : data) {
       if (datum.body != b ||

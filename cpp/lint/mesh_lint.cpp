@@ -210,7 +210,7 @@ void findLostDigits(const TriangleMesh& mesh, const std::string& length, Faults&
 
 void lintMeshes(const LintInput& input, Faults& faults) {
   for (size_t b = 0; b < input.meshes.size(); ++b) {
-    if (input.meshes[b] == nullptr) continue;
+    if (input.meshes[b] == nullptr || input.scene.bodies[b].isTool()) continue;
     const TriangleMesh& mesh = *input.meshes[b];
     const Topology& topology = input.topologies[b];
     findParts(mesh, faults);

@@ -31,6 +31,7 @@ struct Maker {
   TriangleMesh operator()(const Quadrilateral& quadrilateral) const {
     return quadrilateralMesh(quadrilateral, cut);
   }
+  TriangleMesh operator()(const Outline& outline) const { return outlineMesh(outline); }
   TriangleMesh operator()(const Annulus& annulus) const {
     TriangleMesh mesh = annulusMesh(annulus, cut);
     putMiddlesOn(mesh, {{1, annulus.centre, -annulus.inner}, {2, annulus.centre, annulus.outer}});

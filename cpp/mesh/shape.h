@@ -4,11 +4,12 @@
 #include <variant>
 
 #include "mesh/generate.h"
+#include "mesh/outline.h"
 
 namespace mortier {
 
 struct MeshShape {
-  std::variant<Rectangle, Quadrilateral, Annulus, HalfDisc> of;
+  std::variant<Rectangle, Quadrilateral, Annulus, HalfDisc, Outline> of;
   Cut cut = Cut::rising;
 };
 

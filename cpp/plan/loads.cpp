@@ -56,6 +56,16 @@ std::vector<SampledDatum> sampledData(const MeshedScene& input) {
     const TriangleMesh& mesh = *input.meshes[b];
     const double size = extent(mesh);
     for (const ConditionDescription& c : input.scene.bodies[b].conditions) {
+      if (const BodyDescription& tool = input.scene.bodies[b]; tool.isTool()) {
+        // A force is as of a pressure over its size, a rotation moves its ends by its size.
+        const bool moves = c.kind == ConditionDescription::Kind::displacement;
+        data.push_back({moves ? SampledDatum::Kind::displacement : SampledDatum::Kind::force,
+                        b,
+                        &c.value,
+                        {*c.point},
+                        moves ? (c.component > alongY ? 1 : size) : 1 / size});
+        continue;
+      }
       std::vector<Point> points;
       for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
         if (c.actsOn(mesh.boundaryLabels[e]))

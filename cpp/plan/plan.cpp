@@ -64,6 +64,12 @@ class Planner {
   void planBody(size_t b) {
     const Body& body = model_.bodies[b];
     const std::string part = "body " + body.name();
+    if (body.rigid()) {
+      add(part, true,
+          "rigid: it moves as a whole, and contact alone holds " + counted(body.freeDofs(), "motion"),
+          "it is a tool");
+      return;
+    }
     planPoints(b);
     const std::string& choice = scene_.bodies[b].volumeChoice;
     if (body.patches() != nullptr)

@@ -121,6 +121,12 @@ void writeCells(VtuFile& file, const ElementNodes& nodes) {
 }
 
 void writeCellData(VtuFile& file, const Body& body, const BodyState& state, const ErrorEstimate& estimate) {
+  if (body.rigid()) {
+    file.open("CellData");
+    file.integers("Int32", "region", body.mesh().regions);
+    file.shut("CellData");
+    return;
+  }
   const CellFields fields = cellFields(body, state);
   file.open("CellData", "Scalars=\"von_mises\"");
   const auto components = static_cast<int>(fields.stress.rows());
@@ -152,7 +158,7 @@ PointVector allCartesian(PointVector s) {
 
 CellFields cellFields(const Body& body, const BodyState& state) {
   const auto cells = static_cast<Eigen::Index>(body.mesh().triangles.size());
-  const Eigen::Index pointsPerCell = state.stress.cols() / cells;
+  const Eigen::Index pointsPerCell = std::max<Eigen::Index>(1, state.stress.cols() / cells);  // of a tool 0
   const Eigen::Index components = body.material().tensorComponents();
   const Matrix strain = strainOfLaw(body.material(), state);
   CellFields fields{Matrix::Zero(components, cells), Matrix(components * pointsPerCell, cells),

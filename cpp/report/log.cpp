@@ -41,6 +41,7 @@ std::string polygon(const ContactInterface& interface) {
 /// A line for each law of a body, with its parameters.
 std::string materials(const Body& body, const Units& units) {
   std::string text;
+  if (body.rigid()) return text;
   for (const LawDescription& law : body.material().laws()) {
     text += "material   " + body.name() + " " + law.text();
     for (const auto& [name, value, unit] : law.parameters) {
@@ -60,7 +61,7 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     text += (b == 0 ? "bodies     " : ", ") + body.name() + " " + std::to_string(body.dofs()) + " dofs, " +
-            lawsOf(body.material());
+            lawsOf(body);
   }
   text += "; plane " + facts.plane + "\n";
   for (const Body& body : model.bodies) {

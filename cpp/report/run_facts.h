@@ -18,10 +18,11 @@ inline std::string joined(const std::set<std::string>& words, const std::string&
   return text.empty() ? none : text;
 }
 
-/// The laws of a material in a line, each once: "Perzyna (frobenius), elastic".
-inline std::string lawsOf(const Material& material) {
+/// The laws of a body in a line, each once: "Perzyna (frobenius), elastic".
+inline std::string lawsOf(const Body& body) {
+  if (body.rigid()) return "rigid";
   std::set<std::string> names;
-  for (const LawDescription& law : material.laws()) names.insert(law.text());
+  for (const LawDescription& law : body.material().laws()) names.insert(law.text());
   return joined(names);
 }
 

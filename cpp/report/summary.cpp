@@ -46,8 +46,8 @@ Json bodies(const Model& model) {
   Json list = Json::array();
   for (const Body& body : model.bodies)
     list.push_back({{"name", body.name()},
-                    {"material", lawsOf(body.material())},
-                    {"laws", laws(body.material())},
+                    {"material", lawsOf(body)},
+                    {"laws", body.rigid() ? Json::array() : laws(body.material())},
                     {"triangles", body.mesh().triangles.size()},
                     {"nodes", body.nodes()},
                     {"dofs", body.dofs()},

@@ -211,10 +211,26 @@ void requireOneDisplacement(const TriangleMesh& mesh, std::vector<PrescribedDisp
   requireOneDisplacement(Supports(mesh, prescribed), described, mesh, times);
 }
 
+Body buildTool(const BodyDescription& tool, TriangleMesh mesh, const SceneDescription& scene,
+               const std::vector<double>& times) {
+  const bool axisymmetric = scene.plane == Plane::axisymmetric;
+  RigidMotion motion{*tool.reference, {}, {}};
+  for (const ConditionDescription& c : tool.conditions) {
+    requireFinite(c.value, {motion.at}, times);
+    const bool held = c.kind == ConditionDescription::Kind::displacement;
+    (held ? motion.held : motion.force)[c.component] = finiteValue(c.value);
+  }
+  Conditions conditions;
+  conditions.rigid = std::move(motion);
+  return {tool.name,    std::move(mesh), buildMaterial(tool.material, scene.plane, {}), std::move(conditions),
+          scene.degree, axisymmetric};
+}
+
 }  // namespace
 
 Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescription& scene,
                const std::vector<double>& times) {
+  if (body.isTool()) return buildTool(body, std::move(mesh), scene, times);
   Conditions conditions;
   std::vector<const ConditionDescription*> displacements;
   for (const ConditionDescription& c : body.conditions) {

@@ -27,6 +27,11 @@ std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model
     Quantity quantity{description.name,  description.kind,      bodyIndex(scene, description.body),
                       description.label, description.component, description.about};
     const Body& body = model.bodies[quantity.body];
+    if (description.whole) {
+      quantity.whole = true;
+      quantities.push_back(std::move(quantity));
+      continue;
+    }
     const auto refuse = [&](const std::string& what) {
       throw InputError(description.where + ": quantity " + quantity.name + ": " + what);
     };

@@ -22,6 +22,7 @@ std::vector<char> heldDofs(const TriangleMesh& mesh, const std::vector<Condition
   for (const ConditionDescription& condition : conditions) {
     if (condition.kind != ConditionDescription::Kind::displacement) continue;
     if (condition.point) {
+      if (condition.component > alongY) continue;
       const int vertex = vertexAt(mesh, *condition.point);
       if (vertex >= 0) held[2 * vertex + condition.component] = 1;
       continue;

@@ -14,7 +14,7 @@ title | | empty | a string | shown in results
 plane | | `"stress"` | `"stress"`, `"strain"`, `"axisymmetric"` | of all bodies: thin plates (s33 = 0), long
   bodies with no strain across the plane ([below](#plane-strain)), or bodies that turn about the axis x = 0
   ([below](#bodies-of-revolution))
-body, contact, quantity, time, solver, output, check
+body, tool, contact, quantity, time, solver, output, check
 degree | | 1 | integer >= 1, at most 2 | of the displacements: linear triangles, or quadratic ones (six nodes,
   stresses at three points); middles of sides lie on the curve where Gmsh knows it
 accuracy
@@ -127,6 +127,21 @@ pressure | Pa | 0 | datum | traction -p n on the sides as meshed, straight or cu
 [body.point] `[[body.point]]` | | none | any number | what holds one vertex ([below](#supports-at-points))
 at | m | | `[x, y]` | the vertex: to a thousandth of the shortest edge there
 ux, uy | m | free | datum, one of them at least | prescribed displacement
+[tool] `[[tool]]` | | none | any number | a rigid body, without material and mesh ([below](#rigid-tools))
+name | | | letters, digits, `_`, `-`; each once | names files and messages
+shape | | | `"line"`, `"disc"`, `"rectangle"`, `"polygon"`, `"spline"` | of its outline
+points | m | | `[[x, y], ...]`; with shape = "line", "polygon", "spline" | two ends, corners, or points that
+  the spline goes through; the tool lies to the left of the way
+labels | | 1, 2, ... | an integer a side; with shape = "polygon" | of the sides, from the first corner on
+centre | m | | `[x, y]`; with shape = "disc" | of the circle
+radius | m | | > 0; with shape = "disc" | of the circle
+lower, upper | m | | `[x, y]`; with shape = "rectangle" | its corners; labels 1 bottom, 2 right, 3 top, 4 left
+mesh | m | | as `mesh` of a body | in place of a shape: a file, of which the outline is used
+at | m | the centre | `[x, y]` | the point about which it turns, and whose displacement is prescribed
+ux, uy | m | 0 | datum in t | prescribed displacement
+rotation | rad | 0 | datum in t | prescribed rotation about `at`, counterclockwise, linear
+fx, fy | N/m | | datum in t | in place of `ux`, `uy`: force on the tool, which is free in this direction
+moment | N | | datum in t | in place of `rotation`: moment about `at`; the tool turns freely
 [contact] `[contact]` or `[[contact]]` | | none | any number | unilateral contact of two bodies, without
   friction unless it is given
 nonmortar | | | `{ body = "name", label = 1 }` | the side that carries the contact pressure and its conditions
@@ -158,11 +173,13 @@ body, label
 [quantity] `[[quantity]]` | | none | any number | a number of every step, in `history.csv`, the log and
   `summary.json` ([below](#quantities))
 name | | | letters, digits, `_`, `-`; each once | the column
-reaction | N/m | | `{ body = "name", label = 1 }`, `{ body = "name", point = [x, y] }` | what the supports of
-  the label, or of the point, exert on the body
-contact_force | N/m | | `{ body = "name", label = 1 }` | what contact exerts on the body along the label
-displacement | m | | `{ body = "name", point = [x, y] }` or `{ body = "name", label = 1 }` | at a point (where
-  it was at t = 0), or the mean over a label
+reaction | N/m | | `{ body = "name", label = 1 }`, `{ body = "name", point = [x, y] }`, of a tool
+  `{ body = "name" }` | what the supports of the label, or of the point, exert on the body, or what moves
+  a tool
+contact_force | N/m | | `{ body = "name", label = 1 }`, of a tool also `{ body = "name" }` | what contact
+  exerts on the body along the label
+displacement | m | | `{ body = "name", point = [x, y] }`, `{ body = "name", label = 1 }`, of a tool also
+  `{ body = "name" }` | at a point (where it was at t = 0), the mean over a label, or of `at`
 stored_energy | J/m | | `{ body = "name" }` | recoverable energy of the body: elastic energy, and that
   of hardening and of both springs of a standard solid; of a user-defined law the elastic energy alone
 dissipated_energy | J/m | | `{ body = "name" }` | energy turned into heat since the run began: time integral
@@ -181,9 +198,9 @@ friction_work | J/m | | `{ body = "name", label = 1 }` | energy dissipated by fr
 mean_pressure | Pa | | `{ body = "name", label = 1 }`, with `from = [x, y]` and `to = [x, y]`, with `margin` |
   the mean of the contact pressure over the side, or over the part of it between two points
   ([below](#quantities))
-component | | | `"x"`, `"y"`, `"moment"` (of forces) | of reactions, contact forces and displacements; moments
-  [N] are counterclockwise
-about | m | [0, 0] | `[x, y]` | the point of a moment
+component | | | `"x"`, `"y"`, `"moment"` (of forces), `"rotation"` (of a tool) | of reactions, contact forces
+  and displacements; moments [N] and rotations [rad] are counterclockwise
+about | m | [0, 0], of a tool `at` | `[x, y]` | the point of a moment
 [quantity.stored_energy quantity.dissipated_energy quantity.work quantity.external_work quantity.thermal_work
   quantity.largest_mises]
 body

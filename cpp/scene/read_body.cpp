@@ -114,6 +114,8 @@ void requireFileKeys(const TableReader& table) {
     if (!isOneOf(member.key, known)) table.reject(member.key, "it beside shape; of a file " + joined(known));
 }
 
+}  // namespace
+
 /// A path, or a table with what is to be made of the file, or of what shape the mesh is.
 void readMeshSource(const TableReader& owner, const std::string& scenePath, BodyDescription& body) {
   const Node& node = owner.require("mesh", "a Medit .mesh file, or a file for Gmsh");
@@ -146,8 +148,6 @@ void readMeshSource(const TableReader& owner, const std::string& scenePath, Body
   if (std::error_code ignored; !std::filesystem::is_regular_file(body.mesh.path, ignored))
     owner.reject("mesh", "a Medit .mesh file, or a file for Gmsh (there is none at " + body.mesh.path + ")");
 }
-
-}  // namespace
 
 BodyDescription readBody(const Node& node, const std::string& scenePath, size_t index) {
   const Node* name = node.find("name");

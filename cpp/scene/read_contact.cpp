@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include "base/fault_error.h"
@@ -7,11 +8,24 @@ namespace mortier {
 
 namespace {
 
+/// Of a tool whose outline has one, but for what closes it.
+std::optional<int> onlyLabel(const BodyDescription& tool) {
+  if (!tool.isTool() || !tool.mesh.shape || tool.mesh.path == "rectangle") return std::nullopt;
+  const std::vector<int>& labels = std::get<Outline>(tool.mesh.shape->of).labels;
+  if (tool.mesh.path == "polygon" &&
+      std::count(labels.begin(), labels.end(), labels[0]) != static_cast<std::ptrdiff_t>(labels.size()))
+    return std::nullopt;
+  return labels[0];
+}
+
 SideDescription readSide(const Node& node, const std::string& key, const SceneDescription& scene) {
   const TableReader table(node, "contact." + key,
                           key == "sides" ? "side of contact" : key + " side of contact");
+  const std::string body = nameOfBody(table, scene);
+  if (const auto only = onlyLabel(scene.bodies[bodyIndex(scene, body)]); only && !table.has("label"))
+    return {body, *only, "", node.where};
   const auto [label, labelName] = table.label("label");
-  return {nameOfBody(table, scene), label, labelName, table.find("label")->where};
+  return {body, label, labelName, table.find("label")->where};
 }
 
 /// `nonmortar` and `mortar`, or `sides` in any order.
@@ -19,9 +33,15 @@ void readSides(const TableReader& table, const SceneDescription& scene, ContactD
   constexpr auto example = "{ body = \"...\", label = ... }";
   const std::vector<const Node*> sides = table.tables("sides");
   contact.sidesGiven = sides.empty();
+  const auto isTool = [&](const SideDescription& side) {
+    return scene.bodies[bodyIndex(scene, side.body)].isTool();
+  };
   if (contact.sidesGiven) {
     contact.nonmortar = readSide(table.require("nonmortar", example), "nonmortar", scene);
     contact.mortar = readSide(table.require("mortar", example), "mortar", scene);
+    if (isTool(contact.nonmortar) || (isTool(contact.mortar) && table.boolean("swap")))
+      table.refuse(*table.find("nonmortar"),
+                   "a tool as the nonmortar side, expected the body: pressures and conditions are its own");
     return;
   }
   for (const char* other : {"nonmortar", "mortar"})
@@ -33,6 +53,13 @@ void readSides(const TableReader& table, const SceneDescription& scene, ContactD
   }
   contact.nonmortar = readSide(*sides[0], "sides", scene);
   contact.mortar = readSide(*sides[1], "sides", scene);
+  const int tools = (isTool(contact.nonmortar) ? 1 : 0) + (isTool(contact.mortar) ? 1 : 0);
+  if (tools == 0) return;
+  if (tools == 2) table.refuse(*table.find("sides"), "two tools in contact, expected a body on one side");
+  if (isTool(contact.nonmortar)) std::swap(contact.nonmortar, contact.mortar);
+  table.rejectIfGiven({"swap"}, "it only beside two bodies: of a tool and a body the body is nonmortar");
+  contact.sidesGiven = true;
+  contact.choice = "nonmortar is the body, mortar the tool";
 }
 
 /// \throws InputError  where friction stands together with what does not support it
@@ -80,7 +107,8 @@ ContactDescription readContact(const Node& node, const SceneDescription& scene) 
   }
   for (const ContactDescription& other : scene.contacts) {
     if (other.nonmortar.body == contact.nonmortar.body && other.nonmortar.label == contact.nonmortar.label &&
-        other.nonmortar.labelName == contact.nonmortar.labelName && contact.sidesGiven && other.sidesGiven) {
+        other.nonmortar.labelName == contact.nonmortar.labelName && contact.sidesGiven && other.sidesGiven &&
+        !scene.bodies[bodyIndex(scene, contact.mortar.body)].isTool()) {
       throw InputError(table.message(contact.nonmortar.where,
                                      "label " + std::to_string(contact.nonmortar.label) + " of body " +
                                          contact.nonmortar.body + " is nonmortar twice, expected once"));

@@ -33,6 +33,7 @@ QuantityDescription readQuantity(const Node& node, const SceneDescription& scene
   for (const std::string& key : keysOf("quantity"))
     if (!keysOf("quantity." + key).empty()) kinds.push_back(key);
   int given = 0;
+  const BodyDescription* tool = nullptr;
   for (size_t k = 0; k < kinds.size(); ++k) {
     const std::string& key = kinds[k];
     if (!table.has(key)) continue;
@@ -40,10 +41,19 @@ QuantityDescription readQuantity(const Node& node, const SceneDescription& scene
     const Kind kind = quantity.kind = static_cast<Kind>(k);
     const TableReader of(*table.find(key), "quantity." + key, "quantity " + quantity.name + ": " + key);
     quantity.body = nameOfBody(of, scene);
+    const BodyDescription& body = scene.bodies[bodyIndex(scene, quantity.body)];
+    if (body.isTool()) tool = &body;
+    if (tool != nullptr && (kind == Kind::largestMises || kind == Kind::storedEnergy ||
+                            kind == Kind::dissipatedEnergy || kind == Kind::thermalWork))
+      of.reject("body", "one that strains: a tool has no stress and no energy");
+    if (tool != nullptr && kind == Kind::reaction)
+      of.rejectIfGiven({"label", "point"}, "none of a tool: it is held as a whole");
     if (of.has("point")) {
       of.rejectIfGiven({"label"}, "either label or point");
       quantity.point = of.point("point");
       quantity.where = of.find("point")->where;
+    } else if (tool != nullptr && !of.has("label") && hasComponent(kind)) {
+      quantity.whole = true;
     } else if (ofLabel(kind)) {
       const auto [label, labelName] = of.label("label");
       quantity.label = label;
@@ -60,11 +70,14 @@ QuantityDescription readQuantity(const Node& node, const SceneDescription& scene
     return quantity;
   }
   Keys components = keyAt("quantity", "component").words;
-  if (quantity.kind == Kind::displacement) components.pop_back();
-  quantity.component = static_cast<Quantity::Component>(table.oneOf("component", components));
+  const bool moves = quantity.kind == Kind::displacement;
+  components.resize(moves ? 2 : 3);
+  if (moves && quantity.whole) components.emplace_back("rotation");
+  const int component = table.oneOf("component", components);
+  quantity.component = static_cast<Quantity::Component>(moves && component == 2 ? 3 : component);
   if (quantity.component != Quantity::Component::moment)
     table.rejectIfGiven({"about"}, "it only beside component = \"moment\"");
-  quantity.about = table.point("about", Point(0, 0));
+  quantity.about = table.point("about", tool != nullptr ? *tool->reference : Point(0, 0));
   return quantity;
 }
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "scene/readers.h"
 
 namespace mortier {
@@ -17,18 +19,28 @@ Point pairOf(const TableReader& table, const std::string& key, bool whole) {
 
 std::array<Point, 4> cornersOf(const TableReader& table) {
   constexpr const char* expected = "four corners [[x, y], ...], counterclockwise";
-  const Node& node = table.require("corners", expected);
+  const std::vector<Point> points = readPoints(table, "corners", expected);
   std::array<Point, 4> corners;
-  if (!node.isArray() || node.elements.size() != corners.size()) table.reject("corners", expected);
-  for (size_t k = 0; k < corners.size(); ++k) {
-    const std::vector<Node>& x = node.elements[k].elements;
-    if (x.size() != 2 || !x[0].isNumeric() || !x[1].isNumeric()) table.reject("corners", expected);
-    corners[k] = {x[0].value, x[1].value};
-  }
+  if (points.size() != corners.size()) table.reject("corners", expected);
+  std::copy(points.begin(), points.end(), corners.begin());
   return corners;
 }
 
 }  // namespace
+
+std::vector<Point> readPoints(const TableReader& table, const std::string& key, const std::string& expected) {
+  const Node& node = table.require(key, expected);
+  if (!node.isArray()) table.reject(key, expected);
+  std::vector<Point> points;
+  for (const Node& element : node.elements) {
+    const std::vector<Node>& x = element.elements;
+    const bool finite = x.size() == 2 && x[0].isNumeric() && x[1].isNumeric() && std::isfinite(x[0].value) &&
+                        std::isfinite(x[1].value);
+    if (!finite) table.reject(key, expected);
+    points.emplace_back(x[0].value, x[1].value);
+  }
+  return points;
+}
 
 MeshShape readShape(const TableReader& table) {
   enum Family { rectangle, quadrilateral, annulus, halfDisc, quarterDisc };

@@ -30,6 +30,13 @@ BodyDescription readBody(const Node& node, const std::string& scenePath, size_t 
 /// `mesh = { shape = "rectangle", ... }`
 MeshShape readShape(const TableReader& table);
 
+/// Its mesh. \param owner  of the key `mesh`
+void readMeshSource(const TableReader& owner, const std::string& scenePath, BodyDescription& body);
+/// [[tool]]; the plane of the scene is known.
+BodyDescription readTool(const Node& node, const SceneDescription& scene, size_t index);
+/// [[x, y], ...] \throws InputError that says what was expected
+std::vector<Point> readPoints(const TableReader& table, const std::string& key, const std::string& expected);
+
 /// Elasticity, and the law by which it flows; a key that belongs to another law is refused.
 MaterialDescription readMaterial(const Node& node, const std::string& path, const std::string& subject);
 /// Plasticity has no rate at a given stress: a scene whose steps need one is refused.

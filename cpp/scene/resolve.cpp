@@ -16,7 +16,9 @@ void forEachPlace(SceneDescription& scene, const NumberLabel& boundary, const Nu
                   const PlacePoint& vertex) {
   for (int b = 0; b < static_cast<int>(scene.bodies.size()); ++b) {
     for (ConditionDescription& c : scene.bodies[b].conditions)
-      if (c.point)
+      if (scene.bodies[b].isTool())
+        continue;
+      else if (c.point)
         vertex(b, *c.point, c.where);
       else
         boundary(b, c.label, c.labelName, c.where);
@@ -26,7 +28,9 @@ void forEachPlace(SceneDescription& scene, const NumberLabel& boundary, const Nu
     for (SideDescription* side : {&contact.nonmortar, &contact.mortar})
       boundary(bodyIndex(scene, side->body), side->label, side->labelName, side->where);
   for (QuantityDescription& q : scene.quantities)
-    if (ofLabel(q.kind) && !q.point)
+    if (q.whole)
+      continue;
+    else if (ofLabel(q.kind) && !q.point)
       boundary(bodyIndex(scene, q.body), q.label, q.labelName, q.where);
     else if (q.kind == Quantity::Kind::reaction)
       vertex(bodyIndex(scene, q.body), *q.point, q.where);
@@ -45,7 +49,8 @@ TriangleMesh meshOf(const BodyDescription& body) {
   try {
     return shapeMesh(*body.mesh.shape);
   } catch (const InputError& error) {
-    throw InputError(body.meshWhere + ": body " + body.name + ": mesh: " + error.what());
+    throw InputError(body.meshWhere + (body.isTool() ? ": tool " : ": body ") + body.name +
+                     (body.isTool() ? ": shape: " : ": mesh: ") + error.what());
   }
 }
 

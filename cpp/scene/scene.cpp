@@ -143,6 +143,40 @@ void readOptions(const TableReader& root, SceneDescription& scene) {
   }
 }
 
+void requireOwnName(const SceneDescription& scene, const BodyDescription& body) {
+  if (const int other = bodyIndex(scene, body.name); other >= 0)
+    throw InputError(body.where + (body.isTool() ? ": tool " : ": body ") + body.name + ": name = \"" +
+                     body.name + "\", expected a name of its own, there is one at " +
+                     scene.bodies[other].where);
+}
+
+/// Tools are bodies after all others.
+void readTools(const TableReader& root, SceneDescription& scene) {
+  const std::vector<const Node*> tools = root.tables("tool");
+  double stiffest = 0;  // what a displacement of a tool may press with
+  for (const BodyDescription& body : scene.bodies)
+    stiffest = std::max(stiffest, body.material.elasticity.young);
+  for (size_t i = 0; i < tools.size(); ++i) {
+    BodyDescription tool = readTool(*tools[i], scene, i);
+    requireOwnName(scene, tool);
+    const std::string subject = tool.where + ": tool " + tool.name + ": a tool, expected none beside ";
+    if (scene.accuracy.bound)
+      throw InputError(subject + "accuracy.bound: bounds are of bodies that all strain");
+    if (scene.solver.method != Method::newton)
+      throw InputError(subject + "solver.method = \"penalty-duality\"");
+    tool.material.elasticity.young = stiffest;
+    scene.bodies.push_back(std::move(tool));
+  }
+}
+
+void requireToolsTouch(const SceneDescription& scene) {
+  for (const BodyDescription& tool : scene.bodies)
+    if (tool.isTool() &&
+        std::none_of(scene.contacts.begin(), scene.contacts.end(),
+                     [&](const ContactDescription& c) { return c.mortar.body == tool.name; }))
+      throw InputError(tool.where + ": tool " + tool.name + ": in no contact, expected one with a body");
+}
+
 }  // namespace
 
 SceneDescription readScene(const std::string& path, const std::vector<std::string>& settings) {
@@ -169,15 +203,13 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   }
   for (size_t i = 0; i < bodies.size(); ++i) {
     BodyDescription body = readBody(*bodies[i], path, i);
-    if (const int other = bodyIndex(scene, body.name); other >= 0) {
-      throw InputError(body.where + ": body " + body.name + ": name = \"" + body.name +
-                       "\", expected a name of its own, there is one at " + scene.bodies[other].where);
-    }
+    requireOwnName(scene, body);
     requireInPlane(body, scene.plane);
     requireRates(body, scene);
     requireKnownTo(scene, body);
     scene.bodies.push_back(std::move(body));
   }
+  readTools(root, scene);
   for (const Node* contact : root.tables("contact")) {
     scene.contacts.push_back(readContact(*contact, scene));
     if (scene.accuracy.energy > 0 && scene.degree == 2 &&
@@ -196,6 +228,7 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   for (const Node* quantity : root.tables("quantity")) {
     scene.quantities.push_back(readQuantity(*quantity, scene));
   }
+  requireToolsTouch(scene);
   for (const ContactDescription& contact : scene.contacts)
     scene.time.slidingAllowed.push_back(contact.slidingAllowed);
   requireAboutAxis(root, scene);

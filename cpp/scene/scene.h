@@ -109,7 +109,13 @@ struct BodyDescription {
   Volume volume = Volume::automatic;  ///< resolveScene decides what is left to the program
   std::string volumeWhere;            ///< empty where the scene does not say it
   std::string volumeChoice;           ///< why it is that one, where the program has chosen it for a reason
+  /// Of a tool, which is rigid and has no material: the point about which it turns [m]. Its conditions are
+  /// those of its motions, all three at this point: along x, along y, and the rotation, as displacements [m],
+  /// [rad] or as forces [N/m], [N].
+  std::optional<Point> reference = {};
   std::string where;
+
+  [[nodiscard]] bool isTool() const { return reference.has_value(); }
 };
 
 struct SideDescription {
@@ -149,6 +155,7 @@ struct QuantityDescription {
     double margin = 0;  ///< [m]
   };
   std::optional<Part> part;  ///< of the line of a mean pressure; none: all of it
+  bool whole = false;        ///< of a tool, in place of the label
   std::string where;         ///< of the label or the point
 };
 

@@ -53,6 +53,7 @@ double edgeRatio(const TriangleMesh& nonmortar, int label, const TriangleMesh& m
 bool isWall(const SceneDescription& scene, const SideDescription& side,
             const std::vector<const TriangleMesh*>& meshes) {
   const size_t body = bodyIndex(scene, side.body);
+  if (scene.bodies[body].isTool()) return true;
   if (meshes[body] == nullptr) return false;
   const auto& vertices = meshes[body]->vertices;
   const std::vector<char> held = heldDofs(*meshes[body], scene.bodies[body].conditions);

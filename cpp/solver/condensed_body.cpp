@@ -26,6 +26,16 @@ double largestOf(const Eigen::Ref<const Matrix>& columns, Threads& threads) {
   return largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
 }
 
+/// Of a rigid body: what its motions have in place of a compliance, so that no condition is without one. As z
+/// carries them it never acts. Its material is as stiff as what it touches.
+double softnessOf(const Body& body) {
+  Matrix stress = Matrix::Zero(body.material().components(), 1);
+  stress(1, 0) = 1;
+  Matrix strain;
+  body.material().elasticStrain(stress, strain);
+  return strain.norm();
+}
+
 }  // namespace
 
 CondensedBody::CondensedBody(const Model& model, int body, const std::vector<int>& firstRow,
@@ -41,7 +51,7 @@ CondensedBody::CondensedBody(const Model& model, int body, const std::vector<int
       ranks_(model.ranks),
       allPoints_(model.points(body)) {
   law_ = body_.material().room(body_.points());
-  if (!whole_) solver_ = newSolver();
+  if (!whole_ && !body_.rigid()) solver_ = newSolver();
 }
 
 std::unique_ptr<CondensingSolver> CondensedBody::newSolver() const {
@@ -157,6 +167,7 @@ double CondensedBody::rounding(const Matrix& stress0, const BodyIterate& iterate
 }
 
 CondensedBody::Factors CondensedBody::factorise() {
+  if (body_.rigid()) return {};
   factorisedElastic_ = law_.elastic;
   const bool elastic = this->elastic();
   if (reduce_ && factorised_ && elastic && elasticFactors_) return {};
@@ -207,6 +218,11 @@ void CondensedBody::useSchurComplement(Factors& factors) {
 }
 
 void CondensedBody::addCompliance(Matrix& W) const {
+  if (body_.rigid()) {
+    const Matrix G = contact_.C * contact_.R;
+    W += softnessOf(body_) * G * G.transpose();
+    return;
+  }
   constexpr Eigen::Index atOnce = 64;
   const Eigen::SparseMatrix<double> columns = contact_.C.transpose();  // contact dofs x contact rows
   threads_.forEach(static_cast<int>((columns.cols() + atOnce - 1) / atOnce), [&](int i) {
@@ -223,7 +239,7 @@ void CondensedBody::addCompliance(Matrix& W) const {
 void CondensedBody::useSuiteSparse() {
   if (engine_ == LinearEngine::suitesparse) return;
   engine_ = LinearEngine::suitesparse;
-  if (whole_) return;
+  if (whole_ || body_.rigid()) return;
   solver_ = newSolver();
   factorised_ = false;
 }
@@ -241,6 +257,10 @@ Vector CondensedBody::leftOver(const Vector& load, const Matrix& stress) {
 }
 
 void CondensedBody::condense(const Vector& force) {
+  if (body_.rigid()) {
+    contactForce_ = contact_.motions.transpose() * force;
+    return;
+  }
   if (part_ != nullptr) {
     ownForce_ = -ownForce_;
     for (int node = 0; node < body_.nodes(); ++node)
@@ -251,12 +271,17 @@ void CondensedBody::condense(const Vector& force) {
 }
 
 Vector CondensedBody::joinCondensed() {
+  if (body_.rigid()) return softnessOf(body_) * (contact_.R * contactForce_);
   solver_->joinCondensed(residual_);
   contactForce_ = residual_(contact_.equations);
   return contact_.none() ? contactForce_ : solveSchur(contactForce_);
 }
 
 void CondensedBody::moveContact(const Vector& forceChange, const Vector& z) {
+  if (body_.rigid()) {
+    residual_ = contact_.motions * z;
+    return;
+  }
   if (!contact_.none()) {
     Vector x = solveSchur(contactForce_ - contact_.C.transpose() * forceChange);
     if (contact_.R.cols() > 0) x += contact_.R * (z - contact_.R.transpose() * x);
@@ -266,6 +291,7 @@ void CondensedBody::moveContact(const Vector& forceChange, const Vector& z) {
 }
 
 Vector CondensedBody::expand() {
+  if (body_.rigid()) return residual_;
   solver_->expand(residual_);
   return body_.spread(residual_);
 }

@@ -129,8 +129,8 @@ class CondensedBody {
   LawFacts facts_;
   DenseFactor schurFactor_;  ///< of S
   Vector ownForce_;          ///< of the triangles of a part (dofs)
-  Vector residual_;          ///< right-hand side over equations, condensed in place
-  Vector contactForce_;      ///< its part on the contact dofs
+  Vector residual_;      ///< right-hand side over equations, condensed in place; of a rigid body its motion
+  Vector contactForce_;  ///< its part on the contact dofs
 };
 
 }  // namespace mortier

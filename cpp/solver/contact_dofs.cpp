@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/error.h"
@@ -45,12 +46,18 @@ ContactDofs::ContactDofs(const Model& model, int body, const std::vector<int>& f
 }
 
 void ContactDofs::findEquations(const Model& model, int body, const std::vector<int>& firstRow) {
-  std::vector<int> column(model.bodies[body].freeDofs(), -1);
+  const Body& of = model.bodies[body];
+  // A rigid body has no equations of nodes: contact sees the dofs themselves, which its motions move.
+  const auto partsOf = [&](int node, const Point& vector) {
+    if (!of.rigid() || of.freeDofs() == 0) return of.parts(node, vector);
+    return std::array{Body::Part{2 * node, vector.x()}, Body::Part{2 * node + 1, vector.y()}};
+  };
+  std::vector<int> column(of.rigid() ? of.dofs() : of.freeDofs(), -1);
   int rows = firstRow.back();
   const auto forEachEquation = [&](auto visit) {
     const auto visitParts = [&](int first) {
       return [&, first](int row, int node, const Point& vector) {
-        for (const auto& [equation, value] : model.bodies[body].parts(node, vector))
+        for (const auto& [equation, value] : partsOf(node, vector))
           if (equation >= 0 && std::abs(value) > negligibleShare * vector.norm())
             visit(first + row, equation, value);
       };
@@ -82,7 +89,8 @@ void ContactDofs::findMotions(const Model& model, int body) {
   const Body& of = model.bodies[body];
   motions = model.inParts() ? model.parts[body].motions : rigidModes(of);
   R.resize(static_cast<Eigen::Index>(equations.size()), motions.cols());
-  for (Eigen::Index i = 0; i < motions.cols(); ++i) R.col(i) = of.gather(motions.col(i))(equations);
+  for (Eigen::Index i = 0; i < motions.cols(); ++i)
+    R.col(i) = (of.rigid() ? Vector(motions.col(i)) : of.gather(motions.col(i)))(equations);
   basis_.setIdentity(motions.cols(), motions.cols());
   if (motions.cols() == 0) return;
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(R.transpose() * R);

@@ -9,6 +9,8 @@ namespace {
 /// Whether the supports of a body leave no more than rounding of a direction at a node.
 bool holds(const Body& body, int node, const Point& direction) {
   constexpr double rounding = 1e-9;
+  if (body.rigid())
+    return (body.freeMotions().middleRows<2>(2 * node).transpose() * direction).isZero(rounding);
   for (const auto& [equation, value] : body.parts(node, direction))
     if (equation >= 0 && std::abs(value) > rounding) return false;
   return true;
@@ -31,7 +33,11 @@ bool solvesSparse(const Model& model, const SolverOptions& options) {
   double equations = 0;
   for (const ContactInterface& interface : model.interfaces) conditions += interface.rows();
   for (const Body& body : model.bodies) equations += body.freeDofs();
-  return solvesSparse(conditions, equations, anyFriction(model), options);
+  const bool dense =
+      anyFriction(model) || std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) {
+        return body.rigid() && body.freeDofs() > 0;  // no stiffness stands for them
+      });
+  return solvesSparse(conditions, equations, dense, options);
 }
 
 bool solvesSparse(double conditions, double equations, bool rough, const SolverOptions& options) {

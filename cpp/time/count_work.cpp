@@ -21,6 +21,7 @@ namespace {
 /// r . du, r the part of `forces` along the directions that supports hold.
 double workOfSupports(const Body& body, const Vector& forces, const std::vector<char>& owned,
                       const Vector& du) {
+  if (body.rigid()) return body.heldForce(forces).dot(body.motionOf(du));
   double work = 0;
   for (const NodeSupport& support : body.supports().nodes()) {
     if (!owned.empty() && owned[support.node] == 0) continue;

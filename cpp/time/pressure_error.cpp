@@ -70,6 +70,7 @@ void SpaceErrorEstimator::addPressures(size_t k, const State& state,
                                        std::vector<ErrorEstimate>& estimates) const {
   const ContactInterface& contact = model_.interfaces[k];
   const ContactSide& mortar = contact.pair().mortar;
+  if (model_.bodies[mortar.body].rigid()) return;
   const int degree = model_.bodies[contact.pair().nonmortar.body].degree();
   const TriangleMesh& mesh = model_.bodies[mortar.body].mesh();
   std::map<std::array<int, 2>, size_t> edgeOf;  // in the order of its vertices

@@ -31,6 +31,12 @@ std::map<int, Wrench> reactions(const Model& model, const State& state, int b) {
   model.sumAtNodes(b, forces);
   forces += contactForces(model, state.contactForce, state.frictionForce, b);
   std::map<int, Wrench> result;
+  if (body.rigid()) {
+    const Eigen::Vector3d held = body.heldForce(forces);
+    Wrench& all = result[-1];
+    all.add(body.conditions().rigid->at, held.head<2>());
+    all.moment += held[2];
+  }
   for (const NodeSupport& support : body.supports().nodes()) {
     const Point force = forces.segment<2>(2 * support.node);
     std::array<double, 2> along{support.directions[0].dot(force), 0};
@@ -49,7 +55,7 @@ std::map<int, Wrench> reactions(const Model& model, const State& state, int b) {
   return result;
 }
 
-Wrench contactOn(const Model& model, const State& state, int body, int label) {
+Wrench contactOn(const Model& model, const State& state, int body, std::optional<int> label) {
   const Vector forces = contactForces(model, state.contactForce, state.frictionForce, body, label);
   const ElementNodes& nodes = model.bodies[body].elementNodes();
   const std::vector<int>& labels = model.bodies[body].mesh().boundaryLabels;
@@ -57,7 +63,7 @@ Wrench contactOn(const Model& model, const State& state, int body, int label) {
   std::vector<char> counted(nodes.count(), 0);
   for (const BoundaryStretch& stretch : nodes.boundary)
     for (const int node : stretch.nodes)
-      if (labels[stretch.edge] == label && std::exchange(counted[node], 1) == 0)
+      if ((!label || labels[stretch.edge] == *label) && std::exchange(counted[node], 1) == 0)
         result.add(nodes.places[node], -forces.segment<2>(2 * node));
   return result;
 }
@@ -147,6 +153,8 @@ double meanPressure(const State& state, const Quantity& quantity) {
 std::string Quantity::unit(const Units& units) const {
   switch (kind) {
     case Kind::displacement:
+      if (component == Component::rotation) return "rad";
+      [[fallthrough]];
     case Kind::contactLength:
       return units.length;
     case Kind::largestPressure:
@@ -194,11 +202,17 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
   const auto reaction = [&](const Quantity& quantity) {
     if (reactionsOf.count(quantity.body) == 0)
       reactionsOf[quantity.body] = reactions(model, state, quantity.body);
-    const int support = firstSupport(model.bodies[quantity.body], quantity.label, quantity.point);
+    const int support =
+        quantity.whole ? -1 : firstSupport(model.bodies[quantity.body], quantity.label, quantity.point);
     return componentOf(reactionsOf[quantity.body][support], quantity);
   };
   const auto displacement = [&](const Quantity& quantity) {  // of the nodes of this rank
     const int component = quantity.component == Quantity::Component::x ? 0 : 1;
+    if (quantity.whole) {
+      const bool turns = quantity.component == Quantity::Component::rotation;
+      return model.bodies[quantity.body].motionOf(
+          state.bodies[quantity.body].displacement)[turns ? 2 : component];
+    }
     double value = 0;
     for (const auto& [node, weight] : quantity.mean)
       value += weight * state.bodies[quantity.body].displacement[2 * node + component];
@@ -210,7 +224,9 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
       case Kind::displacement:
         return model.sum(displacement(quantity));
       case Kind::contactForce:
-        return componentOf(contactOn(model, state, quantity.body, quantity.label), quantity);
+        return componentOf(contactOn(model, state, quantity.body,
+                                     quantity.whole ? std::nullopt : std::optional(quantity.label)),
+                           quantity);
       case Kind::storedEnergy:
         return model.sum(storedEnergy(model.bodies[quantity.body], body));
       case Kind::dissipatedEnergy:

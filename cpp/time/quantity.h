@@ -35,19 +35,20 @@ struct Quantity {
     frictionWork,  ///< dissipated along the label since the run began
     meanPressure   ///< of the contact pressure over a part of a side
   };
-  enum class Component { x, y, moment };
+  enum class Component { x, y, moment, rotation };
 
   std::string name;
   Kind kind = Kind::reaction;
   int body = 0;
   int label = 0;                       ///< of the supports, or of a side of contact
-  Component component = Component::x;  ///< moment of forces only, counterclockwise
+  Component component = Component::x;  ///< moment of forces, rotation of rigid bodies, counterclockwise
   Point about{0, 0};                   ///< of the moment [m]
   std::vector<std::pair<int, double>> mean =
       {};                             ///< of a displacement: nodes and their weights, which sum to one
   std::optional<Point> point = {};    ///< of a reaction: that of a held vertex, in place of the label [m]
   std::optional<LinePart> part = {};  ///< of a mean pressure
   std::vector<Vector> shares = {};    ///< of contact forces in it (time/mean_pressure.h)
+  bool whole = false;                 ///< of all of a rigid body, in place of a label
 
   /// N/m, N (a moment per metre of depth), m, J/m or Pa, or what they are in other units.
   [[nodiscard]] std::string unit(const Units& units = {}) const;

@@ -86,6 +86,7 @@ int SpaceErrorEstimator::Line::triangleOf(const std::array<int, 2>& edge) const 
 SpaceErrorEstimator::Compliance SpaceErrorEstimator::complianceOf(const State& state, int body,
                                                                   int triangle) const {
   const Body& of = model_.bodies[body];
+  if (of.rigid()) return {0, 0};
   const int point = of.pointsOfTriangle() * triangle;
   const double elastic = compliances_[body][point];
   if (of.material().linear()) return {elastic, elastic};

@@ -22,7 +22,7 @@ FAULTS = [
     # keys
     ("title", "\"\\u001b[31m\"", "scene.toml:1: unknown key ?[31m, expected one of title, plane, body"),
     ("title", "titel", "scene.toml:1: unknown key titel, did you mean title? Expected one of title, plane, "
-                       "body, contact"),
+                       "body, tool"),
     ("mesh = \"upper", "msh = \"upper", "scene.toml:5: body upper: unknown key msh, did you mean "
                                         "mesh? Expected"),
     ("poisson = 0.3, v", "nu = 0.3, v", "scene.toml:6: body upper: unknown key nu, expected one of "

@@ -88,7 +88,8 @@ function paint(panel, range) {
     panel.shown = run.bodies.map((_, b) => shownValues(run, step, b));
     panel.extremes = extremes(panel.shown);
   }
-  const colour = value => range.table[Math.max(
+  let rigid = false;  // tools have no stress
+  const colour = value => rigid ? 0xff9c9c9c : range.table[Math.max(
       0, Math.min(SHADES - 1, Math.floor((value - range.low) * perValue)))];
   // a triangle in pixels; values at its corners, or one
   const fill = (ax, ay, bx, by, cx, cy, number, va, vb, vc) => {
@@ -118,6 +119,7 @@ function paint(panel, range) {
   };
   let first = 0;
   run.bodies.forEach((body, b) => {
+    rigid = body.rigid;
     const fields = run.steps[step].fields[b], {corners, vertices, triangles} = body,
           {flat, corner} = panel.shown[b], px = new Float64Array(vertices), py = new Float64Array(vertices);
     for (let v = 0; v < vertices; v++) {
