@@ -58,9 +58,8 @@ class MultiplierSystem {
   explicit MultiplierSystem(const ContactProblem& contact) : rows_(contact.W.rows()) {
     if (rows_ == 0) return;
     constexpr double negligible = 1e-10;
-    const Vector w = Eigen::SelfAdjointEigenSolver<Matrix>(0.5 * (contact.W + contact.W.transpose()),
-                                                           Eigen::EigenvaluesOnly)
-                         .eigenvalues();
+    const Matrix W = 0.5 * (contact.W + contact.W.transpose());
+    const Vector w = Eigen::SelfAdjointEigenSolver<Matrix>(W, Eigen::EigenvaluesOnly).eigenvalues();
     const double largest = w[rows_ - 1];
     omega_ = 1 / std::sqrt(std::max(w[0], negligible * largest) * largest);
     const Eigen::Index motions = contact.G.cols();
