@@ -1,8 +1,8 @@
 #include "bound/pressures.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 
+#include "base/dense_templates.h"
 #include "base/disjoint_sets.h"
 
 namespace mortier {

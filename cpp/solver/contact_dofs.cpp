@@ -1,9 +1,9 @@
 #include "solver/contact_dofs.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense_templates.h"
 #include "base/error.h"
 #include "fem/rigid_modes.h"
 

@@ -1,10 +1,10 @@
 #include "solver/contact_sets.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "base/dense_templates.h"
 
 namespace mortier {
 

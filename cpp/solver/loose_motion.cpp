@@ -1,6 +1,6 @@
 // Rigid motions that contact does not hold.
-#include <Eigen/Eigenvalues>
 
+#include "base/dense_templates.h"
 #include "base/error.h"
 #include "fem/rigid_modes.h"
 #include "solver/free_rotation.h"

@@ -14,13 +14,13 @@
 //   omega = 1/sqrt(least times largest eigenvalue of the contact compliance W),
 // which have the units that they need. Where convergence is slow the penalties are chosen again for the
 // stress reached, ever more rarely, so that they become constant.
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
 
 #include "base/counted.h"
+#include "base/dense_templates.h"
 #include "base/worst.h"
 #include "solver/methods.h"
 
