@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace mortier {
 
@@ -65,15 +66,14 @@ class Lanes {
   // As std::max and std::min take NaN.
   friend Lanes max(const Lanes& a, const Lanes& b) { return select(a < b, b, a); }
   friend Lanes min(const Lanes& a, const Lanes& b) { return select(b < a, b, a); }
-  template <class Function>
-  friend Lanes mapped(const Lanes& a, const Function& function) {
-    Lanes result;
-    for (int k = 0; k < 4; ++k) result.low[k] = function(a.low[k]);
-    for (int k = 0; k < 4; ++k) result.high[k] = function(a.high[k]);
-    return result;
-  }
   friend Lanes abs(const Lanes& a) {
-    return mapped(a, [](double x) { return std::abs(x); });
+    constexpr long long all = std::numeric_limits<long long>::max();  // of a number all bits but the sign
+    return {(Half)((LaneMask::Half)a.low & all), (Half)((LaneMask::Half)a.high & all)};
+  }
+  template <class Function>
+  friend Lanes mapped(const Lanes& a, const Function& f) {
+    return {Half{f(a.low[0]), f(a.low[1]), f(a.low[2]), f(a.low[3])},
+            Half{f(a.high[0]), f(a.high[1]), f(a.high[2]), f(a.high[3])}};
   }
   friend Lanes sqrt(const Lanes& a) {
     return mapped(a, [](double x) { return std::sqrt(x); });
