@@ -1,9 +1,10 @@
 #include "base/adaptive_quadrature.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "base/dense_templates.h"
 
 namespace mortier {
 namespace {

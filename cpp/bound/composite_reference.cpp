@@ -1,6 +1,6 @@
 #include "bound/composite_reference.h"
 
-#include <Eigen/Dense>
+#include "base/dense_templates.h"
 
 namespace mortier {
 namespace {

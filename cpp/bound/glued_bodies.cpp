@@ -1,7 +1,8 @@
 #include "bound/glued_bodies.h"
 
-#include <Eigen/LU>
 #include <algorithm>
+
+#include "base/dense_templates.h"
 
 namespace mortier {
 namespace {

@@ -1,10 +1,10 @@
 #include "bound/loaded_body.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <memory>
 #include <optional>
 
+#include "base/dense_templates.h"
 #include "base/interrupt.h"
 #include "bound/relaxation.h"
 #include "fem/rigid_modes.h"

@@ -1,8 +1,8 @@
 #include "bound/pressures.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 
+#include "base/dense_templates.h"
 #include "base/disjoint_sets.h"
 
 namespace mortier {
@@ -41,7 +41,7 @@ void matchResultants(const ContactInterface& interface, const TriangleMesh& mesh
         M.col(1) += placeOf(interface.nonmortarNodes()[row]).norm() * part;
       }
     }
-  const Eigen::Vector2d factors = Matrix(M).completeOrthogonalDecomposition().solve(Vector(left));
+  const Vector factors = Matrix(M).completeOrthogonalDecomposition().solve(Vector(left));
   if (!factors.allFinite() || !((M * factors - left).norm() <= 1e-12 * size)) return;
   Vector matched = spread;
   for (int row = 0; row < interface.rows(); ++row)
@@ -167,7 +167,7 @@ bool balanceBy(const std::vector<Vector>& weights, const Model& model, const Mat
     }
     first += modes.cols();
   }
-  const Vector factors = M.completeOrthogonalDecomposition().solve(-left);
+  const Vector factors = M.completeOrthogonalDecomposition().solve(Vector(-left));
   if (!factors.allFinite() ||
       (M * factors + left).cwiseAbs().maxCoeff() > 1e-9 * std::max(size, left.cwiseAbs().maxCoeff()))
     return false;

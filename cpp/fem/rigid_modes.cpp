@@ -1,11 +1,11 @@
 #include "fem/rigid_modes.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <map>
 #include <set>
 #include <sstream>
 
+#include "base/dense_templates.h"
 #include "base/disjoint_sets.h"
 #include "base/error.h"
 #include "mesh/components.h"

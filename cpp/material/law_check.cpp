@@ -1,10 +1,10 @@
 #include "material/law_check.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <cmath>
 #include <random>
 
+#include "base/dense_templates.h"
 #include "base/worst.h"
 
 namespace mortier {

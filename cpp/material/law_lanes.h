@@ -33,7 +33,12 @@ class Largest {
       poison_ += entry * 0;
     }
   }
-  [[nodiscard]] double value() const { return hmax(soFar_) + std::experimental::reduce(poison_); }
+  [[nodiscard]] double value() const {
+    double value = 0;
+    for (int lane = 0; lane < laneCount; ++lane) value = std::max(value, soFar_[lane]);
+    for (int lane = 0; lane < laneCount; ++lane) value += poison_[lane];
+    return value;
+  }
 
  private:
   Lanes soFar_ = 0;

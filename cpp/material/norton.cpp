@@ -111,7 +111,7 @@ PointAnswer<3> NortonLaw::regularise(const PointStep<3>& point, const Lanes& /*p
     }
     const Lanes g2 = square(t);
     const Lanes step = (y - logarithm(point.weight, g2)) / (1 + (n - 1) * falls / g2);
-    where(moving, y) -= step;
+    y = select(moving, y - step, y);
     moving = moving && abs(step) > last * max(Lanes(1), abs(y));
   }
   const Lanes theta = exp(y);

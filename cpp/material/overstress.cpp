@@ -62,7 +62,7 @@ OverstressFlow::Return OverstressFlow::radialReturn(const LaneVector& x, const L
     Lanes flow = exp(logB + m * y);
     for (int k = 0; k < most && any_of(moving); ++k) {
       const Lanes step = (tau + flow - X) / (tau + m * flow);
-      where(moving, y) -= step;
+      y = select(moving, y - step, y);
       moving = moving && abs(step) > last * max(Lanes(1), abs(y));
       tau = exp(y);
       flow = exp(logB + m * y);

@@ -1,8 +1,8 @@
 #include "material/own_material.h"
 
-#include <Eigen/LU>
 #include <limits>
 
+#include "base/dense_templates.h"
 #include "base/error.h"
 #include "base/worst.h"
 #include "material/component_basis.h"

@@ -91,7 +91,7 @@ class YieldDomain {
       const Lanes slope = P * dq * b_[0] + Q * dp * b_[1];
       const Lanes step = (P + Q) * (sqrt(P + Q) - dp * dq) / slope;
       climbing = climbing && step > 0;
-      where(climbing, m) += step;
+      m = select(climbing, m + step, m);
       climbing = climbing && step > last * m;
       if (none_of(climbing)) break;
     }

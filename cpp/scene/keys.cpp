@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <regex>
 #include <sstream>
 #include <stdexcept>
 
@@ -57,12 +56,11 @@ Key keyOf(const std::string& row) {
   const std::string expected = withoutQuotes(key.expected);
   key.range = Range::from(expected);
   key.words = quoted(expected);
-  static const std::regex beside("with (\\w+) = (\".*)");
-  std::smatch found;
-  if (std::regex_search(expected, found, beside)) {
-    key.beside = found[1];
-    key.besideWords = quoted(found[2]);
-  }
+  for (size_t is = expected.find(" = \""); is != std::string::npos; is = expected.find(" = \"", is + 1))
+    if (const size_t with = expected.rfind("with ", is); with != std::string::npos && key.beside.empty()) {
+      key.beside = expected.substr(with + 5, is - with - 5);
+      key.besideWords = quoted(expected.substr(is + 3));
+    }
   return key;
 }
 

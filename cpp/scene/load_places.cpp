@@ -1,10 +1,10 @@
 #include "scene/load_places.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <queue>
 
+#include "base/dense_templates.h"
 #include "mesh/boundary_line.h"
 
 namespace mortier {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/dense_templates.h"
+
 namespace mortier {
 namespace {
 

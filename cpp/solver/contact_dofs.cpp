@@ -1,10 +1,10 @@
 #include "solver/contact_dofs.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "base/dense_templates.h"
 #include "base/error.h"
 #include "fem/rigid_modes.h"
 

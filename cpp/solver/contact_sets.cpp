@@ -1,10 +1,10 @@
 #include "solver/contact_sets.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "base/dense_templates.h"
 
 namespace mortier {
 
@@ -116,7 +116,7 @@ RigidMotions rigidMotionsOn(const std::vector<char>& active, const Matrix& G) {
   Matrix closed = G;
   for (Eigen::Index i = 0; i < closed.rows(); ++i)
     if (active[i] == 0) closed.row(i).setZero();
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(closed.transpose() * closed);
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(Matrix(closed.transpose() * closed));
   const auto free = (eigen.eigenvalues().array() <= heldFraction * G.squaredNorm()).count();
   return {eigen.eigenvectors().rightCols(G.cols() - free), eigen.eigenvectors().leftCols(free)};
 }

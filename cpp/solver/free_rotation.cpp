@@ -1,8 +1,8 @@
 #include "solver/free_rotation.h"
 
-#include <Eigen/QR>
 #include <cmath>
 
+#include "base/dense_templates.h"
 #include "fem/rigid_modes.h"
 
 namespace mortier {

@@ -1,6 +1,6 @@
 // Rigid motions that contact does not hold.
-#include <Eigen/Eigenvalues>
 
+#include "base/dense_templates.h"
 #include "base/error.h"
 #include "fem/rigid_modes.h"
 #include "solver/free_rotation.h"
@@ -26,7 +26,7 @@ void StepSystem::requireHeld() {
     contact_.G.middleCols(firstMotion_[b], dofs.R.cols()) = dofs.C * dofs.R;
   }
   if (contact_.G.cols() == 0) return;
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(contact_.G.transpose() * contact_.G);
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(Matrix(contact_.G.transpose() * contact_.G));
   if (eigen.eigenvalues()[0] <= heldFraction * contact_.G.squaredNorm())
     throw UnheldBodyError("nothing holds " + describeRigid(eigen.eigenvectors().col(0)) +
                           "; a support (ux, uy) or a contact would");
@@ -47,7 +47,7 @@ std::string StepSystem::looseMotion(const State& state0, const Iterate& solution
   }
   const std::vector<int> slipping = freeAlong(solution);
   for (const int row : slipping) closed.row(row).setZero();
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(closed.transpose() * closed);
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(Matrix(closed.transpose() * closed));
   const auto loose = (eigen.eigenvalues().array() <= heldFraction * contact_.G.squaredNorm()).count();
   Eigen::Index which = 0;
   const auto turns = [&](const Vector& z) {

@@ -14,13 +14,13 @@
 //   omega = 1/sqrt(least times largest eigenvalue of the contact compliance W),
 // which have the units that they need. Where convergence is slow the penalties are chosen again for the
 // stress reached, ever more rarely, so that they become constant.
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
 
 #include "base/counted.h"
+#include "base/dense_templates.h"
 #include "base/worst.h"
 #include "solver/methods.h"
 
@@ -58,9 +58,8 @@ class MultiplierSystem {
   explicit MultiplierSystem(const ContactProblem& contact) : rows_(contact.W.rows()) {
     if (rows_ == 0) return;
     constexpr double negligible = 1e-10;
-    const Vector w = Eigen::SelfAdjointEigenSolver<Matrix>(0.5 * (contact.W + contact.W.transpose()),
-                                                           Eigen::EigenvaluesOnly)
-                         .eigenvalues();
+    const Matrix W = 0.5 * (contact.W + contact.W.transpose());
+    const Vector w = Eigen::SelfAdjointEigenSolver<Matrix>(W, Eigen::EigenvaluesOnly).eigenvalues();
     const double largest = w[rows_ - 1];
     omega_ = 1 / std::sqrt(std::max(w[0], negligible * largest) * largest);
     const Eigen::Index motions = contact.G.cols();

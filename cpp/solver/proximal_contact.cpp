@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense_templates.h"
+
 namespace mortier {
 
 Work::Work(const ContactProblem& problem) {

@@ -1,10 +1,10 @@
 #include "solver/sparse_contact.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "base/dense_templates.h"
 #include "base/interrupt.h"
 
 namespace mortier {

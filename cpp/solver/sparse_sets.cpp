@@ -1,9 +1,9 @@
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "base/dense_templates.h"
 #include "solver/contact_sets.h"
 #include "solver/sparse_contact.h"
 

@@ -1,9 +1,9 @@
 // The error of a step, by what its stages miss of the flow in between.
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "base/dense_templates.h"
 #include "solver/total_strain.h"
 #include "time/error_norms.h"
 #include "time/step_taker.h"

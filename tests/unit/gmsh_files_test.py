@@ -239,6 +239,11 @@ every = 1
                 self.assertEqual(done.returncode, 2, done.stderr)
                 self.assertIn(message, done.stderr)
                 self.assertEqual(done.stderr.count("\n"), 1)
+        long = f'DefineConstant[ note = {{1, Name "{300000 * "x"}"}}, '
+        self.write(PARTS_GEO.replace("DefineConstant[", long), "long.geo")
+        self.reject("long.geo: no constant wdth, expected one that its DefineConstant names: depth, note, "
+                    "width", "run", "scene.toml", "--quiet", "--set", "body.left.mesh.file=long.geo",
+                    "body.left.mesh.parameters.wdth=2")
 
     def check_refused(self):
         for name in FILES:

@@ -1,0 +1,3 @@
+#include "base/dense_templates.h"
+
+MORTIER_DENSE_TEMPLATES()
