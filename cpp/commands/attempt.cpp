@@ -60,6 +60,7 @@ void lookAhead(SceneDescription& scene, const Model& model) {
 std::string reasonNotToShare(const SceneDescription& scene, const Model& model) {
   if (scene.accuracy.asked() > 0) return "rounds of [accuracy] refine whole meshes";
   if (scene.accuracy.bound) return "bounds are found of whole bodies";
+  if (anyFollows(model)) return "contact follows the bodies (sliding = \"finite\")";
   if (solvesSparse(model, scene.solver)) return "the contact matrices of a line this long are sparse";
   return "";
 }

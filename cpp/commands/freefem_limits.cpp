@@ -23,6 +23,9 @@ void requireKnown(const SceneDescription& scene, bool stepsGiven) {
     refuse(scene.path + ": tolerance = " + shortest(scene.time.tolerance),
            "equal steps, or those of a run (--steps-of)");
   }
+  for (const ContactDescription& contact : scene.contacts)
+    if (contact.sliding == SlidingKind::finite)
+      refuse(contact.where + ": contact: sliding = \"finite\"", "\"refuse\" or \"allow\"");
   for (const BodyDescription& body : scene.bodies) {
     const bool stressed = std::any_of(body.initialStress.begin(), body.initialStress.end(),
                                       [](const auto& component) { return component.has_value(); });

@@ -282,7 +282,7 @@ void checkSliding(const LintInput& input, const ContactDescription& contact, con
     const Sliding here = slidingOf(interface, {*one.mesh, nodes1}, {*two.mesh, nodes2}, u, still, pressed);
     if (here.edges > worst.edges) worst = here;
   }
-  const bool past = worst.past >= 0 && !contact.slidingAllowed;
+  const bool past = worst.past >= 0 && contact.sliding == SlidingKind::refuse;
   if (!past && !(worst.edges > noticeable)) return;
   faults.add(
       "contact-slides", contact.where,
@@ -318,7 +318,7 @@ void lintContacts(const LintInput& input, Faults& faults) {
       checkInterface(contact, one, two, interface, std::min(extent(*one.mesh), extent(*two.mesh)),
                      input.scene.units.length, faults);
       checkConditions(input, contact, interface, faults);
-      checkSliding(input, contact, one, two, interface, faults);
+      if (contact.sliding != SlidingKind::finite) checkSliding(input, contact, one, two, interface, faults);
     } catch (const InputError& error) {
       diagnose(input, contact, one, two, error.what(), faults);
     }

@@ -21,6 +21,17 @@ bool anyFriction(const Model& model) {
                      [](const ContactInterface& interface) { return interface.hasFriction(); });
 }
 
+bool anyFollows(const Model& model) {
+  return std::any_of(model.interfaces.begin(), model.interfaces.end(),
+                     [](const ContactInterface& interface) { return interface.follows(); });
+}
+
+void follow(const Model& model, const std::vector<Vector>& u, bool keepRows) {
+  for (ContactInterface& interface : model.interfaces)
+    if (interface.follows())
+      interface.follow(u[interface.pair().nonmortar.body], u[interface.pair().mortar.body], keepRows);
+}
+
 bool anyDistanceMoves(const Model& model) {
   return std::any_of(model.interfaces.begin(), model.interfaces.end(),
                      [](const ContactInterface& interface) { return interface.distanceMoves(); });
@@ -31,7 +42,7 @@ bool solvesSparse(const Model& model, const SolverOptions& options) {
   double equations = 0;
   for (const ContactInterface& interface : model.interfaces) conditions += interface.rows();
   for (const Body& body : model.bodies) equations += body.freeDofs();
-  return solvesSparse(conditions, equations, anyFriction(model), options);
+  return !anyFollows(model) && solvesSparse(conditions, equations, anyFriction(model), options);
 }
 
 bool solvesSparse(double conditions, double equations, bool rough, const SolverOptions& options) {
