@@ -39,8 +39,6 @@ struct SmoothPart : ElementLine {  ///< abscissae: arc length from the first ver
   std::shared_ptr<const SmoothPart> drawn = nullptr;  ///< where this one has moved: as it was meshed
 
   [[nodiscard]] double length() const { return s.back(); }
-  /// Whether contact acts along the normal of this part, whatever it faces.
-  [[nodiscard]] bool leads() const { return straight || (drawn && drawn->straight); }
   /// n(s) at an abscissa s [m] on an element, or beyond its ends.
   [[nodiscard]] Point normalAt(int element, double abscissa) const;
   [[nodiscard]] double curvatureAt(int element, double abscissa) const;
@@ -51,8 +49,8 @@ struct SmoothPart : ElementLine {  ///< abscissae: arc length from the first ver
 /// The parts in their order. A closed line without a corner is one closed part.
 std::vector<SmoothPart> smoothParts(const BoundaryLine& line);
 
-/// The part where displacements (by dofs of its mesh) have moved it. Curvatures, and whether it is straight,
-/// remain those of the drawn one: small strains do not change them, and contact is continuous in the motion.
+/// The part where displacements (by dofs of its mesh) have moved it, as a curve; its curvatures, and what its
+/// elements stand for, are those of the drawn one.
 SmoothPart moved(const std::shared_ptr<const SmoothPart>& drawn, const Vector& u);
 
 /// The same closed line begun at another of its nodes (an index of `line.nodes`).

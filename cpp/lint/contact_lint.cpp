@@ -86,7 +86,9 @@ ContactInterface interfaceOf(const ContactDescription& contact, const Side& one,
                           swapped ? contact.mortar.label : contact.nonmortar.label};
   const ContactSide second{static_cast<int>(two.body),
                            swapped ? contact.nonmortar.label : contact.mortar.label};
-  return {{first, second, contact.variant}, *one.mesh, *two.mesh};
+  InterfaceOptions options;
+  options.follows = contact.sliding == SlidingKind::finite;
+  return {{first, second, contact.variant}, *one.mesh, *two.mesh, options};
 }
 
 bool fits(const ContactDescription& contact, const Side& one, const Side& two, bool swapped) {
