@@ -19,6 +19,7 @@ namespace {
 /// that are rounding of places are none.
 double misfit(const Model& model, const State& state0, const Iterate& iterate, const Vector& compliance,
               double rounding) {
+  if (compliance.size() == 0) return 0;  // at rest, without a linear solve
   const std::vector<Vector> gap = gaps(model, state0, iterate);
   const std::vector<Vector> slip = slips(model, iterate);
   double force = 0;
@@ -99,6 +100,7 @@ StepOutcome StepTaker::repeatOnMovedBodies(const StepData& data, Iterate& iterat
   std::ostringstream text;
   text << "contact does not settle where the bodies are in " << most
        << " repetitions: the last one is off by " << off << " of the largest contact force";
+  if (system_.contactHolds()) text << "; a body that contact alone holds may tip or slide away there";
   total.fail(Reason::unconverged, text.str());
   return total;
 }
