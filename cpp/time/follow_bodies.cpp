@@ -1,5 +1,5 @@
-// A stage where contact follows the bodies. What contact is, its rows, distances and normals, depends on where
-// the bodies are at the end of the stage:
+// A stage where contact follows the bodies. Its rows, distances and normals depend on where the bodies are at
+// the end of the stage:
 //
 //   geometry at u_k  ->  contact problem with these rows, solved exactly  ->  u_(k+1)
 //

@@ -102,7 +102,8 @@ class FiniteSliding(InFolder):
 
     def test_strains_that_are_not_small_are_told(self):
         self.write(IRONING.replace("FRICTION", "").replace("-0.05", "-0.5"))
-        done = self.mortier("run", "scene.toml", "--out", "out", "--set", "time.end=0.2", "--set", "time.steps=4")
+        done = self.mortier("run", "scene.toml", "--out", "out", "--set", "time.end=0.2", "--set",
+                            "time.steps=4")
         self.assertRegex(done.stdout, "warning    strains reach")
         peaks = json.loads(self.read("out/summary.json"))["peaks"]
         self.assertGreater(peaks["strain"]["value"], 0.05)

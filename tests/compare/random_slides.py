@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Random bodies that slide along each other with sliding = "finite": blocks and discs on blocks, stiffnesses
-that differ by up to 1e6, friction up to 1, past ends and corners, back and forth. Every run ends certified, or
-with a reason. Prints what came of them, and the linear solves that steps took.
+that differ by up to 1e6, friction up to 1, past ends and corners, back and forth. Every run ends certified,
+or with a reason. Prints what came of them, and the linear solves that steps took.
 
     tests/compare/random_slides.py --count 50 [--first SEED] [--mortier PROGRAM] [--keep FOLDER]
 """
@@ -37,8 +37,9 @@ def scene(seed):
         near, held = 1, 2
     else:
         width = rng.uniform(0.5, 2)
-        mesh = (f'{{ shape = "rectangle", lower = [{length / 3:.6g}, 0], upper = [{length / 3 + width:.6g}, 1], '
-                f'cells = [{rng.randint(2, 8)}, {rng.randint(2, 5)}], cut = "both" }}')
+        cells = f"[{rng.randint(2, 8)}, {rng.randint(2, 5)}]"
+        mesh = (f'{{ shape = "rectangle", lower = [{length / 3:.6g}, 0], '
+                f'upper = [{length / 3 + width:.6g}, 1], cells = {cells}, cut = "both" }}')
         near, held = 1, 3
     far = rng.uniform(0.2, 1.2) * length  # may pass the end
     way = rng.choice([f"{far:.6g}*max(t - 0.2, 0)/0.8",
@@ -54,9 +55,19 @@ degree = {degree}
 plane = "{rng.choice(['stress', 'strain'])}"
 [[body]]
 name = "lower"
-mesh = {{ shape = "rectangle", lower = [0, -1.5], upper = [{length:.6g}, 0], cells = [{rng.randint(8, 24)}, 4], cut = "both" }}
-material = {{ young = {lower:.6g}, poisson = 0.3 }}
-boundary = [ {{ label = 1, ux = 0, uy = 0 }} ]
+[body.mesh]
+shape = "rectangle"
+lower = [0, -1.5]
+upper = [{length:.6g}, 0]
+cells = [{rng.randint(8, 24)}, 4]
+cut = "both"
+[body.material]
+young = {lower:.6g}
+poisson = 0.3
+[[body.boundary]]
+label = 1
+ux = 0
+uy = 0
 [[body]]
 name = "upper"
 mesh = {mesh}
@@ -88,7 +99,8 @@ def run(program, seed, folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=50)
     parser.add_argument("--first", type=int, default=1)
     parser.add_argument("--mortier", default=str(ROOT / "build" / "mortier"))
