@@ -10,7 +10,7 @@ IRONING = """\
 plane = "strain"
 [[body]]
 name = "block"
-mesh = { shape = "rectangle", lower = [-3, -3], upper = [8, 0], cells = [44, 8], cut = "both" }
+mesh = { shape = "rectangle", lower = [-3, -3], upper = [8, 0], cells = [110, 12], cut = "both" }
 material = { young = 1e3, poisson = 0.3 }
 boundary = [ { label = 1, ux = 0, uy = 0 } ]
 [[body]]
@@ -45,7 +45,7 @@ boundary = [ { label = 3, ux = "2*max(t-0.1,0)", HELD } ]
 nonmortar = { body = "block", label = 1 }
 mortar = { body = "table", label = 3 }
 sliding = "finite"
-friction = 0.2
+friction = ROUGH
 [time]
 end = 1
 steps = 20
@@ -64,28 +64,30 @@ class FiniteSliding(InFolder):
         for friction in ("", "friction = 0.3"):
             with self.subTest(friction=friction):
                 self.write(IRONING.replace("FRICTION", friction))
-                self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--overwrite")
+                self.mortier("run", "scene.toml", "--quiet", "--out", "out")
                 rows = [row for row in self.history() if float(row["time[s]"]) > 0.3]
                 force = [abs(value) for value in self.column(rows, "contact_resultant_y")]
                 mean = statistics.mean(force)
                 self.assertLess(max(abs(value - mean) for value in force), 0.01 * mean)
-                self.assertLess(max(self.column(rows, "force_balance")), 1e-11)
+                self.assertLess(max(self.column(rows, "force_balance")), 1e-9)
 
     def test_a_body_held_by_supports_leaves_the_end(self):
         for degree in (1, 2):
-            self.write(PUSHED.replace("DEGREE", str(degree)).replace("HELD", 'uy = "-1e-3*min(10*t,1)"'))
-            self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--overwrite")
+            self.write(PUSHED.replace("DEGREE", str(degree)).replace("ROUGH", "0.2")
+                       .replace("HELD", 'uy = "-1e-3*min(10*t,1)"'))
+            self.mortier("run", "scene.toml", "--quiet", "--out", "out")
             rows = self.history()
             self.assertEqual(int(rows[-1]["active"]), 0)
             self.assertGreater(int(rows[4]["active"]), 0)
 
     def test_a_body_that_contact_holds_falls_off_the_end_and_is_named(self):
-        self.write(PUSHED.replace("DEGREE", "1").replace("HELD", "ty = -1"))
+        self.write(PUSHED.replace("DEGREE", "1").replace("ROUGH", "0").replace("HELD", "ty = -1"))
         done = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=3)
-        self.assertRegex(done.stderr, "step 1[0-9] at t = 0[.][0-9]+: .*body block")
+        self.assertRegex(done.stderr, "step (9|10) at t = 0[.]4[0-9]+: .*body block")
 
     def test_runs_repeat_and_resume_to_the_byte(self):
-        self.write(PUSHED.replace("DEGREE", "1").replace("HELD", 'uy = "-1e-3*min(10*t,1)"'))
+        self.write(PUSHED.replace("DEGREE", "1").replace("ROUGH", "0.2")
+                       .replace("HELD", 'uy = "-1e-3*min(10*t,1)"'))
         self.mortier("run", "scene.toml", "--quiet", "--out", "once", "--threads", "1")
         self.mortier("run", "scene.toml", "--quiet", "--out", "again", "--threads", "2")
         for name in ("history.csv", "contact.csv"):
@@ -95,7 +97,7 @@ class FiniteSliding(InFolder):
         for text, key in (("gap = 0", "gap"), ('initial = "close"', "initial")):
             self.write(IRONING.replace("FRICTION", text))
             self.reject("scene.toml:", "run", "scene.toml", "--out", "out")
-            self.assertIn(key, self.mortier("check", "scene.toml", code=2).stderr)
+            self.assertIn(key, self.mortier("run", "scene.toml", code=2).stderr)
         self.write(IRONING.replace("FRICTION", ""))
         done = self.mortier("freefem", "scene.toml", "out", code=2)
         self.assertIn('sliding = "finite"', done.stderr)
