@@ -10,14 +10,14 @@ IRONING = """\
 plane = "strain"
 [[body]]
 name = "block"
-mesh = { shape = "rectangle", lower = [-3, -3], upper = [8, 0], cells = [110, 12], cut = "both" }
+mesh = { shape = "rectangle", lower = [-3, -3], upper = [11, 0], cells = [112, 20], cut = "both" }
 material = { young = 1e3, poisson = 0.3 }
 boundary = [ { label = 1, ux = 0, uy = 0 } ]
 [[body]]
 name = "disc"
 mesh = { shape = "halfdisc", radius = 5, core = 1, cells = 8, lowest = [0, 0] }
 material = { young = 1e9, poisson = 0.3 }
-boundary = [ { label = 2, ux = "5*max(0, t - 0.2)/0.8", uy = "-0.05*min(5*t, 1)" } ]
+boundary = [ { label = 2, ux = "4.7*max(0, t - 0.2)/0.8", uy = "-0.05*min(5*t, 1)" } ]
 [contact]
 nonmortar = { body = "block", label = 3 }
 mortar = { body = "disc", label = 1 }
@@ -61,14 +61,14 @@ class FiniteSliding(InFolder):
         return [float(next(row[key] for key in row if key.split("[")[0] == name)) for row in rows]
 
     def test_a_disc_dragged_over_twenty_elements_has_a_steady_force(self):
-        for friction in ("", "friction = 0.3"):
+        for friction, most in (("", 0.01), ("friction = 0.3", 0.01)):
             with self.subTest(friction=friction):
                 self.write(IRONING.replace("FRICTION", friction))
                 self.mortier("run", "scene.toml", "--quiet", "--out", "out")
                 rows = [row for row in self.history() if float(row["time[s]"]) > 0.3]
                 force = [abs(value) for value in self.column(rows, "contact_resultant_y")]
                 mean = statistics.mean(force)
-                self.assertLess(max(abs(value - mean) for value in force), 0.01 * mean)
+                self.assertLess(max(abs(value - mean) for value in force), most * mean)
                 self.assertLess(max(self.column(rows, "force_balance")), 1e-9)
 
     def test_a_body_held_by_supports_leaves_the_end(self):
