@@ -64,7 +64,8 @@ class FiniteSliding(InFolder):
         for friction, most in (("", 0.01), ("friction = 0.3", 0.01)):
             with self.subTest(friction=friction):
                 self.write(IRONING.replace("FRICTION", friction))
-                self.mortier("run", "scene.toml", "--quiet", "--out", "out")
+                done = self.mortier("run", "scene.toml", "--quiet", "--out", "out")
+                self.assertNotIn("taken as small", done.stderr)
                 rows = [row for row in self.history() if float(row["time[s]"]) > 0.3]
                 force = [abs(value) for value in self.column(rows, "contact_resultant_y")]
                 mean = statistics.mean(force)
