@@ -62,6 +62,7 @@ std::string reasonNotToShare(const SceneDescription& scene, const Model& model) 
   for (const Body& body : model.bodies)
     if (body.rigid()) return "tools are moved as a whole";
   if (scene.accuracy.bound) return "bounds are found of whole bodies";
+  if (anyFollows(model)) return "contact follows the bodies (sliding = \"finite\")";
   if (solvesSparse(model, scene.solver)) return "the contact matrices of a line this long are sparse";
   return "";
 }

@@ -23,6 +23,9 @@ void requireKnown(const SceneDescription& scene, bool stepsGiven) {
     refuse(scene.path + ": tolerance = " + shortest(scene.time.tolerance),
            "equal steps, or those of a run (--steps-of)");
   }
+  for (const ContactDescription& contact : scene.contacts)
+    if (contact.sliding == SlidingKind::finite)
+      refuse(contact.where + ": contact: sliding = \"finite\"", "\"refuse\" or \"allow\"");
   for (const BodyDescription& body : scene.bodies) {
     for (const ConditionDescription& c : body.conditions)
       if (body.isTool() && c.kind == ConditionDescription::Kind::traction)

@@ -184,8 +184,8 @@ Vector lifted(const Vector& projected, const Vector& atNodes, const Vector& leas
 
 Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
                 const DistanceAt& distance, const std::vector<char>& merged, bool axisymmetric,
-                double stiffness) {
-  const RowFunctions rows(kind, part, mortar, merged, stiffness);
+                double stiffness, const std::vector<char>& only) {
+  const RowFunctions rows(kind, part, mortar, merged, stiffness, only);
   const Eigen::Index n = rows.count();
   std::vector<Sighting> atRows;  // what their nodes see
   std::vector<Point> own;        // directions there

@@ -100,8 +100,10 @@ inline int rowDegree(CouplingKind kind, int traceDegree) {
 /// \param axisymmetric  whether the line turns about the axis x = 0: integrals are over the whole surface
 /// then, ds 2 pi r of the nonmortar line, and the mass is in [m^2]
 /// \param stiffness  of the nonmortar over that of the mortar body, for `coarsened`
+/// \param only  the vertices that may have a row, whether or not they face the mortar line themselves; empty:
+/// those that do (with `coarsened` some of them)
 Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
                 const DistanceAt& distance = distanceOfCurves, const std::vector<char>& merged = {},
-                bool axisymmetric = false, double stiffness = 1);
+                bool axisymmetric = false, double stiffness = 1, const std::vector<char>& only = {});
 
 }  // namespace mortier

@@ -233,6 +233,22 @@ double partSeen(const FacingLine& line, int element, const Point& x, const Point
   return xi;
 }
 
+/// What the curve behind an element takes from the distance at a point x of it, along n: where the part has
+/// moved that of the drawn one, which turns with the element.
+double bulgeOf(const SmoothPart* drawn, int element, double xi, const Arc& arc,
+               const std::array<Point, 2>& ends, const Point& x, const Point& n) {
+  if (drawn == nullptr) return distanceTo(arc, ends[0], ends[1], x, n);
+  if (drawn->straight) return 0;
+  const Point& a = drawn->points[element];
+  const Point& b = drawn->points[element + 1];
+  const Point along = (ends[1] - ends[0]).normalized();
+  const Point before = (b - a).normalized();
+  const double cosine = along.dot(before);
+  const double sine = cross(along, before);
+  return distanceTo(arc, a, b, drawn->at(element, xi),
+                    {cosine * n.x() - sine * n.y(), sine * n.x() + cosine * n.y()});
+}
+
 /// The element of the mortar line that holds s, the end elements beyond the ends.
 int elementAt(const FacingLine& mortar, double s) {
   return static_cast<int>(std::upper_bound(mortar.s.begin() + 1, mortar.s.end() - 1, s) - mortar.s.begin()) -
@@ -254,11 +270,11 @@ Place placeOf(const SmoothPart& part, int node) {
 
 }  // namespace
 
-MortarLine::MortarLine(const BoundaryLine& boundary) : closed(boundary.closed), tree(std::vector<Point>{}) {
-  const std::vector<SmoothPart> parts = smoothParts(boundary);
+MortarLine::MortarLine(const std::vector<SmoothPart>& parts, bool isClosed)
+    : closed(isClosed), tree(std::vector<Point>{}) {
   for (size_t k = parts.size(); k-- > 0;) {
     const SmoothPart& part = parts[k];
-    const bool round = boundary.closed && parts.size() > 1;
+    const bool round = closed && parts.size() > 1;
     const bool cornerBefore = k > 0 || round;
     const bool cornerAfter = k + 1 < parts.size() || round;
     if (nodes.empty()) {
@@ -276,7 +292,9 @@ MortarLine::MortarLine(const BoundaryLine& boundary) : closed(boundary.closed), 
           {{part.normals[e + 1], part.normals[e]},
            {part.curvatures[e + 1], part.curvatures[e]},
            {e + 1 == part.elements() && cornerAfter ? 0.0 : 1.0, e == 0 && cornerBefore ? 0.0 : 1.0},
-           part.arcs[e]});
+           part.arcs[e],
+           part.drawn,
+           e});
     }
   }
   tree = ElementTree(points);
@@ -319,8 +337,10 @@ Sight see(const SmoothPart& part, const FacingLine& mortar, const Segment& segme
   const Point y = mortar.at(j, seen);
   sight.distance = (y - x).dot(sight.normal);
   if (part.bent(e)) sight.stretch = part.tangentAt(e, here).norm() / (part.s[e + 1] - part.s[e]);
-  sight.bulge += distanceTo(part.arcs[e], part.points[e], part.points[e + 1], x, sight.normal);
-  sight.bulge += distanceTo(across.arc, mortar.points[j + 1], mortar.points[j], y, -sight.normal);
+  sight.bulge +=
+      bulgeOf(part.drawn.get(), e, here, part.arcs[e], {part.points[e], part.points[e + 1]}, x, sight.normal);
+  sight.bulge += bulgeOf(across.drawn.get(), across.inPart, 1 - seen, across.arc,
+                         {mortar.points[j + 1], mortar.points[j]}, y, -sight.normal);
   return sight;
 }
 

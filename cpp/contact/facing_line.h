@@ -25,15 +25,18 @@ namespace mortier {
 
 /// Geometry of an element of the mortar line, at its two ends.
 struct FacingElement {
-  std::array<Point, 2> normals;        ///< outward of the mortar body
-  std::array<double, 2> curvatures{};  ///< without sign [1/m]
-  std::array<double, 2> smooth{1, 1};  ///< 0 at a corner
-  Arc arc;                             ///< as the mortar body runs
+  std::array<Point, 2> normals;                       ///< outward of the mortar body
+  std::array<double, 2> curvatures{};                 ///< without sign [1/m]
+  std::array<double, 2> smooth{1, 1};                 ///< 0 at a corner
+  Arc arc;                                            ///< as the mortar body runs
+  std::shared_ptr<const SmoothPart> drawn = nullptr;  ///< of its part, if that has moved
+  int inPart = 0;                                     ///< the element there
 };
 
 /// The mortar line, against the direction of its body, with the normals and curvatures of its smooth parts.
 struct MortarLine : ElementLine {
-  explicit MortarLine(const BoundaryLine& boundary);
+  explicit MortarLine(const BoundaryLine& boundary) : MortarLine(smoothParts(boundary), boundary.closed) {}
+  MortarLine(const std::vector<SmoothPart>& parts, bool closed);
 
   std::vector<FacingElement> geometry;  ///< by elements
   bool closed = false;

@@ -3,10 +3,11 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 #include "base/error.h"
-#include "contact/element_tree.h"
+#include "contact/interface_entries.h"
 #include "mesh/label_text.h"
 
 namespace mortier {
@@ -24,13 +25,6 @@ double lengthOf(const BoundaryLine& line) {
   double length = 0;
   for (size_t i = 1; i < line.points.size(); ++i) length += (line.points[i] - line.points[i - 1]).norm();
   return length;
-}
-
-/// A closed nonmortar line that faces an open one begins where it is farthest off.
-std::vector<SmoothPart> partsFacing(const BoundaryLine& line, const BoundaryLine& mortar) {
-  std::vector<SmoothPart> parts = smoothParts(line);
-  if (!parts.front().closed || mortar.closed) return parts;
-  return smoothParts(begunAt(line, farthestNode(line.points, mortar.points)));
 }
 
 /// The widest angle between outward normals of two lines, in degrees, for a message.
@@ -52,7 +46,14 @@ double angleBetween(const std::vector<SmoothPart>& parts, const BoundaryLine& mo
   return widest * 180 / M_PI;
 }
 
-/// The ends of the nonmortar line that are merged into their neighbours, as flags by the nodes of the part.
+}  // namespace
+
+std::vector<SmoothPart> partsFacing(const BoundaryLine& line, const BoundaryLine& mortar) {
+  std::vector<SmoothPart> parts = smoothParts(line);
+  if (!parts.front().closed || mortar.closed) return parts;
+  return smoothParts(begunAt(line, farthestNode(line.points, mortar.points)));
+}
+
 std::vector<char> mergedNodes(const SmoothPart& part, const FacingLine& mortar, CouplingKind kind,
                               const InterfaceOptions& options) {
   std::vector<char> merged(part.nodes.size(), 0);
@@ -73,7 +74,6 @@ std::vector<char> mergedNodes(const SmoothPart& part, const FacingLine& mortar, 
   return merged;
 }
 
-/// The largest sagitta of the elements that face each other and whose curve is not known [m].
 double unknownSagitta(const SmoothPart& part, const FacingLine& mortar) {
   double largest = 0;
   for (const Segment& segment : commonRefinement(part.s, mortar.s)) {
@@ -88,12 +88,14 @@ double unknownSagitta(const SmoothPart& part, const FacingLine& mortar) {
   return largest;
 }
 
+namespace {
+
 /// Columns 2 node + component of a line to dofs of its mesh.
-void scatter(const ConstraintRows& values, const ElementLine& line, int firstRow, Triplets& entries) {
+void scatter(const ConstraintRows& values, const ElementLine& line, const std::vector<int>& rowOf,
+             Triplets& entries) {
   for (int j = 0; j < values.outerSize(); ++j)
     for (ConstraintRows::InnerIterator entry(values, j); entry; ++entry)
-      entries.emplace_back(firstRow + static_cast<int>(entry.row()), 2 * line.number(j / 2) + j % 2,
-                           entry.value());
+      entries.emplace_back(rowOf[entry.row()], 2 * line.number(j / 2) + j % 2, entry.value());
 }
 
 /// The same with every direction turned by +90 degrees.
@@ -151,7 +153,12 @@ ContactInterface::ContactInterface(const ContactPair& pair, const ContactMesh& n
   facing.reserve(parts.size());
   const MortarLine across(mortar);
   for (const SmoothPart& part : parts) facing.push_back(facingLine(part, across));
-  if (std::all_of(facing.begin(), facing.end(), [](const FacingLine& line) { return line.empty(); })) {
+  if (options.follows) {
+    C1_.resize(0, 2 * static_cast<Eigen::Index>(nonmortarMesh.nodes.count()));
+    C2_.resize(0, 2 * static_cast<Eigen::Index>(mortarMesh.nodes.count()));
+    drawLines(nonmortar, mortar, options);
+    follow(Vector::Zero(C1_.cols()), Vector::Zero(C2_.cols()));
+  } else if (std::all_of(facing.begin(), facing.end(), [](const FacingLine& line) { return line.empty(); })) {
     if (const double angle = angleBetween(parts, mortar); angle < 120) {
       std::ostringstream message;
       message << names << " do not face each other: their outward normals make an angle of " << angle
@@ -163,11 +170,7 @@ ContactInterface::ContactInterface(const ContactPair& pair, const ContactMesh& n
   }
   if (rows() == 0)
     throw InputError(names + " overlap at no nonmortar node, expected bodies that face each other");
-  overlap_ /= shorter;
-  if (friction_.any()) {
-    T1_ = turned(C1_);
-    T2_ = turned(C2_);
-  }
+  if (!follows()) overlap_ /= shorter;
   for (const BoundaryLine* each : {&nonmortar, &mortar})
     polygonTurn_ = std::max(polygonTurn_, turnOfPolygon(each->points, each->closed, sharpTurn));
   mortarNodes_ = mortar.nodes;
@@ -175,18 +178,21 @@ ContactInterface::ContactInterface(const ContactPair& pair, const ContactMesh& n
   mortarNodes_.insert(mortarNodes_.end(), mortar.middleNodes.begin(), mortar.middleNodes.end());
 
   if (options.gap) return;
-  for (double& distance : distance_)
-    if (std::abs(distance) < touching * shorter) distance = 0;
-  requireAllowed(distance_, options.initial, shorter, names);
+  std::vector<double> distances;
+  for (int row = 0; row < rows(); ++row) {
+    double& distance = distance_[row];
+    if (std::abs(distance) < touching * shorter && !follows()) distance = 0;
+    if (faces(row)) distances.push_back(distance);
+  }
+  if (distances.empty()) return;
+  requireAllowed(Eigen::Map<const Vector>(distances.data(), static_cast<Eigen::Index>(distances.size())),
+                 options.initial, shorter, names);
 }
 
 void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std::vector<FacingLine>& facing,
                                 const ContactMesh& nonmortarMesh, const ContactMesh& mortarMesh,
                                 const InterfaceOptions& options) {
-  Triplets rows1;
-  Triplets rows2;
-  Triplets mass;
-  Triplets given;
+  Entries entries;
   std::vector<double> distances;
   std::vector<double> lengths;
   for (size_t k = 0; k < parts.size(); ++k) {
@@ -210,11 +216,9 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
         coupling.distance[static_cast<Eigen::Index>(i)] =
             options.gap(nonmortarMesh.nodes.places[part.number(coupling.nodes[i])]);
     const auto firstRow = static_cast<int>(nonmortarNodes_.size());
-    scatter(coupling.C1, part, firstRow, rows1);
-    scatter(coupling.C2, facing[k], firstRow, rows2);
-    for (int j = 0; j < coupling.mass.outerSize(); ++j)
-      for (Eigen::SparseMatrix<double>::InnerIterator entry(coupling.mass, j); entry; ++entry)
-        mass.emplace_back(firstRow + static_cast<int>(entry.row()), firstRow + j, entry.value());
+    std::vector<int> rowOf(coupling.nodes.size());
+    std::iota(rowOf.begin(), rowOf.end(), firstRow);
+    entries.add(coupling, part, facing[k], rowOf);
     for (const int node : coupling.nodes) {
       nonmortarNodes_.push_back(part.number(node));
       normals_.push_back(directionAt(part, facing[k], node));
@@ -230,19 +234,38 @@ void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std:
     if (!options.gapInTime) continue;
     for (int j = 0; j < coupling.N.outerSize(); ++j)
       for (Eigen::SparseMatrix<double>::InnerIterator entry(coupling.N, j); entry; ++entry)
-        given.emplace_back(firstRow + static_cast<int>(entry.row()), part.number(j), entry.value());
+        entries.given.emplace_back(firstRow + static_cast<int>(entry.row()), part.number(j), entry.value());
     for (int j = 0; j < part.traceNodes(); ++j)
       gapNodes_.emplace_back(part.number(j), nonmortarMesh.nodes.places[part.number(j)]);
   }
   const auto n = static_cast<Eigen::Index>(nonmortarNodes_.size());
-  C1_ = assembled(n, 2 * static_cast<Eigen::Index>(nonmortarMesh.nodes.count()), rows1);
-  C2_ = assembled(n, 2 * static_cast<Eigen::Index>(mortarMesh.nodes.count()), rows2);
-  mass_ = assembled(n, n, mass);
+  C1_.resize(n, 2 * static_cast<Eigen::Index>(nonmortarMesh.nodes.count()));
+  C2_.resize(n, 2 * static_cast<Eigen::Index>(mortarMesh.nodes.count()));
+  setRows(entries);
   distance_ = Eigen::Map<const Vector>(distances.data(), n);
   lengths_ = Eigen::Map<const Vector>(lengths.data(), n);
   if (!options.gapInTime) return;
   gapInTime_ = options.gapInTime;
-  N_ = assembled(n, nonmortarMesh.nodes.count(), given);
+  N_ = assembled(n, nonmortarMesh.nodes.count(), entries.given);
+}
+
+void ContactInterface::Entries::add(const Coupling& coupling, const SmoothPart& part,
+                                    const FacingLine& facing, const std::vector<int>& rowOf) {
+  scatter(coupling.C1, part, rowOf, nonmortar);
+  scatter(coupling.C2, facing, rowOf, mortar);
+  for (int j = 0; j < coupling.mass.outerSize(); ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(coupling.mass, j); entry; ++entry)
+      mass.emplace_back(rowOf[entry.row()], rowOf[j], entry.value());
+}
+
+void ContactInterface::setRows(const Entries& entries) {
+  const auto n = static_cast<Eigen::Index>(nonmortarNodes_.size());
+  C1_ = assembled(n, C1_.cols(), entries.nonmortar);
+  C2_ = assembled(n, C2_.cols(), entries.mortar);
+  mass_ = assembled(n, n, entries.mass);
+  if (!friction_.any()) return;
+  T1_ = turned(C1_);
+  T2_ = turned(C2_);
 }
 
 ContactInterface ContactInterface::renumbered(const std::array<std::vector<int>, 2>& numbers,

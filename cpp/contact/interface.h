@@ -17,6 +17,7 @@
 
 #include <Eigen/SparseCore>
 #include <functional>
+#include <memory>
 #include <utility>
 
 #include "base/datum.h"
@@ -67,6 +68,7 @@ struct InterfaceOptions {
   Friction friction = {};
   bool axisymmetric = false;  ///< whether the bodies turn about the axis x = 0: forces are in [N] then
   double stiffness = 1;       ///< of the nonmortar over that of the mortar body (coupling `coarsened`)
+  bool follows = false;       ///< whether rows follow the bodies (follow()); not with a `gap`
 };
 
 /// Rows of C on one body: conditions x dofs (2 node + component), without entries that are zero.
@@ -92,6 +94,21 @@ class ContactInterface {
   /// on the lines. \param count  of the nodes of each mesh
   [[nodiscard]] ContactInterface renumbered(const std::array<std::vector<int>, 2>& numbers,
                                             const std::array<int, 2>& count) const;
+
+  /// Whether rows are those of bodies that displacements have moved, instead of the bodies as meshed. Then
+  /// every nonmortar node that may ever face the mortar side has its row, which is empty where it does not.
+  [[nodiscard]] bool follows() const { return lines_ != nullptr; }
+  /// Makes the rows those of the bodies moved by u_k, and g0 such that C u - g0 is the gap linearised there:
+  ///   g = C (u - u_k) - d(u_k).
+  /// \param keepRows  only nodes that have a row now have one: at the ends of lines, and with `coarsened`,
+  /// rows come and go at places where nothing is continuous in the motion
+  void follow(const Vector& uNonmortar, const Vector& uMortar, bool keepRows = false);
+  /// d(u_k), the distance of the bodies where rows have followed them; by rows [m]
+  [[nodiscard]] const Vector& distanceHere() const { return distanceHere_; }
+  /// Whether a row is not empty.
+  [[nodiscard]] bool faces(int row) const { return faces_.empty() || faces_[row] != 0; }
+  /// Where rows follow, all nodes of the nonmortar line.
+  [[nodiscard]] const std::vector<int>& nonmortarLine() const { return nonmortarLine_; }
 
   [[nodiscard]] const ContactPair& pair() const { return pair_; }
   /// Numbers of the nonmortar nodes that carry a condition, along the line; one row of C each. A node at a
@@ -145,7 +162,7 @@ class ContactInterface {
   [[nodiscard]] int rows() const { return static_cast<int>(distance_.size()); }
   /// Of the line, by rows: integrals of the row functions [m].
   [[nodiscard]] Vector lengths() const {
-    return axisymmetric_ ? lengths_ : Vector(mass_ * Vector::Ones(rows()));
+    return axisymmetric_ || follows() ? lengths_ : Vector(mass_ * Vector::Ones(rows()));
   }
 
   /// C u; displacements by dofs of the two bodies [m].
@@ -172,10 +189,20 @@ class ContactInterface {
  private:
   /// What is given at a time at the nodes of the nonmortar line, by node; empty where it does not change.
   [[nodiscard]] Vector nodalGap(double t) const;
+  /// What an interface that follows is made of (follow.cpp).
+  struct Lines;
+  /// Matrices while they are put together.
+  struct Entries;
+  void drawLines(const BoundaryLine& nonmortar, const BoundaryLine& mortar, const InterfaceOptions& options);
+  void setRows(const Entries& entries);
   void assemble(const std::vector<SmoothPart>& parts, const std::vector<FacingLine>& facing,
                 const ContactMesh& nonmortarMesh, const ContactMesh& mortarMesh,
                 const InterfaceOptions& options);
 
+  std::shared_ptr<const Lines> lines_;  ///< of an interface that follows
+  Vector distanceHere_;
+  std::vector<char> faces_;
+  std::vector<int> nonmortarLine_;
   ContactPair pair_;
   std::vector<int> nonmortarNodes_;
   std::vector<NodeBetween> between_;

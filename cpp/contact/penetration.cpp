@@ -123,6 +123,10 @@ void PenetrationIntegral::renumber(const std::vector<int>& nonmortar, const std:
   }
 }
 
+void PenetrationIntegral::setMoved(const Vector& uNonmortar, const Vector& uMortar) {
+  for (Place& place : places_) place.distance += place.jump(uNonmortar, uMortar) + place.distance;
+}
+
 double PenetrationIntegral::of(const Vector& uNonmortar, const Vector& uMortar, const Vector& gap) const {
   double integral = 0;
   for (const Stretch& stretch : stretches_) {

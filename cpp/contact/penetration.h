@@ -36,6 +36,8 @@ class PenetrationIntegral {
            bool axisymmetric = false);
   /// Gives the nodes of both meshes other numbers.
   void renumber(const std::vector<int>& nonmortar, const std::vector<int>& mortar);
+  /// Takes the distances that were added for those between bodies that these displacements have moved.
+  void setMoved(const Vector& uNonmortar, const Vector& uMortar);
   /// Displacements by dofs of the two bodies [m]. \returns [m^2], in the plane of the mesh whatever turns
   /// \param gap  by node of the nonmortar mesh, in place of the distance that was added; or empty [m]
   [[nodiscard]] double of(const Vector& uNonmortar, const Vector& uMortar, const Vector& gap = {}) const;

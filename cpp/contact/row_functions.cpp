@@ -44,14 +44,18 @@ std::vector<char> dropped(const SmoothPart& part, const FacingLine& mortar, size
 }  // namespace
 
 RowFunctions::RowFunctions(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
-                           const std::vector<char>& merged, double stiffness)
+                           const std::vector<char>& merged, double stiffness, const std::vector<char>& only)
     : part_(part), degree_(rowDegree(kind, part.degree())), ofNode_(part.traceNodes(), -1) {
   const Overlap overlap = overlapOf(part.s, mortar.s);
   if (!(overlap.length() > 0)) return;
   const auto last = static_cast<size_t>(part.elements());
   const auto has = [&](size_t i) {
     const size_t own = part.closed && i == last ? 0 : i;
-    return (merged.empty() || merged[own] == 0) && part.s[own] >= overlap.begin && part.s[own] <= overlap.end;
+    if (!merged.empty() && merged[own] != 0) return false;
+    if (only.empty()) return part.s[own] >= overlap.begin && part.s[own] <= overlap.end;
+    // What its function reaches to must face something.
+    return only[own] != 0 && part.s[std::min(own + 1, last)] > overlap.begin &&
+           part.s[std::max<size_t>(own, 1) - 1] < overlap.end;
   };
   const auto add = [&](size_t node) {
     ofNode_[node] = count();
@@ -63,11 +67,12 @@ RowFunctions::RowFunctions(CouplingKind kind, const SmoothPart& part, const Faci
     while (first < end && !has(first)) ++first;
     while (end > first && !has(end - 1)) --end;
     if (first == end) return;
-    const std::vector<char> drop = dropped(part, mortar, first, end - 1, stiffness);
+    const std::vector<char> drop =
+        only.empty() ? dropped(part, mortar, first, end - 1, stiffness) : std::vector<char>(part.s.size(), 0);
     for (size_t i = first; i < end; ++i)
       if (part.closed && i == last)
         ofNode_[i] = ofNode_[0];
-      else if (drop[i] == 0)
+      else if (drop[i] == 0 && has(i))
         add(i);
     findSpans();
     return;

@@ -13,7 +13,7 @@ class RowFunctions {
  public:
   /// Arguments as in couple(); the part must outlive it.
   RowFunctions(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
-               const std::vector<char>& merged, double stiffness);
+               const std::vector<char>& merged, double stiffness, const std::vector<char>& only = {});
 
   /// Trace nodes with a row, along the line.
   [[nodiscard]] const std::vector<int>& nodes() const { return nodes_; }

@@ -97,6 +97,12 @@ std::vector<Value> stretchOf(const std::vector<Value>& list, int begin, int end)
   return list.empty() ? list : std::vector<Value>(list.begin() + begin, list.begin() + end);
 }
 
+void setArcLengths(SmoothPart& part) {
+  part.s.assign(1, 0);
+  for (size_t i = 1; i < part.points.size(); ++i)
+    part.s.push_back(part.s.back() + (part.points[i] - part.points[i - 1]).norm());
+}
+
 SmoothPart partOf(const BoundaryLine& line, int begin, int end) {
   SmoothPart part;
   part.nodes.assign(line.nodes.begin() + begin, line.nodes.begin() + end + 1);
@@ -117,9 +123,7 @@ SmoothPart partOf(const BoundaryLine& line, int begin, int end) {
     part.curvatures.assign(part.points.size(), 0);
     part.arcs.assign(part.points.size() - 1, {0, true});
   } else {
-    part.s.push_back(0);
-    for (size_t i = 1; i < part.points.size(); ++i)
-      part.s.push_back(part.s.back() + (part.points[i] - part.points[i - 1]).norm());
+    setArcLengths(part);
     setCurvedNormals(part);
     part.curvatures = nodalCurvatures(part.points, part.closed);
     part.arcs = arcsOf(part.points, part.closed, stretchOf(line.middles, begin, end));
@@ -145,6 +149,17 @@ double SmoothPart::curvatureAt(int element, double abscissa) const {
 
 Point SmoothPart::direction(int element) const {
   return (points[element + 1] - points[element]).normalized();
+}
+
+SmoothPart moved(const std::shared_ptr<const SmoothPart>& drawn, const Vector& u) {
+  SmoothPart part = *drawn;
+  for (size_t i = 0; i < part.nodes.size(); ++i) part.points[i] += u.segment<2>(2 * part.nodes[i]);
+  for (size_t e = 0; e < part.middles.size(); ++e) part.middlePoints[e] += u.segment<2>(2 * part.middles[e]);
+  part.straight = false;
+  part.drawn = drawn;
+  setArcLengths(part);
+  setCurvedNormals(part);
+  return part;
 }
 
 BoundaryLine begunAt(const BoundaryLine& line, int first) {

@@ -17,6 +17,7 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "contact/arcs.h"
@@ -35,6 +36,7 @@ struct SmoothPart : ElementLine {  ///< abscissae: arc length from the first ver
   std::vector<Arc> arcs;           ///< what the elements stand for
   bool straight = false;
   bool closed = false;
+  std::shared_ptr<const SmoothPart> drawn = nullptr;  ///< where this one has moved: as it was meshed
 
   [[nodiscard]] double length() const { return s.back(); }
   /// n(s) at an abscissa s [m] on an element, or beyond its ends.
@@ -46,6 +48,10 @@ struct SmoothPart : ElementLine {  ///< abscissae: arc length from the first ver
 
 /// The parts in their order. A closed line without a corner is one closed part.
 std::vector<SmoothPart> smoothParts(const BoundaryLine& line);
+
+/// The part where displacements (by dofs of its mesh) have moved it, as a curve; its curvatures, and what its
+/// elements stand for, are those of the drawn one.
+SmoothPart moved(const std::shared_ptr<const SmoothPart>& drawn, const Vector& u);
 
 /// The same closed line begun at another of its nodes (an index of `line.nodes`).
 BoundaryLine begunAt(const BoundaryLine& line, int first);

@@ -86,7 +86,9 @@ ContactInterface interfaceOf(const ContactDescription& contact, const Side& one,
                           swapped ? contact.mortar.label : contact.nonmortar.label};
   const ContactSide second{static_cast<int>(two.body),
                            swapped ? contact.nonmortar.label : contact.mortar.label};
-  return {{first, second, contact.variant}, *one.mesh, *two.mesh};
+  InterfaceOptions options;
+  options.follows = contact.sliding == SlidingKind::finite;
+  return {{first, second, contact.variant}, *one.mesh, *two.mesh, options};
 }
 
 bool fits(const ContactDescription& contact, const Side& one, const Side& two, bool swapped) {
@@ -282,7 +284,7 @@ void checkSliding(const LintInput& input, const ContactDescription& contact, con
     const Sliding here = slidingOf(interface, {*one.mesh, nodes1}, {*two.mesh, nodes2}, u, still, pressed);
     if (here.edges > worst.edges) worst = here;
   }
-  const bool past = worst.past >= 0 && !contact.slidingAllowed;
+  const bool past = worst.past >= 0 && contact.sliding == SlidingKind::refuse;
   if (!past && !(worst.edges > noticeable)) return;
   faults.add(
       "contact-slides", contact.where,
@@ -322,7 +324,7 @@ void lintContacts(const LintInput& input, Faults& faults) {
       checkInterface(contact, one, two, interface, isTool(contact),
                      std::min(extent(*one.mesh), extent(*two.mesh)), input.scene.units.length, faults);
       checkConditions(input, contact, interface, faults);
-      checkSliding(input, contact, one, two, interface, faults);
+      if (contact.sliding != SlidingKind::finite) checkSliding(input, contact, one, two, interface, faults);
     } catch (const InputError& error) {
       diagnose(input, contact, one, two, error.what(), faults);
     }

@@ -27,6 +27,14 @@ bool flowsAnywhere(const BodyDescription& body) {
                      [](const MaterialDescription* m) { return m->flows(); });
 }
 
+/// Whether contact follows a body, which may move far then.
+bool isFollowed(const SceneDescription& scene, const std::string& body) {
+  return std::any_of(scene.contacts.begin(), scene.contacts.end(), [&](const ContactDescription& contact) {
+    return contact.sliding == SlidingKind::finite &&
+           (contact.nonmortar.body == body || contact.mortar.body == body);
+  });
+}
+
 void checkDatum(const LintInput& input, const SampledDatum& datum, Faults& faults) {
   constexpr double large = 0.2;
   const BodyDescription& body = input.scene.bodies[datum.body];
@@ -35,7 +43,7 @@ void checkDatum(const LintInput& input, const SampledDatum& datum, Faults& fault
   if (datum.kind == Kind::displacement) {
     const double most = datum.largestIn(input.scene.time);
     if (body.isTool()) return;  // it does not strain
-    if (most > large * datum.size)
+    if (most > large * datum.size && !isFollowed(input.scene, body.name))
       faults.add("large-displacement", placeOf(*datum.value),
                  subject + "a displacement of " + digits(most, 4) + " " + length +
                      " is prescribed on a body of " + digits(datum.size, 4) + " " + length);

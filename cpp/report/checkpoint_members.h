@@ -29,7 +29,8 @@ MORTIER_MEMBERS(StepReport, step, time, timeStep, status, reason, rung, guarded,
                 certificate, quantities, frictionWork, solutions)
 MORTIER_MEMBERS(Peak, value, time)
 MORTIER_MEMBERS(QuantityRange, start, smallest, smallestTime, largest, largestTime)
-MORTIER_MEMBERS(Peaks, vonMises, pressure, contactForce, displacement, motion, energy, sliding)
+MORTIER_MEMBERS(Peaks, vonMises, pressure, contactForce, displacement, motion, energy, sliding, strain,
+                rotation)
 MORTIER_MEMBERS(FlowBoundMemory, obstacle, moved, begin, misfit, opening, growth, load, loadOff, motion,
                 motionOff)
 MORTIER_MEMBERS(ErrorCourse, growth, misfit, drift, lengths, sums)

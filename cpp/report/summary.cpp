@@ -125,9 +125,14 @@ Json finalState(const Model& model, const State& state, const StepReport& last) 
 
 Json jsonOf(const Peaks& peaks) {
   const auto of = [](const Peak& peak) { return Json{{"value", peak.value}, {"time", peak.time}}; };
-  return {{"von_mises", of(peaks.vonMises)},         {"pressure", of(peaks.pressure)},
-          {"contact_force", of(peaks.contactForce)}, {"displacement", of(peaks.displacement)},
-          {"elastic_energy", of(peaks.energy)},      {"sliding", of(peaks.sliding)}};
+  Json json = {{"von_mises", of(peaks.vonMises)},         {"pressure", of(peaks.pressure)},
+               {"contact_force", of(peaks.contactForce)}, {"displacement", of(peaks.displacement)},
+               {"elastic_energy", of(peaks.energy)},      {"sliding", of(peaks.sliding)}};
+  if (peaks.strain.value > 0) {  // contact follows the bodies
+    json["strain"] = of(peaks.strain);
+    json["rotation"] = of(peaks.rotation);
+  }
+  return json;
 }
 
 Json jsonOf(const QuantityRange& range) {

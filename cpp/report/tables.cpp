@@ -1,6 +1,7 @@
 #include "report/tables.h"
 
 #include <functional>
+#include <utility>
 
 namespace mortier {
 
@@ -90,6 +91,28 @@ std::vector<HistoryValue> historyRow(const StepReport& r) {
   return row;
 }
 
+namespace {
+
+/// Leaves out nodes that face nothing now.
+void keepFacing(const ContactInterface& interface, ContactFields& fields) {
+  std::vector<int> rows;
+  std::vector<int> vertex;
+  std::vector<signed char> slipping;
+  for (int row = 0; row < interface.rows(); ++row) {
+    if (!interface.faces(row)) continue;
+    rows.push_back(row);
+    vertex.push_back(fields.vertex[row]);
+    slipping.push_back(fields.slipping[row]);
+  }
+  fields.vertex = std::move(vertex);
+  fields.slipping = std::move(slipping);
+  for (Vector* each :
+       {&fields.gap, &fields.force, &fields.pressure, &fields.friction, &fields.shear, &fields.slip})
+    *each = Vector((*each)(rows));
+}
+
+}  // namespace
+
 ContactFields contactFields(const Model& model, const State& state, size_t interface) {
   const ContactInterface& of = model.interfaces[interface];
   const ContactPair& pair = of.pair();
@@ -114,6 +137,7 @@ ContactFields contactFields(const Model& model, const State& state, size_t inter
         of.slip(state.bodies[pair.nonmortar.body].displacement, state.bodies[pair.mortar.body].displacement);
     fields.slipping = state.slipping[interface];
   }
+  if (of.follows()) keepFacing(of, fields);
   for (const int vertex : fields.vertex) fields.place.push_back(places[vertex]);
   return fields;
 }

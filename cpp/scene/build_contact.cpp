@@ -33,6 +33,7 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
   InterfaceOptions options;
   options.initial = contact.initial;
   options.friction = contact.friction;
+  options.follows = contact.sliding == SlidingKind::finite;
   options.axisymmetric = scene.plane == Plane::axisymmetric;
   options.stiffness = stiffnessRatio(scene, contact.nonmortar, contact.mortar, meshes);
   if (contact.gap) {

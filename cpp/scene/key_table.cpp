@@ -165,9 +165,10 @@ friction | | 0 | >= 0 | Coulomb's coefficient, the largest ratio of shear stress
   the bodies stick ([below](#friction))
 shear_limit | Pa | 0 | >= 0, without `friction` | Tresca's law: the shear stress at which the surfaces slip,
   pressed or not
-sliding | | `"refuse"` | `"refuse"`, `"allow"` | slips are taken as small. Where a node that is pressed slides
-  past the end of the line that it touches, by more than an edge and a tenth of that line, the run ends (exit
-  code 1, with the state so far in `DIR.failed`), or goes on
+sliding | | `"refuse"` | `"refuse"`, `"allow"`, `"finite"` | slips are taken as small. Where a node that is
+  pressed slides past the end of the line that it touches, by more than an edge and a tenth of that line, the
+  run ends (exit code 1, with the state so far in `DIR.failed`), or goes on; with `"finite"` contact follows
+  the bodies, however far they slide ([below](#finite-sliding))
 [contact.sides contact.nonmortar contact.mortar]
 body, label
 [quantity] `[[quantity]]` | | none | any number | a number of every step, in `history.csv`, the log and

@@ -77,6 +77,21 @@ Friction readFriction(const TableReader& table, const SceneDescription& scene) {
   return friction;
 }
 
+/// \throws InputError  where finite sliding stands together with what does not support it
+void refuseBesideFinite(const TableReader& table, const SceneDescription& scene,
+                        const ContactDescription& contact) {
+  const auto refuse = [&](bool found, const std::string& what) {
+    if (found)
+      table.reject("sliding",
+                   "refuse or allow: " + what + " does not support finite sliding, remove one of them");
+  };
+  refuse(contact.gap.has_value(), "gap");
+  refuse(contact.initial == InitialGap::close, "initial = \"close\"");
+  refuse(scene.solver.method != Method::newton, "solver.method = penalty-duality");
+  refuse(scene.accuracy.bound, "accuracy.bound");
+  refuse(!scene.accuracy.quantity.empty(), "accuracy.quantity");
+}
+
 }  // namespace
 
 ContactDescription readContact(const Node& node, const SceneDescription& scene) {
@@ -96,7 +111,8 @@ ContactDescription readContact(const Node& node, const SceneDescription& scene) 
   if (contact.gap && table.has("initial"))
     table.refuse(*table.find("gap"), "gap beside initial, expected one of them");
   contact.friction = readFriction(table, scene);
-  contact.slidingAllowed = table.choice<bool>("sliding");
+  contact.sliding = table.choice<SlidingKind>("sliding");
+  if (contact.sliding == SlidingKind::finite) refuseBesideFinite(table, scene, contact);
   const bool swap = table.boolean("swap");
   contact.otherSide = swap && !contact.sidesGiven;
   if (swap && contact.sidesGiven) std::swap(contact.nonmortar, contact.mortar);

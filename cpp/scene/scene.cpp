@@ -230,7 +230,7 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   }
   requireToolsTouch(scene);
   for (const ContactDescription& contact : scene.contacts)
-    scene.time.slidingAllowed.push_back(contact.slidingAllowed);
+    scene.time.slidingAllowed.push_back(contact.sliding != SlidingKind::refuse);
   requireAboutAxis(root, scene);
   requireAim(scene);
   return scene;

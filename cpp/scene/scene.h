@@ -125,6 +125,13 @@ struct SideDescription {
   std::string where;
 };
 
+/// What contact makes of bodies that slide along each other.
+enum class SlidingKind {
+  refuse,  ///< slips are taken as small; a run ends where a node passes the end of the line that it touches
+  allow,   ///< the same, and goes on
+  finite   ///< contact follows the bodies
+};
+
 struct ContactDescription {
   SideDescription nonmortar;
   SideDescription mortar;
@@ -136,7 +143,7 @@ struct ContactDescription {
   InitialGap initial = InitialGap::asMeshed;
   std::optional<Expression> gap;  ///< [m]
   Friction friction;
-  bool slidingAllowed = false;  ///< past the end of the line that is touched
+  SlidingKind sliding = SlidingKind::refuse;
   std::string where;
 };
 

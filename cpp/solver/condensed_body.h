@@ -32,6 +32,7 @@ class CondensedBody {
                 Threads& threads, bool whole = false);
 
   [[nodiscard]] const ContactDofs& contact() const { return contact_; }
+  [[nodiscard]] ContactDofs& contact() { return contact_; }
 
   /// The strain of the iterate, and the law there.
   void linearise(const Matrix* shift, BodyIterate& iterate, const BodyLaw& law);

@@ -23,7 +23,8 @@ ContactSolution StepSystem::Condensed::solveContact() const {
                                  : mortier::solveContact(problem, slack, p0, balance, sets.closed);
   if (system_->sparse() && solution.outcome == ContactSolution::Outcome::solved)
     solution.motion = system_->spread(motion, solution.rigid);
-  special.idle = std::max(special.idle, solution.idle);
+  if (!anyFollows(system_->model_))  // where rows follow, those that face nothing are idle too
+    special.idle = std::max(special.idle, solution.idle);
   if (solution.dependent && special.dependent == 0) special.dependent = dependentConditions(problem.W);
   return solution;
 }

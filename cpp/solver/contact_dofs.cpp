@@ -38,50 +38,75 @@ void forEachEntry(const ContactInterface& interface, int body, const ConstraintR
   if (interface.pair().mortar.body == body) visitAll(mortar);
 }
 
+/// A rigid body has no equations of nodes: contact sees the dofs themselves, which its motions move.
+bool seesDofs(const Body& body) {
+  return body.rigid() && body.freeDofs() > 0;
+}
+
+std::array<Body::Part, 2> partsOf(const Body& body, int node, const Point& vector) {
+  if (!seesDofs(body)) return body.parts(node, vector);
+  return {Body::Part{2 * node, vector.x()}, Body::Part{2 * node + 1, vector.y()}};
+}
+
+/// Entries of all conditions on one body as (condition, equation, value).
+template <class Visit>
+void forEachEquation(const Model& model, int body, const std::vector<int>& firstRow, Visit visit) {
+  const auto visitParts = [&](int first) {
+    return [&, first](int row, int node, const Point& vector) {
+      for (const auto& [equation, value] : partsOf(model.bodies[body], node, vector))
+        if (equation >= 0 && std::abs(value) > negligibleShare * vector.norm())
+          visit(first + row, equation, value);
+    };
+  };
+  for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    const ContactInterface& interface = model.interfaces[k];
+    forEachEntry(interface, body, interface.C1(), interface.C2(), visitParts(firstRow[k]));
+  }
+  int rows = firstRow.back();
+  for (const ContactInterface& interface : model.interfaces) {
+    if (!interface.hasFriction()) continue;
+    forEachEntry(interface, body, interface.T1(), interface.T2(), visitParts(rows));
+    rows += interface.rows();
+  }
+}
+
 }  // namespace
 
 ContactDofs::ContactDofs(const Model& model, int body, const std::vector<int>& firstRow) {
   findEquations(model, body, firstRow);
+  takeRows(model, body, firstRow);
   findMotions(model, body);
 }
 
 void ContactDofs::findEquations(const Model& model, int body, const std::vector<int>& firstRow) {
   const Body& of = model.bodies[body];
-  // A rigid body has no equations of nodes: contact sees the dofs themselves, which its motions move.
-  const auto partsOf = [&](int node, const Point& vector) {
-    if (!of.rigid() || of.freeDofs() == 0) return of.parts(node, vector);
-    return std::array{Body::Part{2 * node, vector.x()}, Body::Part{2 * node + 1, vector.y()}};
-  };
-  std::vector<int> column(of.rigid() ? of.dofs() : of.freeDofs(), -1);
-  int rows = firstRow.back();
-  const auto forEachEquation = [&](auto visit) {
-    const auto visitParts = [&](int first) {
-      return [&, first](int row, int node, const Point& vector) {
-        for (const auto& [equation, value] : partsOf(node, vector))
-          if (equation >= 0 && std::abs(value) > negligibleShare * vector.norm())
-            visit(first + row, equation, value);
-      };
-    };
-    for (size_t k = 0; k < model.interfaces.size(); ++k) {
-      const ContactInterface& interface = model.interfaces[k];
-      forEachEntry(interface, body, interface.C1(), interface.C2(), visitParts(firstRow[k]));
-    }
-    rows = firstRow.back();
-    for (const ContactInterface& interface : model.interfaces) {
-      if (!interface.hasFriction()) continue;
-      forEachEntry(interface, body, interface.T1(), interface.T2(), visitParts(rows));
-      rows += interface.rows();
-    }
-  };
-  forEachEquation([&](int, int equation, double) {
-    if (column[equation] >= 0) return;
-    column[equation] = static_cast<int>(equations.size());
+  column_.assign(seesDofs(of) ? of.dofs() : of.freeDofs(), -1);
+  const auto add = [&](int equation) {
+    if (equation < 0 || column_[equation] >= 0) return;
+    column_[equation] = static_cast<int>(equations.size());
     equations.push_back(equation);
-  });
+  };
+  forEachEquation(model, body, firstRow, [&](int, int equation, double) { add(equation); });
+  for (const ContactInterface& interface : model.interfaces) {
+    if (!interface.follows()) continue;
+    const auto addLine = [&](const std::vector<int>& nodes) {
+      for (const int node : nodes)
+        for (const int c : {0, 1}) add(seesDofs(of) ? 2 * node + c : of.equations()[2 * node + c]);
+    };
+    if (interface.pair().nonmortar.body == body) addLine(interface.nonmortarLine());
+    if (interface.pair().mortar.body == body) addLine(interface.mortarNodes());
+  }
+}
+
+void ContactDofs::takeRows(const Model& model, int body, const std::vector<int>& firstRow) {
+  int conditions = firstRow.back();
+  for (const ContactInterface& interface : model.interfaces)
+    conditions += interface.hasFriction() ? interface.rows() : 0;
   std::vector<Eigen::Triplet<double>> entries;
-  forEachEquation(
-      [&](int row, int equation, double value) { entries.emplace_back(row, column[equation], value); });
-  C.resize(rows, static_cast<Eigen::Index>(equations.size()));
+  forEachEquation(model, body, firstRow, [&](int row, int equation, double value) {
+    entries.emplace_back(row, column_[equation], value);
+  });
+  C.resize(conditions, static_cast<Eigen::Index>(equations.size()));
   C.setFromTriplets(entries.begin(), entries.end());
 }
 

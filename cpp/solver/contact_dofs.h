@@ -16,7 +16,10 @@ struct ContactDofs {
   /// \throws UnheldBodyError where a motion does not move the contact dofs.
   ContactDofs(const Model& model, int body, const std::vector<int>& firstRow);
 
-  std::vector<int> equations;     ///< of the contact dofs
+  /// Takes the rows of interfaces that have followed the bodies.
+  void takeRows(const Model& model, int body, const std::vector<int>& firstRow);
+
+  std::vector<int> equations;     ///< of the contact dofs; all of a line that may touch anywhere
   Eigen::SparseMatrix<double> C;  ///< contact conditions x contact dofs
   Matrix motions;                 ///< rigid motions, by dofs
   Matrix R;                       ///< the same on the contact dofs, orthonormal there
@@ -34,7 +37,8 @@ struct ContactDofs {
   void findEquations(const Model& model, int body, const std::vector<int>& firstRow);
   void findMotions(const Model& model, int body);
 
-  Matrix basis_;  ///< of the motions by those of rigidModes()
+  Matrix basis_;             ///< of the motions by those of rigidModes()
+  std::vector<int> column_;  ///< of C, by equations of the body; -1: none
 };
 
 }  // namespace mortier

@@ -78,6 +78,12 @@ double largestMotion(const Iterate& iterate) {
   return motion;
 }
 
+std::vector<Vector> displacementsOf(const State& state) {
+  std::vector<Vector> u;
+  for (const BodyState& body : state.bodies) u.push_back(body.displacement);
+  return u;
+}
+
 std::vector<Vector> displacements(const State& state0, const Iterate& iterate) {
   std::vector<Vector> u;
   for (size_t b = 0; b < state0.bodies.size(); ++b)

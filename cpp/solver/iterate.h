@@ -78,6 +78,7 @@ void updateStrain(const Model& model, const Step& step, size_t body, Iterate& it
 /// The largest |du| of any body [m].
 double largestMotion(const Iterate& iterate);
 
+std::vector<Vector> displacementsOf(const State& state);
 /// u0 + du per body.
 std::vector<Vector> displacements(const State& state0, const Iterate& iterate);
 

@@ -18,13 +18,17 @@ constexpr double negligibleMotion = 1e-6;
 
 }  // namespace
 
-void StepSystem::requireHeld() {
-  contact_.proximal = options_.proximalWeight;
+void StepSystem::joinMotions() {
   contact_.G = Matrix::Zero(conditions(), firstMotion_.back());
   for (size_t b = 0; b < bodies_.size(); ++b) {
     const ContactDofs& dofs = bodies_[b].contact();
     contact_.G.middleCols(firstMotion_[b], dofs.R.cols()) = dofs.C * dofs.R;
   }
+}
+
+void StepSystem::requireHeld() {
+  contact_.proximal = options_.proximalWeight;
+  joinMotions();
   if (contact_.G.cols() == 0) return;
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(Matrix(contact_.G.transpose() * contact_.G));
   if (eigen.eigenvalues()[0] <= heldFraction * contact_.G.squaredNorm())

@@ -23,6 +23,17 @@ bool anyFriction(const Model& model) {
                      [](const ContactInterface& interface) { return interface.hasFriction(); });
 }
 
+bool anyFollows(const Model& model) {
+  return std::any_of(model.interfaces.begin(), model.interfaces.end(),
+                     [](const ContactInterface& interface) { return interface.follows(); });
+}
+
+void follow(const Model& model, const std::vector<Vector>& u, bool keepRows) {
+  for (ContactInterface& interface : model.interfaces)
+    if (interface.follows())
+      interface.follow(u[interface.pair().nonmortar.body], u[interface.pair().mortar.body], keepRows);
+}
+
 bool anyDistanceMoves(const Model& model) {
   return std::any_of(model.interfaces.begin(), model.interfaces.end(),
                      [](const ContactInterface& interface) { return interface.distanceMoves(); });
@@ -37,7 +48,7 @@ bool solvesSparse(const Model& model, const SolverOptions& options) {
       anyFriction(model) || std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) {
         return body.rigid() && body.freeDofs() > 0;  // no stiffness stands for them
       });
-  return solvesSparse(conditions, equations, dense, options);
+  return !anyFollows(model) && solvesSparse(conditions, equations, dense, options);
 }
 
 bool solvesSparse(double conditions, double equations, bool rough, const SolverOptions& options) {

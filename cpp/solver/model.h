@@ -17,7 +17,8 @@ namespace mortier {
 /// over triangles or the largest of them is that of its own.
 struct Model {
   std::vector<Body> bodies;
-  std::vector<ContactInterface> interfaces;
+  /// Those that follow the bodies change as the bodies move (StepTaker), which is no change of the model.
+  mutable std::vector<ContactInterface> interfaces;
   std::vector<BodyPart> parts = {};  ///< of the bodies; empty where they are whole
   Ranks* ranks = nullptr;            ///< where there are parts
 
@@ -59,6 +60,10 @@ Model inParts(const Model& whole, Ranks& ranks);
 
 /// Whether any interface has friction.
 bool anyFriction(const Model& model);
+/// Whether the rows of any interface follow the bodies.
+bool anyFollows(const Model& model);
+/// Lets them follow to these displacements (ContactInterface::follow).
+void follow(const Model& model, const std::vector<Vector>& u, bool keepRows = false);
 /// Whether the distance of any interface changes in time.
 bool anyDistanceMoves(const Model& model);
 

@@ -54,6 +54,14 @@ StepSystem::StepSystem(const Model& model, const SolverOptions& options)
   sparse_ = std::make_unique<SparseContact>(model, bodies_, firstRow_, options.linear, threads_);
 }
 
+void StepSystem::takeRows() {
+  forEachBody([&](int b) { bodies_[b].contact().takeRows(model_, b, firstRow_); });
+  joinMotions();
+  contact_.along = {};
+  findFriction();
+  contact_.W.resize(0, 0);  // made anew with the next factors
+}
+
 Step StepSystem::step(const State& state0, const StepData& data) {
   Step step{state0, data, loadsAt(data.time), std::vector<Matrix>(model_.bodies.size())};
   for (size_t b = 0; b < model_.bodies.size(); ++b) {

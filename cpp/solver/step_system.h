@@ -61,6 +61,9 @@ class StepSystem {
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] const SolverOptions& options() const { return options_; }
 
+  /// Takes the rows of interfaces that have followed the bodies; what belongs to bodies alone is kept.
+  void takeRows();
+
   /// The data of a step from a state; valid until loads at two other times have been asked for.
   [[nodiscard]] Step step(const State& state0, const StepData& data);
   /// Nodal forces of all bodies at a time.
@@ -86,6 +89,9 @@ class StepSystem {
   /// What the rounding of the last linear solve left of the gaps of closed conditions, each as the force that
   /// would close it by itself, over the largest contact force; 0 with friction [-].
   [[nodiscard]] double opened(const Step& step, const Iterate& iterate) const;
+
+  /// W_ii of all conditions, as linearised last; none before. [m^2/N]
+  [[nodiscard]] Vector compliances() const;
 
   /// Where an iterate is further off the law than a converged step may be; none where it is so nowhere.
   std::optional<StuckPlace> furthest(const Step& step, Iterate& iterate, double weight);
@@ -129,6 +135,7 @@ class StepSystem {
 
  private:
   void requireHeld();
+  void joinMotions();
   /// By the equations of all bodies.
   [[nodiscard]] Vector gathered(const std::vector<Vector>& nodal) const;
   [[nodiscard]] std::vector<Vector> spread(const Vector& x, const Vector& rigid) const;
@@ -143,8 +150,6 @@ class StepSystem {
   }
   [[nodiscard]] int rows() const { return firstRow_.back(); }
   /// Those across contact and those along it.
-  /// W_ii of all conditions, as linearised last; none before. [m^2/N]
-  [[nodiscard]] Vector compliances() const;
   [[nodiscard]] int conditions() const { return rows() + static_cast<int>(contact_.along.node.size()); }
   void findFriction();
   [[nodiscard]] ListedSolution listed(const FrictionSolution& solution) const;

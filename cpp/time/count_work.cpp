@@ -78,6 +78,17 @@ double StepTaker::dissipated(size_t b) const {
 }
 
 void StepTaker::countWork() {
+  // Rows that follow the bodies were others at the start.
+  std::vector<ContactInterface> atEnd;
+  std::vector<Vector> contactAtStart;
+  if (follows()) {
+    atEnd = model_.interfaces;
+    follow(model_, displacementsOf(state_));
+  }
+  for (size_t b = 0; b < model_.bodies.size(); ++b)
+    contactAtStart.push_back(
+        contactForces(model_, state_.contactForce, state_.frictionForce, static_cast<int>(b)));
+  if (follows()) model_.interfaces = std::move(atEnd);
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
     const int index = static_cast<int>(b);
@@ -90,7 +101,7 @@ void StepTaker::countWork() {
     };
     const Vector du = solutions_.back().bodies[b].increment.value();
     const Iterate& end = solutions_.back();
-    const Vector contact0 = counted(contactForces(model_, state_.contactForce, state_.frictionForce, index));
+    const Vector contact0 = counted(contactAtStart[b]);
     const Vector contact1 = contactForces(model_, end.contactForce, end.frictionForce, index);
     const Vector load = body.load(t1_);
     // What loads and supports exert: at the start what the stress balances, as loads may begin at once.

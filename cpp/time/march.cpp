@@ -38,7 +38,8 @@ void advance(StepTaker& taker, const State& state, double t1, StepReport& report
       ++done;
       continue;
     }
-    if (outcome.unheld() || parts == smallest) {
+    // A body may be unheld where contact would be after too large a step only.
+    if ((outcome.unheld() && !taker.follows()) || parts == smallest) {
       report.status = outcome.unheld() ? Status::unheld : Status::failed;
       std::ostringstream reason;
       reason << "step " << report.step << " at t = " << time << ": " << outcome.detail;
@@ -78,6 +79,14 @@ double secondsSince(Clock::time_point begin) {
 std::string followSliding(const Model& model, const State& state, const TimePlan& plan, RunReport& run) {
   std::string why;
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
+    if (const ContactInterface& interface = model.interfaces[k]; interface.follows()) {
+      for (const int b : {interface.pair().nonmortar.body, interface.pair().mortar.body}) {
+        const Deformation most = deformationOf(model.bodies[b], state.bodies[b].displacement);
+        run.peaks.strain.raise(most.strain, state.time);
+        run.peaks.rotation.raise(most.rotation, state.time);
+      }
+      continue;
+    }
     const Sliding sliding = slidingOf(model, state, k);
     run.peaks.sliding.raise(sliding.edges, state.time);
     const bool allowed = k >= plan.slidingAllowed.size() || plan.slidingAllowed[k];
@@ -246,6 +255,10 @@ RunReport march(const Model& model, State& state, MarchMemory& memory, const Tim
   const bool begun = memory.run.steps > 0 || memory.controller.trial > 0;
   const bool countsWork = std::any_of(plan.quantities.begin(), plan.quantities.end(), needsWork);
   if (!begun) memory.begin = state.time;
+  const auto followState = [&] {
+    if (anyFollows(model)) follow(model, displacementsOf(state));
+  };
+  followState();
   std::optional<StepTaker> taker;
   const auto makeTaker = [&] {
     const auto begin = Clock::now();
@@ -269,6 +282,7 @@ RunReport march(const Model& model, State& state, MarchMemory& memory, const Tim
       memory.run.shortfall = controller.shortfall();
       return memory.run;
     }
+    followState();
     reportStart(model, state, taker->threads(), memory, plan, observer);
     makeTaker();
   }

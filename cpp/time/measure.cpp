@@ -126,6 +126,24 @@ Sliding slidingOf(const Model& model, const State& state, size_t interface) {
                    state.bodies[pair.mortar.body].displacement, state.contactForce[interface]);
 }
 
+Deformation deformationOf(const Body& body, const Vector& displacement) {
+  Deformation most;
+  const TriangleMesh& mesh = body.mesh();
+  for (const auto& [a, b, c] : mesh.triangles) {
+    Eigen::Matrix2d edges;
+    Eigen::Matrix2d changes;
+    edges << mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a];
+    changes << displacement.segment<2>(2 * b) - displacement.segment<2>(2 * a),
+        displacement.segment<2>(2 * c) - displacement.segment<2>(2 * a);
+    const Eigen::Matrix2d gradient = changes * edges.inverse();
+    const double mean = gradient.trace() / 2;
+    const double shear = std::hypot(gradient(0, 0) - gradient(1, 1), gradient(0, 1) + gradient(1, 0)) / 2;
+    most.strain = std::max(most.strain, std::abs(mean) + shear);
+    most.rotation = std::max(most.rotation, std::abs(gradient(1, 0) - gradient(0, 1)) / 2);
+  }
+  return most;
+}
+
 Point resultant(const Model& model, const State& state, size_t interface) {
   const ContactInterface& of = model.interfaces[interface];
   Point sum = Point::Zero();

@@ -19,6 +19,13 @@ void raise(Peaks& peaks, const StepReport& report);
 /// How far the bodies of an interface have slid along each other.
 Sliding slidingOf(const Model& model, const State& state, size_t interface);
 
+/// The largest strain of any triangle of a body, and its rotation, of the displacements of the vertices
+/// [-, rad].
+struct Deformation {
+  double strain = 0, rotation = 0;
+};
+Deformation deformationOf(const Body& body, const Vector& displacement);
+
 /// Resultant of nodal contact forces on the nonmortar body [N/m].
 Point resultant(const Model& model, const State& state, size_t interface);
 

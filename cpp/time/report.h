@@ -45,7 +45,8 @@ struct QuantityRange {
 /// Of what a StepReport says of the state at its end.
 struct Peaks {
   Peak vonMises, pressure, contactForce, displacement, motion, energy;
-  Peak sliding;  ///< over the edges beside the node (contact/sliding.h)
+  Peak sliding;           ///< over the edges beside the node (contact/sliding.h)
+  Peak strain, rotation;  ///< of bodies that contact follows [-, rad]
 };
 
 /// A step of which several solutions were found.

@@ -25,6 +25,11 @@ StepTaker::StepTaker(const Model& model, State& state, MarchMemory& memory, Sche
   if (memory.run.steps > 0) system_.resume(memory.solver);
 }
 
+StepOutcome StepTaker::solveStage(const StepData& data, Iterate& iterate, Effort effort) {
+  return anyFollows(model_) ? repeatOnMovedBodies(data, iterate, effort)
+                            : solveStep(system_, state_, data, iterate, effort);
+}
+
 StepOutcome StepTaker::jump() {
   StepOutcome outcome = attempt(state_.time, Scheme::backwardEuler);
   if (!outcome.converged()) return outcome;
@@ -116,7 +121,7 @@ StepOutcome StepTaker::solveStages(double t1, Effort effort) {
     StepData data{time, stage.diagonal * k, shift_, startSolved_ || memory_.run.steps > 0};
     addThermalStrain(model_, state_, data);
     Iterate iterate = guess(i, k);
-    StepOutcome outcome = solveStep(system_, state_, data, iterate, effort);
+    StepOutcome outcome = solveStage(data, iterate, effort);
     outcome.iterations += total.iterations;
     outcome.factorisations += total.factorisations;
     outcome.certificate = worse(outcome.certificate, total.certificate);
@@ -292,6 +297,7 @@ void StepTaker::commit() {
   state_.time = t1_;
   active_ = std::move(solutions_.back().active);
   solutions_.clear();
+  if (anyFollows(model_)) follow(model_, displacementsOf(state_), true);  // supports were sums of increments
 }
 
 }  // namespace mortier

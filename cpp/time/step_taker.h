@@ -57,6 +57,7 @@ class StepTaker {
   [[nodiscard]] SlipAndWork slip() const;
   /// The slip that such a response has, per interface.
   [[nodiscard]] std::vector<Vector> slipOf(const std::vector<Response>& response) const;
+  [[nodiscard]] bool follows() const { return anyFollows(model_); }
   /// What commit() changes.
   using Kept = std::pair<State, MarchMemory>;
   [[nodiscard]] Kept kept() const { return {state_, memory_}; }
@@ -91,6 +92,10 @@ class StepTaker {
  private:
   StepOutcome solveStages(double t1, Effort effort);
   StepOutcome hold(StepOutcome outcome);
+  /// solveStep(), repeated where contact follows the bodies (follow_bodies.cpp).
+  StepOutcome solveStage(const StepData& data, Iterate& iterate, Effort effort);
+  StepOutcome repeatOnMovedBodies(const StepData& data, Iterate& iterate, Effort effort);
+  void followTo(const Iterate& iterate, bool keepRows);
   Iterate guess(size_t stage, double k);
   void shiftOf(const Stage& stage, double k);
   /// G at the start of the step.

@@ -404,7 +404,7 @@ TEST_F(SceneFiles, defaultsOfKeysAreThoseOfTheTypes) {
   EXPECT_EQ(scene.accuracy.maxUnknowns, AccuracyGoal().maxUnknowns);
   EXPECT_EQ(scene.accuracy.maxSeconds, AccuracyGoal().maxSeconds);
   EXPECT_EQ(scene.contacts[0].initial, ContactDescription().initial);
-  EXPECT_EQ(scene.contacts[0].slidingAllowed, ContactDescription().slidingAllowed);
+  EXPECT_EQ(scene.contacts[0].sliding, ContactDescription().sliding);
   EXPECT_EQ(Viscoplasticity().projection,
             static_cast<Projection>(TableReader(Node(), "body.material", "")
                                         .oneOf("projection", keyAt("body.material", "projection").words)));

@@ -1,0 +1,138 @@
+// Rows that follow the bodies: the lines as drawn, moved, and coupled anew.
+#include <algorithm>
+#include <map>
+
+#include "contact/element_tree.h"
+#include "contact/interface_entries.h"
+
+namespace mortier {
+
+struct ContactInterface::Lines {
+  BoundaryLine nonmortar;  ///< as drawn
+  BoundaryLine mortar;
+  std::vector<std::shared_ptr<const SmoothPart>> nonmortarParts, mortarParts;
+  std::vector<std::vector<char>> merged;  ///< by nonmortar parts and vertices
+  std::vector<std::map<int, int>> rowOf;  ///< by nonmortar parts and node numbers
+  double stiffness = 1;
+  double shorter = 0;  ///< of the two lines [m]
+  double apart = 0;    ///< distance of a node that faces nothing: the length of its line [m]
+
+  /// A closed line that faces an open one begins where it is farthest off now.
+  [[nodiscard]] std::shared_ptr<const SmoothPart> begun(const Vector& u1, const Vector& u2) const {
+    std::vector<Point> one = nonmortar.points;
+    std::vector<Point> two = mortar.points;
+    for (size_t i = 0; i < one.size(); ++i) one[i] += u1.segment<2>(2 * nonmortar.nodes[i]);
+    for (size_t i = 0; i < two.size(); ++i) two[i] += u2.segment<2>(2 * mortar.nodes[i]);
+    return std::make_shared<const SmoothPart>(
+        smoothParts(begunAt(nonmortar, farthestNode(one, two))).front());
+  }
+};
+
+namespace {
+
+std::vector<std::shared_ptr<const SmoothPart>> shared(std::vector<SmoothPart> parts) {
+  std::vector<std::shared_ptr<const SmoothPart>> result;
+  for (SmoothPart& part : parts) result.push_back(std::make_shared<const SmoothPart>(std::move(part)));
+  return result;
+}
+
+double lengthOf(const std::vector<std::shared_ptr<const SmoothPart>>& parts) {
+  double length = 0;
+  for (const auto& part : parts) length += part->length();
+  return length;
+}
+
+}  // namespace
+
+void ContactInterface::drawLines(const BoundaryLine& nonmortar, const BoundaryLine& mortar,
+                                 const InterfaceOptions& options) {
+  auto lines = std::make_shared<Lines>();
+  lines->nonmortar = nonmortar;
+  lines->mortar = mortar;
+  lines->nonmortarParts = shared(partsFacing(nonmortar, mortar));
+  lines->mortarParts = shared(smoothParts(mortar));
+  lines->stiffness = options.stiffness;
+  lines->apart = lengthOf(lines->nonmortarParts);
+  lines->shorter = std::min(lines->apart, lengthOf(lines->mortarParts));
+  for (const auto& drawn : lines->nonmortarParts) {
+    const SmoothPart& part = *drawn;
+    const bool merges = pair_.coupling != CouplingKind::interpolation;
+    const std::vector<char>& merged = lines->merged.emplace_back(
+        merges ? mergedNodes(part, {}, pair_.coupling, options) : std::vector<char>(part.nodes.size(), 0));
+    heldEnds_ += static_cast<int>(std::count(merged.begin(), merged.end(), 1));
+    std::map<int, int>& rowOf = lines->rowOf.emplace_back();
+    const auto add = [&](int node) {
+      if (!rowOf.try_emplace(node, static_cast<int>(nonmortarNodes_.size())).second) return;
+      nonmortarNodes_.push_back(node);
+    };
+    const bool middles = rowDegree(pair_.coupling, part.degree()) == 2;
+    for (int i = 0; i <= part.elements(); ++i) {
+      if (merged[i] == 0) add(part.nodes[i]);
+      if (middles && i < part.elements() && merged[i] == 0 && merged[i + 1] == 0) add(part.middles[i]);
+    }
+  }
+  nonmortarLine_ = nonmortar.nodes;
+  if (nonmortar.closed) nonmortarLine_.pop_back();
+  nonmortarLine_.insert(nonmortarLine_.end(), nonmortar.middleNodes.begin(), nonmortar.middleNodes.end());
+  lines_ = std::move(lines);
+}
+
+void ContactInterface::follow(const Vector& u1, const Vector& u2, bool keepRows) {
+  const Lines& lines = *lines_;
+  // Contact acts along the normal of the stiffer body, which hardly bends.
+  const double weight = lines.stiffness < 1 ? 1 : 0;
+  std::vector<SmoothPart> across;
+  for (const auto& part : lines.mortarParts) {
+    across.push_back(moved(part, u2));
+    across.back().curvatures.assign(part->points.size(), 1 - weight);
+  }
+  const MortarLine mortar(across, lines.mortar.closed);
+  const bool turns = lines.nonmortarParts.front()->closed && !lines.mortar.closed;
+
+  const auto n = static_cast<Eigen::Index>(nonmortarNodes_.size());
+  Entries entries;
+  const std::vector<char> facedBefore = std::move(faces_);
+  faces_.assign(n, 0);
+  normals_.resize(n);
+  between_.clear();
+  penetration_ = {};
+  lengths_ = Vector::Zero(n);
+  distanceHere_ = Vector::Constant(n, lines.apart);
+  overlap_ = 0;
+  for (size_t k = 0; k < lines.nonmortarParts.size(); ++k) {
+    const std::map<int, int>& rowOf = lines.rowOf[k];
+    SmoothPart part = moved(turns ? lines.begun(u1, u2) : lines.nonmortarParts[k], u1);
+    part.curvatures.assign(part.points.size(), weight);  // directionOf() takes it from these
+    const FacingLine facing = facingLine(part, mortar);
+    for (int node = 0; node < part.traceNodes(); ++node)
+      if (const auto row = rowOf.find(part.number(node)); row != rowOf.end())
+        normals_[row->second] = directionAt(part, facing, node);
+    if (facing.empty()) continue;
+    std::vector<char> only;
+    for (size_t i = 0; i < part.nodes.size() && keepRows; ++i) {
+      const auto row = rowOf.find(part.nodes[i]);
+      only.push_back(row != rowOf.end() && facedBefore[row->second] != 0 ? 1 : 0);
+    }
+    const Coupling coupling = couple(pair_.coupling, part, facing, distanceOfCurves, lines.merged[k],
+                                     axisymmetric_, lines.stiffness, only);
+    std::vector<int> rows;
+    for (const int node : coupling.nodes) rows.push_back(rowOf.at(part.number(node)));
+    entries.add(coupling, part, facing, rows);
+    for (size_t i = 0; i < rows.size(); ++i) {
+      faces_[rows[i]] = 1;
+      distanceHere_[rows[i]] = coupling.distance[static_cast<Eigen::Index>(i)];
+      lengths_[rows[i]] = coupling.lengths[static_cast<Eigen::Index>(i)];
+    }
+    for (const auto& [node, ends] : coupling.between)
+      between_.push_back({part.number(node), {rows[ends[0]], rows[ends[1]]}});
+    overlap_ += std::max(0.0, overlapOf(part.s, facing.s).length()) / lines.shorter;
+    penetration_.add(part, facing, distanceOfCurves, axisymmetric_);
+  }
+  for (int row = 0; row < n; ++row)  // no force has a pressure there
+    if (faces_[row] == 0) entries.mass.emplace_back(row, row, 1);
+  setRows(entries);
+  distance_ = distanceHere_ + jump(u1, u2);
+  penetration_.setMoved(u1, u2);
+}
+
+}  // namespace mortier

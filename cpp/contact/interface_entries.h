@@ -1,0 +1,31 @@
+// What an interface as meshed and one that follows the bodies have in common while they are put together.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "contact/interface.h"
+
+namespace mortier {
+
+struct ContactInterface::Entries {
+  Triplets nonmortar, mortar;  ///< of C1 and C2, by dofs of their meshes
+  Triplets mass;
+  Triplets given;  ///< of N
+
+  /// \param rowOf  by rows of the coupling
+  void add(const Coupling& coupling, const SmoothPart& part, const FacingLine& facing,
+           const std::vector<int>& rowOf);
+};
+
+/// A closed nonmortar line that faces an open one begins where it is farthest off.
+std::vector<SmoothPart> partsFacing(const BoundaryLine& line, const BoundaryLine& mortar);
+
+/// The ends of the nonmortar line that are merged into their neighbours, as flags by the nodes of the part.
+std::vector<char> mergedNodes(const SmoothPart& part, const FacingLine& mortar, CouplingKind kind,
+                              const InterfaceOptions& options);
+
+/// The largest sagitta of the elements that face each other and whose curve is not known [m].
+double unknownSagitta(const SmoothPart& part, const FacingLine& mortar);
+
+}  // namespace mortier

@@ -1,0 +1,108 @@
+// A stage where contact follows the bodies. Its rows, distances and normals depend on where the bodies are at
+// the end of the stage:
+//
+//   geometry at u_k  ->  contact problem with these rows, solved exactly  ->  u_(k+1)
+//
+// is repeated until the solution fulfils its conditions on the geometry at u_(k+1) too (docs/theory.md). The
+// first geometry is that of the guess.
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "time/measure.h"
+#include "time/step_taker.h"
+
+namespace mortier {
+namespace {
+
+/// How far a solution is off its conditions on other rows, as forces over the largest contact force [-]; gaps
+/// that are rounding of places are none.
+double misfit(const Model& model, const State& state0, const Iterate& iterate, const Vector& compliance,
+              double rounding) {
+  if (compliance.size() == 0) return 0;  // at rest, without a linear solve
+  const std::vector<Vector> gap = gaps(model, state0, iterate);
+  const std::vector<Vector> slip = slips(model, iterate);
+  double force = 0;
+  double off = 0;
+  Eigen::Index row = 0;
+  const auto add = [&](double by, Eigen::Index condition) {
+    if (by <= rounding) return;
+    off = std::max(off, by / (compliance[condition] > 0 ? compliance[condition] : compliance.maxCoeff()));
+  };
+  for (size_t k = 0; k < gap.size(); ++k) {
+    if (gap[k].size() > 0) force = std::max(force, iterate.contactForce[k].maxCoeff());
+    for (Eigen::Index i = 0; i < gap[k].size(); ++i, ++row)
+      add(iterate.active[k][i] != 0 ? std::abs(gap[k][i]) : gap[k][i], row);
+  }
+  for (size_t k = 0; k < slip.size(); ++k)
+    for (Eigen::Index i = 0; i < slip[k].size(); ++i, ++row) {
+      const int sign = iterate.slipping[k][i];
+      const bool bears = iterate.contactForce[k][i] > 0 || model.interfaces[k].friction().limit > 0;
+      if (bears) add(sign == 0 ? std::abs(slip[k][i]) : -sign * slip[k][i], row);
+    }
+  if (off == 0) return 0;
+  return force > 0 ? off / force : std::numeric_limits<double>::infinity();
+}
+
+/// What rounding makes of the places of bodies [m].
+double roundingOfPlaces(const Model& model, const std::vector<Vector>& u) {
+  constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();
+  double largest = 0;
+  for (size_t b = 0; b < u.size(); ++b)
+    for (Eigen::Index node = 0; node < model.bodies[b].nodes(); ++node)
+      largest = std::max(largest, (model.bodies[b].elementNodes().places[node] + u[b].segment<2>(2 * node))
+                                      .lpNorm<Eigen::Infinity>());
+  return roundings * largest;
+}
+
+}  // namespace
+
+/// Rows at the end of the increments, and the gaps of the state as these rows see them.
+void StepTaker::followTo(const Iterate& iterate, bool keepRows) {
+  follow(model_, displacements(state_, iterate), keepRows);
+  system_.takeRows();
+  for (size_t k = 0; k < model_.interfaces.size(); ++k) {
+    const ContactInterface& interface = model_.interfaces[k];
+    if (!interface.follows()) continue;
+    const auto& [nonmortar, mortar, coupling] = interface.pair();
+    state_.gap[k] =
+        -interface.distanceHere() - interface.jump(iterate.bodies[nonmortar.body].increment.value(),
+                                                   iterate.bodies[mortar.body].increment.value());
+  }
+}
+
+StepOutcome StepTaker::repeatOnMovedBodies(const StepData& data, Iterate& iterate, Effort effort) {
+  constexpr int most = 40;
+  constexpr int freely = 8;  // rows that still come and go then would for ever
+  constexpr double settled = 1e-10;
+  constexpr double balanced = 1e-9;  // it was on the rows before; the next repetition would be as much better
+  const std::vector<Vector> gapBefore = state_.gap;
+  StepOutcome total;
+  followTo(iterate, false);
+  double off = 0;
+  for (int repetition = 1; repetition <= most; ++repetition) {
+    StepOutcome next = solveStep(system_, state_, data, iterate, effort);
+    const Vector compliance = system_.compliances();
+    total.follow(std::move(next));
+    if (!total.converged()) break;
+    followTo(iterate, repetition >= freely);
+    off =
+        misfit(model_, state_, iterate, compliance, roundingOfPlaces(model_, displacements(state_, iterate)));
+    if (!(off <= settled)) continue;
+    const Certificate here =
+        system_.certify(system_.step(state_, data), iterate, total.certificate.materialResidual);
+    if (!(here.forceBalance <= balanced)) continue;
+    total.certificate = worse(total.certificate, here);
+    return total;
+  }
+  state_.gap = gapBefore;
+  if (!total.converged()) return total;
+  std::ostringstream text;
+  text << "contact does not settle where the bodies are in " << most
+       << " repetitions: the last one is off by " << off << " of the largest contact force";
+  if (system_.contactHolds()) text << "; a body that contact alone holds may tip or slide away there";
+  total.fail(Reason::unconverged, text.str());
+  return total;
+}
+
+}  // namespace mortier

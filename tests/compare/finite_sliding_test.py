@@ -1,0 +1,117 @@
+"""Contact that follows the bodies (sliding = "finite"), end to end."""
+import csv
+import json
+import statistics
+import unittest
+
+from support import InFolder
+
+IRONING = """\
+plane = "strain"
+[[body]]
+name = "block"
+mesh = { shape = "rectangle", lower = [-3, -3], upper = [11, 0], cells = [112, 20], cut = "both" }
+material = { young = 1e3, poisson = 0.3 }
+boundary = [ { label = 1, ux = 0, uy = 0 } ]
+[[body]]
+name = "disc"
+mesh = { shape = "halfdisc", radius = 5, core = 1, cells = 8, lowest = [0, 0] }
+material = { young = 1e9, poisson = 0.3 }
+boundary = [ { label = 2, ux = "4.7*max(0, t - 0.2)/0.8", uy = "-0.05*min(5*t, 1)" } ]
+[contact]
+nonmortar = { body = "block", label = 3 }
+mortar = { body = "disc", label = 1 }
+variant = "weighted"
+sliding = "finite"
+FRICTION
+[time]
+end = 1
+steps = 25
+"""
+# A block that is pressed onto a table and pushed off its end; HELD says how it is held from above.
+PUSHED = """\
+degree = DEGREE
+[[body]]
+name = "table"
+mesh = { shape = "rectangle", lower = [0, -1], upper = [2, 0], cells = [9, 3] }
+material = { young = 1e4, poisson = 0.3 }
+boundary = [ { label = 1, ux = 0, uy = 0 } ]
+[[body]]
+name = "block"
+mesh = { shape = "rectangle", lower = [1, 0], upper = [1.5, 0.5], cells = [4, 4] }
+material = { young = 1e4, poisson = 0.3 }
+boundary = [ { label = 3, ux = "2*max(t-0.1,0)", HELD } ]
+[contact]
+nonmortar = { body = "block", label = 1 }
+mortar = { body = "table", label = 3 }
+sliding = "finite"
+friction = ROUGH
+[time]
+end = 1
+steps = 20
+"""
+
+
+class FiniteSliding(InFolder):
+    def history(self, folder="out"):
+        with open(self.folder / folder / "history.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def column(self, rows, name):
+        return [float(next(row[key] for key in row if key.split("[")[0] == name)) for row in rows]
+
+    def test_a_disc_dragged_over_twenty_elements_has_a_steady_force(self):
+        for friction, most in (("", 0.01), ("friction = 0.3", 0.01)):
+            with self.subTest(friction=friction):
+                self.write(IRONING.replace("FRICTION", friction))
+                done = self.mortier("run", "scene.toml", "--quiet", "--out", "out")
+                self.assertNotIn("taken as small", done.stderr)
+                rows = [row for row in self.history() if float(row["time[s]"]) > 0.3]
+                force = [abs(value) for value in self.column(rows, "contact_resultant_y")]
+                mean = statistics.mean(force)
+                self.assertLess(max(abs(value - mean) for value in force), most * mean)
+                self.assertLess(max(self.column(rows, "force_balance")), 1e-9)
+
+    def test_a_body_held_by_supports_leaves_the_end(self):
+        for degree in (1, 2):
+            self.write(PUSHED.replace("DEGREE", str(degree)).replace("ROUGH", "0.2")
+                       .replace("HELD", 'uy = "-1e-3*min(10*t,1)"'))
+            self.mortier("run", "scene.toml", "--quiet", "--out", "out")
+            rows = self.history()
+            self.assertEqual(int(rows[-1]["active"]), 0)
+            self.assertGreater(int(rows[4]["active"]), 0)
+
+    def test_a_body_that_contact_holds_falls_off_the_end_and_is_named(self):
+        self.write(PUSHED.replace("DEGREE", "1").replace("ROUGH", "0").replace("HELD", "ty = -1"))
+        done = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=3)
+        self.assertRegex(done.stderr, "step (9|10) at t = 0[.]4[0-9]+: .*body block")
+
+    def test_runs_repeat_and_resume_to_the_byte(self):
+        self.write(PUSHED.replace("DEGREE", "1").replace("ROUGH", "0.2")
+                       .replace("HELD", 'uy = "-1e-3*min(10*t,1)"'))
+        self.mortier("run", "scene.toml", "--quiet", "--out", "once", "--threads", "1")
+        self.mortier("run", "scene.toml", "--quiet", "--out", "again", "--threads", "2")
+        for name in ("history.csv", "contact.csv"):
+            self.assertEqual(self.read(f"once/{name}"), self.read(f"again/{name}"))
+
+    def test_what_does_not_go_with_it_is_refused(self):
+        for text, key in (("gap = 0", "gap"), ('initial = "close"', "initial")):
+            self.write(IRONING.replace("FRICTION", text))
+            self.reject("scene.toml:", "run", "scene.toml", "--out", "out")
+            self.assertIn(key, self.mortier("run", "scene.toml", code=2).stderr)
+        self.write(IRONING.replace("FRICTION", ""))
+        done = self.mortier("freefem", "scene.toml", "out", code=2)
+        self.assertIn('sliding = "finite"', done.stderr)
+
+    def test_strains_that_are_not_small_are_told(self):
+        self.write(IRONING.replace("FRICTION", "").replace("-0.05", "-0.5"))
+        done = self.mortier("run", "scene.toml", "--out", "out", "--set", "time.end=0.2", "--set",
+                            "time.steps=4")
+        self.assertRegex(done.stdout, "warning    strains reach")
+        peaks = json.loads(self.read("out/summary.json"))["peaks"]
+        self.assertGreater(peaks["strain"]["value"], 0.05)
+        self.assertGreater(peaks["rotation"]["value"], 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
