@@ -41,6 +41,7 @@ class Entry:
     numbers: list
     scale: float  # of the displacements in the picture
     window: tuple = None  # x and y range of the picture; None: everything
+    balance: float = 1e-12  # force balance, relative
 
 
 def end_of_contact(run, side):
@@ -131,6 +132,11 @@ def cone_pressure(run):
     return found / (modulus / 20 * np.arccosh(2))
 
 
+def ironed_place(run):
+    """Middle of the pressure over the way of the cylinder."""
+    return np.average(run.contact.position[:, 0], weights=run.contact.force) / 4.7
+
+
 def creep_rate(run):
     """Radial velocity on the inner circle in the second half of the run."""
     liner = run.bodies["liner"]
@@ -174,6 +180,8 @@ GALLERY = [
           ((0, 25), (-18, 18))),
     Entry("cone", [Number("pressure at half the radius over Sneddon's", cone_pressure, 1, 1e-2,
                           "the mesh: 8 elements")], 1, ((0, 4), (-3, 1))),
+    Entry("ironing", [Number("middle of the contact pressure over the way of the cylinder", ironed_place, 1, 1e-2,
+                             "a third of an edge")], 1, ((2, 7.5), (-2, 2)), balance=1e-9),
     Entry("receding", [Number("half-width of contact", lambda run: end_of_contact(run, 1), 1.324165, 1e-2,
                               "the mesh: an element at the end of contact is 0.08"),
                        Number("p(0)/P", receding_pressure, 0.713081, 1e-2,

@@ -28,6 +28,18 @@ FRICTION
 end = 1
 steps = 25
 """
+TOOL = IRONING[:IRONING.index("[[body]]\nname = \"disc\"")] + """\
+[[tool]]
+name = "disc"
+shape = "disc"
+centre = [0, 5]
+radius = 5
+ux = "4.7*max(0, t - 0.2)/0.8"
+uy = "-0.05*min(5*t, 1)"
+TURNS
+[contact]
+sides = [ { body = "block", label = 3 }, { body = "disc" } ]
+""" + IRONING[IRONING.index("variant"):]
 # A block that is pressed onto a table and pushed off its end; HELD says how it is held from above.
 PUSHED = """\
 degree = DEGREE
@@ -61,9 +73,10 @@ class FiniteSliding(InFolder):
         return [float(next(row[key] for key in row if key.split("[")[0] == name)) for row in rows]
 
     def test_a_disc_dragged_over_twenty_elements_has_a_steady_force(self):
-        for friction, most in (("", 0.01), ("friction = 0.3", 0.01)):
-            with self.subTest(friction=friction):
-                self.write(IRONING.replace("FRICTION", friction))
+        most = 0.01
+        for disc, friction in ((IRONING, ""), (IRONING, "friction = 0.3"), (TOOL, ""), (TOOL, "friction = 0.3")):
+            with self.subTest(tool=disc is TOOL, friction=friction):
+                self.write(disc.replace("FRICTION", friction).replace("TURNS", ""))
                 done = self.mortier("run", "scene.toml", "--quiet", "--out", "out")
                 self.assertNotIn("taken as small", done.stderr)
                 rows = [row for row in self.history() if float(row["time[s]"]) > 0.3]
@@ -99,6 +112,9 @@ class FiniteSliding(InFolder):
             self.write(IRONING.replace("FRICTION", text))
             self.reject("scene.toml:", "run", "scene.toml", "--out", "out")
             self.assertIn(key, self.mortier("run", "scene.toml", code=2).stderr)
+        for turns in ('rotation = "t"', "moment = 0"):
+            self.write(TOOL.replace("FRICTION", "").replace("TURNS", turns))
+            self.assertIn("a tool that turns (disc)", self.mortier("run", "scene.toml", code=2).stderr)
         self.write(IRONING.replace("FRICTION", ""))
         done = self.mortier("freefem", "scene.toml", "out", code=2)
         self.assertIn('sliding = "finite"', done.stderr)

@@ -18,7 +18,7 @@ class Gallery(InFolder):
                 for number in entry.numbers:
                     measured = f"{number.quantity}: {number.measure(run):.9g}, theory {number.theory:.9g}"
                     self.assertLessEqual(error(number, run), number.tolerance, measured)
-                self.assertLess(run.summary["verification"]["force_balance"], 1e-12)
+                self.assertLess(run.summary["verification"]["force_balance"], entry.balance)
 
     def test_a_wrong_model_misses(self):
         wrong = {"ring": "body.plate.material.young=52", "hertz": "body.block.material.young=60000",
@@ -30,6 +30,7 @@ class Gallery(InFolder):
                  "receding": "body.half-plane.material.young=1.2", "open-close": "body.material.young=101",
                  "punch": "body.punch.material.young=1", "eccentric-punch": "body.punch.material.young=1",
                  "thick-cylinder": "plane=stress", "sphere": "body.block.material.young=60000",
+                 "ironing": "contact.sliding=allow",
                  "cone": "tool.cone.points=[[0, 0], [10, 1.1], [0, 1.1]]"}
         self.assertEqual(set(wrong), {entry.scene for entry in GALLERY})
         for entry in GALLERY:
