@@ -126,7 +126,7 @@ def draw_edges(axes, body, scale, strength, fine):
     length = np.hypot(*(sides[:, 1] - sides[:, 0]).T)
     box = np.ptp(body.points, axis=0).max()
     points = 250 * length / (box if box > 0 else 1)  # as long as they are in a picture of usual size
-    seen = points > 1.5
+    seen = (points > 1.5) & (not body.rigid)
     axes.add_collection(LineCollection(sides[seen], colors=MESH, alpha=strength, rasterized=fine,
                                        linewidths=np.clip(0.03 * points[seen], 0.05, 0.35)), autolim=False)
     axes.add_collection(LineCollection(shapes.outline(body, scale), colors=INK, linewidths=0.6, zorder=2.5),

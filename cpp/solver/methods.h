@@ -26,6 +26,15 @@ struct NewtonLimits {
 StepOutcome newton(StepSystem& system, const Step& step, double weight, const NewtonLimits& limits,
                    Iterate& iterate);
 
+/// Of each body: stresses on the law where the strain of the iterate leads, as linearised there.
+std::vector<Matrix> stressesOnLaw(const StepSystem::Linearised& linearised, const Iterate& iterate);
+/// Where the slope of the energy at the end of a linear solve is positive, and more than half of that at its
+/// beginning `before`: moves the iterate back to where the slope is nearly zero (line_search.cpp).
+/// \param linearised  at the iterate  \returns the law there
+StepSystem::Linearised shortened(StepSystem& system, const Step& step, double weight,
+                                 const std::vector<Matrix>& stressBefore, const Iterate& before,
+                                 StepSystem::Linearised linearised, Iterate& iterate);
+
 /// Whether gaps that rounding left of closed conditions are worth another linear solve.
 bool worthCorrecting(const StepSystem& system, const Step& step, double tolerance, const Iterate& iterate);
 /// That, with the same factors. \returns the certificate of what it made of the iterate; none, and the

@@ -9,6 +9,7 @@
 namespace mortier::interface_patch_test {
 
 using namespace scenes;
+using namespace stacks;
 
 // About twice what is found.
 constexpr double stressTolerance = 2e-13;  // of the pressure
@@ -29,7 +30,7 @@ TEST(InterfacePatch, slopedLine) {
   double worst = 0;
   for (int degrees = 0; degrees < 90; ++degrees)
     for (const bool upperNonmortar : {true, false})
-      for (const Sides sides : {Sides::pressed, Sides::held})
+      for (const SideConditions sides : {SideConditions::pressed, SideConditions::held})
         expectPatch(stack({4, 7}, turned(degrees * pi / 180), mortar, upperNonmortar, sides), worst);
   std::cout << "sloped by 0 to 89 degrees: stress error at most " << worst << "\n";
 }
@@ -39,7 +40,7 @@ TEST(InterfacePatch, brokenLine) {
   double worst = 0;
   for (const double slope : {-1.5, -0.5, 0.1, 0.5, 1.5})
     for (const bool upperNonmortar : {true, false})
-      for (const Sides sides : {Sides::pressed, Sides::held})
+      for (const SideConditions sides : {SideConditions::pressed, SideConditions::held})
         for (const double angle : {0.0, 1.0}) {
           const Map roof = [=](const Point& x) {
             return Point(x.x(), x.y() + slope * std::abs(x.x() - 0.5));
@@ -57,7 +58,7 @@ TEST(InterfacePatch, brokenLine) {
 TEST(InterfacePatch, coarsenedRows) {
   double worst = 0;
   for (const bool upperNonmortar : {true, false})
-    for (const Sides sides : {Sides::pressed, Sides::held})
+    for (const SideConditions sides : {SideConditions::pressed, SideConditions::held})
       for (const double slope : {-0.5, 0.0, 1.5}) {
         const Map roof = [=](const Point& x) { return Point(x.x(), x.y() + slope * std::abs(x.x() - 0.5)); };
         const Model model = stack({16, 6}, turned(1, roof), CouplingKind::coarsened, upperNonmortar, sides);
@@ -73,7 +74,7 @@ TEST(InterfacePatch, threeBodiesTurnedAtRandom) {
   double worst = 0;
   for (int trial = 0; trial < 20; ++trial)
     for (const bool upperNonmortar : {true, false})
-      for (const Sides sides : {Sides::pressed, Sides::held})
+      for (const SideConditions sides : {SideConditions::pressed, SideConditions::held})
         expectPatch(stack({4, 7, 3}, turned(angle(random)), mortar, upperNonmortar, sides), worst);
   std::cout << "three bodies, turned at random: stress error at most " << worst << "\n";
 }
@@ -173,7 +174,7 @@ TEST(ConditionsMeet, heldToTheEndOfTheContact) {
   for (const CouplingKind coupling : {CouplingKind::mortar, CouplingKind::interpolation})
     for (const bool upperNonmortar : {true, false})
       for (const int cells : {3, 5, 12}) {
-        const Model model = stack({5, cells}, turned(0), coupling, upperNonmortar, Sides::held);
+        const Model model = stack({5, cells}, turned(0), coupling, upperNonmortar, SideConditions::held);
         expectSolved(model, std::to_string(cells));
         if (coupling == mortar || cells == 5) expectPatch(model, worst);
       }
@@ -193,10 +194,10 @@ TEST(ConditionsMeet, redundantConditions) {
     expectSolved(rigid, "rigid tool");
 
     for (const int cells : {4, 7}) {
-      Model twice = stack({4, cells}, turned(0.3), coupling, true, Sides::pressed);
+      Model twice = stack({4, cells}, turned(0.3), coupling, true, SideConditions::pressed);
       addInterface(twice, {{1, top}, {0, bottom}, coupling});
       expectSolved(twice, "given twice");
-      twice = stack({4, cells}, turned(0.3), coupling, true, Sides::pressed);
+      twice = stack({4, cells}, turned(0.3), coupling, true, SideConditions::pressed);
       addInterface(twice, twice.interfaces[0].pair());
       expectSolved(twice, "given twice the same way");
     }

@@ -92,7 +92,7 @@ class RandomScene {
     const Vector force = (f - K * u)(open);
     const Eigen::LLT<Matrix> llt(Kf);
 
-    Case c;
+    RandomProblem c;
     c.problem.W = Cf * llt.solve(Matrix(Cf.transpose()));
     c.problem.G = Cf * R;
     c.slack = Vector::Constant(interface.rows(), gap_) - C * u - Cf * llt.solve(force);

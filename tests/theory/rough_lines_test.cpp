@@ -11,6 +11,7 @@
 namespace mortier::rough_lines_test {
 
 using namespace scenes;
+using namespace stacks;
 
 constexpr double mu = 0.3;
 
@@ -47,7 +48,7 @@ TEST(RoughLines, hydrostaticPressureNeedsNoFriction) {
   double shear = 0;
   for (const double slope : {-1.5, -0.5, 0.0, 0.1, 0.5})
     for (const bool upperNonmortar : {true, false})
-      for (const Sides sides : {Sides::pressed, Sides::held})
+      for (const SideConditions sides : {SideConditions::pressed, SideConditions::held})
         for (const double angle : {0.0, 1.0}) {
           const Model model =
               stack({4, 6}, turned(angle, roof(slope)), CouplingKind::mortar, upperNonmortar, sides, rough());

@@ -6,7 +6,9 @@
 
 #include "theory/scenes.h"
 
-namespace mortier::scenes {
+namespace mortier::stacks {
+
+using namespace scenes;
 
 using Map = std::function<Point(const Point&)>;
 
@@ -22,7 +24,7 @@ inline TriangleMesh mapped(int cells, double lower, const Map& map) {
 }
 
 /// What holds and loads the sides that are not in contact.
-enum class Sides { pressed, held };
+enum class SideConditions { pressed, held };
 
 /// A body under hydrostatic pressure, u = strain (x, y) on `supports`. No shear acts on any line, so the
 /// state is one of frictionless contact whatever Gamma_C looks like.
@@ -42,12 +44,12 @@ inline Body hydrostatic(const std::string& name, TriangleMesh mesh, const std::v
 
 /// Bodies on each other from the top down, each contact between the bottom of one and the top of the next.
 inline Model stack(const std::vector<int>& cells, const Map& map, CouplingKind coupling, bool upperNonmortar,
-                   Sides sides, const InterfaceOptions& options = {}) {
+                   SideConditions sides, const InterfaceOptions& options = {}) {
   Model model;
   for (size_t b = 0; b < cells.size(); ++b) {
     std::vector<int> held;
     std::vector<int> pressed;
-    (sides == Sides::held ? held : pressed) = {left, right};
+    (sides == SideConditions::held ? held : pressed) = {left, right};
     // Nothing else keeps a body between two others from sliding.
     if (b > 0 && b + 1 < cells.size()) held.push_back(left);
     if (b == 0) held.push_back(top);
@@ -104,4 +106,4 @@ inline Map turned(
   return [=](const Point& x) { return Point(rotation * map(x)); };
 }
 
-}  // namespace mortier::scenes
+}  // namespace mortier::stacks

@@ -11,11 +11,11 @@ namespace mortier::complementarity_test {
 
 using Outcome = ContactSolution::Outcome;
 
-ContactSolution solve(const Case& c, std::vector<char> active) {
+ContactSolution solve(const RandomProblem& c, std::vector<char> active) {
   return solveContact(c.problem, c.slack, c.p0, c.balance, std::move(active));
 }
 
-void expectEnumerated(const Case& c, Randoms& random) {
+void expectEnumerated(const RandomProblem& c, Randoms& random) {
   constexpr double tolerance = 1e-9;  // the matrices have condition numbers up to about 1e4
   const Eigen::Index n = c.slack.size();
   const auto exact = enumerate(c);
@@ -34,7 +34,7 @@ TEST(Complementarity, agreesWithEnumerationOfAllActiveSets) {
   Randoms random(1);
   for (int n = 1; n <= 10; ++n)
     for (int trial = 0; trial < 12; ++trial) {
-      Case c;
+      RandomProblem c;
       c.problem.symmetric = trial % 3 == 0;
       c.problem.W =
           c.problem.symmetric ? symmetricPositive(random, n) : unsymmetricP(random, n, trial % 3 == 1);
@@ -48,7 +48,7 @@ TEST(Complementarity, agreesWithEnumerationOfAllActiveSets) {
 // A P-matrix on which changing all wrong signs at once goes round for ever: {0, 1}, {1, 2}, {2, 0}, ...
 TEST(Complementarity, cyclesAreBroken) {
   const Matrix W{{1, 2, 0}, {0, 1, 2}, {2, 0, 1}};
-  const Case c{{W, false, Matrix(3, 0)}, Vector::Constant(3, -1), Vector::Zero(3), Vector(0)};
+  const RandomProblem c{{W, false, Matrix(3, 0)}, Vector::Constant(3, -1), Vector::Zero(3), Vector(0)};
   const ContactSolution solution = solve(c, {1, 0, 0});
   ASSERT_EQ(solution.outcome, Outcome::solved);
   EXPECT_LE((solution.change.array() - 1.0 / 3).abs().maxCoeff(), 1e-15);
@@ -61,7 +61,7 @@ TEST(Complementarity, zeroSlackWithoutForceIsNoTrouble) {
   Randoms random(2);
   for (int trial = 0; trial < 300; ++trial) {
     const int n = 2 + random.below(9);
-    Case c;
+    RandomProblem c;
     c.problem.symmetric = trial % 2 == 0;
     c.problem.W =
         c.problem.symmetric ? symmetricPositive(random, n) : unsymmetricP(random, n, trial % 4 == 1);
@@ -94,7 +94,7 @@ TEST(Complementarity, nearlyRepeatedConditionsAreHeldTogether) {
       Matrix C = random.matrix(n, dofs);
       C.row(1) = C.row(0) + difference * C.row(1);
       const Vector g0 = random.vector(n);
-      Case c;
+      RandomProblem c;
       c.problem.W = C * C.transpose();
       c.problem.G = Matrix(n, 0);
       c.slack = g0;
@@ -111,8 +111,8 @@ TEST(Complementarity, nearlyRepeatedConditionsAreHeldTogether) {
 }
 
 /// A problem whose bodies contact alone holds, with a solution p, s, z given beforehand.
-Case balancedCase(Randoms& random, int n, int motions, bool symmetric) {
-  Case c;
+RandomProblem balancedCase(Randoms& random, int n, int motions, bool symmetric) {
+  RandomProblem c;
   c.problem.symmetric = symmetric;
   c.problem.W = symmetric ? symmetricPositive(random, n) : unsymmetricP(random, n, false);
   c.problem.G = random.matrix(n, motions);
@@ -140,7 +140,7 @@ TEST(Complementarity, rigidMotionsAreBalancedToRounding) {
   constexpr double rounding = 1e-13;
   Randoms random(5);
   for (int trial = 0; trial < 100; ++trial) {
-    const Case c = balancedCase(random, 12, 1 + trial % 3, true);
+    const RandomProblem c = balancedCase(random, 12, 1 + trial % 3, true);
     const ContactSolution solution = solve(c, std::vector<char>(12, 1));
     ASSERT_EQ(solution.outcome, Outcome::solved);
     const Vector rest = c.problem.G.transpose() * solution.change - c.balance;
@@ -155,7 +155,7 @@ TEST(Complementarity, loadThatContactCannotBalanceIsReported) {
   Randoms random(6);
   for (int trial = 0; trial < 50; ++trial) {
     const int n = 2 + random.below(8);
-    Case c;
+    RandomProblem c;
     c.problem.W = symmetricPositive(random, n);
     c.problem.G = random.matrix(n, 1).cwiseAbs();
     c.slack = random.vector(n);
@@ -178,12 +178,12 @@ TEST(Complementarity, loadThatContactCannotBalanceIsReported) {
 TEST(Complementarity, unitsOfPowersOfFourChangeNoBit) {
   Randoms random(7);
   for (int trial = 0; trial < 60; ++trial) {
-    const Case c = balancedCase(random, 8, trial % 3, trial % 2 == 0);
+    const RandomProblem c = balancedCase(random, 8, trial % 3, trial % 2 == 0);
     const std::vector<char> start = random.set(8);
     const ContactSolution solution = solve(c, start);
     for (const double force : {0x1p-30, 0x1p+16})
       for (const double length : {0x1p-10, 0x1p+40}) {
-        Case scaled = c;
+        RandomProblem scaled = c;
         scaled.problem.W *= length / force;
         scaled.slack *= length;
         scaled.p0 *= force;
@@ -212,7 +212,8 @@ TEST(Complementarity, dependentConditionsAreSolved) {
       // s0 = c - B u of motions within reach of the conditions that no motion changes
       const Vector c = random.vector(n).cwiseAbs().cwiseMax(n > 5 ? 0 : 0.1);
       const Vector u = 3 * random.vector(rank);
-      Case problem{{B * B.transpose(), symmetric, Matrix(n, 0)}, c - B * u, Vector::Zero(n), Vector(0)};
+      RandomProblem problem{
+          {B * B.transpose(), symmetric, Matrix(n, 0)}, c - B * u, Vector::Zero(n), Vector(0)};
       const ContactSolution solution = solve(problem, std::vector<char>(n, trial % 2 == 0 ? 1 : 0));
       ASSERT_EQ(solution.outcome, Outcome::solved) << trial;
       const Vector p = problem.p0 + solution.change;
@@ -275,7 +276,7 @@ TEST(Complementarity, workThatHasNoEndIsCutOff) {
   Randoms random(1);
   for (const double diagonal :
        {0, 10}) {  // small sets are cut off by the number of pivots, large ones by the work
-    Case c{{random.matrix(n, n), false, Matrix(n, 0)}, random.vector(n), Vector::Zero(n), Vector(0)};
+    RandomProblem c{{random.matrix(n, n), false, Matrix(n, 0)}, random.vector(n), Vector::Zero(n), Vector(0)};
     c.problem.W.diagonal().array() += diagonal;
     const ContactSolution solution = solve(c, std::vector<char>(n, 1));
     EXPECT_EQ(solution.outcome, Outcome::capped);

@@ -10,7 +10,7 @@
 
 namespace mortier {
 
-struct Case {
+struct RandomProblem {
   ContactProblem problem;
   Vector slack;
   Vector p0;
@@ -63,7 +63,7 @@ inline Matrix unsymmetricP(Randoms& random, int n, bool triangular) {
 }
 
 /// The solution by trial of all active sets; none where no set has the right signs.
-inline std::optional<Enumerated> enumerate(const Case& c) {
+inline std::optional<Enumerated> enumerate(const RandomProblem& c) {
   const auto n = static_cast<int>(c.slack.size());
   const Eigen::Index motions = c.problem.G.cols();
   const double scale = c.slack.cwiseAbs().maxCoeff() + c.problem.W.cwiseAbs().maxCoeff();
