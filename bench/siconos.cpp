@@ -25,8 +25,8 @@ constexpr double sameForces = 1e-9;
 
 /// How far forces (p, t) are from the law, over the largest force and motion.
 double fault(const FrictionCase& c, const Vector& force) {
-  const Eigen::Index n = c.problem().normals();
-  const Vector w = c.q + c.W * force;
+  const Eigen::Index n = c.problem.normals();
+  const Vector w = c.q + c.problem.W * force;
   const double most = std::max(force.lpNorm<Eigen::Infinity>(), 1e-300);
   const double motion = c.q.lpNorm<Eigen::Infinity>();
   double worst = 0;
@@ -35,7 +35,7 @@ double fault(const FrictionCase& c, const Vector& force) {
     const double t = force[n + i] / most;
     const double g = w[i] / motion;
     const double v = w[n + i] / motion;
-    const double bound = c.rows.law.coefficient[i] * p;
+    const double bound = c.problem.along.law.coefficient[i] * p;
     worst = std::max({worst, -p, -g, std::abs(std::min(p, g)), std::abs(t) - bound,
                       std::abs(t * v + bound * std::abs(v))});
   }
@@ -44,15 +44,15 @@ double fault(const FrictionCase& c, const Vector& force) {
 
 /// Forces (p, t) by a solver of Siconos; empty where it finds none.
 Vector bySiconos(const FrictionCase& c, int solver) {
-  const Eigen::Index n = c.problem().normals();
+  const Eigen::Index n = c.problem.normals();
   const auto ours = [&](Eigen::Index i) { return i / 2 + (i % 2) * n; };
   NumericsMatrix* matrix = NM_create(NM_DENSE, static_cast<int>(2 * n), static_cast<int>(2 * n));
   Vector q(2 * n);
   for (Eigen::Index j = 0; j < 2 * n; ++j) {
     q[j] = c.q[ours(j)];
-    for (Eigen::Index i = 0; i < 2 * n; ++i) matrix->matrix0[i + 2 * n * j] = c.W(ours(i), ours(j));
+    for (Eigen::Index i = 0; i < 2 * n; ++i) matrix->matrix0[i + 2 * n * j] = c.problem.W(ours(i), ours(j));
   }
-  Vector mu = c.rows.law.coefficient;
+  Vector mu = c.problem.along.law.coefficient;
   FrictionContactProblem problem{2, static_cast<int>(n), matrix, q.data(), mu.data()};
   ::SolverOptions* options = solver_options_create(solver);
   options->dparam[SICONOS_DPARAM_TOL] = 1e-13;
@@ -102,8 +102,8 @@ struct Tally {
 
 /// What the solver itself finds.
 Vector solved(const FrictionCase& c) {
-  const auto n = static_cast<size_t>(c.problem().normals());
-  return solveFriction(c.problem(), c.q, {std::vector<char>(n, 0), std::vector<signed char>(n, 1)}).force;
+  const auto n = static_cast<size_t>(c.problem.normals());
+  return solveFriction(c.problem, c.q, {std::vector<char>(n, 0), std::vector<signed char>(n, 1)}).force;
 }
 
 /// The contact problem of an elastic step.
