@@ -86,7 +86,7 @@ void ContactDofs::findEquations(const Model& model, int body, const std::vector<
     column_[equation] = static_cast<int>(equations.size());
     equations.push_back(equation);
   };
-  forEachEquation(model, body, firstRow, [&](int, int equation, double) { add(equation); });
+  // Those of lines that follow come first: their order depends on no place where the bodies were.
   for (const ContactInterface& interface : model.interfaces) {
     if (!interface.follows()) continue;
     const auto addLine = [&](const std::vector<int>& nodes) {
@@ -96,6 +96,7 @@ void ContactDofs::findEquations(const Model& model, int body, const std::vector<
     if (interface.pair().nonmortar.body == body) addLine(interface.nonmortarLine());
     if (interface.pair().mortar.body == body) addLine(interface.mortarNodes());
   }
+  forEachEquation(model, body, firstRow, [&](int, int equation, double) { add(equation); });
 }
 
 void ContactDofs::takeRows(const Model& model, int body, const std::vector<int>& firstRow) {

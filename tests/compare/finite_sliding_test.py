@@ -74,7 +74,8 @@ class FiniteSliding(InFolder):
 
     def test_a_disc_dragged_over_twenty_elements_has_a_steady_force(self):
         most = 0.01
-        for disc, friction in ((IRONING, ""), (IRONING, "friction = 0.3"), (TOOL, ""), (TOOL, "friction = 0.3")):
+        for disc, friction in ((IRONING, ""), (IRONING, "friction = 0.3"), (TOOL, ""),
+                               (TOOL, "friction = 0.3")):
             with self.subTest(tool=disc is TOOL, friction=friction):
                 self.write(disc.replace("FRICTION", friction).replace("TURNS", ""))
                 done = self.mortier("run", "scene.toml", "--quiet", "--out", "out")
@@ -116,6 +117,8 @@ class FiniteSliding(InFolder):
             self.write(TOOL.replace("FRICTION", "").replace("TURNS", turns))
             self.assertIn("a tool that turns (disc)", self.mortier("run", "scene.toml", code=2).stderr)
         self.write(IRONING.replace("FRICTION", ""))
+        done = self.mortier("run", "scene.toml", "--accuracy", "0.1", code=2)
+        self.assertIn("accuracy.energy", done.stderr)
         done = self.mortier("freefem", "scene.toml", "out", code=2)
         self.assertIn('sliding = "finite"', done.stderr)
 

@@ -177,6 +177,36 @@ reduce = false
 allow = ["few-steps-across-yield", "stiffness-ratio"]
 """
 
+# A tool that forces and a moment move, held by friction, and one that stands.
+TOOL_KEYS = """\
+[[tool]]
+name = "stamp"
+shape = "polygon"
+points = [[0.1, 1], [0.9, 1], [0.9, 1.5], [0.1, 1.5]]
+labels = [1, 2, 2, 2]
+at = [0.5, 1]
+fx = "0.1*t"
+fy = "-t"
+moment = "0.01*t"
+[[tool]]
+name = "wall"
+shape = "line"
+points = [[1, 1.2], [1, -0.2]]
+rotation = 0
+[[body]]
+name = "block"
+mesh = { shape = "rectangle", lower = [0, 0], upper = [1, 1], cells = [4, 4] }
+material = { young = 100, poisson = 0.3 }
+boundary = [ { label = 1, ux = 0, uy = 0 } ]
+[[contact]]
+sides = [ { body = "block", label = 3 }, { body = "stamp", label = 1 } ]
+friction = 0.5
+[[contact]]
+sides = [ { body = "block", label = 2 }, { body = "wall", label = 1 } ]
+[time]
+end = 1
+steps = 2
+"""
 # Friction by both laws: pressed, pushed along, pulled back.
 FRICTION_KEYS = """\
 [[body]]
