@@ -270,6 +270,7 @@ RunReport march(const Model& model, State& state, MarchMemory& memory, const Tim
     StepReport start = jump(model, state, memory, *taker);
     const bool possible = start.status == Status::converged;
     if (possible && controlled) prepare(model, state, memory, plan, *taker);
+    followState();  // prepare() has taken steps
     reportStart(model, state, taker->threads(), memory, plan, observer, std::move(start));
     if (!possible) return memory.run;
     if (controlled) makeTaker();

@@ -61,7 +61,10 @@ class StepTaker {
   /// What commit() changes.
   using Kept = std::pair<State, MarchMemory>;
   [[nodiscard]] Kept kept() const { return {state_, memory_}; }
-  void goBack(Kept kept) { std::tie(state_, memory_) = std::move(kept); }
+  void goBack(Kept kept) {
+    std::tie(state_, memory_) = std::move(kept);
+    if (follows()) follow(model_, displacementsOf(state_));
+  }
   /// What the stress changes by from the start of the attempt to one of its stages; no displacement.
   [[nodiscard]] std::vector<Response> change(size_t stage) const;
   [[nodiscard]] size_t stages() const { return tableau_.stages.size(); }
