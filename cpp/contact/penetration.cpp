@@ -124,6 +124,7 @@ void PenetrationIntegral::renumber(const std::vector<int>& nonmortar, const std:
 }
 
 void PenetrationIntegral::setMoved(const Vector& uNonmortar, const Vector& uMortar) {
+  // jump() is less the distance.
   for (Place& place : places_) place.distance += place.jump(uNonmortar, uMortar) + place.distance;
 }
 

@@ -322,6 +322,7 @@ void Controller::advance(StepTaker& taker, const State& state, StepReport& repor
       reject();
       continue;
     }
+    if (step.beginsPair) taker.showState();
     if (looksOn && !repeatInHalves(taker, std::move(*kept), state, closes ? k : 0, report, factor)) {
       reject();
       continue;

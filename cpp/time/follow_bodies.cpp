@@ -73,7 +73,7 @@ void StepTaker::followTo(const Iterate& iterate, bool keepRows) {
 
 StepOutcome StepTaker::repeatOnMovedBodies(const StepData& data, Iterate& iterate, Effort effort) {
   constexpr int most = 40;
-  constexpr int freely = 8;  // rows that still come and go then would for ever
+  constexpr int freely = 8;  // a set of rows that still changes then is kept
   constexpr double settled = 1e-10;
   constexpr double balanced = 1e-9;  // it was on the rows before; the next repetition would be as much better
   const std::vector<Vector> gapBefore = state_.gap;

@@ -21,6 +21,7 @@ StepTaker::StepTaker(const Model& model, State& state, MarchMemory& memory, Sche
       memory_(memory),
       scheme_(scheme),
       system_(model, options),
+      gapOfState_(state.gap),
       countsWork_(countsWork) {
   if (memory.run.steps > 0) system_.resume(memory.solver);
 }
@@ -43,6 +44,7 @@ StepOutcome StepTaker::attempt(double t1, Scheme scheme, Effort effort) {
   t1_ = t1;
   tableau_ = tableau(scheme);
   guarded_ = false;
+  showsState_ = false;
   return hold(solveStages(t1, effort));
 }
 
@@ -246,6 +248,7 @@ double StepTaker::turnedShare() const {
 }
 
 void StepTaker::commit() {
+  if (std::exchange(showsState_, false)) followTo(solutions_.back(), false);
   if (countsWork_) countWork();
   state_.gap = solvedGaps(model_, state_, solutions_.back());
   addFrictionWork(model_, solutions_.back(), state_);
@@ -297,7 +300,8 @@ void StepTaker::commit() {
   state_.time = t1_;
   active_ = std::move(solutions_.back().active);
   solutions_.clear();
-  if (anyFollows(model_)) follow(model_, displacementsOf(state_), true);  // supports were sums of increments
+  if (follows()) follow(model_, displacementsOf(state_), true);  // supports were sums of increments
+  gapOfState_ = state_.gap;
 }
 
 }  // namespace mortier

@@ -60,10 +60,23 @@ class StepTaker {
   [[nodiscard]] bool follows() const { return anyFollows(model_); }
   /// What commit() changes.
   using Kept = std::pair<State, MarchMemory>;
-  [[nodiscard]] Kept kept() const { return {state_, memory_}; }
+  [[nodiscard]] Kept kept() const {
+    Kept result{state_, memory_};
+    if (follows()) result.first.gap = gapOfState_;
+    return result;
+  }
   void goBack(Kept kept) {
     std::tie(state_, memory_) = std::move(kept);
-    if (follows()) follow(model_, displacementsOf(state_));
+    gapOfState_ = state_.gap;
+    showState();
+  }
+  /// Rows that follow the bodies, and gaps, become those of the state, where the last attempt is not committed
+  /// yet: for whoever measures the state.
+  void showState() {
+    if (!follows()) return;
+    follow(model_, displacementsOf(state_));
+    state_.gap = gapOfState_;
+    showsState_ = true;
   }
   /// What the stress changes by from the start of the attempt to one of its stages; no displacement.
   [[nodiscard]] std::vector<Response> change(size_t stage) const;
@@ -132,6 +145,8 @@ class StepTaker {
   MarchMemory& memory_;
   Scheme scheme_;
   StepSystem system_;
+  std::vector<Vector> gapOfState_;  ///< an attempt changes that of state_ to what its rows see
+  bool showsState_ = false;         ///< whether rows are those of the state, not of the attempt
   bool countsWork_;
   // Of the last attempt:
   Tableau tableau_;
