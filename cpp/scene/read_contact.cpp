@@ -89,8 +89,7 @@ void refuseBesideFinite(const TableReader& table, const SceneDescription& scene,
   refuse(contact.initial == InitialGap::close, "initial = \"close\"");
   refuse(scene.solver.method != Method::newton, "solver.method = penalty-duality");
   refuse(scene.accuracy.bound, "accuracy.bound");
-  refuse(scene.accuracy.asked() > 0,
-         scene.accuracy.quantity.empty() ? "accuracy.energy" : "accuracy.quantity");
+  refuse(!scene.accuracy.quantity.empty(), "accuracy.quantity");
   for (const BodyDescription& body : scene.bodies) {
     if (!body.isTool() || body.name != contact.mortar.body) continue;
     for (const ConditionDescription& c : body.conditions) {

@@ -117,10 +117,22 @@ class FiniteSliding(InFolder):
             self.write(TOOL.replace("FRICTION", "").replace("TURNS", turns))
             self.assertIn("a tool that turns (disc)", self.mortier("run", "scene.toml", code=2).stderr)
         self.write(IRONING.replace("FRICTION", ""))
-        done = self.mortier("run", "scene.toml", "--accuracy", "0.1", code=2)
-        self.assertIn("accuracy.energy", done.stderr)
         done = self.mortier("freefem", "scene.toml", "out", code=2)
         self.assertIn('sliding = "finite"', done.stderr)
+
+    # A pair of steps is solved before its first one is measured: with the rows of the second, 720 %.
+    def test_estimates_under_error_control_are_those_of_equal_steps(self):
+        self.write(TOOL.replace("FRICTION", "friction = 0.3").replace("TURNS", ""))
+        for steps in ("time.steps=25", "time.tolerance=0.02"):
+            self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--set", steps, "output.every=1")
+            accuracy = json.loads(self.read("out/summary.json"))["accuracy"]
+            self.assertLess(accuracy["largest_of_run"]["energy_error"], 1.3 * accuracy["energy_error"])
+
+    def test_accuracy_on_demand(self):
+        self.write(TOOL.replace("FRICTION", "").replace("TURNS", ""))
+        self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--accuracy", "0.09", "--set",
+                     "time.steps=5")
+        self.assertLess(json.loads(self.read("out/summary.json"))["accuracy"]["energy_error"], 0.09)
 
     def test_strains_that_are_not_small_are_told(self):
         self.write(IRONING.replace("FRICTION", "").replace("-0.05", "-0.5"))
