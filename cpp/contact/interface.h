@@ -100,8 +100,8 @@ class ContactInterface {
   [[nodiscard]] bool follows() const { return lines_ != nullptr; }
   /// Makes the rows those of the bodies moved by u_k, and g0 such that C u - g0 is the gap linearised there:
   ///   g = C (u - u_k) - d(u_k).
-  /// \param keepRows  only nodes that have a row now have one: at the ends of lines, and with `coarsened`, the
-  /// set of rows is a discontinuous function of the displacements
+  /// \param keepRows  only nodes that have a row now have one: at the ends of lines, and with `coarsened`,
+  /// the set of rows is a discontinuous function of the displacements
   void follow(const Vector& uNonmortar, const Vector& uMortar, bool keepRows = false);
   /// d(u_k), the distance of the bodies where rows have followed them; by rows [m]
   [[nodiscard]] const Vector& distanceHere() const { return distanceHere_; }

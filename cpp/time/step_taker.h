@@ -70,8 +70,8 @@ class StepTaker {
     gapOfState_ = state_.gap;
     showState();
   }
-  /// Rows that follow the bodies, and gaps, become those of the state, where the last attempt is not committed
-  /// yet: for whoever measures the state.
+  /// Rows that follow the bodies, and gaps, become those of the state, for whoever measures it while an
+  /// attempt is not committed yet.
   void showState() {
     if (!follows()) return;
     follow(model_, displacementsOf(state_));
