@@ -9,6 +9,7 @@ namespace mortier {
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;  ///< dense, column major
 using Point = Eigen::Vector2d;
+using SpacePoint = Eigen::Vector3d;
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 

@@ -177,7 +177,10 @@ ContactInterface::ContactInterface(const ContactPair& pair, const ContactMesh& n
   if (mortar.closed) mortarNodes_.pop_back();
   mortarNodes_.insert(mortarNodes_.end(), mortar.middleNodes.begin(), mortar.middleNodes.end());
 
-  if (options.gap) return;
+  if (!options.gap) settleDistance(options.initial, shorter, names);
+}
+
+void ContactInterface::settleDistance(InitialGap initial, double shorter, const std::string& names) {
   std::vector<double> distances;
   for (int row = 0; row < rows(); ++row) {
     double& distance = distance_[row];
@@ -186,7 +189,7 @@ ContactInterface::ContactInterface(const ContactPair& pair, const ContactMesh& n
   }
   if (distances.empty()) return;
   requireAllowed(Eigen::Map<const Vector>(distances.data(), static_cast<Eigen::Index>(distances.size())),
-                 options.initial, shorter, names);
+                 initial, shorter, names);
 }
 
 void ContactInterface::assemble(const std::vector<SmoothPart>& parts, const std::vector<FacingLine>& facing,
@@ -308,6 +311,20 @@ Vector ContactInterface::distance(double t) const {
 
 Vector ContactInterface::gap(const Vector& uNonmortar, const Vector& uMortar, double t) const {
   return jump(uNonmortar, uMortar) - distance(t);
+}
+
+double ContactInterface::interpenetration(const Vector& uNonmortar, const Vector& uMortar, double t) const {
+  if (dimension_ == 2) return penetration_.of(uNonmortar, uMortar, nodalGap(t));
+  const Matrix jump = points_.jump(uNonmortar, uMortar);
+  double sum = 0;
+  for (Eigen::Index i = 0; i < jump.cols(); ++i)
+    sum += points_.areas[i] * std::max(0.0, points_.normals[i].dot(jump.col(i)) - points_.distances[i]);
+  return sum;
+}
+
+Matrix ContactInterface::SurfacePoints::jump(const Vector& uNonmortar, const Vector& uMortar) const {
+  const auto byNodes = [](const Vector& u) { return u.reshaped(3, u.size() / 3).transpose(); };
+  return (traces[0] * byNodes(uNonmortar) - traces[1] * byNodes(uMortar)).transpose();
 }
 
 void ContactInterface::subtractForces(const Vector& p, Vector& fNonmortar, Vector& fMortar) const {

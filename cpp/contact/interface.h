@@ -25,6 +25,7 @@
 #include "contact/coupling.h"
 #include "contact/penetration.h"
 #include "mesh/boundary_line.h"
+#include "mesh/tetrahedron_mesh.h"
 
 namespace mortier {
 
@@ -80,8 +81,25 @@ struct ContactMesh {
   const ElementNodes& nodes;
 };
 
+struct SpaceContactMesh {
+  const TetrahedronMesh& mesh;
+  const SpaceNodes& nodes;
+};
+
+struct SpaceInterfaceOptions {
+  InitialGap initial = InitialGap::asMeshed;
+  /// Whether the motion of a node along a direction is prescribed; none is where empty.
+  std::function<bool(int, const SpacePoint&)> nonmortarHeld = {};
+  std::function<bool(int, const SpacePoint&)> mortarHeld = {};
+};
+
 class ContactInterface {
  public:
+  /// Between two surfaces (space_interface.cpp). What is the line's in the plane is the surface's, lengths are
+  /// areas. \throws InputError
+  static ContactInterface inSpace(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh,
+                                  const SpaceContactMesh& mortarMesh,
+                                  const SpaceInterfaceOptions& options = {});
   /// \throws InputError when the lines do not face each other, overlap nowhere, or are not as far from each
   /// other as the options allow.
   ContactInterface(const ContactPair& pair, const ContactMesh& nonmortarMesh, const ContactMesh& mortarMesh,
@@ -110,6 +128,8 @@ class ContactInterface {
   /// Where rows follow, all nodes of the nonmortar line.
   [[nodiscard]] const std::vector<int>& nonmortarLine() const { return nonmortarLine_; }
 
+  /// 2 or 3: columns of C are dofs dimension() node + component.
+  [[nodiscard]] int dimension() const { return dimension_; }
   [[nodiscard]] const ContactPair& pair() const { return pair_; }
   /// Numbers of the nonmortar nodes that carry a condition, along the line; one row of C each. A node at a
   /// corner comes twice.
@@ -120,6 +140,7 @@ class ContactInterface {
   [[nodiscard]] const std::vector<int>& mortarNodes() const { return mortarNodes_; }
   /// Direction of contact at the node of each row, out of the nonmortar body.
   [[nodiscard]] const std::vector<Point>& normals() const { return normals_; }
+  [[nodiscard]] const std::vector<SpacePoint>& spaceNormals() const { return spaceNormals_; }
   [[nodiscard]] const ConstraintRows& C1() const { return C1_; }             ///< on the nonmortar body
   [[nodiscard]] const ConstraintRows& C2() const { return C2_; }             ///< on the mortar body
   [[nodiscard]] const Vector& initialDistance() const { return distance_; }  ///< g0 at t = 0 [m]
@@ -175,18 +196,33 @@ class ContactInterface {
   void subtractForces(const Vector& p, Vector& fNonmortar, Vector& fMortar) const;
   /// mass^-1 p: nodal values of the contact pressure [Pa] for nodal forces p [N/m].
   [[nodiscard]] Vector contactPressure(const Vector& p) const;
-  /// Integral over Gamma_C of ((u1 - u2).n - distance)_+, exact where the nonmortar line is straight [m^2].
-  [[nodiscard]] double interpenetration(const Vector& uNonmortar, const Vector& uMortar, double t = 0) const {
-    return penetration_.of(uNonmortar, uMortar, nodalGap(t));
-  }
+  /// Integral over Gamma_C of ((u1 - u2).n - distance)_+, exact where the nonmortar line is straight [m^2]; in
+  /// space by the midpoint rule on the common refinement [m^3].
+  [[nodiscard]] double interpenetration(const Vector& uNonmortar, const Vector& uMortar, double t = 0) const;
   /// What nodal forces p [N/m] leave of the gap between the nodes: its square where they press, that of the
   /// overlap elsewhere.
   [[nodiscard]] std::vector<GapSquare> gapSquares(const Vector& p, const Vector& uNonmortar,
                                                   const Vector& uMortar, double t = 0) const;
+  /// The common refinement of two surfaces: a point in the middle of each cell.
+  struct SurfacePoints {
+    std::array<Eigen::SparseMatrix<double>, 2> traces;  ///< points x nodes of both bodies
+    Eigen::SparseMatrix<double> rows;                   ///< points x rows: the row functions
+    std::vector<SpacePoint> normals;
+    Vector areas;      ///< of the cells [m^2]
+    Vector distances;  ///< of the bodies [m]
+    Vector sizes;      ///< of the nonmortar triangles: a side [m]
+
+    /// u1 - u2 at the points: 3 x points [m].
+    [[nodiscard]] Matrix jump(const Vector& uNonmortar, const Vector& uMortar) const;
+  };
+  [[nodiscard]] const SurfacePoints& surfacePoints() const { return points_; }
   /// The common refinement of the two lines.
   [[nodiscard]] std::vector<RefinedPiece> pieces() const { return penetration_.pieces(); }
 
  private:
+  ContactInterface() = default;
+  /// Takes distances that are rounding for zero, and refuses those that the options do not allow.
+  void settleDistance(InitialGap initial, double shorter, const std::string& names);
   /// What is given at a time at the nodes of the nonmortar line, by node; empty where it does not change.
   [[nodiscard]] Vector nodalGap(double t) const;
   /// What an interface that follows is made of (follow.cpp).
@@ -199,6 +235,7 @@ class ContactInterface {
                 const ContactMesh& nonmortarMesh, const ContactMesh& mortarMesh,
                 const InterfaceOptions& options);
 
+  int dimension_ = 2;
   std::shared_ptr<const Lines> lines_;  ///< of an interface that follows
   Vector distanceHere_;
   std::vector<char> faces_;
@@ -208,6 +245,7 @@ class ContactInterface {
   std::vector<NodeBetween> between_;
   std::vector<int> mortarNodes_;
   std::vector<Point> normals_;
+  std::vector<SpacePoint> spaceNormals_;
   ConstraintRows C1_;
   ConstraintRows C2_;
   Friction friction_;
@@ -226,6 +264,7 @@ class ContactInterface {
   double polygonTurn_ = 0;
   int heldEnds_ = 0;
   PenetrationIntegral penetration_;
+  SurfacePoints points_;  ///< in space
 };
 
 }  // namespace mortier

@@ -106,4 +106,21 @@ Sliding slidingOf(const ContactInterface& interface, const ContactMesh& nonmorta
   return sliding;
 }
 
+Sliding slidingInSpace(const ContactInterface& interface, const Vector& uNonmortar, const Vector& uMortar,
+                       const Vector& p) {
+  const ContactInterface::SurfacePoints& points = interface.surfacePoints();
+  const Vector pressed = points.rows * p;
+  const Matrix jump = points.jump(uNonmortar, uMortar);
+  Sliding most;
+  for (Eigen::Index i = 0; i < pressed.size(); ++i) {
+    if (!(pressed[i] > 0)) continue;
+    const SpacePoint& n = points.normals[i];
+    const double slip = (jump.col(i) - n.dot(jump.col(i)) * n).norm();
+    if (slip / points.sizes[i] <= most.edges) continue;
+    most.slip = slip;
+    most.edges = slip / points.sizes[i];
+  }
+  return most;
+}
+
 }  // namespace mortier

@@ -22,5 +22,9 @@ struct Sliding {
 /// \param p  nodal forces; nodes without one do not count [N/m]
 Sliding slidingOf(const ContactInterface& interface, const ContactMesh& nonmortar, const ContactMesh& mortar,
                   const Vector& uNonmortar, const Vector& uMortar, const Vector& p);
+/// The same of surfaces, at points of their common refinement; the length is that of a side of the triangle.
+/// Whether a node is past the end is not found.
+Sliding slidingInSpace(const ContactInterface& interface, const Vector& uNonmortar, const Vector& uMortar,
+                       const Vector& p);
 
 }  // namespace mortier

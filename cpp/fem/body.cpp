@@ -84,12 +84,39 @@ Body::Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> 
   findSteadyLoads();
 }
 
+Body::Body(std::string name, TetrahedronMesh mesh, std::shared_ptr<const Material> material,
+           SpaceConditions conditions, int degree)
+    : name_(std::move(name)),
+      space_(std::make_shared<SpaceElements>(name_, std::move(mesh), std::move(conditions), degree)),
+      material_(std::move(material)),
+      equations_(space_->equations()),
+      weights_(space_->weights()),
+      largestGradient_(space_->largestGradient()),
+      extent_(mortier::extent(space_->mesh())),
+      freeDofs_(space_->freeDofs()),
+      tangentSize_(freeDofs_) {}
+
+double Body::largestCoordinate() const {
+  double largest = 0;
+  for (const Point& x : mesh_.vertices) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+  if (space_)
+    for (const SpacePoint& x : space_->mesh().vertices) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+  return largest;
+}
+
+SpacePoint Body::placeOfPoint(int point) const {
+  if (space_) return space_->placeOf(point);
+  const Point place = places()[point];
+  return {place.x(), place.y(), 0};
+}
+
 const TangentAssembly& Body::assembly() const {
   if (!assembly_) assembly_.emplace(triangleData(), frameOf_, tangentSize_, material_->symmetricTangent());
   return *assembly_;
 }
 
 int Body::pointsOfTriangle() const {
+  if (space_) return space_->pointsOfElement();
   return withElement(degree(), [](auto element) { return decltype(element)::points; });
 }
 
@@ -132,7 +159,18 @@ std::array<Body::Part, 2> Body::parts(int node, const Point& vector) const {
   return {Part{equations_[2 * node], turned.x()}, Part{equations_[2 * node + 1], turned.y()}};
 }
 
+std::array<Body::Part, 3> Body::parts(int node, const SpacePoint& vector) const {
+  if (!space_) {
+    const auto [x, y] = parts(node, Point(vector.head<2>()));
+    return {x, y, Part{}};
+  }
+  const SpacePoint turned = space_->inFrame(node, vector);
+  return {Part{equations_[3 * node], turned.x()}, Part{equations_[3 * node + 1], turned.y()},
+          Part{equations_[3 * node + 2], turned.z()}};
+}
+
 Vector Body::gather(const Vector& nodal) const {
+  if (space_) return space_->gather(nodal);
   if (rigid()) return freeMotions_.transpose() * nodal;
   Vector x(freeDofs());
   for (int dof = 0; dof < dofs(); ++dof)
@@ -147,6 +185,7 @@ Vector Body::gather(const Vector& nodal) const {
 }
 
 Vector Body::spread(const Vector& x) const {
+  if (space_) return space_->spread(x);
   if (rigid()) return freeMotions_ * x;
   Vector nodal = Vector::Zero(dofs());
   for (int dof = 0; dof < dofs(); ++dof)
@@ -167,6 +206,7 @@ std::array<double, 2> Body::prescribedAt(const NodeSupport& support, double t) c
 }
 
 void Body::prescribe(double t, Vector& u) const {
+  if (space_) return space_->prescribe(t, u);
   if (rigid()) u = withHeld(heldAt(t), u);
   for (const NodeSupport& support : supports_.nodes())
     u.segment<2>(2 * support.node) =
@@ -174,6 +214,7 @@ void Body::prescribe(double t, Vector& u) const {
 }
 
 void Body::prescribeIncrement(double t0, double t1, TwoPartVector& increment) const {
+  if (space_) return space_->prescribeIncrement(t0, t1, increment);
   if (rigid()) {
     increment.high = withHeld(heldAt(t1) - heldAt(t0), increment.value());
     increment.low.setZero();

@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/two_part_vector.h"
 #include "base/types.h"
+#include "fem/space_elements.h"
 #include "fem/supports.h"
 #include "fem/tangent_assembly.h"
 #include "material/material.h"
@@ -79,6 +80,10 @@ class Body {
   /// triangle with a curved side is turned inside out, or where the mesh lies beyond the axis.
   Body(std::string name, TriangleMesh mesh, std::shared_ptr<const Material> material, Conditions conditions,
        int degree = 1, bool axisymmetric = false, bool averaged = false);
+  /// A body in space. Of what follows below, what refers to triangles, axes of revolution, rigid motions and
+  /// parts is of the plane, and empty. \throws InputError
+  Body(std::string name, TetrahedronMesh mesh, std::shared_ptr<const Material> material,
+       SpaceConditions conditions, int degree);
   /// A part with numbers of its own, in the order of those of the whole body; it has the whole labelled
   /// boundary and all supports. What it sums are the sums over its triangles and the sides that are theirs,
   /// so those of all parts are that of the whole body. The equations of nodes without triangles of the part
@@ -86,16 +91,25 @@ class Body {
   Body(const Body& whole, const BodyCut& cut);
 
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// 2 or 3: components of a displacement. A dof is dimension() node + component.
+  [[nodiscard]] int dimension() const { return space_ ? 3 : 2; }
+  /// Its tetrahedra; null in the plane.
+  [[nodiscard]] const SpaceElements* space() const { return space_.get(); }
+  [[nodiscard]] const std::string& meshName() const { return space_ ? space_->mesh().name : mesh_.name; }
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
   [[nodiscard]] const Material& material() const { return *material_; }
   /// Nodes of the displacement: the vertices of the mesh, and what lies between them.
   [[nodiscard]] const ElementNodes& elementNodes() const { return nodes_; }
-  [[nodiscard]] int degree() const { return nodes_.degree; }
+  [[nodiscard]] int degree() const { return space_ ? space_->nodes().degree : nodes_.degree; }
   [[nodiscard]] bool axisymmetric() const { return axisymmetric_; }
   /// Where the volumetric strain is averaged; null elsewhere.
   [[nodiscard]] const VolumePatches* patches() const { return patches_ ? &*patches_ : nullptr; }
-  [[nodiscard]] int nodes() const { return nodes_.count(); }
-  [[nodiscard]] int dofs() const { return 2 * nodes(); }
+  [[nodiscard]] int nodes() const { return space_ ? space_->nodes().count() : nodes_.count(); }
+  [[nodiscard]] int dofs() const { return dimension() * nodes(); }
+  /// Triangles or tetrahedra.
+  [[nodiscard]] size_t elements() const {
+    return space_ ? space_->mesh().tetrahedra.size() : mesh_.triangles.size();
+  }
   /// Quadrature points, triangle by triangle: columns of stresses, strains and moduli.
   [[nodiscard]] int points() const { return static_cast<int>(weights_.size()); }
   /// Quadrature weights, the area in all [m^2], or the volume of the whole ring [m^3].
@@ -107,7 +121,11 @@ class Body {
   /// Largest extent of the bounding box; that of the whole body [m].
   [[nodiscard]] double extent() const { return extent_; }
 
-  /// Places of the points [m].
+  /// Of any vertex, without sign [m].
+  [[nodiscard]] double largestCoordinate() const;
+  /// Place of a point; z = 0 in the plane [m].
+  [[nodiscard]] SpacePoint placeOfPoint(int point) const;
+  /// Places of the points of triangles [m].
   [[nodiscard]] std::vector<Point> places() const { return placesOfPoints(mesh_, nodes_); }
 
   // Equations. A node has two, less those of its prescribed motions: along the axes, or along the normal and
@@ -128,7 +146,7 @@ class Body {
   /// prescribed: the others are zero. \pre rigid()
   [[nodiscard]] Eigen::Vector3d heldForce(const Vector& nodal) const;
 
-  /// Equation 2 node + 0 or 1; -1 where that motion is prescribed.
+  /// Equation of each dof; -1 where that motion is prescribed.
   [[nodiscard]] const std::vector<int>& equations() const { return equations_; }
   /// A vector at a node by the equations of the node (-1 where prescribed).
   struct Part {
@@ -136,6 +154,8 @@ class Body {
     double value = 0;
   };
   [[nodiscard]] std::array<Part, 2> parts(int node, const Point& vector) const;
+  /// The same in space; in the plane the third part is nothing.
+  [[nodiscard]] std::array<Part, 3> parts(int node, const SpacePoint& vector) const;
   /// Nodal vectors (dofs) to equations; what acts along prescribed motions is left out.
   [[nodiscard]] Vector gather(const Vector& nodal) const;
   /// The reverse: dofs, nothing along prescribed motions.
@@ -177,7 +197,9 @@ class Body {
 
   /// Pattern of the tangent over equations; symmetric where the material's tangent is. It is found when the
   /// tangent is first asked for: not to be called first by several threads at once.
-  [[nodiscard]] const SparsePattern& pattern() const { return assembly().pattern(); }
+  [[nodiscard]] const SparsePattern& pattern() const {
+    return space_ ? space_->pattern(material_->symmetricTangent()) : assembly().pattern();
+  }
   /// K = sum |T| B' H^-1 B (moduli 9 or 6 x points) as values of pattern().
   void tangent(const Matrix& moduli, std::vector<double>& values, Threads& threads = Threads::none()) const {
     tangent(TangentModuli{moduli}, values, threads);
@@ -185,6 +207,7 @@ class Body {
   /// The same with what strains around the axis need.
   void tangent(const Linearisation& law, std::vector<double>& values,
                Threads& threads = Threads::none()) const {
+    if (space_) return space_->tangent(law.moduli, values, threads);
     tangent(TangentModuli{law.moduli, axisymmetric_ ? &law.beyond : nullptr}, values, threads);
   }
 
@@ -223,6 +246,7 @@ class Body {
   [[nodiscard]] Vector atPoints(const Datum& datum, double t) const;
 
   std::string name_;
+  std::shared_ptr<const SpaceElements> space_;  ///< null in the plane
   TriangleMesh mesh_;
   ElementNodes nodes_;
   std::shared_ptr<const Material> material_;

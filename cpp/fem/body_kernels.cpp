@@ -46,6 +46,7 @@ DoubleDouble times(double factor, const DoubleDouble& value) {
 // circumference over sqrt2 (fem/volume_patches.h).
 
 Vector Body::internalForce(const Matrix& stress) const {
+  if (space_) return space_->internalForce(stress);
   const TriangleData triangles = triangleData();
   Vector f = Vector::Zero(dofs());
   const int terms = patches_ ? patches_->terms() : 0;
@@ -86,6 +87,7 @@ Vector Body::internalForce(const Matrix& stress) const {
 }
 
 double Body::largestForce(const Matrix& stress) const {
+  if (space_) return space_->largestForce(stress);
   const TriangleData triangles = triangleData();
   double largest = 0;
   withElement(degree(), [&](auto element) {
@@ -103,6 +105,7 @@ double Body::largestForce(const Matrix& stress) const {
 }
 
 void Body::strain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin, int end) const {
+  if (space_) return space_->strain(u, shift, strain, begin, end);
   if (strain.rows() > 3 && shift == nullptr)
     strain.bottomRows(strain.rows() - 3).middleCols(begin, end - begin).setZero();
   if (strain.rows() > 3 && shift != nullptr)
@@ -231,6 +234,7 @@ void Body::strainOf(const TwoPartVector& u, const Matrix* shift, Matrix& strain,
 }
 
 void Body::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress, int begin, int end) const {
+  if (space_) return space_->addStressOf(d, law, stress, begin, end);
   const auto find = [&](int patch, std::array<double, 3>& sums) {
     const auto nodes = patches_->nodes(patch);
     const int first = 2 * *nodes.begin();

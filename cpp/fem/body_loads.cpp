@@ -45,6 +45,7 @@ Point directed(int component, const Point& along) {
 }  // namespace
 
 Vector Body::load(double t) const {
+  if (space_) return space_->load(t);
   Vector f = steady_.size() > 0 ? steady_ : Vector::Zero(dofs());
   addTractions(t, f, false);
   addForces(t, f, false);
@@ -172,6 +173,7 @@ Matrix Body::thermalStrain(double t) const {
 
 Matrix Body::initialStress() const {
   const int components = material_->components();
+  if (space_) return Matrix::Zero(components, points());
   // By component, those beyond the plane as far as they are given.
   Matrix given = Matrix::Zero(components, points());
   std::vector<char> beyond(points(), 0);

@@ -123,6 +123,7 @@ Eigen::Vector3d motionOf(const Body& body, const RigidComponents& components, in
 
 Matrix rigidModes(const Body& body) {
   if (body.rigid()) return body.freeMotions();
+  if (body.space() != nullptr) return spaceRigidModes(body);
   constexpr size_t most = 300;  // they are dense
   const RigidComponents components(body);
   std::vector<const NodeSupport*> supportAt(body.nodes(), nullptr);
@@ -152,6 +153,7 @@ Matrix rigidModes(const Body& body) {
 
 std::string describeRigidMotion(const Body& body, const Vector& motion) {
   constexpr double negligible = 1e-6;
+  if (body.space() != nullptr) return describeSpaceMotion(body, motion);
   const RigidComponents components(body);
   // What moves most is named, and where it is unless the whole body moves with it.
   int mover = 0;

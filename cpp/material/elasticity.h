@@ -1,4 +1,4 @@
-// Isotropic elasticity on three directions in which it is diagonal, the last two alike.
+// Isotropic elasticity on directions in which it is diagonal, all but the first alike.
 #pragma once
 
 #include "material/point_material.h"
@@ -22,46 +22,53 @@ void requireValid(const Elasticity& elasticity);
 LawDescription describe(const Elasticity& elasticity);
 LawDescription describe(const std::string& name, const Elasticity& elasticity);
 
+template <size_t n = 3>
 class ElasticLaw {
  public:
-  static constexpr int components = 3;
+  static constexpr int components = n;
+  using Stress = std::array<Lanes, n>;
   static constexpr bool linear = true;
   static constexpr bool needsTotalStrain = false;
 
   /// \param e  eigenvalues of the elasticity tensor [Pa]
-  explicit ElasticLaw(const Pair& e) : e_{e[0], e[1], e[1]} {}
+  explicit ElasticLaw(const Pair& e) {
+    e_.fill(e[1]);
+    e_[0] = e[0];
+  }
 
   static bool symmetric() { return true; }
   static double stressScale() { return 0; }
   static double stiffness(double /*weight*/) { return 0; }
   template <class Scalar>
-  static bool flows(const std::array<Scalar, 3>& /*stress*/) {
+  static bool flows(const std::array<Scalar, n>& /*stress*/) {
     return false;
   }
-  static Lanes penalty(const LaneVector& /*stress*/) { return 0; }
-  static LaneVector rate(const LaneVector& /*stress*/, const LaneVector& /*total*/) { return {}; }
-  [[nodiscard]] LaneVector elasticStrain(LaneVector stress) const {
-    for (int k = 0; k < 3; ++k) stress[k] *= 1 / e_[k];
+  static Lanes penalty(const Stress& /*stress*/) { return 0; }
+  static Stress rate(const Stress& /*stress*/, const Stress& /*total*/) { return {}; }
+  [[nodiscard]] Stress elasticStrain(Stress stress) const {
+    for (size_t k = 0; k < n; ++k) stress[k] *= 1 / e_[k];
     return stress;
   }
 
-  [[nodiscard]] PointAnswer<3> linearise(const PointStep<3>& point) const {
-    PointAnswer<3> answer{point.stress0, {}, diagonalMinusRankOne({e_[0], e_[1], e_[2]}, 0, {}, {})};
-    for (int k = 0; k < 3; ++k) {
+  [[nodiscard]] PointAnswer<n> linearise(const PointStep<n>& point) const {
+    Stress lanes;
+    for (size_t k = 0; k < n; ++k) lanes[k] = e_[k];
+    PointAnswer<n> answer{point.stress0, {}, diagonalMinusRankOne<n>(lanes, 0, {}, {})};
+    for (size_t k = 0; k < n; ++k) {
       answer.predictor[k] += e_[k] * point.strain[k];
       answer.change[k] = answer.predictor[k] - point.stress[k];
     }
     return answer;
   }
   /// D = E: the law is met halfway, and relaxation 2 is the whole way.
-  [[nodiscard]] PointAnswer<3> regularise(const PointStep<3>& point, const Lanes& /*penalty*/) const {
-    PointAnswer<3> answer = linearise(point);
+  [[nodiscard]] PointAnswer<n> regularise(const PointStep<n>& point, const Lanes& /*penalty*/) const {
+    PointAnswer<n> answer = linearise(point);
     for (Lanes& change : answer.change) change *= 0.5;
     return answer;
   }
 
  private:
-  double e_[3];
+  std::array<double, n> e_;
 };
 
 /// In plane stress.

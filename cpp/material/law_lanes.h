@@ -8,17 +8,21 @@ namespace mortier {
 
 using LaneVector = std::array<Lanes, 3>;  ///< on p, q, r, or on three deviatoric directions
 
-inline Lanes dot(const LaneVector& x, const LaneVector& y) {
-  return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+template <size_t n>
+Lanes dot(const std::array<Lanes, n>& x, const std::array<Lanes, n>& y) {
+  Lanes sum = x[0] * y[0];
+  for (size_t k = 1; k < n; ++k) sum += x[k] * y[k];
+  return sum;
 }
 
-/// diag(d) - c x y' as a 3 x 3 matrix, column major.
-inline std::array<Lanes, 9> diagonalMinusRankOne(const LaneVector& d, const Lanes& c, const LaneVector& x,
-                                                 const LaneVector& y) {
-  std::array<Lanes, 9> result;
-  for (int j = 0; j < 3; ++j) {
-    for (int i = 0; i < 3; ++i) result[3 * j + i] = -(c * x[i]) * y[j];
-    result[3 * j + j] += d[j];
+/// diag(d) - c x y', column major.
+template <size_t n>
+std::array<Lanes, n * n> diagonalMinusRankOne(const std::array<Lanes, n>& d, const Lanes& c,
+                                              const std::array<Lanes, n>& x, const std::array<Lanes, n>& y) {
+  std::array<Lanes, n * n> result;
+  for (size_t j = 0; j < n; ++j) {
+    for (size_t i = 0; i < n; ++i) result[n * j + i] = -(c * x[i]) * y[j];
+    result[n * j + j] += d[j];
   }
   return result;
 }

@@ -43,7 +43,7 @@ struct PathStart {
 struct Linearisation {
   Matrix predictor;  ///< components x points: s + H^-1 r [Pa]
   /// The block of H^-1 that acts on the strains of the plane [Pa], column major: 9 x points, or, where the
-  /// moduli are symmetric, 6 x points for the lower triangle.
+  /// moduli are symmetric, 6 x points for the lower triangle. In space all of H^-1: 36 or 21 x points.
   Matrix moduli;
   /// What a fourth stress component adds to H^-1 [Pa]: its row, and, where H^-1 is not symmetric, the first
   /// three of its column: 4 or 7 x points. Empty where there are three components. A fifth one adds the first
@@ -76,10 +76,22 @@ inline BeyondModuli beyondAt(const Matrix& beyond, int point) {
   return {{b[0], b[1], b[2]}, {column[0], column[1], column[2]}, b[3]};
 }
 
-using PointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 5, 1>;  ///< by components
+/// H^-1 of a point in space.
+inline Eigen::Matrix<double, 6, 6> spaceModuliAt(const Matrix& moduli, int point) {
+  Eigen::Matrix<double, 6, 6> D;
+  const double* entry = &moduli(0, point);
+  const bool symmetric = moduli.rows() == 21;
+  for (int j = 0; j < 6; ++j)
+    for (int i = symmetric ? j : 0; i < 6; ++i) D(i, j) = *entry++;
+  if (symmetric) D.triangularView<Eigen::StrictlyUpper>() = D.transpose();
+  return D;
+}
+
+using PointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;  ///< by components
 
 /// H^-1 of a point times a strain.
 inline PointVector stressOf(const Linearisation& law, const Eigen::Ref<const Vector>& strain, int point) {
+  if (strain.size() == 6) return spaceModuliAt(law.moduli, point) * strain;
   const std::array<double, 9> D = moduliAt(law.moduli, point);
   PointVector stress(strain.size());
   stress.head<3>() = Eigen::Map<const Eigen::Matrix3d>(D.data()) * strain.head<3>();
@@ -128,7 +140,7 @@ class Material {
   /// One for each part of the body.
   [[nodiscard]] virtual std::vector<LawDescription> laws() const = 0;
   /// Number of stress components: those of the plane, one beyond it, and what a law remembers in the form of
-  /// one: it does work on no strain of the body.
+  /// one: it does work on no strain of the body. In space six (fem/space_elements.h).
   [[nodiscard]] virtual int components() const = 0;
   /// How many of them are those of the tensor.
   [[nodiscard]] virtual int tensorComponents() const { return components(); }

@@ -115,7 +115,7 @@ PointAnswer<3> NortonLaw::regularise(const PointStep<3>& point, const Lanes& /*p
     moving = moving && abs(step) > last * max(Lanes(1), abs(y));
   }
   const Lanes theta = exp(y);
-  PointAnswer<3> answer{point.stress, {}, diagonalMinusRankOne({e_[0], e_[1], e_[2]}, 0, {}, {}), true};
+  PointAnswer<3> answer{point.stress, {}, diagonalMinusRankOne<3>({e_[0], e_[1], e_[2]}, 0, {}, {}), true};
   for (int k = 0; k < 3; ++k) {
     const Lanes tb = 0.5 * theta * e_[k] * a_[k];
     answer.change[k] = (0.5 * e_[k] * v[k] - tb * point.stress[k]) / (1 + tb);

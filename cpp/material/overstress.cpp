@@ -178,7 +178,7 @@ OverstressFlow::Answer OverstressFlow::regularise(const Point& point) const {
     D[k] = 1 / (a_[k] / c - 1 / e_[k]);
   }
   answer.flows = true;
-  answer.moduli = diagonalMinusRankOne(D, 0, {}, {});
+  answer.moduli = diagonalMinusRankOne<3>(D, 0, {}, {});
   answer.rho = rho - law_.isotropicHardening * flow.dp;
   answer.ofRho = law_.isotropicHardening;
   return answer;

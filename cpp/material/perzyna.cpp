@@ -4,17 +4,21 @@
 
 namespace mortier {
 
-PerzynaLaw::PerzynaLaw(const Pair& e, const Pair& a, const Pair& w, const Viscoplasticity& law)
-    : e_{e[0], e[1], e[1]},
-      a_(a),
+template <size_t n>
+PerzynaLaw<n>::PerzynaLaw(const Pair& e, const Pair& a, const Pair& w, const Viscoplasticity& law)
+    : a_(a),
       w_(w),
       law_(law),
       symmetric_(w[0] == w[1]),
-      domain_(law.yieldStress, a, {a[0] / w[0], a[1] / w[1]}) {}
+      domain_(law.yieldStress, a, {a[0] / w[0], a[1] / w[1]}) {
+  e_.fill(e[1]);
+  e_[0] = e[0];
+}
 
-LaneVector PerzynaLaw::rest(const PointStep<3>& point) const {
-  LaneVector v = point.strain;
-  for (int k = 0; k < 3; ++k) v[k] -= (point.stress[k] - point.stress0[k]) / e_[k];
+template <size_t n>
+typename PerzynaLaw<n>::Stress PerzynaLaw<n>::rest(const PointStep<n>& point) const {
+  Stress v = point.strain;
+  for (size_t k = 0; k < n; ++k) v[k] -= (point.stress[k] - point.stress0[k]) / e_[k];
   return v;
 }
 
@@ -25,36 +29,38 @@ LaneVector PerzynaLaw::rest(const PointStep<3>& point) const {
 //   H ds = B d + r,  H = E^-1 + theta kappa diag(softening) + (theta/z) x y',
 // a rank-one change of a diagonal matrix. c = 0 judges yielding by s alone; `anticipate` by a stress that v
 // moves by up to E v while v is small, never far beyond the yield surface when it is large.
-PointAnswer<3> PerzynaLaw::linearise(const PointStep<3>& point) const {
+template <size_t n>
+PointAnswer<n> PerzynaLaw<n>::linearise(const PointStep<n>& point) const {
   constexpr double reach = 100;  // in yield stresses, for v >> sigma_Y/E
   const double theta = this->theta(point.weight);
-  const LaneVector v = rest(point);
+  const Stress v = rest(point);
   Lanes c = 0;
-  LaneVector t = point.stress;
+  Stress t = point.stress;
   if (point.anticipate) {
     c = 1 / (1 / e_[1] + sqrt(dot(v, v)) / (reach * law_.yieldStress));
-    for (int k = 0; k < 3; ++k) t[k] += c * v[k];
+    for (size_t k = 0; k < n; ++k) t[k] += c * v[k];
   }
-  LaneVector h{e_[0], e_[1], e_[2]};
-  LaneVector r = v;
-  LaneVector hx{};
-  LaneVector hy{};
+  Stress h;
+  for (size_t k = 0; k < n; ++k) h[k] = e_[k];
+  Stress r = v;
+  Stress hx{};
+  Stress hy{};
   Lanes rankOne = 0;
   const LaneMask flowing = domain_.yields(t);
-  PointAnswer<3> answer;
+  PointAnswer<n> answer;
   answer.flows = any_of(flowing);
   if (answer.flows) {
     const Lanes kappa = point.anticipate ? 1 / (1 + c * theta) : Lanes(1);
-    const ProjectionOnYield P = domain_.project(t, kappa, flowing);
-    for (int k = 0; k < 3; ++k) r[k] = select(flowing, v[k] - theta * kappa * P.overstress[k], v[k]);
+    const ProjectionOnYield<n> P = domain_.project(t, kappa, flowing);
+    for (size_t k = 0; k < n; ++k) r[k] = select(flowing, v[k] - theta * kappa * P.overstress[k], v[k]);
     if (point.anticipate) {
       const Lanes along = c * theta * dot(P.y, r) / P.z;
-      for (int k = 0; k < 3; ++k)
+      for (size_t k = 0; k < n; ++k)
         r[k] = select(flowing, P.stretch[k == 0 ? 0 : 1] * r[k] + along * P.x[k], v[k]);
     }
     const Lanes hp = 1 / (1 / e_[0] + theta * kappa * P.softening[0]);
     const Lanes hq = 1 / (1 / e_[1] + theta * kappa * P.softening[1]);
-    for (int k = 0; k < 3; ++k) {
+    for (size_t k = 0; k < n; ++k) {
       h[k] = select(flowing, k == 0 ? hp : hq, h[k]);
       hx[k] = h[k] * P.x[k];
       hy[k] = h[k] * P.y[k];
@@ -63,7 +69,7 @@ PointAnswer<3> PerzynaLaw::linearise(const PointStep<3>& point) const {
   }
   const Lanes along = rankOne * dot(hy, r);
   answer.predictor = point.stress;
-  for (int k = 0; k < 3; ++k) {
+  for (size_t k = 0; k < n; ++k) {
     answer.change[k] = h[k] * r[k] - along * hx[k];
     answer.predictor[k] += answer.change[k];
   }
@@ -73,15 +79,16 @@ PointAnswer<3> PerzynaLaw::linearise(const PointStep<3>& point) const {
 
 // t solves A (t - s) = v - theta (t - P_B t), A = D^-1 + E^-1, v as above. With x = s + v/A and
 // kappa = 1/(1 + theta/A) it is t = x - (theta kappa/A) (x - P x), P the projection with the weights w kappa.
-PointAnswer<3> PerzynaLaw::regularise(const PointStep<3>& point, const Lanes& penalty) const {
+template <size_t n>
+PointAnswer<n> PerzynaLaw<n>::regularise(const PointStep<n>& point, const Lanes& penalty) const {
   const double theta = this->theta(point.weight);
-  const LaneVector v = rest(point);
-  PointAnswer<3> answer;
-  LaneVector A;
-  LaneVector kappa;
-  LaneVector x = point.stress;
-  LaneVector D;
-  for (int k = 0; k < 3; ++k) {
+  const Stress v = rest(point);
+  PointAnswer<n> answer;
+  Stress A;
+  Stress kappa;
+  Stress x = point.stress;
+  Stress D;
+  for (size_t k = 0; k < n; ++k) {
     A[k] = 2 / e_[k] + penalty * theta;
     kappa[k] = A[k] / (A[k] + theta);
     answer.change[k] = v[k] / A[k];
@@ -92,34 +99,40 @@ PointAnswer<3> PerzynaLaw::regularise(const PointStep<3>& point, const Lanes& pe
   if (any_of(flowing)) {
     const YieldDomain<Lanes> domain(law_.yieldStress, a_,
                                     {a_[0] / (w_[0] * kappa[0]), a_[1] / (w_[1] * kappa[1])});
-    const LaneVector overstress = domain.project(x, 1, flowing).overstress;
-    for (int k = 0; k < 3; ++k)
+    const Stress overstress = domain.project(x, 1, flowing).overstress;
+    for (size_t k = 0; k < n; ++k)
       answer.change[k] = select(flowing, (v[k] - theta * kappa[k] * overstress[k]) / A[k], answer.change[k]);
   }
-  answer.moduli = diagonalMinusRankOne(D, 0, {}, {});
+  answer.moduli = diagonalMinusRankOne<n>(D, 0, {}, {});
   return answer;
 }
 
 // The flow stiffens by 1 along the normal of the yield surface and by `softening` at least along it.
-Lanes PerzynaLaw::penalty(const LaneVector& stress) const {
+template <size_t n>
+Lanes PerzynaLaw<n>::penalty(const Stress& stress) const {
   const LaneMask flowing = domain_.yields(stress);
-  const ProjectionOnYield P = domain_.project(stress, 1, flowing);
+  const ProjectionOnYield<n> P = domain_.project(stress, 1, flowing);
   return select(flowing, sqrt(min(P.softening[0], P.softening[1])), 0);
 }
 
-LaneVector PerzynaLaw::rate(const LaneVector& stress, const LaneVector& /*total*/) const {
+template <size_t n>
+typename PerzynaLaw<n>::Stress PerzynaLaw<n>::rate(const Stress& stress, const Stress& /*total*/) const {
   const LaneMask flowing = domain_.yields(stress);
-  LaneVector rate{};
+  Stress rate{};
   if (none_of(flowing)) return rate;
-  const ProjectionOnYield P = domain_.project(stress, 1, flowing);
-  for (int k = 0; k < 3; ++k) rate[k] = select(flowing, P.overstress[k] / (2 * law_.viscosity), 0);
+  const ProjectionOnYield<n> P = domain_.project(stress, 1, flowing);
+  for (size_t k = 0; k < n; ++k) rate[k] = select(flowing, P.overstress[k] / (2 * law_.viscosity), 0);
   return rate;
 }
 
-ConeLaw PerzynaLaw::cone(double weight) const {
+template <size_t n>
+ConeLaw PerzynaLaw<n>::cone(double weight) const requires(n == 3) {
   const auto three = [](const Pair& x) { return Eigen::Array3d(x[0], x[1], x[1]); };
   return {three({e_[0], e_[1]}), three(a_), three(a_) / three(w_), law_.yieldStress, theta(weight)};
 }
+
+template class PerzynaLaw<3>;
+template class PerzynaLaw<5>;
 
 void requireValid(const Viscoplasticity& viscoplasticity) {
   requireParameter(viscoplasticity.viscosity > 0, "viscosity", viscoplasticity.viscosity,

@@ -27,10 +27,13 @@ void requireValid(const Viscoplasticity& viscoplasticity);
 
 LawDescription describe(const Elasticity& elasticity, const Viscoplasticity& viscoplasticity);
 
-/// On three directions in which E, B and the norm are diagonal, the last two alike.
+/// On n directions in which E, B and the norm are diagonal, all but the first alike: 3, or the 5 of a deviator
+/// in space.
+template <size_t n = 3>
 class PerzynaLaw {
  public:
-  static constexpr int components = 3;
+  static constexpr int components = n;
+  using Stress = std::array<Lanes, n>;
   static constexpr bool linear = false;
   static constexpr bool needsTotalStrain = false;
 
@@ -41,25 +44,25 @@ class PerzynaLaw {
   [[nodiscard]] double stressScale() const { return law_.yieldStress; }
   [[nodiscard]] double stiffness(double weight) const { return theta(weight) * std::max(e_[0], e_[1]); }
   template <class Scalar>
-  [[nodiscard]] auto flows(const std::array<Scalar, 3>& stress) const {
+  [[nodiscard]] auto flows(const std::array<Scalar, n>& stress) const {
     return domain_.yields(stress);
   }
-  [[nodiscard]] Lanes penalty(const LaneVector& stress) const;
-  [[nodiscard]] LaneVector rate(const LaneVector& stress, const LaneVector& total) const;
-  [[nodiscard]] LaneVector elasticStrain(LaneVector stress) const {
-    for (int k = 0; k < 3; ++k) stress[k] *= 1 / e_[k];
+  [[nodiscard]] Lanes penalty(const Stress& stress) const;
+  [[nodiscard]] Stress rate(const Stress& stress, const Stress& total) const;
+  [[nodiscard]] Stress elasticStrain(Stress stress) const {
+    for (size_t k = 0; k < n; ++k) stress[k] *= 1 / e_[k];
     return stress;
   }
-  [[nodiscard]] PointAnswer<3> linearise(const PointStep<3>& point) const;
-  [[nodiscard]] PointAnswer<3> regularise(const PointStep<3>& point, const Lanes& penalty) const;
-  [[nodiscard]] ConeLaw cone(double weight) const;
+  [[nodiscard]] PointAnswer<n> linearise(const PointStep<n>& point) const;
+  [[nodiscard]] PointAnswer<n> regularise(const PointStep<n>& point, const Lanes& penalty) const;
+  [[nodiscard]] ConeLaw cone(double weight) const requires(n == 3);
 
  private:
   [[nodiscard]] double theta(double weight) const { return weight / (2 * law_.viscosity); }
   /// strain - E^-1 (s - s0): what is left for the flow.
-  [[nodiscard]] LaneVector rest(const PointStep<3>& point) const;
+  [[nodiscard]] Stress rest(const PointStep<n>& point) const;
 
-  double e_[3];
+  std::array<double, n> e_;
   Pair a_;
   Pair w_;
   Viscoplasticity law_;

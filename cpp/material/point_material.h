@@ -1,7 +1,7 @@
 // A material from the law of one point. A law is a small class with
 //
 //   static constexpr int components;              3, on p, q, r (stress.h), or 4, s33 beside them; and those
-//                                                 that it remembers
+//                                                 that it remembers; or the 6 of space
 //   static constexpr bool linear, needsTotalStrain;
 //                                                 its moduli depend on nothing; G on the total strain
 //   bool symmetric() const;                       whether its moduli are, whatever the stress
@@ -185,6 +185,14 @@ class PointMaterial final : public Material, public BackStress {
 
   /// What Linearisation keeps of them.
   static void store(const Batch& batch, const std::array<Lanes, n * n>& H, Linearisation& result) {
+    if constexpr (n == 6) {
+      if (result.moduli.rows() == 36) return batch.store(H, result.moduli.data());
+      std::array<Lanes, 21> lower;
+      size_t next = 0;
+      for (size_t j = 0; j < n; ++j)
+        for (size_t i = j; i < n; ++i) lower[next++] = H[n * j + i];
+      return batch.store(lower, result.moduli.data());
+    }
     if (result.moduli.rows() == 6)
       batch.store(std::array<Lanes, 6>{H[0], H[1], H[2], H[n + 1], H[n + 2], H[2 * n + 2]},
                   result.moduli.data());

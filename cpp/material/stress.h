@@ -1,7 +1,8 @@
 // Stress and strain as vectors in the basis in which plane isotropic elasticity is diagonal:
 //   p = (s11 + s22)/sqrt2,  q = (s11 - s22)/sqrt2,  r = sqrt2 s12,
 // and the same for strains, so that the scalar product of two vectors is sigma : eps.
-// In plane strain s33 follows as a fourth component; strains of the plane act on the first three.
+// In plane strain s33 follows as a fourth component; strains of the plane act on the first three. In space
+// sqrt2 s13 and sqrt2 s23 follow that.
 #pragma once
 
 #include <cmath>
@@ -23,12 +24,14 @@ inline Eigen::Vector3d fromCartesian(const Eigen::Vector3d& s) {
   return {h * (s[0] + s[1]), h * (s[0] - s[1]), std::numbers::sqrt2 * s[2]};
 }
 
-/// sqrt(3/2 |dev|^2) [Pa] of (p, q, r) in plane stress, of (p, q, r, s33) in plane strain.
+/// sqrt(3/2 |dev|^2) [Pa] of (p, q, r) in plane stress, of (p, q, r, s33) in plane strain, of six components
+/// in space.
 inline double vonMises(const Eigen::Ref<const Vector>& stress) {
   const double p = stress[0];
   const double beyond = stress.size() > 3 ? stress[3] - p * (std::numbers::sqrt2 / 2) : 0;
   const double first = stress.size() > 3 ? beyond * beyond : 0.5 * p * p;
-  return std::sqrt(first + 1.5 * (stress[1] * stress[1] + stress[2] * stress[2]));
+  const double across = stress.size() == 6 ? stress[4] * stress[4] + stress[5] * stress[5] : 0;
+  return std::sqrt(first + 1.5 * (stress[1] * stress[1] + stress[2] * stress[2] + across));
 }
 
 }  // namespace mortier

@@ -61,7 +61,7 @@ class ViscoelasticLaw {
     for (int k = 0; k < 3; ++k) D[k] = 1 / (1 / e_[k] + point.weight * alpha_[k] / tau_);
     PointAnswer<3> answer = towardsLaw(point, D);
     for (Lanes& modulus : D) modulus *= 1 + point.weight * g_ / tau_;
-    answer.moduli = diagonalMinusRankOne(D, 0, {}, {});
+    answer.moduli = diagonalMinusRankOne<3>(D, 0, {}, {});
     return answer;
   }
   /// With D = E.
@@ -69,7 +69,7 @@ class ViscoelasticLaw {
     LaneVector half;
     for (int k = 0; k < 3; ++k) half[k] = 1 / (2 / e_[k] + point.weight * alpha_[k] / tau_);
     PointAnswer<3> answer = towardsLaw(point, half);
-    answer.moduli = diagonalMinusRankOne({e_[0], e_[1], e_[2]}, 0, {}, {});
+    answer.moduli = diagonalMinusRankOne<3>({e_[0], e_[1], e_[2]}, 0, {}, {});
     return answer;
   }
 

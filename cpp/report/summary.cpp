@@ -59,7 +59,7 @@ Json interfaces(const RunFacts& facts, const Model& model, const State& state) {
   Json list = Json::array();
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
-    const Point force = resultant(model, state, k);
+    const SpacePoint force = resultant(model, state, k);
     const Sliding sliding = slidingOf(model, state, k);
     list.push_back({{"variant", facts.variants[k]},
                     {"nonmortar", model.bodies[interface.pair().nonmortar.body].name()},

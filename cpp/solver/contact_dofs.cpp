@@ -21,16 +21,22 @@ constexpr double negligibleShare = 1e-14;
 template <class Visit>
 void forEachEntry(const ContactInterface& interface, int body, const ConstraintRows& nonmortar,
                   const ConstraintRows& mortar, Visit visit) {
+  const int dimension = interface.dimension();
   const auto visitAll = [&](const ConstraintRows& C) {
-    for (int node = 0; 2 * node < C.outerSize(); ++node) {
-      ConstraintRows::InnerIterator x(C, 2 * node);
-      ConstraintRows::InnerIterator y(C, 2 * node + 1);
-      while (x || y) {
-        const auto row = static_cast<int>(!y || (x && x.row() < y.row()) ? x.row() : y.row());
-        Point vector = Point::Zero();
-        if (x && x.row() == row) vector.x() = x.value(), ++x;
-        if (y && y.row() == row) vector.y() = y.value(), ++y;
-        visit(row, node, vector);
+    for (int node = 0; dimension * node < C.outerSize(); ++node) {
+      std::vector<ConstraintRows::InnerIterator> entries;
+      for (int c = 0; c < dimension; ++c) entries.emplace_back(C, dimension * node + c);
+      const auto nextRow = [&] {
+        Eigen::Index row = C.rows();
+        for (const auto& entry : entries)
+          if (entry) row = std::min(row, entry.row());
+        return row;
+      };
+      for (Eigen::Index row = nextRow(); row < C.rows(); row = nextRow()) {
+        SpacePoint vector = SpacePoint::Zero();
+        for (int c = 0; c < dimension; ++c)
+          if (entries[c] && entries[c].row() == row) vector[c] = entries[c].value(), ++entries[c];
+        visit(static_cast<int>(row), node, vector);
       }
     }
   };
@@ -43,16 +49,16 @@ bool seesDofs(const Body& body) {
   return body.rigid() && body.freeDofs() > 0;
 }
 
-std::array<Body::Part, 2> partsOf(const Body& body, int node, const Point& vector) {
+std::array<Body::Part, 3> partsOf(const Body& body, int node, const SpacePoint& vector) {
   if (!seesDofs(body)) return body.parts(node, vector);
-  return {Body::Part{2 * node, vector.x()}, Body::Part{2 * node + 1, vector.y()}};
+  return {Body::Part{2 * node, vector.x()}, Body::Part{2 * node + 1, vector.y()}, Body::Part{}};
 }
 
 /// Entries of all conditions on one body as (condition, equation, value).
 template <class Visit>
 void forEachEquation(const Model& model, int body, const std::vector<int>& firstRow, Visit visit) {
   const auto visitParts = [&](int first) {
-    return [&, first](int row, int node, const Point& vector) {
+    return [&, first](int row, int node, const SpacePoint& vector) {
       for (const auto& [equation, value] : partsOf(model.bodies[body], node, vector))
         if (equation >= 0 && std::abs(value) > negligibleShare * vector.norm())
           visit(first + row, equation, value);

@@ -42,7 +42,7 @@ std::optional<Point> centreOfRoller(const Model& model, int body) {
   for (const ContactInterface& interface : model.interfaces) {
     const ContactPair& pair = interface.pair();
     if (pair.nonmortar.body != body && pair.mortar.body != body) continue;
-    if (interface.hasFriction() || of.axisymmetric()) return std::nullopt;
+    if (interface.hasFriction() || of.axisymmetric() || of.dimension() == 3) return std::nullopt;
     std::vector<Point> points;
     for (const int node : pair.nonmortar.body == body ? interface.nonmortarNodes() : interface.mortarNodes())
       points.push_back(of.elementNodes().places[node]);

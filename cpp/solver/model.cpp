@@ -7,10 +7,10 @@ namespace mortier {
 namespace {
 
 /// Whether the supports of a body leave no more than rounding of a direction at a node.
-bool holds(const Body& body, int node, const Point& direction) {
+bool holds(const Body& body, int node, const SpacePoint& direction) {
   constexpr double rounding = 1e-9;
   if (body.rigid())
-    return (body.freeMotions().middleRows<2>(2 * node).transpose() * direction).isZero(rounding);
+    return (body.freeMotions().middleRows<2>(2 * node).transpose() * direction.head<2>()).isZero(rounding);
   for (const auto& [equation, value] : body.parts(node, direction))
     if (equation >= 0 && std::abs(value) > rounding) return false;
   return true;
@@ -59,8 +59,18 @@ bool solvesSparse(double conditions, double equations, bool rough, const SolverO
 void addInterface(Model& model, const ContactPair& pair, InterfaceOptions options) {
   const Body& nonmortar = model.bodies[pair.nonmortar.body];
   const Body& mortar = model.bodies[pair.mortar.body];
-  options.nonmortarHeld = [&](int node, const Point& n) { return holds(nonmortar, node, n); };
-  options.mortarHeld = [&](int node, const Point& n) { return holds(mortar, node, n); };
+  if (nonmortar.space() != nullptr) {
+    const auto meshOf = [](const Body& body) {
+      return SpaceContactMesh{body.space()->mesh(), body.space()->nodes()};
+    };
+    model.interfaces.push_back(ContactInterface::inSpace(
+        pair, meshOf(nonmortar), meshOf(mortar),
+        {options.initial, [&](int node, const SpacePoint& n) { return holds(nonmortar, node, n); },
+         [&](int node, const SpacePoint& n) { return holds(mortar, node, n); }}));
+    return;
+  }
+  options.nonmortarHeld = [&](int node, const Point& n) { return holds(nonmortar, node, {n.x(), n.y(), 0}); };
+  options.mortarHeld = [&](int node, const Point& n) { return holds(mortar, node, {n.x(), n.y(), 0}); };
   model.interfaces.emplace_back(pair, ContactMesh{nonmortar.mesh(), nonmortar.elementNodes()},
                                 ContactMesh{mortar.mesh(), mortar.elementNodes()}, options);
 }

@@ -11,10 +11,10 @@ namespace mortier {
 /// Where the iterate of a step that is not solved is furthest off the material law.
 struct StuckPlace {
   int body = 0;
-  int triangle = 0;     ///< of its mesh, from 0
-  Point at{0, 0};       ///< where the stress is taken there [m]
-  double residual = 0;  ///< |H^-1 r|, as in Certificate::materialResidual
-  double time = 0;      ///< at which the step was to end [s]
+  int triangle = 0;        ///< of its mesh, from 0; in space a tetrahedron
+  SpacePoint at{0, 0, 0};  ///< where the stress is taken there [m]
+  double residual = 0;     ///< |H^-1 r|, as in Certificate::materialResidual
+  double time = 0;         ///< at which the step was to end [s]
 };
 
 /// Why a step is not solved.

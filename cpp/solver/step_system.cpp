@@ -141,20 +141,21 @@ std::optional<StuckPlace> StepSystem::furthest(const Step& step, Iterate& iterat
     const double worst = model_.largest(point < 0 ? 0 : residual);
     if (worst == 0 || worst <= (place ? place->residual : options_.tolerance)) continue;
     const Body& body = model_.bodies[b];
-    std::array<double, 3> at{-1, 0, 0};  // of the rank that has it, or the last of them
+    std::array<double, 4> at{-1, 0, 0, 0};  // of the rank that has it, or the last of them
     if (point >= 0 && residual == worst) {
       const int triangle = point / body.pointsOfTriangle();
       at[0] = model_.inParts() ? model_.parts[b].cut.triangles[triangle] : triangle;
     }
     const double number = model_.largest(at[0]);
     if (number == at[0]) {
-      const Point there = body.places()[point];
-      at = {number, there.x(), there.y()};
+      const SpacePoint there = body.placeOfPoint(point);
+      at = {number, there.x(), there.y(), there.z()};
     } else {
-      at = {0, 0, 0};
+      at = {0, 0, 0, 0};
     }
     model_.sum(at.data(), at.size());
-    place = {static_cast<int>(b), static_cast<int>(number), Point(at[1], at[2]), worst, step.data.time};
+    place = {static_cast<int>(b), static_cast<int>(number), SpacePoint(at[1], at[2], at[3]), worst,
+             step.data.time};
   }
   return place;
 }

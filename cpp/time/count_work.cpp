@@ -22,6 +22,8 @@ namespace {
 double workOfSupports(const Body& body, const Vector& forces, const std::vector<char>& owned,
                       const Vector& du) {
   if (body.rigid()) return body.heldForce(forces).dot(body.motionOf(du));
+  // Equations are orthonormal directions: what they leave is held.
+  if (body.space() != nullptr) return forces.dot(du) - body.gather(forces).dot(body.gather(du));
   double work = 0;
   for (const NodeSupport& support : body.supports().nodes()) {
     if (!owned.empty() && owned[support.node] == 0) continue;

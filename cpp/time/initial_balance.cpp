@@ -19,8 +19,7 @@ bool actsAtOnce(const Model& model, const State& state) {
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     double largest = 0;
     for (const int b : {model.interfaces[k].pair().nonmortar.body, model.interfaces[k].pair().mortar.body})
-      for (const Point& x : model.bodies[b].mesh().vertices)
-        largest = std::max(largest, x.cwiseAbs().maxCoeff());
+      largest = std::max(largest, model.bodies[b].largestCoordinate());
     acts = acts || (state.gap[k].array() > rounding * largest).any();
   }
   return model.any(acts);

@@ -48,13 +48,13 @@ Part partOf(const Body& body, const BodyState& state, Matrix& strain, int begin,
 }
 
 /// The largest displacement of a node [m].
-double largestDisplacement(const Vector& displacement, Threads& threads) {
-  const auto nodes = static_cast<int>(displacement.size() / 2);
+double largestDisplacement(const Vector& displacement, int dimension, Threads& threads) {
+  const auto nodes = static_cast<int>(displacement.size() / dimension);
   std::vector<double> squares(blocksOf(nodes), 0);
   forEachBlock(nodes, threads, [&](int begin, int end) {
     double& square = squares[begin / itemsOfBlock];
     for (Eigen::Index i = begin; i < end; ++i)
-      square = std::max(square, displacement.segment<2>(2 * i).squaredNorm());
+      square = std::max(square, displacement.segment(dimension * i, dimension).squaredNorm());
   });
   return std::sqrt(*std::max_element(squares.begin(), squares.end()));
 }
@@ -70,7 +70,7 @@ void measure(const Model& model, const State& state, Threads& threads, StepRepor
                                    state.bodies[interface.pair().mortar.body].displacement, state.time);
     report.maxPressure = std::max(report.maxPressure, interface.contactPressure(p).maxCoeff());
     report.contactForce += p.sum();
-    const Point force = resultant(model, state, k);
+    const SpacePoint force = resultant(model, state, k);
     report.resultantX += force.x();
     report.resultantY += force.y();
     if (interface.hasFriction()) report.frictionWork.push_back(state.frictionWorkOf[k]);
@@ -89,7 +89,7 @@ void measure(const Model& model, const State& state, Threads& threads, StepRepor
       all.vonMises = std::max(all.vonMises, part.vonMises);
       all.energy += part.energy;
     }
-    const double largest = largestDisplacement(state.bodies[b].displacement, threads);
+    const double largest = largestDisplacement(state.bodies[b].displacement, body.dimension(), threads);
     report.displacement = std::max(report.displacement, largest);
     report.motion = std::max(report.motion, largest / body.extent());
   }
@@ -116,6 +116,9 @@ void raise(Peaks& peaks, const StepReport& report) {
 
 Sliding slidingOf(const Model& model, const State& state, size_t interface) {
   const ContactInterface& of = model.interfaces[interface];
+  if (of.dimension() == 3)
+    return slidingInSpace(of, state.bodies[of.pair().nonmortar.body].displacement,
+                          state.bodies[of.pair().mortar.body].displacement, state.contactForce[interface]);
   const auto side = [&](const ContactSide& each) {
     const Body& body = model.bodies[each.body];
     return ContactMesh{body.mesh(), body.elementNodes()};
@@ -144,13 +147,13 @@ Deformation deformationOf(const Body& body, const Vector& displacement) {
   return most;
 }
 
-Point resultant(const Model& model, const State& state, size_t interface) {
+SpacePoint resultant(const Model& model, const State& state, size_t interface) {
   const ContactInterface& of = model.interfaces[interface];
-  Point sum = Point::Zero();
+  SpacePoint sum = SpacePoint::Zero();
   const auto subtract = [&](const ConstraintRows& rows, const Vector& by) {
     for (int dof = 0; dof < rows.outerSize(); ++dof)
       for (ConstraintRows::InnerIterator entry(rows, dof); entry; ++entry)
-        sum[dof % 2] -= entry.value() * by[entry.row()];
+        sum[dof % of.dimension()] -= entry.value() * by[entry.row()];
   };
   subtract(of.C1(), state.contactForce[interface]);
   if (of.hasFriction()) subtract(of.T1(), state.frictionForce[interface]);

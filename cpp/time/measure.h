@@ -27,7 +27,7 @@ struct Deformation {
 Deformation deformationOf(const Body& body, const Vector& displacement);
 
 /// Resultant of nodal contact forces on the nonmortar body [N/m].
-Point resultant(const Model& model, const State& state, size_t interface);
+SpacePoint resultant(const Model& model, const State& state, size_t interface);
 
 /// The moment that the forces of friction on both bodies leave: t times the distance across which they act,
 /// as meshed, of an interface with friction and not around an axis [N].

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <sstream>
 #include <utility>
 
@@ -155,18 +156,21 @@ std::string StepTaker::stressAt(const StuckPlace& place) const {
     triangle = at != own.end() && *at == triangle ? static_cast<int>(at - own.begin()) : -1;
   }
   const Matrix& stress = unsolved_->second.bodies[place.body].stress;
-  std::array<double, 4> s{};  // of the rank that has the triangle
+  std::array<double, 6> s{};  // of the rank that has the triangle
   if (triangle >= 0) {
     const int first = triangle * body.pointsOfTriangle();
     int point = first;
-    while (point + 1 < first + body.pointsOfTriangle() && body.places()[point] != place.at) ++point;
+    while (point + 1 < first + body.pointsOfTriangle() && body.placeOfPoint(point) != place.at) ++point;
     const Eigen::Vector3d plane = toCartesian(stress.col(point).head<3>());
     s = {plane[0], plane[1], plane[2], stress.rows() > 3 ? stress(3, point) : 0};
+    for (const int k : {4, 5})
+      if (body.dimension() == 3) s[k] = stress(k, point) / std::numbers::sqrt2;
   }
   model_.sum(s.data(), s.size());
   std::ostringstream text;
   text << ", at the stress s11 = " << s[0] << ", s22 = " << s[1] << ", s12 = " << s[2];
   if (stress.rows() > 3) text << ", s33 = " << s[3];
+  if (body.dimension() == 3) text << ", s13 = " << s[4] << ", s23 = " << s[5];
   return text.str();
 }
 

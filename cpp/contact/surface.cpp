@@ -1,0 +1,201 @@
+#include "contact/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "base/disjoint_sets.h"
+#include "base/error.h"
+
+namespace mortier {
+namespace {
+
+/// Triangles that turn by less are smooth.
+const double smoothCosine = std::cos(40 * std::numbers::pi / 180);
+/// Normals whose sine is below this are one.
+constexpr double sameNormal = 1e-9;
+/// Mortar triangles that turn away by more than this do not face a direction.
+constexpr double grazing = -1e-3;
+/// Polygons below this part of a triangle are dropped.
+constexpr double smallestPolygon = 1e-14;
+/// By how much a ray may miss a triangle, in its barycentric coordinates.
+constexpr double rounding = 1e-9;
+
+/// l.x >= 0, l.y >= 0, 1 - l.x - l.y >= 0 (Sutherland, Hodgman 1974). The coordinate that is clipped
+/// becomes exactly 0.
+void clip(std::vector<Point>& polygon, int side) {
+  const auto inside = [side](const Point& l) { return side < 2 ? l[side] : 1 - l.x() - l.y(); };
+  std::vector<Point> result;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Point& a = polygon[i];
+    const Point& b = polygon[(i + 1) % polygon.size()];
+    const double fa = inside(a);
+    const double fb = inside(b);
+    if (fa >= 0) result.push_back(a);
+    if ((fa < 0) != (fb < 0) && fa != 0 && fb != 0) {
+      Point cut = a + fa / (fa - fb) * (b - a);
+      if (side < 2)
+        cut[side] = 0;
+      else
+        cut.y() = 1 - cut.x();
+      result.push_back(cut);
+    }
+  }
+  polygon = std::move(result);
+}
+
+double areaOf(const std::vector<Point>& polygon) {
+  double twice = 0;
+  for (size_t i = 2; i < polygon.size(); ++i)
+    twice += cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+  return twice / 2;
+}
+
+}  // namespace
+
+ContactSurface::ContactSurface(const TetrahedronMesh& mesh, const SpaceNodes& nodes, int label)
+    : degree(nodes.degree) {
+  std::map<std::array<int, 2>, std::vector<int>> edges;
+  Eigen::AlignedBox3d box;
+  SpacePoint sum = SpacePoint::Zero();
+  for (size_t i = 0; i < nodes.faces.size(); ++i) {
+    if (mesh.boundaryLabels[i] != label) continue;
+    const std::array<int, 6>& face = nodes.faces[i];
+    std::array<SpacePoint, 3> x;
+    for (int k = 0; k < 3; ++k) {
+      x[k] = nodes.places[face[k]];
+      box.extend(x[k]);
+      const auto [low, high] = std::minmax(face[k], face[(k + 1) % 3]);
+      edges[{low, high}].push_back(static_cast<int>(triangles.size()));
+    }
+    const SpacePoint twice = (x[1] - x[0]).cross(x[2] - x[0]);
+    area += twice.norm() / 2;
+    sum += twice;
+    triangles.push_back(face);
+    places.push_back(x);
+    normals.push_back(twice.normalized());
+  }
+  if (triangles.empty())
+    throw InputError("label = " + std::to_string(label) + ", expected a boundary label of " + mesh.name);
+  extent = box.sizes().maxCoeff();
+  const SpacePoint mean = sum.normalized();
+  planar = std::all_of(normals.begin(), normals.end(),
+                       [&](const SpacePoint& n) { return n.cross(mean).norm() < sameNormal; });
+  DisjointSets sets(triangles.size());
+  for (const auto& [edge, of] : edges)
+    for (size_t k = 1; k < of.size(); ++k)
+      if (normals[of[0]].dot(normals[of[k]]) > smoothCosine) sets.join(of[0], of[k]);
+  for (size_t t = 0; t < triangles.size(); ++t) parts.push_back(sets.of(static_cast<int>(t)));
+}
+
+TriangleTree::TriangleTree(const ContactSurface& surface) : surface_(surface), order_(surface.places.size()) {
+  for (const auto& [a, b, c] : surface.places) {
+    Eigen::AlignedBox3d& box = boxes_.emplace_back(a);
+    box.extend(b).extend(c);
+  }
+  std::iota(order_.begin(), order_.end(), 0);
+  build(0, static_cast<int>(order_.size()));
+}
+
+int TriangleTree::build(int first, int count) {
+  constexpr int ofALeaf = 4;
+  const auto index = static_cast<int>(nodes_.size());
+  Node node{{}, first, count, 0};
+  for (int i = first; i < first + count; ++i) node.box.extend(boxes_[order_[i]]);
+  nodes_.push_back(node);
+  if (count <= ofALeaf) return index;
+  Eigen::Index axis = 0;
+  node.box.sizes().maxCoeff(&axis);
+  const int half = count / 2;
+  std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count,
+                   [&](int a, int b) {
+                     const double x = boxes_[a].center()[axis];
+                     const double y = boxes_[b].center()[axis];
+                     return x != y ? x < y : a < b;
+                   });
+  build(first, half);
+  const int second = build(first + half, count - half);
+  nodes_[index].count = 0;
+  nodes_[index].next = second;
+  return index;
+}
+
+void TriangleTree::find(const Eigen::AlignedBox3d& box, std::vector<int>& found) const {
+  found.clear();
+  std::vector<int> open(1, 0);
+  while (!open.empty()) {
+    const int index = open.back();
+    open.pop_back();
+    const Node& node = nodes_[index];
+    if (!node.box.intersects(box)) continue;
+    for (int i = node.first; i < node.first + node.count; ++i)
+      if (boxes_[order_[i]].intersects(box)) found.push_back(order_[i]);
+    if (node.count > 0) continue;
+    open.push_back(node.next);
+    open.push_back(index + 1);
+  }
+  std::sort(found.begin(), found.end());
+}
+
+RaySight TriangleTree::along(const SpacePoint& from, const SpacePoint& direction, double reach) const {
+  Eigen::AlignedBox3d box(SpacePoint(from - reach * direction));
+  box.extend(SpacePoint(from + reach * direction));
+  const double margin = rounding * surface_.extent;
+  box.extend(SpacePoint(box.min().array() - margin)).extend(SpacePoint(box.max().array() + margin));
+  std::vector<int> candidates;
+  find(box, candidates);
+  RaySight nearest;
+  for (const int t : candidates) {
+    if (surface_.normals[t].dot(direction) > grazing) continue;
+    const auto& [a, b, c] = surface_.places[t];
+    Eigen::Matrix3d equations;
+    equations << b - a, c - a, -direction;
+    const Eigen::Vector3d x = equations.partialPivLu().solve(from - a);
+    const Eigen::Vector3d mu(1 - x[0] - x[1], x[0], x[1]);
+    if (mu.minCoeff() < -rounding || std::abs(x[2]) > reach) continue;
+    if (nearest.triangle < 0 || std::abs(x[2]) < std::abs(nearest.delta)) nearest = {t, mu, x[2]};
+  }
+  return nearest;
+}
+
+void forEachFacing(const ContactSurface& nonmortar, const ContactSurface& mortar,
+                   const std::vector<SpacePoint>& directions, double reach,
+                   const std::function<void(const FacingTriangles&)>& visit) {
+  const TriangleTree tree(mortar);
+  std::vector<int> candidates;
+  for (size_t t = 0; t < nonmortar.triangles.size(); ++t) {
+    const auto& x = nonmortar.places[t];
+    const SpacePoint& d = directions[t];
+    Eigen::AlignedBox3d box;
+    for (const SpacePoint& place : x)
+      box.extend(SpacePoint(place - reach * d)).extend(SpacePoint(place + reach * d));
+    tree.find(box, candidates);
+    Eigen::Matrix3d own;
+    own << x[1] - x[0], x[2] - x[0], d;
+    const Eigen::Matrix3d toOwn = own.inverse();
+    for (const int other : candidates) {
+      if (mortar.normals[other].dot(d) > grazing) continue;
+      FacingTriangles facing{static_cast<int>(t), other, {}, {}, {}};
+      Eigen::Matrix3d corners;  // columns (l1, l2, 1) of the mortar vertices
+      for (int k = 0; k < 3; ++k) {
+        const Eigen::Vector3d l = toOwn * (mortar.places[other][k] - x[0]);
+        corners.col(k) << l.x(), l.y(), 1;
+        facing.delta[k] = l.z();
+        facing.polygon.emplace_back(l.x(), l.y());
+      }
+      std::reverse(facing.polygon.begin(), facing.polygon.end());  // the surfaces look at each other
+      for (int side = 0; side < 3 && facing.polygon.size() > 2; ++side) clip(facing.polygon, side);
+      if (facing.polygon.size() < 3 || areaOf(facing.polygon) < smallestPolygon) continue;
+      if (facing.delta.cwiseAbs().minCoeff() > reach) continue;
+      facing.mu = corners.inverse();
+      visit(facing);
+    }
+  }
+}
+
+}  // namespace mortier

@@ -1,0 +1,80 @@
+// The labelled boundary of a body in space as contact sees it, and the common refinement of two of them.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "base/types.h"
+#include "mesh/tetrahedron_mesh.h"
+
+namespace mortier {
+
+struct ContactSurface {
+  /// \throws InputError when the mesh does not have the label.
+  ContactSurface(const TetrahedronMesh& mesh, const SpaceNodes& nodes, int label);
+
+  int degree = 1;
+  std::vector<std::array<int, 6>> triangles;      ///< nodes of the body: three vertices, then the middles
+  std::vector<std::array<SpacePoint, 3>> places;  ///< of the vertices [m]
+  std::vector<SpacePoint> normals;                ///< outward, of length one
+  std::vector<int> parts;                         ///< by triangles: which turn smoothly into each other
+  double area = 0;                                ///< [m^2]
+  double extent = 0;                              ///< largest of the bounding box [m]
+  bool planar = false;                            ///< whether all normals are one
+
+  [[nodiscard]] int perTriangle() const { return degree == 1 ? 3 : 6; }
+};
+
+/// A nonmortar and a mortar triangle that face each other. A point of the first one, at its second and third
+/// barycentric coordinates l, sees along a direction d
+///   x2(l) = x1(l) + delta(l) d
+/// on the plane of the other, at its barycentric coordinates mu(l). mu and delta are affine in l.
+struct FacingTriangles {
+  int nonmortar = 0, mortar = 0;
+  Eigen::Matrix3d mu;     ///< times (l1, l2, 1)
+  Eigen::Vector3d delta;  ///< at the mortar vertices [m]
+  /// The part of the nonmortar triangle that faces the other, as a convex polygon of l.
+  std::vector<Point> polygon;
+
+  [[nodiscard]] Eigen::Vector3d at(const Point& l) const { return mu * Eigen::Vector3d(l.x(), l.y(), 1); }
+};
+
+/// Calls visit with every pair of triangles that face each other within `reach` along the directions of the
+/// nonmortar triangles. The polygons of a nonmortar triangle do not overlap where the mortar surface is
+/// not folded, and cover exactly the part of it that is faced.
+void forEachFacing(const ContactSurface& nonmortar, const ContactSurface& mortar,
+                   const std::vector<SpacePoint>& directions, double reach,
+                   const std::function<void(const FacingTriangles&)>& visit);
+
+/// The same of one ray from a point: the triangle that it meets first, its barycentric coordinates there
+/// and the distance; -1 for none.
+struct RaySight {
+  int triangle = -1;
+  Eigen::Vector3d mu;
+  double delta = 0;
+};
+
+/// Finds triangles of a surface in boxes.
+class TriangleTree {
+ public:
+  explicit TriangleTree(const ContactSurface& surface);
+  /// Triangles whose boxes overlap a box, ascending.
+  void find(const Eigen::AlignedBox3d& box, std::vector<int>& found) const;
+  [[nodiscard]] RaySight along(const SpacePoint& from, const SpacePoint& direction, double reach) const;
+
+ private:
+  struct Node {
+    Eigen::AlignedBox3d box;
+    int first = 0, count = 0;  ///< of order_, of a leaf
+    int next = 0;              ///< the second child; the first follows at once
+  };
+  int build(int first, int count);
+
+  const ContactSurface& surface_;
+  std::vector<Eigen::AlignedBox3d> boxes_;
+  std::vector<int> order_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace mortier

@@ -1,0 +1,367 @@
+#include "fem/space_elements.h"
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "base/double_double.h"
+#include "base/error.h"
+#include "fem/tetrahedron.h"
+
+namespace mortier {
+namespace {
+
+constexpr double root2 = std::numbers::sqrt2;
+
+/// Gauss's four points on [0, 1].
+constexpr std::array<double, 4> gaussPlaces{0.06943184420297371, 0.33000947820757187, 0.6699905217924281,
+                                            0.9305681557970262};
+constexpr std::array<double, 4> gaussWeights{0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
+                                             0.1739274225687269};
+
+// With G = gradient / sqrt2, a displacement (x, y, z) of a node strains by
+//   p: Gx x + Gy y,  q: Gx x - Gy y,  r: Gy x + Gx y,  33: sqrt2 Gz z,  13: Gz x + Gx z,  23: Gz y + Gy z.
+using NodeStrain = Eigen::Matrix<double, 6, 3>;
+NodeStrain strainOfNode(double gx, double gy, double gz) {
+  NodeStrain B;
+  B << gx, gy, 0,        //
+      gx, -gy, 0,        //
+      gy, gx, 0,         //
+      0, 0, root2 * gz,  //
+      gz, 0, gx,         //
+      0, gz, gy;
+  return B;
+}
+
+}  // namespace
+
+std::vector<SpaceRulePoint> triangleRule() {
+  std::vector<SpaceRulePoint> rule;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const double x = gaussPlaces[i];
+      const double y = gaussPlaces[j] * (1 - x);
+      rule.push_back({{x, y, 0}, gaussWeights[i] * gaussWeights[j] * (1 - x)});
+    }
+  return rule;
+}
+
+std::vector<SpaceRulePoint> tetrahedronRule() {
+  std::vector<SpaceRulePoint> rule;
+  for (int k = 0; k < 4; ++k)
+    for (const SpaceRulePoint& each : triangleRule()) {
+      const double z = gaussPlaces[k];
+      rule.push_back({{each.at.x() * (1 - z), each.at.y() * (1 - z), z},
+                      gaussWeights[k] * each.weight * (1 - z) * (1 - z)});
+    }
+  return rule;
+}
+
+SpaceElements::SpaceElements(const std::string& body, TetrahedronMesh mesh, SpaceConditions conditions,
+                             int degree)
+    : mesh_(std::move(mesh)), nodes_(spaceNodes(mesh_, degree)), conditions_(std::move(conditions)) {
+  for (const auto* each : {&conditions_.displacements, &conditions_.tractions})
+    for (const SpaceCondition& condition : *each)
+      if (!condition.point && std::find(mesh_.boundaryLabels.begin(), mesh_.boundaryLabels.end(),
+                                        condition.label) == mesh_.boundaryLabels.end())
+        throw InputError("body " + body + ": label = " + std::to_string(condition.label) +
+                         ", expected a boundary label of " + mesh_.name);
+  withSpaceElement(degree, [&](auto element) {
+    using Element = decltype(element);
+    for (size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
+      std::array<SpacePoint, 4> x;
+      for (int k = 0; k < 4; ++k) x[k] = mesh_.vertices[mesh_.tetrahedra[t][k]];
+      const TetrahedronGeometry geometry(x);
+      for (const SpaceBarycentric& at : Element::interior) {
+        weights_.push_back(geometry.volume / Element::points);
+        const Eigen::Matrix<double, 3, Element::nodes> gradients =
+            geometry.gradients * Element::derivatives(at);
+        largestGradient_ = std::max(largestGradient_, gradients.template lpNorm<Eigen::Infinity>());
+        for (int a = 1; a < Element::nodes; ++a)
+          for (int c = 0; c < 3; ++c) gradients_.push_back(gradients(c, a) / root2);
+      }
+    }
+  });
+  findSupports(body);
+  numberEquations();
+}
+
+SpacePoint SpaceElements::placeOf(int point) const {
+  const auto& vertices = mesh_.tetrahedra[point / pointsOfElement()];
+  SpacePoint place = SpacePoint::Zero();
+  for (int k = 0; k < 4; ++k)
+    place += (nodes_.degree == 1 ? 0.25 : QuadraticTetrahedron::interior[point % 4][k]) *
+             mesh_.vertices[vertices[k]];
+  return place;
+}
+
+Vector SpaceElements::load(double t) const {
+  Vector f = Vector::Zero(3 * static_cast<Eigen::Index>(nodes_.count()));
+  const std::vector<SpaceRulePoint> onTriangle = triangleRule();
+  for (const SpaceCondition& traction : conditions_.tractions)
+    for (size_t i = 0; i < nodes_.faces.size(); ++i) {
+      if (mesh_.boundaryLabels[i] != traction.label) continue;
+      const std::array<int, 6>& face = nodes_.faces[i];
+      const SpacePoint& x0 = nodes_.places[face[0]];
+      const SpacePoint e1 = nodes_.places[face[1]] - x0;
+      const SpacePoint e2 = nodes_.places[face[2]] - x0;
+      const SpacePoint area = e1.cross(e2);
+      const SpacePoint direction = traction.component == spaceNormal
+                                       ? area
+                                       : SpacePoint(area.norm() * SpacePoint::Unit(traction.component));
+      for (const auto& [at, weight] : onTriangle) {
+        const double value = weight * traction.value(x0 + at.x() * e1 + at.y() * e2, t);
+        const std::array<double, 6> N = faceShapes(nodes_.degree, at.x(), at.y());
+        for (int a = 0; a < nodes_.perFace(); ++a)
+          f.segment<3>(3 * static_cast<Eigen::Index>(face[a])) += value * N[a] * direction;
+      }
+    }
+  const std::vector<SpaceRulePoint> inTetrahedron = tetrahedronRule();
+  for (const SpaceCondition& force : conditions_.forces)
+    withSpaceElement(nodes_.degree, [&](auto element) {
+      using Element = decltype(element);
+      for (size_t e = 0; e < mesh_.tetrahedra.size(); ++e) {
+        const int* nodes = nodes_.of(e);
+        const SpacePoint& x0 = nodes_.places[nodes[0]];
+        Eigen::Matrix3d edges;
+        for (int k = 0; k < 3; ++k) edges.col(k) = nodes_.places[nodes[k + 1]] - x0;
+        const double determinant = edges.determinant();
+        for (const auto& [at, weight] : inTetrahedron) {
+          const double value = weight * determinant * force.value(x0 + edges * at, t);
+          const auto N = Element::shapes({1 - at.sum(), at.x(), at.y(), at.z()});
+          for (int a = 0; a < Element::nodes; ++a)
+            f[3 * static_cast<Eigen::Index>(nodes[a]) + force.component] += value * N[a];
+        }
+      }
+    });
+  return f;
+}
+
+Vector SpaceElements::internalForce(const Matrix& stress) const {
+  Vector f = Vector::Zero(3 * static_cast<Eigen::Index>(nodes_.count()));
+  withSpaceElement(nodes_.degree, [&](auto element) {
+    using Element = decltype(element);
+    constexpr int others = 3 * (Element::nodes - 1);
+    for (size_t i = 0; i < weights_.size(); ++i) {
+      const int* nodes = nodes_.of(i / Element::points);
+      const Eigen::Matrix<double, 6, 1> s =
+          weights_[i] * stress.col(static_cast<Eigen::Index>(i)).template head<6>();
+      SpacePoint sum = SpacePoint::Zero();
+      for (int a = 1; a < Element::nodes; ++a) {
+        const double* G = &gradients_[others * i + 3 * (a - 1)];
+        const SpacePoint force = strainOfNode(G[0], G[1], G[2]).transpose() * s;
+        f.segment<3>(3 * static_cast<Eigen::Index>(nodes[a])) += force;
+        sum += force;
+      }
+      f.segment<3>(3 * static_cast<Eigen::Index>(nodes[0])) -= sum;
+    }
+  });
+  return f;
+}
+
+double SpaceElements::largestForce(const Matrix& stress) const {
+  double largest = 0;
+  const size_t others = 3 * (static_cast<size_t>(nodes_.perElement()) - 1);
+  for (size_t i = 0; i < weights_.size(); ++i) {
+    const double most = stress.col(static_cast<Eigen::Index>(i)).head<6>().cwiseAbs().maxCoeff();
+    for (size_t k = others * i; k < others * (i + 1); ++k)
+      largest = std::max(largest, weights_[i] * std::abs(gradients_[k]) * most);
+  }
+  return largest;
+}
+
+// In twice the working precision, of differences to the first node of each tetrahedron.
+void SpaceElements::strain(const TwoPartVector& u, const Matrix* shift, Matrix& strain, int begin,
+                           int end) const {
+  withSpaceElement(nodes_.degree, [&](auto element) {
+    using Element = decltype(element);
+    constexpr int others = 3 * (Element::nodes - 1);
+    for (int i = begin; i < end; ++i) {
+      const int* nodes = nodes_.of(i / Element::points);
+      const double* G = &gradients_[static_cast<size_t>(others) * i];
+      std::array<DoubleDouble, 9> gradient{};  // of the displacement: component, then direction
+      for (int a = 1; a < Element::nodes; ++a, G += 3)
+        for (int c = 0; c < 3; ++c) {
+          const int dof = 3 * nodes[a] + c;
+          const int dof0 = 3 * nodes[0] + c;
+          DoubleDouble d = DoubleDouble::sum(u.high[dof], -u.high[dof0]);
+          d.low += u.low[dof] - u.low[dof0];
+          for (int k = 0; k < 3; ++k) {
+            DoubleDouble product = DoubleDouble::product(G[k], d.high);
+            product.low += G[k] * d.low;
+            gradient[3 * c + k] += product;
+          }
+        }
+      const auto sum = [&](int row, DoubleDouble a, const DoubleDouble& b) {
+        a += b;
+        if (shift != nullptr) a += DoubleDouble{-(*shift)(row, i), 0};
+        strain(row, i) = a.value();
+      };
+      sum(0, gradient[0], gradient[4]);
+      sum(1, gradient[0], {-gradient[4].high, -gradient[4].low});
+      sum(2, gradient[1], gradient[3]);
+      DoubleDouble across = DoubleDouble::product(root2, gradient[8].high);
+      across.low += root2 * gradient[8].low;
+      sum(3, across, {0, 0});
+      sum(4, gradient[2], gradient[6]);
+      sum(5, gradient[5], gradient[7]);
+    }
+  });
+}
+
+void SpaceElements::addStressOf(const Vector& d, const Linearisation& law, Matrix& stress, int begin,
+                                int end) const {
+  withSpaceElement(nodes_.degree, [&](auto element) {
+    using Element = decltype(element);
+    constexpr int others = 3 * (Element::nodes - 1);
+    for (int i = begin; i < end; ++i) {
+      const int* nodes = nodes_.of(i / Element::points);
+      const double* G = &gradients_[static_cast<size_t>(others) * i];
+      const SpacePoint d0 = d.segment<3>(3 * static_cast<Eigen::Index>(nodes[0]));
+      Eigen::Matrix<double, 6, 1> strain = Eigen::Matrix<double, 6, 1>::Zero();
+      for (int a = 1; a < Element::nodes; ++a, G += 3)
+        strain +=
+            strainOfNode(G[0], G[1], G[2]) * (d.segment<3>(3 * static_cast<Eigen::Index>(nodes[a])) - d0);
+      stress.col(i).head<6>() += spaceModuliAt(law.moduli, i) * strain;
+    }
+  });
+}
+
+template <class Element>
+Eigen::Matrix<double, 3 * Element::nodes, 3 * Element::nodes> SpaceElements::elementTangent(
+    int element, const Matrix& moduli) const {
+  constexpr int n = 3 * Element::nodes;
+  Eigen::Matrix<double, n, n> K = Eigen::Matrix<double, n, n>::Zero();
+  for (int q = 0; q < Element::points; ++q) {
+    const int i = Element::points * element + q;
+    const double* G = &gradients_[static_cast<size_t>(n - 3) * i];
+    Eigen::Matrix<double, 6, n> B;
+    SpacePoint sum = SpacePoint::Zero();
+    for (int a = 1; a < Element::nodes; ++a, G += 3) {
+      B.template middleCols<3>(3 * a) = strainOfNode(G[0], G[1], G[2]);
+      sum += SpacePoint(G[0], G[1], G[2]);
+    }
+    B.template leftCols<3>() = strainOfNode(-sum.x(), -sum.y(), -sum.z());
+    const Eigen::Matrix<double, 6, n> DB = (weights_[i] * spaceModuliAt(moduli, i)) * B;
+    K.noalias() += B.transpose() * DB;
+  }
+  const int* nodes = nodes_.of(element);
+  for (int a = 0; a < Element::nodes && !turnedOf_.empty(); ++a)
+    if (const int turned = turnedOf_[nodes[a]]; turned >= 0) {
+      const Eigen::Matrix3d& Q = supports_[turned].frame;
+      K.template middleRows<3>(3 * a) = (Q * K.template middleRows<3>(3 * a)).eval();
+      K.template middleCols<3>(3 * a) = (K.template middleCols<3>(3 * a) * Q.transpose()).eval();
+    }
+  return K;
+}
+
+const SparsePattern& SpaceElements::pattern(bool symmetric) const {
+  if (!pattern_ || pattern_->symmetric != symmetric) buildPattern(symmetric);
+  return *pattern_;
+}
+
+void SpaceElements::buildPattern(bool symmetric) const {
+  const int n = nodes_.perElement();
+  const int count = nodes_.count();
+  std::vector<std::vector<int>> near(count);
+  for (size_t e = 0; e < mesh_.tetrahedra.size(); ++e) {
+    const int* nodes = nodes_.of(e);
+    for (int b = 0; b < n; ++b)
+      for (int a = 0; a < n; ++a)
+        if (!symmetric || nodes[a] >= nodes[b]) near[nodes[b]].push_back(nodes[a]);
+  }
+  const auto equationsOf = [&](int node) {
+    return static_cast<int>(std::count_if(equations_.begin() + 3 * node, equations_.begin() + 3 * node + 3,
+                                          [](int equation) { return equation >= 0; }));
+  };
+  SparsePattern pattern;
+  pattern.symmetric = symmetric;
+  pattern.size = freeDofs_;
+  pattern.columnStart.assign(1, 0);
+  neighbourStart_.assign(1, 0);
+  neighbours_.clear();
+  before_.clear();
+  for (int j = 0; j < count; ++j) {
+    std::vector<int>& of = near[j];
+    std::sort(of.begin(), of.end());
+    of.erase(std::unique(of.begin(), of.end()), of.end());
+    int sum = 0;
+    for (const int node : of) {
+      neighbours_.push_back(node);
+      before_.push_back(sum);
+      sum += equationsOf(node);
+    }
+    neighbourStart_.push_back(static_cast<int>(neighbours_.size()));
+    for (int c = 0; c < 3; ++c) {
+      const int column = equations_[3 * j + c];
+      if (column < 0) continue;
+      for (const int node : of)
+        for (int r = 0; r < 3; ++r)
+          if (const int row = equations_[3 * node + r]; row >= 0 && (row >= column || !symmetric))
+            pattern.rows.push_back(row);
+      pattern.columnStart.push_back(static_cast<int>(pattern.rows.size()));
+    }
+    of = {};
+  }
+  pattern_ = std::move(pattern);
+}
+
+template <class Matrices>
+void SpaceElements::add(const Matrices& matrices, size_t first, size_t count,
+                        std::vector<double>& values) const {
+  const int n = nodes_.perElement();
+  const bool symmetric = pattern_->symmetric;
+  // Of the equations of a node, those before each component.
+  const auto rank = [&](int node, int component) {
+    int before = 0;
+    for (int c = 0; c < component; ++c) before += equations_[3 * node + c] >= 0 ? 1 : 0;
+    return before;
+  };
+  for (size_t k = 0; k < count; ++k) {
+    const auto& K = matrices[k];
+    const int* nodes = nodes_.of(first + k);
+    for (int b = 0; b < n; ++b) {
+      const int of = nodes[b];
+      const auto begin = neighbours_.begin() + neighbourStart_[of];
+      const auto end = neighbours_.begin() + neighbourStart_[of + 1];
+      for (int a = 0; a < n; ++a) {
+        const int node = nodes[a];
+        if (symmetric && node < of) continue;
+        const int start = before_[std::lower_bound(begin, end, node) - neighbours_.begin()];
+        for (int c = 0; c < 3; ++c) {
+          const int column = equations_[3 * of + c];
+          if (column < 0) continue;
+          const int from = pattern_->columnStart[column] + start - (symmetric ? rank(of, c) : 0);
+          for (int r = 0; r < 3; ++r) {
+            const int row = equations_[3 * node + r];
+            if (row >= 0 && (row >= column || !symmetric))
+              values[from + rank(node, r)] += K(3 * a + r, 3 * b + c);
+          }
+        }
+      }
+    }
+  }
+}
+
+void SpaceElements::tangent(const Matrix& moduli, std::vector<double>& values, Threads& threads) const {
+  values.assign(pattern(moduli.rows() == 21).entries(), 0.0);
+  withSpaceElement(nodes_.degree, [&](auto element) {
+    using Element = decltype(element);
+    // The matrices of some at once, then their sums in the order of the tetrahedra.
+    constexpr size_t atOnce = 2048;
+    constexpr size_t ofABlock = 64;
+    const size_t all = mesh_.tetrahedra.size();
+    std::vector<Eigen::Matrix<double, 3 * Element::nodes, 3 * Element::nodes>> matrices(
+        std::min(atOnce, all));
+    for (size_t first = 0; first < all; first += atOnce) {
+      const size_t count = std::min(atOnce, all - first);
+      threads.forEach(static_cast<int>((count + ofABlock - 1) / ofABlock), [&](int block) {
+        for (size_t k = ofABlock * block; k < std::min(count, ofABlock * (block + 1)); ++k)
+          matrices[k] = elementTangent<Element>(static_cast<int>(first + k), moduli);
+      });
+      add(matrices, first, count, values);
+    }
+  });
+}
+
+}  // namespace mortier

@@ -1,0 +1,89 @@
+// Elements in space as in fem/element.h: nodes, shape functions, where they integrate, and the gradients.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/LU>
+
+#include "base/types.h"
+#include "mesh/tetrahedron_mesh.h"
+
+namespace mortier {
+
+using SpaceBarycentric = std::array<double, 4>;
+
+/// Displacement linear on the tetrahedron, strain and stress constant.
+struct LinearTetrahedron {
+  static constexpr int nodes = 4;
+  static constexpr int points = 1;
+  static constexpr std::array<SpaceBarycentric, points> interior{{{0.25, 0.25, 0.25, 0.25}}};
+  static constexpr std::array<double, nodes> shapes(const SpaceBarycentric& b) { return b; }
+  /// Rows: derivatives by the barycentric coordinates.
+  static Eigen::Matrix<double, 4, nodes> derivatives(const SpaceBarycentric& /*b*/) {
+    return Eigen::Matrix4d::Identity();
+  }
+};
+
+/// Displacement quadratic on a tetrahedron with straight sides, stress linear: four points.
+struct QuadraticTetrahedron {
+  static constexpr int nodes = 10;
+  static constexpr int points = 4;
+  static constexpr double near = 0.5854101966249685, far = 0.1381966011250105;
+  static constexpr std::array<SpaceBarycentric, points> interior{
+      {{near, far, far, far}, {far, near, far, far}, {far, far, near, far}, {far, far, far, near}}};
+  static std::array<double, nodes> shapes(const SpaceBarycentric& b) {
+    std::array<double, nodes> N;
+    for (int k = 0; k < 4; ++k) N[k] = b[k] * (2 * b[k] - 1);
+    for (int k = 0; k < 6; ++k) N[4 + k] = 4 * b[sidesOfTetrahedron[k][0]] * b[sidesOfTetrahedron[k][1]];
+    return N;
+  }
+  static Eigen::Matrix<double, 4, nodes> derivatives(const SpaceBarycentric& b) {
+    Eigen::Matrix<double, 4, nodes> d = Eigen::Matrix<double, 4, nodes>::Zero();
+    for (int k = 0; k < 4; ++k) d(k, k) = 4 * b[k] - 1;
+    for (int k = 0; k < 6; ++k) {
+      const auto [i, j] = sidesOfTetrahedron[k];
+      d(i, 4 + k) = 4 * b[j];
+      d(j, 4 + k) = 4 * b[i];
+    }
+    return d;
+  }
+};
+
+/// Calls work(Element{}) with the element of a degree.
+template <class Work>
+decltype(auto) withSpaceElement(int degree, Work work) {
+  return degree == 1 ? work(LinearTetrahedron{}) : work(QuadraticTetrahedron{});
+}
+
+/// Gradients of the barycentric coordinates, as columns [1/m], and the volume [m^3].
+struct TetrahedronGeometry {
+  explicit TetrahedronGeometry(const std::array<SpacePoint, 4>& x) {
+    Eigen::Matrix3d edges;
+    edges << x[1] - x[0], x[2] - x[0], x[3] - x[0];
+    volume = edges.determinant() / 6;
+    gradients.rightCols<3>() = edges.inverse().transpose();
+    gradients.col(0) = -gradients.rightCols<3>().rowwise().sum();
+  }
+  Eigen::Matrix<double, 3, 4> gradients;
+  double volume;
+};
+
+/// Shape functions on a side of an element: of its vertices, then of the middles 0-1, 1-2, 2-0.
+inline std::array<double, 6> faceShapes(int degree, double l1, double l2) {
+  const double l0 = 1 - l1 - l2;
+  if (degree == 1) return {l0, l1, l2, 0, 0, 0};
+  return {l0 * (2 * l0 - 1), l1 * (2 * l1 - 1), l2 * (2 * l2 - 1), 4 * l0 * l1, 4 * l1 * l2, 4 * l2 * l0};
+}
+
+/// A point of a rule on the unit triangle or tetrahedron, the weights adding up to its size.
+struct SpaceRulePoint {
+  SpacePoint at;
+  double weight = 0;
+};
+/// Conical products of Gauss's rule of four points, exact for polynomials of degree 6 and 5.
+std::vector<SpaceRulePoint> triangleRule();
+std::vector<SpaceRulePoint> tetrahedronRule();
+
+}  // namespace mortier

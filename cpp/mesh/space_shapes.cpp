@@ -1,0 +1,64 @@
+#include "mesh/space_shapes.h"
+
+#include "base/error.h"
+
+namespace mortier {
+namespace {
+
+/// The vertices of a cell by bits: 1 along x, 2 along y, 4 along z. All tetrahedra have its diagonal 0-7.
+constexpr std::array<std::array<int, 4>, 6> tetrahedraOfCell{
+    {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}}};
+
+struct Side {
+  int axis, end, label;
+};
+constexpr std::array<Side, 6> sides{{{2, 0, 1}, {0, 1, 2}, {2, 1, 3}, {0, 0, 4}, {1, 0, 5}, {1, 1, 6}}};
+
+}  // namespace
+
+TetrahedronMesh cuboidMesh(const Cuboid& cuboid) {
+  const auto& [nx, ny, nz] = cuboid.cells;
+  if (!((cuboid.upper - cuboid.lower).minCoeff() > 0) || nx < 1 || ny < 1 || nz < 1)
+    throw InputError("a box without volume or cells");
+  TetrahedronMesh mesh;
+  mesh.name = "box";
+  const auto vertex = [&](int i, int j, int k) { return (k * (ny + 1) + j) * (nx + 1) + i; };
+  const SpacePoint size = cuboid.upper - cuboid.lower;
+  for (int k = 0; k <= nz; ++k)
+    for (int j = 0; j <= ny; ++j)
+      for (int i = 0; i <= nx; ++i)
+        mesh.vertices.emplace_back(cuboid.lower.x() + size.x() * i / nx, cuboid.lower.y() + size.y() * j / ny,
+                                   cuboid.lower.z() + size.z() * k / nz);
+  for (int k = 0; k < nz; ++k)
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx; ++i) {
+        const auto corner = [&](int bits) {
+          return vertex(i + (bits & 1), j + (bits >> 1 & 1), k + (bits >> 2));
+        };
+        for (const auto& [a, b, c, d] : tetrahedraOfCell)
+          mesh.tetrahedra.push_back({corner(a), corner(b), corner(c), corner(d)});
+        const std::array<int, 3> cell{i, j, k};
+        for (const auto& [axis, end, label] : sides) {
+          if (cell[axis] != (end == 0 ? 0 : cuboid.cells[axis] - 1)) continue;
+          for (const auto& tetrahedron : tetrahedraOfCell)
+            for (int left = 0; left < 4; ++left) {
+              std::array<int, 3> triangle{};
+              bool outside = true;
+              for (int a = 0, next = 0; a < 4; ++a) {
+                if (a == left) continue;
+                outside = outside && (tetrahedron[a] >> axis & 1) == end;
+                triangle[next++] = corner(tetrahedron[a]);
+              }
+              if (!outside) continue;
+              mesh.boundaryTriangles.push_back(triangle);
+              mesh.boundaryLabels.push_back(label);
+            }
+        }
+      }
+  mesh.regions.assign(mesh.tetrahedra.size(), 1);
+  mesh.labelNames = {{"bottom", 1}, {"right", 2}, {"top", 3}, {"left", 4}, {"front", 5}, {"back", 6}};
+  validate(mesh);
+  return mesh;
+}
+
+}  // namespace mortier

@@ -1,0 +1,157 @@
+#include "mesh/tetrahedron_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace mortier {
+namespace {
+
+/// Volume over the cube of the longest edge of a tetrahedron that is flat.
+constexpr double flat = 1e-12;
+
+/// The triangle opposite to each vertex of a tetrahedron of positive volume, counterclockwise from outside.
+constexpr std::array<std::array<int, 3>, 4> oppositeTriangles{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+
+struct SortedTriangle {
+  std::array<int, 3> sorted, outward;
+  int tetrahedron;
+};
+
+std::array<int, 3> sortedOf(std::array<int, 3> triangle) {
+  std::sort(triangle.begin(), triangle.end());
+  return triangle;
+}
+
+template <size_t n>
+void requireVertices(const TetrahedronMesh& mesh, const std::vector<std::array<int, n>>& items,
+                     const char* what) {
+  for (size_t i = 0; i < items.size(); ++i)
+    for (const int v : items[i])
+      if (v < 0 || v >= static_cast<int>(mesh.vertices.size()))
+        throw InputError(mesh.name + ": " + what + " " + std::to_string(i + 1) + ": vertex " +
+                         std::to_string(v + 1) + ", expected 1 to " + std::to_string(mesh.vertices.size()));
+}
+
+void orientTetrahedra(TetrahedronMesh& mesh) {
+  for (size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    std::array<int, 4>& tetrahedron = mesh.tetrahedra[t];
+    const auto place = [&](int k) -> const SpacePoint& { return mesh.vertices[tetrahedron[k]]; };
+    double longest = 0;
+    for (const auto& [a, b] : sidesOfTetrahedron) longest = std::max(longest, (place(b) - place(a)).norm());
+    const double volume = (place(1) - place(0)).cross(place(2) - place(0)).dot(place(3) - place(0)) / 6;
+    if (!(std::abs(volume) > flat * longest * longest * longest))
+      throw InputError(mesh.name + ": tetrahedron " + std::to_string(t + 1) + " is flat, expected a volume");
+    if (volume < 0) std::swap(tetrahedron[2], tetrahedron[3]);
+  }
+}
+
+/// The triangles that belong to one tetrahedron, sorted.
+std::vector<SortedTriangle> boundaryOf(const TetrahedronMesh& mesh) {
+  std::vector<SortedTriangle> all;
+  all.reserve(4 * mesh.tetrahedra.size());
+  for (size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+    for (const auto& [a, b, c] : oppositeTriangles) {
+      const std::array<int, 4>& vertices = mesh.tetrahedra[t];
+      const std::array<int, 3> outward{vertices[a], vertices[b], vertices[c]};
+      all.push_back({sortedOf(outward), outward, static_cast<int>(t)});
+    }
+  std::sort(all.begin(), all.end(), [](const auto& x, const auto& y) {
+    return x.sorted != y.sorted ? x.sorted < y.sorted : x.tetrahedron < y.tetrahedron;
+  });
+  std::vector<SortedTriangle> boundary;
+  for (size_t i = 0; i < all.size();) {
+    size_t end = i + 1;
+    while (end < all.size() && all[end].sorted == all[i].sorted) ++end;
+    if (end - i > 2)
+      throw InputError(mesh.name + ": tetrahedra " + std::to_string(all[i].tetrahedron + 1) + ", " +
+                       std::to_string(all[i + 1].tetrahedron + 1) + " and " +
+                       std::to_string(all[i + 2].tetrahedron + 1) +
+                       " share a triangle, expected two at most");
+    if (end - i == 1) boundary.push_back(all[i]);
+    i = end;
+  }
+  return boundary;
+}
+
+}  // namespace
+
+void validate(TetrahedronMesh& mesh) {
+  if (mesh.tetrahedra.empty()) throw InputError(mesh.name + ": no tetrahedra");
+  for (size_t v = 0; v < mesh.vertices.size(); ++v)
+    if (!mesh.vertices[v].allFinite())
+      throw InputError(mesh.name + ": vertex " + std::to_string(v + 1) + " is not finite");
+  requireVertices(mesh, mesh.tetrahedra, "tetrahedron");
+  requireVertices(mesh, mesh.boundaryTriangles, "triangle");
+  std::vector<char> used(mesh.vertices.size(), 0);
+  for (const auto& tetrahedron : mesh.tetrahedra)
+    for (const int v : tetrahedron) used[v] = 1;
+  if (const auto unused = std::find(used.begin(), used.end(), 0); unused != used.end())
+    throw InputError(mesh.name + ": vertex " + std::to_string(unused - used.begin() + 1) +
+                     " belongs to no tetrahedron");
+  orientTetrahedra(mesh);
+  std::vector<std::array<int, 4>> sorted = mesh.tetrahedra;
+  for (auto& tetrahedron : sorted) std::sort(tetrahedron.begin(), tetrahedron.end());
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+    throw InputError(mesh.name + ": two tetrahedra have the same vertices");
+
+  const std::vector<SortedTriangle> boundary = boundaryOf(mesh);
+  std::vector<char> labelled(boundary.size(), 0);
+  for (size_t i = 0; i < mesh.boundaryTriangles.size(); ++i) {
+    std::array<int, 3>& triangle = mesh.boundaryTriangles[i];
+    const auto found = std::lower_bound(
+        boundary.begin(), boundary.end(), sortedOf(triangle),
+        [](const SortedTriangle& each, const std::array<int, 3>& value) { return each.sorted < value; });
+    const std::string here = mesh.name + ": triangle " + std::to_string(i + 1);
+    if (found == boundary.end() || found->sorted != sortedOf(triangle))
+      throw InputError(here + " is labelled, but is not on the boundary");
+    if (labelled[found - boundary.begin()]++ != 0) throw InputError(here + " is labelled twice");
+    triangle = found->outward;
+  }
+}
+
+double extent(const TetrahedronMesh& mesh) {
+  SpacePoint lower = mesh.vertices.front();
+  SpacePoint upper = lower;
+  for (const SpacePoint& vertex : mesh.vertices) {
+    lower = lower.cwiseMin(vertex);
+    upper = upper.cwiseMax(vertex);
+  }
+  return (upper - lower).maxCoeff();
+}
+
+SpaceNodes spaceNodes(const TetrahedronMesh& mesh, int degree) {
+  SpaceNodes nodes;
+  nodes.degree = degree;
+  nodes.places = mesh.vertices;
+  std::vector<std::array<int, 2>> edges;
+  const auto edgeOf = [](int a, int b) { return std::array<int, 2>{std::min(a, b), std::max(a, b)}; };
+  if (degree > 1) {
+    edges.reserve(6 * mesh.tetrahedra.size());
+    for (const auto& vertices : mesh.tetrahedra)
+      for (const auto& [a, b] : sidesOfTetrahedron) edges.push_back(edgeOf(vertices[a], vertices[b]));
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    for (const auto& [a, b] : edges) nodes.places.emplace_back((mesh.vertices[a] + mesh.vertices[b]) / 2);
+  }
+  const auto middleOf = [&](int a, int b) {
+    const auto found = std::lower_bound(edges.begin(), edges.end(), edgeOf(a, b));
+    return static_cast<int>(mesh.vertices.size() + (found - edges.begin()));
+  };
+  nodes.elements.reserve(mesh.tetrahedra.size() * static_cast<size_t>(nodes.perElement()));
+  for (const auto& vertices : mesh.tetrahedra) {
+    nodes.elements.insert(nodes.elements.end(), vertices.begin(), vertices.end());
+    if (degree > 1)
+      for (const auto& [a, b] : sidesOfTetrahedron)
+        nodes.elements.push_back(middleOf(vertices[a], vertices[b]));
+  }
+  for (const auto& [a, b, c] : mesh.boundaryTriangles) {
+    std::array<int, 6>& face = nodes.faces.emplace_back(std::array<int, 6>{a, b, c, -1, -1, -1});
+    if (degree > 1) face = {a, b, c, middleOf(a, b), middleOf(b, c), middleOf(c, a)};
+  }
+  return nodes;
+}
+
+}  // namespace mortier

@@ -1,0 +1,58 @@
+// Meshes of tetrahedra with labels, and the nodes of displacements on them.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/types.h"
+
+namespace mortier {
+
+/// A conforming mesh of tetrahedra of one body.
+struct TetrahedronMesh {
+  std::string name;                                   ///< where it came from, for messages
+  std::vector<SpacePoint> vertices;                   ///< [m]
+  std::vector<std::array<int, 4>> tetrahedra;         ///< vertex numbers, of positive volume
+  std::vector<int> regions;                           ///< label of each tetrahedron
+  std::vector<std::array<int, 3>> boundaryTriangles;  ///< counterclockwise seen from outside
+  std::vector<int> boundaryLabels;                    ///< label of each boundary triangle
+  std::map<std::string, int> labelNames = {};         ///< boundary labels that have a name
+  std::map<std::string, int> regionNames = {};
+};
+
+/// Checks what the solver relies on, and orients tetrahedra and boundary triangles: finite coordinates, no
+/// vertex out of range or unused, no tetrahedron flat or repeated, every triangle shared by two tetrahedra at
+/// most, labelled triangles on the boundary, each labelled once. A tetrahedron is flat when its volume is
+/// 1e-12 of the cube of its longest edge or less. \throws InputError with the first fault.
+void validate(TetrahedronMesh& mesh);
+
+/// Largest extent of the bounding box [m].
+double extent(const TetrahedronMesh& mesh);
+
+/// Sides of a tetrahedron, in the order of their middles among its nodes.
+inline constexpr std::array<std::array<int, 2>, 6> sidesOfTetrahedron{
+    {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
+
+/// Nodes of displacements of a degree: the vertices, and for degree 2 the middles of all edges after them.
+struct SpaceNodes {
+  int degree = 1;
+  std::vector<SpacePoint> places;  ///< [m]; vertices first, numbered as in the mesh
+  std::vector<int> elements;       ///< 4 or 10 per tetrahedron: vertices, then middles (sidesOfTetrahedron)
+  /// Of each boundary triangle: its vertices, then the middles of its sides 0-1, 1-2, 2-0 (-1 for degree 1).
+  std::vector<std::array<int, 6>> faces;
+
+  [[nodiscard]] int perElement() const { return degree == 1 ? 4 : 10; }
+  [[nodiscard]] int perFace() const { return degree == 1 ? 3 : 6; }
+  /// Of a tetrahedron.
+  [[nodiscard]] const int* of(size_t element) const {
+    return &elements[element * static_cast<size_t>(perElement())];
+  }
+  [[nodiscard]] int count() const { return static_cast<int>(places.size()); }
+};
+
+/// \param degree  1 or 2; sides are straight.
+SpaceNodes spaceNodes(const TetrahedronMesh& mesh, int degree);
+
+}  // namespace mortier
