@@ -19,17 +19,22 @@ constexpr std::array<double, 4> gaussPlaces{0.06943184420297371, 0.3300094782075
 constexpr std::array<double, 4> gaussWeights{0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
                                              0.1739274225687269};
 
+constexpr double root3 = std::numbers::sqrt3;
+
 // With G = gradient / sqrt2, a displacement (x, y, z) of a node strains by
-//   p: Gx x + Gy y,  q: Gx x - Gy y,  r: Gy x + Gx y,  33: sqrt2 Gz z,  13: Gz x + Gx z,  23: Gz y + Gy z.
+//   k: (Gx x + Gy y - 2 Gz z)/sqrt3,  q: Gx x - Gy y,  r: Gy x + Gx y,
+//   13: Gz x + Gx z,  23: Gz y + Gy z,  h: sqrt(2/3) (Gx x + Gy y + Gz z).
 using NodeStrain = Eigen::Matrix<double, 6, 3>;
 NodeStrain strainOfNode(double gx, double gy, double gz) {
+  constexpr double third = 1 / root3;
+  constexpr double trace = root2 / root3;
   NodeStrain B;
-  B << gx, gy, 0,        //
-      gx, -gy, 0,        //
-      gy, gx, 0,         //
-      0, 0, root2 * gz,  //
-      gz, 0, gx,         //
-      0, gz, gy;
+  B << third * gx, third * gy, -2 * third * gz,  //
+      gx, -gy, 0,                                //
+      gy, gx, 0,                                 //
+      gz, 0, gx,                                 //
+      0, gz, gy,                                 //
+      trace * gx, trace * gy, trace * gz;
   return B;
 }
 
@@ -192,19 +197,23 @@ void SpaceElements::strain(const TwoPartVector& u, const Matrix* shift, Matrix& 
             gradient[3 * c + k] += product;
           }
         }
-      const auto sum = [&](int row, DoubleDouble a, const DoubleDouble& b) {
-        a += b;
-        if (shift != nullptr) a += DoubleDouble{-(*shift)(row, i), 0};
-        strain(row, i) = a.value();
+      const auto plus = [](DoubleDouble a, const DoubleDouble& b, double times = 1) {
+        a += {times * b.high, times * b.low};  // times 1, -1 or -2
+        return a;
       };
-      sum(0, gradient[0], gradient[4]);
-      sum(1, gradient[0], {-gradient[4].high, -gradient[4].low});
-      sum(2, gradient[1], gradient[3]);
-      DoubleDouble across = DoubleDouble::product(root2, gradient[8].high);
-      across.low += root2 * gradient[8].low;
-      sum(3, across, {0, 0});
-      sum(4, gradient[2], gradient[6]);
-      sum(5, gradient[5], gradient[7]);
+      const auto store = [&](int row, const DoubleDouble& value, double factor = 1) {
+        DoubleDouble product = DoubleDouble::product(factor, value.high);
+        product.low += factor * value.low;
+        if (shift != nullptr) product += DoubleDouble{-(*shift)(row, i), 0};
+        strain(row, i) = product.value();
+      };
+      const auto& [xx, xy, xz, yx, yy, yz, zx, zy, zz] = gradient;
+      store(0, plus(plus(xx, yy), zz, -2), 1 / root3);
+      store(1, plus(xx, yy, -1));
+      store(2, plus(xy, yx));
+      store(3, plus(xz, zx));
+      store(4, plus(yz, zy));
+      store(5, plus(plus(xx, yy), zz), root2 / root3);
     }
   });
 }

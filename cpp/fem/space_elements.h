@@ -1,7 +1,6 @@
 // The tetrahedra of a body in space, its supports and loads: what a Body is made of there (fem/body.h).
 //
-// Stress and strain are vectors (p, q, r, s33, sqrt2 s13, sqrt2 s23), those of plane strain (material/
-// stress.h) and two shears more, again so that the scalar product of two vectors is sigma : eps.
+// Stress and strain are vectors of six components (material/space.h).
 #pragma once
 
 #include <functional>

@@ -9,39 +9,19 @@ Pair shear(const Elasticity& elasticity) {
   return {e, e};
 }
 
-template <size_t n>
-std::shared_ptr<const Material> elasticDeviator(const Elasticity& elasticity) {
-  requireValid(elasticity);
-  return pointMaterial(InPlaneStrain(ElasticLaw<n>(shear(elasticity)), elasticity), describe(elasticity));
-}
-
-template <size_t n>
-std::shared_ptr<const Material> perzynaDeviator(const Elasticity& elasticity,
-                                                const Viscoplasticity& viscoplasticity) {
-  requireValid(elasticity);
-  requireValid(viscoplasticity);
-  const PerzynaLaw<n> law(shear(elasticity), {1.5, 1.5}, {1, 1}, viscoplasticity);
-  return pointMaterial(InPlaneStrain(law, elasticity), describe(elasticity, viscoplasticity));
-}
-
 }  // namespace
 
 std::shared_ptr<const Material> planeStrainElasticMaterial(const Elasticity& elasticity) {
-  return elasticDeviator<3>(elasticity);
+  requireValid(elasticity);
+  return pointMaterial(InPlaneStrain(ElasticLaw(shear(elasticity)), elasticity), describe(elasticity));
 }
 
 std::shared_ptr<const Material> planeStrainPerzynaMaterial(const Elasticity& elasticity,
                                                            const Viscoplasticity& viscoplasticity) {
-  return perzynaDeviator<3>(elasticity, viscoplasticity);
-}
-
-std::shared_ptr<const Material> spaceElasticMaterial(const Elasticity& elasticity) {
-  return elasticDeviator<5>(elasticity);
-}
-
-std::shared_ptr<const Material> spacePerzynaMaterial(const Elasticity& elasticity,
-                                                     const Viscoplasticity& viscoplasticity) {
-  return perzynaDeviator<5>(elasticity, viscoplasticity);
+  requireValid(elasticity);
+  requireValid(viscoplasticity);
+  const PerzynaLaw law(shear(elasticity), {1.5, 1.5}, {1, 1}, viscoplasticity);
+  return pointMaterial(InPlaneStrain(law, elasticity), describe(elasticity, viscoplasticity));
 }
 
 }  // namespace mortier

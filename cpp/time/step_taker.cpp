@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <sstream>
 #include <utility>
 
@@ -161,10 +160,13 @@ std::string StepTaker::stressAt(const StuckPlace& place) const {
     const int first = triangle * body.pointsOfTriangle();
     int point = first;
     while (point + 1 < first + body.pointsOfTriangle() && body.placeOfPoint(point) != place.at) ++point;
-    const Eigen::Vector3d plane = toCartesian(stress.col(point).head<3>());
-    s = {plane[0], plane[1], plane[2], stress.rows() > 3 ? stress(3, point) : 0};
-    for (const int k : {4, 5})
-      if (body.dimension() == 3) s[k] = stress(k, point) / std::numbers::sqrt2;
+    if (body.dimension() == 3) {
+      const SpaceStress all = toSpaceCartesian(stress.col(point).head<6>());
+      s = {all[0], all[1], all[3], all[2], all[4], all[5]};
+    } else {
+      const Eigen::Vector3d plane = toCartesian(stress.col(point).head<3>());
+      s = {plane[0], plane[1], plane[2], stress.rows() > 3 ? stress(3, point) : 0};
+    }
   }
   model_.sum(s.data(), s.size());
   std::ostringstream text;

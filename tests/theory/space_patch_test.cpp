@@ -6,7 +6,9 @@
 #include <iostream>
 #include <random>
 
-#include "material/plane_strain.h"
+#include "base/error.h"
+#include "material/space.h"
+#include "material/stress.h"
 #include "mesh/space_shapes.h"
 #include "time/march.h"
 
@@ -22,17 +24,18 @@ SpaceDatum constant(double value) {
   return [value](const SpacePoint&, double t) { return value * t; };
 }
 
-/// A box whose inner vertices are moved at random by parts of a cell, then mapped.
-TetrahedronMesh block(const std::array<int, 3>& cells, double lower, unsigned seed, const SpaceMap& map) {
-  TetrahedronMesh mesh =
-      cuboidMesh({.lower = {0, 0, lower}, .upper = {1, 1, lower + 1}, .cells = cells});
+/// A box whose vertices are moved at random by parts of a cell, but for its sides and x = 1/2, then mapped.
+TetrahedronMesh block(const Cuboid& cuboid, unsigned seed, const SpaceMap& map) {
+  const auto& [lower, upper, cells] = cuboid;
+  TetrahedronMesh mesh = cuboidMesh(cuboid);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> part(-0.2, 0.2);
   for (SpacePoint& x : mesh.vertices) {
+    const SpacePoint from = x;
     for (int c = 0; c < 3; ++c) {
-      const double by = part(random) / cells[c];
-      const double from = x[c] - (c == 2 ? lower : 0);
-      if (from > 1e-9 && from < 1 - 1e-9) x[c] += by;
+      const double by = part(random) * (upper[c] - lower[c]) / cells[c];
+      const bool side = from[c] - lower[c] < 1e-9 || upper[c] - from[c] < 1e-9;
+      if (!side && !(c == 0 && std::abs(from[c] - 0.5) < 1e-9)) x[c] += by;
     }
     x = map(x);
   }
@@ -58,18 +61,23 @@ struct Case {
   int degree = 1;
   bool upperNonmortar = true;
   SpaceMap map = [](const SpacePoint& x) { return x; };
+  bool held = false;  ///< whether the sides are, in place of a pressure
 };
 
 Model twoBlocks(const Case& of) {
   Model model;
-  model.bodies.push_back(hydrostatic("upper", block({3, 4, 2}, 0, 1, of.map), {top},
-                                     {left, right, front, back}, of.degree));
-  model.bodies.push_back(hydrostatic("lower", block({5, 3, 3}, -1, 2, of.map), {bottom},
-                                     {left, right, front, back}, of.degree));
+  const std::vector<int> sides{left, right, front, back};
+  const auto add = [&](const std::string& name, const Cuboid& cuboid, unsigned seed, int end) {
+    std::vector<int> held(1, end);
+    if (of.held) held.insert(held.end(), sides.begin(), sides.end());
+    model.bodies.push_back(hydrostatic(name, block(cuboid, seed, of.map), held,
+                                       of.held ? std::vector<int>() : sides, of.degree));
+  };
+  add("upper", {{0, 0, 0}, {1, 1, 1}, {4, 3, 2}}, 1, top);
+  add("lower", {{0, 0, -1}, {1, 1, 0}, {6, 4, 3}}, 2, bottom);
   const ContactSide above{0, bottom};
   const ContactSide below{1, top};
-  addInterface(model,
-               {of.upperNonmortar ? above : below, of.upperNonmortar ? below : above, of.coupling});
+  addInterface(model, {of.upperNonmortar ? above : below, of.upperNonmortar ? below : above, of.coupling});
   return model;
 }
 
@@ -86,11 +94,9 @@ Found solve(const Model& model) {
   EXPECT_EQ(report.status, Status::converged) << report.reason;
   Found found;
   found.iterations = report.iterations;
-  Eigen::Matrix<double, 6, 1> exact;
-  exact << -pressure * std::numbers::sqrt2, 0, 0, -pressure, 0, 0;
+  const SpaceStress exact = fromSpaceCartesian(SpaceStress{-pressure, -pressure, -pressure, 0, 0, 0});
   for (const BodyState& body : state.bodies)
-    found.stress =
-        std::max(found.stress, (body.stress.colwise() - exact).cwiseAbs().maxCoeff() / pressure);
+    found.stress = std::max(found.stress, (body.stress.colwise() - exact).cwiseAbs().maxCoeff() / pressure);
   const ContactInterface& interface = model.interfaces[0];
   std::array<Vector, 2> f;
   for (int b : {0, 1}) f[b] = Vector::Zero(model.bodies[b].dofs());
@@ -121,19 +127,120 @@ void expectPatch(const Case& of, double& worst) {
   worst = std::max(worst, found.stress);
 }
 
+const std::vector<std::pair<CouplingKind, int>> exactCouplings{
+    {CouplingKind::weighted, 1}, {CouplingKind::mortar, 1}, {CouplingKind::weighted, 2}};
+
+const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, SpacePoint(1, 2, 3).normalized()).toRotationMatrix();
+
 TEST(SpacePatch, flatAndTilted) {
   double worst = 0;
-  const Eigen::Matrix3d turn =
-      (Eigen::AngleAxisd(0.7, SpacePoint(1, 2, 3).normalized())).toRotationMatrix();
   for (const bool tilted : {false, true})
     for (const bool upper : {true, false})
-      for (const auto& [coupling, degree] :
-           {std::pair{CouplingKind::weighted, 1}, {CouplingKind::mortar, 1}, {CouplingKind::weighted, 2}}) {
+      for (const auto& [coupling, degree] : exactCouplings) {
         Case of{coupling, degree, upper};
-        if (tilted) of.map = [turn](const SpacePoint& x) { return SpacePoint(turn * x); };
+        if (tilted) of.map = [](const SpacePoint& x) { return SpacePoint(turn * x); };
         expectPatch(of, worst);
       }
   std::cout << "flat and tilted planes: stress error at most " << worst << "\n";
+}
+
+TEST(SpacePatch, roofAndStep) {
+  double worst = 0;
+  for (const double slope : {-1.5, 0.1, 0.5, 1.5})
+    for (const bool upper : {true, false})
+      for (const auto& [coupling, degree] : exactCouplings)
+        for (const bool tilted : {false, true}) {
+          Case of{coupling, degree, upper};
+          of.map = [=](const SpacePoint& x) {
+            const SpacePoint roof(x.x(), x.y(), x.z() + slope * std::abs(x.x() - 0.5));
+            return tilted ? SpacePoint(turn * roof) : roof;
+          };
+          expectPatch(of, worst);
+        }
+  std::cout << "roofs: stress error at most " << worst << "\n";
+}
+
+// The sides of both bodies are held up to the contact surface.
+TEST(SpacePatch, closedCorners) {
+  double worst = 0;
+  for (const bool upper : {true, false})
+    for (const auto& [coupling, degree] : exactCouplings)
+      for (const double slope : {0.0, 0.5}) {
+        Case of{coupling, degree, upper};
+        of.held = true;
+        of.map = [=](const SpacePoint& x) {
+          return SpacePoint(x.x(), x.y(), x.z() + slope * std::abs(x.x() - 0.5));
+        };
+        expectPatch(of, worst);
+      }
+  std::cout << "closed corners: stress error at most " << worst << "\n";
+}
+
+// The edge of the mortar surface lies inside nonmortar triangles, of a body whose surface is held.
+TEST(SpacePatch, mortarEdgeInsideTriangles) {
+  double worst = 0;
+  const SpaceMap same = [](const SpacePoint& x) { return x; };
+  for (const auto& [coupling, degree] : exactCouplings) {
+    Model model;
+    model.bodies.push_back(hydrostatic("upper", block({{0.2, 0.15, 0}, {0.73, 0.8, 1}, {3, 4, 3}}, 1, same),
+                                       {top}, {left, right, front, back}, degree));
+    model.bodies.push_back(hydrostatic("lower", block({{0, 0, -1}, {1, 1, 0}, {4, 5, 2}}, 2, same),
+                                       {bottom, top, left, right, front, back}, {}, degree));
+    addInterface(model, {{1, top}, {0, bottom}, coupling});
+    const Found found = solve(model);
+    EXPECT_LE(found.stress, stressTolerance);
+    EXPECT_LE(found.balance, balanceTolerance);
+    worst = std::max(worst, found.stress);
+  }
+  std::cout << "mortar edge inside nonmortar triangles: stress error at most " << worst << "\n";
+}
+
+// What interpolation cannot do, though its forces balance.
+TEST(SpacePatch, interpolationFails) {
+  const Found found = solve(twoBlocks({CouplingKind::interpolation}));
+  EXPECT_GT(found.stress, 0.02);
+  EXPECT_LE(found.balance, balanceTolerance);
+}
+
+// Contact alone holds the upper block along z; along x and y, and about z, nothing does.
+TEST(SpacePatch, freeMotionsAreNamed) {
+  const SpaceMap same = [](const SpacePoint& x) { return x; };
+  const auto model = [&](std::vector<SpaceCondition> held) {
+    Model both;
+    SpaceConditions conditions{std::move(held), {{top, spaceNormal, constant(-pressure)}}};
+    both.bodies.emplace_back("upper", block({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, 1, same),
+                             spaceElasticMaterial(elasticity), conditions, 1);
+    both.bodies.push_back(
+        hydrostatic("lower", block({{0, 0, -1}, {1, 1, 0}, {3, 3, 2}}, 2, same), {bottom}, {}, 1));
+    addInterface(both, {{0, bottom}, {1, top}, CouplingKind::weighted});
+    return both;
+  };
+  const auto fixed = [](const SpacePoint& at, int component) {
+    return SpaceCondition{0, component, constant(0), at};
+  };
+  const auto run = [&](const Model& both) {
+    State state = initialState(both);
+    return march(both, state, {.end = 1, .steps = 1}, {}, [](const State&, const StepReport&) {});
+  };
+  const Model sliding = model({fixed({0, 0, 1}, spaceY), fixed({1, 0, 1}, spaceY)});
+  try {
+    run(sliding);
+    FAIL() << "nothing holds the upper block along x";
+  } catch (const UnheldBodyError& error) {
+    EXPECT_NE(std::string(error.what()).find("translation along (1, 0, 0)"), std::string::npos)
+        << error.what();
+  }
+  const Model turning = model({fixed({0, 0, 1}, spaceX), fixed({0, 0, 1}, spaceY)});
+  try {
+    run(turning);
+    FAIL() << "nothing keeps the upper block from turning";
+  } catch (const UnheldBodyError& error) {
+    EXPECT_NE(std::string(error.what()).find("about the line through (0, 0"), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("along (0, 0, 1)"), std::string::npos) << error.what();
+  }
+  const Model held = model({fixed({0, 0, 1}, spaceX), fixed({0, 0, 1}, spaceY), fixed({1, 0, 1}, spaceY)});
+  EXPECT_EQ(run(held).status, Status::converged);
 }
 
 }  // namespace mortier::space_patch_test

@@ -1,0 +1,57 @@
+// Two boxes in space with quadratic displacements, one pressed on the other: unknowns, rows, and the time of each
+// part.
+//   build/bench/space [CELLS ...]     cells along an edge of the upper box; the lower one has 13/12 as many
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include "material/space.h"
+#include "mesh/space_shapes.h"
+#include "time/march.h"
+
+using namespace mortier;
+
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void measure(int cells) {
+  const Elasticity elasticity{1000, 0.3};
+  const SpaceDatum zero = [](const SpacePoint&, double) { return 0.0; };
+  const auto held = [&](int label, int component) { return SpaceCondition{label, component, zero}; };
+  const SpaceDatum load = [](const SpacePoint& x, double t) { return -t * (1 + x.x()); };
+  const double start = now();
+  Model model;
+  model.bodies.emplace_back("upper", cuboidMesh({{0.1, 0.1, 0}, {0.9, 0.9, 1}, {cells, cells, cells}}),
+                            spaceElasticMaterial(elasticity),
+                            SpaceConditions{{held(4, spaceX), held(5, spaceY)}, {{3, spaceZ, load}}}, 2);
+  const int finer = cells * 13 / 12;
+  model.bodies.emplace_back("lower", cuboidMesh({{0, 0, -1}, {1, 1, 0}, {finer, finer, finer}}),
+                            spaceElasticMaterial(elasticity),
+                            SpaceConditions{{held(1, spaceX), held(1, spaceY), held(1, spaceZ)}, {}}, 2);
+  const double bodies = now();
+  addInterface(model, {{0, 1}, {1, 3}, CouplingKind::weighted});
+  const double coupled = now();
+  State state = initialState(model);
+  const RunReport report =
+      march(model, state, {.end = 1, .steps = 1}, {}, [](const State&, const StepReport&) {});
+  const double solved = now();
+  std::printf("%3d %9d + %-9d %6d rows   bodies %7.2f   coupling %6.2f   step %8.2f   linear solves %d%s\n",
+              cells, model.bodies[0].freeDofs(), model.bodies[1].freeDofs(), model.interfaces[0].rows(),
+              bodies - start, coupled - bodies, solved - coupled, report.iterations,
+              report.status == Status::converged ? "" : ("   " + report.reason).c_str());
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::printf("cells, unknowns of both bodies, rows of contact; wall time [s]\n");
+  if (argc < 2)
+    for (const int cells : {6, 9, 12}) measure(cells);
+  for (int i = 1; i < argc; ++i) measure(std::atoi(argv[i]));
+  return 0;
+}

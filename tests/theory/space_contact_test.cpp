@@ -1,0 +1,225 @@
+// Contact and flow in space beside what is known: a contact with a known end, extruded; bodies that flow under
+// one stress; laws of space beside those of plane strain.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "fem/tetrahedron.h"
+#include "material/space.h"
+#include "mesh/space_shapes.h"
+#include "theory/half_open_contact.h"
+
+namespace mortier::space_contact_test {
+
+enum : int { bottom = 1, right, top, left, front, back };
+
+using scenes::HalfOpenContact;
+
+SpaceDatum steady(double value) {
+  return [value](const SpacePoint&, double) { return value; };
+}
+SpaceDatum growing(double value) {
+  return [value](const SpacePoint&, double t) { return value * t; };
+}
+
+/// Of the plane of x and z, in plane strain along y.
+struct Extruded {
+  Elasticity elasticity;
+  bool mirrored = false;
+  [[nodiscard]] HalfOpenContact plane() const { return {elasticity, mirrored, Plane::strain}; }
+
+  [[nodiscard]] SpaceStress stress(const SpacePoint& x) const {
+    const Eigen::Vector3d s = plane().stress(x.x(), x.z());
+    const double along = elasticity.poisson * (s[0] + s[1]);
+    return fromSpaceCartesian(SpaceStress{s[0], along, s[1], 0, s[2], 0});
+  }
+
+  [[nodiscard]] Body body(int cells, int degree) const {
+    const double lower = mirrored ? -1 : 0;
+    const int across = (cells + 1) / 2;
+    const double depth = 0.25;
+    TetrahedronMesh mesh =
+        cuboidMesh({{-0.9, 0, lower}, {1.1, depth, lower + 1}, {cells, std::max(1, cells / 8), across}});
+    const HalfOpenContact exact = plane();
+    const auto displacement = [exact](int component) {
+      return [=](const SpacePoint& x, double t) { return t * exact.displacement(x.x(), x.z())[component]; };
+    };
+    const auto traction = [exact](int component, double sign) {
+      return [=](const SpacePoint& x, double t) { return sign * t * exact.stress(x.x(), x.z())[component]; };
+    };
+    const int held = mirrored ? bottom : top;
+    return {mirrored ? "lower" : "upper", std::move(mesh), spaceElasticMaterial(elasticity),
+            SpaceConditions{{{held, spaceX, displacement(0)},
+                             {held, spaceZ, displacement(1)},
+                             {front, spaceY, steady(0)},
+                             {back, spaceY, steady(0)}},
+                            {{right, spaceX, traction(0, 1)},
+                             {right, spaceZ, traction(2, 1)},
+                             {left, spaceX, traction(0, -1)},
+                             {left, spaceZ, traction(2, -1)}}},
+            degree};
+  }
+
+  /// Energies of the error of a stress, and of the exact one.
+  void addEnergies(const Body& body, const Matrix& stress, double& error, double& norm) const {
+    const std::vector<SpaceRulePoint> rule = tetrahedronRule();
+    const TetrahedronMesh& mesh = body.space()->mesh();
+    const int points = body.pointsOfTriangle();
+    for (size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+      const auto first = static_cast<Eigen::Index>(points * t);
+      const double volume = body.weights()[first] * points;
+      for (const auto& [at, weight] : rule) {
+        const std::array<double, 4> b{1 - at.sum(), at.x(), at.y(), at.z()};
+        SpacePoint x = SpacePoint::Zero();
+        for (int k = 0; k < 4; ++k) x += b[k] * mesh.vertices[mesh.tetrahedra[t][k]];
+        Matrix both(6, 2);
+        both.col(0) = this->stress(x);
+        both.col(1) = -both.col(0);
+        for (int q = 0; q < points; ++q) {
+          constexpr double far = QuadraticTetrahedron::far;
+          const double shape = points == 1 ? 1 : (b[q] - far) / (QuadraticTetrahedron::near - far);
+          both.col(1) += shape * stress.col(first + q);
+        }
+        Matrix strain;
+        body.material().elasticStrain(both, strain);
+        norm += 6 * weight * volume * both.col(0).dot(strain.col(0));
+        error += 6 * weight * volume * both.col(1).dot(strain.col(1));
+      }
+    }
+  }
+};
+
+struct KnownEnd {
+  double error = 0, force = 0;
+  int unknowns = 0;
+};
+
+KnownEnd solveKnownEnd(int cells, int degree, CouplingKind coupling) {
+  const std::array<Extruded, 2> sides{Extruded{{1, 0.3}, false}, Extruded{{1, 0.3}, true}};
+  Model model;
+  model.bodies.push_back(sides[0].body(cells, degree));
+  model.bodies.push_back(sides[1].body(cells * 3 / 2, degree));
+  addInterface(model, {{1, top}, {0, bottom}, coupling});
+  const auto [state, report] = scenes::run(model, 1, 1);
+  EXPECT_EQ(report.status, Status::converged) << report.reason;
+  EXPECT_LE(report.worst.forceBalance, 1e-11);
+  double error = 0;
+  double norm = 0;
+  for (const int b : {0, 1}) sides[b].addEnergies(model.bodies[b], state.bodies[b].stress, error, norm);
+  return {std::sqrt(error / norm), state.contactForce[0].sum(),
+          model.bodies[0].freeDofs() + model.bodies[1].freeDofs()};
+}
+
+TEST(SpaceContact, knownEndConverges) {
+  constexpr double contactForce = 0.25 * 0.769126488659;  // depth times 2/3 1.1^(3/2)
+  struct Row {
+    int degree;
+    CouplingKind coupling;
+    std::array<int, 2> cells;
+    double leastOrder, forceTolerance;
+  };
+  for (const Row& row : {Row{1, CouplingKind::weighted, {6, 18}, 0.88, 2e-3},
+                         {1, CouplingKind::mortar, {6, 18}, 0.88, 2e-3},
+                         {2, CouplingKind::weighted, {6, 18}, 1.45, 1e-3}}) {
+    const KnownEnd coarse = solveKnownEnd(row.cells[0], row.degree, row.coupling);
+    const KnownEnd fine = solveKnownEnd(row.cells[1], row.degree, row.coupling);
+    const double order = std::log(coarse.error / fine.error) / std::log(3);
+    std::cout << "degree " << row.degree << (row.coupling == CouplingKind::mortar ? ", mortar" : ", weighted")
+              << ": " << coarse.unknowns << " and " << fine.unknowns << " unknowns, errors " << coarse.error
+              << ", " << fine.error << ", order " << order << ", force off by "
+              << fine.force / contactForce - 1 << "\n";
+    EXPECT_GE(order, row.leastOrder);
+    EXPECT_NEAR(fine.force / contactForce, 1, row.forceTolerance);
+  }
+}
+
+// The note's compression test in space: the stress is one everywhere, -10 t along z, and flows from t = 0.1 on.
+TEST(SpaceContact, compressionIsExact) {
+  constexpr Elasticity elasticity{3e11, 0.3};
+  constexpr Viscoplasticity law{10, 1};
+  for (const auto& [coupling, degree] :
+       {std::pair{CouplingKind::weighted, 1}, {CouplingKind::mortar, 1}, {CouplingKind::weighted, 2}}) {
+    Model model;
+    const std::vector<SpaceCondition> rollers{{left, spaceX, steady(0)}, {front, spaceY, steady(0)}};
+    std::vector<SpaceCondition> held = rollers;
+    held.push_back({bottom, spaceZ, steady(0)});
+    model.bodies.emplace_back("upper", cuboidMesh({{0, 0, 0}, {1, 1, 1}, {3, 4, 2}}),
+                              spacePerzynaMaterial(elasticity, law),
+                              SpaceConditions{rollers, {{top, spaceZ, growing(-10)}}}, degree);
+    model.bodies.emplace_back("lower", cuboidMesh({{0, 0, -1}, {1, 1, 0}, {4, 3, 3}}),
+                              spacePerzynaMaterial(elasticity, law), SpaceConditions{held, {}}, degree);
+    addInterface(model, {{0, bottom}, {1, top}, coupling});
+    constexpr int steps = 10;
+    const auto [state, report] = scenes::run(model, 1, steps);
+    ASSERT_EQ(report.status, Status::converged) << report.reason;
+    const SpaceStress exact = fromSpaceCartesian(SpaceStress{0, 0, -10, 0, 0, 0});
+    double worst = 0;
+    for (const BodyState& body : state.bodies)
+      worst = std::max(worst, (body.stress.colwise() - exact).cwiseAbs().maxCoeff() / 10);
+    std::cout << "compression, degree " << degree << ": stress error " << worst << "\n";
+    // The trace of quadratic displacements is not zero at all points but for the rounding of the mesh.
+    EXPECT_LE(worst, degree == 1 ? 1e-12 : report.worst.rounding);
+    EXPECT_LE(report.worst.rounding, 1e-3);
+    // eps_v' = (1 - sigma_Y/|s|) (2/3) s/(2 lambda) along z, by backward Euler.
+    double strain = -10 / elasticity.young;
+    for (int i = 1; i <= steps; ++i) {
+      const double s = -10.0 * i / steps;
+      strain += (1.0 / steps) * std::max(0.0, 1 - 1 / std::abs(s)) * (2.0 / 3) * s / (2 * law.viscosity);
+    }
+    const auto& vertices = model.bodies[0].space()->mesh().vertices;
+    for (size_t v = 0; v < vertices.size(); ++v)
+      if (vertices[v].z() == 1)
+        EXPECT_NEAR(state.bodies[0].displacement[3 * static_cast<Eigen::Index>(v) + 2], 2 * strain,
+                    1e-12 * std::abs(strain));
+  }
+}
+
+// Without shears across the plane, the law of space is that of plane strain; its tangent is the derivative.
+TEST(SpaceContact, lawOfSpaceIsThatOfPlaneStrain) {
+  constexpr Elasticity elasticity{1000, 0.3};
+  constexpr Viscoplasticity law{10, 1};
+  constexpr double weight = 0.3;
+  const auto plane = planeStrainPerzynaMaterial(elasticity, law);
+  const auto space = spacePerzynaMaterial(elasticity, law);
+  const Vector strain = Vector::Map(std::array{2e-3, -1e-3, 3e-3, 5e-4, 2e-3, -1e-3}.data(), 6);
+  for (const double size : {0.1, 1.0, 100.0}) {
+    const auto answerOf = [&](const Material& material, const Vector& strains, const Vector& stress) {
+      const Matrix all = size * strains;
+      const Matrix zero = Matrix::Zero(all.rows(), 1);
+      Linearisation result = material.room(1);
+      material.linearise({weight, zero, all}, stress, result, 0, 1);
+      return result;
+    };
+    const Vector flat = strain.head(4);
+    // (p, q, r, s33) by the basis of space.
+    const auto inSpace = [](const Vector& v) {
+      const Eigen::Vector3d plane = toCartesian(v.head<3>());
+      return Vector(fromSpaceCartesian(SpaceStress{plane[0], plane[1], v[3], plane[2], 0, 0}));
+    };
+    const Vector even = inSpace(flat);
+    const Vector stress4 = 1e3 * flat;
+    const Vector stress6 = 1e3 * even;
+    const Linearisation four = answerOf(*plane, flat, stress4);
+    const Linearisation six = answerOf(*space, even, stress6);
+    EXPECT_LE((six.predictor.col(0) - inSpace(four.predictor.col(0))).cwiseAbs().maxCoeff(),
+              1e-14 * four.predictor.cwiseAbs().maxCoeff());
+    // The moduli at a stress are dpredictor/dstrain where the law is linearised at its solution.
+    Vector stress = stress6;
+    for (int i = 0; i < 60; ++i) stress = answerOf(*space, strain, stress).predictor;
+    const Linearisation solved = answerOf(*space, strain, stress);
+    for (int k = 0; k < 6; ++k) {
+      const double h = 1e-6 * strain.norm();
+      const auto solution = [&](double by) {
+        Vector s = stress;
+        for (int i = 0; i < 30; ++i) s = answerOf(*space, strain + by * Vector::Unit(6, k), s).predictor;
+        return s;
+      };
+      const Vector derivative = (solution(h) - solution(-h)) / (2 * h * size);
+      const Vector tangent = stressOf(solved, Vector::Unit(6, k), 0);
+      EXPECT_LE((derivative - tangent).norm(), 1e-6 * elasticity.young) << "strain " << k << ", " << size;
+    }
+  }
+}
+
+}  // namespace mortier::space_contact_test
