@@ -116,9 +116,6 @@ class FiniteSliding(InFolder):
         for turns in ('rotation = "t"', "moment = 0"):
             self.write(TOOL.replace("FRICTION", "").replace("TURNS", turns))
             self.assertIn("a tool that turns (disc)", self.mortier("run", "scene.toml", code=2).stderr)
-        self.write(IRONING.replace("FRICTION", ""))
-        done = self.mortier("freefem", "scene.toml", "out", code=2)
-        self.assertIn('sliding = "finite"', done.stderr)
 
     # A pair of steps is solved before its first one is measured: with the rows of the second, 720 %.
     def test_estimates_under_error_control_are_those_of_equal_steps(self):
