@@ -152,14 +152,13 @@ class FiniteSliding(InFolder):
                              "time.scheme=sdirk2", "time.end=0.4")
                 done = json.loads(self.read("out/summary.json"))
                 self.assertGreater(done["final"]["contact_force"], 0)
-                self.assertLess(done["accuracy"]["time_error"], 0.05)
+                self.assertTrue(done["accuracy"]["time_reached"])
 
     # Friction at the lower edge is beyond what keeps a block of this height from tipping.
     def test_a_block_that_tips_is_named_by_its_rotation(self):
         self.write(PUSHED.replace("DEGREE", "1").replace("ROUGH", "0.8").replace("HELD", "ty = -1")
                    .replace("upper = [1.5, 0.5]", "upper = [1.5, 1]"))
-        done = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=None)
-        self.assertIn(done.returncode, (1, 3))
+        done = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=1)
         self.assertRegex(done.stderr, "; bodies have turned by [0-9.e+]+ degrees, taken as small")
 
     def test_accuracy_on_demand(self):
