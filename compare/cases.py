@@ -88,12 +88,12 @@ SCENES = {
     "sloped": (), "broken-line": (), "stack": (), "exact-contact": (), "edge": (), "punch": (),
     "eccentric-punch": (), "receding": (), "turned": (), "cut-ring": (), "hertz": (), "ring": (),
     "sphere": (), "cone": (), "thick-cylinder": (), "open-close": ("time.scheme=backward-euler",),
+    "ironing": ("body.block.mesh.cells=[22, 6]", "time.steps=4"),
 }
 # Where FreeFEM's rule of degree 9 is further off the integrals of the tractions than the tolerances.
 QUADRATURE = {"edge": 1e-8}
 # Those that it does not, and why (the beginning of what mortier freefem says behind the scene's name).
-UNKNOWN_TO_FREEFEM = {"cook": "no contact interface",
-                      "ironing": 'contact: sliding = "finite"'}
+UNKNOWN_TO_FREEFEM = {"cook": "no contact interface"}
 HELD = ("body.top.boundary.4.uy=-1e-4*t", "body.middle.boundary.4.uy=-1e-4*t*(1+y)",
         "body.bottom.boundary.4.uy=0")
 FREE_BUT_FOR_POINTS = (
@@ -197,6 +197,20 @@ FLOWING = (SOFT, "contact.friction=0.3", "time.end=3", "time.steps=12",
 ROLLED = ("contact.friction=0.15", "time.end=3", "time.steps=9",
           'body.cylinder.boundary=[{label=2, uy="-1.22*min(t, 1)", '
           'ux={time=[0, 1, 2, 3], value=[0, 0, 0.2, 0.05]}}]')
+# Contact that follows the bodies: a block pressed on a slope, pushed up along it beyond its end; a wedge
+# that ploughs; a middle layer pulled out between two.
+UP_THE_SLOPE = ("contact.sliding=finite", "time.steps=5", "body.lower.boundary=[{label=1, ux=0, uy=0}]",
+                'body.upper.boundary=[{label=3, ux="0.6*max(0, t-0.2)", '
+                'uy="0.3*max(0, t-0.2)-3e-3*min(5*t, 1)"}]')
+PLOUGHED = ("contact.sliding=finite", 'plane="strain"', "body.ground.mesh.cells=[24, 8]",
+            "body.ground.mesh.lower=[-4, -4]", "body.ground.mesh.upper=[12, 0]",
+            "body.ground.mesh.focus=[2, 0]", "body.ground.mesh.grading=[4, 4]",
+            "body.ground.boundary=[{label=1, ux=0, uy=0}]",
+            "tool.cone.uy=-0.2*min(4*t, 1)", "tool.cone.ux=2*max(0, t-0.25)", "time.steps=8")
+PULLED_OUT = ("contact.sliding=finite", "contact.1.sliding=allow", "contact.friction=0.2", "time.steps=5",
+              "body.bottom.boundary=[{label=1, ux=0, uy=0}]",
+              'body.top.boundary=[{label=3, ux="0.5*max(0, t-0.2)", uy="-2e-3*min(5*t, 1)"}]',
+              "body.middle.boundary=[{label=4, ux=0}]")
 WOOD = ('body.material={elasticity="orthotropic", young1=100, young2=30, young3=20, poisson12=0.3, '
         'poisson13=0.2, poisson23=0.25, shear12=15, angle="0.3 + x*y"}',)
 GENERAL = ('body.material={elasticity="general", angle=0.4, '
@@ -346,6 +360,25 @@ def scene_cases():
         SceneCase("hertz", "mortar", "friction along an arc", ROLLED),
         SceneCase("hertz", "weighted", "friction along an arc, sides swapped",
                   (*ROLLED, "contact.swap=true")),
+        # Contact that follows the bodies
+        SceneCase("ironing", "weighted", "quadratic, follows",
+                  ("body.block.mesh.cells=[12, 4]", "degree=2", "time.steps=2", "time.end=0.4")),
+        SceneCase("sloped", "coarsened", "axes that turn, follows",
+                  (*UP_THE_SLOPE, *WOOD, "contact.swap=true")),
+        SceneCase("sloped", "weighted", "off the end, follows", UP_THE_SLOPE),
+        SceneCase("sloped", "mortar", "friction, sides swapped, follows",
+                  (*UP_THE_SLOPE, "contact.friction=0.3", "contact.swap=true")),
+        SceneCase("sloped", "interpolation", "plane strain, the upper one stiffer, follows",
+                  (*UP_THE_SLOPE, 'plane="strain"', "body.upper.material.young=1e7")),
+        SceneCase("sloped", "weighted", "friction, quadratic, follows",
+                  (*UP_THE_SLOPE, "contact.friction=0.3", "degree=2")),
+        SceneCase("sloped", "mortar", "flowing, quadratic, sides swapped, follows",
+                  (*UP_THE_SLOPE, SOFT, "degree=2", "contact.swap=true", "time.steps=10")),
+        SceneCase("cone", "mortar", "a wedge that ploughs, follows", (*PLOUGHED, "contact.friction=0.2")),
+        SceneCase("sphere", "weighted", "around an axis, follows",
+                  ("contact.sliding=finite", "body.ball.mesh.cells=5", "body.block.mesh.cells=[12, 12]",
+                   "body.ball.boundary.2.uy=-1*t", "time.steps=2")),
+        SceneCase("stack", "weighted", "beside one that does not, friction, follows", PULLED_OUT),
         # Quadratic displacements
         SceneCase("compression", "interpolation", "quadratic", ("degree=2", "time.steps=4")),
         SceneCase("compression", "weighted", "quadratic", ("degree=2", "time.steps=4", "contact.swap=true")),

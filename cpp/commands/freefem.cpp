@@ -165,6 +165,19 @@ std::string friction(const SceneDescription& scene) {
          coefficients + "], shearLimit = [" + limits + "];\n";
 }
 
+/// Of every interface, whether contact follows the bodies; none where it does nowhere.
+std::string sliding(const SceneDescription& scene) {
+  std::string list;
+  bool any = false;
+  for (const ContactDescription& contact : scene.contacts) {
+    const bool follows = contact.sliding == SlidingKind::finite;
+    list += (list.empty() ? "" : ", ") + std::to_string(static_cast<int>(follows));
+    any = any || follows;
+  }
+  if (!any) return "";
+  return "macro sliding yes //  contact follows the bodies\nint[int] slidesFar = [" + list + "];\n";
+}
+
 /// One word where all interfaces have the same.
 std::string variants(const SceneDescription& scene) {
   std::vector<std::string> words;
@@ -225,7 +238,7 @@ std::string script(const SceneDescription& scene, const Model& model,
         << ", " << mortar.label << ']';
   }
   out << "];\n"
-      << friction(scene) << distances(scene, model) << variants(scene)
+      << friction(scene) << sliding(scene) << distances(scene, model) << variants(scene)
       << "real endTime = " << shortest(scene.time.end) << ";  // [" << scene.units.time << "]\n"
       << stepEnds(times)
       << "int steps = " << (times.empty() ? scene.time.steps : static_cast<int>(times.size()))

@@ -4,6 +4,7 @@
 #include "commands/freefem.h"
 #include "contact/smooth_part.h"
 #include "scene/document.h"
+#include "scene/resolve.h"
 
 namespace mortier {
 
@@ -23,9 +24,6 @@ void requireKnown(const SceneDescription& scene, bool stepsGiven) {
     refuse(scene.path + ": tolerance = " + shortest(scene.time.tolerance),
            "equal steps, or those of a run (--steps-of)");
   }
-  for (const ContactDescription& contact : scene.contacts)
-    if (contact.sliding == SlidingKind::finite)
-      refuse(contact.where + ": contact: sliding = \"finite\"", "\"refuse\" or \"allow\"");
   for (const BodyDescription& body : scene.bodies) {
     for (const ConditionDescription& c : body.conditions)
       if (body.isTool() && c.kind == ConditionDescription::Kind::traction)
@@ -75,8 +73,11 @@ void requireStraightSides(const SceneDescription& scene, const Model& model) {
   }
 }
 
-/// \throws InputError where a line of contact has corners that count, is closed or is made of several curves.
+/// \throws InputError where a line of contact has corners that count, is closed on the nonmortar side or is
+/// made of several curves.
 void requireSmooth(const SceneDescription& scene, const Model& model) {
+  std::vector<const TriangleMesh*> meshes;
+  for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactPair& pair = model.interfaces[k].pair();
     const auto partsOf = [&](const ContactSide& side) {
@@ -85,12 +86,17 @@ void requireSmooth(const SceneDescription& scene, const Model& model) {
     const std::vector<SmoothPart> parts = partsOf(pair.nonmortar);
     const std::vector<SmoothPart> across = partsOf(pair.mortar);
     const auto straight = [](const SmoothPart& part) { return part.straight; };
+    // Contact acts along the normals of the nonmortar line alone, whatever corners the other one has.
+    const ContactDescription& contact = scene.contacts[k];
+    const bool oneNormal = contact.sliding == SlidingKind::finite
+                               ? stiffnessRatio(scene, contact.nonmortar, contact.mortar, meshes) >= 1
+                               : parts.front().straight;
     const bool cornersCount =
-        parts.size() > 1 || (across.size() > 1 && !(parts.front().straight &&
-                                                    std::all_of(across.begin(), across.end(), straight)));
-    if (cornersCount || parts.front().closed || across.front().closed)
-      refuse(scene.contacts[k].where + ": contact: a closed line, or one with corners",
-             "open lines without corners");
+        parts.size() > 1 ||
+        (across.size() > 1 && !(oneNormal && std::all_of(across.begin(), across.end(), straight)));
+    if (cornersCount || parts.front().closed)
+      refuse(contact.where + ": contact: a line with corners, or a closed one on the nonmortar side",
+             "lines without corners, an open one on the nonmortar side");
     if (!isOneCurve(parts.front()) || !std::all_of(across.begin(), across.end(), isOneCurve))
       refuse(scene.contacts[k].where + ": contact: a line of several curves",
              "one circle, one straight line, or a polygon");

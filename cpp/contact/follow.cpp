@@ -36,6 +36,17 @@ std::vector<std::shared_ptr<const SmoothPart>> shared(std::vector<SmoothPart> pa
   return result;
 }
 
+/// moved(); an end on the axis x = 0 keeps a normal along it, without which its node may face nothing.
+SmoothPart movedTo(const std::shared_ptr<const SmoothPart>& drawn, const Vector& u, bool axisymmetric) {
+  constexpr double along = 1e-6;
+  SmoothPart part = moved(drawn, u);
+  if (!axisymmetric || part.closed) return part;
+  for (const size_t end : {size_t{0}, part.points.size() - 1})
+    if (const Point& before = drawn->normals[end]; part.points[end].x() == 0 && std::abs(before.x()) < along)
+      part.normals[end] = {0, before.y() > 0 ? 1 : -1};
+  return part;
+}
+
 double lengthOf(const std::vector<std::shared_ptr<const SmoothPart>>& parts) {
   double length = 0;
   for (const auto& part : parts) length += part->length();
@@ -83,7 +94,7 @@ void ContactInterface::follow(const Vector& u1, const Vector& u2, bool keepRows)
   const double weight = lines.stiffness < 1 ? 1 : 0;
   std::vector<SmoothPart> across;
   for (const auto& part : lines.mortarParts) {
-    across.push_back(moved(part, u2));
+    across.push_back(movedTo(part, u2, axisymmetric_));
     across.back().curvatures.assign(part->points.size(), 1 - weight);
   }
   const MortarLine mortar(across, lines.mortar.closed);
@@ -101,7 +112,7 @@ void ContactInterface::follow(const Vector& u1, const Vector& u2, bool keepRows)
   overlap_ = 0;
   for (size_t k = 0; k < lines.nonmortarParts.size(); ++k) {
     const std::map<int, int>& rowOf = lines.rowOf[k];
-    SmoothPart part = moved(turns ? lines.begun(u1, u2) : lines.nonmortarParts[k], u1);
+    SmoothPart part = movedTo(turns ? lines.begun(u1, u2) : lines.nonmortarParts[k], u1, axisymmetric_);
     part.curvatures.assign(part.points.size(), weight);  // directionOf() takes it from these
     const FacingLine facing = facingLine(part, mortar);
     for (int node = 0; node < part.traceNodes(); ++node)

@@ -265,12 +265,10 @@ std::string logPeaks(const Peaks& peaks, const StepReport& last, const Units& un
         "small "
         "here\n",
         peaks.sliding.value, peaks.sliding.time, units.time.c_str());
-  constexpr double largestStrain = 0.05;
-  constexpr double largestRotation = 5 * M_PI / 180;
-  if (peaks.strain.value > largestStrain)
+  if (peaks.strain.value > smallStrain)
     text += formatted("warning    strains reach %.2g %% at t = %.5g %s; they are taken as small here\n",
                       100 * peaks.strain.value, peaks.strain.time, units.time.c_str());
-  if (peaks.rotation.value > largestRotation)
+  if (peaks.rotation.value > smallRotation)
     text += formatted(
         "warning    bodies turn by up to %.2g degrees at t = %.5g %s; rotations are taken as small here\n",
         peaks.rotation.value * 180 / M_PI, peaks.rotation.time, units.time.c_str());

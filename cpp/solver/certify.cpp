@@ -168,7 +168,7 @@ Vector StepSystem::compliances() const {
 
 double StepSystem::opened(const Step& step, const Iterate& iterate) const {
   const Vector compliance = compliances();
-  const std::vector<Vector> gap = gaps(model_, step.state0, iterate);
+  const std::vector<Vector> gap = gaps(model_, step.gap0(), iterate);
   double largest = 0;
   double force = 0;
   for (size_t k = 0; k < gap.size(); ++k)

@@ -91,14 +91,14 @@ std::vector<Vector> displacements(const State& state0, const Iterate& iterate) {
   return u;
 }
 
-std::vector<Vector> gaps(const Model& model, const State& state0, const Iterate& iterate) {
+std::vector<Vector> gaps(const Model& model, const std::vector<Vector>& gap0, const Iterate& iterate) {
   std::vector<Vector> result;
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
     const TwoPartVector& u1 = iterate.bodies[interface.pair().nonmortar.body].increment;
     const TwoPartVector& u2 = iterate.bodies[interface.pair().mortar.body].increment;
     // The parts apart: the first no longer changes where the iteration ends.
-    result.emplace_back((state0.gap[k] + interface.jump(u1.high, u2.high)) + interface.jump(u1.low, u2.low));
+    result.emplace_back((gap0[k] + interface.jump(u1.high, u2.high)) + interface.jump(u1.low, u2.low));
     if (!iterate.distanceChange.empty()) result.back() -= iterate.distanceChange[k];
   }
   return result;
@@ -140,8 +140,8 @@ void addFrictionWork(const Model& model, const Iterate& solution, State& state) 
   }
 }
 
-std::vector<Vector> solvedGaps(const Model& model, const State& state0, const Iterate& solution) {
-  std::vector<Vector> result = gaps(model, state0, solution);
+std::vector<Vector> solvedGaps(const Model& model, const std::vector<Vector>& gap0, const Iterate& solution) {
+  std::vector<Vector> result = gaps(model, gap0, solution);
   for (size_t k = 0; k < result.size(); ++k)
     for (Eigen::Index i = 0; i < result[k].size(); ++i)
       if (solution.active[k][i] != 0) result[k][i] = 0;

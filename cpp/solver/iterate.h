@@ -17,6 +17,8 @@ struct StepData {
   bool startSolved = false;   ///< the start of the step is the solution of the one before
   /// What of `shift` is a change of thermal strain, per body; empty for none.
   std::vector<Matrix> thermal = {};
+  /// g at the start, per interface, as rows see it that follow the bodies to the end; empty: that of the state
+  std::vector<Vector> gap = {};
 };
 
 /// The same with the state at its start.
@@ -26,6 +28,7 @@ struct Step {
   const std::vector<Vector>& loads;  ///< per body, nodal forces (dofs) at t1 [N/m]
   std::vector<Matrix> strains0;      ///< per body, B u0 + shift; empty where its law does not depend on it
 
+  [[nodiscard]] const std::vector<Vector>& gap0() const { return data.gap.empty() ? state0.gap : data.gap; }
   [[nodiscard]] const Matrix* shift(size_t body) const {
     return data.shift.empty() ? nullptr : &data.shift[body];
   }
@@ -83,10 +86,10 @@ std::vector<Vector> displacementsOf(const State& state);
 std::vector<Vector> displacements(const State& state0, const Iterate& iterate);
 
 /// g = C (u0 + du) - g0 per interface: the gap of the state and what the increments add.
-std::vector<Vector> gaps(const Model& model, const State& state0, const Iterate& iterate);
+std::vector<Vector> gaps(const Model& model, const std::vector<Vector>& gap0, const Iterate& iterate);
 
 /// The gaps of a solution: exactly 0 on active nodes, in place of what rounding left there.
-std::vector<Vector> solvedGaps(const Model& model, const State& state0, const Iterate& solution);
+std::vector<Vector> solvedGaps(const Model& model, const std::vector<Vector>& gap0, const Iterate& solution);
 
 /// What distances that change do on the bodies in a step: less the means of the forces times the changes
 /// [J/m].

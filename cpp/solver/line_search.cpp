@@ -27,7 +27,7 @@ StepSystem::Linearised shortened(StepSystem& system, const Step& step, double we
   const Model& model = system.model();
   const Iterate end = iterate;
   double overlap = 0;
-  const std::vector<Vector> gapsBefore = gaps(model, step.state0, before);
+  const std::vector<Vector> gapsBefore = gaps(model, step.gap0(), before);
   for (size_t k = 0; k < gapsBefore.size(); ++k) overlap += end.contactForce[k].dot(gapsBefore[k]);
   const auto slope = [&](const std::vector<Matrix>& stress) {
     double work = 0;

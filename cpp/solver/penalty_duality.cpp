@@ -143,7 +143,7 @@ StepOutcome penaltyDuality(StepSystem& system, const Step& step, Iterate& iterat
     if (!factorised) return outcome;
     if (choose) multipliers.emplace(factorised->contact());
 
-    const Vector g = system.joined(gaps(model, step.state0, iterate));
+    const Vector g = system.joined(gaps(model, step.gap0(), iterate));
     const Vector p = system.joined(iterate.contactForce);
     const Vector q = (p + multipliers->omega() * g).cwiseMax(0);
     const double scale = q.size() > 0 ? std::max(largestLoad, q.maxCoeff()) : 0;

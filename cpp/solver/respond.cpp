@@ -82,7 +82,10 @@ std::vector<Response> StepSystem::respond(const std::vector<Matrix>& error, cons
   const Linearised last(*this, 0, Key{});
   StepOutcome again;
   const auto stale = [](const CondensedBody& body) { return body.stale(); };
-  if (std::any_of(bodies_.begin(), bodies_.end(), stale)) static_cast<void>(last.factorise(again));
+  // Rows that follow the bodies have been taken anew since the last linear solve.
+  const bool otherRows = !sparse() && contact_.W.rows() != conditions();
+  if (otherRows || std::any_of(bodies_.begin(), bodies_.end(), stale))
+    static_cast<void>(last.factorise(again));
   return last.keepFactors().respond(error, on, slip);
 }
 

@@ -36,7 +36,7 @@ StepOutcome rest(StepSystem& system, const Step& step, Iterate& iterate) {
   iterate = startingIterate(step.state0);
   const double residual = system.linearise(step, iterate, step.data.weight, false).residual();
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
-    const Vector& gap = step.state0.gap[k];
+    const Vector& gap = step.gap0()[k];
     const double size = model.bodies[model.interfaces[k].pair().nonmortar.body].extent();
     for (Eigen::Index i = 0; i < gap.size(); ++i)
       if (gap[i] < -touching * size) iterate.active[k][i] = 0;

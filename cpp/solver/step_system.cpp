@@ -213,7 +213,7 @@ StepSystem::Condensed StepSystem::Factorised::condense(const Step& step, const I
                                            force[pair.mortar.body]);
   }
   Condensed result(*system_, Key{});
-  result.slack = -joined(gaps(model, step.state0, iterate), slips(model, iterate));
+  result.slack = -joined(gaps(model, step.gap0(), iterate), slips(model, iterate));
   result.p0 = joined(iterate.contactForce, iterate.frictionForce);
   result.sets = joinedSets(iterate);
   std::vector<Vector> motion;

@@ -17,10 +17,10 @@ namespace {
 
 /// How far a solution is off its conditions on other rows, as forces over the largest contact force [-]; gaps
 /// that are rounding of places are none.
-double misfit(const Model& model, const State& state0, const Iterate& iterate, const Vector& compliance,
-              double rounding) {
+double misfit(const Model& model, const std::vector<Vector>& gap0, const Iterate& iterate,
+              const Vector& compliance, double rounding) {
   if (compliance.size() == 0) return 0;  // at rest, without a linear solve
-  const std::vector<Vector> gap = gaps(model, state0, iterate);
+  const std::vector<Vector> gap = gaps(model, gap0, iterate);
   const std::vector<Vector> slip = slips(model, iterate);
   double force = 0;
   double off = 0;
@@ -57,37 +57,37 @@ double roundingOfPlaces(const Model& model, const std::vector<Vector>& u) {
 
 }  // namespace
 
-/// Rows at the end of the increments, and the gaps of the state as these rows see them.
-void StepTaker::followTo(const Iterate& iterate, bool keepRows) {
+/// Rows at the end of the increments. \returns the gaps of the state as these rows see them
+std::vector<Vector> StepTaker::followTo(const Iterate& iterate, bool keepRows) {
   follow(model_, displacements(state_, iterate), keepRows);
   system_.takeRows();
+  std::vector<Vector> gap0 = state_.gap;
   for (size_t k = 0; k < model_.interfaces.size(); ++k) {
     const ContactInterface& interface = model_.interfaces[k];
     if (!interface.follows()) continue;
     const auto& [nonmortar, mortar, coupling] = interface.pair();
-    state_.gap[k] =
-        -interface.distanceHere() - interface.jump(iterate.bodies[nonmortar.body].increment.value(),
-                                                   iterate.bodies[mortar.body].increment.value());
+    gap0[k] = -interface.distanceHere() - interface.jump(iterate.bodies[nonmortar.body].increment.value(),
+                                                         iterate.bodies[mortar.body].increment.value());
   }
+  return gap0;
 }
 
-StepOutcome StepTaker::repeatOnMovedBodies(const StepData& data, Iterate& iterate, Effort effort) {
+StepOutcome StepTaker::repeatOnMovedBodies(StepData& data, Iterate& iterate, Effort effort) {
   constexpr int most = 40;
   constexpr int freely = 8;  // a set of rows that still changes then is kept
   constexpr double settled = 1e-10;
   constexpr double balanced = 1e-9;  // it was on the rows before; the next repetition would be as much better
-  const std::vector<Vector> gapBefore = state_.gap;
   StepOutcome total;
-  followTo(iterate, false);
+  data.gap = followTo(iterate, false);
   double off = 0;
   for (int repetition = 1; repetition <= most; ++repetition) {
     StepOutcome next = solveStep(system_, state_, data, iterate, effort);
     const Vector compliance = system_.compliances();
     total.follow(std::move(next));
     if (!total.converged()) break;
-    followTo(iterate, repetition >= freely);
-    off =
-        misfit(model_, state_, iterate, compliance, roundingOfPlaces(model_, displacements(state_, iterate)));
+    data.gap = followTo(iterate, repetition >= freely);
+    off = misfit(model_, data.gap, iterate, compliance,
+                 roundingOfPlaces(model_, displacements(state_, iterate)));
     if (!(off <= settled)) continue;
     const Certificate here =
         system_.certify(system_.step(state_, data), iterate, total.certificate.materialResidual);
@@ -95,7 +95,6 @@ StepOutcome StepTaker::repeatOnMovedBodies(const StepData& data, Iterate& iterat
     total.certificate = worse(total.certificate, here);
     return total;
   }
-  state_.gap = gapBefore;
   if (!total.converged()) return total;
   std::ostringstream text;
   text << "contact does not settle where the bodies are in " << most

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -74,19 +75,34 @@ double secondsSince(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
+/// Strains and rotations of bodies that contact follows.
+void raiseDeformation(const Model& model, const State& state, Peaks& peaks) {
+  for (const ContactInterface& interface : model.interfaces)
+    for (const int b : {interface.pair().nonmortar.body, interface.pair().mortar.body}) {
+      if (!interface.follows()) continue;
+      const Deformation most = deformationOf(model.bodies[b], state.bodies[b].displacement);
+      peaks.strain.raise(most.strain, state.time);
+      peaks.rotation.raise(most.rotation, state.time);
+    }
+}
+
+/// What a step that cannot be taken may be due to: bodies that have left the range of small strains and
+/// rotations, where a block that tips goes on as no block does. Empty where they have not.
+std::string beyondSmall(const Peaks& peaks) {
+  std::ostringstream text;
+  text.precision(2);
+  if (peaks.rotation.value > smallRotation)
+    text << "; bodies have turned by " << peaks.rotation.value * 180 / M_PI << " degrees";
+  if (peaks.strain.value > smallStrain) text << "; strains have reached " << 100 * peaks.strain.value << " %";
+  return text.str().empty() ? "" : text.str() + ", taken as small";
+}
+
 /// Why the run cannot go on where a node has slid past the end of the line that it touches; empty where none
 /// has.
 std::string followSliding(const Model& model, const State& state, const TimePlan& plan, RunReport& run) {
   std::string why;
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
-    if (const ContactInterface& interface = model.interfaces[k]; interface.follows()) {
-      for (const int b : {interface.pair().nonmortar.body, interface.pair().mortar.body}) {
-        const Deformation most = deformationOf(model.bodies[b], state.bodies[b].displacement);
-        run.peaks.strain.raise(most.strain, state.time);
-        run.peaks.rotation.raise(most.rotation, state.time);
-      }
-      continue;
-    }
+    if (model.interfaces[k].follows()) continue;
     const Sliding sliding = slidingOf(model, state, k);
     run.peaks.sliding.raise(sliding.edges, state.time);
     const bool allowed = k >= plan.slidingAllowed.size() || plan.slidingAllowed[k];
@@ -139,7 +155,11 @@ void go(const Model& model, State& state, MarchMemory& memory, const TimePlan& p
     if (run.stuck) report.reason += taker.stressAt(*run.stuck);
     add(report, run);
     run.special = taker.special();
-    if (report.status != Status::converged) break;
+    raiseDeformation(model, state, run.peaks);
+    if (report.status != Status::converged) {
+      run.reason += beyondSmall(run.peaks);
+      break;
+    }
     compareActive(before, taker.active(), report);
     measure(model, state, taker.threads(), report);
     report.solutions = taker.takeSolutions();

@@ -43,6 +43,10 @@ struct QuantityRange {
 };
 
 /// Of what a StepReport says of the state at its end.
+/// Strains and rotations that are not small beyond these.
+constexpr double smallStrain = 0.05;
+constexpr double smallRotation = 0.0872664625997165;  ///< 5 degrees
+
 struct Peaks {
   Peak vonMises, pressure, contactForce, displacement, motion, energy;
   Peak sliding;           ///< over the edges beside the node (contact/sliding.h)

@@ -21,12 +21,11 @@ StepTaker::StepTaker(const Model& model, State& state, MarchMemory& memory, Sche
       memory_(memory),
       scheme_(scheme),
       system_(model, options),
-      gapOfState_(state.gap),
       countsWork_(countsWork) {
   if (memory.run.steps > 0) system_.resume(memory.solver);
 }
 
-StepOutcome StepTaker::solveStage(const StepData& data, Iterate& iterate, Effort effort) {
+StepOutcome StepTaker::solveStage(StepData& data, Iterate& iterate, Effort effort) {
   return anyFollows(model_) ? repeatOnMovedBodies(data, iterate, effort)
                             : solveStep(system_, state_, data, iterate, effort);
 }
@@ -124,6 +123,7 @@ StepOutcome StepTaker::solveStages(double t1, Effort effort) {
     addThermalStrain(model_, state_, data);
     Iterate iterate = guess(i, k);
     StepOutcome outcome = solveStage(data, iterate, effort);
+    gap0_ = data.gap.empty() ? state_.gap : data.gap;
     outcome.iterations += total.iterations;
     outcome.factorisations += total.factorisations;
     outcome.certificate = worse(outcome.certificate, total.certificate);
@@ -254,9 +254,9 @@ double StepTaker::turnedShare() const {
 }
 
 void StepTaker::commit() {
-  if (std::exchange(showsState_, false)) followTo(solutions_.back(), false);
+  if (std::exchange(showsState_, false)) gap0_ = followTo(solutions_.back(), false);
   if (countsWork_) countWork();
-  state_.gap = solvedGaps(model_, state_, solutions_.back());
+  state_.gap = solvedGaps(model_, gap0_, solutions_.back());
   addFrictionWork(model_, solutions_.back(), state_);
   state_.gapWork += gapWork(state_, solutions_.back());
   memory_.increments.clear();
@@ -307,7 +307,6 @@ void StepTaker::commit() {
   active_ = std::move(solutions_.back().active);
   solutions_.clear();
   if (follows()) follow(model_, displacementsOf(state_), true);  // supports were sums of increments
-  gapOfState_ = state_.gap;
 }
 
 }  // namespace mortier

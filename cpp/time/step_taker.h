@@ -60,22 +60,16 @@ class StepTaker {
   [[nodiscard]] bool follows() const { return anyFollows(model_); }
   /// What commit() changes.
   using Kept = std::pair<State, MarchMemory>;
-  [[nodiscard]] Kept kept() const {
-    Kept result{state_, memory_};
-    if (follows()) result.first.gap = gapOfState_;
-    return result;
-  }
+  [[nodiscard]] Kept kept() const { return {state_, memory_}; }
   void goBack(Kept kept) {
     std::tie(state_, memory_) = std::move(kept);
-    gapOfState_ = state_.gap;
     showState();
   }
-  /// Rows that follow the bodies, and gaps, become those of the state, for whoever measures it while an
-  /// attempt is not committed yet.
+  /// Rows that follow the bodies become those of the state, for whoever measures it while an attempt is not
+  /// committed yet.
   void showState() {
     if (!follows()) return;
     follow(model_, displacementsOf(state_));
-    state_.gap = gapOfState_;
     showsState_ = true;
   }
   /// What the stress changes by from the start of the attempt to one of its stages; no displacement.
@@ -109,9 +103,9 @@ class StepTaker {
   StepOutcome solveStages(double t1, Effort effort);
   StepOutcome hold(StepOutcome outcome);
   /// solveStep(), repeated where contact follows the bodies (follow_bodies.cpp).
-  StepOutcome solveStage(const StepData& data, Iterate& iterate, Effort effort);
-  StepOutcome repeatOnMovedBodies(const StepData& data, Iterate& iterate, Effort effort);
-  void followTo(const Iterate& iterate, bool keepRows);
+  StepOutcome solveStage(StepData& data, Iterate& iterate, Effort effort);
+  StepOutcome repeatOnMovedBodies(StepData& data, Iterate& iterate, Effort effort);
+  std::vector<Vector> followTo(const Iterate& iterate, bool keepRows);
   Iterate guess(size_t stage, double k);
   void shiftOf(const Stage& stage, double k);
   /// G at the start of the step.
@@ -145,12 +139,12 @@ class StepTaker {
   MarchMemory& memory_;
   Scheme scheme_;
   StepSystem system_;
-  std::vector<Vector> gapOfState_;  ///< an attempt changes that of state_ to what its rows see
-  bool showsState_ = false;         ///< whether rows are those of the state, not of the attempt
+  bool showsState_ = false;  ///< whether rows that follow are those of the state, not of the attempt
   bool countsWork_;
   // Of the last attempt:
   Tableau tableau_;
   std::vector<Iterate> solutions_;                        ///< by stage
+  std::vector<Vector> gap0_;                              ///< of the state, as the last stage sees it
   std::optional<std::pair<StepData, Iterate>> unsolved_;  ///< the stage that was not
   std::vector<std::vector<Matrix>> rates_;                ///< G by stage and body
   std::vector<Matrix> shift_;                             ///< of the last stage

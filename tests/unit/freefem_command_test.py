@@ -100,8 +100,8 @@ class Script(support.OfTwoBlocks):
         edges, triangles = edges.split("Triangles")
         edges = edges.replace(" 2\n", " 1\n")  # label 1 below and on the right
         self.write(head + "Edges\n" + edges + "Triangles" + triangles, "upper.mesh")
-        self.reject("scene.toml:20: contact: a closed line, or one with corners, expected open lines "
-                    f"without corners {ALL}",
+        self.reject("scene.toml:20: contact: a line with corners, or a closed one on the nonmortar side, "
+                    f"expected lines without corners, an open one on the nonmortar side {ALL}",
                     "freefem", "scene.toml")
 
     def test_quadratic_triangles_with_curved_sides(self):
