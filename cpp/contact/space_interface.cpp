@@ -308,4 +308,18 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   return result;
 }
 
+double ContactInterface::interpenetration(const Vector& uNonmortar, const Vector& uMortar, double t) const {
+  if (dimension_ == 2) return penetration_.of(uNonmortar, uMortar, nodalGap(t));
+  const Matrix jump = points_.jump(uNonmortar, uMortar);
+  double sum = 0;
+  for (Eigen::Index i = 0; i < jump.cols(); ++i)
+    sum += points_.areas[i] * std::max(0.0, points_.normals[i].dot(jump.col(i)) - points_.distances[i]);
+  return sum;
+}
+
+Matrix ContactInterface::SurfacePoints::jump(const Vector& uNonmortar, const Vector& uMortar) const {
+  const auto byNodes = [](const Vector& u) { return u.reshaped(3, u.size() / 3).transpose(); };
+  return (traces[0] * byNodes(uNonmortar) - traces[1] * byNodes(uMortar)).transpose();
+}
+
 }  // namespace mortier

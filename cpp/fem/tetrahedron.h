@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <Eigen/LU>
@@ -75,6 +76,23 @@ inline std::array<double, 6> faceShapes(int degree, double l1, double l2) {
   const double l0 = 1 - l1 - l2;
   if (degree == 1) return {l0, l1, l2, 0, 0, 0};
   return {l0 * (2 * l0 - 1), l1 * (2 * l1 - 1), l2 * (2 * l2 - 1), 4 * l0 * l1, 4 * l1 * l2, 4 * l2 * l0};
+}
+
+// With G = gradient / sqrt2, a displacement (x, y, z) of a node strains by
+//   k: (Gx x + Gy y - 2 Gz z)/sqrt3,  q: Gx x - Gy y,  r: Gy x + Gx y,
+//   13: Gz x + Gx z,  23: Gz y + Gy z,  h: sqrt(2/3) (Gx x + Gy y + Gz z).
+using NodeStrain = Eigen::Matrix<double, 6, 3>;
+inline NodeStrain strainOfNode(double gx, double gy, double gz) {
+  constexpr double third = std::numbers::inv_sqrt3;
+  constexpr double trace = std::numbers::sqrt2 * std::numbers::inv_sqrt3;
+  NodeStrain B;
+  B << third * gx, third * gy, -2 * third * gz,  //
+      gx, -gy, 0,                                //
+      gy, gx, 0,                                 //
+      gz, 0, gx,                                 //
+      0, gz, gy,                                 //
+      trace * gx, trace * gy, trace * gz;
+  return B;
 }
 
 /// A point of a rule on the unit triangle or tetrahedron, the weights adding up to its size.
