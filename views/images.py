@@ -51,6 +51,13 @@ def gif(frames):
     return out.getvalue()
 
 
+def laid_out(figure):
+    """Lays a figure out, once for all formats. Returns the box [inch] that its pictures show."""
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    return figure.get_tightbbox().padded(0.08)
+
+
 def picture(figure, kind, **options):
     """The bytes of a figure."""
     data = io.BytesIO()
