@@ -52,9 +52,10 @@ def main():
                    "figure-2-interpolation": pictures.fields(views[1:], **style),
                    "figure-3-contact-line": curves.contact(views, EXACT)}
         for name, figure in figures.items():
+            box = images.laid_out(figure)
             for kind in ("png", "svg"):
                 path = arguments.out / f"{name}.{kind}"
-                path.write_bytes(images.picture(figure, kind))
+                path.write_bytes(images.picture(figure, kind, bbox_inches=box))
                 print(path)
         if arguments.overview:
             arguments.overview.write_bytes(images.small(images.picture(pictures.fields(views, **style), "png",

@@ -108,8 +108,10 @@ def plot(given):
                                     f"{'no contact' if name == 'contact' else 'fewer than two steps'} in "
                                     "this run")
                 continue
+            box = images.laid_out(figure)
             for kind in (single,) if single else ("png", "svg"):
-                made[folder if single else folder / f"{name}.{kind}"] = images.picture(figure, kind)
+                made[folder if single else folder / f"{name}.{kind}"] = images.picture(figure, kind,
+                                                                                       bbox_inches=box)
             pictures.plt.close(figure)
     files.put(made)
     for path in made:

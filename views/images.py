@@ -1,4 +1,5 @@
 """Figures as files: PNG, SVG, and the steps of a run as a GIF."""
+import contextlib
 import io
 import warnings
 
@@ -51,13 +52,28 @@ def gif(frames):
     return out.getvalue()
 
 
+@contextlib.contextmanager
+def boxes_for_unknown_letters():
+    """Of which matplotlib would warn."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        yield
+
+
+def laid_out(figure):
+    """Lays a figure out, once for all formats. Returns the box [inch] that its pictures show."""
+    with boxes_for_unknown_letters():
+        figure.draw_without_rendering()
+        figure.set_layout_engine("none")
+        return figure.get_tightbbox().padded(0.08)
+
+
 def picture(figure, kind, **options):
     """The bytes of a figure."""
     data = io.BytesIO()
     options = {"bbox_inches": "tight", "pad_inches": 0.08, **options,
                "metadata": {"Date": None} if kind == "svg" else {"Software": "mortier plot"}}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # letters that the font does not have are boxes
+    with boxes_for_unknown_letters():
         figure.savefig(data, format=kind, **options)
     return data.getvalue()
 

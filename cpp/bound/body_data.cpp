@@ -1,12 +1,12 @@
 #include "bound/body_data.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "base/datum.h"
+#include "base/dense_templates.h"
 #include "bound/loaded_body.h"
 #include "bound/triangle_datum.h"
 #include "material/stress.h"
@@ -162,7 +162,7 @@ class Reading {
     if (!(off.norm() > 1e-13 * mean.norm())) return;
     isBeyond(ofBody("the body force") + " is not constant on triangles");
     const CompositeTriangle element(x, place_.compliances[t]);
-    Eigen::Matrix<double, 6, 4> fields;
+    Matrix fields(6, 4);
     std::array<Point, 3> along;
     for (int k = 0; k < 4; ++k) {
       Eigen::Matrix<double, 2, 3> at = element.turningForce() * area;
@@ -177,7 +177,7 @@ class Reading {
       fields.col(k) = Eigen::Map<const Eigen::Matrix<double, 6, 1>>(at.data());
     }
     const Eigen::Map<const Eigen::Matrix<double, 6, 1>> wanted(off.data());
-    const Eigen::Vector4d c = fields.colPivHouseholderQr().solve(-wanted);
+    const Vector c = fields.colPivHouseholderQr().solve(Vector(-wanted));
     data_.forces[t][2] = -area * c[3];
     data_.carried[t] += area * std::abs(c[3]) * element.restNorm();
     data_.meanCarried[t] -= area * c[3] * element.restMean();

@@ -116,7 +116,7 @@ CompositeReference::CompositeReference() : mass(massMatrix()) {
   stresses = all;
   Vector turning = Vector::Zero(18);  // twice the area of a part is 1/3
   for (int e = 0; e < 3; ++e) turning.segment<2>(12 + 2 * e) = -turningForce(e) / 3;
-  turn = Matrix(conditions.bottomRows<18>()).completeOrthogonalDecomposition().solve(turning);
+  turn = Vector(Matrix(conditions.bottomRows<18>()).completeOrthogonalDecomposition().solve(turning));
   turnMoments = conditions.topRows<12>() * turn;
   double couple = 0;
   for (const Point& x : referenceCorners) couple += (x - centre).squaredNorm() / 24;

@@ -95,6 +95,7 @@ class Restart(InFolder):
                 seen.add(checkpoint.stat().st_mtime_ns)
             except (AttributeError, FileNotFoundError):
                 checkpoint = checkpoint or next(self.folder.glob("out/*.tmp-*/checkpoint"), None)
+            time.sleep(1e-4)  # shorter than a step; the run needs the processor
         time.sleep(pause)
         process.send_signal(by)
         process.wait(timeout=60)
