@@ -256,8 +256,8 @@ std::optional<std::array<double, 2>> movedTo(const LintInput& input, const SideD
   return range;
 }
 
-/// Whether supports slide bodies that touch along each other by more than contact sees. What they move both
-/// bodies by at least is taken as a rigid motion of the nonmortar one.
+/// Whether supports slide bodies that touch along each other by more than contact sees. Their motion is taken
+/// as a rigid one of the nonmortar body.
 void checkSliding(const LintInput& input, const ContactDescription& contact, const Side& one, const Side& two,
                   const ContactInterface& interface, Faults& faults) {
   constexpr double touching = 1e-9;
@@ -267,15 +267,7 @@ void checkSliding(const LintInput& input, const ContactDescription& contact, con
   const Vector still = Vector::Zero(interface.C2().cols());
   Sliding worst;
   for (const double t : trialTimes(input.scene.time)) {
-    Point by(0, 0);
-    for (const int axis : {0, 1}) {
-      const auto first = movedTo(input, contact.nonmortar, axis, t);
-      const auto second = movedTo(input, contact.mortar, axis, t);
-      if (!first || !second) continue;
-      const double least = (*first)[0] - (*second)[1];
-      const double most = (*first)[1] - (*second)[0];
-      by[axis] = least > 0 ? least : std::min(most, 0.0);
-    }
+    const Point by = supportedMotion(input, contact, t);
     if (by.isZero(0)) continue;
     const Vector u = by.replicate(interface.C1().cols() / 2, 1);
     Vector gap = interface.jump(u, still);
@@ -295,6 +287,19 @@ void checkSliding(const LintInput& input, const ContactDescription& contact, con
 }
 
 }  // namespace
+
+Point supportedMotion(const LintInput& input, const ContactDescription& contact, double t) {
+  Point by(0, 0);
+  for (const int axis : {0, 1}) {
+    const auto first = movedTo(input, contact.nonmortar, axis, t);
+    const auto second = movedTo(input, contact.mortar, axis, t);
+    if (!first || !second) continue;
+    const double least = (*first)[0] - (*second)[1];
+    const double most = (*first)[1] - (*second)[0];
+    by[axis] = least > 0 ? least : std::min(most, 0.0);
+  }
+  return by;
+}
 
 void lintContacts(const LintInput& input, Faults& faults) {
   const auto isTool = [&](const ContactDescription& contact) {
@@ -325,6 +330,7 @@ void lintContacts(const LintInput& input, Faults& faults) {
                      std::min(extent(*one.mesh), extent(*two.mesh)), input.scene.units.length, faults);
       checkConditions(input, contact, interface, faults);
       if (contact.sliding != SlidingKind::finite) checkSliding(input, contact, one, two, interface, faults);
+      lintApproach(input, contact, interface, faults);
     } catch (const InputError& error) {
       diagnose(input, contact, one, two, error.what(), faults);
     }

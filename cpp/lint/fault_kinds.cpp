@@ -106,6 +106,10 @@ const std::vector<FaultKind>& faultKinds() {
       {"contact-slides", warning, "supports slide bodies along each other by more than contact sees",
        "draw the bodies where they are to touch: slips are taken as small here, and a run ends where a node "
        "passes the end of the line that it touches (contact.sliding)"},
+      {"large-strain", warning, "supports strain bodies by more than 5 %",
+       "strains are taken as small here: results are off by about as much as they reach"},
+      {"large-rotation", warning, "supports turn bodies by more than 5 degrees",
+       "rotations are taken as small here, but for those of tools beside contact.sliding = \"finite\""},
       {"free-rotation", warning, "nothing holds a roller against turning about its centre",
        "hold a point of it (body.point), or give its contact friction; loads that turn it are not balanced"},
       {"contact-side-twice", warning, "a label is a side of two contacts",

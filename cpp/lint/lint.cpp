@@ -85,6 +85,7 @@ void runChecks(const LintInput& input, Faults& faults) {
   lintLabels(input, faults);
   lintBodies(input, faults);
   lintContacts(input, faults);
+  lintDeformations(input, faults);
   lintMaterials(input, faults);
   lintLoads(input, faults);
   lintTime(input, faults);

@@ -81,6 +81,7 @@ std::string followSliding(const Model& model, const State& state, const TimePlan
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     if (const ContactInterface& interface = model.interfaces[k]; interface.follows()) {
       for (const int b : {interface.pair().nonmortar.body, interface.pair().mortar.body}) {
+        if (model.bodies[b].rigid()) continue;
         const Deformation most = deformationOf(model.bodies[b], state.bodies[b].displacement);
         run.peaks.strain.raise(most.strain, state.time);
         run.peaks.rotation.raise(most.rotation, state.time);
