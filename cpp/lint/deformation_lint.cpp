@@ -12,8 +12,6 @@
 namespace mortier {
 namespace {
 
-using Kind = ConditionDescription::Kind;
-
 /// The first condition that shows the most.
 struct Most {
   double value = 0;
@@ -42,7 +40,7 @@ using HeldMotions = std::map<int, HeldMotion>;  ///< by vertices
 std::array<HeldMotions, 2> heldMotions(const BodyDescription& body, const TriangleMesh& mesh, double t) {
   std::array<HeldMotions, 2> motions;
   for (const ConditionDescription& c : body.conditions) {
-    if (c.kind != Kind::displacement || c.onAxis) continue;
+    if (c.kind != ConditionDescription::Kind::displacement || c.onAxis) continue;
     const auto hold = [&](int vertex, int axis) {
       const Point& x = mesh.vertices[vertex];
       motions[axis][vertex] = {c.value.value(x.x(), x.y(), t), &c};
@@ -81,7 +79,8 @@ void raiseStrain(const HeldMotions& held, const TriangleMesh& mesh, int axis, Mo
 void raiseTurn(const BodyDescription& body, const std::array<HeldMotions, 2>& held, const TriangleMesh& mesh,
                Most& most) {
   for (const ConditionDescription& c : body.conditions) {
-    if (c.kind != Kind::displacement || c.point || c.onAxis || c.component > 1) continue;
+    if (c.kind != ConditionDescription::Kind::displacement || c.point || c.onAxis || c.component > 1)
+      continue;
     const HeldMotions& motions = held[c.component];
     for (const auto& [a, b] : edgesOn(mesh, c.label)) {
       const Point along = mesh.vertices[b] - mesh.vertices[a];
@@ -167,7 +166,8 @@ void lintDeformations(const LintInput& input, Faults& faults) {
     for (const double t : someTimes(input.scene.time)) {
       if (body.isTool()) {
         for (const ConditionDescription& c : body.conditions)
-          if (c.kind == Kind::displacement && c.component == 2 && turnsLinearly(input, body))
+          if (c.kind == ConditionDescription::Kind::displacement && c.component == 2 &&
+              turnsLinearly(input, body))
             turn.raise(std::abs(c.value.value(0, 0, t)), c.where);
         continue;
       }
