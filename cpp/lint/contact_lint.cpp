@@ -219,14 +219,15 @@ void checkInterface(const ContactDescription& contact, const Side& one, const Si
   constexpr double tiny = 0.25;
   constexpr double large = 0.5;
   const double gap = interface.initialDistance().minCoeff();
-  if (interface.overlap() < tiny)
+  const bool comes = contact.sliding == SlidingKind::finite;  // bodies may come to face each other
+  if (interface.overlap() < tiny && !comes)
     faults.add("contact-overlap", contact.where,
                name(one) + " and " + name(two) + " face each other over " +
                    shortest(std::round(1000 * interface.overlap()) / 1000) + " of the shorter one");
   if (const std::string doubt = doubtOfPolygons(interface, length);
       !doubt.empty() && !contact.gap && contact.initial != InitialGap::close)
     faults.add("contact-polygon", contact.where, doubt);
-  if (gap > large * smallerExtent)
+  if (gap > large * smallerExtent && !comes)
     faults.add("gap-large", contact.where,
                "the bodies are at least " + digits(gap, 4) + " " + length + " apart, the smaller one is " +
                    digits(smallerExtent, 4) + " " + length + " wide");
