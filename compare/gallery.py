@@ -205,7 +205,7 @@ GALLERY = [
     Entry("wedge", [Number("driving over spreading force, over tan(alpha + phi)", wedge_force, 1, 1e-9,
                            "all nodes slip")], 1, balance=1e-9),
     Entry("press-fit", [Number("pressure in the middle over Lame's", press_fit_pressure, 1, 2e-2,
-                               "friction along the ring, and its ends")], 10, balance=1e-9),
+                               "friction along the ring, and its ends")], 1, balance=1e-9),
     Entry("receding", [Number("half-width of contact", lambda run: end_of_contact(run, 1), 1.324165, 1e-2,
                               "the mesh: an element at the end of contact is 0.08"),
                        Number("p(0)/P", receding_pressure, 0.713081, 1e-2,

@@ -93,15 +93,13 @@ void raiseTurn(const BodyDescription& body, const std::array<HeldMotions, 2>& he
 
 void addStrain(const Most& strain, const std::string& subject, Faults& faults) {
   if (strain.value > smallStrain)
-    faults.add("large-strain", strain.where,
-               subject + " by " + digits(100 * strain.value, 2) + " % or more: strains are taken as small");
+    faults.add("large-strain", strain.where, subject + " by " + digits(100 * strain.value, 2) + " % or more");
 }
 
 void addRotation(const Most& turn, const std::string& subject, Faults& faults) {
   if (turn.value > smallRotation)
-    faults.add(
-        "large-rotation", turn.where,
-        subject + " by " + digits(turn.value * 180 / M_PI, 2) + " degrees: rotations are taken as small");
+    faults.add("large-rotation", turn.where,
+               subject + " by " + digits(turn.value * 180 / M_PI, 2) + " degrees");
 }
 
 /// Contact follows a tool that turns by finite angles.

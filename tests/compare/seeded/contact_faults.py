@@ -166,6 +166,6 @@ def _(case):
 
 
 # A side that is turned by six degrees.
-@fault("large-rotation", "label = 3", ELASTIC)
+@fault("large-rotation", 'uy = "0.11', ELASTIC)
 def _(case):
     case.replace("label = 3\nty = -10", 'label = 3\nuy = "0.11*x*t-0.05*t"')
