@@ -176,6 +176,23 @@ class TurningTools(support.InFolder):
         for name in ("history.csv", "contact.csv", "tool_000060.vtu", "block_000060.vtu"):
             self.assertEqual(*((self.folder / out / name).read_bytes() for out in ("whole", "killed")), name)
 
+    def test_check_names_what_is_not_small(self):
+        for motion, sliding, kinds in (('rotation = "0.1*t"\n', "refuse", ["large-rotation"]),
+                                       ('rotation = "0.1*t"\n', "finite", []),
+                                       ('rotation = "0.08*t"\n', "refuse", []),
+                                       ('uy = "-0.06*t"\n', "finite", ["large-strain"]),
+                                       ('uy = "-0.04*t"\n', "finite", [])):
+            with self.subTest(motion=motion, sliding=sliding):
+                self.write(self.block() + DISC + motion + CONTACT.replace("finite", sliding) + timed(1))
+                done = self.mortier("check", "scene.toml", "--json")
+                self.assertEqual([fault["id"] for fault in json.loads(done.stdout)["faults"]], kinds)
+
+    def test_a_beam_that_a_tool_bends_is_not_strained_by_its_way(self):
+        """A tip that moves by more than 5 % of the height of a beam."""
+        beam = self.block(0, 10, 100).replace("label = 1, ux = 0", "label = 4, ux = 0")
+        self.write(beam + DISC.replace("[0, 2]", "[9, 2]") + 'uy = "-0.2*t"\n' + CONTACT + timed(1))
+        self.assertEqual(json.loads(self.mortier("check", "scene.toml", "--json").stdout)["faults"], [])
+
     def test_all_contacts_of_it_follow_or_none(self):
         other = BLOCK.replace("block", "other").replace("LEFT", "2")
         other = other.replace("RIGHT", "3").replace("CELLS", "4")
