@@ -199,9 +199,9 @@ GALLERY = [
                           "the mesh: 8 elements")], 1, ((0, 4), (-3, 1))),
     Entry("ironing", [Number("middle of the contact pressure over the way of the cylinder", ironed_place,
                              1, 1e-2, "a third of an edge")], 1, ((2, 7.5), (-2, 2)), balance=1e-9),
-    Entry("roller", [Number("angle by which it turns over way / radius", lambda run:
-                            quantity(run, "turned") / -1.5, 1, 1e-2, "the block is strained where it presses")],
-          1, ((-1, 5), (-1, 2)), balance=1e-9),
+    Entry("roller", [Number("angle by which it turns over way / radius",
+                            lambda run: quantity(run, "turned") / -1.5, 1, 1e-2,
+                            "the block is strained where it presses")], 1, ((-1, 5), (-1, 2)), balance=1e-9),
     Entry("wedge", [Number("driving over spreading force, over tan(alpha + phi)", wedge_force, 1, 1e-9,
                            "all nodes slip")], 1, balance=1e-9),
     Entry("press-fit", [Number("pressure in the middle over Lame's", press_fit_pressure, 1, 2e-2,

@@ -72,8 +72,8 @@ Vector Body::moved(const Vector& displacement) const {
   return u;
 }
 
-// The reference point moves as node A less the angle times its arm, and the angle is the difference of A and B
-// across their distance: what acts on the nodes becomes forces at A and B with the same resultant and moment.
+// The reference point moves as node A less the angle times its arm, and the angle is the difference of A and
+// B across their distance: what acts on the nodes becomes forces at A and B of the same resultant and moment.
 Eigen::SparseMatrix<double> Body::changeOfMoved(const Vector& displacement,
                                                 const std::vector<int>& nodes) const {
   const std::vector<Point>& x = nodes_.places;

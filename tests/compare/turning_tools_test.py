@@ -117,8 +117,8 @@ class TurningTools(support.InFolder):
         for degree in (1, 2):
             for variant in ("mortar", "weighted", "coarsened"):
                 with self.subTest(degree=degree, variant=variant):
-                    self.solve(f"degree = {degree}\n" + inclined(INCLINED, [5, 4]) + PLATE + motion
-                               + ON_PLATE                                + timed(8), f"contact.variant={variant}")
+                    self.solve(f"degree = {degree}\n" + inclined(INCLINED, [5, 4]) + PLATE + motion + ON_PLATE
+                               + timed(8), f"contact.variant={variant}")
                     folder = self.folder / "out"
                     run = results.mortier_run(folder, json.loads(self.read("out/summary.json")),
                                               results.contact_tables(folder),
