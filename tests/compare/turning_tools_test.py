@@ -186,6 +186,9 @@ class TurningTools(support.InFolder):
                 self.write(self.block() + DISC + motion + CONTACT.replace("finite", sliding) + timed(1))
                 done = self.mortier("check", "scene.toml", "--json")
                 self.assertEqual([fault["id"] for fault in json.loads(done.stdout)["faults"]], kinds)
+                slips = " and slips" if sliding == "refuse" else ""
+                left_out = f"inertia, friction, finite strains{slips} ("
+                self.assertIn(left_out, self.mortier("check", "scene.toml").stdout)
 
     def test_a_beam_that_a_tool_bends_is_not_strained_by_its_way(self):
         """A tip that moves by more than 5 % of the height of a beam."""
