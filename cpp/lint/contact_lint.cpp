@@ -257,6 +257,20 @@ std::optional<std::array<double, 2>> movedTo(const LintInput& input, const SideD
   return range;
 }
 
+/// What the prescribed rotation of a tool moves its vertices by at a time; zero of a body (dofs) [m].
+Vector turnOf(const LintInput& input, const SideDescription& side, double t) {
+  const auto b = static_cast<size_t>(bodyIndex(input.scene, side.body));
+  const BodyDescription& body = input.scene.bodies[b];
+  const std::vector<Point>& x = input.meshes[b]->vertices;
+  Vector u = Vector::Zero(2 * static_cast<Eigen::Index>(x.size()));
+  for (const ConditionDescription& c : body.conditions)
+    if (body.isTool() && c.component == 2 && c.kind == ConditionDescription::Kind::displacement)
+      for (size_t v = 0; v < x.size(); ++v)
+        u.segment<2>(2 * static_cast<Eigen::Index>(v)) =
+            c.value.value(0, 0, t) * turned(Point(x[v] - *body.reference));
+  return u;
+}
+
 /// Whether supports slide bodies that touch along each other by more than contact sees. Their motion is taken
 /// as a rigid one of the nonmortar body.
 void checkSliding(const LintInput& input, const ContactDescription& contact, const Side& one, const Side& two,
@@ -265,16 +279,16 @@ void checkSliding(const LintInput& input, const ContactDescription& contact, con
   constexpr double noticeable = 0.5;  // as the log says it
   const ElementNodes nodes1 = elementNodes(*one.mesh, 1);
   const ElementNodes nodes2 = elementNodes(*two.mesh, 1);
-  const Vector still = Vector::Zero(interface.C2().cols());
   Sliding worst;
   for (const double t : trialTimes(input.scene.time)) {
     const Point by = supportedMotion(input, contact, t);
-    if (by.isZero(0)) continue;
+    const Vector turns = turnOf(input, contact.mortar, t);
+    if (by.isZero(0) && turns.isZero(0)) continue;
     const Vector u = by.replicate(interface.C1().cols() / 2, 1);
-    Vector gap = interface.jump(u, still);
+    Vector gap = interface.jump(u, turns);
     if (contact.initial != InitialGap::close) gap -= interface.initialDistance();
     const Vector pressed = (gap.array() >= -touching * one.length).cast<double>();
-    const Sliding here = slidingOf(interface, {*one.mesh, nodes1}, {*two.mesh, nodes2}, u, still, pressed);
+    const Sliding here = slidingOf(interface, {*one.mesh, nodes1}, {*two.mesh, nodes2}, u, turns, pressed);
     if (here.edges > worst.edges) worst = here;
   }
   const bool past = worst.past >= 0 && contact.sliding == SlidingKind::refuse;
