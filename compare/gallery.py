@@ -137,6 +137,23 @@ def ironed_place(run):
     return np.average(run.contact.position[:, 0], weights=run.contact.force) / 4.7
 
 
+def quantity(run, name):
+    return run.summary["quantities"][name]["value"]
+
+
+def wedge_force(run):
+    """Driving force over spreading force, over that of a wedge that slides."""
+    ratio = -quantity(run, "drive") / quantity(run, "spread")
+    return abs(ratio) / np.tan(np.arctan(0.2) + np.arctan(0.2))
+
+
+def press_fit_pressure(run):
+    """In the middle of the ring, over Lame's."""
+    x, p = run.contact.position[:, 1], run.contact.pressure
+    order = np.argsort(x)
+    return np.interp(-1, x[order], p[order]) / (1000 * 0.005 / (5 / 3 + 0.3))
+
+
 def creep_rate(run):
     """Radial velocity on the inner circle in the second half of the run."""
     liner = run.bodies["liner"]
@@ -182,6 +199,13 @@ GALLERY = [
                           "the mesh: 8 elements")], 1, ((0, 4), (-3, 1))),
     Entry("ironing", [Number("middle of the contact pressure over the way of the cylinder", ironed_place,
                              1, 1e-2, "a third of an edge")], 1, ((2, 7.5), (-2, 2)), balance=1e-9),
+    Entry("roller", [Number("angle by which it turns over way / radius",
+                            lambda run: quantity(run, "turned") / -1.5, 1, 1e-2,
+                            "the block is strained where it presses")], 1, ((-1, 5), (-1, 2)), balance=1e-9),
+    Entry("wedge", [Number("driving over spreading force, over tan(alpha + phi)", wedge_force, 1, 1e-9,
+                           "all nodes slip")], 1, balance=1e-9),
+    Entry("press-fit", [Number("pressure in the middle over Lame's", press_fit_pressure, 1, 2e-2,
+                               "friction along the ring, and its ends")], 1, balance=1e-9),
     Entry("receding", [Number("half-width of contact", lambda run: end_of_contact(run, 1), 1.324165, 1e-2,
                               "the mesh: an element at the end of contact is 0.08"),
                        Number("p(0)/P", receding_pressure, 0.713081, 1e-2,

@@ -100,7 +100,9 @@ void bindFields(py::module_& module) {
     return column(of.of->model->bodies[b].mesh().regions, self);
   });
   field("displacement", [](Step& of, size_t b, py::handle self) {
-    const Vector& u = of.state.bodies[b].displacement;
+    of.moved.resize(of.state.bodies.size());
+    Vector& u = of.moved[b];
+    if (u.size() == 0) u = of.of->model->bodies[b].moved(of.state.bodies[b].displacement);
     return view(u.data(), {u.size() / 2, 2}, self);
   });
   field("stress", [](Step& of, size_t b, py::handle self) { return rowsOf(cellsOf(of, b).stress, self); });

@@ -24,6 +24,7 @@ struct Step {
   std::vector<HistoryValue> row;  ///< of the history
   State state;
 
+  std::vector<Vector> moved = {};                          ///< nodes, by bodies and dofs
   std::vector<std::optional<CellFields>> cells = {};       ///< by bodies
   std::vector<std::optional<ContactFields>> contact = {};  ///< by interfaces
   std::vector<Vector> errors = {};                         ///< by bodies and triangles

@@ -128,6 +128,7 @@ void Run::march(const std::shared_ptr<Attempt>& attempt, const Observer& alsoObs
     if (alsoObserve) alsoObserve(state, report);
     if (observe_) observe_(attempt, state, report);
     if (hasRow(report)) rows_.step(report);
+    rows_.print(logDeformation(memory.run.peaks, now.facts.units, keptMemory.run.peaks));
     last = report;
     if (flow) {
       flow->add(state, report);

@@ -88,13 +88,14 @@ void ContactInterface::drawLines(const BoundaryLine& nonmortar, const BoundaryLi
   lines_ = std::move(lines);
 }
 
-void ContactInterface::follow(const Vector& u1, const Vector& u2, bool keepRows) {
+void ContactInterface::follow(const Vector& u1, const Vector& u2, bool keepRows, const MortarMotion* motion) {
   const Lines& lines = *lines_;
+  const Vector& moved2 = motion != nullptr ? motion->moved : u2;
   // Contact acts along the normal of the stiffer body, which hardly bends.
   const double weight = lines.stiffness < 1 ? 1 : 0;
   std::vector<SmoothPart> across;
   for (const auto& part : lines.mortarParts) {
-    across.push_back(movedTo(part, u2, axisymmetric_));
+    across.push_back(movedTo(part, moved2, axisymmetric_));
     across.back().curvatures.assign(part->points.size(), 1 - weight);
   }
   const MortarLine mortar(across, lines.mortar.closed);
@@ -112,7 +113,7 @@ void ContactInterface::follow(const Vector& u1, const Vector& u2, bool keepRows)
   overlap_ = 0;
   for (size_t k = 0; k < lines.nonmortarParts.size(); ++k) {
     const std::map<int, int>& rowOf = lines.rowOf[k];
-    SmoothPart part = movedTo(turns ? lines.begun(u1, u2) : lines.nonmortarParts[k], u1, axisymmetric_);
+    SmoothPart part = movedTo(turns ? lines.begun(u1, moved2) : lines.nonmortarParts[k], u1, axisymmetric_);
     part.curvatures.assign(part.points.size(), weight);  // directionOf() takes it from these
     const FacingLine facing = facingLine(part, mortar);
     for (int node = 0; node < part.traceNodes(); ++node)
@@ -142,6 +143,10 @@ void ContactInterface::follow(const Vector& u1, const Vector& u2, bool keepRows)
   for (int row = 0; row < n; ++row)  // no force has a pressure there
     if (faces_[row] == 0) entries.mass.emplace_back(row, row, 1);
   setRows(entries);
+  if (motion != nullptr) {
+    C2_ = ConstraintRows(C2_ * motion->change);
+    if (hasFriction()) T2_ = ConstraintRows(T2_ * motion->change);
+  }
   distance_ = distanceHere_ + jump(u1, u2);
   penetration_.setMoved(u1, u2);
 }

@@ -93,6 +93,12 @@ struct SpaceInterfaceOptions {
   std::function<bool(int, const SpacePoint&)> mortarHeld = {};
 };
 
+/// A mortar body whose nodes are not moved by its displacements u, but by a function of them.
+struct MortarMotion {
+  Vector moved;                        ///< by dofs, at u_k [m]
+  Eigen::SparseMatrix<double> change;  ///< its derivative there; the rows of the mortar line
+};
+
 class ContactInterface {
  public:
   /// Between two surfaces (space_interface.cpp). What is the line's in the plane is the surface's, lengths are
@@ -120,7 +126,8 @@ class ContactInterface {
   ///   g = C (u - u_k) - d(u_k).
   /// \param keepRows  only nodes that have a row now have one: at the ends of lines, and with `coarsened`,
   /// the set of rows is a discontinuous function of the displacements
-  void follow(const Vector& uNonmortar, const Vector& uMortar, bool keepRows = false);
+  void follow(const Vector& uNonmortar, const Vector& uMortar, bool keepRows = false,
+              const MortarMotion* mortar = nullptr);
   /// d(u_k), the distance of the bodies where rows have followed them; by rows [m]
   [[nodiscard]] const Vector& distanceHere() const { return distanceHere_; }
   /// Whether a row is not empty.

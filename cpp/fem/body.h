@@ -1,6 +1,7 @@
 // One deformable body: a mesh, a material, what holds it and what loads it. It knows nothing of contact.
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <array>
 #include <memory>
 #include <optional>
@@ -43,12 +44,14 @@ struct InitialStress {
 };
 
 /// What moves a body that does not strain: along x and y, and by an angle about a point, counterclockwise.
-/// Rotations are linear, u = theta x (x - at), as all displacements are: rows of contact keep their normals,
-/// so that a disc that turns about its centre stays where it is.
+/// Its displacements are those of linear theory, u = theta x (x - at): rows of contact keep their normals, so
+/// that a disc that turns about its centre stays where it is. Where contact follows it and it may turn, they
+/// stand for the three motions, and its nodes are where a rotation by theta takes them (Body::moved).
 struct RigidMotion {
   Point at;                    ///< [m]
   std::array<Datum, 3> held;   ///< [m], [m] and [rad], functions of time; empty where the motion is free
   std::array<Datum, 3> force;  ///< of free motions, along x and y [N/m] and the moment [N]; may be empty
+  bool turns = false;          ///< by finite angles
 };
 
 struct Conditions {
@@ -145,6 +148,14 @@ class Body {
   /// Resultants and moment about the reference point of nodal forces (dofs), of those components that are
   /// prescribed: the others are zero. \pre rigid()
   [[nodiscard]] Eigen::Vector3d heldForce(const Vector& nodal) const;
+
+  /// Whether it turns by finite angles.
+  [[nodiscard]] bool turns() const { return rigid() && conditions_.rigid->turns; }
+  /// By what its nodes are moved (dofs), where it turns; else by the displacement itself.
+  [[nodiscard]] Vector moved(const Vector& displacement) const;
+  /// d moved(u) / du for u that are rigid: dofs x dofs, the rows of some nodes, from two of these nodes.
+  [[nodiscard]] Eigen::SparseMatrix<double> changeOfMoved(const Vector& displacement,
+                                                          const std::vector<int>& nodes) const;
 
   /// Equation of each dof; -1 where that motion is prescribed.
   [[nodiscard]] const std::vector<int>& equations() const { return equations_; }

@@ -1,5 +1,8 @@
 // Bodies that do not strain.
+#include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 
 #include "fem/body.h"
 
@@ -56,6 +59,46 @@ Eigen::Vector3d Body::heldForce(const Vector& nodal) const {
   for (int c = 0; c < 3; ++c)
     if (!conditions_.rigid->held[c]) force[c] = 0;
   return force;
+}
+
+Vector Body::moved(const Vector& displacement) const {
+  if (!turns()) return displacement;
+  const Eigen::Vector3d motion = motionOf(displacement);
+  const double versine = 2 * std::pow(std::sin(motion[2] / 2), 2);
+  const Eigen::Matrix2d turn{{-versine, -std::sin(motion[2])}, {std::sin(motion[2]), -versine}};
+  Vector u(dofs());
+  for (int node = 0; node < nodes(); ++node)
+    u.segment<2>(2 * node) = motion.head<2>() + turn * (nodes_.places[node] - conditions_.rigid->at);
+  return u;
+}
+
+// The reference point moves as node A less the angle times its arm, and the angle is the difference of A and
+// B across their distance: what acts on the nodes becomes forces at A and B of the same resultant and moment.
+Eigen::SparseMatrix<double> Body::changeOfMoved(const Vector& displacement,
+                                                const std::vector<int>& nodes) const {
+  const std::vector<Point>& x = nodes_.places;
+  const int a = nodes.front();
+  const int b = *std::max_element(nodes.begin(), nodes.end(), [&](int one, int other) {
+    return (x[one] - x[a]).squaredNorm() < (x[other] - x[a]).squaredNorm();
+  });
+  const Point across = x[b] - x[a];
+  const Point angle = turned(across) / across.squaredNorm();
+  const Eigen::Vector3d motion = motionOf(displacement);
+  const Eigen::Matrix2d rotation = Eigen::Rotation2Dd(motion[2]).toRotationMatrix();
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](int node, int of, const Eigen::Matrix2d& by) {
+    for (const int row : {0, 1})
+      for (const int column : {0, 1}) entries.emplace_back(2 * node + row, 2 * of + column, by(row, column));
+  };
+  for (const int node : nodes) {
+    const Point arm = rotation * (x[node] - conditions_.rigid->at) - (x[a] - conditions_.rigid->at);
+    const Eigen::Matrix2d byAngle = turned(arm) * angle.transpose();
+    add(node, a, Eigen::Matrix2d::Identity() - byAngle);
+    add(node, b, byAngle);
+  }
+  Eigen::SparseMatrix<double> change(dofs(), dofs());
+  change.setFromTriplets(entries.begin(), entries.end());
+  return change;
 }
 
 }  // namespace mortier

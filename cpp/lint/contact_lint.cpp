@@ -219,14 +219,15 @@ void checkInterface(const ContactDescription& contact, const Side& one, const Si
   constexpr double tiny = 0.25;
   constexpr double large = 0.5;
   const double gap = interface.initialDistance().minCoeff();
-  if (interface.overlap() < tiny)
+  const bool comes = contact.sliding == SlidingKind::finite;  // bodies may come to face each other
+  if (interface.overlap() < tiny && !comes)
     faults.add("contact-overlap", contact.where,
                name(one) + " and " + name(two) + " face each other over " +
                    shortest(std::round(1000 * interface.overlap()) / 1000) + " of the shorter one");
   if (const std::string doubt = doubtOfPolygons(interface, length);
       !doubt.empty() && !contact.gap && contact.initial != InitialGap::close)
     faults.add("contact-polygon", contact.where, doubt);
-  if (gap > large * smallerExtent)
+  if (gap > large * smallerExtent && !comes)
     faults.add("gap-large", contact.where,
                "the bodies are at least " + digits(gap, 4) + " " + length + " apart, the smaller one is " +
                    digits(smallerExtent, 4) + " " + length + " wide");
@@ -256,32 +257,38 @@ std::optional<std::array<double, 2>> movedTo(const LintInput& input, const SideD
   return range;
 }
 
-/// Whether supports slide bodies that touch along each other by more than contact sees. What they move both
-/// bodies by at least is taken as a rigid motion of the nonmortar one.
+/// What the prescribed rotation of a tool moves its vertices by at a time; zero of a body (dofs) [m].
+Vector turnOf(const LintInput& input, const SideDescription& side, double t) {
+  const auto b = static_cast<size_t>(bodyIndex(input.scene, side.body));
+  const BodyDescription& body = input.scene.bodies[b];
+  const std::vector<Point>& x = input.meshes[b]->vertices;
+  Vector u = Vector::Zero(2 * static_cast<Eigen::Index>(x.size()));
+  for (const ConditionDescription& c : body.conditions)
+    if (body.isTool() && c.component == 2 && c.kind == ConditionDescription::Kind::displacement)
+      for (size_t v = 0; v < x.size(); ++v)
+        u.segment<2>(2 * static_cast<Eigen::Index>(v)) =
+            c.value.value(0, 0, t) * turned(Point(x[v] - *body.reference));
+  return u;
+}
+
+/// Whether supports slide bodies that touch along each other by more than contact sees. Their motion is taken
+/// as a rigid one of the nonmortar body.
 void checkSliding(const LintInput& input, const ContactDescription& contact, const Side& one, const Side& two,
                   const ContactInterface& interface, Faults& faults) {
   constexpr double touching = 1e-9;
   constexpr double noticeable = 0.5;  // as the log says it
   const ElementNodes nodes1 = elementNodes(*one.mesh, 1);
   const ElementNodes nodes2 = elementNodes(*two.mesh, 1);
-  const Vector still = Vector::Zero(interface.C2().cols());
   Sliding worst;
   for (const double t : trialTimes(input.scene.time)) {
-    Point by(0, 0);
-    for (const int axis : {0, 1}) {
-      const auto first = movedTo(input, contact.nonmortar, axis, t);
-      const auto second = movedTo(input, contact.mortar, axis, t);
-      if (!first || !second) continue;
-      const double least = (*first)[0] - (*second)[1];
-      const double most = (*first)[1] - (*second)[0];
-      by[axis] = least > 0 ? least : std::min(most, 0.0);
-    }
-    if (by.isZero(0)) continue;
+    const Point by = supportedMotion(input, contact, t);
+    const Vector turns = turnOf(input, contact.mortar, t);
+    if (by.isZero(0) && turns.isZero(0)) continue;
     const Vector u = by.replicate(interface.C1().cols() / 2, 1);
-    Vector gap = interface.jump(u, still);
+    Vector gap = interface.jump(u, turns);
     if (contact.initial != InitialGap::close) gap -= interface.initialDistance();
     const Vector pressed = (gap.array() >= -touching * one.length).cast<double>();
-    const Sliding here = slidingOf(interface, {*one.mesh, nodes1}, {*two.mesh, nodes2}, u, still, pressed);
+    const Sliding here = slidingOf(interface, {*one.mesh, nodes1}, {*two.mesh, nodes2}, u, turns, pressed);
     if (here.edges > worst.edges) worst = here;
   }
   const bool past = worst.past >= 0 && contact.sliding == SlidingKind::refuse;
@@ -295,6 +302,19 @@ void checkSliding(const LintInput& input, const ContactDescription& contact, con
 }
 
 }  // namespace
+
+Point supportedMotion(const LintInput& input, const ContactDescription& contact, double t) {
+  Point by(0, 0);
+  for (const int axis : {0, 1}) {
+    const auto first = movedTo(input, contact.nonmortar, axis, t);
+    const auto second = movedTo(input, contact.mortar, axis, t);
+    if (!first || !second) continue;
+    const double least = (*first)[0] - (*second)[1];
+    const double most = (*first)[1] - (*second)[0];
+    by[axis] = least > 0 ? least : std::min(most, 0.0);
+  }
+  return by;
+}
 
 void lintContacts(const LintInput& input, Faults& faults) {
   const auto isTool = [&](const ContactDescription& contact) {
@@ -325,6 +345,7 @@ void lintContacts(const LintInput& input, Faults& faults) {
                      std::min(extent(*one.mesh), extent(*two.mesh)), input.scene.units.length, faults);
       checkConditions(input, contact, interface, faults);
       if (contact.sliding != SlidingKind::finite) checkSliding(input, contact, one, two, interface, faults);
+      lintApproach(input, contact, interface, faults);
     } catch (const InputError& error) {
       diagnose(input, contact, one, two, error.what(), faults);
     }

@@ -106,6 +106,8 @@ const std::vector<FaultKind>& faultKinds() {
       {"contact-slides", warning, "supports slide bodies along each other by more than contact sees",
        "draw the bodies where they are to touch: slips are taken as small here, and a run ends where a node "
        "passes the end of the line that it touches (contact.sliding)"},
+      {"large-rotation", warning, "supports turn bodies by more than 5 degrees",
+       "rotations are taken as small here, but for those of tools beside contact.sliding = \"finite\""},
       {"free-rotation", warning, "nothing holds a roller against turning about its centre",
        "hold a point of it (body.point), or give its contact friction; loads that turn it are not balanced"},
       {"contact-side-twice", warning, "a label is a side of two contacts",
@@ -139,7 +141,7 @@ const std::vector<FaultKind>& faultKinds() {
       {"poisson-negative", warning, "Poisson's ratio is negative", "check its sign"},
       {"projection-unused", warning, "an elastic body has a projection",
        "add viscosity and yield_stress, or take the key out"},
-      {"large-strain", warning, "the loads would strain the body by several per cent",
+      {"large-strain", warning, "loads or supports strain a body by several per cent",
        "check the units of loads and young; strains are taken as small here"},
       {"yield-over-young", warning, "the yield stress is of the order of Young's modulus",
        "check the units of yield_stress and young"},

@@ -50,10 +50,18 @@ inline bool refinesMeshes(const SceneDescription& scene) {
   return scene.accuracy.asked() > 0;
 }
 
+/// By how much supports move the nonmortar body of a contact against the mortar one at a time, as far as they
+/// move all of both [m].
+Point supportedMotion(const LintInput& input, const ContactDescription& contact, double t);
+
 // What the linter looks for, one file each.
 void lintMeshes(const LintInput& input, Faults& faults);
 void lintLabels(const LintInput& input, Faults& faults);
 void lintContacts(const LintInput& input, Faults& faults);
+void lintDeformations(const LintInput& input, Faults& faults);
+/// The same of bodies that supports press into each other.
+void lintApproach(const LintInput& input, const ContactDescription& contact, ContactInterface interface,
+                  Faults& faults);
 void lintBodies(const LintInput& input, Faults& faults);
 void lintMaterials(const LintInput& input, Faults& faults);
 void lintLoads(const LintInput& input, Faults& faults);

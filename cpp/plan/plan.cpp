@@ -46,11 +46,11 @@ class Planner {
     if (scene_.plane == Plane::axisymmetric)
       add("scene", true, "bodies of revolution, forces and energies of whole rings",
           "plane = \"axisymmetric\": x is the distance from the axis, s33 the stress around it");
-    if (anyFriction(model_))
-      add("scene", false, "inertia, finite strains and slips", "quasistatic, small strains");
-    else
-      add("scene", false, "inertia, friction, finite strains and slips",
-          "quasistatic, small strains, frictionless");
+    const bool rough = anyFriction(model_);
+    add("scene", false,
+        std::string(rough ? "inertia" : "inertia, friction") +
+            (anyFollows(model_) ? ", finite strains" : ", finite strains and slips"),
+        rough ? "quasistatic, small strains" : "quasistatic, small strains, frictionless");
     return std::move(plan_);
   }
 

@@ -191,7 +191,7 @@ void Fields::write(const State& state, const std::vector<ErrorEstimate>& estimat
     VtuFile file(folder_ + "/" + name);
     file.open("Piece", "NumberOfPoints=\"" + std::to_string(nodes.count()) + "\" NumberOfCells=\"" +
                            std::to_string(body.mesh().triangles.size()) + "\"");
-    writePoints(file, nodes.places, state.bodies[b].displacement);
+    writePoints(file, nodes.places, body.moved(state.bodies[b].displacement));
     writeCells(file, nodes);
     writeCellData(file, body, state.bodies[b], estimates[b]);
     file.shut("Piece");

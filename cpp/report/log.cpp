@@ -122,6 +122,21 @@ std::string logRow(const StepReport& r) {
                    r.maxPressure, 100 * r.viscoplasticFraction, r.contactForce, remarks.c_str());
 }
 
+std::string logDeformation(const Peaks& peaks, const Units& units, const Peaks& before) {
+  std::string text;
+  const auto passes = [](const Peak& peak, const Peak& earlier, double most) {
+    return peak.value > most && !(earlier.value > most);
+  };
+  if (passes(peaks.strain, before.strain, smallStrain))
+    text += formatted("warning    strains reach %.2g %% at t = %.5g %s; they are taken as small here\n",
+                      100 * peaks.strain.value, peaks.strain.time, units.time.c_str());
+  if (passes(peaks.rotation, before.rotation, smallRotation))
+    text += formatted(
+        "warning    bodies turn by up to %.2g degrees at t = %.5g %s; rotations are taken as small here\n",
+        peaks.rotation.value * 180 / M_PI, peaks.rotation.time, units.time.c_str());
+  return text;
+}
+
 std::string logTrial(double error, double tolerance) {
   return formatted(
       "           error in time %.2g, tolerance %.2g: begun again with smaller errors of a step\n", error,
@@ -265,13 +280,7 @@ std::string logPeaks(const Peaks& peaks, const StepReport& last, const Units& un
         "small "
         "here\n",
         peaks.sliding.value, peaks.sliding.time, units.time.c_str());
-  if (peaks.strain.value > smallStrain)
-    text += formatted("warning    strains reach %.2g %% at t = %.5g %s; they are taken as small here\n",
-                      100 * peaks.strain.value, peaks.strain.time, units.time.c_str());
-  if (peaks.rotation.value > smallRotation)
-    text += formatted(
-        "warning    bodies turn by up to %.2g degrees at t = %.5g %s; rotations are taken as small here\n",
-        peaks.rotation.value * 180 / M_PI, peaks.rotation.time, units.time.c_str());
+  text += logDeformation(peaks, units);
   if (peaks.motion.value > 1 && peaks.strain.value == 0)
     text += formatted(
         "warning    displacements reach %.2g times the size of a body at t = %.5g %s; they are taken as "

@@ -16,6 +16,8 @@ std::string logRoundsHeader();
 std::string logRound(const std::vector<RoundFacts>& rounds);
 /// One step.
 std::string logRow(const StepReport& report);
+/// Strains and rotations that are not small, and that were small before.
+std::string logDeformation(const Peaks& peaks, const Units& units, const Peaks& before = {});
 /// That a run with steps chosen by their error is begun again.
 std::string logTrial(double error, double tolerance);
 /// How the run ended, where its result is, how well it holds (equations, estimates, bounds), the largest

@@ -102,7 +102,8 @@ Json finalState(const Model& model, const State& state, const StepReport& last) 
           mortier::vonMises(stress.col(i).head(model.bodies[b].material().tensorComponents()));
       vonMises = {std::min(vonMises[0], value), std::max(vonMises[1], value)};
     }
-    const Eigen::Map<const Matrix> u(state.bodies[b].displacement.data(), 2, model.bodies[b].nodes());
+    const Vector moved = model.bodies[b].moved(state.bodies[b].displacement);
+    const Eigen::Map<const Matrix> u(moved.data(), 2, model.bodies[b].nodes());
     least = least.cwiseMin(u.rowwise().minCoeff());
     largest = largest.cwiseMax(u.rowwise().maxCoeff());
   }

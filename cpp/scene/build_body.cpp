@@ -220,6 +220,10 @@ Body buildTool(const BodyDescription& tool, TriangleMesh mesh, const SceneDescri
     const bool held = c.kind == ConditionDescription::Kind::displacement;
     (held ? motion.held : motion.force)[c.component] = finiteValue(c.value);
   }
+  motion.turns =
+      tool.turns() && std::any_of(scene.contacts.begin(), scene.contacts.end(), [&](const auto& contact) {
+        return contact.mortar.body == tool.name && contact.sliding == SlidingKind::finite;
+      });
   Conditions conditions;
   conditions.rigid = std::move(motion);
   return {tool.name,    std::move(mesh), buildMaterial(tool.material, scene.plane, {}), std::move(conditions),

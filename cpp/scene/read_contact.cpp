@@ -90,14 +90,6 @@ void refuseBesideFinite(const TableReader& table, const SceneDescription& scene,
   refuse(scene.solver.method != Method::newton, "solver.method = penalty-duality");
   refuse(scene.accuracy.bound, "accuracy.bound");
   refuse(!scene.accuracy.quantity.empty(), "accuracy.quantity");
-  for (const BodyDescription& body : scene.bodies) {
-    if (!body.isTool() || body.name != contact.mortar.body) continue;
-    for (const ConditionDescription& c : body.conditions) {
-      const bool stands = c.kind == ConditionDescription::Kind::displacement && c.value.constant &&
-                          c.value.value(0, 0, 0) == 0;
-      refuse(c.component == 2 && !stands, "a tool that turns (" + body.name + ")");
-    }
-  }
 }
 
 }  // namespace

@@ -170,11 +170,20 @@ void readTools(const TableReader& root, SceneDescription& scene) {
 }
 
 void requireToolsTouch(const SceneDescription& scene) {
-  for (const BodyDescription& tool : scene.bodies)
-    if (tool.isTool() &&
-        std::none_of(scene.contacts.begin(), scene.contacts.end(),
-                     [&](const ContactDescription& c) { return c.mortar.body == tool.name; }))
-      throw InputError(tool.where + ": tool " + tool.name + ": in no contact, expected one with a body");
+  for (const BodyDescription& tool : scene.bodies) {
+    std::vector<const ContactDescription*> contacts;
+    for (const ContactDescription& contact : scene.contacts)
+      if (contact.mortar.body == tool.name) contacts.push_back(&contact);
+    const std::string subject = tool.where + ": tool " + tool.name + ": ";
+    if (tool.isTool() && contacts.empty())
+      throw InputError(subject + "in no contact, expected one with a body");
+    const auto follows = [](const ContactDescription* c) { return c->sliding == SlidingKind::finite; };
+    if (tool.turns() && !std::all_of(contacts.begin(), contacts.end(), follows) &&
+        std::any_of(contacts.begin(), contacts.end(), follows))
+      throw InputError(subject +
+                       "it turns, and only some of its contacts have sliding = \"finite\", expected "
+                       "all or none: rotations are finite or linear");
+  }
 }
 
 }  // namespace
@@ -234,6 +243,13 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   requireAboutAxis(root, scene);
   requireAim(scene);
   return scene;
+}
+
+bool BodyDescription::turns() const {
+  return isTool() && std::any_of(conditions.begin(), conditions.end(), [](const ConditionDescription& c) {
+           const bool held = c.kind == ConditionDescription::Kind::displacement && c.value.constant;
+           return c.component == 2 && !(held && c.value.value(0, 0, 0) == 0);
+         });
 }
 
 std::string nameOfPlace(const ConditionDescription& condition) {

@@ -115,6 +115,8 @@ struct BodyDescription {
   std::optional<Point> reference = {};
   std::string where;
 
+  /// Whether it is a tool that a datum may turn.
+  [[nodiscard]] bool turns() const;
   [[nodiscard]] bool isTool() const { return reference.has_value(); }
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace mortier {
 namespace {
@@ -29,9 +30,14 @@ bool anyFollows(const Model& model) {
 }
 
 void follow(const Model& model, const std::vector<Vector>& u, bool keepRows) {
-  for (ContactInterface& interface : model.interfaces)
-    if (interface.follows())
-      interface.follow(u[interface.pair().nonmortar.body], u[interface.pair().mortar.body], keepRows);
+  for (ContactInterface& interface : model.interfaces) {
+    if (!interface.follows()) continue;
+    const int b = interface.pair().mortar.body;
+    const Body& mortar = model.bodies[b];
+    std::optional<MortarMotion> motion;
+    if (mortar.turns()) motion = {mortar.moved(u[b]), mortar.changeOfMoved(u[b], interface.mortarNodes())};
+    interface.follow(u[interface.pair().nonmortar.body], u[b], keepRows, motion ? &*motion : nullptr);
+  }
 }
 
 bool anyDistanceMoves(const Model& model) {

@@ -79,7 +79,7 @@ double secondsSince(Clock::time_point begin) {
 void raiseDeformation(const Model& model, const State& state, Peaks& peaks) {
   for (const ContactInterface& interface : model.interfaces)
     for (const int b : {interface.pair().nonmortar.body, interface.pair().mortar.body}) {
-      if (!interface.follows()) continue;
+      if (!interface.follows() || model.bodies[b].rigid()) continue;
       const Deformation most = deformationOf(model.bodies[b], state.bodies[b].displacement);
       peaks.strain.raise(most.strain, state.time);
       peaks.rotation.raise(most.rotation, state.time);

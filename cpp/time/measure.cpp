@@ -89,7 +89,8 @@ void measure(const Model& model, const State& state, Threads& threads, StepRepor
       all.vonMises = std::max(all.vonMises, part.vonMises);
       all.energy += part.energy;
     }
-    const double largest = largestDisplacement(state.bodies[b].displacement, body.dimension(), threads);
+    const Vector& u = state.bodies[b].displacement;
+    const double largest = largestDisplacement(body.turns() ? body.moved(u) : u, body.dimension(), threads);
     report.displacement = std::max(report.displacement, largest);
     report.motion = std::max(report.motion, largest / body.extent());
   }

@@ -1,6 +1,7 @@
 // What is reported of a whole run.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -42,11 +43,11 @@ struct QuantityRange {
   }
 };
 
-/// Of what a StepReport says of the state at its end.
-/// Strains and rotations that are not small beyond these.
+/// Strains and rotations that the theory takes as small; what is beyond is told.
 constexpr double smallStrain = 0.05;
-constexpr double smallRotation = 0.0872664625997165;  ///< 5 degrees
+constexpr double smallRotation = 5 * M_PI / 180;
 
+/// Of what a StepReport says of the state at its end.
 struct Peaks {
   Peak vonMises, pressure, contactForce, displacement, motion, energy;
   Peak sliding;           ///< over the edges beside the node (contact/sliding.h)

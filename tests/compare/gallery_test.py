@@ -30,7 +30,8 @@ class Gallery(InFolder):
                  "receding": "body.half-plane.material.young=1.2", "open-close": "body.material.young=101",
                  "punch": "body.punch.material.young=1", "eccentric-punch": "body.punch.material.young=1",
                  "thick-cylinder": "plane=stress", "sphere": "body.block.material.young=60000",
-                 "ironing": "contact.sliding=allow",
+                 "ironing": "contact.sliding=allow", "roller": "contact.sliding=allow",
+                 "wedge": "contact.friction=0.1", "press-fit": "body.ring.material.young=1100",
                  "cone": "tool.cone.points=[[0, 0], [10, 1.1], [0, 1.1]]"}
         self.assertEqual(set(wrong), {entry.scene for entry in GALLERY})
         for entry in GALLERY:

@@ -206,6 +206,17 @@ def flow_rows():
               test="within")
 
 
+def sliding_rows():
+    times = (1.25, 1.5, 2)
+
+    def ratio(run):
+        return -course("drag", times)(run) / course("press", times)(run)
+    yield Row("Shallow ironing, a twentieth of the depth",
+              "Fischer, Wriggers 2006; Yang, Laursen, Meng 2005: tends to the coefficient",
+              "drag over press at three times, friction 0.3", "ironing.toml", (), ratio, None, (0.3, 0.3, 0.3),
+              0.03, each=True, test="within")
+
+
 ROWS = located(Path(__file__).parent, [
     *aster_contact_rows(), *kratos_rows(), *line_contact_rows(), *patch_rows(), *tube_rows(), *elastic_rows(),
-    *flow_rows()])
+    *flow_rows(), *sliding_rows()])

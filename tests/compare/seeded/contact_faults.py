@@ -157,3 +157,15 @@ def _(case):
     case.lower = Mesh(0, -1, 14000, 0, 14000, 1)
     case.replace("label = 3 }\n", "label = 3 }\nfriction = 0.3\n")
     case.limit = 4 << 30
+
+
+# Supports that press the blocks into each other, by an eighth of their heights.
+@fault("large-strain", "[contact]", ELASTIC)
+def _(case):
+    case.replace("label = 3\nty = -10", 'label = 3\nuy = "-0.25*t"')
+
+
+# A side that is turned by six degrees.
+@fault("large-rotation", 'uy = "0.11', ELASTIC)
+def _(case):
+    case.replace("label = 3\nty = -10", 'label = 3\nuy = "0.11*x*t-0.05*t"')
