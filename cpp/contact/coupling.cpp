@@ -229,7 +229,9 @@ Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mor
     };
     result.C1 += project(matrix(part, integrals.D));
     result.C2 = project(matrix(mortar, integrals.M));
-    result.distance = lifted(mass.solve(integrals.distance), distances, integrals.least);
+    // Between bodies that press each other the distance is not convex, and lifted it would not follow C u.
+    result.distance = mass.solve(integrals.distance);
+    if (!part.drawn) result.distance = lifted(result.distance, distances, integrals.least);
   } else {
     const Vector w = result.mass * Vector::Ones(n);
     const auto lumped = w.asDiagonal();
