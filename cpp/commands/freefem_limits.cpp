@@ -14,6 +14,14 @@ namespace {
   throw InputError(what + ", expected " + expected + " (all that the FreeFEM method knows)");
 }
 
+/// Whether contact follows the body.
+bool follows(const SceneDescription& scene, const BodyDescription& body) {
+  return std::any_of(scene.contacts.begin(), scene.contacts.end(), [&](const ContactDescription& contact) {
+    return contact.sliding == SlidingKind::finite &&
+           (contact.nonmortar.body == body.name || contact.mortar.body == body.name);
+  });
+}
+
 /// \throws InputError for the first thing in the scene that the FreeFEM method does not know.
 void requireKnown(const SceneDescription& scene, bool stepsGiven) {
   if (scene.contacts.empty()) refuse(scene.path + ": no contact interface", "one at least");
@@ -29,6 +37,10 @@ void requireKnown(const SceneDescription& scene, bool stepsGiven) {
       if (body.isTool() && c.kind == ConditionDescription::Kind::traction)
         refuse(c.where + ": tool " + body.name + ": a tool that a force or a moment moves",
                "prescribed displacements");
+      else if (body.isTool() && c.component == 2 && !(c.value.constant && c.value.value(0, 0, 0) == 0) &&
+               follows(scene, body))
+        refuse(c.where + ": tool " + body.name + ": a tool that turns beside sliding = \"finite\"",
+               "no rotation");
     const bool stressed = std::any_of(body.initialStress.begin(), body.initialStress.end(),
                                       [](const auto& component) { return component.has_value(); });
     if (stressed || !body.regions.empty()) {

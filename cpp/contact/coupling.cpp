@@ -180,6 +180,13 @@ Vector lifted(const Vector& projected, const Vector& atNodes, const Vector& leas
   return projected + (2 * (atNodes - projected)).cwiseMax(0).cwiseMin(by);
 }
 
+/// Whether these are lines that have moved and were straight.
+bool drawnStraight(const SmoothPart& part, const FacingLine& mortar) {
+  return part.drawn && part.drawn->straight &&
+         std::all_of(mortar.geometry.begin(), mortar.geometry.end(),
+                     [](const FacingElement& each) { return each.drawn && each.drawn->straight; });
+}
+
 }  // namespace
 
 Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mortar,
@@ -229,7 +236,9 @@ Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mor
     };
     result.C1 += project(matrix(part, integrals.D));
     result.C2 = project(matrix(mortar, integrals.M));
-    result.distance = lifted(mass.solve(integrals.distance), distances, integrals.least);
+    // Pressure bends straight lines: their distance is not convex, and lifted it would not follow C u.
+    result.distance = mass.solve(integrals.distance);
+    if (!drawnStraight(part, mortar)) result.distance = lifted(result.distance, distances, integrals.least);
   } else {
     const Vector w = result.mass * Vector::Ones(n);
     const auto lumped = w.asDiagonal();

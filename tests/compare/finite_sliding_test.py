@@ -4,6 +4,7 @@ import json
 import statistics
 import unittest
 
+import random_slides
 from support import InFolder, warned
 
 IRONING = """\
@@ -150,6 +151,13 @@ class FiniteSliding(InFolder):
                 done = json.loads(self.read("out/summary.json"))
                 self.assertGreater(done["final"]["contact_force"], 0)
                 self.assertTrue(done["accuracy"]["time_reached"])
+
+    # With distances that are lifted where bodies press each other the repetition contracts by 0.93 a time.
+    def test_mortar_settles(self):
+        for seed in (142, 187):
+            with self.subTest(seed):
+                self.write(random_slides.scene(seed))
+                self.mortier("run", "scene.toml", "--quiet", "--out", "out")
 
     # Friction at the lower edge is beyond what keeps a block of this height from tipping.
     def test_a_block_that_tips_is_named_by_its_rotation(self):
