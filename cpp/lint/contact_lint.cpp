@@ -236,27 +236,6 @@ void checkInterface(const ContactDescription& contact, const Side& one, const Si
                "interpolation on meshes that do not match has an error of order one along the contact line");
 }
 
-/// The displacement along an axis that supports give a body at a time, the least and the largest [m]; none
-/// where none does.
-std::optional<std::array<double, 2>> movedTo(const LintInput& input, const SideDescription& side, int axis,
-                                             double t) {
-  const auto body = static_cast<size_t>(bodyIndex(input.scene, side.body));
-  std::optional<std::array<double, 2>> range;
-  for (const ConditionDescription& c : input.scene.bodies[body].conditions) {
-    if (c.kind != ConditionDescription::Kind::displacement || c.component != axis || c.onAxis) continue;
-    std::vector<Point> points;
-    if (c.point) points.push_back(*c.point);
-    for (const int v : c.point ? std::vector<int>() : verticesOn(*input.meshes[body], c.label))
-      points.push_back(input.meshes[body]->vertices[v]);
-    for (const Point& x : points) {
-      const double u = c.value.value(x.x(), x.y(), t);
-      if (!range) range = {u, u};
-      range = {std::min((*range)[0], u), std::max((*range)[1], u)};
-    }
-  }
-  return range;
-}
-
 /// What the prescribed rotation of a tool moves its vertices by at a time; zero of a body (dofs) [m].
 Vector turnOf(const LintInput& input, const SideDescription& side, double t) {
   const auto b = static_cast<size_t>(bodyIndex(input.scene, side.body));
@@ -302,19 +281,6 @@ void checkSliding(const LintInput& input, const ContactDescription& contact, con
 }
 
 }  // namespace
-
-Point supportedMotion(const LintInput& input, const ContactDescription& contact, double t) {
-  Point by(0, 0);
-  for (const int axis : {0, 1}) {
-    const auto first = movedTo(input, contact.nonmortar, axis, t);
-    const auto second = movedTo(input, contact.mortar, axis, t);
-    if (!first || !second) continue;
-    const double least = (*first)[0] - (*second)[1];
-    const double most = (*first)[1] - (*second)[0];
-    by[axis] = least > 0 ? least : std::min(most, 0.0);
-  }
-  return by;
-}
 
 void lintContacts(const LintInput& input, Faults& faults) {
   const auto isTool = [&](const ContactDescription& contact) {

@@ -177,12 +177,13 @@ class TurningTools(support.InFolder):
             self.assertEqual(*((self.folder / out / name).read_bytes() for out in ("whole", "killed")), name)
 
     def test_check_names_what_is_not_small(self):
-        for motion, sliding, kinds in (('rotation = "0.1*t"\n', "refuse", ["contact-slides", "large-rotation"]),
-                                       ('rotation = "0.1*t"\n', "finite", []),
-                                       ('rotation = "0.08*t"\n', "refuse", ["contact-slides"]),
-                                       ('rotation = "0.01*t"\n', "refuse", []),
-                                       ('uy = "-0.06*t"\n', "finite", ["large-strain"]),
-                                       ('uy = "-0.04*t"\n', "finite", [])):
+        for motion, sliding, kinds in (
+                ('rotation = "0.1*t"\n', "refuse", ["contact-slides", "large-rotation"]),
+                ('rotation = "0.1*t"\n', "finite", []),
+                ('rotation = "0.08*t"\n', "refuse", ["contact-slides"]),
+                ('rotation = "0.01*t"\n', "refuse", []),
+                ('uy = "-0.06*t"\n', "finite", ["large-strain"]),
+                ('uy = "-0.04*t"\n', "finite", [])):
             with self.subTest(motion=motion, sliding=sliding):
                 self.write(self.block() + DISC + motion + CONTACT.replace("finite", sliding) + timed(1))
                 done = self.mortier("check", "scene.toml", "--json")

@@ -213,8 +213,8 @@ def sliding_rows():
         return -course("drag", times)(run) / course("press", times)(run)
     yield Row("Shallow ironing, a twentieth of the depth",
               "Fischer, Wriggers 2006; Yang, Laursen, Meng 2005: tends to the coefficient",
-              "drag over press at three times, friction 0.3", "ironing.toml", (), ratio, None, (0.3, 0.3, 0.3),
-              0.03, each=True, test="within")
+              "drag over press at three times, friction 0.3", "ironing.toml", (), ratio, None,
+              (0.3, 0.3, 0.3), 0.03, each=True, test="within")
 
 
 ROWS = located(Path(__file__).parent, [
