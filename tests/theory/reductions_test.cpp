@@ -171,7 +171,7 @@ TEST(Reductions, slowFlowIsNoRest) {
 }
 
 /// A symmetric law for which the general factorisation is taken.
-class Unsymmetric : public PerzynaLaw {
+class Unsymmetric : public PerzynaLaw<3> {
  public:
   using PerzynaLaw::PerzynaLaw;
   [[nodiscard]] static bool symmetric() { return false; }

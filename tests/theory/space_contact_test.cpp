@@ -169,9 +169,10 @@ TEST(SpaceContact, compressionIsExact) {
     }
     const auto& vertices = model.bodies[0].space()->mesh().vertices;
     for (size_t v = 0; v < vertices.size(); ++v)
-      if (vertices[v].z() == 1)
-        EXPECT_NEAR(state.bodies[0].displacement[3 * static_cast<Eigen::Index>(v) + 2], 2 * strain,
-                    1e-12 * std::abs(strain));
+      if (vertices[v].z() == 1) {
+        const double found = state.bodies[0].displacement[3 * static_cast<Eigen::Index>(v) + 2];
+        EXPECT_NEAR(found, 2 * strain, 1e-12 * std::abs(strain));
+      }
   }
 }
 
@@ -194,8 +195,8 @@ TEST(SpaceContact, lawOfSpaceIsThatOfPlaneStrain) {
     const Vector flat = strain.head(4);
     // (p, q, r, s33) by the basis of space.
     const auto inSpace = [](const Vector& v) {
-      const Eigen::Vector3d plane = toCartesian(v.head<3>());
-      return Vector(fromSpaceCartesian(SpaceStress{plane[0], plane[1], v[3], plane[2], 0, 0}));
+      const Eigen::Vector3d s = toCartesian(v.head<3>());
+      return Vector(fromSpaceCartesian(SpaceStress{s[0], s[1], v[3], s[2], 0, 0}));
     };
     const Vector even = inSpace(flat);
     const Vector stress4 = 1e3 * flat;

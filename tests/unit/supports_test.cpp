@@ -159,7 +159,7 @@ TEST(Supports, tangentOfTurnedNodesIsThatOfTheBodyTurned) {
     const Vector f = vector(plate.dofs());
     EXPECT_NEAR(plate.gather(f).dot(x), f.dot(plate.spread(x)), 1e-12);
     for (int v = 0; v < plate.nodes(); ++v)
-      for (const auto& [equation, value] : plate.parts(v, f.segment<2>(2 * v)))
+      for (const auto& [equation, value] : plate.parts(v, Point(f.segment<2>(2 * v))))
         if (equation >= 0) {
           EXPECT_NEAR(value, plate.gather(f)[equation], 1e-15);
         }

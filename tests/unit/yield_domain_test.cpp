@@ -35,7 +35,7 @@ class OneStress {
     return domain_.yields(std::array<double, 3>{s[0], s[1], s[2]});
   }
   [[nodiscard]] Projected project(const Array3d& s, double kappa = 1) const {
-    const ProjectionOnYield P = domain_.project({s[0], s[1], s[2]}, kappa, LaneMask(true));
+    const ProjectionOnYield<3> P = domain_.project(LaneVector{s[0], s[1], s[2]}, kappa, LaneMask(true));
     const auto of = [](const LaneVector& x) { return Array3d(x[0][5], x[1][5], x[2][5]); };
     return {of(P.overstress), Array3d(P.softening[0][5], P.softening[1][5], P.softening[1][5]), of(P.x),
             of(P.y), P.z[5]};
