@@ -1,5 +1,5 @@
-// Two boxes in space with quadratic displacements, one pressed on the other: unknowns, rows, and the time of each
-// part.
+// Two boxes in space with quadratic displacements, one pressed on the other: unknowns, rows, and the time of
+// each part.
 //   build/bench/space [CELLS ...]     cells along an edge of the upper box; the lower one has 13/12 as many
 #include <chrono>
 #include <cstdio>

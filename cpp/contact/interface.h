@@ -101,8 +101,8 @@ struct MortarMotion {
 
 class ContactInterface {
  public:
-  /// Between two surfaces (space_interface.cpp). What is the line's in the plane is the surface's, lengths are
-  /// areas. \throws InputError
+  /// Between two surfaces (space_interface.cpp). What is the line's in the plane is the surface's, lengths
+  /// are areas. \throws InputError
   static ContactInterface inSpace(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh,
                                   const SpaceContactMesh& mortarMesh,
                                   const SpaceInterfaceOptions& options = {});
@@ -203,8 +203,8 @@ class ContactInterface {
   void subtractForces(const Vector& p, Vector& fNonmortar, Vector& fMortar) const;
   /// mass^-1 p: nodal values of the contact pressure [Pa] for nodal forces p [N/m].
   [[nodiscard]] Vector contactPressure(const Vector& p) const;
-  /// Integral over Gamma_C of ((u1 - u2).n - distance)_+, exact where the nonmortar line is straight [m^2]; in
-  /// space by the midpoint rule on the common refinement [m^3].
+  /// Integral over Gamma_C of ((u1 - u2).n - distance)_+, exact where the nonmortar line is straight [m^2];
+  /// in space by the midpoint rule on the common refinement [m^3].
   [[nodiscard]] double interpenetration(const Vector& uNonmortar, const Vector& uMortar, double t = 0) const;
   /// What nodal forces p [N/m] leave of the gap between the nodes: its square where they press, that of the
   /// overlap elsewhere.

@@ -1,8 +1,8 @@
 // A contact interface between two surfaces: rows as in coupling.h, integrals over the common refinement of
 // their triangles.
 //
-// A nonmortar triangle sees the mortar surface along its own normal; where the mortar surface is plane and the
-// nonmortar one is not, along the normal of the plane, on which alone the distance depends. Each point of a
+// A nonmortar triangle sees the mortar surface along its own normal; where the mortar surface is plane and
+// the nonmortar one is not, along the normal of the plane, on which alone the distance depends. Each point of a
 // rule adds a pair of opposite forces along the line through x1 and x2: rows balance in force and moment.
 //
 // Row functions are the hat functions of the nonmortar vertices, whatever the degree: quadratic functions

@@ -1,5 +1,5 @@
-// Rigid motions in space: three translations and three rotations of each part of a body that its supports leave
-// free.
+// Rigid motions in space: three translations and three rotations of each part of a body that its supports
+// leave free.
 #include <Eigen/Geometry>
 #include <sstream>
 

@@ -27,8 +27,8 @@ void requireValid(const Viscoplasticity& viscoplasticity);
 
 LawDescription describe(const Elasticity& elasticity, const Viscoplasticity& viscoplasticity);
 
-/// On n directions in which E, B and the norm are diagonal, all but the first alike: 3, or the 5 of a deviator
-/// in space.
+/// On n directions in which E, B and the norm are diagonal, all but the first alike: 3, or the 5 of a
+/// deviator in space.
 template <size_t n = 3>
 class PerzynaLaw {
  public:

@@ -1,7 +1,7 @@
 // Isotropic laws in space. Stresses and strains are (k, q, r, sqrt2 s13, sqrt2 s23, h), with the deviator of
-// plane strain (plane_strain.h), two shears more, and the pressure h = tr sigma/sqrt3 last: an orthonormal basis
-// in which elasticity is diagonal, E/(1+nu) on the deviator and E/(1-2 nu) on h. That the trace is a component
-// of its own keeps its digits where a body flows at constant volume.
+// plane strain (plane_strain.h), two shears more, and the pressure h = tr sigma/sqrt3 last: an orthonormal
+// basis in which elasticity is diagonal, E/(1+nu) on the deviator and E/(1-2 nu) on h. That the trace is a
+// component of its own keeps its digits where a body flows at constant volume.
 #pragma once
 
 #include "material/perzyna.h"

@@ -24,8 +24,8 @@ inline Eigen::Vector3d fromCartesian(const Eigen::Vector3d& s) {
   return {h * (s[0] + s[1]), h * (s[0] - s[1]), std::numbers::sqrt2 * s[2]};
 }
 
-/// sqrt(3/2 |dev|^2) [Pa] of (p, q, r) in plane stress, of (p, q, r, s33) in plane strain, of six components in
-/// space.
+/// sqrt(3/2 |dev|^2) [Pa] of (p, q, r) in plane stress, of (p, q, r, s33) in plane strain, of six components
+/// in space.
 inline double vonMises(const Eigen::Ref<const Vector>& stress) {
   if (stress.size() == 6) return std::sqrt(1.5) * stress.head<5>().norm();
   const double p = stress[0];

@@ -1,5 +1,5 @@
-// Contact and flow in space beside what is known: a contact with a known end, extruded; bodies that flow under
-// one stress; laws of space beside those of plane strain.
+// Contact and flow in space beside what is known: a contact with a known end, extruded; bodies that flow
+// under one stress; laws of space beside those of plane strain.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -134,7 +134,7 @@ TEST(SpaceContact, knownEndConverges) {
   }
 }
 
-// The note's compression test in space: the stress is one everywhere, -10 t along z, and flows from t = 0.1 on.
+// The note's compression test in space: the stress is one everywhere, -10 t along z, and flows from 0.1 on.
 TEST(SpaceContact, compressionIsExact) {
   constexpr Elasticity elasticity{3e11, 0.3};
   constexpr Viscoplasticity law{10, 1};
