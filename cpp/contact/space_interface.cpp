@@ -2,8 +2,9 @@
 // their triangles.
 //
 // A nonmortar triangle sees the mortar surface along its own normal; where the mortar surface is plane and
-// the nonmortar one is not, along the normal of the plane, on which alone the distance depends. Each point of a
-// rule adds a pair of opposite forces along the line through x1 and x2: rows balance in force and moment.
+// the nonmortar one is not, along the normal of the plane, on which alone the distance depends. Each point
+// of a rule adds a pair of opposite forces along the line through x1 and x2: rows balance in force and
+// moment.
 //
 // Row functions are the hat functions of the nonmortar vertices, whatever the degree: quadratic functions
 // have no mean on a triangle (int chi_vertex = 0), so that forces at vertices say nothing of the pressure. A

@@ -12,8 +12,8 @@ struct Cuboid {
 };
 
 /// Every cell cut into six tetrahedra about a diagonal (Kuhn). Labels: 1 bottom, 2 right, 3 top, 4 left, as
-/// of a rectangle in x and z, 5 front, 6 back (the least and the largest y). \throws InputError on empty boxes
-/// and cell counts below 1.
+/// of a rectangle in x and z, 5 front, 6 back (the least and the largest y). \throws InputError on empty
+/// boxes and cell counts below 1.
 TetrahedronMesh cuboidMesh(const Cuboid& cuboid);
 
 }  // namespace mortier
