@@ -88,7 +88,7 @@ SCENES = {
     "sloped": (), "broken-line": (), "stack": (), "exact-contact": (), "edge": (), "punch": (),
     "eccentric-punch": (), "receding": (), "turned": (), "cut-ring": (), "hertz": (), "ring": (),
     "sphere": (), "cone": (), "thick-cylinder": (), "open-close": ("time.scheme=backward-euler",),
-    "ironing": ("body.block.mesh.cells=[22, 6]", "time.steps=4"), "wedge": ("time.steps=4",),
+    "ironing": ("body.block.mesh.cells=[22, 6]", "time.steps=2", "time.end=0.4"), "wedge": ("time.steps=4",),
 }
 # Where FreeFEM's rule of degree 9 is further off the integrals of the tractions than the tolerances.
 QUADRATURE = {"edge": 1e-8}
