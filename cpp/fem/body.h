@@ -98,7 +98,6 @@ class Body {
   [[nodiscard]] int dimension() const { return space_ ? 3 : 2; }
   /// Its tetrahedra; null in the plane.
   [[nodiscard]] const SpaceElements* space() const { return space_.get(); }
-  [[nodiscard]] const std::string& meshName() const { return space_ ? space_->mesh().name : mesh_.name; }
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
   [[nodiscard]] const Material& material() const { return *material_; }
   /// Nodes of the displacement: the vertices of the mesh, and what lies between them.

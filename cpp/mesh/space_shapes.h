@@ -1,4 +1,4 @@
-// Meshes of tetrahedra by what they are of, in place of a file.
+// Generated meshes of tetrahedra.
 #pragma once
 
 #include "mesh/tetrahedron_mesh.h"

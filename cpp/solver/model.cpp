@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "base/error.h"
+
 namespace mortier {
 namespace {
 
@@ -65,6 +67,9 @@ bool solvesSparse(double conditions, double equations, bool rough, const SolverO
 void addInterface(Model& model, const ContactPair& pair, InterfaceOptions options) {
   const Body& nonmortar = model.bodies[pair.nonmortar.body];
   const Body& mortar = model.bodies[pair.mortar.body];
+  if (nonmortar.dimension() != mortar.dimension())
+    throw InputError("bodies " + nonmortar.name() + " and " + mortar.name() +
+                     ": contact between the plane and space, expected two bodies of one of them");
   if (nonmortar.space() != nullptr) {
     const auto meshOf = [](const Body& body) {
       return SpaceContactMesh{body.space()->mesh(), body.space()->nodes()};

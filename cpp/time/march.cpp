@@ -86,8 +86,8 @@ void raiseDeformation(const Model& model, const State& state, Peaks& peaks) {
     }
 }
 
-/// What a step that cannot be taken may be due to: bodies that have left the range of small strains and
-/// rotations, where a block that tips goes on as no block does. Empty where they have not.
+/// A possible cause of a failed step: strains and rotations beyond the limits of linear kinematics, as of a
+/// block that tips. Empty where all are small.
 std::string beyondSmall(const Peaks& peaks) {
   std::ostringstream text;
   text.precision(2);

@@ -43,7 +43,7 @@ struct QuantityRange {
   }
 };
 
-/// Strains and rotations that the theory takes as small; what is beyond is told.
+/// Limits of small strains and rotations; the log and mortier check name larger ones.
 constexpr double smallStrain = 0.05;
 constexpr double smallRotation = 5 * M_PI / 180;
 
