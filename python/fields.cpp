@@ -75,8 +75,12 @@ py::dict namedValues(const std::vector<std::string>& names, const std::vector<Hi
 }
 
 void bindFields(py::module_& module) {
-  const auto nodesOf = [](const Step& step, size_t b) -> const ElementNodes& {
-    return step.of->model->bodies[b].elementNodes();
+  const auto bodyAt = [](const Step& step, size_t b) -> const Body& { return step.of->model->bodies[b]; };
+  const auto placesOf = []<class Place>(const std::vector<Place>& places, py::handle owner) {
+    return view(places.front().data(), {static_cast<Size>(places.size()), Place::RowsAtCompileTime}, owner);
+  };
+  const auto cellNodes = [](const std::vector<int>& nodes, Size width, py::handle owner) {
+    return view(nodes.data(), {static_cast<Size>(nodes.size()) / width, width}, owner);
   };
   py::class_<Step, std::shared_ptr<Step>> step(module, "Step");
   step.def_property_readonly("number", [](const Step& of) { return of.report.step; });
@@ -87,23 +91,30 @@ void bindFields(py::module_& module) {
   const auto field = [&step](const char* name, OfBody array) {
     step.def_property_readonly(name, byBodies(std::move(array)));
   };
-  field("points", [nodesOf](Step& of, size_t b, py::handle self) {
-    const std::vector<Point>& places = nodesOf(of, b).places;
-    return view(places.front().data(), {static_cast<Size>(places.size()), 2}, self);
+  field("points", [=](Step& of, size_t b, py::handle self) {
+    const Body& body = bodyAt(of, b);
+    return body.space() != nullptr ? placesOf(body.space()->nodes().places, self)
+                                   : placesOf(body.elementNodes().places, self);
   });
-  field("triangles", [nodesOf](Step& of, size_t b, py::handle self) {
-    const ElementNodes& nodes = nodesOf(of, b);
-    const Size width = nodes.perTriangle();
-    return view(nodes.triangles.data(), {static_cast<Size>(nodes.triangles.size()) / width, width}, self);
+  field("triangles", [=](Step& of, size_t b, py::handle self) {
+    const ElementNodes& nodes = bodyAt(of, b).elementNodes();
+    return cellNodes(nodes.triangles, nodes.perTriangle(), self);
   });
-  field("regions", [](Step& of, size_t b, py::handle self) {
-    return column(of.of->model->bodies[b].mesh().regions, self);
+  field("tetrahedra", [=](Step& of, size_t b, py::handle self) {
+    const SpaceElements* space = bodyAt(of, b).space();
+    if (space == nullptr) throw py::attribute_error("tetrahedra: none in the plane");
+    return cellNodes(space->nodes().elements, space->nodes().perElement(), self);
+  });
+  field("regions", [=](Step& of, size_t b, py::handle self) {
+    const Body& body = bodyAt(of, b);
+    return column(body.space() != nullptr ? body.space()->mesh().regions : body.mesh().regions, self);
   });
   field("displacement", [](Step& of, size_t b, py::handle self) {
     of.moved.resize(of.state.bodies.size());
     Vector& u = of.moved[b];
     if (u.size() == 0) u = of.of->model->bodies[b].moved(of.state.bodies[b].displacement);
-    return view(u.data(), {u.size() / 2, 2}, self);
+    const Size dimension = of.of->model->bodies[b].dimension();
+    return view(u.data(), {u.size() / dimension, dimension}, self);
   });
   field("stress", [](Step& of, size_t b, py::handle self) { return rowsOf(cellsOf(of, b).stress, self); });
   field("stress_at_points", [](Step& of, size_t b, py::handle self) {
@@ -146,9 +157,11 @@ void bindFields(py::module_& module) {
   nodal("shear", &ContactFields::shear);
   nodal("slip", &ContactFields::slip);
   nodal("slipping", &ContactFields::slipping);
-  contact.def_property_readonly("position", [](const Contact& c) {
-    const std::vector<Point>& p = c.fields().place;
-    return view(p.empty() ? nullptr : p.front().data(), {static_cast<Size>(p.size()), 2}, c.step);
+  contact.def_property_readonly("position", [](const Contact& c) -> py::object {
+    const std::vector<SpacePoint>& p = c.fields().place;
+    const py::array all = view(p.empty() ? nullptr : p.front().data(), {static_cast<Size>(p.size()), 3}, c.step);
+    const int dimension = c.of().of->model->bodies.front().dimension();
+    return all[py::make_tuple(py::ellipsis(), py::slice(0, dimension, 1))];
   });
 }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -43,6 +44,13 @@ class ArchiveWriter {
     raw(text.data(), text.size());
   }
   void put(Point& p) { raw(p.data(), 2 * sizeof(double)); }
+  void put(SpacePoint& p) { raw(p.data(), 3 * sizeof(double)); }
+  template <class T>
+  void put(std::optional<T>& value) {
+    bool given = value.has_value();
+    put(given);
+    if (given) put(*value);
+  }
   template <class T, size_t n>
   void put(std::array<T, n>& values) {
     for (T& value : values) put(value);
@@ -110,6 +118,14 @@ class ArchiveReader {
     raw(text.data(), text.size());
   }
   void get(Point& p) { raw(p.data(), 2 * sizeof(double)); }
+  void get(SpacePoint& p) { raw(p.data(), 3 * sizeof(double)); }
+  template <class T>
+  void get(std::optional<T>& value) {
+    bool given = false;
+    get(given);
+    value.reset();
+    if (given) get(value.emplace());
+  }
   template <class T, size_t n>
   void get(std::array<T, n>& values) {
     for (T& value : values) get(value);

@@ -32,5 +32,7 @@ inline double cross(const Point& a, const Point& b) {
 
 /// A datum that varies in space and time: f(x [m], y [m], t [s]).
 using Function = std::function<double(double x, double y, double t)>;
+/// The same in space: f(x [m], t [s]).
+using SpaceDatum = std::function<double(const SpacePoint& x, double t)>;
 
 }  // namespace mortier

@@ -40,7 +40,8 @@ struct Units {
   std::string stress = "Pa";
   std::string time = "s";
   bool given = false;      ///< whether the scene says them
-  bool wholeRing = false;  ///< whether forces and energies are of whole rings, not per depth
+  bool perDepth = true;    ///< whether forces and energies are per depth, not of whole bodies
+  bool inSpace = false;    ///< whether what is an area in the plane is a volume
   Measure lengthInSi{1, 0, dimensions::length};
   Measure forceInSi{1, 0, dimensions::force};
   Measure timeInSi{1, 0, dimensions::time};
@@ -49,10 +50,11 @@ struct Units {
   static Units from(const std::string& text);
 
   [[nodiscard]] std::string area() const { return length + "^2"; }
-  /// Forces, moments and energies are per depth, or of whole rings.
-  [[nodiscard]] std::string forcePerDepth() const { return wholeRing ? force : force + "/" + length; }
+  [[nodiscard]] std::string penetration() const { return inSpace ? length + "^3" : area(); }
+  /// Forces, moments and energies are per depth, or of whole rings and of bodies in space.
+  [[nodiscard]] std::string forcePerDepth() const { return perDepth ? force + "/" + length : force; }
   [[nodiscard]] std::string energyPerDepth() const {
-    if (wholeRing) return given ? force + " " + length : "J";
+    if (!perDepth) return given ? force + " " + length : "J";
     return given ? force + " " + length + "/" + length : "J/m";
   }
   [[nodiscard]] std::string bodyForce() const { return force + "/" + length + "^3"; }

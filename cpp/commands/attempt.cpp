@@ -21,7 +21,7 @@ RunFacts factsOf(const SceneDescription& scene, const AttemptOptions& options) {
   facts.scene = scene.path;
   facts.title = scene.title;
   facts.units = scene.units;
-  facts.plane = word(scene.plane);
+  facts.plane = scene.inSpace() ? "space" : word(scene.plane);
   facts.settings = scene.settings;
   facts.scheme = word(scene.time.scheme);
   facts.plannedSteps = scene.time.steps;
@@ -62,6 +62,7 @@ std::string reasonNotToShare(const SceneDescription& scene, const Model& model) 
   for (const Body& body : model.bodies)
     if (body.rigid()) return "tools are moved as a whole";
   if (scene.accuracy.bound) return "bounds are found of whole bodies";
+  if (scene.inSpace()) return "bodies in space are not divided";
   if (anyFollows(model)) return "contact follows the bodies (sliding = \"finite\")";
   if (solvesSparse(model, scene.solver)) return "the contact matrices of a line this long are sparse";
   return "";

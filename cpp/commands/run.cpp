@@ -14,6 +14,7 @@
 #include "plan/loads.h"
 #include "report/clock.h"
 #include "report/output_file.h"
+#include "report/place_text.h"
 #include "report/summary.h"
 #include "scene/build.h"
 #include "scene/document.h"
@@ -33,8 +34,9 @@ RunIdentity identityOf(const SceneDescription& scene, const Model& model) {
   identity.settings = scene.settings;
   identity.text = scene.text;
   for (const Body& body : model.bodies) {
-    identity.files.push_back("the mesh " + body.mesh().name);
-    identity.fileHashes.push_back(hashOf(body.mesh()));
+    const SpaceElements* space = body.space();
+    identity.files.push_back("the mesh " + (space != nullptr ? space->mesh().name : body.mesh().name));
+    identity.fileHashes.push_back(space != nullptr ? hashOf(space->mesh()) : hashOf(body.mesh()));
   }
   for (const BodyDescription& body : scene.bodies) {
     if (!body.temperature || body.temperature->file.empty()) continue;
@@ -47,12 +49,14 @@ RunIdentity identityOf(const SceneDescription& scene, const Model& model) {
   return identity;
 }
 
-/// The law of a triangle.
+/// The law of a triangle or a tetrahedron.
 std::string lawOf(const BodyDescription& description, const Body& body, int triangle) {
+  const std::vector<int>& regions =
+      body.space() != nullptr ? body.space()->mesh().regions : body.mesh().regions;
   size_t index = 0;  // of the body's laws; the first is that of the triangles in regions without a law
   size_t next = 0;
   for (const RegionDescription& region : description.regions)
-    if (region.material && (++next, region.label == body.mesh().regions[triangle])) index = next;
+    if (region.material && (++next, region.label == regions[triangle])) index = next;
   const std::vector<LawDescription> laws = body.material().laws();
   return laws[index].text();
 }
@@ -63,10 +67,10 @@ std::string whereToLook(const Attempt& attempt) {
   if (!stuck) return "";
   const Body& body = attempt.model->bodies[stuck->body];
   const std::string& driving = attempt.facts.driving;
-  char at[64];
-  std::snprintf(at, sizeof at, "(%.4g, %.4g)", stuck->at.x(), stuck->at.y());
+  const bool space = body.space() != nullptr;
   return "; furthest off its law, " + lawOf(attempt.scene().bodies[stuck->body], body, stuck->triangle) +
-         ", is body " + body.name() + " at " + at + ", triangle " + std::to_string(stuck->triangle) +
+         ", is body " + body.name() + " at " + placeText(stuck->at, body.dimension()) +
+         (space ? ", tetrahedron " : ", triangle ") + std::to_string(stuck->triangle) +
          (driving.empty() ? "" : "; what drives the step is " + driving);
 }
 
@@ -167,14 +171,16 @@ void Run::addVerdict() {
   RunFacts& facts = attempt_->facts;
   Solved& solved = attempt_->solved;
   const bool complete = solved.report.status == Status::converged;
-  if (solved.report.stuck) {
+  if (solved.report.stuck && !attempt_->scene().inSpace()) {
     MeshedScene meshed{attempt_->scene(), {}};
     for (const Body& body : attempt_->model->bodies) meshed.meshes.push_back(&body.mesh());
     facts.driving = drivingDatum(meshed, solved.state.time, solved.report.stuck->time);
   }
-  facts.doubts = estimateDoubts(attempt_->scene(), *attempt_->model);
-  for (const std::string& doubt : pointForceDoubts(*attempt_->model, solved.state))
-    facts.doubts.push_back(doubt);
+  if (!attempt_->scene().inSpace()) {
+    facts.doubts = estimateDoubts(attempt_->scene(), *attempt_->model);
+    for (const std::string& doubt : pointForceDoubts(*attempt_->model, solved.state))
+      facts.doubts.push_back(doubt);
+  }
   if (complete && attempt_->scene().accuracy.bound && !solved.accuracy.bound)
     solved.accuracy.bound = boundOf(*attempt_);
   if (complete && solved.accuracy.flow) solved.accuracy.step = stepBoundOf(*attempt_);

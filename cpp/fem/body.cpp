@@ -1,6 +1,7 @@
 #include "fem/body.h"
 
 #include <algorithm>
+#include <set>
 #include <numbers>
 
 #include "base/error.h"
@@ -102,6 +103,35 @@ double Body::largestCoordinate() const {
   if (space_)
     for (const SpacePoint& x : space_->mesh().vertices) largest = std::max(largest, x.cwiseAbs().maxCoeff());
   return largest;
+}
+
+SpacePoint Body::placeOfNode(int node) const {
+  if (space_) return space_->nodes().places[node];
+  const Point& place = nodes_.places[node];
+  return {place.x(), place.y(), 0};
+}
+
+SpacePoint Body::centreOf(size_t element) const {
+  SpacePoint centre = SpacePoint::Zero();
+  if (space_)
+    for (const int v : space_->mesh().tetrahedra[element]) centre += space_->mesh().vertices[v] / 4;
+  else
+    for (const int v : mesh_.triangles[element]) centre.head<2>() += mesh_.vertices[v] / 3;
+  return centre;
+}
+
+std::vector<int> Body::boundaryNodes(std::optional<int> label) const {
+  std::set<int> nodes;
+  const auto add = [&](const auto& of, int boundary) {
+    if (!label || boundary == *label)
+      for (const int node : of)
+        if (node >= 0) nodes.insert(node);
+  };
+  if (space_)
+    for (size_t i = 0; i < space_->nodes().faces.size(); ++i)
+      add(space_->nodes().faces[i], space_->mesh().boundaryLabels[i]);
+  for (const BoundaryStretch& stretch : nodes_.boundary) add(stretch.nodes, mesh_.boundaryLabels[stretch.edge]);
+  return {nodes.begin(), nodes.end()};
 }
 
 SpacePoint Body::placeOfPoint(int point) const {

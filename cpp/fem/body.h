@@ -127,6 +127,12 @@ class Body {
   [[nodiscard]] double largestCoordinate() const;
   /// Place of a point; z = 0 in the plane [m].
   [[nodiscard]] SpacePoint placeOfPoint(int point) const;
+  /// Place of a node; z = 0 in the plane [m].
+  [[nodiscard]] SpacePoint placeOfNode(int node) const;
+  /// Of a triangle or a tetrahedron: the mean of its vertices; z = 0 in the plane [m].
+  [[nodiscard]] SpacePoint centreOf(size_t element) const;
+  /// Nodes of the labelled boundary, or of one label, ascending.
+  [[nodiscard]] std::vector<int> boundaryNodes(std::optional<int> label = {}) const;
   /// Places of the points of triangles [m].
   [[nodiscard]] std::vector<Point> places() const { return placesOfPoints(mesh_, nodes_); }
 

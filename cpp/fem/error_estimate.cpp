@@ -167,7 +167,7 @@ double ErrorEstimate::relative() const {
 }
 
 ErrorEstimator::ErrorEstimator(const Body& body, Threads& threads) : body_(body) {
-  if (body.rigid()) return;
+  if (body.rigid() || body.space() != nullptr) return;
   withElement(body.degree(), [&](auto element) { recover<decltype(element)>(threads); });
 }
 
@@ -249,6 +249,7 @@ void ErrorEstimator::recover(Threads& threads) {
 }
 
 ErrorEstimate ErrorEstimator::operator()(const Matrix& stress, Threads& threads) const {
+  if (body_.space() != nullptr) return estimateInSpace(body_, stress);
   if (body_.rigid()) return {Vector::Zero(static_cast<Eigen::Index>(body_.mesh().triangles.size())), 0};
   return withElement(body_.degree(),
                      [&](auto element) { return estimate<decltype(element)>(stress, threads); });

@@ -14,11 +14,14 @@
 namespace mortier {
 
 struct ErrorEstimate {
-  Vector error;       ///< per triangle, integral of e : E^-1 e [J/m], e the estimated error of the stress
+  Vector error;       ///< per triangle or tetrahedron, integral of e : E^-1 e [J/m], e the estimated error of the stress
   double energy = 0;  ///< integral of s : E^-1 s of the recovered stress [J/m]
   /// In the energy norm; 0 without stress [-].
   [[nodiscard]] double relative() const;
 };
+
+/// Of a body in space (space_estimate.cpp). \param stress  components x points [Pa]
+ErrorEstimate estimateInSpace(const Body& body, const Matrix& stress);
 
 /// Estimates for one body, which must outlive it. Regions of the mesh are recovered one by one: stresses jump
 /// between materials.

@@ -17,9 +17,6 @@
 
 namespace mortier {
 
-/// A datum in space and time: f(x [m], t [s]).
-using SpaceDatum = std::function<double(const SpacePoint& x, double t)>;
-
 /// Directions of displacements and tractions in space.
 enum SpaceComponent : int { spaceX, spaceY, spaceZ, spaceNormal };
 

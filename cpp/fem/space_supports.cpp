@@ -17,7 +17,7 @@ namespace {
 const double smoothCosine = std::cos(40 * std::numbers::pi / 180);
 
 /// Directions whose sine is below this are the same: flat sides have one, whatever coordinates round.
-constexpr double same = 1e-5;
+constexpr double sameNormal = 1e-5;
 
 struct Corner {
   SpacePoint unit;      ///< outward normal of a triangle
@@ -59,7 +59,7 @@ std::vector<SpacePoint> normalsAt(const std::vector<Corner>& corners) {
     }
     SpacePoint normal = sum.normalized();
     for (int c = 0; c < 3; ++c)
-      if (const SpacePoint axis = SpacePoint::Unit(c); normal.cross(axis).norm() < same)
+      if (const SpacePoint axis = SpacePoint::Unit(c); normal.cross(axis).norm() < sameNormal)
         normal = normal[c] > 0 ? axis : SpacePoint(-axis);
     normals.push_back(normal);
   }
@@ -73,7 +73,7 @@ void hold(SpaceSupport& support, const SpacePoint& direction, int condition) {
     const SpacePoint row = support.frame.row(i);
     beyond -= row.dot(beyond) * row;
   }
-  if (support.count == 3 || beyond.norm() < same) return;
+  if (support.count == 3 || beyond.norm() < sameNormal) return;
   support.directions.row(support.count) = direction;
   support.frame.row(support.count) = beyond.normalized();
   support.conditions[support.count++] = condition;

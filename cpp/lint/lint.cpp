@@ -154,6 +154,18 @@ void build(ResolvedScene resolved, LintReport& report) {
   }
 }
 
+/// Meshes, places and the model: the checks of data, of contact and of deformations are of the plane.
+void lintInSpace(LintReport& report) {
+  ResolvedScene resolved;
+  try {
+    resolved = resolveScene(*report.scene);
+  } catch (const InputError& error) {
+    return addError(error, "mesh-file", report.faults);
+  }
+  report.scene = resolved.description;
+  build(std::move(resolved), report);
+}
+
 }  // namespace
 
 std::string LintInput::where(const std::vector<std::string>& keys, size_t body) const {
@@ -177,6 +189,10 @@ LintReport lint(const std::string& path, const std::vector<std::string>& setting
   }
   SceneDescription& scene = *report.scene;
   report.faults = Faults(scene.allowed);
+  if (scene.inSpace()) {
+    lintInSpace(report);
+    return report;
+  }
   std::vector<const TriangleMesh*> known;
   std::vector<TriangleMesh> meshes;
   meshes.reserve(scene.bodies.size());
@@ -198,15 +214,17 @@ LintReport lint(const std::string& path, const std::vector<std::string>& setting
 
 Faults lintResolved(const ResolvedScene& resolved) {
   const SceneDescription scene = asSolved(resolved.description);
+  Faults faults(scene.allowed);
+  if (scene.inSpace()) return faults;
   std::vector<const TriangleMesh*> meshes;
   for (const TriangleMesh& mesh : resolved.meshes) meshes.push_back(&mesh);
-  Faults faults(scene.allowed);
   runChecks(inputOf(scene, std::move(meshes)), faults);
   dropConsequences(faults);
   return faults;
 }
 
 void lintModel(const SceneDescription& scene, const Model& model, Faults& faults) {
+  if (scene.inSpace()) return;
   lintData(scene, model, faults);
   for (size_t b = 0; b < model.bodies.size(); ++b)
     if (const auto centre = freeRotation(model, static_cast<int>(b)))

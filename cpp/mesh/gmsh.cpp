@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include "base/archive.h"
 #include "base/child_process.h"
@@ -33,11 +34,23 @@ bool isGmshFile(const std::string& path) {
 
 #ifndef MORTIER_GMSH
 
-TriangleMesh readGmsh(const MeshSource& source, double) {
+namespace {
+
+[[noreturn]] void refuse(const MeshSource& source, const char* dimension) {
   throw InputError(
       source.path +
       ": read by Gmsh, which this build is without (libgmsh-dev was not there); expected a Medit "
-      ".mesh file, which gmsh -2 -format mesh writes");
+      ".mesh file, which gmsh -" +
+      dimension + " -format mesh writes");
+}
+
+}  // namespace
+
+TriangleMesh readGmsh(const MeshSource& source, double) {
+  refuse(source, "2");
+}
+TetrahedronMesh readSpaceGmsh(const MeshSource& source, double) {
+  refuse(source, "3");
 }
 
 #else
@@ -49,6 +62,13 @@ void visitMembers(Archive& archive, TriangleMesh& mesh) {
          edgeMiddles, edgeCurves] = mesh;
   archive(name, vertices, triangles, regions, boundaryEdges, boundaryLabels, labelNames, regionNames,
           edgeMiddles, edgeCurves);
+}
+
+template <class Archive>
+void visitMembers(Archive& archive, TetrahedronMesh& mesh) {
+  auto& [name, vertices, tetrahedra, regions, boundaryTriangles, boundaryLabels, labelNames, regionNames] =
+      mesh;
+  archive(name, vertices, tetrahedra, regions, boundaryTriangles, boundaryLabels, labelNames, regionNames);
 }
 
 template <class Archive>
@@ -114,7 +134,8 @@ std::vector<int> elementTypes(const Gmsh& gmsh, int dimension) {
   return gmsh.take(types);
 }
 
-PlaneNodes planeNodes(const Gmsh& gmsh) {
+/// Places of all nodes by their tags.
+std::map<size_t, SpacePoint> nodesOf(const Gmsh& gmsh) {
   Gmsh::Array<size_t> tags;
   Gmsh::Array<double> coordinates;
   Gmsh::Array<double> parameters;
@@ -124,50 +145,76 @@ PlaneNodes planeNodes(const Gmsh& gmsh) {
   const std::vector<size_t> tag = gmsh.take(tags);
   const std::vector<double> x = gmsh.take(coordinates);
   gmsh.take(parameters);
-  PlaneNodes result{{}, x.size() > 2 ? x[2] : 0};
-  for (size_t i = 0; i < tag.size(); ++i) {
-    if (x[3 * i + 2] != x[2])
-      throw InputError(gmsh.path() + ": node " + std::to_string(tag[i]) +
-                       " is at z = " + std::to_string(x[3 * i + 2]) +
-                       ", expected all nodes in one plane z = " + std::to_string(x[2]));
-    result.at[tag[i]] = {x[3 * i], x[3 * i + 1]};
+  std::map<size_t, SpacePoint> nodes;
+  for (size_t i = 0; i < tag.size(); ++i) nodes[tag[i]] = {x[3 * i], x[3 * i + 1], x[3 * i + 2]};
+  return nodes;
+}
+
+PlaneNodes planeNodes(const Gmsh& gmsh) {
+  const std::map<size_t, SpacePoint> nodes = nodesOf(gmsh);
+  PlaneNodes result{{}, nodes.empty() ? 0 : nodes.begin()->second.z()};
+  for (const auto& [tag, x] : nodes) {
+    if (x.z() != result.z)
+      throw InputError(gmsh.path() + ": node " + std::to_string(tag) + " is at z = " + std::to_string(x.z()) +
+                       ", expected all nodes in one plane z = " + std::to_string(result.z) +
+                       ", or dimension = 3 at the top of the scene");
+    result.at[tag] = x.head<2>();
   }
   return result;
 }
 
-TriangleMesh readHere(const MeshSource& source) {
-  constexpr int line = 1;
-  constexpr int triangle = 2;
-  const std::string& path = source.path;
-  requireConstants(source);
-  const Gmsh gmsh(source);
-  gmsh.call<decltype(gmshOpen)>("gmshOpen", path.c_str());
-  if (elementTypes(gmsh, 2).empty())
-    gmsh.call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", 2);
+/// Opens the file, meshes it where it is a geometry. \throws InputError where it has other elements than
+/// those of a type of Gmsh.
+void open(const Gmsh& gmsh, const MeshSource& source, int dimension, int type, const char* expected) {
+  gmsh.call<decltype(gmshOpen)>("gmshOpen", source.path.c_str());
+  if (elementTypes(gmsh, dimension).empty())
+    gmsh.call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", dimension);
   else if (source.size > 0)
-    throw InputError(path + ": size, expected only for a geometry: this file is a mesh");
-  for (const int type : elementTypes(gmsh, 2))
-    if (type != triangle)
-      throw InputError(path + ": elements of Gmsh's type " + std::to_string(type) +
-                       ", expected linear triangles (type 2) only");
+    throw InputError(source.path + ": size, expected only for a geometry: this file is a mesh");
+  for (const int other : elementTypes(gmsh, dimension))
+    if (other != type)
+      throw InputError(source.path + ": elements of Gmsh's type " + std::to_string(other) + ", expected " +
+                       expected + " (type " + std::to_string(type) + ") only");
+}
 
-  const PlaneNodes nodes = planeNodes(gmsh);
-  TriangleMesh mesh;
-  std::map<size_t, int> vertexOf;
-  const auto vertex = [&](size_t tag) {
-    const auto [found, isNew] = vertexOf.try_emplace(tag, static_cast<int>(mesh.vertices.size()));
+constexpr int lineType = 1;
+constexpr int triangleType = 2;
+constexpr int tetrahedronType = 4;
+
+/// Numbers of the vertices of a mesh by the tags of Gmsh's nodes; a node becomes a vertex where it is first
+/// asked for.
+template <class Place>
+class VertexNumbers {
+ public:
+  VertexNumbers(const std::string& path, const std::map<size_t, Place>& nodes, std::vector<Place>& vertices)
+      : path_(path), nodes_(nodes), vertices_(vertices) {}
+  int operator()(size_t tag) {
+    const auto [found, isNew] = numbers_.try_emplace(tag, static_cast<int>(vertices_.size()));
     if (isNew) {
-      const auto node = nodes.at.find(tag);
-      if (node == nodes.at.end())
-        throw InputError(path + ": an element has node " + std::to_string(tag) + ", which is not there");
-      mesh.vertices.push_back(node->second);
+      const auto node = nodes_.find(tag);
+      if (node == nodes_.end())
+        throw InputError(path_ + ": an element has node " + std::to_string(tag) + ", which is not there");
+      vertices_.push_back(node->second);
     }
     return found->second;
-  };
+  }
+
+ private:
+  const std::string& path_;
+  const std::map<size_t, Place>& nodes_;
+  std::vector<Place>& vertices_;
+  std::map<size_t, int> numbers_;
+};
+
+TriangleMesh planeMesh(const Gmsh& gmsh, const MeshSource& source) {
+  open(gmsh, source, 2, triangleType, "linear triangles");
+  const PlaneNodes nodes = planeNodes(gmsh);
+  TriangleMesh mesh;
+  VertexNumbers vertex(source.path, nodes.at, mesh.vertices);
   for (const Group& group : groups(gmsh, 2)) {
     if (!group.name.empty()) mesh.regionNames[group.name] = group.number;
     for (const int entity : group.entities) {
-      const std::vector<size_t> corners = elements(gmsh, triangle, entity);
+      const std::vector<size_t> corners = elements(gmsh, triangleType, entity);
       for (size_t i = 0; i + 2 < corners.size(); i += 3) {
         mesh.triangles.push_back({vertex(corners[i]), vertex(corners[i + 1]), vertex(corners[i + 2])});
         mesh.regions.push_back(group.number);
@@ -180,7 +227,7 @@ TriangleMesh readHere(const MeshSource& source) {
   for (const Group& group : groups(gmsh, 1)) {
     if (!group.name.empty()) mesh.labelNames[group.name] = group.number;
     for (const int entity : group.entities) {
-      const std::vector<size_t> ends = elements(gmsh, line, entity);
+      const std::vector<size_t> ends = elements(gmsh, lineType, entity);
       for (size_t i = 0; i + 1 < ends.size(); i += 2) {
         mesh.boundaryEdges.push_back({vertex(ends[i]), vertex(ends[i + 1])});
         mesh.boundaryLabels.push_back(group.number);
@@ -197,7 +244,7 @@ TriangleMesh readHere(const MeshSource& source) {
   if (std::none_of(mesh.edgeCurves.begin(), mesh.edgeCurves.end(),
                    [](const EdgeCurve& c) { return c.known(); }))
     mesh.edgeCurves.clear();
-  mesh.name = path;
+  mesh.name = source.path;
   if (source.regions.empty())
     dropInnerEdges(mesh);
   else
@@ -206,23 +253,74 @@ TriangleMesh readHere(const MeshSource& source) {
   return mesh;
 }
 
-}  // namespace
+TetrahedronMesh spaceMesh(const Gmsh& gmsh, const MeshSource& source) {
+  open(gmsh, source, 3, tetrahedronType, "linear tetrahedra");
+  const std::map<size_t, SpacePoint> nodes = nodesOf(gmsh);
+  TetrahedronMesh mesh;
+  VertexNumbers vertex(source.path, nodes, mesh.vertices);
+  for (const Group& group : groups(gmsh, 3)) {
+    if (!group.name.empty()) mesh.regionNames[group.name] = group.number;
+    for (const int entity : group.entities) {
+      const std::vector<size_t> corners = elements(gmsh, tetrahedronType, entity);
+      for (size_t i = 0; i + 3 < corners.size(); i += 4) {
+        std::array<int, 4>& added = mesh.tetrahedra.emplace_back();
+        for (size_t k = 0; k < 4; ++k) added[k] = vertex(corners[i + k]);
+        mesh.regions.push_back(group.number);
+      }
+    }
+  }
+  const size_t used = mesh.vertices.size();
+  for (const Group& group : groups(gmsh, 2)) {
+    if (!group.name.empty()) mesh.labelNames[group.name] = group.number;
+    for (const int entity : group.entities) {
+      const std::vector<size_t> corners = elements(gmsh, triangleType, entity);
+      for (size_t i = 0; i + 2 < corners.size(); i += 3) {
+        const std::array<int, 3> added{vertex(corners[i]), vertex(corners[i + 1]), vertex(corners[i + 2])};
+        if (*std::max_element(added.begin(), added.end()) >= static_cast<int>(used)) continue;
+        mesh.boundaryTriangles.push_back(added);
+        mesh.boundaryLabels.push_back(group.number);
+      }
+    }
+  }
+  mesh.vertices.resize(used);  // surfaces of no volume have others
+  mesh.name = source.path;
+  if (source.regions.empty())
+    dropInnerTriangles(mesh);
+  else
+    keepRegions(mesh, source.regions);
+  validate(mesh);
+  return mesh;
+}
 
-TriangleMesh readGmsh(const MeshSource& source, double seconds) {
+/// In a process of its own. \param read  from (Gmsh, MeshSource) to a mesh
+template <class Read>
+auto readInChild(const MeshSource& source, double seconds, const Read& read) {
   const std::string& path = source.path;
   if (std::error_code ignored; !std::filesystem::is_regular_file(path, ignored))
     throw InputError(path + ": not a file, expected a mesh or a geometry for Gmsh");
   const auto work = [&] {
-    TriangleMesh mesh = readHere(source);
+    requireConstants(source);
+    const Gmsh gmsh(source);
+    auto mesh = read(gmsh, source);
     ArchiveWriter writer;
     writer(mesh);
     return writer.bytes;
   };
   const std::string bytes = inChildProcess(work, path + ": Gmsh", seconds);
-  TriangleMesh mesh;
+  decltype(read(std::declval<const Gmsh&>(), source)) mesh;
   ArchiveReader reader(bytes);
   reader(mesh);
   return mesh;
+}
+
+}  // namespace
+
+TriangleMesh readGmsh(const MeshSource& source, double seconds) {
+  return readInChild(source, seconds, planeMesh);
+}
+
+TetrahedronMesh readSpaceGmsh(const MeshSource& source, double seconds) {
+  return readInChild(source, seconds, spaceMesh);
 }
 
 #endif

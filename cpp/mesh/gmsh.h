@@ -18,5 +18,7 @@ constexpr double gmshPatience = 600;
 /// the file, when it is no sound plane mesh of linear triangles, when a parameter is none of the geometry's,
 /// when Gmsh takes longer than `seconds`, or when this build has no Gmsh.
 TriangleMesh readGmsh(const MeshSource& source, double seconds = gmshPatience);
+/// The same in space: linear tetrahedra; physical surfaces become boundary labels, physical volumes regions.
+TetrahedronMesh readSpaceGmsh(const MeshSource& source, double seconds = gmshPatience);
 
 }  // namespace mortier

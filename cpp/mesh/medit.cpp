@@ -41,18 +41,19 @@ constexpr SkippedSection skippedSections[] = {
     {"EdgeOnGeometricEdge", 2},
 };
 
-constexpr std::array<std::string_view, 5> foreignElements{"Quadrilaterals", "Tetrahedra", "Hexahedra",
-                                                          "Prisms", "Pyramids"};
+constexpr std::array<std::string_view, 4> foreignElements{"Quadrilaterals", "Hexahedra", "Prisms", "Pyramids"};
 
 class Parser {
  public:
-  Parser(const std::string& path, std::string_view text) : words_(path, text) { mesh_.name = path; }
+  /// \param solid  whether it is of tetrahedra
+  Parser(const std::string& path, std::string_view text, bool solid) : words_(path, text), solid_(solid) {
+    mesh_.name = solidMesh_.name = path;
+  }
 
   TriangleMesh parse(const std::vector<std::string>& regions) {
-    readHeader();
-    while (readSection()) {
-    }
-    readNames();
+    readAll();
+    mesh_.labelNames = std::move(labelNames_);
+    mesh_.regionNames = std::move(regionNames_);
     if (!regions.empty() && verticesAreThere()) {
       keepRegions(mesh_, regions);
       validate(mesh_);
@@ -60,6 +61,15 @@ class Parser {
     }
     validate(mesh_, [this](MeshPart part, int index) { return words_.place(offset(part, index)); });
     return std::move(mesh_);
+  }
+
+  TetrahedronMesh parseSolid(const std::vector<std::string>& regions) {
+    readAll();
+    solidMesh_.labelNames = std::move(labelNames_);
+    solidMesh_.regionNames = std::move(regionNames_);
+    if (!regions.empty()) keepRegions(solidMesh_, regions);
+    validate(solidMesh_);
+    return std::move(solidMesh_);
   }
 
  private:
@@ -77,6 +87,13 @@ class Parser {
     return words_.offset(section.begin, size_t(index) * size_t(section.width));
   }
 
+  void readAll() {
+    readHeader();
+    while (readSection()) {
+    }
+    readNames();
+  }
+
   void readHeader() {
     std::string_view found = words_.next();
     if (found != "MeshVersionFormatted") words_.failAt(found, "MeshVersionFormatted as the first word");
@@ -84,15 +101,16 @@ class Parser {
     found = words_.next();
     if (found != "Dimension") words_.failAt(found, "Dimension");
     dimension_ = words_.number<int>("a dimension");
-    if (dimension_ != 2 && dimension_ != 3)
-      words_.fail(words_.lastEnd() - 1, "Dimension " + std::to_string(dimension_) + ", expected 2 or 3");
+    if (dimension_ != 3 && (solid_ || dimension_ != 2))
+      words_.fail(words_.lastEnd() - 1,
+                  "Dimension " + std::to_string(dimension_) + (solid_ ? ", expected 3" : ", expected 2 or 3"));
   }
 
   // Lines after the End of the format (medit.h).
   void readNames() {
     while (const auto name = words_.nextName()) {
-      if (name->of == "label") mesh_.labelNames[std::string(name->name)] = name->number;
-      if (name->of == "region") mesh_.regionNames[std::string(name->name)] = name->number;
+      if (name->of == "label") labelNames_[std::string(name->name)] = name->number;
+      if (name->of == "region") regionNames_[std::string(name->name)] = name->number;
     }
   }
 
@@ -115,15 +133,20 @@ class Parser {
       readTriangles();
     } else if (keyword == "Edges") {
       readEdges();
+    } else if (keyword == "Tetrahedra" && solid_) {
+      readTetrahedra();
     } else if (keyword == "Identifier" || keyword == "Geometry") {
       words_.skipString();
     } else if (keyword == "AngleOfCornerBound" || keyword == "MaximalAngleOfCorner") {
       words_.number<double>("an angle");
-    } else if (std::count(foreignElements.begin(), foreignElements.end(), keyword)) {
+    } else if (keyword == "Tetrahedra" ||
+               std::count(foreignElements.begin(), foreignElements.end(), keyword)) {
       const int n = count(keyword, 1);
       if (n > 0)
-        words_.fail(words_.lastEnd(),
-                    std::to_string(n) + " " + std::string(keyword) + ", expected triangles only");
+        words_.fail(words_.lastEnd(), std::to_string(n) + " " + std::string(keyword) + ", expected " +
+                                          (solid_                   ? "tetrahedra only"
+                                           : keyword == "Tetrahedra" ? "triangles only, or dimension = 3"
+                                                                     : "triangles only"));
     } else {
       skipSection(keyword);
     }
@@ -167,30 +190,46 @@ class Parser {
 
   void readVertices() {
     const int n = begin("Vertices", vertices_, dimension_ + 1);
-    mesh_.vertices.reserve(n);
+    (solid_ ? solidMesh_.vertices.reserve(n) : mesh_.vertices.reserve(n));
     double plane = 0;
     for (int i = 0; i < n; ++i) {
       const double x = words_.number<double>("a coordinate");
       const double y = words_.number<double>("a coordinate");
       const double z = dimension_ == 3 ? words_.number<double>("a coordinate") : 0;
       if (i == 0) plane = z;
-      if (z != plane)
+      if (z != plane && !solid_)
         words_.fail(words_.lastEnd() - 1,
                     "vertex " + std::to_string(i + 1) + " at z = " + std::to_string(z) +
                         ", expected all vertices in the plane z = " + std::to_string(plane));
       words_.number<int>("a label");
-      mesh_.vertices.emplace_back(x, y);
+      if (solid_)
+        solidMesh_.vertices.emplace_back(x, y, z);
+      else
+        mesh_.vertices.emplace_back(x, y);
     }
   }
 
   void readTriangles() {
     const int n = begin("Triangles", triangles_, 4);
-    mesh_.triangles.reserve(n);
-    mesh_.regions.reserve(n);
+    auto& triangles = solid_ ? solidMesh_.boundaryTriangles : mesh_.triangles;
+    auto& labels = solid_ ? solidMesh_.boundaryLabels : mesh_.regions;
+    triangles.reserve(n);
+    labels.reserve(n);
     for (int i = 0; i < n; ++i) {
       const int a = vertexNumber(), b = vertexNumber(), c = vertexNumber();
-      mesh_.triangles.push_back({a, b, c});
-      mesh_.regions.push_back(words_.number<int>("a label"));
+      triangles.push_back({a, b, c});
+      labels.push_back(words_.number<int>("a label"));
+    }
+  }
+
+  void readTetrahedra() {
+    const int n = begin("Tetrahedra", tetrahedra_, 5);
+    solidMesh_.tetrahedra.reserve(n);
+    solidMesh_.regions.reserve(n);
+    for (int i = 0; i < n; ++i) {
+      const int a = vertexNumber(), b = vertexNumber(), c = vertexNumber(), d = vertexNumber();
+      solidMesh_.tetrahedra.push_back({a, b, c, d});
+      solidMesh_.regions.push_back(words_.number<int>("a label"));
     }
   }
 
@@ -207,8 +246,11 @@ class Parser {
 
   MeditWords words_;
   int dimension_ = 2;
-  Section vertices_, triangles_, edges_;
+  Section vertices_, triangles_, edges_, tetrahedra_;
+  bool solid_ = false;
   TriangleMesh mesh_;
+  TetrahedronMesh solidMesh_;
+  std::map<std::string, int> labelNames_, regionNames_;
 };
 
 bool isOneLine(const std::string& name) {
@@ -226,8 +268,40 @@ void append(std::string& out, Number value, char after) {
 
 TriangleMesh readMedit(const std::string& path, const std::vector<std::string>& regions) {
   const std::string text = readWhole(path, "a Medit mesh");
-  return Parser(path, text).parse(regions);
+  return Parser(path, text, false).parse(regions);
 }
+
+TetrahedronMesh readSpaceMedit(const std::string& path, const std::vector<std::string>& regions) {
+  const std::string text = readWhole(path, "a Medit mesh");
+  return Parser(path, text, true).parseSolid(regions);
+}
+
+namespace {
+
+/// Items with vertex numbers and a label.
+template <size_t n>
+void appendItems(std::string& out, const char* section, const std::vector<std::array<int, n>>& items,
+                 const std::vector<int>& labels) {
+  out.append("\n").append(section).append("\n");
+  append(out, items.size(), '\n');
+  for (size_t i = 0; i < items.size(); ++i) {
+    for (const int v : items[i]) append(out, v + 1, ' ');
+    append(out, labels[i], '\n');
+  }
+}
+
+template <class Mesh>
+void appendEnd(std::string& out, const Mesh& mesh) {
+  out += "\nEnd\n";
+  const auto appendNames = [&](const char* of, const std::map<std::string, int>& names) {
+    for (const auto& [name, number] : names)
+      if (isOneLine(name)) out += std::string("# ") + of + ' ' + std::to_string(number) + " = " + name + '\n';
+  };
+  appendNames("label", mesh.labelNames);
+  appendNames("region", mesh.regionNames);
+}
+
+}  // namespace
 
 std::string meditText(const TriangleMesh& mesh) {
   std::string out = "MeshVersionFormatted 2\nDimension 2\n\nVertices\n";
@@ -237,29 +311,29 @@ std::string meditText(const TriangleMesh& mesh) {
     append(out, p.y(), ' ');
     out += "0\n";
   }
-  out += "\nEdges\n";
-  append(out, mesh.boundaryEdges.size(), '\n');
-  for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
-    for (int v : mesh.boundaryEdges[e]) append(out, v + 1, ' ');
-    append(out, mesh.boundaryLabels[e], '\n');
+  appendItems(out, "Edges", mesh.boundaryEdges, mesh.boundaryLabels);
+  appendItems(out, "Triangles", mesh.triangles, mesh.regions);
+  appendEnd(out, mesh);
+  return out;
+}
+
+std::string meditText(const TetrahedronMesh& mesh) {
+  std::string out = "MeshVersionFormatted 2\nDimension 3\n\nVertices\n";
+  append(out, mesh.vertices.size(), '\n');
+  for (const SpacePoint& p : mesh.vertices) {
+    for (const double x : p) append(out, x, ' ');
+    out += "0\n";
   }
-  out += "\nTriangles\n";
-  append(out, mesh.triangles.size(), '\n');
-  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int v : mesh.triangles[t]) append(out, v + 1, ' ');
-    append(out, mesh.regions[t], '\n');
-  }
-  out += "\nEnd\n";
-  const auto appendNames = [&](const char* of, const std::map<std::string, int>& names) {
-    for (const auto& [name, number] : names)
-      if (isOneLine(name)) out += std::string("# ") + of + ' ' + std::to_string(number) + " = " + name + '\n';
-  };
-  appendNames("label", mesh.labelNames);
-  appendNames("region", mesh.regionNames);
+  appendItems(out, "Triangles", mesh.boundaryTriangles, mesh.boundaryLabels);
+  appendItems(out, "Tetrahedra", mesh.tetrahedra, mesh.regions);
+  appendEnd(out, mesh);
   return out;
 }
 
 void writeMedit(const TriangleMesh& mesh, const std::string& path) {
+  writeWhole(path, meditText(mesh));
+}
+void writeMedit(const TetrahedronMesh& mesh, const std::string& path) {
   writeWhole(path, meditText(mesh));
 }
 

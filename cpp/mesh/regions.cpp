@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <charconv>
 #include <set>
+#include <utility>
 
 #include "base/error.h"
 
 namespace mortier {
 namespace {
 
-std::string regionsOf(const TriangleMesh& mesh) {
+template <class Mesh>
+std::string regionsOf(const Mesh& mesh) {
   const std::set<int> present(mesh.regions.begin(), mesh.regions.end());
   std::string text;
   for (const int region : present) {
@@ -20,7 +22,8 @@ std::string regionsOf(const TriangleMesh& mesh) {
   return text;
 }
 
-int numberOf(const std::string& region, const TriangleMesh& mesh) {
+template <class Mesh>
+int numberOf(const std::string& region, const Mesh& mesh) {
   const auto named = mesh.regionNames.find(region);
   int number = 0;
   const char* const end = region.data() + region.size();
@@ -66,36 +69,71 @@ auto timesIn(const std::vector<std::pair<int, int>>& sides, const std::array<int
   return last - first;
 }
 
-}  // namespace
-
-void keepRegions(TriangleMesh& mesh, const std::vector<std::string>& regions) {
+/// \param elements  triangles or tetrahedra of the mesh
+template <class Mesh, class Elements>
+void keepElements(Mesh& mesh, Elements& elements, const std::vector<std::string>& regions) {
   std::set<int> wanted;
   for (const std::string& region : regions) wanted.insert(numberOf(region, mesh));
   size_t kept = 0;
-  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+  for (size_t t = 0; t < elements.size(); ++t) {
     if (wanted.count(mesh.regions[t]) == 0) continue;
-    mesh.triangles[kept] = mesh.triangles[t];
+    elements[kept] = elements[t];
     mesh.regions[kept++] = mesh.regions[t];
   }
-  mesh.triangles.resize(kept);
+  elements.resize(kept);
   mesh.regions.resize(kept);
-  const auto sides = sidesOf(mesh);
-  keepEdges(mesh, [&](const std::array<int, 2>& edge) { return timesIn(sides, edge) == 1; });
+}
 
+/// Leaves out vertices that none of the elements has, and numbers the others by their order in them.
+template <class Mesh, class Elements, class Boundary>
+void renumberVertices(Mesh& mesh, Elements& elements, Boundary& boundary) {
   std::vector<int> numbers(mesh.vertices.size(), -1);
-  std::vector<Point> vertices;
+  auto vertices = std::exchange(mesh.vertices, {});
   const auto renumber = [&](int& v) {
     if (numbers[v] < 0) {
-      numbers[v] = static_cast<int>(vertices.size());
-      vertices.push_back(mesh.vertices[v]);
+      numbers[v] = static_cast<int>(mesh.vertices.size());
+      mesh.vertices.push_back(vertices[v]);
     }
     v = numbers[v];
   };
-  for (auto& corners : mesh.triangles)
+  for (auto& corners : elements)
     for (int& v : corners) renumber(v);
-  for (auto& edge : mesh.boundaryEdges)
-    for (int& v : edge) renumber(v);
-  mesh.vertices = std::move(vertices);
+  for (auto& item : boundary)
+    for (int& v : item) renumber(v);
+}
+
+template <class Keep>
+void keepTriangles(TetrahedronMesh& mesh, const Keep& keep) {
+  size_t kept = 0;
+  for (size_t i = 0; i < mesh.boundaryTriangles.size(); ++i) {
+    if (!keep(mesh.boundaryTriangles[i])) continue;
+    mesh.boundaryTriangles[kept] = mesh.boundaryTriangles[i];
+    mesh.boundaryLabels[kept++] = mesh.boundaryLabels[i];
+  }
+  mesh.boundaryTriangles.resize(kept);
+  mesh.boundaryLabels.resize(kept);
+}
+
+}  // namespace
+
+void keepRegions(TriangleMesh& mesh, const std::vector<std::string>& regions) {
+  keepElements(mesh, mesh.triangles, regions);
+  const auto sides = sidesOf(mesh);
+  keepEdges(mesh, [&](const std::array<int, 2>& edge) { return timesIn(sides, edge) == 1; });
+  renumberVertices(mesh, mesh.triangles, mesh.boundaryEdges);
+}
+
+void keepRegions(TetrahedronMesh& mesh, const std::vector<std::string>& regions) {
+  requireVertices(mesh);
+  keepElements(mesh, mesh.tetrahedra, regions);
+  const TriangleCount count(mesh);
+  keepTriangles(mesh, [&](const std::array<int, 3>& triangle) { return count(triangle) == 1; });
+  renumberVertices(mesh, mesh.tetrahedra, mesh.boundaryTriangles);
+}
+
+void dropInnerTriangles(TetrahedronMesh& mesh) {
+  const TriangleCount count(mesh);
+  keepTriangles(mesh, [&](const std::array<int, 3>& triangle) { return count(triangle) < 2; });
 }
 
 void dropInnerEdges(TriangleMesh& mesh) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/tetrahedron_mesh.h"
 #include "mesh/triangle_mesh.h"
 
 namespace mortier {
@@ -12,8 +13,11 @@ namespace mortier {
 /// may have been inside the mesh. Vertices that two of them share stay shared; those that a region shares
 /// with what is left out become its own. \throws InputError that lists the regions of the mesh.
 void keepRegions(TriangleMesh& mesh, const std::vector<std::string>& regions);
+void keepRegions(TetrahedronMesh& mesh, const std::vector<std::string>& regions);
 
 /// Drops labelled edges between two triangles, which are of no use as a boundary.
 void dropInnerEdges(TriangleMesh& mesh);
+/// The same of labelled triangles between two tetrahedra.
+void dropInnerTriangles(TetrahedronMesh& mesh);
 
 }  // namespace mortier

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/error.h"
 
@@ -77,13 +78,30 @@ std::vector<SortedTriangle> boundaryOf(const TetrahedronMesh& mesh) {
 
 }  // namespace
 
+void requireVertices(const TetrahedronMesh& mesh) {
+  requireVertices(mesh, mesh.tetrahedra, "tetrahedron");
+  requireVertices(mesh, mesh.boundaryTriangles, "triangle");
+}
+
+TriangleCount::TriangleCount(const TetrahedronMesh& mesh) {
+  sorted_.reserve(4 * mesh.tetrahedra.size());
+  for (const std::array<int, 4>& vertices : mesh.tetrahedra)
+    for (const auto& [a, b, c] : oppositeTriangles)
+      sorted_.push_back(sortedOf({vertices[a], vertices[b], vertices[c]}));
+  std::sort(sorted_.begin(), sorted_.end());
+}
+
+int TriangleCount::operator()(const std::array<int, 3>& triangle) const {
+  const auto [first, last] = std::equal_range(sorted_.begin(), sorted_.end(), sortedOf(triangle));
+  return static_cast<int>(last - first);
+}
+
 void validate(TetrahedronMesh& mesh) {
   if (mesh.tetrahedra.empty()) throw InputError(mesh.name + ": no tetrahedra");
   for (size_t v = 0; v < mesh.vertices.size(); ++v)
     if (!mesh.vertices[v].allFinite())
       throw InputError(mesh.name + ": vertex " + std::to_string(v + 1) + " is not finite");
-  requireVertices(mesh, mesh.tetrahedra, "tetrahedron");
-  requireVertices(mesh, mesh.boundaryTriangles, "triangle");
+  requireVertices(mesh);
   std::vector<char> used(mesh.vertices.size(), 0);
   for (const auto& tetrahedron : mesh.tetrahedra)
     for (const int v : tetrahedron) used[v] = 1;
@@ -120,6 +138,24 @@ double extent(const TetrahedronMesh& mesh) {
     upper = upper.cwiseMax(vertex);
   }
   return (upper - lower).maxCoeff();
+}
+
+std::vector<int> boundaryLabels(const TetrahedronMesh& mesh) {
+  const std::set<int> labels(mesh.boundaryLabels.begin(), mesh.boundaryLabels.end());
+  return {labels.begin(), labels.end()};
+}
+
+std::vector<std::array<int, 3>> trianglesOn(const TetrahedronMesh& mesh, int label) {
+  std::vector<std::array<int, 3>> triangles;
+  for (size_t i = 0; i < mesh.boundaryTriangles.size(); ++i)
+    if (mesh.boundaryLabels[i] == label) triangles.push_back(mesh.boundaryTriangles[i]);
+  return triangles;
+}
+
+std::vector<int> verticesOn(const TetrahedronMesh& mesh, int label) {
+  std::set<int> vertices;
+  for (const auto& triangle : trianglesOn(mesh, label)) vertices.insert(triangle.begin(), triangle.end());
+  return {vertices.begin(), vertices.end()};
 }
 
 SpaceNodes spaceNodes(const TetrahedronMesh& mesh, int degree) {

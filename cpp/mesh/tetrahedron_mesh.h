@@ -27,9 +27,28 @@ struct TetrahedronMesh {
 /// most, labelled triangles on the boundary, each labelled once. A tetrahedron is flat when its volume is
 /// 1e-12 of the cube of its longest edge or less. \throws InputError with the first fault.
 void validate(TetrahedronMesh& mesh);
+/// The first of these checks: that there is every vertex that tetrahedra and triangles name. \throws InputError
+void requireVertices(const TetrahedronMesh& mesh);
+
+/// Whether a triangle of vertices, in any order, belongs to two tetrahedra, to one, or to none.
+class TriangleCount {
+ public:
+  explicit TriangleCount(const TetrahedronMesh& mesh);
+  [[nodiscard]] int operator()(const std::array<int, 3>& triangle) const;
+
+ private:
+  std::vector<std::array<int, 3>> sorted_;  ///< of all tetrahedra, as often as they have it
+};
 
 /// Largest extent of the bounding box [m].
 double extent(const TetrahedronMesh& mesh);
+
+/// The labels present on the boundary, ascending, each once.
+std::vector<int> boundaryLabels(const TetrahedronMesh& mesh);
+/// The triangles that carry a label, in the mesh's order.
+std::vector<std::array<int, 3>> trianglesOn(const TetrahedronMesh& mesh, int label);
+/// The vertices of those triangles, ascending, each once.
+std::vector<int> verticesOn(const TetrahedronMesh& mesh, int label);
 
 /// Sides of a tetrahedron, in the order of their middles among its nodes.
 inline constexpr std::array<std::array<int, 2>, 6> sidesOfTetrahedron{

@@ -17,6 +17,7 @@ namespace {
 class Planner {
  public:
   Planner(const SceneDescription& scene, const Model& model) : scene_(scene), model_(model) {
+    if (scene.inSpace()) return;
     MeshedScene meshed{scene, {}};
     for (const Body& body : model.bodies) meshed.meshes.push_back(&body.mesh());
     data_ = sampledData(meshed);
@@ -38,9 +39,15 @@ class Planner {
       add("accuracy", false, "errors of the quantities",
           "they are not estimated on one mesh; --accuracy, or accuracy.energy, refines it and shows how the "
           "values change");
+    const bool space = scene_.inSpace();
     if (scene_.degree == 2)
       add("scene", true, "quadratic displacements",
-          "degree = 2: six nodes a triangle, stresses at three points");
+          space ? "degree = 2: ten nodes a tetrahedron, stresses at four points"
+                : "degree = 2: six nodes a triangle, stresses at three points");
+    if (space) {
+      add("scene", true, "bodies in space", "dimension = 3");
+      add("scene", false, "what data do between nodes and steps", "it is looked at in the plane only");
+    }
     if (scene_.plane == Plane::strain)
       add("scene", true, "plane strain", "plane = \"strain\": nothing moves across the plane, s33 is found");
     if (scene_.plane == Plane::axisymmetric)
@@ -100,7 +107,8 @@ class Planner {
       else if (material->flows())
         always = named.text();
     }
-    const std::string law = !symmetric && projection.empty() ? "its tangent is unsymmetric"
+    const std::string law = scene_.inSpace()                 ? "its tangent is symmetric in space"
+                            : !symmetric && projection.empty() ? "its tangent is unsymmetric"
                             : scene_.plane != Plane::stress
                                 ? "its tangent is symmetric " + (scene_.plane == Plane::strain
                                                                      ? std::string("in plane strain")
@@ -117,7 +125,9 @@ class Planner {
     add(part, false, "a new factor while nothing in it flows", "its tangent is that of elasticity");
     const std::string loads = "loads of the order of " + digits(largest_) + " " + scene_.units.stress +
                               ", yield_stress " + shortest(yieldStress) + " " + scene_.units.stress;
-    if (largest_ < yieldStress)
+    if (scene_.inSpace())
+      add(part, true, "flow", "yield_stress " + shortest(yieldStress) + " " + scene_.units.stress);
+    else if (largest_ < yieldStress)
       add(part, false, "flow, as none is expected", loads);
     else
       add(part, true, "flow", loads);
@@ -177,8 +187,10 @@ class Planner {
     const TimePlan& time = scene_.time;
     const bool elastic = std::all_of(model_.bodies.begin(), model_.bodies.end(),
                                      [](const Body& body) { return body.material().linear(); });
-    const bool changes = std::any_of(data_.begin(), data_.end(),
-                                     [&](const SampledDatum& datum) { return changesInTime(datum, time); });
+    const bool changes =
+        anyInSpaceChanges() || std::any_of(data_.begin(), data_.end(), [&](const SampledDatum& datum) {
+          return changesInTime(datum, time);
+        });
     if (elastic && !changes) {
       add("time", true, "one step", "nothing depends on time");
       if (!time.controlled() && time.steps > 1)
@@ -196,6 +208,16 @@ class Planner {
     if (tolerance > 0 && !time.controlled())
       add("time", false, "the scene's " + equal,
           "beside an accuracy the steps of bodies that flow are chosen by their error");
+  }
+
+  [[nodiscard]] bool anyInSpaceChanges() const {
+    return scene_.inSpace() &&
+           std::any_of(scene_.bodies.begin(), scene_.bodies.end(), [](const BodyDescription& body) {
+             const auto changes = [](const auto& force) { return force && force->inTime; };
+             return std::any_of(body.conditions.begin(), body.conditions.end(),
+                                [](const ConditionDescription& c) { return c.value.inTime; }) ||
+                    std::any_of(std::begin(body.force), std::end(body.force), changes);
+           });
   }
 
   const SceneDescription& scene_;

@@ -51,9 +51,7 @@ Accuracy AccuracyRecord::atEnd(const Peaks& peaks) {
     if (!(estimate.error.maxCoeff(&worst) > largest)) continue;
     largest = estimate.error[worst];
     result.worstBody = model_.bodies[b].name();
-    const TriangleMesh& mesh = model_.bodies[b].mesh();
-    result.worst.setZero();
-    for (const int vertex : mesh.triangles[worst]) result.worst += mesh.vertices[vertex] / 3;
+    result.worst = model_.bodies[b].centreOf(static_cast<size_t>(worst));
   }
   result.all = energy > 0 ? std::sqrt(error / energy) : 0;
   result.time = result.largestTime = error_.state().time;

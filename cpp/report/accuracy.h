@@ -22,7 +22,7 @@ struct Accuracy {
   double all = 0;              ///< of the last state, over its own stress
   std::vector<double> bodies;  ///< the same of each body
   std::string worstBody;       ///< the body of the triangle with the largest error, and its centre [m]
-  Point worst = Point::Zero();
+  SpacePoint worst{0, 0, 0};
   double largest = 0;      ///< of any step at which it was estimated, over the largest stress of the run
   double largestTime = 0;  ///< [s]
   double time = 0;         ///< of the last state [s]

@@ -72,6 +72,17 @@ void requireFile(const std::string& folder, const std::string& name, const FileR
 
 }  // namespace
 
+uint64_t hashOf(const TetrahedronMesh& mesh) {
+  Checksum sum;
+  for (const SpacePoint& p : mesh.vertices)
+    sum.add({reinterpret_cast<const char*>(p.data()), 3 * sizeof(double)});
+  add(sum, mesh.tetrahedra);
+  add(sum, mesh.regions);
+  add(sum, mesh.boundaryTriangles);
+  add(sum, mesh.boundaryLabels);
+  return sum.value;
+}
+
 uint64_t hashOf(const TriangleMesh& mesh) {
   Checksum sum;
   for (const Point& p : mesh.vertices) sum.add({reinterpret_cast<const char*>(p.data()), 2 * sizeof(double)});

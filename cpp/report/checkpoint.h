@@ -35,6 +35,7 @@ struct Checkpoint {
 
 /// FNV-1a of all that a mesh holds.
 uint64_t hashOf(const TriangleMesh& mesh);
+uint64_t hashOf(const TetrahedronMesh& mesh);
 
 /// Makes `checkpoint` the latest in `folder` and keeps the one before it. \throws OutputError
 void writeCheckpoint(const std::string& folder, const Checkpoint& checkpoint);

@@ -25,7 +25,7 @@ MORTIER_MEMBERS(StepSolutions, ambiguous, listed)
 MORTIER_MEMBERS(SeveralSolutions, step, time, listed)
 MORTIER_MEMBERS(StepReport, step, time, timeStep, status, reason, rung, guarded, rejections, estimate,
                 iterations, factorisations, active, joined, left, penetration, maxPressure, contactForce,
-                resultantX, resultantY, vonMises, displacement, motion, energy, viscoplasticFraction,
+                resultantX, resultantY, resultantZ, vonMises, displacement, motion, energy, viscoplasticFraction,
                 certificate, quantities, frictionWork, solutions)
 MORTIER_MEMBERS(Peak, value, time)
 MORTIER_MEMBERS(QuantityRange, start, smallest, smallestTime, largest, largestTime)

@@ -88,14 +88,16 @@ std::vector<double> flat(const Matrix& m) {
   return {m.data(), m.data() + m.size()};
 }
 
-void writePoints(VtuFile& file, const std::vector<Point>& places, const Vector& displacement) {
+void writePoints(VtuFile& file, const Body& body, const Vector& displacement) {
   std::vector<double> points;
   std::vector<double> u;
-  points.reserve(3 * places.size());
-  u.reserve(3 * places.size());
-  for (size_t v = 0; v < places.size(); ++v) {
-    points.insert(points.end(), {places[v][0], places[v][1], 0.0});
-    u.insert(u.end(), {displacement[2 * v], displacement[2 * v + 1], 0.0});
+  points.reserve(3 * static_cast<size_t>(body.nodes()));
+  u.reserve(points.capacity());
+  const int dimension = body.dimension();
+  for (int v = 0; v < body.nodes(); ++v) {
+    const SpacePoint place = body.placeOfNode(v);
+    points.insert(points.end(), place.begin(), place.end());
+    for (int c = 0; c < 3; ++c) u.push_back(c < dimension ? displacement[dimension * v + c] : 0.0);
   }
   file.open("Points");
   file.array("Points", std::move(points), 3);
@@ -105,51 +107,71 @@ void writePoints(VtuFile& file, const std::vector<Point>& places, const Vector& 
   file.shut("PointData");
 }
 
-void writeCells(VtuFile& file, const ElementNodes& nodes) {
+/// VTK numbers the nodes of its quadratic cells as ours.
+void writeCells(VtuFile& file, const Body& body) {
   constexpr uint8_t vtkTriangle = 5;
-  constexpr uint8_t vtkQuadraticTriangle = 22;  // its nodes are numbered as ours
-  const std::vector<int32_t> connectivity(nodes.triangles.begin(), nodes.triangles.end());
-  std::vector<int32_t> offsets(connectivity.size() / nodes.perTriangle());
-  for (size_t t = 0; t < offsets.size(); ++t)
-    offsets[t] = static_cast<int32_t>((t + 1) * nodes.perTriangle());
+  constexpr uint8_t vtkQuadraticTriangle = 22;
+  constexpr uint8_t vtkTetrahedron = 10;
+  constexpr uint8_t vtkQuadraticTetrahedron = 24;
+  const bool space = body.space() != nullptr;
+  const std::vector<int>& nodes = space ? body.space()->nodes().elements : body.elementNodes().triangles;
+  const std::vector<int32_t> connectivity(nodes.begin(), nodes.end());
+  const size_t perCell = connectivity.size() / body.elements();
+  std::vector<int32_t> offsets(body.elements());
+  for (size_t t = 0; t < offsets.size(); ++t) offsets[t] = static_cast<int32_t>((t + 1) * perCell);
+  const uint8_t linear = space ? vtkTetrahedron : vtkTriangle;
+  const uint8_t quadratic = space ? vtkQuadraticTetrahedron : vtkQuadraticTriangle;
   file.open("Cells");
   file.integers("Int32", "connectivity", connectivity);
   file.integers("Int32", "offsets", offsets);
   file.integers("UInt8", "types",
-                std::vector<uint8_t>(offsets.size(), nodes.degree == 1 ? vtkTriangle : vtkQuadraticTriangle));
+                std::vector<uint8_t>(offsets.size(), body.degree() == 1 ? linear : quadratic));
   file.shut("Cells");
+}
+
+const std::vector<int>& regionsOf(const Body& body) {
+  return body.space() != nullptr ? body.space()->mesh().regions : body.mesh().regions;
 }
 
 void writeCellData(VtuFile& file, const Body& body, const BodyState& state, const ErrorEstimate& estimate) {
   if (body.rigid()) {
     file.open("CellData");
-    file.integers("Int32", "region", body.mesh().regions);
+    file.integers("Int32", "region", regionsOf(body));
     file.shut("CellData");
     return;
   }
   const CellFields fields = cellFields(body, state);
   file.open("CellData", "Scalars=\"von_mises\"");
   const auto components = static_cast<int>(fields.stress.rows());
-  const auto named = [&](std::vector<std::string> names) {
+  const bool space = body.space() != nullptr;
+  const auto named = [&](const std::string& letter) {
+    std::vector<std::string> names =
+        space ? std::vector<std::string>{"11", "22", "33", "12", "23", "13"}
+              : std::vector<std::string>{"11", "22", "12", "33"};
     names.resize(components);
+    for (std::string& name : names) name.insert(0, letter);
     return names;
   };
-  file.array("stress", flat(fields.stress), components, named({"s11", "s22", "s12", "s33"}));
+  file.array("stress", flat(fields.stress), components, named("s"));
   if (fields.stressAtPoints.rows() > components)
     file.array("stress_at_points", flat(fields.stressAtPoints),
                static_cast<int>(fields.stressAtPoints.rows()));
   file.array("von_mises", flat(fields.vonMises), 1);
-  file.array("viscoplastic_strain", flat(fields.viscoplasticStrain), components,
-             named({"e11", "e22", "e12", "e33"}));
+  file.array("viscoplastic_strain", flat(fields.viscoplasticStrain), components, named("e"));
   file.integers("Int32", "viscoplastic", fields.viscoplastic);
-  file.integers("Int32", "region", body.mesh().regions);
+  file.integers("Int32", "region", regionsOf(body));
   const double energy = estimate.energy > 0 ? estimate.energy : 1;
   file.array("error", flat((estimate.error / energy).cwiseSqrt()), 1);
   file.shut("CellData");
 }
 
-/// (p, q, r) or (p, q, r, s33) by the axes.
-PointVector allCartesian(PointVector s) {
+/// (p, q, r) or (p, q, r, s33) by the axes; in space s11, s22, s33, s12, s23, s13.
+PointVector allCartesian(PointVector s, bool space) {
+  if (space) {
+    const SpaceStress c = toSpaceCartesian(SpaceStress(s.head<6>()));
+    s.head<6>() << c[0], c[1], c[2], c[3], c[5], c[4];
+    return s;
+  }
   s.head<3>() = toCartesian(s.head<3>());
   return s;
 }
@@ -157,7 +179,8 @@ PointVector allCartesian(PointVector s) {
 }  // namespace
 
 CellFields cellFields(const Body& body, const BodyState& state) {
-  const auto cells = static_cast<Eigen::Index>(body.mesh().triangles.size());
+  const auto cells = static_cast<Eigen::Index>(body.elements());
+  const bool space = body.space() != nullptr;
   const Eigen::Index pointsPerCell = std::max<Eigen::Index>(1, state.stress.cols() / cells);  // of a tool 0
   const Eigen::Index components = body.material().tensorComponents();
   const Matrix strain = strainOfLaw(body.material(), state);
@@ -166,12 +189,12 @@ CellFields cellFields(const Body& body, const BodyState& state) {
   const double weight = 1.0 / static_cast<double>(pointsPerCell);
   for (Eigen::Index point = 0; point < state.stress.cols(); ++point) {
     const Eigen::Index cell = point / pointsPerCell;
-    const PointVector stress = allCartesian(state.stress.col(point).head(components));
+    const PointVector stress = allCartesian(state.stress.col(point).head(components), space);
     fields.stress.col(cell) += weight * stress;
     fields.stressAtPoints.col(cell).segment(components * (point % pointsPerCell), components) = stress;
     fields.vonMises[cell] += weight * vonMises(state.stress.col(point).head(components));
     fields.viscoplasticStrain.col(cell) +=
-        weight * allCartesian(state.viscoplasticStrain.col(point).head(components));
+        weight * allCartesian(state.viscoplasticStrain.col(point).head(components), space);
     if (body.material().flows(state.stress, static_cast<int>(point), &strain)) fields.viscoplastic[cell] = 1;
   }
   return fields;
@@ -186,13 +209,12 @@ std::string fieldName(const std::string& body, int step) {
 void Fields::write(const State& state, const std::vector<ErrorEstimate>& estimates, KeptFields& kept) {
   for (size_t b = 0; b < model_.bodies.size(); ++b) {
     const Body& body = model_.bodies[b];
-    const ElementNodes& nodes = body.elementNodes();
     const std::string name = fieldName(body.name(), kept.step);
     VtuFile file(folder_ + "/" + name);
-    file.open("Piece", "NumberOfPoints=\"" + std::to_string(nodes.count()) + "\" NumberOfCells=\"" +
-                           std::to_string(body.mesh().triangles.size()) + "\"");
-    writePoints(file, nodes.places, body.moved(state.bodies[b].displacement));
-    writeCells(file, nodes);
+    file.open("Piece", "NumberOfPoints=\"" + std::to_string(body.nodes()) + "\" NumberOfCells=\"" +
+                           std::to_string(body.elements()) + "\"");
+    writePoints(file, body, body.moved(state.bodies[b].displacement));
+    writeCells(file, body);
     writeCellData(file, body, state.bodies[b], estimates[b]);
     file.shut("Piece");
     kept.files[name] = file.close();
@@ -206,7 +228,7 @@ void Fields::wait() {
 void Fields::add(const State& state, int step) {
   constexpr int trianglesWorthAThread = 20000;
   size_t triangles = 0;
-  for (const Body& body : model_.bodies) triangles += body.mesh().triangles.size();
+  for (const Body& body : model_.bodies) triangles += body.elements();
   wait();
   kept_.push_back({step, state.time, {}});  // the next one waits until this one is written
   if (triangles < trianglesWorthAThread)

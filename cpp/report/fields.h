@@ -1,6 +1,6 @@
 // fields.pvd and one .vtu per body and kept step, for ParaView: Float64, raw binary.
-//   points: displacement (x, y, 0) [m]
-//   cells:  stress (s11, s22, s12) [Pa], von_mises [Pa], viscoplastic_strain (e11, e22, e12) [-],
+//   points: displacement (x, y, 0 or z) [m]
+//   cells:  stress (s11, s22, s12; in space s11, s22, s33, s12, s23, s13) [Pa], von_mises [Pa], viscoplastic_strain (e11, e22, e12) [-],
 //           viscoplastic (1 where the stress is beyond yield), region (label of the triangle),
 //           error (estimated, of the stress: share of the triangle in the energy norm of its body) [-]
 // Points and cells are numbered as in the mesh, from 0. A cell with several material points shows their mean,
@@ -61,9 +61,9 @@ class Fields {
   std::future<void> writing_;
 };
 
-/// What is shown of one body's cells; one column (or entry) a triangle.
+/// What is shown of one body's cells; one column (or entry) a triangle or a tetrahedron.
 struct CellFields {
-  Matrix stress;              ///< s11, s22, s12, in plane strain s33 [Pa]
+  Matrix stress;              ///< s11, s22, s12, in plane strain s33; in space as ParaView has it [Pa]
   Matrix stressAtPoints;      ///< the same at the material points, one point below the other [Pa]
   Vector vonMises;            ///< [Pa]
   Matrix viscoplasticStrain;  ///< e11, e22, e12, in plane strain e33 [-]

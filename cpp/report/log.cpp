@@ -7,6 +7,7 @@
 
 #include "base/counted.h"
 #include "report/clock.h"
+#include "report/place_text.h"
 #include "report/summary.h"
 #include "time/unbounded_order.h"
 
@@ -63,7 +64,7 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
     text += (b == 0 ? "bodies     " : ", ") + body.name() + " " + std::to_string(body.dofs()) + " dofs, " +
             lawsOf(body);
   }
-  text += "; plane " + facts.plane + "\n";
+  text += facts.plane == "space" ? "; in space\n" : "; plane " + facts.plane + "\n";
   for (const Body& body : model.bodies) {
     text += materials(body, facts.units);
     if (body.patches() != nullptr)
@@ -74,7 +75,7 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
     const ContactInterface& interface = model.interfaces[k];
     const double least = interface.initialDistance().size() > 0 ? interface.initialDistance().minCoeff() : 0;
     constexpr double noticeable = 1e-6;
-    const double size = extent(model.bodies[interface.pair().nonmortar.body].mesh());
+    const double size = model.bodies[interface.pair().nonmortar.body].extent();
     const std::string pressed = least < -noticeable * size
                                     ? formatted("; interference %.3g ", -least) + facts.units.length
                                     : std::string();
@@ -93,7 +94,7 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
 std::string logStepsHeader(const Units& units) {
   return formatted("%6s  %10s  %4s  %13s  %10s  %16s  %10s  %12s  %10s\n", "step",
                    ("time[" + units.time + "]").c_str(), "iter", "active(+/-)", "|residual|",
-                   ("penetration[" + units.area() + "]").c_str(), ("max p[" + units.stress + "]").c_str(),
+                   ("penetration[" + units.penetration() + "]").c_str(), ("max p[" + units.stress + "]").c_str(),
                    "viscoplastic", ("force[" + units.forcePerDepth() + "]").c_str());
 }
 
@@ -234,8 +235,8 @@ std::string logAccuracy(const RunFacts& facts, const Model& model, const Accurac
     for (size_t b = 0; b < model.bodies.size(); ++b)
       text +=
           (b == 0 ? " (" : ", ") + model.bodies[b].name() + formatted(" %.2g %%", 100 * accuracy.bodies[b]);
-    text += "), largest in " + accuracy.worstBody +
-            formatted(" at (%.4g, %.4g)\n", accuracy.worst[0], accuracy.worst[1]);
+    text += "), largest in " + accuracy.worstBody + " at " +
+            placeText(accuracy.worst, model.bodies.front().dimension()) + "\n";
   }
   double sagitta = 0;
   for (const ContactInterface& interface : model.interfaces) sagitta = std::max(sagitta, interface.sagitta());
@@ -303,9 +304,10 @@ std::string logQuantities(const RunFacts& facts, const Model& model, const State
   for (size_t i = 0; i < quantities.size(); ++i) {
     text += (i == 0 ? "quantities " : ", ") + quantities[i].name + formatted(" %.7g ", values[i]) +
             quantities[i].unit(facts.units);
-    const std::optional<Point> place = placeOf(quantities[i], model, state);
-    if (place) text += formatted(" at (%.4g, %.4g)", place->x(), place->y());
-    const double order = place ? unboundedOrder(model, state, *place) : 0;
+    const int dimension = model.bodies[quantities[i].body].dimension();
+    const std::optional<SpacePoint> place = placeOf(quantities[i], model, state);
+    if (place) text += " at " + placeText(*place, dimension);
+    const double order = place && dimension == 2 ? unboundedOrder(model, state, place->head<2>()) : 0;
     const std::optional<RoundChange> change = changeInRounds(facts, i);
     if (order > 0)
       text += formatted(" (no limit: stresses are unbounded there, about like r^-%.1f)", order);
@@ -327,7 +329,7 @@ std::string logQuantities(const RunFacts& facts, const Model& model, const State
       text += " (no bound: " + enclosure.obstacle + ")";
   }
   if (!text.empty()) text += "\n";
-  if (!known)
+  if (!known && model.bodies.front().dimension() == 2)
     text +=
         "           their errors are not estimated on one mesh: --accuracy 0.02 refines it and shows "
         "how they change\n";

@@ -48,11 +48,18 @@ Json bodies(const Model& model) {
     list.push_back({{"name", body.name()},
                     {"material", lawsOf(body)},
                     {"laws", body.rigid() ? Json::array() : laws(body.material())},
-                    {"triangles", body.mesh().triangles.size()},
+                    {body.space() != nullptr ? "tetrahedra" : "triangles", body.elements()},
                     {"nodes", body.nodes()},
                     {"dofs", body.dofs()},
                     {"free_dofs", body.freeDofs()}});
   return list;
+}
+
+/// [x, y], in space [x, y, z].
+Json jsonOf(const SpacePoint& vector, int dimension) {
+  Json json = {vector.x(), vector.y()};
+  if (dimension == 3) json.push_back(vector.z());
+  return json;
 }
 
 Json interfaces(const RunFacts& facts, const Model& model, const State& state) {
@@ -60,6 +67,7 @@ Json interfaces(const RunFacts& facts, const Model& model, const State& state) {
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
     const SpacePoint force = resultant(model, state, k);
+    const int dimension = interface.dimension();
     const Sliding sliding = slidingOf(model, state, k);
     list.push_back({{"variant", facts.variants[k]},
                     {"nonmortar", model.bodies[interface.pair().nonmortar.body].name()},
@@ -68,7 +76,7 @@ Json interfaces(const RunFacts& facts, const Model& model, const State& state) {
                     {"mortar_nodes", interface.mortarNodes().size()},
                     {"overlap", interface.overlap()},
                     {"sagitta", interface.sagitta()},
-                    {"resultant", {force[0], force[1]}},
+                    {"resultant", jsonOf(force, dimension)},
                     {"sliding", {{"slip", sliding.slip}, {"edges", sliding.edges}}},
                     {"held_ends", interface.heldEnds()}});
     if (!interface.hasFriction()) continue;
@@ -93,8 +101,9 @@ Json rounds(const RunFacts& facts) {
 
 Json finalState(const Model& model, const State& state, const StepReport& last) {
   Point vonMises(infinity, -infinity);
-  Point least = Point::Constant(infinity);
-  Point largest = -least;
+  const int dimension = model.bodies.front().dimension();
+  SpacePoint least = SpacePoint::Constant(infinity);
+  SpacePoint largest = -least;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Matrix& stress = state.bodies[b].stress;
     for (Eigen::Index i = 0; i < stress.cols(); ++i) {
@@ -103,18 +112,19 @@ Json finalState(const Model& model, const State& state, const StepReport& last) 
       vonMises = {std::min(vonMises[0], value), std::max(vonMises[1], value)};
     }
     const Vector moved = model.bodies[b].moved(state.bodies[b].displacement);
-    const Eigen::Map<const Matrix> u(moved.data(), 2, model.bodies[b].nodes());
-    least = least.cwiseMin(u.rowwise().minCoeff());
-    largest = largest.cwiseMax(u.rowwise().maxCoeff());
+    const Eigen::Map<const Matrix> u(moved.data(), dimension, model.bodies[b].nodes());
+    least.head(dimension) = least.head(dimension).cwiseMin(u.rowwise().minCoeff());
+    largest.head(dimension) = largest.head(dimension).cwiseMax(u.rowwise().maxCoeff());
   }
   Json json = {{"time", state.time},
                {"von_mises_min", vonMises[0]},
                {"von_mises_max", vonMises[1]},
                {"interpenetration", last.penetration},
-               {"displacement_min", {least[0], least[1]}},
-               {"displacement_max", {largest[0], largest[1]}},
+               {"displacement_min", jsonOf(least, dimension)},
+               {"displacement_max", jsonOf(largest, dimension)},
                {"contact_force", last.contactForce},
-               {"contact_resultant", {last.resultantX, last.resultantY}},
+               {"contact_resultant",
+                jsonOf({last.resultantX, last.resultantY, last.resultantZ.value_or(0)}, dimension)},
                {"elastic_energy", last.energy},
                {"max_pressure", last.maxPressure},
                {"viscoplastic_fraction", last.viscoplasticFraction},
@@ -190,8 +200,8 @@ Json jsonOfStep(const EnergyBound& bound) {
 /// Where to look at, and why it is hard there.
 Json jsonOf(const StuckPlace& stuck, const RunFacts& facts, const Model& model) {
   return {{"body", model.bodies[stuck.body].name()},
-          {"triangle", stuck.triangle},
-          {"at", {stuck.at.x(), stuck.at.y()}},
+          {model.bodies[stuck.body].space() != nullptr ? "tetrahedron" : "triangle", stuck.triangle},
+          {"at", jsonOf(stuck.at, model.bodies[stuck.body].dimension())},
           {"material_residual", stuck.residual},
           {"time", stuck.time},
           {"driven_by", facts.driving}};
@@ -245,7 +255,7 @@ Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy)
                {"largest_of_run", {{"energy_error", accuracy.largest}, {"time", accuracy.largestTime}}},
                {"not_reliable", facts.doubts}};
   if (!accuracy.worstBody.empty())
-    json["largest"] = {{"body", accuracy.worstBody}, {"at", {accuracy.worst[0], accuracy.worst[1]}}};
+    json["largest"] = {{"body", accuracy.worstBody}, {"at", jsonOf(accuracy.worst, model.bodies.front().dimension())}};
   if (accuracy.bound) json["bound"] = jsonOf(*accuracy.bound);
   if (accuracy.bound && accuracy.flow) json["bound"]["time"] = jsonOf(*accuracy.flow);
   if (accuracy.bound && accuracy.total) json["bound"]["total"] = jsonOf(*accuracy.total);
@@ -279,7 +289,8 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
   json["nonmortar"] = facts.nonmortar;
   json["projection"] = facts.projection;
   json["scheme"] = facts.scheme;
-  for (const char* count : {"triangles", "nodes", "dofs", "free_dofs"})
+  const bool space = model.bodies.front().space() != nullptr;
+  for (const char* count : {space ? "tetrahedra" : "triangles", "nodes", "dofs", "free_dofs"})
     json[count] = std::accumulate(bodyList.begin(), bodyList.end(), size_t{0},
                                   [&](size_t sum, const Json& body) { return sum + size_t(body[count]); });
   json["bodies"] = bodyList;
@@ -321,8 +332,8 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
     Json& quantity = json["quantities"][facts.quantities[i].name];
     quantity = {{"value", values[i]}, {"unit", facts.quantities[i].unit(facts.units)}};
     if (const auto place = placeOf(facts.quantities[i], model, state)) {
-      quantity["at"] = {place->x(), place->y()};
-      if (const double order = unboundedOrder(model, state, *place); order > 0)
+      quantity["at"] = jsonOf(*place, space ? 3 : 2);
+      if (const double order = space ? 0 : unboundedOrder(model, state, place->head<2>()); order > 0)
         quantity["unbounded_order"] = order;
     }
     if (i < report.quantities.size()) quantity.update(jsonOf(report.quantities[i]));

@@ -32,7 +32,7 @@ const std::vector<Column>& columnsOfSteps() {
       {"active", {}, &R::active},
       {"joined", {}, &R::joined},
       {"left", {}, &R::left},
-      {"penetration", &Units::area, &R::penetration},
+      {"penetration", &Units::penetration, &R::penetration},
       {"max_pressure", &Units::stress, &R::maxPressure},
       {"contact_force", &Units::forcePerDepth, &R::contactForce},
       {"contact_resultant_x", &Units::forcePerDepth, &R::resultantX},
@@ -75,6 +75,7 @@ std::vector<std::string> historyColumns(const Model& model, const std::vector<Qu
       add(each.name, each.unit(units));
     else
       names.emplace_back(each.name);
+  if (model.bodies.front().dimension() == 3) add("contact_resultant_z", units.forcePerDepth());
   if (anyFriction(model)) names.emplace_back("ambiguous");
   for (size_t k = 0; k < model.interfaces.size(); ++k)
     if (model.interfaces[k].hasFriction()) add("friction_work_" + std::to_string(k), units.energyPerDepth());
@@ -85,6 +86,7 @@ std::vector<std::string> historyColumns(const Model& model, const std::vector<Qu
 std::vector<HistoryValue> historyRow(const StepReport& r) {
   std::vector<HistoryValue> row;
   for (const Column& each : columnsOfSteps()) row.push_back(each.value(r));
+  if (r.resultantZ) row.emplace_back(*r.resultantZ);
   if (!r.frictionWork.empty()) row.emplace_back(r.solutions.ambiguous ? 1 : 0);
   row.insert(row.end(), r.frictionWork.begin(), r.frictionWork.end());
   row.insert(row.end(), r.quantities.begin(), r.quantities.end());
@@ -120,7 +122,6 @@ ContactFields contactFields(const Model& model, const State& state, size_t inter
                             state.bodies[pair.mortar.body].displacement, state.time);
   const Vector& force = state.contactForce[interface];
   const Vector none = Vector::Zero(of.rows());
-  const std::vector<Point>& places = model.bodies[pair.nonmortar.body].elementNodes().places;
   ContactFields fields{of.nonmortarNodes(),
                        {},
                        (0 - gap.array()).matrix(),
@@ -138,7 +139,8 @@ ContactFields contactFields(const Model& model, const State& state, size_t inter
     fields.slipping = state.slipping[interface];
   }
   if (of.follows()) keepFacing(of, fields);
-  for (const int vertex : fields.vertex) fields.place.push_back(places[vertex]);
+  const Body& nonmortar = model.bodies[pair.nonmortar.body];
+  for (const int vertex : fields.vertex) fields.place.push_back(nonmortar.placeOfNode(vertex));
   return fields;
 }
 
@@ -152,7 +154,8 @@ void writeHistoryRow(OutputFile& file, const StepReport& report) {
 }
 
 void writeContactHeader(OutputFile& file, const Model& model) {
-  file << "step,time,interface,vertex,x,y,gap,force,pressure,active";
+  file << "step,time,interface,vertex,x,y," << (model.bodies.front().dimension() == 3 ? "z," : "")
+       << "gap,force,pressure,active";
   if (anyFriction(model)) file << ",friction,shear,slip,slipping";
   file << '\n';
 }
@@ -162,9 +165,9 @@ void writeContactRows(OutputFile& file, const Model& model, const State& state, 
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactFields fields = contactFields(model, state, k);
     for (size_t i = 0; i < fields.vertex.size(); ++i) {
-      const Point& p = fields.place[i];
-      file << step << ',' << state.time << ',' << k << ',' << fields.vertex[i] << ',' << p[0] << ',' << p[1]
-           << ',' << fields.gap[i] << ',' << fields.force[i] << ',' << fields.pressure[i] << ','
+      file << step << ',' << state.time << ',' << k << ',' << fields.vertex[i];
+      for (int c = 0; c < model.bodies.front().dimension(); ++c) file << ',' << fields.place[i][c];
+      file << ',' << fields.gap[i] << ',' << fields.force[i] << ',' << fields.pressure[i] << ','
            << (fields.force[i] > 0 ? 1 : 0);
       if (friction)
         file << ',' << fields.friction[i] << ',' << fields.shear[i] << ',' << fields.slip[i] << ','

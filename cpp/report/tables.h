@@ -2,7 +2,7 @@
 //   history.csv  per step, with everything that is reported of it; with friction whether several solutions
 //                are possible and the work of each interface that has it; the quantities of the scene. Units
 //                stand in the header.
-//   contact.csv  per kept step and nonmortar node: its place as meshed, gap [m], positive where the bodies
+//   contact.csv  per kept step and nonmortar node: its place as meshed (with z in space), gap [m], positive where the bodies
 //                are apart, nodal force p [N/m], pressure Phi^-1 p [Pa], whether it is active (p > 0). Where
 //                any interface has friction also the fields along the line. Vertices and interfaces count
 //                from 0.
@@ -33,7 +33,7 @@ inline bool hasRow(const StepReport& report) {
 /// One interface at one state, by nonmortar node.
 struct ContactFields {
   std::vector<int> vertex;
-  std::vector<Point> place;  ///< as meshed [m]
+  std::vector<SpacePoint> place;  ///< as meshed; z = 0 in the plane [m]
   Vector gap;                ///< positive where the bodies are apart [m]
   Vector force;              ///< [N/m]
   Vector pressure;           ///< [Pa]

@@ -18,9 +18,13 @@ Model buildModel(ResolvedScene& scene) {
   const std::vector<double> times = sampleTimes(description.time);
   model.bodies.reserve(description.bodies.size());
   for (size_t b = 0; b < description.bodies.size(); ++b) {
-    model.bodies.push_back(buildBody(description.bodies[b], std::move(scene.meshes[b]), description, times));
+    const BodyDescription& body = description.bodies[b];
+    model.bodies.push_back(description.inSpace()
+                               ? buildSpaceBody(body, std::move(scene.spaceMeshes[b]), description, times)
+                               : buildBody(body, std::move(scene.meshes[b]), description, times));
   }
   scene.meshes.clear();
+  scene.spaceMeshes.clear();
   for (const ContactDescription& contact : description.contacts) {
     addContact(description, contact, model);
   }

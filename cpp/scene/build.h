@@ -1,6 +1,8 @@
 // From a resolved scene to what is solved: conditions checked against the meshes, bodies and interfaces made.
 #pragma once
 
+#include <functional>
+
 #include "fem/body.h"
 #include "scene/resolve.h"
 #include "time/march.h"
@@ -30,6 +32,12 @@ std::string doubtOfPolygons(const ContactInterface& interface, const std::string
 /// \param places  the points of the material, which an angle of its axes may depend on.
 std::shared_ptr<const Material> buildMaterial(const MaterialDescription& description, Plane plane,
                                               const std::vector<Point>& places);
+/// One material, or as many as regions ask for. \param regions  by elements \param points  of the whole body
+std::shared_ptr<const Material> materialOfRegions(
+    const BodyDescription& body, const std::vector<int>& regions, size_t points,
+    const std::function<std::shared_ptr<const Material>(const MaterialDescription&)>& make);
+Body buildSpaceBody(const BodyDescription& body, TetrahedronMesh mesh, const SceneDescription& scene,
+                    const std::vector<double>& times);
 /// Data are tried at `times` [s].
 Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescription& scene,
                const std::vector<double>& times);

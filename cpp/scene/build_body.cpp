@@ -160,17 +160,15 @@ std::shared_ptr<const Material> buildMaterial(const MaterialDescription& descrip
   return viscoplasticity ? perzynaMaterial(elasticity, *viscoplasticity) : elasticMaterial(elasticity);
 }
 
-namespace {
-
-/// One material, or as many as regions ask for.
-std::shared_ptr<const Material> buildMaterial(const BodyDescription& body, const TriangleMesh& mesh,
-                                              Plane plane, const std::vector<Point>& places) {
-  std::vector<std::shared_ptr<const Material>> materials{buildMaterial(body.material, plane, places)};
+std::shared_ptr<const Material> materialOfRegions(
+    const BodyDescription& body, const std::vector<int>& regions, size_t points,
+    const std::function<std::shared_ptr<const Material>(const MaterialDescription&)>& make) {
+  std::vector<std::shared_ptr<const Material>> materials{make(body.material)};
   std::map<int, int> number;
   for (const RegionDescription& region : body.regions) {
     if (region.material) {
       number[region.label] = static_cast<int>(materials.size());
-      materials.push_back(buildMaterial(*region.material, plane, places));
+      materials.push_back(make(*region.material));
     }
   }
   if (materials.size() == 1) {
@@ -181,13 +179,14 @@ std::shared_ptr<const Material> buildMaterial(const BodyDescription& body, const
       throw InputError(body.where + ": body " + body.name +
                        ": isotropic_hardening in a part of it, expected it in all regions or in none");
   std::vector<int> materialOf;
-  for (const int label : mesh.regions) {
+  for (const int label : regions) {
     const auto found = number.find(label);
-    materialOf.insert(materialOf.end(), places.size() / mesh.regions.size(),
-                      found == number.end() ? 0 : found->second);
+    materialOf.insert(materialOf.end(), points / regions.size(), found == number.end() ? 0 : found->second);
   }
   return materialOfParts(std::move(materials), std::move(materialOf));
 }
+
+namespace {
 
 void addInitialStress(const StressDescription& stress, std::optional<int> region, Conditions& conditions) {
   for (size_t c = 0; c < stress.size(); ++c) {
@@ -216,7 +215,7 @@ Body buildTool(const BodyDescription& tool, TriangleMesh mesh, const SceneDescri
   const bool axisymmetric = scene.plane == Plane::axisymmetric;
   RigidMotion motion{*tool.reference, {}, {}};
   for (const ConditionDescription& c : tool.conditions) {
-    requireFinite(c.value, {motion.at}, times);
+    requireFinite(c.value, std::vector<Point>{motion.at}, times);
     const bool held = c.kind == ConditionDescription::Kind::displacement;
     (held ? motion.held : motion.force)[c.component] = finiteValue(c.value);
   }
@@ -259,7 +258,10 @@ Body buildBody(const BodyDescription& body, TriangleMesh mesh, const SceneDescri
     addInitialStress(region.initialStress, region.label, conditions);
   }
   const std::vector<Point> places = placesOfPoints(mesh, elementNodes(mesh, scene.degree));
-  const std::shared_ptr<const Material> material = buildMaterial(body, mesh, scene.plane, places);
+  const std::shared_ptr<const Material> material =
+      materialOfRegions(body, mesh.regions, places.size(), [&](const MaterialDescription& description) {
+        return buildMaterial(description, scene.plane, places);
+      });
   addTemperature(body, mesh, scene.plane, places, times, conditions);
   return {body.name,
           std::move(mesh),

@@ -20,6 +20,23 @@ std::string doubtOfPolygons(const ContactInterface& interface, const std::string
          digits(interface.sagitta()) + " " + length + ", and pressures are wrong in that ratio";
 }
 
+namespace {
+
+/// Adds the interface. \throws InputError headed by the place of the contact.
+template <class Add>
+void addAt(const ContactDescription& contact, const Add& add) {
+  const std::string where = contact.where + ": contact: ";
+  try {
+    add();
+  } catch (const FaultError& error) {
+    throw FaultError(where + error.what(), error.id());
+  } catch (const InputError& error) {
+    throw InputError(where + error.what());
+  }
+}
+
+}  // namespace
+
 void addContact(const SceneDescription& scene, const ContactDescription& contact, Model& model) {
   ContactPair pair;
   pair.coupling = contact.variant;
@@ -28,10 +45,15 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
     target->body = bodyIndex(scene, side->body);
     target->label = side->label;
   }
-  std::vector<const TriangleMesh*> meshes;
-  for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
   InterfaceOptions options;
   options.initial = contact.initial;
+  if (scene.inSpace())
+    return addAt(contact, [&] {
+      addInterface(model, pair, options);
+      requireMemory(memoryNeed(model, scene.solver), false);
+    });
+  std::vector<const TriangleMesh*> meshes;
+  for (const Body& body : model.bodies) meshes.push_back(&body.mesh());
   options.friction = contact.friction;
   options.follows = contact.sliding == SlidingKind::finite;
   options.axisymmetric = scene.plane == Plane::axisymmetric;
@@ -55,15 +77,11 @@ void addContact(const SceneDescription& scene, const ContactDescription& contact
     pairs.push_back(interface.pair());
     rough.push_back(interface.hasFriction());
   }
-  try {
+  addAt(contact, [&] {
     requireMemory(meshes, pairs, scene.degree, rough, scene.solver);
     addInterface(model, pair, options);
     if (contact.gap) model.interfaces.back().setGiven(finiteValue(*contact.gap));
-  } catch (const FaultError& error) {
-    throw FaultError(contact.where + ": contact: " + error.what(), error.id());
-  } catch (const InputError& error) {
-    throw InputError(contact.where + ": contact: " + error.what());
-  }
+  });
 }
 
 }  // namespace mortier

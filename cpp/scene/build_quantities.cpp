@@ -35,12 +35,18 @@ std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model
     const auto refuse = [&](const std::string& what) {
       throw InputError(description.where + ": quantity " + quantity.name + ": " + what);
     };
-    const bool atPoint = quantity.kind == Quantity::Kind::reaction && description.point;
-    if (atPoint) quantity.point = description.point;
+    if (quantity.kind == Quantity::Kind::reaction) {
+      quantity.point = description.point;
+      quantity.pointInSpace = description.pointInSpace;
+    }
+    const std::string point = description.point          ? shortest(*description.point)
+                              : description.pointInSpace ? shortest(*description.pointInSpace)
+                                                         : "";
+    const bool atPoint = quantity.kind == Quantity::Kind::reaction && !point.empty();
     const std::string label =
-        (atPoint ? "point " + shortest(*description.point) : "label " + std::to_string(quantity.label)) +
-        " of body " + body.name();
-    if (quantity.kind == Quantity::Kind::reaction && firstSupport(body, quantity.label, quantity.point) < 0)
+        (atPoint ? "point " + point : "label " + std::to_string(quantity.label)) + " of body " + body.name();
+    if (quantity.kind == Quantity::Kind::reaction &&
+        firstSupport(body, quantity.label, quantity.point, quantity.pointInSpace) < 0)
       refuse(label + " has no prescribed displacement, expected one that has: supports alone react");
     const bool isOfContact =
         quantity.kind == Quantity::Kind::contactForce || quantity.kind == Quantity::Kind::largestPressure ||
@@ -51,11 +57,15 @@ std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model
         !isInContact(model, quantity.body, quantity.label, true))
       refuse(label + " is no side of a contact with friction, expected one");
     if (quantity.kind == Quantity::Kind::displacement) {
-      quantity.mean = description.point
-                          ? meanAt(body.mesh(), body.elementNodes(), *description.point)
-                          : meanOn(body.mesh(), body.elementNodes(), quantity.label, body.axisymmetric());
+      if (const SpaceElements* space = body.space())
+        quantity.mean = description.pointInSpace ? meanAt(*space, *description.pointInSpace)
+                                                 : meanOn(*space, quantity.label);
+      else
+        quantity.mean = description.point
+                            ? meanAt(body.mesh(), body.elementNodes(), *description.point)
+                            : meanOn(body.mesh(), body.elementNodes(), quantity.label, body.axisymmetric());
       if (quantity.mean.empty())
-        refuse("point = " + shortest(*description.point) + ", expected a point of body " + body.name());
+        refuse("point = " + point + ", expected a point of body " + body.name());
     }
     if (quantity.kind == Quantity::Kind::meanPressure) {
       const BoundaryLine line = boundaryLine(body.mesh(), quantity.label);

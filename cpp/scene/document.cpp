@@ -176,4 +176,8 @@ std::string shortest(const Point& point) {
   return "[" + shortest(point.x()) + ", " + shortest(point.y()) + "]";
 }
 
+std::string shortest(const SpacePoint& point) {
+  return "[" + shortest(point.x()) + ", " + shortest(point.y()) + ", " + shortest(point.z()) + "]";
+}
+
 }  // namespace mortier

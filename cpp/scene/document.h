@@ -16,6 +16,7 @@ struct Node {
   std::string key;    ///< its name in the table that holds it
   std::string where;  ///< "scenes/compression.toml:14", or "--set time.steps=20"
   bool fromCommandLine = false;
+  bool inSpace = false;        ///< whether expressions may depend on z
   bool truth = false;          ///< of a boolean
   double value = 0;            ///< of an integer or a number
   std::string text;            ///< of a string
@@ -48,5 +49,6 @@ Node parseSetting(const std::string& text, const std::string& where);
 std::string shortest(double value);
 /// The same of a point: "[0.5, 1]".
 std::string shortest(const Point& point);
+std::string shortest(const SpacePoint& point);
 
 }  // namespace mortier

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 
 #include "base/datum_error.h"
 #include "scene/document.h"
@@ -21,23 +22,25 @@ namespace {
 /// anew, when it is first evaluated: most copies are only passed on.
 class Compiled {
  public:
-  explicit Compiled(std::string text) : text_(std::move(text)) { compile(); }
-  Compiled(const Compiled& other) : text_(other.text_) {}
+  Compiled(std::string text, bool inSpace) : text_(std::move(text)), inSpace_(inSpace) { compile(); }
+  Compiled(const Compiled& other) : text_(other.text_), inSpace_(other.inSpace_) {}
   Compiled(Compiled&& other) noexcept = default;
   Compiled& operator=(const Compiled&) = delete;
   Compiled& operator=(Compiled&&) = delete;
   ~Compiled() = default;
 
-  double operator()(double x, double y, double t) const {
+  double operator()(double x, double y, double t) const { return (*this)(SpacePoint(x, y, 0), t); }
+  double operator()(const SpacePoint& x, double t) const {
     if (!work_) compile();
     work_->x = x;
-    work_->y = y;
     work_->t = t;
     return work_->parser.Eval();
   }
 
   [[nodiscard]] bool constant() const { return work_->parser.GetUsedVar().empty(); }
-  [[nodiscard]] bool inTime() const { return work_->parser.GetUsedVar().count("t") > 0; }
+  [[nodiscard]] bool dependsOn(const char* variable) const {
+    return work_->parser.GetUsedVar().count(variable) > 0;
+  }
   /// Evaluates once; how many values the text holds ("1, 2" are two).
   [[nodiscard]] int values() const {
     work_->parser.Eval();
@@ -47,22 +50,23 @@ class Compiled {
  private:
   struct Work {
     mu::Parser parser;
-    double x = 0;
-    double y = 0;
+    SpacePoint x{0, 0, 0};
     double t = 0;
   };
 
   void compile() const {
     work_ = std::make_unique<Work>();
     work_->parser.ResetLocale();
-    work_->parser.DefineVar("x", &work_->x);
-    work_->parser.DefineVar("y", &work_->y);
+    work_->parser.DefineVar("x", &work_->x[0]);
+    work_->parser.DefineVar("y", &work_->x[1]);
+    if (inSpace_) work_->parser.DefineVar("z", &work_->x[2]);
     work_->parser.DefineVar("t", &work_->t);
     work_->parser.DefineConst("pi", std::numbers::pi);
     work_->parser.SetExpr(text_);
   }
 
   std::string text_;
+  bool inSpace_;
   mutable std::unique_ptr<Work> work_;
 };
 
@@ -78,15 +82,16 @@ bool assigns(const std::string& text) {
   return false;
 }
 
-/// \throws DatumError
-double finite(double value, const std::string& where, double x, double y, double t) {
+/// \throws DatumError  \param z  none in the plane
+double finite(double value, const std::string& where, double x, double y, double t,
+              std::optional<double> z = {}) {
   if (std::isfinite(value)) return value;
   throw DatumError(where + ", expected a finite number, is " + shortest(value) + " at x = " + shortest(x) +
-                   ", y = " + shortest(y) + ", t = " + shortest(t));
+                   ", y = " + shortest(y) + (z ? ", z = " + shortest(*z) : "") + ", t = " + shortest(t));
 }
 
-[[noreturn]] void reject(const std::string& where, const std::string& reason) {
-  throw InputError(where + ", expected an expression in x, y, t (" + reason + ")");
+[[noreturn]] void reject(const std::string& where, const std::string& reason, bool inSpace) {
+  throw InputError(where + ", expected an expression in x, y, " + (inSpace ? "z, t (" : "t (") + reason + ")");
 }
 
 }  // namespace
@@ -137,33 +142,38 @@ Expression negated(Expression expression) {
       return [f = along()](const Taylor& x, const Taylor& y, const Taylor& t) { return -f(x, y, t); };
     };
   expression.value = std::move(opposite);
+  if (expression.inSpace)
+    expression.inSpace = [value = expression.inSpace](const SpacePoint& x, double t) { return -value(x, t); };
   return expression;
 }
 
-Expression parseExpression(const std::string& text, std::string where) {
+Expression parseExpression(const std::string& text, std::string where, bool inSpace) {
   if (text.find_first_not_of(" \t\n\r") == std::string::npos) {
-    reject(where, "it is empty");
+    reject(where, "it is empty", inSpace);
   }
   if (assigns(text)) {
-    reject(where, "assignment is not allowed");
+    reject(where, "assignment is not allowed", inSpace);
   }
   try {
-    Compiled compiled(text);
+    const Compiled compiled(text, inSpace);
     if (compiled.values() != 1) {
-      reject(where, "it has several values");
+      reject(where, "it has several values", inSpace);
     }
     if (compiled.constant()) {
       const double value = compiled(0, 0, 0);
       Expression result = constantExpression(value, std::move(where));
       result.text = text;
-      requireFinite(result, {Point::Zero()}, {0.0});
+      finite(value, result.where, 0, 0, 0);
       return result;
     }
-    const bool inTime = compiled.inTime();
-    Datum datum(Function(std::move(compiled)));
+    const bool inTime = compiled.dependsOn("t");
+    SpaceDatum ofSpace;
+    if (compiled.dependsOn("z"))
+      ofSpace = [compiled](const SpacePoint& x, double t) { return compiled(x, t); };
+    Datum datum = Function([compiled](double x, double y, double t) { return compiled(x, y, t); });
     datum.inTime = inTime;
-    describe(text, datum);
-    return {text, std::move(where), false, std::move(datum), {}, inTime};
+    if (!ofSpace) describe(text, datum);
+    return {text, std::move(where), false, std::move(datum), {}, inTime, std::move(ofSpace)};
   } catch (const mu::Parser::exception_type& error) {
     std::string reason = error.GetMsg();
     reason = reason.substr(0, reason.find_first_of("\r\n"));
@@ -173,7 +183,7 @@ Expression parseExpression(const std::string& text, std::string where) {
     if (!reason.empty()) {
       reason.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(reason.front())));
     }
-    reject(where, reason);
+    reject(where, reason, inSpace);
   }
 }
 
@@ -184,6 +194,24 @@ Datum finiteValue(const Expression& expression) {
     return finite(value(x, y, t), where, x, y, t);
   };
   return datum;
+}
+
+SpaceDatum finiteInSpace(const Expression& expression) {
+  SpaceDatum value = expression.inSpace;
+  if (!value)
+    value = [plane = Function(expression.value)](const SpacePoint& x, double t) {
+      return plane(x.x(), x.y(), t);
+    };
+  return [value = std::move(value), where = expression.where](const SpacePoint& x, double t) {
+    return finite(value(x, t), where, x.x(), x.y(), t, x.z());
+  };
+}
+
+void requireFinite(const Expression& expression, const std::vector<SpacePoint>& points,
+                   const std::vector<double>& times) {
+  const SpaceDatum value = finiteInSpace(expression);
+  for (const double t : times)
+    for (const SpacePoint& p : points) value(p, t);
 }
 
 void requireFinite(const Expression& expression, const std::vector<Point>& points,

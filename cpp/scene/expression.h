@@ -1,5 +1,5 @@
-// Data that vary in space and time: numbers, or expressions in x [m], y [m] and t [s] such as "-10*t" or
-// "sin(pi*x)".
+// Data that vary in space and time: numbers, or expressions in x [m], y [m], in space z [m], and t [s] such as
+// "-10*t" or "sin(pi*x)".
 #pragma once
 
 #include <string>
@@ -12,10 +12,11 @@ namespace mortier {
 struct Expression {
   std::string text;       ///< as written, for messages and for FreeFEM
   std::string where;      ///< what a message about it begins with: `scenes/a.toml:14: body upper: ty = "1/t"`
-  bool constant = false;  ///< depends on none of x, y, t
-  Datum value;            ///< copies are independent: a thread takes its own
+  bool constant = false;  ///< depends on none of x, y, z, t
+  Datum value;            ///< at z = 0; copies are independent: a thread takes its own
   std::vector<double> breaks = {};  ///< times at which it has kinks, ascending [s]; known of tables only
   bool inTime = false;              ///< depends on t
+  SpaceDatum inSpace = {};          ///< its value where it depends on z; empty elsewhere
 };
 
 Expression constantExpression(double value, std::string where);
@@ -31,11 +32,14 @@ Expression negated(Expression expression);
 /// Operators + - * / ^, comparisons, && ||, a ? b : c, the constant pi, and the usual functions
 /// (docs/scene.md). \throws InputError `where, expected an expression in x, y, t (what is wrong and at which
 /// character)`.
-Expression parseExpression(const std::string& text, std::string where);
+/// \param inSpace  whether it may depend on z
+Expression parseExpression(const std::string& text, std::string where, bool inSpace = false);
 
 /// Evaluates at every point and time. \throws InputError naming the first point and time where it is not
 /// finite.
 void requireFinite(const Expression& expression, const std::vector<Point>& points,
+                   const std::vector<double>& times);
+void requireFinite(const Expression& expression, const std::vector<SpacePoint>& points,
                    const std::vector<double>& times);
 
 }  // namespace mortier

@@ -8,5 +8,7 @@ namespace mortier {
 /// The value of the expression. Where that is not finite the function \throws DatumError naming the datum,
 /// the point and the time.
 Datum finiteValue(const Expression& expression);
+/// The same in space.
+SpaceDatum finiteInSpace(const Expression& expression);
 
 }  // namespace mortier

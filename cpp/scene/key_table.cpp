@@ -15,6 +15,8 @@ plane | | `"stress"` | `"stress"`, `"strain"`, `"axisymmetric"` | of all bodies:
   bodies with no strain across the plane ([below](#plane-strain)), or bodies that turn about the axis x = 0
   ([below](#bodies-of-revolution))
 body, tool, contact, quantity, time, solver, output, check
+dimension | | 2 | integer >= 2, at most 3 | 3: bodies of tetrahedra, without `plane`
+  ([below](#bodies-in-space))
 degree | | 1 | integer >= 1, at most 2 | of the displacements: linear triangles, or quadratic ones (six nodes,
   stresses at three points); middles of sides lie on the curve where Gmsh knows it
 accuracy
@@ -38,11 +40,12 @@ region | | all | a region, by number or name, or a list of them | the part of th
 size | m | the geometry's own | > 0 | longest edge, where Gmsh meshes a geometry
 parameters | | none | table of numbers, `{ R = 8 }` | constants of a `.geo` that its `DefineConstant[...]`
   names
-shape | | | `"rectangle"`, `"quadrilateral"`, `"annulus"`, `"halfdisc"`, `"quarterdisc"` | in place of a file,
-  with keys of its own ([below](#meshes))
+shape | | | `"rectangle"`, `"quadrilateral"`, `"annulus"`, `"halfdisc"`, `"quarterdisc"`, `"cuboid"` | in place
+  of a file, with keys of its own ([below](#meshes))
 cells
 cut | | | "rising", "falling", "both"
-lower, upper, focus | m | | with shape = "rectangle"
+lower, upper | m | | with shape = "rectangle", "cuboid"
+focus | m | | with shape = "rectangle"
 grading | | | with shape = "rectangle"
 corners | m | | with shape = "quadrilateral"
 centre | m | | with shape = "annulus"
@@ -53,7 +56,7 @@ lowest | m | | with shape = "halfdisc", "quarterdisc"
 radius | m | 1 | > 0; with shape = "halfdisc", "quarterdisc"
 core | m | 0.1 | > 0; with shape = "halfdisc", "quarterdisc"
 [body.force]
-x, y | N/m^3 | 0 | datum | body force
+x, y, z | N/m^3 | 0 | datum | body force; `z` with `dimension = 3`
 [body.temperature]
 file, factor
 [body.material body.region.material] `material` of a body | | | table | elastic without `law`, `viscosity` and
@@ -119,14 +122,15 @@ initial_stress | Pa | that of the body | table as above | component by component
 [body.boundary] `[[body.boundary]]` | | none | any number | conditions on one label; a component not named is
   free
 label | | | a boundary label of the mesh, by number or name | of the edges
-ux, uy | m | free | datum | prescribed displacement
+ux, uy, uz | m | free | datum | prescribed displacement; `uz` with `dimension = 3`
 un, ut | m | free | datum | prescribed displacement along the outward normal and along the tangent (the body
   to its left), on sides in any direction: `un = 0` is a roller
-tx, ty | Pa | 0 | datum | traction (force per area); not together with the displacement of the same component
+tx, ty, tz | Pa | 0 | datum | traction (force per area); not together with the displacement of the same
+  component; `tz` with `dimension = 3`
 pressure | Pa | 0 | datum | traction -p n on the sides as meshed, straight or curved; not together with `un`
 [body.point] `[[body.point]]` | | none | any number | what holds one vertex ([below](#supports-at-points))
-at | m | | `[x, y]` | the vertex: to a thousandth of the shortest edge there
-ux, uy | m | free | datum, one of them at least | prescribed displacement
+at | m | | `[x, y]`, with `dimension = 3` `[x, y, z]` | the vertex: to a thousandth of the shortest edge there
+ux, uy, uz | m | free | datum, one of them at least | prescribed displacement; `uz` with `dimension = 3`
 [tool] `[[tool]]` | | none | any number | a rigid body, without material and mesh ([below](#rigid-tools))
 name | | | letters, digits, `_`, `-`; each once | names files and messages
 shape | | | `"line"`, `"disc"`, `"rectangle"`, `"polygon"`, `"spline"` | of its outline
@@ -199,8 +203,8 @@ friction_work | J/m | | `{ body = "name", label = 1 }` | energy dissipated by fr
 mean_pressure | Pa | | `{ body = "name", label = 1 }`, with `from = [x, y]` and `to = [x, y]`, with `margin` |
   the mean of the contact pressure over the side, or over the part of it between two points
   ([below](#quantities))
-component | | | `"x"`, `"y"`, `"moment"` (of forces), `"rotation"` (of a tool) | of reactions, contact forces
-  and displacements; moments [N] and rotations [rad] are counterclockwise
+component | | | `"x"`, `"y"`, `"moment"` (of forces), `"rotation"` (of a tool), `"z"` (with `dimension = 3`) | of
+  reactions, contact forces and displacements; moments [N] and rotations [rad] are counterclockwise
 about | m | [0, 0], of a tool `at` | `[x, y]` | the point of a moment
 [quantity.stored_energy quantity.dissipated_energy quantity.work quantity.external_work quantity.thermal_work
   quantity.largest_mises]

@@ -16,7 +16,7 @@ namespace mortier {
 namespace {
 
 int numberOf(const std::map<std::string, int>& names, const std::string& name, const std::string& what,
-             const TriangleMesh& mesh, const std::string& place) {
+             const std::string& meshName, const std::string& place) {
   if (const auto found = names.find(name); found != names.end()) {
     return found->second;
   }
@@ -26,8 +26,8 @@ int numberOf(const std::map<std::string, int>& names, const std::string& name, c
   }
   throw InputError(place + ": label = \"" + name + "\", " +
                    (words.empty()
-                        ? "the mesh " + mesh.name + " has no names of " + what
-                        : "expected one of " + joined(words) + " (" + what + " of " + mesh.name + ")"));
+                        ? "the mesh " + meshName + " has no names of " + what
+                        : "expected one of " + joined(words) + " (" + what + " of " + meshName + ")"));
 }
 
 template <class Labels>
@@ -39,11 +39,10 @@ Keys wordsFor(const Labels& labels) {
   return words;
 }
 
-}  // namespace
-
-int boundaryLabel(const TriangleMesh& mesh, int label, const std::string& name, const std::string& place) {
+template <class Mesh>
+int boundaryLabelOf(const Mesh& mesh, int label, const std::string& name, const std::string& place) {
   if (!name.empty()) {
-    label = numberOf(mesh.labelNames, name, "boundaries", mesh, place);
+    label = numberOf(mesh.labelNames, name, "boundaries", mesh.name, place);
   }
   const std::vector<int> labels = boundaryLabels(mesh);
   if (std::binary_search(labels.begin(), labels.end(), label)) {
@@ -55,9 +54,10 @@ int boundaryLabel(const TriangleMesh& mesh, int label, const std::string& name, 
                                          " (boundary labels of " + mesh.name + ")"));
 }
 
-int regionLabel(const TriangleMesh& mesh, int label, const std::string& name, const std::string& place) {
+template <class Mesh>
+int regionLabelOf(const Mesh& mesh, int label, const std::string& name, const std::string& place) {
   if (!name.empty()) {
-    label = numberOf(mesh.regionNames, name, "regions", mesh, place);
+    label = numberOf(mesh.regionNames, name, "regions", mesh.name, place);
   }
   const std::set<int> labels(mesh.regions.begin(), mesh.regions.end());
   if (labels.count(label) > 0) {
@@ -67,17 +67,19 @@ int regionLabel(const TriangleMesh& mesh, int label, const std::string& name, co
                    joined(wordsFor(labels)) + " (regions of " + mesh.name + ")");
 }
 
-Point vertexPoint(const TriangleMesh& mesh, const Point& point, const std::string& place) {
+/// \param elements  of the mesh, by their vertices
+template <class Mesh, class Elements, class Place>
+Place vertexPointOf(const Mesh& mesh, const Elements& elements, const Place& point, const std::string& place) {
   constexpr double near = 1e-3;
   const auto distance = [&](int vertex) { return (mesh.vertices[vertex] - point).norm(); };
   int nearest = 0;
   for (int v = 1; v < static_cast<int>(mesh.vertices.size()); ++v)
     if (distance(v) < distance(nearest)) nearest = v;
   double shortestEdge = std::numeric_limits<double>::infinity();
-  for (const std::array<int, 3>& triangle : mesh.triangles)
-    for (int k = 0; k < 3; ++k)
-      if (triangle[k] == nearest)
-        for (const int other : {triangle[(k + 1) % 3], triangle[(k + 2) % 3]})
+  for (const auto& element : elements)
+    if (std::find(element.begin(), element.end(), nearest) != element.end())
+      for (const int other : element)
+        if (other != nearest)
           shortestEdge = std::min(shortestEdge, (mesh.vertices[other] - mesh.vertices[nearest]).norm());
   if (!(distance(nearest) <= near * shortestEdge))
     throw InputError(place + ": point = " + shortest(point) + ", expected a vertex of " + mesh.name +
@@ -89,6 +91,29 @@ Point vertexPoint(const TriangleMesh& mesh, const Point& point, const std::strin
                        " there: vertices " + std::to_string(std::min(v, nearest) + 1) + " and " +
                        std::to_string(std::max(v, nearest) + 1) + " lie in one place");
   return mesh.vertices[nearest];
+}
+
+}  // namespace
+
+int boundaryLabel(const TriangleMesh& mesh, int label, const std::string& name, const std::string& place) {
+  return boundaryLabelOf(mesh, label, name, place);
+}
+int boundaryLabel(const TetrahedronMesh& mesh, int label, const std::string& name, const std::string& place) {
+  return boundaryLabelOf(mesh, label, name, place);
+}
+
+int regionLabel(const TriangleMesh& mesh, int label, const std::string& name, const std::string& place) {
+  return regionLabelOf(mesh, label, name, place);
+}
+int regionLabel(const TetrahedronMesh& mesh, int label, const std::string& name, const std::string& place) {
+  return regionLabelOf(mesh, label, name, place);
+}
+
+Point vertexPoint(const TriangleMesh& mesh, const Point& point, const std::string& place) {
+  return vertexPointOf(mesh, mesh.triangles, point, place);
+}
+SpacePoint vertexPoint(const TetrahedronMesh& mesh, const SpacePoint& point, const std::string& place) {
+  return vertexPointOf(mesh, mesh.tetrahedra, point, place);
 }
 
 }  // namespace mortier

@@ -39,6 +39,8 @@ double availableMemory();
 void requireMemory(const std::vector<const TriangleMesh*>& meshes, const std::vector<ContactPair>& pairs,
                    int degree, const std::vector<bool>& rough = {}, const SolverOptions& options = {});
 
+void requireMemory(const MemoryNeed& need, bool friction);
+
 /// "about 130 MiB", "about 290 GiB".
 std::string aboutMemory(double bytes);
 

@@ -1,6 +1,8 @@
+#include <array>
 #include <filesystem>
 
 #include "base/error.h"
+#include "fem/space_elements.h"
 #include "scene/readers.h"
 
 namespace mortier {
@@ -8,13 +10,15 @@ namespace mortier {
 namespace {
 
 /// Two data for one component of one place would have to be ordered by a rule that nobody remembers.
-void addCondition(BodyDescription& body, const ConditionDescription& added) {
+void addCondition(BodyDescription& body, const ConditionDescription& added, bool space) {
   for (const ConditionDescription& other : body.conditions) {
     if (other.label == added.label && other.labelName == added.labelName && other.point == added.point &&
-        other.component == added.component) {
-      constexpr const char* directions[] = {"component x", "component y", "the normal", "the tangent"};
-      throw InputError(added.value.where + ", expected one condition for " + directions[added.component] +
-                       " of " + nameOfPlace(added) + ", there is one at " + other.where);
+        other.pointInSpace == added.pointInSpace && other.component == added.component) {
+      static constexpr std::array directions{"component x", "component y", "the normal", "the tangent"};
+      static constexpr std::array inSpace{"component x", "component y", "component z", "the normal"};
+      throw InputError(added.value.where + ", expected one condition for " +
+                       (space ? inSpace : directions)[added.component] + " of " + nameOfPlace(added) +
+                       ", there is one at " + other.where);
     }
   }
   body.conditions.push_back(added);
@@ -25,33 +29,49 @@ void readBoundary(const Node& node, BodyDescription& body) {
   using Datum = ConditionDescription::Kind;
   const TableReader::Label label = table.label("label");
   const size_t before = body.conditions.size();
+  const bool space = node.inSpace;
   const auto add = [&](const std::string& key, Datum kind, int component) {
     if (std::optional<Expression> datum = table.datum(key))
       addCondition(
-          body, {kind, label.number, label.name, component,
-                 key == "pressure" ? negated(std::move(*datum)) : std::move(*datum), table.find(key)->where});
+          body,
+          {kind, label.number, label.name, component,
+           key == "pressure" ? negated(std::move(*datum)) : std::move(*datum), table.find(key)->where},
+          space);
   };
+  requireOfDimension(table, {"uz", "tz"}, {"ut"});
   add("ux", Datum::displacement, alongX);
   add("uy", Datum::displacement, alongY);
-  add("un", Datum::displacement, alongNormal);
+  add("uz", Datum::displacement, spaceZ);
+  add("un", Datum::displacement, space ? int{spaceNormal} : int{alongNormal});
   add("ut", Datum::displacement, alongTangent);
   add("tx", Datum::traction, alongX);
   add("ty", Datum::traction, alongY);
-  add("pressure", Datum::traction, alongNormal);
+  add("tz", Datum::traction, spaceZ);
+  add("pressure", Datum::traction, space ? int{spaceNormal} : int{alongNormal});
   if (body.conditions.size() == before)
-    table.refuse(node, "boundary label " + label.text() +
-                           " has no condition, expected one of ux, uy, un, ut, tx, ty, pressure");
+    table.refuse(node, "boundary label " + label.text() + " has no condition, expected one of ux, uy, " +
+                           (space ? "uz, un, tx, ty, tz, pressure" : "un, ut, tx, ty, pressure"));
 }
 
 void readPoint(const Node& node, BodyDescription& body) {
   const TableReader table(node, "body.point", "body " + body.name);
-  const Point at = table.point("at");
-  if (!table.has("ux") && !table.has("uy"))
-    table.refuse(node, "point " + shortest(at) + " has no condition, expected one of ux, uy");
-  for (const int component : {alongX, alongY})
-    if (const auto datum = table.datum(component == alongX ? "ux" : "uy"))
-      addCondition(body, {ConditionDescription::Kind::displacement, 0, "", component, *datum,
-                          table.find("at")->where, at});
+  requireOfDimension(table, {"uz"}, {});
+  ConditionDescription condition;
+  if (node.inSpace)
+    condition.pointInSpace = table.spacePoint("at");
+  else
+    condition.point = table.point("at");
+  condition.where = table.find("at")->where;
+  const size_t before = body.conditions.size();
+  const Keys keys{"ux", "uy", "uz"};
+  for (condition.component = 0; condition.component < 3; ++condition.component)
+    if (const auto datum = table.datum(keys[condition.component])) {
+      condition.value = *datum;
+      addCondition(body, condition, node.inSpace);
+    }
+  if (body.conditions.size() == before)
+    table.refuse(node, nameOfPlace(condition) + " has no condition, expected one of ux, uy" +
+                           (node.inSpace ? ", uz" : ""));
 }
 
 StressDescription readInitialStress(const TableReader& owner, const std::string& path,
@@ -126,7 +146,10 @@ void readMeshSource(const TableReader& owner, const std::string& scenePath, Body
   } else {
     const TableReader table(node, "body.mesh", "body " + body.name + ": mesh");
     if (const Node* shape = table.find("shape")) {
-      body.mesh.shape = readShape(table);
+      if (node.inSpace)
+        body.mesh.cuboid = readCuboid(table);
+      else
+        body.mesh.shape = readShape(table);
       body.mesh.path = shape->text;
       return;
     }
@@ -167,6 +190,8 @@ BodyDescription readBody(const Node& node, const std::string& scenePath, size_t 
     const TableReader components(*force, "body.force", subject);
     body.force[0] = components.datum("x");
     body.force[1] = components.datum("y");
+    requireOfDimension(components, {"z"}, {});
+    body.force[2] = components.datum("z");
   }
   if (table.find("temperature") != nullptr) body.temperature = readTemperature(table, scenePath, subject);
   body.volume = table.choice<Volume>("volume");

@@ -1,3 +1,5 @@
+#include <array>
+
 #include "scene/readers.h"
 
 namespace mortier {
@@ -50,7 +52,10 @@ QuantityDescription readQuantity(const Node& node, const SceneDescription& scene
       of.rejectIfGiven({"label", "point"}, "none of a tool: it is held as a whole");
     if (of.has("point")) {
       of.rejectIfGiven({"label"}, "either label or point");
-      quantity.point = of.point("point");
+      if (node.inSpace)
+        quantity.pointInSpace = of.spacePoint("point");
+      else
+        quantity.point = of.point("point");
       quantity.where = of.find("point")->where;
     } else if (tool != nullptr && !of.has("label") && hasComponent(kind)) {
       quantity.whole = true;
@@ -71,6 +76,12 @@ QuantityDescription readQuantity(const Node& node, const SceneDescription& scene
   }
   Keys components = keyAt("quantity", "component").words;
   const bool moves = quantity.kind == Kind::displacement;
+  if (node.inSpace) {
+    constexpr std::array ofSpace{Quantity::Component::x, Quantity::Component::y, Quantity::Component::z};
+    quantity.component = ofSpace[table.oneOf("component", {"x", "y", "z"})];
+    table.rejectIfGiven({"about"}, "none with dimension = 3, where no moment is known");
+    return quantity;
+  }
   components.resize(moves ? 2 : 3);
   if (moves && quantity.whole) components.emplace_back("rotation");
   const int component = table.oneOf("component", components);

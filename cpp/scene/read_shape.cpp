@@ -26,7 +26,35 @@ std::array<Point, 4> cornersOf(const TableReader& table) {
   return corners;
 }
 
+/// \param known  keys of every shape
+void requireKeysOf(const TableReader& table, Keys known) {
+  const std::string word = table.string("shape");
+  for (const std::string& key : keysOf("body.mesh"))
+    if (isOneOf(word, keyAt("body.mesh", key).besideWords)) known.push_back(key);
+  for (const Node& member : table.table().members)
+    if (!isOneOf(member.key, known))
+      table.reject(member.key, "of a mesh of shape " + word + " " + joined({known.begin() + 1, known.end()}));
+}
+
 }  // namespace
+
+Cuboid readCuboid(const TableReader& table) {
+  constexpr const char* expected = "N or [NX, NY, NZ], integers >= 1";
+  constexpr double most = 1e4;
+  if (table.string("shape") != "cuboid") table.reject("shape", "cuboid, or a file, with dimension = 3");
+  requireKeysOf(table, {"shape", "cells"});
+  const Node& cells = table.require("cells", expected);
+  const std::vector<double> counts =
+      cells.isNumeric() ? std::vector<double>(3, cells.value) : table.numbers("cells");
+  Cuboid cuboid{table.spacePoint("lower", SpacePoint(0, 0, 0)), table.spacePoint("upper", SpacePoint(1, 1, 1)), {}};
+  if (counts.size() != 3) table.reject("cells", expected);
+  for (size_t i = 0; i < 3; ++i) {
+    if (!(counts[i] >= 1 && counts[i] <= most && counts[i] == std::floor(counts[i])))
+      table.reject("cells", expected);
+    cuboid.cells[i] = static_cast<int>(counts[i]);
+  }
+  return cuboid;
+}
 
 std::vector<Point> readPoints(const TableReader& table, const std::string& key, const std::string& expected) {
   const Node& node = table.require(key, expected);
@@ -43,15 +71,10 @@ std::vector<Point> readPoints(const TableReader& table, const std::string& key, 
 }
 
 MeshShape readShape(const TableReader& table) {
-  enum Family { rectangle, quadrilateral, annulus, halfDisc, quarterDisc };
+  enum Family { rectangle, quadrilateral, annulus, halfDisc, quarterDisc, cuboid };
   const auto family = table.choice<Family>("shape");
-  const std::string word = table.string("shape");
-  Keys known{"shape", "cells", "cut"};
-  for (const std::string& key : keysOf("body.mesh"))
-    if (isOneOf(word, keyAt("body.mesh", key).besideWords)) known.push_back(key);
-  for (const Node& member : table.table().members)
-    if (!isOneOf(member.key, known))
-      table.reject(member.key, "of a mesh of shape " + word + " " + joined({known.begin() + 1, known.end()}));
+  if (family == cuboid) table.reject("shape", "a plane one, or dimension = 3 at the top of the scene");
+  requireKeysOf(table, {"shape", "cells", "cut"});
   static_cast<void>(table.require("cells", "N or [N, M], integers >= 1"));
   const Point cells = pairOf(table, "cells", true);
   const auto cells1 = static_cast<int>(cells.x());

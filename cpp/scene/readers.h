@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mesh/shape.h"
+#include "mesh/space_shapes.h"
 #include "scene/scene.h"
 #include "scene/table_reader.h"
 
@@ -29,6 +30,8 @@ TimePlan readTime(const Node& node);
 BodyDescription readBody(const Node& node, const std::string& scenePath, size_t index);
 /// `mesh = { shape = "rectangle", ... }`
 MeshShape readShape(const TableReader& table);
+/// `mesh = { shape = "cuboid", ... }`, in space
+Cuboid readCuboid(const TableReader& table);
 
 /// Its mesh. \param owner  of the key `mesh`
 void readMeshSource(const TableReader& owner, const std::string& scenePath, BodyDescription& body);
@@ -51,6 +54,11 @@ void requireTakesElasticity(const TableReader& table, const MaterialDescription&
 OwnLaw readExpressionLaw(const TableReader& table);
 /// A law that a program has registered (scene/registered_laws.h).
 OwnLaw readRegisteredLaw(const TableReader& table);
+
+/// Refuses keys of space in the plane, and those of the plane in space.
+void requireOfDimension(const TableReader& table, const Keys& ofSpace, const Keys& ofPlane);
+/// Refuses what is not known in space.
+void requireKnownInSpace(const TableReader& root, const SceneDescription& scene);
 
 /// `body` of a table: one that the scene has.
 std::string nameOfBody(const TableReader& table, const SceneDescription& scene);

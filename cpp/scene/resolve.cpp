@@ -1,6 +1,7 @@
 #include "scene/resolve.h"
 
 #include <functional>
+#include <type_traits>
 
 #include "base/error.h"
 #include "mesh/read.h"
@@ -10,8 +11,9 @@ namespace {
 
 using NumberLabel =
     std::function<void(int body, int& label, const std::string& name, const std::string& where)>;
-using PlacePoint = std::function<void(int body, Point& point, const std::string& where)>;
 
+/// \param vertex  (body, Point& or SpacePoint&, where)
+template <class PlacePoint>
 void forEachPlace(SceneDescription& scene, const NumberLabel& boundary, const NumberLabel& region,
                   const PlacePoint& vertex) {
   for (int b = 0; b < static_cast<int>(scene.bodies.size()); ++b) {
@@ -20,6 +22,8 @@ void forEachPlace(SceneDescription& scene, const NumberLabel& boundary, const Nu
         continue;
       else if (c.point)
         vertex(b, *c.point, c.where);
+      else if (c.pointInSpace)
+        vertex(b, *c.pointInSpace, c.where);
       else
         boundary(b, c.label, c.labelName, c.where);
     for (RegionDescription& r : scene.bodies[b].regions) region(b, r.label, r.labelName, r.where);
@@ -30,10 +34,12 @@ void forEachPlace(SceneDescription& scene, const NumberLabel& boundary, const Nu
   for (QuantityDescription& q : scene.quantities)
     if (q.whole)
       continue;
-    else if (ofLabel(q.kind) && !q.point)
+    else if (ofLabel(q.kind) && !q.point && !q.pointInSpace)
       boundary(bodyIndex(scene, q.body), q.label, q.labelName, q.where);
-    else if (q.kind == Quantity::Kind::reaction)
+    else if (q.kind == Quantity::Kind::reaction && q.point)
       vertex(bodyIndex(scene, q.body), *q.point, q.where);
+    else if (q.kind == Quantity::Kind::reaction)
+      vertex(bodyIndex(scene, q.body), *q.pointInSpace, q.where);
 }
 
 std::vector<const TriangleMesh*> pointersTo(const std::vector<TriangleMesh>& meshes) {
@@ -42,7 +48,36 @@ std::vector<const TriangleMesh*> pointersTo(const std::vector<TriangleMesh>& mes
   return pointers;
 }
 
+/// Labels and points of the scene become those of the meshes. \throws InputError
+template <class Mesh>
+void findPlaces(SceneDescription& scene, const std::vector<Mesh>& meshes) {
+  const auto place = [&](int body, const std::string& where) {
+    return where + ": body " + scene.bodies[body].name;
+  };
+  forEachPlace(
+      scene,
+      [&](int body, int& label, const std::string& name, const std::string& where) {
+        label = boundaryLabel(meshes[body], label, name, place(body, where));
+      },
+      [&](int body, int& label, const std::string& name, const std::string& where) {
+        label = regionLabel(meshes[body], label, name, place(body, where));
+      },
+      [&]<class Place>(int body, Place& point, const std::string& where) {
+        if constexpr (std::is_same_v<decltype(meshes[body].vertices.front()), const Place&>)
+          point = vertexPoint(meshes[body], point, place(body, where));
+      });
+}
+
 }  // namespace
+
+TetrahedronMesh spaceMeshOf(const BodyDescription& body) {
+  if (!body.mesh.cuboid) return readSpaceMesh(body.mesh);
+  try {
+    return cuboidMesh(*body.mesh.cuboid);
+  } catch (const InputError& error) {
+    throw InputError(body.meshWhere + ": body " + body.name + ": mesh: " + error.what());
+  }
+}
 
 TriangleMesh meshOf(const BodyDescription& body) {
   if (!body.mesh.shape) return readMesh(body.mesh);
@@ -55,26 +90,21 @@ TriangleMesh meshOf(const BodyDescription& body) {
 }
 
 ResolvedScene resolveScene(SceneDescription scene) {
-  std::vector<TriangleMesh> meshes;
-  for (const BodyDescription& body : scene.bodies) meshes.push_back(meshOf(body));
-  const auto place = [&](int body, const std::string& where) {
-    return where + ": body " + scene.bodies[body].name;
-  };
-  forEachPlace(
-      scene,
-      [&](int body, int& label, const std::string& name, const std::string& where) {
-        label = boundaryLabel(meshes[body], label, name, place(body, where));
-      },
-      [&](int body, int& label, const std::string& name, const std::string& where) {
-        label = regionLabel(meshes[body], label, name, place(body, where));
-      },
-      [&](int body, Point& point, const std::string& where) {
-        point = vertexPoint(meshes[body], point, place(body, where));
-      });
-  decideSides(scene, pointersTo(meshes));
-  decideVariants(scene, pointersTo(meshes));
-  decideVolumes(scene, pointersTo(meshes));
-  return {std::move(scene), std::move(meshes)};
+  ResolvedScene resolved{std::move(scene), {}, {}};
+  SceneDescription& description = resolved.description;
+  if (description.inSpace()) {
+    for (const BodyDescription& body : description.bodies) resolved.spaceMeshes.push_back(spaceMeshOf(body));
+    findPlaces(description, resolved.spaceMeshes);
+    decideSides(description, resolved.spaceMeshes);
+    return resolved;
+  }
+  for (const BodyDescription& body : description.bodies) resolved.meshes.push_back(meshOf(body));
+  findPlaces(description, resolved.meshes);
+  const std::vector<const TriangleMesh*> meshes = pointersTo(resolved.meshes);
+  decideSides(description, meshes);
+  decideVariants(description, meshes);
+  decideVolumes(description, meshes);
+  return resolved;
 }
 
 void resolveWhatCanBe(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes) {
@@ -87,12 +117,14 @@ void resolveWhatCanBe(SceneDescription& scene, const std::vector<const TriangleM
       label = found == known.end() ? none : found->second;
     };
   };
-  const auto vertex = [&](int body, Point& point, const std::string& where) {
-    if (meshes[body] == nullptr) return;
-    try {
-      point = vertexPoint(*meshes[body], point, where);
-    } catch (const InputError&) {
-      return;  // named by the lint
+  const auto vertex = [&]<class Place>(int body, Place& point, const std::string& where) {
+    if constexpr (std::is_same_v<Place, Point>) {
+      if (meshes[body] == nullptr) return;
+      try {
+        point = vertexPoint(*meshes[body], point, where);
+      } catch (const InputError&) {
+        return;  // named by the lint
+      }
     }
   };
   forEachPlace(scene, number(&TriangleMesh::labelNames), number(&TriangleMesh::regionNames), vertex);

@@ -13,11 +13,13 @@ namespace mortier {
 /// decides none.
 struct ResolvedScene {
   SceneDescription description;
-  std::vector<TriangleMesh> meshes;
+  std::vector<TriangleMesh> meshes;                ///< none in space
+  std::vector<TetrahedronMesh> spaceMeshes = {};  ///< none in the plane
 };
 
 /// Reads or makes the mesh of a body. \throws InputError
 TriangleMesh meshOf(const BodyDescription& body);
+TetrahedronMesh spaceMeshOf(const BodyDescription& body);
 
 /// Reads the meshes and decides. \throws InputError with one line that names the scene's file and line, or
 /// the mesh's: unreadable meshes, labels and points that a mesh does not have.
@@ -34,14 +36,17 @@ void resolveWhatCanBe(SceneDescription& scene, const std::vector<const TriangleM
 /// name.
 /// \throws InputError, headed by `place` ("scene.toml:9: body upper"), with the labels that the mesh has.
 int boundaryLabel(const TriangleMesh& mesh, int label, const std::string& name, const std::string& place);
+int boundaryLabel(const TetrahedronMesh& mesh, int label, const std::string& name, const std::string& place);
 
 /// The same for a label of a region.
 int regionLabel(const TriangleMesh& mesh, int label, const std::string& name, const std::string& place);
+int regionLabel(const TetrahedronMesh& mesh, int label, const std::string& name, const std::string& place);
 
 /// Where the vertex lies that a scene means by a point: the nearest one, no further off than a thousandth of
 /// the shortest edge there.
 /// \throws InputError, headed by `place`, with that vertex and its distance.
 Point vertexPoint(const TriangleMesh& mesh, const Point& point, const std::string& place);
+SpacePoint vertexPoint(const TetrahedronMesh& mesh, const SpacePoint& point, const std::string& place);
 
 // Which volumetric strain the material of a body sees where the scene leaves it open (`volumes`).
 
@@ -69,6 +74,7 @@ double stiffnessRatio(const SceneDescription& scene, const SideDescription& one,
 /// are numbers (scene/resolve.h). A second call changes nothing. Contacts with a mesh that is missing
 /// (nullptr) or a label that the mesh lacks stay as they are.
 void decideSides(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes);
+void decideSides(SceneDescription& scene, const std::vector<TetrahedronMesh>& meshes);
 
 // Which rows a contact has where the scene does not say it (`variant`).
 

@@ -186,6 +186,12 @@ void requireToolsTouch(const SceneDescription& scene) {
   }
 }
 
+void markInSpace(Node& node) {
+  node.inSpace = true;
+  for (Node& element : node.elements) markInSpace(element);
+  for (Node& member : node.members) markInSpace(member);
+}
+
 }  // namespace
 
 SceneDescription readScene(const std::string& path, const std::vector<std::string>& settings) {
@@ -201,8 +207,12 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
   convertMeasures(document, scene.units);
   const TableReader root(document, "", "");
   scene.title = root.string("title", "");
+  scene.dimension = root.integer("dimension");
+  if (scene.dimension > 3) root.reject("dimension", "2 or 3");
+  if (scene.inSpace()) markInSpace(document);
   scene.plane = root.choice<Plane>("plane");
-  scene.units.wholeRing = scene.plane == Plane::axisymmetric;
+  scene.units.inSpace = scene.inSpace();
+  scene.units.perDepth = !scene.inSpace() && scene.plane != Plane::axisymmetric;
   scene.degree = root.integer("degree");
   if (scene.degree > 2) root.reject("degree", "1 or 2");
   readOptions(root, scene);
@@ -242,6 +252,7 @@ SceneDescription readScene(const std::string& path, const std::vector<std::strin
     scene.time.slidingAllowed.push_back(contact.sliding != SlidingKind::refuse);
   requireAboutAxis(root, scene);
   requireAim(scene);
+  if (scene.inSpace()) requireKnownInSpace(root, scene);
   return scene;
 }
 
@@ -255,6 +266,7 @@ bool BodyDescription::turns() const {
 std::string nameOfPlace(const ConditionDescription& condition) {
   if (condition.onAxis) return "the axis";
   if (condition.point) return "point " + shortest(*condition.point);
+  if (condition.pointInSpace) return "point " + shortest(*condition.pointInSpace);
   return "label " + (condition.labelName.empty() ? std::to_string(condition.label) : condition.labelName);
 }
 

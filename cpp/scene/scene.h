@@ -65,9 +65,12 @@ struct ConditionDescription {
   Expression value;
   std::string where;                ///< file and line of the label, or the --set that gave it
   std::optional<Point> point = {};  ///< in place of the label; resolveScene makes it that of a vertex [m]
-  bool onAxis = false;              ///< of the axis of revolution, in place of the label
+  std::optional<SpacePoint> pointInSpace = {};  ///< the same in space
+  bool onAxis = false;                          ///< of the axis of revolution, in place of the label
 
-  [[nodiscard]] bool actsOn(int boundary) const { return !point && !onAxis && label == boundary; }
+  [[nodiscard]] bool actsOn(int boundary) const {
+    return !point && !pointInSpace && !onAxis && label == boundary;
+  }
 };
 
 /// "label 3", "point [0.5, 1]" or "the axis".
@@ -101,7 +104,7 @@ struct BodyDescription {
   MeshSource mesh;
   std::string meshWhere;
   MaterialDescription material;
-  std::optional<Expression> force[2];  ///< x and y [N/m^3]
+  std::optional<Expression> force[3];  ///< x, y and, in space, z [N/m^3]
   std::optional<TemperatureDescription> temperature = {};
   std::vector<ConditionDescription> conditions;
   StressDescription initialStress;
@@ -157,6 +160,7 @@ struct QuantityDescription {
   int label = 0;
   std::string labelName;       ///< where the label is a name; resolveScene finds it
   std::optional<Point> point;  ///< in place of the label: of a displacement, or of a support [m]
+  std::optional<SpacePoint> pointInSpace = {};  ///< the same in space
   Quantity::Component component = Quantity::Component::x;
   Point about{0, 0};
   struct Part {
@@ -189,6 +193,7 @@ struct SceneDescription {
   std::shared_ptr<const Node> document;  ///< with the settings, for the places of its keys
   std::string title;                     ///< may be empty
   Units units;                           ///< of all numbers below
+  int dimension = 2;  ///< 3: bodies of tetrahedra, no plane
   Plane plane = Plane::stress;
   int degree = 1;  ///< of the displacements: 1 or 2
   std::vector<BodyDescription> bodies;
@@ -200,6 +205,8 @@ struct SceneDescription {
   int every =
       0;  ///< keep each so many steps (and the initial state) beside the last one; 0: the last one only
   std::vector<std::string> allowed;  ///< faults that mortier check is not to name (docs/check.md)
+
+  [[nodiscard]] bool inSpace() const { return dimension == 3; }
 };
 
 /// Reads a scene, applies the settings (`key=value`) in their order, and validates.

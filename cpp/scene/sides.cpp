@@ -66,44 +66,71 @@ bool isWall(const SceneDescription& scene, const SideDescription& side,
   });
 }
 
+double young(const SceneDescription& scene, const SideDescription& side) {
+  return scene.bodies[bodyIndex(scene, side.body)].material.elasticity.young;
+}
+
 }  // namespace
 
 double stiffnessRatio(const SceneDescription& scene, const SideDescription& one, const SideDescription& other,
                       const std::vector<const TriangleMesh*>& meshes) {
   if (isWall(scene, other, meshes)) return 0;
   if (isWall(scene, one, meshes)) return std::numeric_limits<double>::infinity();
-  const auto young = [&](const SideDescription& side) {
-    return scene.bodies[bodyIndex(scene, side.body)].material.elasticity.young;
-  };
-  return young(one) / young(other);
+  return young(scene, one) / young(scene, other);
 }
 
-void decideSides(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes) {
+namespace {
+
+/// \param edge1, edge2  mean lengths of the edges of the side named first and of the other [m]
+/// \param stiffness  of the first over that of the other
+void decideSide(ContactDescription& contact, double edge1, double edge2, double stiffness) {
   constexpr double equal = 1e-9;  // then the side named first
   constexpr double far = 100;     // a coarse soft side may touch between its nodes
+  const bool secondIsFiner = edge2 < (1 - equal) * edge1;
+  const bool alike = !secondIsFiner && edge2 <= (1 + equal) * edge1;
+  contact.choice =
+      alike ? "both meshes are as fine, nonmortar is the side named first" : "nonmortar is the finer mesh";
+  const bool firstIsStiffer = stiffness > far;
+  const bool secondIsStiffer = stiffness < 1 / far;
+  const bool second = firstIsStiffer || (secondIsFiner && !secondIsStiffer);
+  if (firstIsStiffer || secondIsStiffer)
+    contact.choice =
+        contact.otherSide ? "nonmortar is the far stiffer body (swap)" : "nonmortar is the far softer body";
+  else if (contact.otherSide)
+    contact.choice = alike ? "both meshes are as fine, nonmortar is the side named last (swap)"
+                           : "nonmortar is the coarser mesh (swap)";
+  if (second != contact.otherSide) std::swap(contact.nonmortar, contact.mortar);
+}
+
+}  // namespace
+
+void decideSides(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes) {
   for (ContactDescription& contact : scene.contacts) {
     if (contact.sidesGiven || !contact.choice.empty()) continue;
     const auto edge1 = meanEdge(scene, contact.nonmortar, meshes);
     const auto edge2 = meanEdge(scene, contact.mortar, meshes);
     if (!edge1 || !edge2) continue;
-    const bool secondIsFiner = *edge2 < (1 - equal) * *edge1;
-    const bool alike = !secondIsFiner && *edge2 <= (1 + equal) * *edge1;
-    contact.choice =
-        alike ? "both meshes are as fine, nonmortar is the side named first" : "nonmortar is the finer mesh";
-    const double stiffness = contact.variant == CouplingKind::interpolation
-                                 ? 1
-                                 : stiffnessRatio(scene, contact.nonmortar, contact.mortar, meshes);
-    const bool firstIsStiffer = stiffness > far;
-    const bool secondIsStiffer = stiffness < 1 / far;
-    const bool second = firstIsStiffer || (secondIsFiner && !secondIsStiffer);
-    if (firstIsStiffer || secondIsStiffer)
-      contact.choice =
-          contact.otherSide ? "nonmortar is the far stiffer body (swap)" : "nonmortar is the far softer body";
-    else if (contact.otherSide)
-      contact.choice = alike ? "both meshes are as fine, nonmortar is the side named last (swap)"
-                             : "nonmortar is the coarser mesh (swap)";
-    if (second != contact.otherSide) std::swap(contact.nonmortar, contact.mortar);
+    decideSide(contact, *edge1, *edge2,
+               contact.variant == CouplingKind::interpolation
+                   ? 1
+                   : stiffnessRatio(scene, contact.nonmortar, contact.mortar, meshes));
   }
+}
+
+void decideSides(SceneDescription& scene, const std::vector<TetrahedronMesh>& meshes) {
+  const auto edgeOf = [&](const SideDescription& side) {
+    const TetrahedronMesh& mesh = meshes[bodyIndex(scene, side.body)];
+    const auto triangles = trianglesOn(mesh, side.label);
+    double length = 0;
+    for (const auto& [a, b, c] : triangles)
+      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+        length += (mesh.vertices[to] - mesh.vertices[from]).norm();
+    return length / (3 * static_cast<double>(triangles.size()));
+  };
+  for (ContactDescription& contact : scene.contacts)
+    if (!contact.sidesGiven && contact.choice.empty())
+      decideSide(contact, edgeOf(contact.nonmortar), edgeOf(contact.mortar),
+                 young(scene, contact.nonmortar) / young(scene, contact.mortar));
 }
 
 std::optional<Alternation> alternation(const SceneDescription& scene, const ContactDescription& contact,

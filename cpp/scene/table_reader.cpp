@@ -148,6 +148,13 @@ Point TableReader::point(const std::string& key, std::optional<Point> fallback) 
   return {values[0], values[1]};
 }
 
+SpacePoint TableReader::spacePoint(const std::string& key, std::optional<SpacePoint> fallback) const {
+  if (!has(key) && fallback) return *fallback;
+  const std::vector<double> values = numbers(key);
+  if (values.size() != 3) reject(key, "three numbers, [x, y, z]");
+  return {values[0], values[1], values[2]};
+}
+
 std::optional<Expression> TableReader::datum(const std::string& key) const {
   if (!has(key)) return std::nullopt;
   const Node& node = *find(key);
@@ -155,8 +162,9 @@ std::optional<Expression> TableReader::datum(const std::string& key) const {
   const std::string where = message(node.where, key + " = " + node.quoted());
   if (node.isNumeric() && std::isfinite(node.value)) return constantExpression(node.value, where);
   if (!node.isString())
-    reject(key, "a finite number, an expression in x, y, t, or a table { time = [...], value = [...] }");
-  return parseExpression(node.text, where);
+    reject(key, std::string("a finite number, an expression in x, y, ") + (node.inSpace ? "z, " : "") +
+                    "t, or a table { time = [...], value = [...] }");
+  return parseExpression(node.text, where, node.inSpace);
 }
 
 Expression TableReader::timeTable(const std::string& key, const Node& node) const {

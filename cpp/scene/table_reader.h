@@ -59,7 +59,9 @@ class TableReader {
   [[nodiscard]] std::vector<double> numbers(const std::string& key) const;
   /// [x, y]
   [[nodiscard]] Point point(const std::string& key, std::optional<Point> fallback = {}) const;
-  /// A number, an expression in x, y, t, or a table in time; none where the key is missing.
+  /// [x, y, z]
+  [[nodiscard]] SpacePoint spacePoint(const std::string& key, std::optional<SpacePoint> fallback = {}) const;
+  /// A number, an expression in x, y, in space z, and t, or a table in time; none where the key is missing.
   [[nodiscard]] std::optional<Expression> datum(const std::string& key) const;
   /// The table or tables under `key` (an array of tables or a single one), none where it is missing.
   [[nodiscard]] std::vector<const Node*> tables(const std::string& key) const;

@@ -113,6 +113,7 @@ struct StepReport {
   double contactForce = 0;  ///< sum of nodal contact forces p >= 0, all interfaces: no resultant [N/m]
   double resultantX = 0;    ///< resultant of the contact forces on the nonmortar bodies, all interfaces [N/m]
   double resultantY = 0;
+  std::optional<double> resultantZ;  ///< in space
   double vonMises = 0;              ///< largest [Pa]
   double displacement = 0;          ///< largest length [m]
   double motion = 0;                ///< largest displacement of a body over its extent

@@ -1,9 +1,12 @@
 // Means of displacements by the nodes, exact for what the trial functions are.
+#include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <map>
 
 #include "base/adaptive_quadrature.h"
 #include "fem/element.h"
+#include "fem/tetrahedron.h"
 #include "mesh/axis.h"
 #include "mesh/boundary_line.h"
 #include "time/quantity.h"
@@ -97,6 +100,44 @@ Weights meanOn(const TriangleMesh& mesh, const ElementNodes& nodes, int label, b
   Weights weights;
   for (const auto& [node, length] : lengths) weights.emplace_back(node, length / sum);
   return weights;
+}
+
+Weights meanAt(const SpaceElements& elements, const SpacePoint& point) {
+  constexpr double rounding = 1e-9;  // of a tetrahedron: a point on the boundary is inside
+  const TetrahedronMesh& mesh = elements.mesh();
+  for (size_t e = 0; e < mesh.tetrahedra.size(); ++e) {
+    std::array<SpacePoint, 4> x;
+    for (int k = 0; k < 4; ++k) x[k] = mesh.vertices[mesh.tetrahedra[e][k]];
+    const TetrahedronGeometry geometry(x);
+    SpaceBarycentric at;
+    for (int k = 0; k < 4; ++k) at[k] = (k == 0 ? 1 : 0) + geometry.gradients.col(k).dot(point - x[0]);
+    if (*std::min_element(at.begin(), at.end()) < -rounding) continue;
+    return withSpaceElement(elements.nodes().degree, [&](auto element) {
+      Weights weights;
+      const auto shapes = decltype(element)::shapes(at);
+      for (size_t a = 0; a < shapes.size(); ++a)
+        weights.emplace_back(elements.nodes().of(e)[a], shapes[a]);
+      return weights;
+    });
+  }
+  return {};
+}
+
+// On a triangle linear functions have the mean 1/3, quadratic ones 0 at vertices and 1/3 at middles.
+Weights meanOn(const SpaceElements& elements, int label) {
+  const SpaceNodes& nodes = elements.nodes();
+  std::map<int, double> areas;
+  double sum = 0;
+  for (size_t i = 0; i < nodes.faces.size(); ++i) {
+    if (elements.mesh().boundaryLabels[i] != label) continue;
+    const std::array<int, 6>& face = nodes.faces[i];
+    const SpacePoint& x = nodes.places[face[0]];
+    const double area = (nodes.places[face[1]] - x).cross(nodes.places[face[2]] - x).norm() / 2;
+    for (int k = 0; k < 3; ++k) areas[face[nodes.degree == 1 ? k : 3 + k]] += area / 3;
+    sum += area;
+  }
+  for (auto& [node, area] : areas) area /= sum;
+  return {areas.begin(), areas.end()};
 }
 
 }  // namespace mortier

@@ -62,6 +62,7 @@ double largestDisplacement(const Vector& displacement, int dimension, Threads& t
 }  // namespace
 
 void measure(const Model& model, const State& state, Threads& threads, StepReport& report) {
+  if (model.bodies.front().dimension() == 3) report.resultantZ = 0;
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
     const Vector& p = state.contactForce[k];
@@ -73,6 +74,7 @@ void measure(const Model& model, const State& state, Threads& threads, StepRepor
     const SpacePoint force = resultant(model, state, k);
     report.resultantX += force.x();
     report.resultantY += force.y();
+    if (report.resultantZ) *report.resultantZ += force.z();
     if (interface.hasFriction()) report.frictionWork.push_back(state.frictionWorkOf[k]);
   }
   Part all;

@@ -15,14 +15,37 @@ namespace {
 
 /// Forces at nodes, summed to a resultant and a moment.
 struct Wrench {
-  Point force = Point::Zero();
-  double moment = 0;
+  SpacePoint force = SpacePoint::Zero();
+  double moment = 0;  ///< about the axis across the plane
 
-  void add(const Point& at, const Point& by) {
+  void add(const SpacePoint& at, const SpacePoint& by) {
     force += by;
-    moment += cross(at, by);
+    moment += at.x() * by.y() - at.y() * by.x();
   }
 };
+
+/// A vector at a node (dofs); z = 0 in the plane.
+SpacePoint at(const Vector& nodal, int node, int dimension) {
+  SpacePoint vector = SpacePoint::Zero();
+  vector.head(dimension) = nodal.segment(static_cast<Eigen::Index>(dimension) * node, dimension);
+  return vector;
+}
+
+void addSpaceReactions(const Body& body, const Vector& forces, std::map<int, Wrench>& result) {
+  for (const SpaceSupport& support : body.space()->supports()) {
+    // By the prescribed directions, which need not be orthogonal: D' r = f on their span.
+    const Eigen::Index n = support.count;
+    const Matrix span = support.frame.topRows(n);
+    const Matrix inSpan = support.directions.topRows(n) * span.transpose();  // lower triangular
+    const Vector along = inSpan.transpose().triangularView<Eigen::Upper>().solve(
+        Vector(span * at(forces, support.node, 3)));
+    for (int i = 0; i < support.count; ++i) {
+      const SpaceCondition& held = body.space()->conditions().displacements[support.conditions[i]];
+      result[firstSupport(body, held.label, {}, held.point)].add(
+          body.placeOfNode(support.node), along[i] * SpacePoint(support.directions.row(i)));
+    }
+  }
+}
 
 /// What the supports of each label and each point exert on the body, by the first of their conditions.
 std::map<int, Wrench> reactions(const Model& model, const State& state, int b) {
@@ -31,10 +54,12 @@ std::map<int, Wrench> reactions(const Model& model, const State& state, int b) {
   model.sumAtNodes(b, forces);
   forces += contactForces(model, state.contactForce, state.frictionForce, b);
   std::map<int, Wrench> result;
+  if (body.space() != nullptr) addSpaceReactions(body, forces, result);
+  const auto inPlane = [](const Point& p) { return SpacePoint(p.x(), p.y(), 0); };
   if (body.rigid()) {
     const Eigen::Vector3d held = body.heldForce(forces);
     Wrench& all = result[-1];
-    all.add(body.conditions().rigid->at, held.head<2>());
+    all.add(inPlane(body.conditions().rigid->at), inPlane(held.head<2>()));
     all.moment += held[2];
   }
   for (const NodeSupport& support : body.supports().nodes()) {
@@ -48,8 +73,8 @@ std::map<int, Wrench> reactions(const Model& model, const State& state, int b) {
     for (int i = 0; i < support.count; ++i) {
       const PrescribedDisplacement& held = body.conditions().displacements[support.conditions[i]];
       if (held.onAxis) continue;
-      result[firstSupport(body, held.label, held.point)].add(body.elementNodes().places[support.node],
-                                                             along[i] * support.directions[i]);
+      result[firstSupport(body, held.label, held.point)].add(body.placeOfNode(support.node),
+                                                             inPlane(along[i] * support.directions[i]));
     }
   }
   return result;
@@ -57,22 +82,24 @@ std::map<int, Wrench> reactions(const Model& model, const State& state, int b) {
 
 Wrench contactOn(const Model& model, const State& state, int body, std::optional<int> label) {
   const Vector forces = contactForces(model, state.contactForce, state.frictionForce, body, label);
-  const ElementNodes& nodes = model.bodies[body].elementNodes();
-  const std::vector<int>& labels = model.bodies[body].mesh().boundaryLabels;
+  const Body& of = model.bodies[body];
   Wrench result;
-  std::vector<char> counted(nodes.count(), 0);
-  for (const BoundaryStretch& stretch : nodes.boundary)
-    for (const int node : stretch.nodes)
-      if ((!label || labels[stretch.edge] == *label) && std::exchange(counted[node], 1) == 0)
-        result.add(nodes.places[node], -forces.segment<2>(2 * node));
+  for (const int node : of.boundaryNodes(label))
+    result.add(of.placeOfNode(node), -at(forces, node, of.dimension()));
   return result;
+}
+
+/// x, y or z as a number.
+int axisOf(const Quantity& quantity) {
+  using Component = Quantity::Component;
+  return quantity.component == Component::x ? 0 : quantity.component == Component::z ? 2 : 1;
 }
 
 double componentOf(const Wrench& wrench, const Quantity& quantity) {
   using Component = Quantity::Component;
   if (quantity.component == Component::moment)
     return wrench.moment - quantity.about.x() * wrench.force.y() + quantity.about.y() * wrench.force.x();
-  return wrench.force[quantity.component == Component::x ? 0 : 1];
+  return wrench.force[axisOf(quantity)];
 }
 
 /// Of elasticity and of what hardens.
@@ -91,10 +118,10 @@ double storedEnergy(const Body& body, const BodyState& state) {
 /// The largest value of a field, and where it is.
 struct Largest {
   double value = 0;
-  std::optional<Point> place = {};
+  std::optional<SpacePoint> place = {};
   size_t interface = 0;  ///< of a pressure, and the row of C
   Eigen::Index row = 0;
-  void raise(double other, const Point& at, size_t ofInterface = 0, Eigen::Index ofRow = 0) {
+  void raise(double other, const SpacePoint& at, size_t ofInterface = 0, Eigen::Index ofRow = 0) {
     if (other > value) *this = {other, at, ofInterface, ofRow};
   }
 };
@@ -104,21 +131,22 @@ Largest largestPressure(const Model& model, const State& state, const Quantity& 
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
     if (!isSide(interface, quantity.body, quantity.label)) continue;
-    const std::vector<Point>& places = model.bodies[interface.pair().nonmortar.body].elementNodes().places;
+    const Body& body = model.bodies[interface.pair().nonmortar.body];
     const Vector pressure = interface.contactPressure(state.contactForce[k]);
     for (Eigen::Index i = 0; i < pressure.size(); ++i)
-      largest.raise(pressure[i], places[interface.nonmortarNodes()[i]], k, i);
+      largest.raise(pressure[i], body.placeOfNode(interface.nonmortarNodes()[i]), k, i);
   }
   return largest;
 }
 
 Largest largestMises(const Model& model, const State& state, const Quantity& quantity) {
   Largest largest;
-  const std::vector<Point> places = model.bodies[quantity.body].places();
+  const Body& body = model.bodies[quantity.body];
   const Matrix& stress = state.bodies[quantity.body].stress;
-  const int tensor = model.bodies[quantity.body].material().tensorComponents();
+  const int tensor = body.material().tensorComponents();
   for (Eigen::Index i = 0; i < stress.cols(); ++i)
-    largest.raise(vonMises(stress.col(i).head(tensor)), places[i]);
+    if (const double value = vonMises(stress.col(i).head(tensor)); value > largest.value)
+      largest.raise(value, body.placeOfPoint(static_cast<int>(i)));
   return largest;
 }
 
@@ -187,7 +215,15 @@ bool needsWork(const Quantity& quantity) {
          quantity.kind == Kind::externalWork || quantity.kind == Kind::thermalWork;
 }
 
-int firstSupport(const Body& body, int label, const std::optional<Point>& point) {
+int firstSupport(const Body& body, int label, const std::optional<Point>& point,
+                 const std::optional<SpacePoint>& pointInSpace) {
+  if (body.space() != nullptr) {
+    const std::vector<SpaceCondition>& held = body.space()->conditions().displacements;
+    const auto found = std::find_if(held.begin(), held.end(), [&](const SpaceCondition& each) {
+      return each.point == pointInSpace && (pointInSpace || each.label == label);
+    });
+    return found == held.end() ? -1 : static_cast<int>(found - held.begin());
+  }
   const std::vector<PrescribedDisplacement>& held = body.conditions().displacements;
   const auto found = std::find_if(held.begin(), held.end(), [&](const PrescribedDisplacement& each) {
     return point ? each.point == point : each.actsOn(label);
@@ -203,11 +239,14 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
     if (reactionsOf.count(quantity.body) == 0)
       reactionsOf[quantity.body] = reactions(model, state, quantity.body);
     const int support =
-        quantity.whole ? -1 : firstSupport(model.bodies[quantity.body], quantity.label, quantity.point);
+        quantity.whole ? -1
+                       : firstSupport(model.bodies[quantity.body], quantity.label, quantity.point,
+                                      quantity.pointInSpace);
     return componentOf(reactionsOf[quantity.body][support], quantity);
   };
   const auto displacement = [&](const Quantity& quantity) {  // of the nodes of this rank
-    const int component = quantity.component == Quantity::Component::x ? 0 : 1;
+    const int component = axisOf(quantity);
+    const int dimension = model.bodies[quantity.body].dimension();
     if (quantity.whole) {
       const bool turns = quantity.component == Quantity::Component::rotation;
       return model.bodies[quantity.body].motionOf(
@@ -215,7 +254,7 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
     }
     double value = 0;
     for (const auto& [node, weight] : quantity.mean)
-      value += weight * state.bodies[quantity.body].displacement[2 * node + component];
+      value += weight * state.bodies[quantity.body].displacement[dimension * node + component];
     return value;
   };
   const auto valueOf = [&](const Quantity& quantity) {
@@ -270,7 +309,7 @@ Quantity ofParts(const Quantity& quantity, const Model& model) {
   return own;
 }
 
-std::optional<Point> placeOf(const Quantity& quantity, const Model& model, const State& state) {
+std::optional<SpacePoint> placeOf(const Quantity& quantity, const Model& model, const State& state) {
   if (quantity.kind == Quantity::Kind::largestPressure) return largestPressure(model, state, quantity).place;
   if (quantity.kind == Quantity::Kind::largestMises) return largestMises(model, state, quantity).place;
   return std::nullopt;

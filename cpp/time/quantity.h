@@ -35,7 +35,7 @@ struct Quantity {
     frictionWork,  ///< dissipated along the label since the run began
     meanPressure   ///< of the contact pressure over a part of a side
   };
-  enum class Component { x, y, moment, rotation };
+  enum class Component { x, y, moment, rotation, z };
 
   std::string name;
   Kind kind = Kind::reaction;
@@ -46,6 +46,7 @@ struct Quantity {
   std::vector<std::pair<int, double>> mean =
       {};                             ///< of a displacement: nodes and their weights, which sum to one
   std::optional<Point> point = {};    ///< of a reaction: that of a held vertex, in place of the label [m]
+  std::optional<SpacePoint> pointInSpace = {};  ///< the same in space
   std::optional<LinePart> part = {};  ///< of a mean pressure
   std::vector<Vector> shares = {};    ///< of contact forces in it (time/mean_pressure.h)
   bool whole = false;                 ///< of all of a rigid body, in place of a label
@@ -61,7 +62,8 @@ bool hasComponent(Quantity::Kind kind);
 /// Whether the work done on bodies must be counted for it.
 bool needsWork(const Quantity& quantity);
 /// The first condition that holds a label of a body or, where one is given, a point; -1 for none.
-int firstSupport(const Body& body, int label, const std::optional<Point>& point);
+int firstSupport(const Body& body, int label, const std::optional<Point>& point,
+                 const std::optional<SpacePoint>& pointInSpace = {});
 
 /// The value of each, in the units above. Forces act on the body.
 std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Model& model, const State& state);
@@ -70,7 +72,8 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
 Quantity ofParts(const Quantity& quantity, const Model& model);
 
 /// Where a largest value is, as meshed [m]; none for other quantities, and where there is no contact.
-std::optional<Point> placeOf(const Quantity& quantity, const Model& model, const State& state);
+/// z = 0 in the plane.
+std::optional<SpacePoint> placeOf(const Quantity& quantity, const Model& model, const State& state);
 
 /// How far the largest pressure may be off, estimated: the largest difference of it, as the mass matrix of C
 /// has it, from the force of its node over the length of the row function, and from the normal stress that
@@ -89,5 +92,8 @@ std::vector<std::pair<int, double>> meanOn(const TriangleMesh& mesh, const Eleme
                                            bool axisymmetric = false);
 /// The same of linear displacements.
 std::vector<std::pair<int, double>> meanOn(const TriangleMesh& mesh, int label, bool axisymmetric = false);
+/// The same of a body in space.
+std::vector<std::pair<int, double>> meanAt(const SpaceElements& elements, const SpacePoint& point);
+std::vector<std::pair<int, double>> meanOn(const SpaceElements& elements, int label);
 
 }  // namespace mortier

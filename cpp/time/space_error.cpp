@@ -1,6 +1,7 @@
 #include "time/space_error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -18,6 +19,8 @@ namespace {
 Vector stiffestCompliance(const Body& body, Threads& threads) {
   constexpr double differs = 1 - 1e-9;
   const Eigen::Vector3d along[] = {{1, 0, 0}, {0, 1, 0}, {0.5, 0.5, 0.5}, {0.5, 0.5, -0.5}};
+  const bool space = body.space() != nullptr;  // where elasticity is isotropic
+  const Vector alongX = fromSpaceCartesian(SpaceStress::Unit(0));
   Matrix stress(body.material().components(), body.points());
   Matrix strain(body.material().components(), body.points());
   Vector result(body.points());
@@ -25,7 +28,10 @@ Vector stiffestCompliance(const Body& body, Threads& threads) {
     auto own = stress.middleCols(begin, end - begin);
     own.setZero();
     for (const Eigen::Vector3d& cartesian : along) {
-      own.topRows<3>().colwise() = fromCartesian(cartesian);
+      if (space)
+        own.colwise() = alongX;
+      else
+        own.topRows<3>().colwise() = fromCartesian(cartesian);
       body.material().elasticStrain(stress, strain, begin, end);
       for (int i = begin; i < end; ++i) {
         const double compliance = stress.col(i).dot(strain.col(i));
@@ -48,9 +54,13 @@ SpaceErrorEstimator::SpaceErrorEstimator(const Model& model, Threads& threads) :
   for (std::optional<ErrorEstimator>& body : bodies) bodies_.push_back(std::move(*body));
   for (const ContactInterface& interface : model.interfaces) {
     const auto& [nonmortar, mortar, coupling] = interface.pair();
-    for (const ContactSide& side : {nonmortar, mortar}) addLine(side.body, side.label);
+    for (const ContactSide& side : {nonmortar, mortar})
+      if (interface.dimension() == 3)
+        addSurface(side.body, side.label);
+      else
+        addLine(side.body, side.label);
   }
-  readData();
+  if (model.bodies.front().dimension() == 2) readData();
 }
 
 void SpaceErrorEstimator::addLine(int body, int label) {
@@ -100,8 +110,13 @@ std::vector<ErrorEstimate> SpaceErrorEstimator::operator()(const State& state, T
   std::vector<ErrorEstimate> estimates(bodies_.size());
   threads.forEach(static_cast<int>(bodies_.size()),
                   [&](int b) { estimates[b] = bodies_[b](state.bodies[b].stress, threads); });
-  for (size_t k = 0; k < model_.interfaces.size(); ++k) addGaps(k, state, estimates);
-  addData(state, estimates);
+  const bool space = model_.bodies.front().dimension() == 3;
+  for (size_t k = 0; k < model_.interfaces.size(); ++k)
+    if (space)
+      addSurfaceGaps(k, state, estimates);
+    else
+      addGaps(k, state, estimates);
+  if (!space) addData(state, estimates);
   return estimates;
 }
 
@@ -155,13 +170,18 @@ double SpaceErrorEstimator::roundingOf(size_t body, double displacement, Threads
   const double u = roundings * std::numeric_limits<double>::epsilon() * displacement;
   const Matrix ones = Matrix::Ones(of.material().components(), of.points());
   Matrix strain(of.material().components(), of.points());
-  const std::vector<Point> places = of.axisymmetric() ? of.places() : std::vector<Point>(of.points());
+  const std::vector<Point> places = of.axisymmetric() ? of.places() : std::vector<Point>();
+  // What the square of a size of an element stands for: 1, the circumference, in space the size itself.
+  const auto beyondSquare = [&](int i) {
+    if (of.space() != nullptr) return std::cbrt(of.space()->pointsOfElement() * of.weights()[i]);
+    return of.axisymmetric() ? of.depthAt(places[i]) : 1.0;
+  };
   std::vector<double> sums(blocksOf(of.points()), 0);
   forEachBlock(of.points(), threads, [&](int begin, int end) {
     of.material().elasticStrain(ones, strain, begin, end);
     double& sum = sums[begin / itemsOfBlock];
     for (int i = begin; i < end; ++i)
-      sum += of.depthAt(places[i]) * u * u / strain.col(i).cwiseAbs().head<3>().minCoeff();
+      sum += beyondSquare(i) * u * u / strain.col(i).cwiseAbs().head<3>().minCoeff();
   });
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }

@@ -10,7 +10,7 @@
 //
 // h the edge of the nonmortar triangle, to whose error they are added. Where bodies have flowed, the gap
 // closes under less stress: E* is then that of strain over stress, and the energy that of elasticity,
-// K^2/E* in place of E*. Data that the meshes do not resolve come on top (data_error.cpp), and what the edges
+// K^2/E* in place of E*. In space the points of the common refinement take the place of the line. Data that the meshes do not resolve come on top (data_error.cpp; in the plane), and what the edges
 // of the mortar side do not resolve of pressure and friction: to their body these are tractions
 // (pressure_error.cpp).
 #pragma once
@@ -49,6 +49,9 @@ class SpaceErrorEstimator {
   void addLine(int body, int label);
   [[nodiscard]] const Line& line(int body, int label) const { return lines_.at({body, label}); }
   void addGaps(size_t interface, const State& state, std::vector<ErrorEstimate>& estimates) const;
+  // The same of surfaces (surface_error.cpp).
+  void addSurface(int body, int label);
+  void addSurfaceGaps(size_t interface, const State& state, std::vector<ErrorEstimate>& estimates) const;
   /// 1/E, and strain over stress [1/Pa].
   struct Compliance {
     double elastic = 0;
@@ -82,6 +85,8 @@ class SpaceErrorEstimator {
   const Model& model_;
   std::vector<ErrorEstimator> bodies_;
   std::map<std::array<int, 2>, Line> lines_;  ///< by body and label: of contact, and where data vary
+  /// By body and label: tetrahedra behind the triangles of a surface, by their vertices, ascending.
+  std::map<std::array<int, 2>, std::map<std::array<int, 3>, int>> surfaces_;
   std::vector<Vector> compliances_;           ///< 1/E by points [1/Pa]
   std::vector<Vector> steadyData_;            ///< of each body, by triangles; empty where all are resolved
   std::vector<std::vector<GivenGap>> givenGaps_;  ///< of each interface; of those that do not move

@@ -1,0 +1,76 @@
+// The gap that contact leaves between two surfaces, as an error of the nonmortar tetrahedra.
+#include <algorithm>
+
+#include "time/space_error.h"
+
+namespace mortier {
+namespace {
+
+std::array<int, 3> ascending(std::array<int, 3> triangle) {
+  std::sort(triangle.begin(), triangle.end());
+  return triangle;
+}
+
+/// By points, the three vertices of the triangle that they lie on.
+std::vector<std::array<int, 3>> trianglesOf(const Eigen::SparseMatrix<double>& traces, int vertices) {
+  std::vector<std::array<int, 3>> triangles(static_cast<size_t>(traces.rows()));
+  std::vector<int> found(triangles.size(), 0);
+  for (int node = 0; node < vertices; ++node)  // ascending
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(traces, node); entry; ++entry)
+      if (int& count = found[entry.row()]; count < 3) triangles[entry.row()][count++] = node;
+  return triangles;
+}
+
+}  // namespace
+
+void SpaceErrorEstimator::addSurface(int body, int label) {
+  const auto [place, isNew] = surfaces_.try_emplace({body, label});
+  if (!isNew) return;
+  const TetrahedronMesh& mesh = model_.bodies[body].space()->mesh();
+  std::map<std::array<int, 3>, int>& surface = place->second;
+  std::vector<char> on(mesh.vertices.size(), 0);
+  for (const auto& triangle : trianglesOn(mesh, label)) {
+    surface[ascending(triangle)] = 0;
+    for (const int v : triangle) on[v] = 1;
+  }
+  for (size_t e = 0; e < mesh.tetrahedra.size(); ++e) {
+    const std::array<int, 4>& v = mesh.tetrahedra[e];
+    if (on[v[0]] + on[v[1]] + on[v[2]] + on[v[3]] < 3) continue;
+    for (const auto& [a, b, c] : {std::array{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}})
+      if (const auto found = surface.find(ascending({v[a], v[b], v[c]})); found != surface.end())
+        found->second = static_cast<int>(e);
+  }
+}
+
+void SpaceErrorEstimator::addSurfaceGaps(size_t interface, const State& state,
+                                         std::vector<ErrorEstimate>& estimates) const {
+  const ContactInterface& contact = model_.interfaces[interface];
+  const auto& [nonmortar, mortar, coupling] = contact.pair();
+  if (coupling == CouplingKind::interpolation) return;
+  const ContactInterface::SurfacePoints& points = contact.surfacePoints();
+  const Matrix jump =
+      points.jump(state.bodies[nonmortar.body].displacement, state.bodies[mortar.body].displacement);
+  const Vector pressed = points.rows * state.contactForce[interface];
+  std::array<std::vector<std::array<int, 3>>, 2> triangles;
+  const std::array<ContactSide, 2> sides{nonmortar, mortar};
+  for (size_t s = 0; s < 2; ++s) {
+    const TetrahedronMesh& mesh = model_.bodies[sides[s].body].space()->mesh();
+    triangles[s] = trianglesOf(points.traces[s], static_cast<int>(mesh.vertices.size()));
+  }
+  const auto elementOf = [&](size_t side, Eigen::Index point) {
+    const auto& surface = surfaces_.at({sides[side].body, sides[side].label});
+    const auto found = surface.find(triangles[side][point]);
+    return found == surface.end() ? 0 : found->second;
+  };
+  for (Eigen::Index i = 0; i < jump.cols(); ++i) {
+    double gap = points.normals[i].dot(jump.col(i)) - points.distances[i];
+    if (!(pressed[i] > 0)) gap = std::max(gap, 0.0);
+    const int element = elementOf(0, i);
+    const Compliance compliance =
+        complianceOf(state, nonmortar.body, element) + complianceOf(state, mortar.body, elementOf(1, i));
+    estimates[nonmortar.body].error[element] += compliance.elastic / (compliance.all * compliance.all) *
+                                                points.areas[i] * gap * gap / points.sizes[i];
+  }
+}
+
+}  // namespace mortier

@@ -1,0 +1,213 @@
+"""Scenes in space: what is exact, what is refused, files and messages."""
+import json
+import unittest
+
+import meshio
+import numpy as np
+
+from support import InFolder
+from results import read_csv
+
+# The note's compression test of two cubes; the stress is (0, 0, -10 t) and flows from t = 0.1 on.
+CUBES = """\
+dimension = 3
+[[body]]
+name = "upper"
+mesh = { shape = "cuboid", upper = [1, 1, 1], cells = 2 }
+material = { young = 3e11, poisson = 0.3, viscosity = 10, yield_stress = 1 }
+boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "top", tz = "-10*t" } ]
+[[body]]
+name = "lower"
+mesh = { shape = "cuboid", lower = [0, 0, -1], upper = [1, 1, 0], cells = 3 }
+material = { young = 3e11, poisson = 0.3, viscosity = 10, yield_stress = 1 }
+boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "bottom", uz = 0 } ]
+[contact]
+nonmortar = { body = "upper", label = "bottom" }
+mortar = { body = "lower", label = "top" }
+[[quantity]]
+name = "top"
+displacement = { body = "upper", label = "top" }
+component = "z"
+[[quantity]]
+name = "corner"
+displacement = { body = "upper", point = [1, 1, 1] }
+component = "z"
+[[quantity]]
+name = "floor"
+reaction = { body = "lower", label = "bottom" }
+component = "z"
+[[quantity]]
+name = "pressed"
+contact_force = { body = "lower", label = "top" }
+component = "z"
+[[quantity]]
+name = "pressure"
+largest_pressure = { body = "upper", label = "bottom" }
+[[quantity]]
+name = "stored"
+stored_energy = { body = "upper" }
+[[quantity]]
+name = "work"
+work = { body = "upper" }
+[time]
+end = 1
+steps = 20
+"""
+# By backward Euler: the rate along z is (2/3 s - 2/3)/(2 lambda) beyond the yield stress 1.
+TOP = -2 * sum(0.05 * 2 / 3 * (0.5 * n - 1) / 20 for n in range(3, 21))
+SOFT = ["body.material={young=100, poisson=0.3}"]
+
+
+class Space(InFolder):
+    def setUp(self):
+        super().setUp()
+        self.write(CUBES)
+
+    def run_scene(self, *settings, code=0):
+        self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--set", *settings, code=code)
+        summary = json.loads(self.read("out/summary.json"))
+        return summary, {name: each["value"] for name, each in summary.get("quantities", {}).items()}
+
+    def test_compression_is_exact(self):
+        for settings in (["contact.variant=weighted"], ["contact.variant=mortar"], ["contact.swap=true"],
+                         ["degree=2"]):
+            with self.subTest(settings):
+                swapped = "contact.swap=true" in settings
+                if swapped:
+                    settings.append("quantity.pressure.largest_pressure.body=lower")
+                    settings.append("quantity.pressure.largest_pressure.label=top")
+                summary, values = self.run_scene(*settings)
+                for name, exact in {"top": TOP, "corner": TOP, "floor": 10, "pressed": -10, "pressure": 10,
+                                    "stored": 100 / 2 / 3e11, "work": -10 * 0}.items():
+                    if name != "work":
+                        self.assertAlmostEqual(values[name] / exact, 1, delta=2e-6, msg=name)
+                self.assertEqual(summary["plane"], "space")
+                self.assertEqual(summary["final"]["active_nodes"], summary["interfaces"][0]["nonmortar_nodes"])
+                cells = meshio.read(self.folder / "out" / "upper_000020.vtu").cell_data
+                stress = cells["stress"][0]
+                np.testing.assert_allclose(stress, np.tile([0, 0, -10, 0, 0, 0], (len(stress), 1)), atol=2e-5)
+
+    def test_interpolation_is_not(self):
+        _, values = self.run_scene("contact.variant=interpolation", *SOFT)
+        self.assertGreater(abs(values["pressure"] / 10 - 1), 1e-2)
+        self.assertAlmostEqual(values["floor"], 10, delta=1e-9)
+
+    def test_files_name_the_third_component(self):
+        self.run_scene(*SOFT, "output.every=10")
+        history = read_csv(self.folder / "out" / "history.csv")
+        self.assertAlmostEqual(float(history[-1]["contact_resultant_z[N]"]), 10, delta=1e-9)
+        self.assertIn("penetration[m^3]", history[0])
+        contact = read_csv(self.folder / "out" / "contact.csv")
+        self.assertEqual({row["z"] for row in contact}, {"0"})
+        self.assertEqual(len(contact), 3 * 9)
+        mesh = meshio.read(self.folder / "out" / "lower_000020.vtu")
+        self.assertEqual(mesh.cells[0].type, "tetra")
+        self.assertEqual(len(mesh.cells[0].data), 6 * 27)
+        # u = (nu, nu, 1) times -s/E z within a body of one stress
+        np.testing.assert_allclose(mesh.point_data["displacement"][:, 2],
+                                   -0.1 * (mesh.points[:, 2] + 1), atol=1e-12)
+
+    def test_data_hold_z(self):
+        # A body force that a varying traction balances: s33 = -(1 - z^2)/2 t along the column.
+        self.write("""\
+dimension = 3
+degree = 2
+[[body]]
+name = "column"
+mesh = { shape = "cuboid", upper = [1, 1, 1], cells = [1, 1, 6] }
+material = { young = 1, poisson = 0 }
+force = { z = "-z*t" }
+boundary = [ { label = "bottom", uz = 0 }, { label = "left", ux = 0 }, { label = "front", uy = 0 } ]
+[[quantity]]
+name = "floor"
+reaction = { body = "column", label = 1 }
+component = "z"
+[[quantity]]
+name = "top"
+displacement = { body = "column", label = 3 }
+component = "z"
+[time]
+end = 1
+steps = 1
+""")
+        _, values = self.run_scene()
+        self.assertAlmostEqual(values["floor"], 0.5, delta=1e-12)
+        self.assertAlmostEqual(values["top"], -1 / 3, delta=1e-12)
+
+    def test_what_is_of_the_plane_is_refused(self):
+        for setting, message in (
+                ("plane=strain", "plane = \"strain\", expected none with dimension = 3"),
+                ("accuracy.energy=0.1", "expected none with dimension = 3: known in the plane only"),
+                ("contact.friction=0.3", "friction, expected none"),
+                ("contact.sliding=finite", "sliding = \"finite\", expected none"),
+                ("contact.gap=0.1", "gap, expected none"),
+                ("contact.variant=coarsened", 'variant = "coarsened", expected "weighted"'),
+                ("time.tolerance=0.01", "time: tolerance, expected none"),
+                ("body.upper.temperature=1", "temperature, expected none"),
+                ('body.upper.boundary.left.ut=0', "ut = 0, expected none with dimension = 3"),
+                ('body.upper.material={young=1, poisson=0.3, law="norton", reference_stress=1, '
+                 'reference_rate=1, exponent=3}', "expected \"elastic\" or \"perzyna\""),
+                ("dimension=4", "dimension = 4, expected 2 or 3"),
+                ("body.upper.boundary.top.tz=w", "expected an expression in x, y, z, t"),
+                ("quantity.corner.displacement.point=[1, 1]", "expected three numbers, [x, y, z]"),
+                ("quantity.corner.displacement.point=[2, 1, 1]", "expected a point of body upper"),
+                ("body.upper.boundary.left.label=nowhere", "expected one of back, bottom, front"),
+                ("body.upper.boundary.top.uz=1/z-1/z", None),
+                ("body.upper.mesh.cells=0", "cells = 0, expected N or [NX, NY, NZ]"),
+                ('body.upper.mesh={shape="rectangle", cells=2}', "expected cuboid")):
+            with self.subTest(setting):
+                if message is None:
+                    continue
+                said = self.mortier("run", "scene.toml", "--out", "out", "--set", setting, code=2).stderr
+                self.assertIn(message, said)
+                checked = self.mortier("check", "scene.toml", "--set", setting, code=2).stdout
+                self.assertIn(message, checked)
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_what_is_of_space_is_refused_in_the_plane(self):
+        self.write(CUBES.replace("dimension = 3\n", ""))
+        said = self.mortier("run", "scene.toml", code=2).stderr
+        self.assertIn("expected", said)
+        self.write("""\
+[[body]]
+name = "plate"
+mesh = { shape = "rectangle", cells = 2 }
+material = { young = 1, poisson = 0.3 }
+boundary = [ { label = 1, ux = 0, uy = 0 }, { label = 3, ty = "-1" } ]
+[time]
+end = 1
+steps = 1
+""")
+        for setting, message in (("body.plate.boundary.3.tz=1", "tz = 1, expected it with dimension = 3 only"),
+                                 ("body.plate.boundary.3.ty=z", "expected an expression in x, y, t"),
+                                 ("body.plate.mesh.shape=cuboid", "dimension = 3"),
+                                 ("body.plate.force={z=1}", "z = 1, expected it with dimension = 3 only")):
+            with self.subTest(setting):
+                self.assertIn(message, self.mortier("run", "scene.toml", "--set", setting, code=2).stderr)
+
+    def test_displacements_that_contradict_each_other_are_named(self):
+        said = self.mortier("run", "scene.toml", "--set", "body.lower.boundary.left.uz=0.1", code=2).stderr
+        self.assertRegex(said, r"uz = .* expected the 0(.1)? that other conditions prescribe there")
+
+    def test_a_body_that_nothing_holds_is_named(self):
+        said = self.mortier("run", "scene.toml", "--set", "body.lower.boundary.bottom={tz=1}", code=3).stderr
+        self.assertIn("along z", said)
+
+    def test_a_value_that_is_not_finite_is_named_with_its_place(self):
+        said = self.mortier("run", "scene.toml", "--set", "body.upper.boundary.top.tz=1/(z-1)", code=2).stderr
+        self.assertRegex(said, r"expected a finite number, is .* at x = .*, y = .*, z = 1, t = 0")
+
+    def test_check_says_what_a_run_models(self):
+        said = self.mortier("check", "scene.toml").stdout
+        self.assertIn("bodies in space", said)
+        self.assertIn("0 errors", said)
+
+    def test_a_run_is_resumed_to_the_last_bit(self):
+        self.run_scene(*SOFT)
+        whole = self.read("out/history.csv")
+        self.mortier("run", "scene.toml", "--quiet", "--out", "out", "--checkpoint", "0", "--set", *SOFT)
+        self.assertEqual(self.read("out/history.csv"), whole)
+
+
+if __name__ == "__main__":
+    unittest.main()
