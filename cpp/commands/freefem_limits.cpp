@@ -118,6 +118,7 @@ void requireSmooth(const SceneDescription& scene, const Model& model) {
 }  // namespace
 
 void requireFreefemKnows(const SceneDescription& scene, const Model& model, bool stepsGiven) {
+  if (scene.inSpace()) refuse(scene.path + ": dimension = 3", "a scene in the plane");
   requireKnown(scene, stepsGiven);
   requireSmooth(scene, model);
   requireStraightSides(scene, model);

@@ -5,7 +5,7 @@ import unittest
 import meshio
 import numpy as np
 
-from support import InFolder
+from support import InFolder, mortier
 from results import read_csv
 
 # The note's compression test of two cubes; the stress is (0, 0, -10 t) and flows from t = 0.1 on.
@@ -152,16 +152,14 @@ steps = 1
                 ("quantity.corner.displacement.point=[1, 1]", "expected three numbers, [x, y, z]"),
                 ("quantity.corner.displacement.point=[2, 1, 1]", "expected a point of body upper"),
                 ("body.upper.boundary.left.label=nowhere", "expected one of back, bottom, front"),
-                ("body.upper.boundary.top.uz=1/z-1/z", None),
                 ("body.upper.mesh.cells=0", "cells = 0, expected N or [NX, NY, NZ]"),
                 ('body.upper.mesh={shape="rectangle", cells=2}', "expected cuboid")):
             with self.subTest(setting):
-                if message is None:
-                    continue
                 said = self.mortier("run", "scene.toml", "--out", "out", "--set", setting, code=2).stderr
                 self.assertIn(message, said)
-                checked = self.mortier("check", "scene.toml", "--set", setting, code=2).stdout
-                self.assertIn(message, checked)
+                checked = mortier("check", "scene.toml", "--set", setting, cwd=self.folder)
+                self.assertEqual(checked.returncode, 2)
+                self.assertIn(message, checked.stdout)
         self.assertFalse((self.folder / "out").exists())
 
     def test_what_is_of_space_is_refused_in_the_plane(self):
