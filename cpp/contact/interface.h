@@ -24,6 +24,7 @@
 #include "base/types.h"
 #include "contact/coupling.h"
 #include "contact/penetration.h"
+#include "contact/surface.h"
 #include "mesh/boundary_line.h"
 #include "mesh/tetrahedron_mesh.h"
 
@@ -88,9 +89,8 @@ struct SpaceContactMesh {
 
 struct SpaceInterfaceOptions {
   InitialGap initial = InitialGap::asMeshed;
-  /// Whether the motion of a node along a direction is prescribed; none is where empty.
-  std::function<bool(int, const SpacePoint&)> nonmortarHeld = {};
-  std::function<bool(int, const SpacePoint&)> mortarHeld = {};
+  SpaceHeld nonmortarHeld = {};
+  SpaceHeld mortarHeld = {};
 };
 
 /// A mortar body whose nodes are not moved by its displacements u, but by a function of them.

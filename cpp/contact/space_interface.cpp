@@ -51,7 +51,7 @@ std::array<double, 6> traceShapes(int degree, const Eigen::Vector3d& b) {
 using PartVertex = std::pair<int, int>;  // vertex, part
 
 struct VertexFacts {
-  SpacePoint place, weighted = SpacePoint::Zero();
+  SpacePoint place, normal;
   std::set<PartVertex> neighbours;
   bool sees = false;
   std::vector<std::pair<int, double>> rows;  ///< to which its hat function goes, with which part
@@ -59,7 +59,7 @@ struct VertexFacts {
 
 using VertexTable = std::map<PartVertex, VertexFacts>;
 
-/// Normals by Max's weights, exact on spheres; neighbours along edges.
+/// Neighbours are those along edges.
 VertexTable verticesOf(const ContactSurface& surface) {
   VertexTable vertices;
   for (size_t t = 0; t < surface.triangles.size(); ++t)
@@ -67,9 +67,7 @@ VertexTable verticesOf(const ContactSurface& surface) {
       const int part = surface.parts[t];
       VertexFacts& vertex = vertices[{surface.triangles[t][k], part}];
       vertex.place = surface.places[t][k];
-      const SpacePoint a = surface.places[t][(k + 1) % 3] - vertex.place;
-      const SpacePoint b = surface.places[t][(k + 2) % 3] - vertex.place;
-      vertex.weighted += a.cross(b) / (a.squaredNorm() * b.squaredNorm());
+      vertex.normal = surface.vertexNormals[t][k];
       for (const int other : {(k + 1) % 3, (k + 2) % 3})
         vertex.neighbours.insert({surface.triangles[t][other], part});
     }
@@ -111,8 +109,9 @@ void shareFunctions(VertexTable& vertices) {
 ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceContactMesh& nonmortarMesh,
                                            const SpaceContactMesh& mortarMesh,
                                            const SpaceInterfaceOptions& options) {
-  const ContactSurface nonmortar(nonmortarMesh.mesh, nonmortarMesh.nodes, pair.nonmortar.label);
-  const ContactSurface mortar(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label);
+  const ContactSurface nonmortar(nonmortarMesh.mesh, nonmortarMesh.nodes, pair.nonmortar.label,
+                                 options.nonmortarHeld);
+  const ContactSurface mortar(mortarMesh.mesh, mortarMesh.nodes, pair.mortar.label, options.mortarHeld);
   const std::string names = nonmortarMesh.mesh.name + " and " + mortarMesh.mesh.name;
   if (pair.coupling == CouplingKind::coarsened ||
       (pair.coupling != CouplingKind::weighted && nonmortar.degree > 1))
@@ -143,7 +142,7 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
 
   // Rows.
   const auto directionOf = [&](const VertexFacts& vertex) {
-    return planeRules ? SpacePoint(-mortar.normals.front()) : SpacePoint(vertex.weighted.normalized());
+    return planeRules ? SpacePoint(-mortar.normals.front()) : vertex.normal;
   };
   const bool mayMerge = nonmortar.degree == 1 && options.nonmortarHeld;
   const auto held = [&](const PartVertex& key, const VertexFacts& vertex) {
@@ -175,7 +174,9 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     result.nonmortarNodes_.push_back(key.first);
     result.spaceNormals_.push_back(n);
     sights.push_back(sight);
-    distances.push_back(sight.triangle < 0 ? infinity : sight.delta);
+    distances.push_back(sight.triangle < 0
+                            ? infinity
+                            : sight.delta + n.dot(mortar.offset(sight.triangle, sight.mu)));
     places.push_back(vertex.place);
   }
   shareFunctions(vertices);
@@ -213,7 +214,10 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
       std::map<int, double> chi;
       for (int k = 0; k < 3; ++k)
         for (const auto& [row, part] : corners[k]->rows) chi[row] += part * b[k];
-      at(traceShapes(nonmortar.degree, b), traceShapes(mortar.degree, mu), chi, mu.dot(each.delta));
+      // Of the curved surfaces, that of the triangles but for what these are off.
+      const double apart =
+          mu.dot(each.delta) + n.dot(mortar.offset(each.mortar, mu) - nonmortar.offset(each.nonmortar, b));
+      at(traceShapes(nonmortar.degree, b), traceShapes(mortar.degree, mu), chi, apart);
     };
     for (size_t i = 2; i < each.polygon.size(); ++i) {
       const Point& p0 = each.polygon[0];

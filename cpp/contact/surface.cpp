@@ -19,6 +19,8 @@ namespace {
 const double smoothCosine = std::cos(40 * std::numbers::pi / 180);
 /// Normals whose sine is below this are one.
 constexpr double sameNormal = 1e-9;
+/// A surface whose normal is closer than this to the plane of an adjacent side is smooth across it.
+const double mirrorSine = std::sin(20 * std::numbers::pi / 180);
 /// Mortar triangles that turn away by more than this do not face a direction.
 constexpr double grazing = -1e-3;
 /// Polygons below this part of a triangle are dropped.
@@ -49,6 +51,17 @@ void clip(std::vector<Point>& polygon, int side) {
   polygon = std::move(result);
 }
 
+/// Nagata's c of a side.
+SpacePoint sideCurve(const SpacePoint& d, const SpacePoint& n0, const SpacePoint& n1) {
+  constexpr double parallel = 1e-12;
+  const double a = n0.dot(n1);
+  const double sine = 1 - a * a;
+  if (sine < parallel) return SpacePoint::Zero();
+  const double begin = n0.dot(d);
+  const double end = -n1.dot(d);
+  return ((begin - a * end) * n0 + (end - a * begin) * n1) / sine;
+}
+
 double areaOf(const std::vector<Point>& polygon) {
   double twice = 0;
   for (size_t i = 2; i < polygon.size(); ++i)
@@ -58,7 +71,8 @@ double areaOf(const std::vector<Point>& polygon) {
 
 }  // namespace
 
-ContactSurface::ContactSurface(const TetrahedronMesh& mesh, const SpaceNodes& nodes, int label)
+ContactSurface::ContactSurface(const TetrahedronMesh& mesh, const SpaceNodes& nodes, int label,
+                               const SpaceHeld& held)
     : degree(nodes.degree) {
   std::map<std::array<int, 2>, std::vector<int>> edges;
   Eigen::AlignedBox3d box;
@@ -91,6 +105,41 @@ ContactSurface::ContactSurface(const TetrahedronMesh& mesh, const SpaceNodes& no
     for (size_t k = 1; k < of.size(); ++k)
       if (normals[of[0]].dot(normals[of[k]]) > smoothCosine) sets.join(of[0], of[k]);
   for (size_t t = 0; t < triangles.size(); ++t) parts.push_back(sets.of(static_cast<int>(t)));
+  findNormals(mesh, label, held);
+  for (size_t t = 0; t < triangles.size(); ++t) {
+    std::array<SpacePoint, 3>& curves = sideCurves_.emplace_back();
+    for (int k = 0; k < 3; ++k)
+      curves[k] = sideCurve(places[t][(k + 1) % 3] - places[t][k], vertexNormals[t][k],
+                            vertexNormals[t][(k + 1) % 3]);
+  }
+}
+
+void ContactSurface::findNormals(const TetrahedronMesh& mesh, int label, const SpaceHeld& held) {
+  std::map<std::array<int, 2>, SpacePoint> sums;  // by vertices and parts
+  for (size_t t = 0; t < triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const SpacePoint a = places[t][(k + 1) % 3] - places[t][k];
+      const SpacePoint b = places[t][(k + 2) % 3] - places[t][k];
+      const auto [sum, isNew] = sums.try_emplace({triangles[t][k], parts[t]}, SpacePoint::Zero());
+      sum->second += a.cross(b) / (a.squaredNorm() * b.squaredNorm());
+    }
+  for (auto& [key, sum] : sums) sum.normalize();
+  for (size_t i = 0; held && !planar && i < mesh.boundaryTriangles.size(); ++i) {
+    if (mesh.boundaryLabels[i] == label) continue;
+    const auto& [a, b, c] = mesh.boundaryTriangles[i];
+    const SpacePoint across =
+        (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).normalized();
+    for (const int v : {a, b, c})
+      for (auto each = sums.lower_bound({v, 0}); each != sums.end() && each->first[0] == v; ++each) {
+        SpacePoint& normal = each->second;
+        const double along = normal.dot(across);
+        if (std::abs(along) < mirrorSine && held(v, across)) normal = (normal - along * across).normalized();
+      }
+  }
+  for (size_t t = 0; t < triangles.size(); ++t) {
+    std::array<SpacePoint, 3>& own = vertexNormals.emplace_back();
+    for (int k = 0; k < 3; ++k) own[k] = sums.at({triangles[t][k], parts[t]});
+  }
 }
 
 TriangleTree::TriangleTree(const ContactSurface& surface) : surface_(surface), order_(surface.places.size()) {

@@ -10,20 +10,40 @@
 
 namespace mortier {
 
+/// Whether the motion of a node along a direction is prescribed.
+using SpaceHeld = std::function<bool(int node, const SpacePoint& direction)>;
+
 struct ContactSurface {
+  /// \param held  of the nodes of the body; none is where empty
   /// \throws InputError when the mesh does not have the label.
-  ContactSurface(const TetrahedronMesh& mesh, const SpaceNodes& nodes, int label);
+  ContactSurface(const TetrahedronMesh& mesh, const SpaceNodes& nodes, int label, const SpaceHeld& held = {});
 
   int degree = 1;
   std::vector<std::array<int, 6>> triangles;      ///< nodes of the body: three vertices, then the middles
   std::vector<std::array<SpacePoint, 3>> places;  ///< of the vertices [m]
   std::vector<SpacePoint> normals;                ///< outward, of length one
   std::vector<int> parts;                         ///< by triangles: which turn smoothly into each other
+  /// By triangles and vertices: normals of the curved surface that a part stands for. Max's weights (J. Graphics
+  /// Tools 4(2), 1999) are exact on spheres. Where the motion across an adjacent side of the body is prescribed
+  /// the surface is continued as its mirror image.
+  std::vector<std::array<SpacePoint, 3>> vertexNormals;
   double area = 0;                                ///< [m^2]
   double extent = 0;                              ///< largest of the bounding box [m]
   bool planar = false;                            ///< whether all normals are one
 
   [[nodiscard]] int perTriangle() const { return degree == 1 ? 3 : 6; }
+  /// How far the curved surface is from a triangle at a point of it, by its barycentric coordinates [m]: with d
+  /// from one end of a side to the other and n the normals there, Nagata's patch (Comput. Aided Geom. Design 22,
+  /// 2005) has the quadratic sides x0 + (d - c) t + c t^2, with the least c for which n0 (d - c) = n1 (d + c) = 0,
+  /// and is -sum l_i l_j c_ij off.
+  [[nodiscard]] SpacePoint offset(int triangle, const Eigen::Vector3d& l) const {
+    const std::array<SpacePoint, 3>& c = sideCurves_[triangle];
+    return -(l[0] * l[1] * c[0] + l[1] * l[2] * c[1] + l[2] * l[0] * c[2]);
+  }
+
+ private:
+  void findNormals(const TetrahedronMesh& mesh, int label, const SpaceHeld& held);
+  std::vector<std::array<SpacePoint, 3>> sideCurves_;
 };
 
 /// A nonmortar and a mortar triangle that face each other. A point of the first one, at its second and third

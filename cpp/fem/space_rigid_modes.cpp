@@ -119,12 +119,17 @@ std::string describeSpaceMotion(const Body& body, const Vector& motion) {
     text << "(" << number(x.x()) << ", " << number(x.y()) << ", " << number(x.z()) << ")";
     return text.str();
   };
+  const auto axis = [&](const SpacePoint& direction) {
+    for (int c = 0; c < 3; ++c)
+      if (std::abs(direction[c]) > 1 - nothing) return std::string(1, "xyz"[c]);
+    return shown(direction);
+  };
   const SpacePoint translation = fitted.head<3>();
   const SpacePoint rotation = fitted.tail<3>() / mover->radius;
-  if (fitted.tail<3>().norm() < nothing) return "translation along " + shown(translation.normalized());
+  if (fitted.tail<3>().norm() < nothing) return "translation along " + axis(translation.normalized());
   // The axis is where the motion is along the rotation.
   const SpacePoint at = mover->centre + rotation.cross(translation) / rotation.squaredNorm();
-  return "rotation about the line through " + shown(at) + " along " + shown(rotation.normalized());
+  return "rotation about the line through " + shown(at) + " along " + axis(rotation.normalized());
 }
 
 }  // namespace mortier

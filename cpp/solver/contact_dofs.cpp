@@ -130,7 +130,7 @@ void ContactDofs::findMotions(const Model& model, int body) {
   if (eigen.eigenvalues()[0] <= motionTolerance * largest)
     throw UnheldBodyError("body " + of.name() + ": nothing holds its " +
                           describe(model, body, eigen.eigenvectors().col(0)) +
-                          "; a support (ux, uy) or a contact would");
+                          "; a support or a contact would");
   const Matrix T = eigen.eigenvectors() * eigen.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
   basis_ = T;
   motions *= T;

@@ -33,7 +33,7 @@ void StepSystem::requireHeld() {
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(Matrix(contact_.G.transpose() * contact_.G));
   if (eigen.eigenvalues()[0] <= heldFraction * contact_.G.squaredNorm())
     throw UnheldBodyError("nothing holds " + describeRigid(eigen.eigenvectors().col(0)) +
-                          "; a support (ux, uy) or a contact would");
+                          "; a support or a contact would");
 }
 
 std::string StepSystem::looseMotion(const State& state0, const Iterate& solution) const {

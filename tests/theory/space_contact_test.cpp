@@ -9,6 +9,7 @@
 #include "material/space.h"
 #include "mesh/space_shapes.h"
 #include "theory/half_open_contact.h"
+#include "time/space_error.h"
 
 namespace mortier::space_contact_test {
 
@@ -93,6 +94,7 @@ struct Extruded {
 struct KnownEnd {
   double error = 0, force = 0;
   int unknowns = 0;
+  double estimate = 0;  ///< of the error
 };
 
 KnownEnd solveKnownEnd(int cells, int degree, CouplingKind coupling) {
@@ -107,8 +109,10 @@ KnownEnd solveKnownEnd(int cells, int degree, CouplingKind coupling) {
   double error = 0;
   double norm = 0;
   for (const int b : {0, 1}) sides[b].addEnergies(model.bodies[b], state.bodies[b].stress, error, norm);
+  double estimated = 0;
+  for (const ErrorEstimate& estimate : SpaceErrorEstimator(model)(state)) estimated += estimate.error.sum();
   return {std::sqrt(error / norm), state.contactForce[0].sum(),
-          model.bodies[0].freeDofs() + model.bodies[1].freeDofs()};
+          model.bodies[0].freeDofs() + model.bodies[1].freeDofs(), std::sqrt(estimated / norm)};
 }
 
 TEST(SpaceContact, knownEndConverges) {
@@ -129,6 +133,12 @@ TEST(SpaceContact, knownEndConverges) {
               << ": " << coarse.unknowns << " and " << fine.unknowns << " unknowns, errors " << coarse.error
               << ", " << fine.error << ", order " << order << ", force off by "
               << fine.force / contactForce - 1 << "\n";
+    std::cout << "estimate over error " << coarse.estimate / coarse.error << ", "
+              << fine.estimate / fine.error << "\n";
+    for (const KnownEnd& each : {coarse, fine}) {
+      EXPECT_GE(each.estimate, 0.95 * each.error);
+      EXPECT_LE(each.estimate, 1.35 * each.error);
+    }
     EXPECT_GE(order, row.leastOrder);
     EXPECT_NEAR(fine.force / contactForce, 1, row.forceTolerance);
   }

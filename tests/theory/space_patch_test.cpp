@@ -232,9 +232,9 @@ TEST(SpacePatch, freeMotionsAreNamed) {
         EXPECT_NE(std::string(error.what()).find(each), std::string::npos) << error.what();
     }
   };
-  expectNamed({fixed({0, 0, 1}, spaceY), fixed({1, 0, 1}, spaceY)}, {"translation along (1, 0, 0)"});
+  expectNamed({fixed({0, 0, 1}, spaceY), fixed({1, 0, 1}, spaceY)}, {"translation along x"});
   expectNamed({fixed({0, 0, 1}, spaceX), fixed({0, 0, 1}, spaceY)},
-              {"about the line through (0, 0", "along (0, 0, 1)"});
+              {"about the line through (0, 0", "along z"});
   const Model held = model({fixed({0, 0, 1}, spaceX), fixed({0, 0, 1}, spaceY), fixed({1, 0, 1}, spaceY)});
   EXPECT_EQ(run(held).status, Status::converged);
 }
