@@ -159,7 +159,8 @@ void bindFields(py::module_& module) {
   nodal("slipping", &ContactFields::slipping);
   contact.def_property_readonly("position", [](const Contact& c) -> py::object {
     const std::vector<SpacePoint>& p = c.fields().place;
-    const py::array all = view(p.empty() ? nullptr : p.front().data(), {static_cast<Size>(p.size()), 3}, c.step);
+    const py::array all =
+        view(p.empty() ? nullptr : p.front().data(), {static_cast<Size>(p.size()), 3}, c.step);
     const int dimension = c.of().of->model->bodies.front().dimension();
     return all[py::make_tuple(py::ellipsis(), py::slice(0, dimension, 1))];
   });

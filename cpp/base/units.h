@@ -39,9 +39,9 @@ struct Units {
   std::string force = "N";
   std::string stress = "Pa";
   std::string time = "s";
-  bool given = false;      ///< whether the scene says them
-  bool perDepth = true;    ///< whether forces and energies are per depth, not of whole bodies
-  bool inSpace = false;    ///< whether what is an area in the plane is a volume
+  bool given = false;    ///< whether the scene says them
+  bool perDepth = true;  ///< whether forces and energies are per depth, not of whole bodies
+  bool inSpace = false;  ///< whether what is an area in the plane is a volume
   Measure lengthInSi{1, 0, dimensions::length};
   Measure forceInSi{1, 0, dimensions::force};
   Measure timeInSi{1, 0, dimensions::time};

@@ -174,9 +174,8 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     result.nonmortarNodes_.push_back(key.first);
     result.spaceNormals_.push_back(n);
     sights.push_back(sight);
-    distances.push_back(sight.triangle < 0
-                            ? infinity
-                            : sight.delta + n.dot(mortar.offset(sight.triangle, sight.mu)));
+    distances.push_back(sight.triangle < 0 ? infinity
+                                           : sight.delta + n.dot(mortar.offset(sight.triangle, sight.mu)));
     places.push_back(vertex.place);
   }
   shareFunctions(vertices);

@@ -23,19 +23,19 @@ struct ContactSurface {
   std::vector<std::array<SpacePoint, 3>> places;  ///< of the vertices [m]
   std::vector<SpacePoint> normals;                ///< outward, of length one
   std::vector<int> parts;                         ///< by triangles: which turn smoothly into each other
-  /// By triangles and vertices: normals of the curved surface that a part stands for. Max's weights (J. Graphics
-  /// Tools 4(2), 1999) are exact on spheres. Where the motion across an adjacent side of the body is prescribed
-  /// the surface is continued as its mirror image.
+  /// By triangles and vertices: normals of the curved surface that a part stands for. Max's weights (J.
+  /// Graphics Tools 4(2), 1999) are exact on spheres. Where the motion across an adjacent side of the body is
+  /// prescribed the surface is continued as its mirror image.
   std::vector<std::array<SpacePoint, 3>> vertexNormals;
-  double area = 0;                                ///< [m^2]
-  double extent = 0;                              ///< largest of the bounding box [m]
-  bool planar = false;                            ///< whether all normals are one
+  double area = 0;      ///< [m^2]
+  double extent = 0;    ///< largest of the bounding box [m]
+  bool planar = false;  ///< whether all normals are one
 
   [[nodiscard]] int perTriangle() const { return degree == 1 ? 3 : 6; }
-  /// How far the curved surface is from a triangle at a point of it, by its barycentric coordinates [m]: with d
-  /// from one end of a side to the other and n the normals there, Nagata's patch (Comput. Aided Geom. Design 22,
-  /// 2005) has the quadratic sides x0 + (d - c) t + c t^2, with the least c for which n0 (d - c) = n1 (d + c) = 0,
-  /// and is -sum l_i l_j c_ij off.
+  /// How far the curved surface is from a triangle at a point of it, by its barycentric coordinates [m]: with
+  /// d from one end of a side to the other and n the normals there, Nagata's patch (Comput. Aided Geom.
+  /// Design 22, 2005) has the quadratic sides x0 + (d - c) t + c t^2, with the least c for which n0 (d - c) =
+  /// n1 (d + c) = 0, and is -sum l_i l_j c_ij off.
   [[nodiscard]] SpacePoint offset(int triangle, const Eigen::Vector3d& l) const {
     const std::array<SpacePoint, 3>& c = sideCurves_[triangle];
     return -(l[0] * l[1] * c[0] + l[1] * l[2] * c[1] + l[2] * l[0] * c[2]);

@@ -1,8 +1,8 @@
 #include "fem/body.h"
 
 #include <algorithm>
-#include <set>
 #include <numbers>
+#include <set>
 
 #include "base/error.h"
 #include "fem/element.h"
@@ -130,7 +130,8 @@ std::vector<int> Body::boundaryNodes(std::optional<int> label) const {
   if (space_)
     for (size_t i = 0; i < space_->nodes().faces.size(); ++i)
       add(space_->nodes().faces[i], space_->mesh().boundaryLabels[i]);
-  for (const BoundaryStretch& stretch : nodes_.boundary) add(stretch.nodes, mesh_.boundaryLabels[stretch.edge]);
+  for (const BoundaryStretch& stretch : nodes_.boundary)
+    add(stretch.nodes, mesh_.boundaryLabels[stretch.edge]);
   return {nodes.begin(), nodes.end()};
 }
 

@@ -41,8 +41,7 @@ class Recovery {
     for (int k = 4; k < nodes.perElement(); ++k) {
       const auto& [a, b] = sidesOfTetrahedron[k - 4];
       const SpacePoint& middle = nodes.places[own[k]];
-      values.col(k) =
-          (fit(own[a], region).valueAt(middle) + fit(own[b], region).valueAt(middle)) / 2;
+      values.col(k) = (fit(own[a], region).valueAt(middle) + fit(own[b], region).valueAt(middle)) / 2;
     }
     return values;
   }

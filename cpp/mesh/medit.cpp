@@ -41,7 +41,8 @@ constexpr SkippedSection skippedSections[] = {
     {"EdgeOnGeometricEdge", 2},
 };
 
-constexpr std::array<std::string_view, 4> foreignElements{"Quadrilaterals", "Hexahedra", "Prisms", "Pyramids"};
+constexpr std::array<std::string_view, 4> foreignElements{"Quadrilaterals", "Hexahedra", "Prisms",
+                                                          "Pyramids"};
 
 class Parser {
  public:
@@ -102,8 +103,8 @@ class Parser {
     if (found != "Dimension") words_.failAt(found, "Dimension");
     dimension_ = words_.number<int>("a dimension");
     if (dimension_ != 3 && (solid_ || dimension_ != 2))
-      words_.fail(words_.lastEnd() - 1,
-                  "Dimension " + std::to_string(dimension_) + (solid_ ? ", expected 3" : ", expected 2 or 3"));
+      words_.fail(words_.lastEnd() - 1, "Dimension " + std::to_string(dimension_) +
+                                            (solid_ ? ", expected 3" : ", expected 2 or 3"));
   }
 
   // Lines after the End of the format (medit.h).
@@ -144,7 +145,7 @@ class Parser {
       const int n = count(keyword, 1);
       if (n > 0)
         words_.fail(words_.lastEnd(), std::to_string(n) + " " + std::string(keyword) + ", expected " +
-                                          (solid_                   ? "tetrahedra only"
+                                          (solid_                    ? "tetrahedra only"
                                            : keyword == "Tetrahedra" ? "triangles only, or dimension = 3"
                                                                      : "triangles only"));
     } else {

@@ -1,4 +1,5 @@
-// Medit .mesh files (ASCII), as FreeFEM and Gmsh read and write them; coordinates survive bit by bit. The format has no names for labels. They stand in lines after its End, which other readers do not see:
+// Medit .mesh files (ASCII), as FreeFEM and Gmsh read and write them; coordinates survive bit by bit. The
+// format has no names for labels. They stand in lines after its End, which other readers do not see:
 //   # label 3 = top
 //   # region 1 = punch
 #pragma once

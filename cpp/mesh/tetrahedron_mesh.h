@@ -27,7 +27,8 @@ struct TetrahedronMesh {
 /// most, labelled triangles on the boundary, each labelled once. A tetrahedron is flat when its volume is
 /// 1e-12 of the cube of its longest edge or less. \throws InputError with the first fault.
 void validate(TetrahedronMesh& mesh);
-/// The first of these checks: that there is every vertex that tetrahedra and triangles name. \throws InputError
+/// The first of these checks: that there is every vertex that tetrahedra and triangles name. \throws
+/// InputError
 void requireVertices(const TetrahedronMesh& mesh);
 
 /// Whether a triangle of vertices, in any order, belongs to two tetrahedra, to one, or to none.

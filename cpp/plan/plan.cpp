@@ -108,7 +108,7 @@ class Planner {
       else if (material->flows())
         always = named.text();
     }
-    const std::string law = scene_.inSpace()                 ? "its tangent is symmetric in space"
+    const std::string law = scene_.inSpace()                   ? "its tangent is symmetric in space"
                             : !symmetric && projection.empty() ? "its tangent is unsymmetric"
                             : scene_.plane != Plane::stress
                                 ? "its tangent is symmetric " + (scene_.plane == Plane::strain
@@ -188,10 +188,9 @@ class Planner {
     const TimePlan& time = scene_.time;
     const bool elastic = std::all_of(model_.bodies.begin(), model_.bodies.end(),
                                      [](const Body& body) { return body.material().linear(); });
-    const bool changes =
-        anyInSpaceChanges() || std::any_of(data_.begin(), data_.end(), [&](const SampledDatum& datum) {
-          return changesInTime(datum, time);
-        });
+    const bool changes = anyInSpaceChanges() ||
+                         std::any_of(data_.begin(), data_.end(),
+                                     [&](const SampledDatum& datum) { return changesInTime(datum, time); });
     if (elastic && !changes) {
       add("time", true, "one step", "nothing depends on time");
       if (!time.controlled() && time.steps > 1)

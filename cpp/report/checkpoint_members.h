@@ -25,8 +25,8 @@ MORTIER_MEMBERS(StepSolutions, ambiguous, listed)
 MORTIER_MEMBERS(SeveralSolutions, step, time, listed)
 MORTIER_MEMBERS(StepReport, step, time, timeStep, status, reason, rung, guarded, rejections, estimate,
                 iterations, factorisations, active, joined, left, penetration, maxPressure, contactForce,
-                resultantX, resultantY, resultantZ, vonMises, displacement, motion, energy, viscoplasticFraction,
-                certificate, quantities, frictionWork, solutions)
+                resultantX, resultantY, resultantZ, vonMises, displacement, motion, energy,
+                viscoplasticFraction, certificate, quantities, frictionWork, solutions)
 MORTIER_MEMBERS(Peak, value, time)
 MORTIER_MEMBERS(QuantityRange, start, smallest, smallestTime, largest, largestTime)
 MORTIER_MEMBERS(Peaks, vonMises, pressure, contactForce, displacement, motion, energy, sliding, strain,

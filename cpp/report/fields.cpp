@@ -145,9 +145,8 @@ void writeCellData(VtuFile& file, const Body& body, const BodyState& state, cons
   const auto components = static_cast<int>(fields.stress.rows());
   const bool space = body.space() != nullptr;
   const auto named = [&](const std::string& letter) {
-    std::vector<std::string> names =
-        space ? std::vector<std::string>{"11", "22", "33", "12", "23", "13"}
-              : std::vector<std::string>{"11", "22", "12", "33"};
+    std::vector<std::string> names = space ? std::vector<std::string>{"11", "22", "33", "12", "23", "13"}
+                                           : std::vector<std::string>{"11", "22", "12", "33"};
     names.resize(components);
     for (std::string& name : names) name.insert(0, letter);
     return names;

@@ -1,8 +1,9 @@
 // fields.pvd and one .vtu per body and kept step, for ParaView: Float64, raw binary.
 //   points: displacement (x, y, 0 or z) [m]
-//   cells:  stress (s11, s22, s12; in space s11, s22, s33, s12, s23, s13) [Pa], von_mises [Pa], viscoplastic_strain (e11, e22, e12) [-],
-//           viscoplastic (1 where the stress is beyond yield), region (label of the triangle),
-//           error (estimated, of the stress: share of the triangle in the energy norm of its body) [-]
+//   cells:  stress (s11, s22, s12; in space s11, s22, s33, s12, s23, s13) [Pa], von_mises [Pa],
+//           viscoplastic_strain (e11, e22, e12) [-], viscoplastic (1 where the stress is beyond yield),
+//           region (label of the triangle), error (estimated, of the stress: share of the triangle in the
+//           energy norm of its body) [-]
 // Points and cells are numbered as in the mesh, from 0. A cell with several material points shows their mean,
 // and stress_at_points (the components at each point, one point after the other) [Pa].
 #pragma once

@@ -94,8 +94,9 @@ std::string logHeader(const RunFacts& facts, const Model& model) {
 std::string logStepsHeader(const Units& units) {
   return formatted("%6s  %10s  %4s  %13s  %10s  %16s  %10s  %12s  %10s\n", "step",
                    ("time[" + units.time + "]").c_str(), "iter", "active(+/-)", "|residual|",
-                   ("penetration[" + units.penetration() + "]").c_str(), ("max p[" + units.stress + "]").c_str(),
-                   "viscoplastic", ("force[" + units.forcePerDepth() + "]").c_str());
+                   ("penetration[" + units.penetration() + "]").c_str(),
+                   ("max p[" + units.stress + "]").c_str(), "viscoplastic",
+                   ("force[" + units.forcePerDepth() + "]").c_str());
 }
 
 std::string logRoundsHeader() {

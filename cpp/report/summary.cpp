@@ -255,7 +255,8 @@ Json jsonOf(const RunFacts& facts, const Model& model, const Accuracy& accuracy)
                {"largest_of_run", {{"energy_error", accuracy.largest}, {"time", accuracy.largestTime}}},
                {"not_reliable", facts.doubts}};
   if (!accuracy.worstBody.empty())
-    json["largest"] = {{"body", accuracy.worstBody}, {"at", jsonOf(accuracy.worst, model.bodies.front().dimension())}};
+    json["largest"] = {{"body", accuracy.worstBody},
+                       {"at", jsonOf(accuracy.worst, model.bodies.front().dimension())}};
   if (accuracy.bound) json["bound"] = jsonOf(*accuracy.bound);
   if (accuracy.bound && accuracy.flow) json["bound"]["time"] = jsonOf(*accuracy.flow);
   if (accuracy.bound && accuracy.total) json["bound"]["total"] = jsonOf(*accuracy.total);

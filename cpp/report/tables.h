@@ -2,10 +2,10 @@
 //   history.csv  per step, with everything that is reported of it; with friction whether several solutions
 //                are possible and the work of each interface that has it; the quantities of the scene. Units
 //                stand in the header.
-//   contact.csv  per kept step and nonmortar node: its place as meshed (with z in space), gap [m], positive where the bodies
-//                are apart, nodal force p [N/m], pressure Phi^-1 p [Pa], whether it is active (p > 0). Where
-//                any interface has friction also the fields along the line. Vertices and interfaces count
-//                from 0.
+//   contact.csv  per kept step and nonmortar node: its place as meshed (in space with z), gap [m],
+//                positive where the bodies are apart, nodal force p [N/m], pressure Phi^-1 p [Pa], whether it is
+//                active (p > 0). Where any interface has friction also the fields along the line. Vertices
+//                and interfaces count from 0.
 #pragma once
 
 #include <string>
@@ -34,9 +34,9 @@ inline bool hasRow(const StepReport& report) {
 struct ContactFields {
   std::vector<int> vertex;
   std::vector<SpacePoint> place;  ///< as meshed; z = 0 in the plane [m]
-  Vector gap;                ///< positive where the bodies are apart [m]
-  Vector force;              ///< [N/m]
-  Vector pressure;           ///< [Pa]
+  Vector gap;                     ///< positive where the bodies are apart [m]
+  Vector force;                   ///< [N/m]
+  Vector pressure;                ///< [Pa]
   // Along the line (the nonmortar body to the left); zero where there is no friction.
   Vector friction;                    ///< nodal force t on the nonmortar body [N/m]
   Vector shear;                       ///< Phi^-1 t [Pa]

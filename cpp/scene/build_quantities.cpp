@@ -64,8 +64,7 @@ std::vector<Quantity> buildQuantities(const SceneDescription& scene, const Model
         quantity.mean = description.point
                             ? meanAt(body.mesh(), body.elementNodes(), *description.point)
                             : meanOn(body.mesh(), body.elementNodes(), quantity.label, body.axisymmetric());
-      if (quantity.mean.empty())
-        refuse("point = " + point + ", expected a point of body " + body.name());
+      if (quantity.mean.empty()) refuse("point = " + point + ", expected a point of body " + body.name());
     }
     if (quantity.kind == Quantity::Kind::meanPressure) {
       const BoundaryLine line = boundaryLine(body.mesh(), quantity.label);

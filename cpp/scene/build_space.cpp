@@ -32,7 +32,8 @@ std::vector<SpacePoint> centresOf(const TetrahedronMesh& mesh) {
 
 /// Where conditions meet, all may prescribe a motion of a node along an axis, but not differently.
 /// \throws InputError with node, time [s] and both values [m].
-void requireOneMotion(const BodyDescription& description, const Body& body, const std::vector<double>& times) {
+void requireOneMotion(const BodyDescription& description, const Body& body,
+                      const std::vector<double>& times) {
   constexpr double rounding = 1e-9;
   const SpaceNodes& nodes = body.space()->nodes();
   const std::vector<int>& labels = body.space()->mesh().boundaryLabels;

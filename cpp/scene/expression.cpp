@@ -91,7 +91,8 @@ double finite(double value, const std::string& where, double x, double y, double
 }
 
 [[noreturn]] void reject(const std::string& where, const std::string& reason, bool inSpace) {
-  throw InputError(where + ", expected an expression in x, y, " + (inSpace ? "z, t (" : "t (") + reason + ")");
+  throw InputError(where + ", expected an expression in x, y, " + (inSpace ? "z, t (" : "t (") + reason +
+                   ")");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Data that vary in space and time: numbers, or expressions in x [m], y [m], in space z [m], and t [s] such as
-// "-10*t" or "sin(pi*x)".
+// Data that vary in space and time: numbers, or expressions in x [m], y [m], in space z [m], and t [s] such
+// as "-10*t" or "sin(pi*x)".
 #pragma once
 
 #include <string>

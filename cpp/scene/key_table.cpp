@@ -40,8 +40,8 @@ region | | all | a region, by number or name, or a list of them | the part of th
 size | m | the geometry's own | > 0 | longest edge, where Gmsh meshes a geometry
 parameters | | none | table of numbers, `{ R = 8 }` | constants of a `.geo` that its `DefineConstant[...]`
   names
-shape | | | `"rectangle"`, `"quadrilateral"`, `"annulus"`, `"halfdisc"`, `"quarterdisc"`, `"cuboid"` | in place
-  of a file, with keys of its own ([below](#meshes))
+shape | | | `"rectangle"`, `"quadrilateral"`, `"annulus"`, `"halfdisc"`, `"quarterdisc"`, `"cuboid"` | in
+  place of a file, with keys of its own ([below](#meshes))
 cells
 cut | | | "rising", "falling", "both"
 lower, upper | m | | with shape = "rectangle", "cuboid"
@@ -203,8 +203,8 @@ friction_work | J/m | | `{ body = "name", label = 1 }` | energy dissipated by fr
 mean_pressure | Pa | | `{ body = "name", label = 1 }`, with `from = [x, y]` and `to = [x, y]`, with `margin` |
   the mean of the contact pressure over the side, or over the part of it between two points
   ([below](#quantities))
-component | | | `"x"`, `"y"`, `"moment"` (of forces), `"rotation"` (of a tool), `"z"` (with `dimension = 3`) | of
-  reactions, contact forces and displacements; moments [N] and rotations [rad] are counterclockwise
+component | | | `"x"`, `"y"`, `"moment"` (of forces), `"rotation"` (of a tool), `"z"` (with `dimension = 3`) |
+  of reactions, contact forces and displacements; moments [N] and rotations [rad] are counterclockwise
 about | m | [0, 0], of a tool `at` | `[x, y]` | the point of a moment
 [quantity.stored_energy quantity.dissipated_energy quantity.work quantity.external_work quantity.thermal_work
   quantity.largest_mises]

@@ -69,7 +69,8 @@ int regionLabelOf(const Mesh& mesh, int label, const std::string& name, const st
 
 /// \param elements  of the mesh, by their vertices
 template <class Mesh, class Elements, class Place>
-Place vertexPointOf(const Mesh& mesh, const Elements& elements, const Place& point, const std::string& place) {
+Place vertexPointOf(const Mesh& mesh, const Elements& elements, const Place& point,
+                    const std::string& place) {
   constexpr double near = 1e-3;
   const auto distance = [&](int vertex) { return (mesh.vertices[vertex] - point).norm(); };
   int nearest = 0;

@@ -99,8 +99,7 @@ ContactDescription readContact(const Node& node, const SceneDescription& scene) 
   ContactDescription contact;
   contact.where = node.where;
   readSides(table, scene, contact);
-  const auto variant =
-      scene.degree == 1 && !scene.inSpace() ? CouplingKind::mortar : CouplingKind::weighted;
+  const auto variant = scene.degree == 1 && !scene.inSpace() ? CouplingKind::mortar : CouplingKind::weighted;
   contact.variant = table.choice<CouplingKind>("variant", variant);
   contact.variantGiven = table.has("variant");
   if (contact.variant == CouplingKind::coarsened && scene.accuracy.bound)

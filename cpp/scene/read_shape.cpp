@@ -46,7 +46,8 @@ Cuboid readCuboid(const TableReader& table) {
   const Node& cells = table.require("cells", expected);
   const std::vector<double> counts =
       cells.isNumeric() ? std::vector<double>(3, cells.value) : table.numbers("cells");
-  Cuboid cuboid{table.spacePoint("lower", SpacePoint(0, 0, 0)), table.spacePoint("upper", SpacePoint(1, 1, 1)), {}};
+  Cuboid cuboid{
+      table.spacePoint("lower", SpacePoint(0, 0, 0)), table.spacePoint("upper", SpacePoint(1, 1, 1)), {}};
   if (counts.size() != 3) table.reject("cells", expected);
   for (size_t i = 0; i < 3; ++i) {
     if (!(counts[i] >= 1 && counts[i] <= most && counts[i] == std::floor(counts[i])))

@@ -13,7 +13,7 @@ namespace mortier {
 /// decides none.
 struct ResolvedScene {
   SceneDescription description;
-  std::vector<TriangleMesh> meshes;                ///< none in space
+  std::vector<TriangleMesh> meshes;               ///< none in space
   std::vector<TetrahedronMesh> spaceMeshes = {};  ///< none in the plane
 };
 

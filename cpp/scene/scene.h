@@ -193,7 +193,7 @@ struct SceneDescription {
   std::shared_ptr<const Node> document;  ///< with the settings, for the places of its keys
   std::string title;                     ///< may be empty
   Units units;                           ///< of all numbers below
-  int dimension = 2;  ///< 3: bodies of tetrahedra, no plane
+  int dimension = 2;                     ///< 3: bodies of tetrahedra, no plane
   Plane plane = Plane::stress;
   int degree = 1;  ///< of the displacements: 1 or 2
   std::vector<BodyDescription> bodies;

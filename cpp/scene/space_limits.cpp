@@ -32,7 +32,8 @@ void requireKnown(const BodyDescription& body) {
     requireKnown(region.initialStress);
   }
   if (body.temperature) refuse(body.temperature->where, "temperature");
-  if (body.volume == Volume::averaged) throw InputError(body.volumeWhere + ", expected pointwise" + inThePlane);
+  if (body.volume == Volume::averaged)
+    throw InputError(body.volumeWhere + ", expected pointwise" + inThePlane);
 }
 
 void requireKnown(const ContactDescription& contact, int degree) {
@@ -42,9 +43,10 @@ void requireKnown(const ContactDescription& contact, int degree) {
   if (contact.gap) refuse(where, "gap");
   if (contact.variant == CouplingKind::coarsened ||
       (degree == 2 && contact.variant != CouplingKind::weighted))
-    throw InputError(where + ": variant = \"" + word(contact.variant) +
-                     "\", expected \"weighted\", or with degree = 1 \"mortar\" or \"interpolation\": in space the "
-                     "integral of a quadratic vertex function over a triangle is zero");
+    throw InputError(
+        where + ": variant = \"" + word(contact.variant) +
+        "\", expected \"weighted\", or with degree = 1 \"mortar\" or \"interpolation\": in space the "
+        "integral of a quadratic vertex function over a triangle is zero");
 }
 
 void requireKnown(const QuantityDescription& quantity) {

@@ -114,11 +114,11 @@ struct StepReport {
   double resultantX = 0;    ///< resultant of the contact forces on the nonmortar bodies, all interfaces [N/m]
   double resultantY = 0;
   std::optional<double> resultantZ;  ///< in space
-  double vonMises = 0;              ///< largest [Pa]
-  double displacement = 0;          ///< largest length [m]
-  double motion = 0;                ///< largest displacement of a body over its extent
-  double energy = 0;                ///< elastic, integral of s : E^-1 s / 2 [J/m]
-  double viscoplasticFraction = 0;  ///< share of the area beyond yield
+  double vonMises = 0;               ///< largest [Pa]
+  double displacement = 0;           ///< largest length [m]
+  double motion = 0;                 ///< largest displacement of a body over its extent
+  double energy = 0;                 ///< elastic, integral of s : E^-1 s / 2 [J/m]
+  double viscoplasticFraction = 0;   ///< share of the area beyond yield
   Certificate certificate;
   std::vector<double> quantities;    ///< values of those of the plan (time/quantity.h)
   std::vector<double> frictionWork;  ///< of each interface with friction, dissipated so far [J/m]

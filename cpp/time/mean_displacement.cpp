@@ -115,8 +115,7 @@ Weights meanAt(const SpaceElements& elements, const SpacePoint& point) {
     return withSpaceElement(elements.nodes().degree, [&](auto element) {
       Weights weights;
       const auto shapes = decltype(element)::shapes(at);
-      for (size_t a = 0; a < shapes.size(); ++a)
-        weights.emplace_back(elements.nodes().of(e)[a], shapes[a]);
+      for (size_t a = 0; a < shapes.size(); ++a) weights.emplace_back(elements.nodes().of(e)[a], shapes[a]);
       return weights;
     });
   }

@@ -37,8 +37,8 @@ void addSpaceReactions(const Body& body, const Vector& forces, std::map<int, Wre
     const Eigen::Index n = support.count;
     const Matrix span = support.frame.topRows(n);
     const Matrix inSpan = support.directions.topRows(n) * span.transpose();  // lower triangular
-    const Vector along = inSpan.transpose().triangularView<Eigen::Upper>().solve(
-        Vector(span * at(forces, support.node, 3)));
+    const Vector along =
+        inSpan.transpose().triangularView<Eigen::Upper>().solve(Vector(span * at(forces, support.node, 3)));
     for (int i = 0; i < support.count; ++i) {
       const SpaceCondition& held = body.space()->conditions().displacements[support.conditions[i]];
       result[firstSupport(body, held.label, {}, held.point)].add(
@@ -238,10 +238,9 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
   const auto reaction = [&](const Quantity& quantity) {
     if (reactionsOf.count(quantity.body) == 0)
       reactionsOf[quantity.body] = reactions(model, state, quantity.body);
-    const int support =
-        quantity.whole ? -1
-                       : firstSupport(model.bodies[quantity.body], quantity.label, quantity.point,
-                                      quantity.pointInSpace);
+    const int support = quantity.whole ? -1
+                                       : firstSupport(model.bodies[quantity.body], quantity.label,
+                                                      quantity.point, quantity.pointInSpace);
     return componentOf(reactionsOf[quantity.body][support], quantity);
   };
   const auto displacement = [&](const Quantity& quantity) {  // of the nodes of this rank

@@ -44,12 +44,12 @@ struct Quantity {
   Component component = Component::x;  ///< moment of forces, rotation of rigid bodies, counterclockwise
   Point about{0, 0};                   ///< of the moment [m]
   std::vector<std::pair<int, double>> mean =
-      {};                             ///< of a displacement: nodes and their weights, which sum to one
-  std::optional<Point> point = {};    ///< of a reaction: that of a held vertex, in place of the label [m]
+      {};                           ///< of a displacement: nodes and their weights, which sum to one
+  std::optional<Point> point = {};  ///< of a reaction: that of a held vertex, in place of the label [m]
   std::optional<SpacePoint> pointInSpace = {};  ///< the same in space
-  std::optional<LinePart> part = {};  ///< of a mean pressure
-  std::vector<Vector> shares = {};    ///< of contact forces in it (time/mean_pressure.h)
-  bool whole = false;                 ///< of all of a rigid body, in place of a label
+  std::optional<LinePart> part = {};            ///< of a mean pressure
+  std::vector<Vector> shares = {};              ///< of contact forces in it (time/mean_pressure.h)
+  bool whole = false;                           ///< of all of a rigid body, in place of a label
 
   /// N/m, N (a moment per metre of depth), m, J/m or Pa, or what they are in other units.
   [[nodiscard]] std::string unit(const Units& units = {}) const;

@@ -10,9 +10,9 @@
 //
 // h the edge of the nonmortar triangle, to whose error they are added. Where bodies have flowed, the gap
 // closes under less stress: E* is then that of strain over stress, and the energy that of elasticity,
-// K^2/E* in place of E*. In space the points of the common refinement take the place of the line. Data that the meshes do not resolve come on top (data_error.cpp; in the plane), and what the edges
-// of the mortar side do not resolve of pressure and friction: to their body these are tractions
-// (pressure_error.cpp).
+// K^2/E* in place of E*. In space the points of the common refinement take the place of the line. Data that
+// the meshes do not resolve come on top (data_error.cpp; in the plane), and what the edges of the mortar side
+// do not resolve of pressure and friction: to their body these are tractions (pressure_error.cpp).
 #pragma once
 
 #include <map>
@@ -87,8 +87,8 @@ class SpaceErrorEstimator {
   std::map<std::array<int, 2>, Line> lines_;  ///< by body and label: of contact, and where data vary
   /// By body and label: tetrahedra behind the triangles of a surface, by their vertices, ascending.
   std::map<std::array<int, 2>, std::map<std::array<int, 3>, int>> surfaces_;
-  std::vector<Vector> compliances_;           ///< 1/E by points [1/Pa]
-  std::vector<Vector> steadyData_;            ///< of each body, by triangles; empty where all are resolved
+  std::vector<Vector> compliances_;  ///< 1/E by points [1/Pa]
+  std::vector<Vector> steadyData_;   ///< of each body, by triangles; empty where all are resolved
   std::vector<std::vector<GivenGap>> givenGaps_;  ///< of each interface; of those that do not move
 };
 
