@@ -1,6 +1,7 @@
 // The labelled boundary of a body in space as contact sees it, and the common refinement of two of them.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <functional>
 #include <vector>

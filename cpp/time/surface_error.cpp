@@ -50,7 +50,7 @@ void SpaceErrorEstimator::addSurfaceGaps(size_t interface, const State& state,
   const ContactInterface::SurfacePoints& points = contact.surfacePoints();
   const Matrix jump =
       points.jump(state.bodies[nonmortar.body].displacement, state.bodies[mortar.body].displacement);
-  const Vector pressed = points.rows * state.contactForce[interface];
+  const Vector pressure = points.rows * contact.contactPressure(state.contactForce[interface]);
   std::array<std::vector<std::array<int, 3>>, 2> triangles;
   const std::array<ContactSide, 2> sides{nonmortar, mortar};
   for (size_t s = 0; s < 2; ++s) {
@@ -64,12 +64,15 @@ void SpaceErrorEstimator::addSurfaceGaps(size_t interface, const State& state,
   };
   for (Eigen::Index i = 0; i < jump.cols(); ++i) {
     double gap = points.normals[i].dot(jump.col(i)) - points.distances[i];
-    if (!(pressed[i] > 0)) gap = std::max(gap, 0.0);
+    if (!(pressure[i] > 0)) gap = std::max(gap, 0.0);
     const int element = elementOf(0, i);
     const Compliance compliance =
         complianceOf(state, nonmortar.body, element) + complianceOf(state, mortar.body, elementOf(1, i));
-    estimates[nonmortar.body].error[element] += compliance.elastic / (compliance.all * compliance.all) *
-                                                points.areas[i] * gap * gap / points.sizes[i];
+    double energy = compliance.elastic / (compliance.all * compliance.all) * gap * gap / points.sizes[i];
+    // Where the surfaces have parted the exact pressure is 0, and the product of the pressure and the gap is
+    // all that there is: less on coarse triangles at the edge of contact.
+    if (gap < 0) energy = std::min(energy, compliance.elastic / compliance.all * pressure[i] * -gap);
+    estimates[nonmortar.body].error[element] += points.areas[i] * energy;
   }
 }
 

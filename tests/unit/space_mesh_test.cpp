@@ -1,0 +1,196 @@
+// Meshes of tetrahedra: files, regions, places of messages, and the curved surfaces that they stand for.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.h"
+#include "contact/surface.h"
+#include "mesh/medit.h"
+#include "mesh/read.h"
+#include "mesh/regions.h"
+
+namespace mortier::space_mesh_test {
+
+class SpaceMesh : public testing::Test {
+ protected:
+  std::string write(const std::string& name, const std::string& text) {
+    const std::string path = (folder_ / name).string();
+    std::ofstream(path) << text;
+    return path;
+  }
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              ("space-mesh-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path folder_;
+};
+
+/// Half of the box has region 2.
+TetrahedronMesh twoRegions() {
+  TetrahedronMesh mesh = cuboidMesh({{0, 0, 0}, {2, 1, 1}, {2, 1, 1}});
+  for (size_t e = 0; e < mesh.tetrahedra.size(); ++e) {
+    double x = 0;
+    for (const int v : mesh.tetrahedra[e]) x += mesh.vertices[v].x() / 4;
+    mesh.regions[e] = x < 1 ? 1 : 2;
+  }
+  mesh.regionNames = {{"first", 1}, {"second", 2}};
+  return mesh;
+}
+
+double volumeOf(const TetrahedronMesh& mesh) {
+  double volume = 0;
+  for (const auto& [a, b, c, d] : mesh.tetrahedra) {
+    const auto& x = mesh.vertices;
+    volume += (x[b] - x[a]).cross(x[c] - x[a]).dot(x[d] - x[a]) / 6;
+  }
+  return volume;
+}
+
+TEST_F(SpaceMesh, isReadAsWritten) {
+  TetrahedronMesh mesh = twoRegions();
+  mesh.vertices[3] += SpacePoint(0.1 / 3, -1e-17, 1 / 7.0);
+  const std::string path = (folder_ / "box.mesh").string();
+  writeMedit(mesh, path);
+  const TetrahedronMesh read = readSpaceMesh({path});
+  EXPECT_EQ(read.vertices, mesh.vertices);
+  EXPECT_EQ(read.tetrahedra, mesh.tetrahedra);
+  EXPECT_EQ(read.regions, mesh.regions);
+  EXPECT_EQ(read.boundaryTriangles, mesh.boundaryTriangles);
+  EXPECT_EQ(read.boundaryLabels, mesh.boundaryLabels);
+  EXPECT_EQ(read.labelNames, mesh.labelNames);
+  EXPECT_EQ(read.regionNames, mesh.regionNames);
+}
+
+TEST_F(SpaceMesh, keepsRegions) {
+  TetrahedronMesh mesh = twoRegions();
+  keepRegions(mesh, {"second"});
+  EXPECT_EQ(mesh.tetrahedra.size(), 6U);
+  EXPECT_EQ(mesh.vertices.size(), 8U);
+  EXPECT_NEAR(volumeOf(mesh), 1, 1e-15);
+  EXPECT_EQ(boundaryLabels(mesh), (std::vector<int>{1, 2, 3, 5, 6}));  // what was inside has no label
+  EXPECT_EQ(trianglesOn(mesh, 3).size(), 2U);
+  EXPECT_NO_THROW(validate(mesh));
+  EXPECT_THROW(keepRegions(mesh, {"third"}), InputError);
+}
+
+TEST_F(SpaceMesh, labelsInsideAreDropped) {
+  TetrahedronMesh mesh = twoRegions();
+  const size_t labelled = mesh.boundaryTriangles.size();
+  std::vector<int> middle;
+  for (size_t v = 0; v < mesh.vertices.size(); ++v)
+    if (mesh.vertices[v].x() == 1) middle.push_back(static_cast<int>(v));
+  const TriangleCount count(mesh);
+  for (size_t i = 0; i < middle.size(); ++i)
+    for (size_t j = i + 1; j < middle.size(); ++j)
+      for (size_t k = j + 1; k < middle.size(); ++k)
+        if (count({middle[i], middle[j], middle[k]}) == 2) {
+          mesh.boundaryTriangles.push_back({middle[i], middle[j], middle[k]});
+          mesh.boundaryLabels.push_back(7);
+        }
+  EXPECT_EQ(mesh.boundaryTriangles.size(), labelled + 2);
+  dropInnerTriangles(mesh);
+  EXPECT_EQ(mesh.boundaryTriangles.size(), labelled);
+}
+
+TEST_F(SpaceMesh, wrongFilesAreNamedWithTheirLine) {
+  const std::string head =
+      "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n";
+  const std::string element = "Tetrahedra\n1\n1 2 3 4 1\n";
+  const auto messageOf = [&](const std::string& text) {
+    try {
+      readSpaceMesh({write("a.mesh", text)});
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(messageOf(head + element + "End\n"), "accepted");
+  EXPECT_NE(messageOf("MeshVersionFormatted 2\nDimension 2\n").find("a.mesh:2: Dimension 2, expected 3"),
+            std::string::npos);
+  EXPECT_NE(
+      messageOf(head + element + "Hexahedra\n1\n1 2 3 4 5 6 7 8 1\nEnd\n").find("expected tetrahedra only"),
+      std::string::npos);
+  EXPECT_NE(messageOf(head + "Tetrahedra\n1\n1 2 3 9 1\nEnd\n").find("vertex 9, expected 1 to 4"),
+            std::string::npos);
+  EXPECT_NE(messageOf(head + "Tetrahedra\n1\n1 2 3 3 1\nEnd\n").find("no tetrahedron"), std::string::npos);
+  EXPECT_NE(messageOf(head + "Triangles\n1\n1 2 3 1\nEnd\n").find("no tetrahedra"), std::string::npos);
+  // A mesh of tetrahedra in the plane.
+  try {
+    readMesh({write("b.mesh", head + element + "End\n")});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("expected all vertices in the plane"), std::string::npos);
+  }
+}
+
+TEST_F(SpaceMesh, gmshMeshesGeometries) {
+  MeshSource source{write("box.geo", R"(SetFactory("OpenCASCADE");
+DefineConstant[ H = 2 ];
+Box(1) = {0, 0, 0, 1, 1, H};
+Box(2) = {0, 0, H, 1, 1, 1};
+BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }
+Physical Volume("lower", 1) = Volume In BoundingBox{-1, -1, -1, 2, 2, H + 0.1};
+Physical Volume("upper", 2) = Volume In BoundingBox{-1, -1, H - 0.1, 2, 2, H + 2};
+Physical Surface("between", 5) = Surface In BoundingBox{-1, -1, H - 0.1, 2, 2, H + 0.1};
+Physical Surface("floor", 3) = Surface In BoundingBox{-1, -1, -0.1, 2, 2, 0.1};
+)")};
+  source.size = 0.5;
+  const TetrahedronMesh both = readSpaceMesh(source);
+  EXPECT_NEAR(volumeOf(both), 3, 1e-12);
+  EXPECT_EQ(boundaryLabels(both), (std::vector<int>{3}));
+  source.regions = {"lower"};
+  source.parameters["H"] = 3;
+  const TetrahedronMesh lower = readSpaceMesh(source);
+  EXPECT_NEAR(volumeOf(lower), 3, 1e-12);
+  EXPECT_EQ(boundaryLabels(lower), (std::vector<int>{3, 5}));
+  EXPECT_EQ(lower.labelNames.at("between"), 5);
+}
+
+/// The part x, y >= 0 of a ball of radius 1: a box whose cubes about the middle become spheres.
+TetrahedronMesh quarterBall(int cells) {
+  TetrahedronMesh mesh = cuboidMesh({{0, 0, -1}, {1, 1, 1}, {cells, cells, 2 * cells}});
+  for (SpacePoint& x : mesh.vertices)
+    if (x.norm() > 0) x *= x.cwiseAbs().maxCoeff() / x.norm();
+  for (int& label : mesh.boundaryLabels)
+    if (label != 4 && label != 5) label = 1;
+  validate(mesh);
+  return mesh;
+}
+
+// What the triangles of a sphere are off it is known from their vertices: the rest is of fourth order.
+TEST_F(SpaceMesh, surfacesOfSpheresAreKnown) {
+  double before = 0;
+  for (const int cells : {4, 8}) {
+    const TetrahedronMesh mesh = quarterBall(cells);
+    const SpaceHeld mirrored = [](int, const SpacePoint& n) {
+      return std::abs(n.x()) == 1 || std::abs(n.y()) == 1;
+    };
+    const ContactSurface surface(mesh, spaceNodes(mesh, 1), 1, mirrored);
+    double sagitta = 0;
+    double off = 0;
+    double normal = 0;
+    for (size_t t = 0; t < surface.triangles.size(); ++t) {
+      const Eigen::Vector3d l(0.2, 0.5, 0.3);
+      SpacePoint x = SpacePoint::Zero();
+      for (int k = 0; k < 3; ++k) {
+        x += l[k] * surface.places[t][k];
+        normal = std::max(normal, (surface.vertexNormals[t][k] - surface.places[t][k]).norm());
+      }
+      sagitta = std::max(sagitta, 1 - x.norm());
+      off = std::max(off, std::abs((x + surface.offset(static_cast<int>(t), l)).norm() - 1));
+    }
+    EXPECT_LE(normal, 1e-13);
+    EXPECT_LE(off, 0.05 * sagitta);
+    if (before > 0) {
+      EXPECT_LE(off, before / 12);
+    }
+    before = off;
+  }
+}
+
+}  // namespace mortier::space_mesh_test
