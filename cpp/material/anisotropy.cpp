@@ -233,7 +233,7 @@ std::shared_ptr<const Material> anisotropicMaterial(const Anisotropy& anisotropy
   const Pair a{plane == Plane::stress ? 0.5 : 1.5, 1.5};
   if (const auto* norton = std::get_if<NortonCreep>(&flow)) {
     requireValid(*norton);
-    return made(NortonLaw({e, e}, a, *norton), describe(stiffest, *norton));
+    return made(NortonLaw<>({e, e}, a, *norton), describe(stiffest, *norton));
   }
   if (const auto* perzyna = std::get_if<Viscoplasticity>(&flow)) {
     requireValid(*perzyna);

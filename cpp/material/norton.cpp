@@ -5,12 +5,18 @@
 
 namespace mortier {
 
-NortonLaw::NortonLaw(const Pair& e, const Pair& a, const NortonCreep& creep)
-    : e_{e[0], e[1], e[1]}, a_{a[0], a[1], a[1]}, creep_(creep) {}
+template <size_t n>
+NortonLaw<n>::NortonLaw(const Pair& e, const Pair& a, const NortonCreep& creep) : creep_(creep) {
+  e_.fill(e[1]);
+  a_.fill(a[1]);
+  e_[0] = e[0];
+  a_[0] = a[0];
+}
 
-Lanes NortonLaw::square(const LaneVector& stress) const {
+template <size_t n>
+Lanes NortonLaw<n>::square(const Stress& stress) const {
   Lanes sum = std::numeric_limits<double>::min();
-  for (int k = 0; k < 3; ++k) {
+  for (size_t k = 0; k < n; ++k) {
     const Lanes u = stress[k] * (1 / creep_.referenceStress);
     sum += a_[k] * u * u;
   }
@@ -18,15 +24,17 @@ Lanes NortonLaw::square(const LaneVector& stress) const {
 }
 
 // Powers overflow before their logarithms do.
-Lanes NortonLaw::logarithm(double weight, const Lanes& square) const {
+template <size_t n>
+Lanes NortonLaw<n>::logarithm(double weight, const Lanes& square) const {
   const double atReference =
       std::log(weight) + std::log(creep_.referenceRate) - std::log(creep_.referenceStress);
   return atReference + (creep_.exponent - 1) / 2 * log(square);
 }
 
-LaneVector NortonLaw::rest(const PointStep<3>& point) const {
-  LaneVector v = point.strain;
-  for (int k = 0; k < 3; ++k) v[k] -= (point.stress[k] - point.stress0[k]) / e_[k];
+template <size_t n>
+std::array<Lanes, n> NortonLaw<n>::rest(const PointStep<n>& point) const {
+  Stress v = point.strain;
+  for (size_t k = 0; k < n; ++k) v[k] -= (point.stress[k] - point.stress0[k]) / e_[k];
   return v;
 }
 
@@ -43,40 +51,41 @@ LaneVector NortonLaw::rest(const PointStep<3>& point) const {
 // the stress is to go back. A stress below the law, from which l = 1 would jump up to elasticity, is
 // linearised halfway to the stress whose flow is v. The tangents of all these stresses pass s on one side: no
 // change of stress is 0 off the law.
-PointAnswer<3> NortonLaw::linearise(const PointStep<3>& point) const {
+template <size_t n>
+PointAnswer<n> NortonLaw<n>::linearise(const PointStep<n>& point) const {
   constexpr double farthest = 30;  // of log l
   constexpr double stiffest = 70;  // of log(theta e), far beyond what doubles resolve
-  const double n = creep_.exponent;
-  const LaneVector v = rest(point);
+  const double power = creep_.exponent;
+  const Stress v = rest(point);
   const Lanes g2 = square(point.stress);
   const Lanes vM = creep_.referenceStress * sqrt(g2);
   const Lanes kappa = logarithm(point.weight, g2) + std::log(e_[1]);  // log(E kappa)
   const Lanes m = e_[1] * dot(v, point.stress) / vM / vM;
   const Lanes along = max(m, Lanes(std::numeric_limits<double>::min()));
   const Lanes M = along / (1 + 1 / along);  // c mu
-  const Lanes down = min(Lanes(0), (log(1 + M) - log(M) + log(along) - kappa) * (1 / n));
-  const Lanes up = min(Lanes(farthest), (log(along) - kappa) * (0.5 / n));
+  const Lanes down = min(Lanes(0), (log(1 + M) - log(M) + log(along) - kappa) * (1 / power));
+  const Lanes up = min(Lanes(farthest), (log(along) - kappa) * (0.5 / power));
   const Lanes back = log(max(Lanes(0.5), 1 + min(m, Lanes(0))));
   Lanes l = select(m > 0, select(kappa > log(along), down, up), back);
-  if (n > 1) l = min(l, (stiffest - kappa) * (1 / (n - 1)));
-  const Lanes theta = exp(kappa + (n - 1) * l) / e_[1];
-  const Lanes part = theta * (n - (n - 1) * exp(l));
+  if (power > 1) l = min(l, (stiffest - kappa) * (1 / (power - 1)));
+  const Lanes theta = exp(kappa + (power - 1) * l) / e_[1];
+  const Lanes part = theta * (power - (power - 1) * exp(l));
 
-  LaneVector h;
-  LaneVector hw;
-  LaneVector r;
+  Stress h;
+  Stress hw;
+  Stress r;
   Lanes wHw = 0;
-  for (int k = 0; k < 3; ++k) {
+  for (size_t k = 0; k < n; ++k) {
     const Lanes w = a_[k] * point.stress[k] / vM;
     h[k] = 1 / (1 / e_[k] + theta * a_[k]);
     hw[k] = h[k] * w;
     wHw += w * hw[k];
     r[k] = v[k] - part * a_[k] * point.stress[k];
   }
-  const Lanes c = (n - 1) * theta / (1 + (n - 1) * theta * wHw);
+  const Lanes c = (power - 1) * theta / (1 + (power - 1) * theta * wHw);
   const Lanes alongW = c * dot(hw, r);
-  PointAnswer<3> answer{point.stress, {}, diagonalMinusRankOne(h, c, hw, hw), true};
-  for (int k = 0; k < 3; ++k) {
+  PointAnswer<n> answer{point.stress, {}, diagonalMinusRankOne(h, c, hw, hw), true};
+  for (size_t k = 0; k < n; ++k) {
     answer.change[k] = h[k] * r[k] - alongW * hw[k];
     answer.predictor[k] += answer.change[k];
   }
@@ -86,49 +95,56 @@ PointAnswer<3> NortonLaw::linearise(const PointStep<3>& point) const {
 // D = E: t solves 2 E^-1 (t - s) + theta a t = v, theta = weight (rate0/sigma0) (vM(t)/sigma0)^(n-1), so
 // t = x/(1 + theta b) with x = s + E v/2 and b = E a/2. In y = log theta it is y = logarithm(t(y)), whose
 // right side falls by no more than (n-1) y: Newton's method from the right, where t < x and t < x/(theta b).
-PointAnswer<3> NortonLaw::regularise(const PointStep<3>& point, const Lanes& /*penalty*/) const {
+template <size_t n>
+PointAnswer<n> NortonLaw<n>::regularise(const PointStep<n>& point, const Lanes& /*penalty*/) const {
   constexpr int most = 100;
   constexpr double last = 1e-14;
-  const double n = creep_.exponent;
-  const LaneVector v = rest(point);
-  LaneVector x = point.stress;
-  LaneVector xOverB;
-  for (int k = 0; k < 3; ++k) {
+  const double power = creep_.exponent;
+  const Stress v = rest(point);
+  Stress x = point.stress;
+  Stress xOverB;
+  for (size_t k = 0; k < n; ++k) {
     x[k] += 0.5 * e_[k] * v[k];
     xOverB[k] = x[k] / (0.5 * e_[k] * a_[k]);
   }
-  LaneVector t = x;
-  Lanes y = min(logarithm(point.weight, square(x)), logarithm(point.weight, square(xOverB)) / n);
+  Stress t = x;
+  Lanes y = min(logarithm(point.weight, square(x)), logarithm(point.weight, square(xOverB)) / power);
   LaneMask moving = y > -std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < most && any_of(moving); ++iteration) {
     const Lanes theta = exp(y);
     Lanes falls = 0;
-    for (int k = 0; k < 3; ++k) {
+    for (size_t k = 0; k < n; ++k) {
       const Lanes tb = 0.5 * theta * e_[k] * a_[k];
       t[k] = x[k] / (1 + tb);
       const Lanes u = t[k] * (1 / creep_.referenceStress);
       falls += a_[k] * u * u * (tb / (1 + tb));
     }
     const Lanes g2 = square(t);
-    const Lanes step = (y - logarithm(point.weight, g2)) / (1 + (n - 1) * falls / g2);
+    const Lanes step = (y - logarithm(point.weight, g2)) / (1 + (power - 1) * falls / g2);
     y = select(moving, y - step, y);
     moving = moving && abs(step) > last * max(Lanes(1), abs(y));
   }
   const Lanes theta = exp(y);
-  PointAnswer<3> answer{point.stress, {}, diagonalMinusRankOne<3>({e_[0], e_[1], e_[2]}, 0, {}, {}), true};
-  for (int k = 0; k < 3; ++k) {
+  Stress elastic;
+  for (size_t k = 0; k < n; ++k) elastic[k] = e_[k];
+  PointAnswer<n> answer{point.stress, {}, diagonalMinusRankOne<n>(elastic, 0, {}, {}), true};
+  for (size_t k = 0; k < n; ++k) {
     const Lanes tb = 0.5 * theta * e_[k] * a_[k];
     answer.change[k] = (0.5 * e_[k] * v[k] - tb * point.stress[k]) / (1 + tb);
   }
   return answer;
 }
 
-LaneVector NortonLaw::rate(const LaneVector& stress, const LaneVector& /*total*/) const {
+template <size_t n>
+std::array<Lanes, n> NortonLaw<n>::rate(const Stress& stress, const Stress& /*total*/) const {
   const Lanes theta = exp(logarithm(1, square(stress)));
-  LaneVector rate = stress;
-  for (int k = 0; k < 3; ++k) rate[k] *= theta * a_[k];
+  Stress rate = stress;
+  for (size_t k = 0; k < n; ++k) rate[k] *= theta * a_[k];
   return rate;
 }
+
+template class NortonLaw<3>;
+template class NortonLaw<5>;
 
 void requireValid(const NortonCreep& creep) {
   requireParameter(creep.referenceStress > 0, "reference_stress", creep.referenceStress,
@@ -152,8 +168,8 @@ std::shared_ptr<const Material> nortonMaterial(const Elasticity& elasticity, con
   requireValid(creep);
   const Eigen::Array3d e = elasticity.moduli();
   if (plane == Plane::stress)
-    return pointMaterial(NortonLaw({e[0], e[1]}, {0.5, 1.5}, creep), describe(elasticity, creep));
-  return pointMaterial(InPlaneStrain(NortonLaw({e[1], e[1]}, {1.5, 1.5}, creep), elasticity),
+    return pointMaterial(NortonLaw<>({e[0], e[1]}, {0.5, 1.5}, creep), describe(elasticity, creep));
+  return pointMaterial(InPlaneStrain(NortonLaw<>({e[1], e[1]}, {1.5, 1.5}, creep), elasticity),
                        describe(elasticity, creep));
 }
 

@@ -22,10 +22,13 @@ void requireValid(const NortonCreep& creep);
 
 LawDescription describe(const Elasticity& elasticity, const NortonCreep& creep);
 
-/// On three directions in which E and the von Mises stress are diagonal, the last two alike.
+/// On n directions in which E and the von Mises stress are diagonal, all but the first alike: 3, or the 5 of a
+/// deviator in space.
+template <size_t n = 3>
 class NortonLaw {
  public:
-  static constexpr int components = 3;
+  static constexpr int components = n;
+  using Stress = std::array<Lanes, n>;
   static constexpr bool linear = false;
   static constexpr bool needsTotalStrain = false;
 
@@ -37,28 +40,30 @@ class NortonLaw {
   /// Not known without a stress.
   static double stiffness(double weight) { return weight > 0 ? 1 : 0; }
   template <class Scalar>
-  [[nodiscard]] auto flows(const std::array<Scalar, 3>& stress) const {
-    return stress[0] * stress[0] + stress[1] * stress[1] + stress[2] * stress[2] > 0;
+  [[nodiscard]] auto flows(const std::array<Scalar, n>& stress) const {
+    Scalar square = stress[0] * stress[0];
+    for (size_t k = 1; k < n; ++k) square += stress[k] * stress[k];
+    return square > 0;
   }
-  static Lanes penalty(const LaneVector& /*stress*/) { return 0; }
-  [[nodiscard]] LaneVector rate(const LaneVector& stress, const LaneVector& total) const;
-  [[nodiscard]] LaneVector elasticStrain(LaneVector stress) const {
-    for (int k = 0; k < 3; ++k) stress[k] *= 1 / e_[k];
+  static Lanes penalty(const Stress& /*stress*/) { return 0; }
+  [[nodiscard]] Stress rate(const Stress& stress, const Stress& total) const;
+  [[nodiscard]] Stress elasticStrain(Stress stress) const {
+    for (size_t k = 0; k < n; ++k) stress[k] *= 1 / e_[k];
     return stress;
   }
-  [[nodiscard]] PointAnswer<3> linearise(const PointStep<3>& point) const;
-  [[nodiscard]] PointAnswer<3> regularise(const PointStep<3>& point, const Lanes& penalty) const;
+  [[nodiscard]] PointAnswer<n> linearise(const PointStep<n>& point) const;
+  [[nodiscard]] PointAnswer<n> regularise(const PointStep<n>& point, const Lanes& penalty) const;
 
  private:
   /// a . s^2 / sigma0^2, never quite 0.
-  [[nodiscard]] Lanes square(const LaneVector& stress) const;
+  [[nodiscard]] Lanes square(const Stress& stress) const;
   /// Of weight (rate0/sigma0) (vM/sigma0)^(n-1) [1/Pa], where that is square(s).
   [[nodiscard]] Lanes logarithm(double weight, const Lanes& square) const;
   /// strain - E^-1 (s - s0): what is left for the flow.
-  [[nodiscard]] LaneVector rest(const PointStep<3>& point) const;
+  [[nodiscard]] Stress rest(const PointStep<n>& point) const;
 
-  double e_[3];
-  double a_[3];
+  std::array<double, n> e_;
+  std::array<double, n> a_;
   NortonCreep creep_;
 };
 

@@ -18,23 +18,31 @@ void Overstress::setViscosity(double viscosity) {
 
 // A stress on the yield surface counts as beyond it: Newton's method would turn in circles. In plasticity it
 // is there but for the residual.
-OverstressFlow::OverstressFlow(const Pair& e, const Pair& a, const Overstress& law)
-    : e_{e[0], e[1], e[1]},
-      a_{a[0], a[1], a[1]},
-      least_(std::min(e[0] * a[0], e[1] * a[1])),
+template <size_t n>
+OverstressFlow<n>::OverstressFlow(const Pair& e, const Pair& a, const Overstress& law)
+    : least_(std::min(e[0] * a[0], e[1] * a[1])),
       onSurface_(law.viscous() ? 1 - 1e-10 : 1 - 1e-7),
-      law_(law) {}
+      law_(law) {
+  e_.fill(e[1]);
+  a_.fill(a[1]);
+  e_[0] = e[0];
+  a_[0] = a[0];
+}
 
-Lanes OverstressFlow::mises(const LaneVector& z) const {
-  return sqrt(a_[0] * z[0] * z[0] + a_[1] * z[1] * z[1] + a_[2] * z[2] * z[2]);
+template <size_t n>
+Lanes OverstressFlow<n>::mises(const Stress& z) const {
+  Lanes square = a_[0] * z[0] * z[0];
+  for (size_t k = 1; k < n; ++k) square += a_[k] * z[k] * z[k];
+  return sqrt(square);
 }
 
 // With tau = overstress/sigma0, C = c + H + K, B = C weight rate0/sigma0 and X = vM(x) - sigma_Y + rho it is
 //   tau + B tau^m = X/sigma0,
 // convex in log tau: Newton's method from the right, where one of both is X/sigma0, climbs down at once. What
 // it finds shares X among the overstress and C dp.
-OverstressFlow::Return OverstressFlow::radialReturn(const LaneVector& x, const Lanes& c, const Lanes& rho,
-                                                    double weight) const {
+template <size_t n>
+typename OverstressFlow<n>::Return OverstressFlow<n>::radialReturn(const Stress& x, const Lanes& c,
+                                                                   const Lanes& rho, double weight) const {
   constexpr int most = 60;
   constexpr double last = 1e-15;
   const double m = law_.exponent;
@@ -74,20 +82,22 @@ OverstressFlow::Return OverstressFlow::radialReturn(const LaneVector& x, const L
   }
   point.slope = select(point.flowing, point.slope, 0);
   point.mises = yields + law_.isotropicHardening * point.dp + over;
-  for (int k = 0; k < 3; ++k) point.u[k] = select(point.flowing, a_[k] * x[k] / max(size, Lanes(tiny)), 0);
+  for (size_t k = 0; k < n; ++k) point.u[k] = select(point.flowing, a_[k] * x[k] / max(size, Lanes(tiny)), 0);
   return point;
 }
 
-LaneVector OverstressFlow::backStress(const LaneVector& viscoplasticStrain) const {
-  LaneVector back;
-  for (int k = 0; k < 3; ++k) back[k] = law_.kinematicHardening / a_[k] * viscoplasticStrain[k];
+template <size_t n>
+std::array<Lanes, n> OverstressFlow<n>::backStress(const Stress& viscoplasticStrain) const {
+  Stress back;
+  for (size_t k = 0; k < n; ++k) back[k] = law_.kinematicHardening / a_[k] * viscoplasticStrain[k];
   return back;
 }
 
-LaneVector OverstressFlow::backStress(const Point& point) const {
+template <size_t n>
+std::array<Lanes, n> OverstressFlow<n>::backStress(const Point& point) const {
   if (!(law_.kinematicHardening > 0)) return {};
-  LaneVector flowed;
-  for (int k = 0; k < 3; ++k) flowed[k] = point.total[k] - point.strain[k] - point.stress0[k] / e_[k];
+  Stress flowed;
+  for (size_t k = 0; k < n; ++k) flowed[k] = point.total[k] - point.strain[k] - point.stress0[k] / e_[k];
   return backStress(flowed);
 }
 
@@ -99,21 +109,22 @@ LaneVector OverstressFlow::backStress(const Point& point) const {
 //   v + B d - E^-1 ds = v~ + W (s + ds - s~)
 // with D = (E^-1 + W)^-1 it follows that ds = D B d + c a^-1 (v - v~) + D (1 - c (E a)^-1) (v - v~), in which
 // nothing is infinite where g is.
-OverstressFlow::Answer OverstressFlow::linearise(const Point& point) const {
+template <size_t n>
+typename OverstressFlow<n>::Answer OverstressFlow<n>::linearise(const Point& point) const {
   constexpr double reach = 100;  // in yield stresses, for v >> sigma_Y/E
   constexpr double trace = 1e-10;
   const double H = law_.kinematicHardening;
   const double K = law_.isotropicHardening;
-  LaneVector v = point.strain;
+  Stress v = point.strain;
   Lanes length = 0;
-  for (int k = 0; k < 3; ++k) {
+  for (size_t k = 0; k < n; ++k) {
     v[k] -= (point.stress[k] - point.stress0[k]) / e_[k];
     length += v[k] * v[k] / a_[k];
   }
   const Lanes c = 1 / (1 / least_ + sqrt(length) / (reach * law_.yieldStress));
-  LaneVector x = point.stress;
-  const LaneVector back = backStress(point);
-  for (int k = 0; k < 3; ++k) x[k] += c / a_[k] * v[k] - back[k];
+  Stress x = point.stress;
+  const Stress back = backStress(point);
+  for (size_t k = 0; k < n; ++k) x[k] += c / a_[k] * v[k] - back[k];
   const Lanes rho = point.rho0 + K * point.strainOfRho;  // without flow
   const Return flow = radialReturn(x, c, rho, point.weight);
 
@@ -125,14 +136,14 @@ OverstressFlow::Answer OverstressFlow::linearise(const Point& point) const {
   const Lanes along = law_.viscous() ? flow.slope : select(flow.flowing, Lanes(1), Lanes(0));
   const Lanes resistance =
       law_.viscous() ? 1 + (H + K) * flow.slope : select(flow.flowing, Lanes(tangent), Lanes(1));
-  LaneVector h;
-  LaneVector hu;
-  LaneVector y;
+  Stress h;
+  Stress hu;
+  Stress y;
   Lanes U = 0;
   Lanes hy = 0;
   Answer answer;
   answer.flows = any_of(flow.flowing);
-  for (int k = 0; k < 3; ++k) {
+  for (size_t k = 0; k < n; ++k) {
     const Lanes off = v[k] - flow.dp * flow.u[k];
     h[k] = 1 / (1 / e_[k] + theta * a_[k]);
     hu[k] = h[k] * flow.u[k];
@@ -144,7 +155,7 @@ OverstressFlow::Answer OverstressFlow::linearise(const Point& point) const {
   const Lanes rank = along - theta * resistance;
   const Lanes F = rank / (resistance + rank * U);
   Lanes further = 0;  // u . D y
-  for (int k = 0; k < 3; ++k) {
+  for (size_t k = 0; k < n; ++k) {
     const Lanes Dy = h[k] * y[k] - F * hy * hu[k];
     further += flow.u[k] * Dy;
     answer.change[k] += Dy;
@@ -154,55 +165,58 @@ OverstressFlow::Answer OverstressFlow::linearise(const Point& point) const {
     const Lanes g = along / resistance;
     answer.rho = rho - K * (flow.dp + g * further);
     const Lanes part = 1 - F * U;  // D u = part hu
-    for (int k = 0; k < 3; ++k) answer.mixed[k] = -K * g * part * hu[k];
+    for (size_t k = 0; k < n; ++k) answer.mixed[k] = -K * g * part * hu[k];
     answer.ofRho = K - K * K * g * (1 - g * part * U);
   }
   return answer;
 }
 
-OverstressFlow::Answer OverstressFlow::regularise(const Point& point) const {
+template <size_t n>
+typename OverstressFlow<n>::Answer OverstressFlow<n>::regularise(const Point& point) const {
   const double c = least_ / 2;
-  LaneVector x = point.stress;
-  LaneVector v = point.strain;
-  const LaneVector back = backStress(point);
-  for (int k = 0; k < 3; ++k) {
+  Stress x = point.stress;
+  Stress v = point.strain;
+  const Stress back = backStress(point);
+  for (size_t k = 0; k < n; ++k) {
     v[k] -= (point.stress[k] - point.stress0[k]) / e_[k];
     x[k] += c / a_[k] * v[k] - back[k];
   }
   const Lanes rho = point.rho0 + law_.isotropicHardening * point.strainOfRho;
   const Return flow = radialReturn(x, c, rho, point.weight);
   Answer answer;
-  LaneVector D;
-  for (int k = 0; k < 3; ++k) {
+  Stress D;
+  for (size_t k = 0; k < n; ++k) {
     answer.change[k] = c / a_[k] * (v[k] - flow.dp * flow.u[k]);
     D[k] = 1 / (a_[k] / c - 1 / e_[k]);
   }
   answer.flows = true;
-  answer.moduli = diagonalMinusRankOne<3>(D, 0, {}, {});
+  answer.moduli = diagonalMinusRankOne<n>(D, 0, {}, {});
   answer.rho = rho - law_.isotropicHardening * flow.dp;
   answer.ofRho = law_.isotropicHardening;
   return answer;
 }
 
-std::pair<LaneVector, Lanes> OverstressFlow::rate(const LaneVector& stress, const LaneVector& total,
-                                                  const Lanes& rho) const {
-  LaneVector z = stress;
+template <size_t n>
+std::pair<std::array<Lanes, n>, Lanes> OverstressFlow<n>::rate(const Stress& stress, const Stress& total,
+                                                               const Lanes& rho) const {
+  Stress z = stress;
   if (law_.kinematicHardening > 0)
-    for (int k = 0; k < 3; ++k) z[k] -= law_.kinematicHardening / a_[k] * (total[k] - stress[k] / e_[k]);
+    for (size_t k = 0; k < n; ++k) z[k] -= law_.kinematicHardening / a_[k] * (total[k] - stress[k] / e_[k]);
   const Lanes size = mises(z);
   const Lanes over = max(Lanes(0), size - law_.yieldStress + rho);
   if (!law_.viscous()) return {{}, 0};
   const Lanes tau = over * (1 / law_.referenceStress);
   const Lanes power = law_.exponent == 1 ? tau : select(tau > 0, exp(law_.exponent * log(tau)), 0);
   const Lanes p = law_.referenceRate * power;
-  for (int k = 0; k < 3; ++k) z[k] = p * a_[k] * z[k] / max(size, Lanes(tiny));
+  for (size_t k = 0; k < n; ++k) z[k] = p * a_[k] * z[k] / max(size, Lanes(tiny));
   return {z, p};
 }
 
-bool OverstressFlow::flows(const std::array<double, 3>& stress, const std::array<double, 3>& total,
-                           double rho) const {
+template <size_t n>
+bool OverstressFlow<n>::flows(const std::array<double, n>& stress, const std::array<double, n>& total,
+                              double rho) const {
   double square = 0;
-  for (int k = 0; k < 3; ++k) {
+  for (size_t k = 0; k < n; ++k) {
     const double z = stress[k] - law_.kinematicHardening / a_[k] * (total[k] - stress[k] / e_[k]);
     square += a_[k] * z * z;
   }
@@ -210,11 +224,15 @@ bool OverstressFlow::flows(const std::array<double, 3>& stress, const std::array
 }
 
 // At an overstress of one yield stress.
-double OverstressFlow::stiffness(double weight) const {
+template <size_t n>
+double OverstressFlow<n>::stiffness(double weight) const {
   if (!law_.viscous()) return weight > 0 ? 1 : 0;
   return weight * law_.referenceRate * law_.exponent / law_.referenceStress *
          std::pow(law_.yieldStress / law_.referenceStress, law_.exponent - 1) * std::max(e_[0], e_[1]) * 1.5;
 }
+
+template class OverstressFlow<3>;
+template class OverstressFlow<5>;
 
 void requireValid(const Overstress& law) {
   requireParameter(law.yieldStress > 0, "yield_stress", law.yieldStress, "yield_stress > 0 [Pa]");

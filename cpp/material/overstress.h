@@ -36,39 +36,42 @@ LawDescription describe(const Elasticity& elasticity, const Overstress& law);
 std::shared_ptr<const Material> overstressMaterial(const Elasticity& elasticity, const Overstress& law,
                                                    Plane plane);
 
-/// On three directions, the last two alike. What is named `rho` is nothing without isotropic hardening.
+/// On n directions, all but the first alike: 3, or the 5 of a deviator in space. What is named `rho` is nothing
+/// without isotropic hardening.
+template <size_t n = 3>
 class OverstressFlow {
  public:
+  using Stress = std::array<Lanes, n>;
   /// \param e  eigenvalues of the elasticity tensor [Pa]  \param a  of vM^2 [-]
   OverstressFlow(const Pair& e, const Pair& a, const Overstress& law);
 
   struct Point {
-    LaneVector stress, stress0, strain, total;  ///< as in PointStep
-    Lanes rho0 = 0;                             ///< at the start of the step [Pa]
-    Lanes strainOfRho = 0;                      ///< minus the scheme's shift [-]
+    Stress stress, stress0, strain, total;  ///< as in PointStep
+    Lanes rho0 = 0;                         ///< at the start of the step [Pa]
+    Lanes strainOfRho = 0;                  ///< minus the scheme's shift [-]
     double weight = 0;
   };
   /// The law linearised: changes of the stress and rho, moduli.
   struct Answer {
-    LaneVector change;
-    Lanes rho = 0;                ///< at the end [Pa]
-    std::array<Lanes, 9> moduli;  ///< of the stress
-    LaneVector mixed{};           ///< of rho and the stress
-    Lanes ofRho = 0;              ///< of rho
+    Stress change;
+    Lanes rho = 0;                    ///< at the end [Pa]
+    std::array<Lanes, n * n> moduli;  ///< of the stress
+    Stress mixed{};                   ///< of rho and the stress
+    Lanes ofRho = 0;                  ///< of rho
     bool flows = false;
   };
   [[nodiscard]] Answer linearise(const Point& point) const;
   /// As in material.h, with D^-1 = a/c - E^-1, c half of the least e a.
   [[nodiscard]] Answer regularise(const Point& point) const;
   /// a z/vM times p', and p'.
-  [[nodiscard]] std::pair<LaneVector, Lanes> rate(const LaneVector& stress, const LaneVector& total,
-                                                  const Lanes& rho) const;
-  [[nodiscard]] bool flows(const std::array<double, 3>& stress, const std::array<double, 3>& total,
+  [[nodiscard]] std::pair<Stress, Lanes> rate(const Stress& stress, const Stress& total,
+                                              const Lanes& rho) const;
+  [[nodiscard]] bool flows(const std::array<double, n>& stress, const std::array<double, n>& total,
                            double rho) const;
   /// H/a times the viscoplastic strain.
-  [[nodiscard]] LaneVector backStress(const LaneVector& viscoplasticStrain) const;
+  [[nodiscard]] Stress backStress(const Stress& viscoplasticStrain) const;
   [[nodiscard]] double stiffness(double weight) const;
-  [[nodiscard]] double elasticModulus(int k) const { return e_[k]; }
+  [[nodiscard]] double elasticModulus(size_t k) const { return e_[k]; }
   [[nodiscard]] const Overstress& law() const { return law_; }
 
  private:
@@ -76,19 +79,18 @@ class OverstressFlow {
   ///   vM(z) + (c + H) dp = vM(x),   vM(z) = sigma_Y - rho + K dp + sigma0 (dp/(weight rate0))^(1/m).
   struct Return {
     LaneMask flowing;
-    LaneVector u;  ///< a z/vM
-    Lanes dp;      ///< [-]
-    Lanes mises;   ///< vM(z) [Pa]
-    Lanes slope;   ///< of dp over the overstress [1/Pa]
+    Stress u;     ///< a z/vM
+    Lanes dp;     ///< [-]
+    Lanes mises;  ///< vM(z) [Pa]
+    Lanes slope;  ///< of dp over the overstress [1/Pa]
   };
-  [[nodiscard]] Return radialReturn(const LaneVector& x, const Lanes& c, const Lanes& rho,
-                                    double weight) const;
-  [[nodiscard]] Lanes mises(const LaneVector& z) const;
+  [[nodiscard]] Return radialReturn(const Stress& x, const Lanes& c, const Lanes& rho, double weight) const;
+  [[nodiscard]] Lanes mises(const Stress& z) const;
   /// H/a times the viscoplastic strain at the start of the step.
-  [[nodiscard]] LaneVector backStress(const Point& point) const;
+  [[nodiscard]] Stress backStress(const Point& point) const;
 
-  double e_[3];
-  double a_[3];
+  std::array<double, n> e_;
+  std::array<double, n> a_;
   double least_;  ///< of e a [Pa]
   double onSurface_;
   Overstress law_;

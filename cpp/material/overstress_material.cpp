@@ -1,5 +1,6 @@
 // The law of overstress.h in both planes, with what its hardening needs: the total strain, a component rho.
 #include "material/overstress.h"
+#include "material/space.h"
 
 namespace mortier {
 namespace {
@@ -9,6 +10,7 @@ template <int tensor, bool kinematic, bool isotropic>
 class OverstressLaw {
  public:
   static constexpr int remembered = isotropic ? 1 : 0;
+  static constexpr size_t directions = tensor == 6 ? 5 : 3;  ///< of the flow
   static constexpr int components = tensor + remembered;
   static constexpr bool linear = false;
   static constexpr bool needsTotalStrain = kinematic;
@@ -16,7 +18,11 @@ class OverstressLaw {
   using Stress = std::array<Lanes, components>;
   using Numbers = std::array<double, components>;
 
-  OverstressLaw(const OverstressFlow& flow, const Elasticity& elasticity)
+  using Flow = OverstressFlow<directions>;
+  template <class Scalar>
+  using Parts = Split<Scalar, directions>;
+
+  OverstressLaw(const Flow& flow, const Elasticity& elasticity)
       : flow_(flow),
         poisson_(elasticity.poisson),
         bulk_(elasticity.young / (1 - 2 * elasticity.poisson)),
@@ -40,11 +46,11 @@ class OverstressLaw {
   }
   [[nodiscard]] Stress rate(const Stress& stress, const Stress& total) const {
     const auto [rate, p] = flow_.rate(parts(stress).deviator, parts(total).deviator, rhoOf(stress));
-    return whole(Split<Lanes>{rate, 0}, p);
+    return whole({rate, 0}, p);
   }
   [[nodiscard]] Stress elasticStrain(const Stress& stress) const {
-    Split<Lanes> s = parts(stress);
-    for (int k = 0; k < 3; ++k) s.deviator[k] *= 1 / flow_.elasticModulus(k);
+    Parts<Lanes> s = parts(stress);
+    for (size_t k = 0; k < directions; ++k) s.deviator[k] *= 1 / flow_.elasticModulus(k);
     s.pressure *= 1 / bulk_;
     return whole(s, isotropic ? rhoOf(stress) / K_ : Lanes(0));
   }
@@ -58,10 +64,12 @@ class OverstressLaw {
   }
 
  private:
-  /// The directions of the flow, and the pressure of plane strain.
+  /// The directions of the flow, and the pressure of plane strain and of space.
   template <class Scalar>
-  static Split<Scalar> parts(const std::array<Scalar, components>& s) {
-    if constexpr (tensor == 4)
+  static Parts<Scalar> parts(const std::array<Scalar, components>& s) {
+    if constexpr (tensor == 6)
+      return {{s[0], s[1], s[2], s[3], s[4]}, s[5]};
+    else if constexpr (tensor == 4)
       return split(std::array<Scalar, 4>{s[0], s[1], s[2], s[3]});
     else
       return {{s[0], s[1], s[2]}, 0};
@@ -71,19 +79,20 @@ class OverstressLaw {
     if constexpr (isotropic) return s[tensor];
     return 0;
   }
-  static Stress whole(const Split<Lanes>& s, const Lanes& rho) {
+  static Stress whole(const Parts<Lanes>& s, const Lanes& rho) {
     Stress all;
     if constexpr (tensor == 4) {
       const std::array<Lanes, 4> four = mortier::joined(s);
       std::copy(four.begin(), four.end(), all.begin());
     } else {
       std::copy(s.deviator.begin(), s.deviator.end(), all.begin());
+      if constexpr (tensor == 6) all[5] = s.pressure;
     }
     if constexpr (isotropic) all[tensor] = rho;
     return all;
   }
-  static OverstressFlow::Point own(const PointStep<components>& point) {
-    LaneVector total{};
+  static typename Flow::Point own(const PointStep<components>& point) {
+    std::array<Lanes, directions> total{};
     if constexpr (kinematic) total = parts(point.total).deviator;
     return {parts(point.stress).deviator,
             parts(point.stress0).deviator,
@@ -94,9 +103,9 @@ class OverstressLaw {
             point.weight};
   }
   [[nodiscard]] PointAnswer<components> joined(const PointStep<components>& point,
-                                               const OverstressFlow::Answer& answer, double part) const {
+                                               const typename Flow::Answer& answer, double part) const {
     Lanes pressure = 0;
-    if constexpr (tensor == 4)
+    if constexpr (tensor > 3)
       pressure = part * (bulk_ * parts(point.strain).pressure - parts(point.stress).pressure +
                          parts(point.stress0).pressure);
     PointAnswer<components> all;
@@ -111,8 +120,10 @@ class OverstressLaw {
       for (size_t j = 0; j < t; ++j)
         for (size_t i = 0; i < t; ++i) all.moduli[n * j + i] = moduli[t * j + i];
     } else {
-      for (size_t j = 0; j < t; ++j)
-        for (size_t i = 0; i < t; ++i) all.moduli[n * j + i] = answer.moduli[t * j + i];
+      all.moduli.fill(0);
+      for (size_t j = 0; j < directions; ++j)
+        for (size_t i = 0; i < directions; ++i) all.moduli[n * j + i] = answer.moduli[directions * j + i];
+      if constexpr (tensor == 6) all.moduli[n * 5 + 5] = bulk_;
     }
     if constexpr (isotropic) {
       const Stress mixed = whole({answer.mixed, 0}, answer.ofRho);
@@ -121,17 +132,19 @@ class OverstressLaw {
     return all;
   }
 
-  OverstressFlow flow_;
+  Flow flow_;
   double poisson_;
   double bulk_;  ///< E/(1-2 nu) [Pa]
   double K_;
 };
 
 template <int tensor>
-std::shared_ptr<const Material> make(const OverstressFlow& flow, const Elasticity& elasticity) {
+std::shared_ptr<const Material> make(const OverstressFlow<tensor == 6 ? 5 : 3>& flow,
+                                     const Elasticity& elasticity) {
   LawDescription description = describe(elasticity, flow.law());
-  if (flow.law().isotropicHardening > 0)
-    return pointMaterial(OverstressLaw<tensor, true, true>(flow, elasticity), std::move(description));
+  if constexpr (tensor < 6)
+    if (flow.law().isotropicHardening > 0)
+      return pointMaterial(OverstressLaw<tensor, true, true>(flow, elasticity), std::move(description));
   if (flow.law().kinematicHardening > 0)
     return pointMaterial(OverstressLaw<tensor, true, false>(flow, elasticity), std::move(description));
   return pointMaterial(OverstressLaw<tensor, false, false>(flow, elasticity), std::move(description));
@@ -144,8 +157,15 @@ std::shared_ptr<const Material> overstressMaterial(const Elasticity& elasticity,
   requireValid(elasticity);
   requireValid(law);
   const Eigen::Array3d e = elasticity.moduli();
-  if (plane == Plane::stress) return make<3>(OverstressFlow({e[0], e[1]}, {0.5, 1.5}, law), elasticity);
-  return make<4>(OverstressFlow({e[1], e[1]}, {1.5, 1.5}, law), elasticity);
+  if (plane == Plane::stress) return make<3>(OverstressFlow<>({e[0], e[1]}, {0.5, 1.5}, law), elasticity);
+  return make<4>(OverstressFlow<>({e[1], e[1]}, {1.5, 1.5}, law), elasticity);
+}
+
+std::shared_ptr<const Material> spaceOverstressMaterial(const Elasticity& elasticity, const Overstress& law) {
+  requireValid(elasticity);
+  requireValid(law);
+  const double e = elasticity.young / (1 + elasticity.poisson);
+  return make<6>(OverstressFlow<5>({e, e}, {1.5, 1.5}, law), elasticity);
 }
 
 }  // namespace mortier

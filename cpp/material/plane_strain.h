@@ -18,9 +18,9 @@ namespace mortier {
 enum class Plane { stress, strain, axisymmetric };
 
 /// A stress or a strain; Scalar is a number or a batch of them.
-template <class Scalar>
+template <class Scalar, size_t n = 3>
 struct Split {
-  std::array<Scalar, 3> deviator;  ///< k, q, r
+  std::array<Scalar, n> deviator;  ///< k, q, r
   Scalar pressure;                 ///< h
 };
 
@@ -88,6 +88,11 @@ class InPlaneStrain {
   [[nodiscard]] Stress rate(const Stress& stress, const Stress& total) const {
     return joined(Split<Lanes>{law_.rate(split(stress).deviator, split(total).deviator), 0});
   }
+  [[nodiscard]] Stress backStress(const Stress& viscoplasticStrain) const requires
+      requires(const Law& law, const LaneVector& strain) {
+    law.backStress(strain);
+  }
+  { return joined(Split<Lanes>{law_.backStress(split(viscoplasticStrain).deviator), 0}); }
   [[nodiscard]] Stress elasticStrain(const Stress& stress) const {
     const auto [deviator, pressure] = split(stress);
     return joined(Split<Lanes>{law_.elasticStrain(deviator), pressure / bulk_});

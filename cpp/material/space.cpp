@@ -24,4 +24,22 @@ std::shared_ptr<const Material> spacePerzynaMaterial(const Elasticity& elasticit
   return pointMaterial(InSpace(law, elasticity), describe(elasticity, viscoplasticity));
 }
 
+std::shared_ptr<const Material> spaceNortonMaterial(const Elasticity& elasticity, const NortonCreep& creep) {
+  requireValid(elasticity);
+  requireValid(creep);
+  const NortonLaw<5> law(onDeviator(elasticity), {1.5, 1.5}, creep);
+  return pointMaterial(InSpace(law, elasticity), describe(elasticity, creep));
+}
+
+std::shared_ptr<const Material> spaceViscoelasticMaterial(const Elasticity& elasticity,
+                                                          const Viscoelasticity& viscoelasticity) {
+  requireValid(elasticity);
+  requireValid(viscoelasticity);
+  LawDescription description = describe(elasticity, viscoelasticity);
+  const auto made = [&](const auto& law) { return pointMaterial(InSpace(law, elasticity), description); };
+  if (viscoelasticity.relaxedFraction > 0)
+    return made(StandardSolid<5>(onDeviator(elasticity), {1, 1}, viscoelasticity));
+  return made(ViscoelasticLaw<false, 5>(onDeviator(elasticity), {1, 1}, viscoelasticity));
+}
+
 }  // namespace mortier

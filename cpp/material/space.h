@@ -4,7 +4,10 @@
 // component of its own keeps its digits where a body flows at constant volume.
 #pragma once
 
+#include "material/norton.h"
+#include "material/overstress.h"
 #include "material/perzyna.h"
+#include "material/viscoelastic.h"
 
 namespace mortier {
 
@@ -32,6 +35,11 @@ class InSpace {
   [[nodiscard]] Stress rate(const Stress& stress, const Stress& total) const {
     return whole(law_.rate(deviator(stress), deviator(total)), 0);
   }
+  [[nodiscard]] Stress backStress(const Stress& viscoplasticStrain) const requires
+      requires(const Law& law, const Deviator& strain) {
+    law.backStress(strain);
+  }
+  { return whole(law_.backStress(deviator(viscoplasticStrain)), 0); }
   [[nodiscard]] Stress elasticStrain(const Stress& stress) const {
     return whole(law_.elasticStrain(deviator(stress)), stress[5] / bulk_);
   }
@@ -75,5 +83,11 @@ class InSpace {
 std::shared_ptr<const Material> spaceElasticMaterial(const Elasticity& elasticity);
 std::shared_ptr<const Material> spacePerzynaMaterial(const Elasticity& elasticity,
                                                      const Viscoplasticity& viscoplasticity);
+/// \throws InputError as the materials of the plane do.
+std::shared_ptr<const Material> spaceNortonMaterial(const Elasticity& elasticity, const NortonCreep& creep);
+std::shared_ptr<const Material> spaceViscoelasticMaterial(const Elasticity& elasticity,
+                                                          const Viscoelasticity& viscoelasticity);
+/// Without isotropic hardening.
+std::shared_ptr<const Material> spaceOverstressMaterial(const Elasticity& elasticity, const Overstress& law);
 
 }  // namespace mortier

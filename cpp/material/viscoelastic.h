@@ -21,18 +21,21 @@ void requireValid(const Viscoelasticity& viscoelasticity);
 
 LawDescription describe(const Elasticity& elasticity, const Viscoelasticity& viscoelasticity);
 
-/// \tparam spring  whether g > 0
-template <bool spring>
+/// \tparam spring  whether g > 0  \tparam n  directions: 3, or the 5 of a deviator in space
+template <bool spring, size_t n = 3>
 class ViscoelasticLaw {
  public:
-  static constexpr int components = 3;
+  static constexpr int components = n;
+  using Stress = std::array<Lanes, n>;
   static constexpr bool linear = false;
   static constexpr bool needsTotalStrain = spring;
 
   /// \param e  eigenvalues of the elasticity tensor [Pa]  \param d  of the deviator [-]
   ViscoelasticLaw(const Pair& e, const Pair& d, const Viscoelasticity& law)
-      : e_{e[0], e[1], e[1]}, tau_(law.relaxationTime), g_(law.relaxedFraction) {
-    for (int k = 0; k < 3; ++k) alpha_[k] = (1 - g_) * d[k == 0 ? 0 : 1] / e[1] + g_ / e_[k];
+      : tau_(law.relaxationTime), g_(law.relaxedFraction) {
+    e_.fill(e[1]);
+    e_[0] = e[0];
+    for (size_t k = 0; k < n; ++k) alpha_[k] = (1 - g_) * d[k == 0 ? 0 : 1] / e[1] + g_ / e_[k];
   }
 
   static bool symmetric() { return true; }
@@ -40,45 +43,47 @@ class ViscoelasticLaw {
   [[nodiscard]] double stiffness(double weight) const { return weight / tau_; }
   /// A stress of zero may still move with the strain that is left.
   template <class Scalar>
-  static bool flows(const std::array<Scalar, 3>& /*stress*/) {
+  static bool flows(const std::array<Scalar, n>& /*stress*/) {
     return true;
   }
-  static Lanes penalty(const LaneVector& /*stress*/) { return 0; }
-  [[nodiscard]] LaneVector rate(const LaneVector& stress, const LaneVector& total) const {
-    LaneVector rate;
-    for (int k = 0; k < 3; ++k) {
+  static Lanes penalty(const Stress& /*stress*/) { return 0; }
+  [[nodiscard]] Stress rate(const Stress& stress, const Stress& total) const {
+    Stress rate;
+    for (size_t k = 0; k < n; ++k) {
       rate[k] = alpha_[k] / tau_ * stress[k];
       if constexpr (spring) rate[k] -= g_ / tau_ * total[k];
     }
     return rate;
   }
-  [[nodiscard]] LaneVector elasticStrain(LaneVector stress) const {
-    for (int k = 0; k < 3; ++k) stress[k] *= 1 / e_[k];
+  [[nodiscard]] Stress elasticStrain(Stress stress) const {
+    for (size_t k = 0; k < n; ++k) stress[k] *= 1 / e_[k];
     return stress;
   }
-  [[nodiscard]] PointAnswer<3> linearise(const PointStep<3>& point) const {
-    LaneVector D;
-    for (int k = 0; k < 3; ++k) D[k] = 1 / (1 / e_[k] + point.weight * alpha_[k] / tau_);
-    PointAnswer<3> answer = towardsLaw(point, D);
+  [[nodiscard]] PointAnswer<n> linearise(const PointStep<n>& point) const {
+    Stress D;
+    for (size_t k = 0; k < n; ++k) D[k] = 1 / (1 / e_[k] + point.weight * alpha_[k] / tau_);
+    PointAnswer<n> answer = towardsLaw(point, D);
     for (Lanes& modulus : D) modulus *= 1 + point.weight * g_ / tau_;
-    answer.moduli = diagonalMinusRankOne<3>(D, 0, {}, {});
+    answer.moduli = diagonalMinusRankOne<n>(D, 0, {}, {});
     return answer;
   }
   /// With D = E.
-  [[nodiscard]] PointAnswer<3> regularise(const PointStep<3>& point, const Lanes& /*penalty*/) const {
-    LaneVector half;
-    for (int k = 0; k < 3; ++k) half[k] = 1 / (2 / e_[k] + point.weight * alpha_[k] / tau_);
-    PointAnswer<3> answer = towardsLaw(point, half);
-    answer.moduli = diagonalMinusRankOne<3>({e_[0], e_[1], e_[2]}, 0, {}, {});
+  [[nodiscard]] PointAnswer<n> regularise(const PointStep<n>& point, const Lanes& /*penalty*/) const {
+    Stress half;
+    Stress elastic;
+    for (size_t k = 0; k < n; ++k) elastic[k] = e_[k];
+    for (size_t k = 0; k < n; ++k) half[k] = 1 / (2 / e_[k] + point.weight * alpha_[k] / tau_);
+    PointAnswer<n> answer = towardsLaw(point, half);
+    answer.moduli = diagonalMinusRankOne<n>(elastic, 0, {}, {});
     return answer;
   }
 
  private:
   /// The change D r of the stress.
-  [[nodiscard]] PointAnswer<3> towardsLaw(const PointStep<3>& point, const LaneVector& D) const {
-    const LaneVector flow = rate(point.stress, point.total);
-    PointAnswer<3> answer{point.stress, {}, {}, true};
-    for (int k = 0; k < 3; ++k) {
+  [[nodiscard]] PointAnswer<n> towardsLaw(const PointStep<n>& point, const Stress& D) const {
+    const Stress flow = rate(point.stress, point.total);
+    PointAnswer<n> answer{point.stress, {}, {}, true};
+    for (size_t k = 0; k < n; ++k) {
       const Lanes elastic = (point.stress[k] - point.stress0[k]) / e_[k];
       answer.change[k] = D[k] * (point.strain[k] - elastic - point.weight * flow[k]);
       answer.predictor[k] += answer.change[k];
@@ -86,10 +91,28 @@ class ViscoelasticLaw {
     return answer;
   }
 
-  double e_[3];
+  std::array<double, n> e_;
   double tau_;
   double g_;
-  double alpha_[3];
+  std::array<double, n> alpha_;
+};
+
+/// The spring beside the dashpot is a back stress, X = 2 G1 eps_v/d: it sets 2 G1 eps_v against dev s.
+template <size_t n = 3>
+class StandardSolid : public ViscoelasticLaw<true, n> {
+ public:
+  StandardSolid(const Pair& e, const Pair& d, const Viscoelasticity& law)
+      : ViscoelasticLaw<true, n>(e, d, law),
+        d_(d),
+        spring_(e[1] * law.relaxedFraction / (1 - law.relaxedFraction)) {}
+  [[nodiscard]] std::array<Lanes, n> backStress(std::array<Lanes, n> viscoplasticStrain) const {
+    for (size_t k = 0; k < n; ++k) viscoplasticStrain[k] *= spring_ / d_[k == 0 ? 0 : 1];
+    return viscoplasticStrain;
+  }
+
+ private:
+  Pair d_;
+  double spring_;  ///< 2 G1 [Pa]
 };
 
 /// \throws InputError

@@ -61,9 +61,15 @@ void requireOneMotion(const BodyDescription& description, const Body& body,
 }
 
 std::shared_ptr<const Material> materialInSpace(const MaterialDescription& description) {
-  const auto* flow = description.as<Viscoplasticity>();
-  return flow != nullptr ? spacePerzynaMaterial(description.elasticity, *flow)
-                         : spaceElasticMaterial(description.elasticity);
+  const Elasticity& elasticity = description.elasticity;
+  if (const auto* perzyna = description.as<Viscoplasticity>())
+    return spacePerzynaMaterial(elasticity, *perzyna);
+  if (const auto* norton = description.as<NortonCreep>()) return spaceNortonMaterial(elasticity, *norton);
+  if (const auto* viscoelasticity = description.as<Viscoelasticity>())
+    return spaceViscoelasticMaterial(elasticity, *viscoelasticity);
+  if (const auto* overstress = description.as<Overstress>())
+    return spaceOverstressMaterial(elasticity, *overstress);
+  return spaceElasticMaterial(elasticity);
 }
 
 }  // namespace

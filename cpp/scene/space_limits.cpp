@@ -14,8 +14,9 @@ constexpr auto inThePlane = " with dimension = 3: known in the plane only";
 void requireKnown(const MaterialDescription& material, const std::string& where) {
   if (material.anisotropy)
     throw InputError(material.anisotropy->where + ", expected \"isotropic\"" + inThePlane);
-  if (material.flows() && material.as<Viscoplasticity>() == nullptr)
-    throw InputError(where + ": material: law, expected \"elastic\" or \"perzyna\"" + inThePlane);
+  if (material.as<OwnLaw>() != nullptr) refuse(where, "material: a law of its own");
+  if (const auto* law = material.as<Overstress>(); law != nullptr && law->isotropicHardening > 0)
+    refuse(where, "material: isotropic_hardening");
 }
 
 void requireKnown(const StressDescription& initial) {

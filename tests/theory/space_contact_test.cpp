@@ -186,20 +186,16 @@ TEST(SpaceContact, compressionIsExact) {
   }
 }
 
-// Without shears across the plane, the law of space is that of plane strain; its tangent is the derivative.
-TEST(SpaceContact, lawOfSpaceIsThatOfPlaneStrain) {
-  constexpr Elasticity elasticity{1000, 0.3};
-  constexpr Viscoplasticity law{10, 1};
+// Without shears across the plane, a law of space is that of plane strain; its tangent is the derivative.
+void expectAlike(const Material& plane, const Material& space, double young) {
   constexpr double weight = 0.3;
-  const auto plane = planeStrainPerzynaMaterial(elasticity, law);
-  const auto space = spacePerzynaMaterial(elasticity, law);
   const Vector strain = Vector::Map(std::array{2e-3, -1e-3, 3e-3, 5e-4, 2e-3, -1e-3}.data(), 6);
   for (const double size : {0.1, 1.0, 100.0}) {
     const auto answerOf = [&](const Material& material, const Vector& strains, const Vector& stress) {
       const Matrix all = size * strains;
       const Matrix zero = Matrix::Zero(all.rows(), 1);
       Linearisation result = material.room(1);
-      material.linearise({weight, zero, all}, stress, result, 0, 1);
+      material.linearise({weight, zero, all, false, &zero}, stress, result, 0, 1);
       return result;
     };
     const Vector flat = strain.head(4);
@@ -211,26 +207,54 @@ TEST(SpaceContact, lawOfSpaceIsThatOfPlaneStrain) {
     const Vector even = inSpace(flat);
     const Vector stress4 = 1e3 * flat;
     const Vector stress6 = 1e3 * even;
-    const Linearisation four = answerOf(*plane, flat, stress4);
-    const Linearisation six = answerOf(*space, even, stress6);
+    const Linearisation four = answerOf(plane, flat, stress4);
+    const Linearisation six = answerOf(space, even, stress6);
     EXPECT_LE((six.predictor.col(0) - inSpace(four.predictor.col(0))).cwiseAbs().maxCoeff(),
               1e-14 * four.predictor.cwiseAbs().maxCoeff());
     // The moduli at a stress are dpredictor/dstrain where the law is linearised at its solution.
     Vector stress = stress6;
-    for (int i = 0; i < 60; ++i) stress = answerOf(*space, strain, stress).predictor;
-    const Linearisation solved = answerOf(*space, strain, stress);
+    for (int i = 0; i < 60; ++i) stress = answerOf(space, strain, stress).predictor;
+    const Linearisation solved = answerOf(space, strain, stress);
     for (int k = 0; k < 6; ++k) {
       const double h = 1e-6 * strain.norm();
       const auto solution = [&](double by) {
         Vector s = stress;
-        for (int i = 0; i < 30; ++i) s = answerOf(*space, strain + by * Vector::Unit(6, k), s).predictor;
+        for (int i = 0; i < 30; ++i) s = answerOf(space, strain + by * Vector::Unit(6, k), s).predictor;
         return s;
       };
       const Vector derivative = (solution(h) - solution(-h)) / (2 * h * size);
       const Vector tangent = stressOf(solved, Vector::Unit(6, k), 0);
-      EXPECT_LE((derivative - tangent).norm(), 1e-6 * elasticity.young) << "strain " << k << ", " << size;
+      EXPECT_LE((derivative - tangent).norm(), 1e-6 * young) << "strain " << k << ", " << size;
     }
   }
+}
+
+TEST(SpaceContact, lawsOfSpaceAreThoseOfPlaneStrain) {
+  constexpr Elasticity elasticity{1000, 0.3};
+  const auto expect = [&](const std::string& name, const auto& plane, const auto& space) {
+    SCOPED_TRACE(name);
+    expectAlike(*plane, *space, elasticity.young);
+  };
+  constexpr Viscoplasticity perzyna{10, 1};
+  expect("Perzyna", planeStrainPerzynaMaterial(elasticity, perzyna),
+         spacePerzynaMaterial(elasticity, perzyna));
+  constexpr NortonCreep norton{2, 0.1, 4};
+  expect("Norton", nortonMaterial(elasticity, norton, Plane::strain),
+         spaceNortonMaterial(elasticity, norton));
+  for (const double relaxed : {0.0, 0.4})
+    expect("relaxed " + std::to_string(relaxed),
+           viscoelasticMaterial(elasticity, {0.5, relaxed}, Plane::strain),
+           spaceViscoelasticMaterial(elasticity, {0.5, relaxed}));
+  for (const double hardening : {0.0, 50.0})
+    for (const double reference : {0.0, 2.0}) {
+      Overstress law;
+      law.yieldStress = 1;
+      law.referenceStress = reference;
+      law.exponent = 3;
+      law.kinematicHardening = hardening;
+      expect("overstress " + std::to_string(reference) + ", " + std::to_string(hardening),
+             overstressMaterial(elasticity, law, Plane::strain), spaceOverstressMaterial(elasticity, law));
+    }
 }
 
 }  // namespace mortier::space_contact_test
