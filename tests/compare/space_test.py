@@ -135,6 +135,36 @@ steps = 1
         self.assertAlmostEqual(values["floor"], 0.5, delta=1e-12)
         self.assertAlmostEqual(values["top"], -1 / 3, delta=1e-12)
 
+    def test_laws_are_those_of_bodies_of_revolution(self):
+        """A column under a stress along it: the same in space and about an axis."""
+        self.write("""\
+plane = "axisymmetric"
+[[body]]
+name = "upper"
+mesh = { shape = "rectangle", cells = 2 }
+material = { young = 100, poisson = 0.3 }
+boundary = [ { label = 1, uy = 0 }, { label = 3, ty = "-10*t" } ]
+[[quantity]]
+name = "top"
+displacement = { body = "upper", label = 3 }
+component = "y"
+[time]
+end = 1
+steps = 10
+""", "ring.toml")
+        for law in ('law="norton", reference_stress=5, reference_rate=0.1, exponent=3',
+                    'law="maxwell", relaxation_time=0.5',
+                    'law="standard-solid", relaxation_time=0.5, relaxed_fraction=0.4',
+                    'law="viscoplastic", yield_stress=2, viscosity=1, kinematic_hardening=20',
+                    'law="viscoplastic", yield_stress=2, viscosity=0, kinematic_hardening=20',
+                    'law="viscoplastic", yield_stress=2, reference_stress=1, reference_rate=0.1, exponent=2'):
+            with self.subTest(law):
+                setting = f"body.material={{young=100, poisson=0.3, {law}}}"
+                _, values = self.run_scene(setting, "time.steps=10")
+                self.mortier("run", "ring.toml", "--quiet", "--out", "ring", "--set", setting)
+                ring = json.loads(self.read("ring/summary.json"))["quantities"]["top"]["value"]
+                self.assertAlmostEqual(values["top"] / (2 * ring), 1, delta=1e-9)
+
     def test_what_is_of_the_plane_is_refused(self):
         for setting, message in (
                 ("plane=strain", "plane = \"strain\", expected none with dimension = 3"),
@@ -146,8 +176,8 @@ steps = 1
                 ("time.tolerance=0.01", "time: tolerance, expected none"),
                 ("body.upper.temperature=1", "temperature, expected none"),
                 ('body.upper.boundary.left.ut=0', "ut = 0, expected none with dimension = 3"),
-                ('body.upper.material={young=1, poisson=0.3, law="norton", reference_stress=1, '
-                 'reference_rate=1, exponent=3}', "expected \"elastic\" or \"perzyna\""),
+                ('body.upper.material={young=1, poisson=0.3, law="viscoplastic", yield_stress=1, viscosity=1, '
+                 'isotropic_hardening=1}', "isotropic_hardening, expected none"),
                 ("dimension=4", "dimension = 4, expected 2 or 3"),
                 ("body.upper.boundary.top.tz=w", "expected an expression in x, y, z, t"),
                 ("quantity.corner.displacement.point=[1, 1]", "expected three numbers, [x, y, z]"),
