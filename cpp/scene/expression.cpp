@@ -8,6 +8,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <set>
 
 #include "base/datum_error.h"
 #include "scene/document.h"
@@ -37,9 +38,11 @@ class Compiled {
     return work_->parser.Eval();
   }
 
-  [[nodiscard]] bool constant() const { return work_->parser.GetUsedVar().empty(); }
-  [[nodiscard]] bool dependsOn(const char* variable) const {
-    return work_->parser.GetUsedVar().count(variable) > 0;
+  /// Those that the text holds; reads it again.
+  [[nodiscard]] std::set<std::string> variables() const {
+    std::set<std::string> names;
+    for (const auto& [name, address] : work_->parser.GetUsedVar()) names.insert(name);
+    return names;
   }
   /// Evaluates once; how many values the text holds ("1, 2" are two).
   [[nodiscard]] int values() const {
@@ -156,22 +159,24 @@ Expression parseExpression(const std::string& text, std::string where, bool inSp
     reject(where, "assignment is not allowed", inSpace);
   }
   try {
-    const Compiled compiled(text, inSpace);
+    Compiled compiled(text, inSpace);
     if (compiled.values() != 1) {
       reject(where, "it has several values", inSpace);
     }
-    if (compiled.constant()) {
+    const std::set<std::string> variables = compiled.variables();
+    if (variables.empty()) {
       const double value = compiled(0, 0, 0);
       Expression result = constantExpression(value, std::move(where));
       result.text = text;
       finite(value, result.where, 0, 0, 0);
       return result;
     }
-    const bool inTime = compiled.dependsOn("t");
+    const bool inTime = variables.count("t") > 0;
     SpaceDatum ofSpace;
-    if (compiled.dependsOn("z"))
+    if (variables.count("z") > 0)
       ofSpace = [compiled](const SpacePoint& x, double t) { return compiled(x, t); };
-    Datum datum = Function([compiled](double x, double y, double t) { return compiled(x, y, t); });
+    Datum datum =
+        Function([value = std::move(compiled)](double x, double y, double t) { return value(x, y, t); });
     datum.inTime = inTime;
     if (!ofSpace) describe(text, datum);
     return {text, std::move(where), false, std::move(datum), {}, inTime, std::move(ofSpace)};
