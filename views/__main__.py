@@ -42,6 +42,7 @@ def arguments(words):
     plot.add_argument("--field", default="von_mises")
     plot.add_argument("--scale", type=numbers(1))
     plot.add_argument("--window", type=numbers(4))
+    plot.add_argument("--view", type=numbers(2))
     plot.add_argument("--only", choices=PICTURES)
     plot.add_argument("--animate", action="store_true")
     plot.add_argument("--raw", action="store_true")
@@ -71,6 +72,15 @@ def plot(given):
     if len(given.results) > len(curves.OF_RUNS):
         raise Wrong(f"{len(given.results)} results, expected {len(curves.OF_RUNS)} at most")
     results = [runs.Result(folder) for folder in given.results]
+    in_space = {result.space for result in results}
+    if len(in_space) == 2:
+        raise Wrong(f"{' '.join(given.results)}: results in the plane and in space, expected one kind")
+    if given.window and True in in_space:
+        raise Wrong("--window: for results in the plane only, expected --view AZIMUTH,ELEVATION")
+    if given.view and False in in_space:
+        raise Wrong("--view: for results in space only")
+    if given.view and not (abs(given.view[0]) <= 360 and abs(given.view[1]) <= 90):
+        raise Wrong("--view: expected AZIMUTH,ELEVATION in degrees, -360 to 360 and -90 to 90")
     views = [pictures.view(result, given.step) for result in results]
     known = set.intersection(*[set(each.result.fields(each.run)) for each in views])
     if given.field != "none" and given.field not in known:
@@ -94,12 +104,12 @@ def plot(given):
     with pictures.plt.rc_context(pictures.STYLE):
         if given.animate:
             made[folder if single else folder / "animation.gif"] = images.animation(
-                results, given.field, scale, given.window, given.raw)
+                results, given.field, scale, given.window, given.raw, given.view)
         wanted = [] if given.animate and (single or not given.only) else [given.only] if given.only else \
             ["fields"] if single else PICTURES
         for name in wanted:
             figure = {"fields": lambda: pictures.fields(views, given.field, scale, given.window,
-                                                        raw=given.raw),
+                                                        raw=given.raw, look=given.view),
                       "contact": lambda: curves.contact(views),
                       "history": lambda: curves.history(views)}[name]()
             if figure is None:
