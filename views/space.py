@@ -15,7 +15,7 @@ from shapes import placed
 from surfaces import Buffer, Seen, Surface, camera
 
 LOOK = (-60.0, 25.0)  # azimuth and elevation of the eye, degrees
-PIXELS = 150  # on an inch
+PIXELS = 130  # on an inch
 PRESSURES = "YlOrRd"
 ALONG_AN_AXIS = 0.999  # cosine
 CLOSED = 0.3  # of the area of a surface that its mean normal has left, below which the eye looks as at bodies
@@ -136,13 +136,14 @@ def mark_largest(axes, view, look, scale, field, values, buffer, window):
         corners = body.tetrahedra[at[0]]
         chosen = corners[[at[1]]] if len(at) == 2 else corners
         where = body.points[chosen].mean(0) + 0.0
-        words.append(f"{'largest' if end is max else 'smallest'} {found[at]:.4g} in {name} at "
+        size = f"{found[at]:.4g} {field.unit}".rstrip()
+        words.append(f"{'largest' if end is max else 'smallest'} {size} in {name} at "
                      f"({', '.join(f'{x:.4g}' for x in where)})")
         point = placed(body, scale)[chosen].mean(0) @ turned.T
         if buffer.shows((point - [window[0], window[2], 0]) / buffer.size):
             axes.plot(*point[:2], marker="o", ms=5, mfc="none", mec=INK, mew=1, zorder=8,
                       path_effects=[withStroke(linewidth=2.2, foreground="white")])
-    axes.text(0.5, 0.0, "\n".join(words), transform=axes.transAxes, ha="center", va="top", fontsize=8)
+    axes.text(0.5, 0.03, "\n".join(words), transform=axes.transAxes, ha="center", va="top", fontsize=8)
 
 
 def fields(views, field_name, scale, window, norm, colours, panels, raw, look):
@@ -183,7 +184,8 @@ def fields(views, field_name, scale, window, norm, colours, panels, raw, look):
         for k, of_interface in enumerate(maps[i]):
             below.append(figure.add_subplot(grid[1 + k, i]))
             of_interface.draw(below[-1], of_interface.pressure, *pressures, 0.5 * width)
-            below[-1].set_title(f"contact pressure, {of_interface.words}", loc="left", fontsize=8.5)
+            below[-1].set_title(of_interface.words + ("; filled dots: in contact" if of_interface.marked
+                                                      else ""), loc="left", fontsize=8.5)
     if field is not None:
         figure.colorbar(ScalarMappable(norm, colours), ax=whole, label=labelled(field.words, field.unit),
                         shrink=0.8, extend=("both" if field.signed else "max") if cut else "neither")
@@ -199,20 +201,34 @@ def mark_failure(axes, view, look, scale, name, element):
     axes.plot(*at[:2], marker="o", ms=16, mfc="none", mec="#d00000", mew=1.8, zorder=9, clip_on=False)
 
 
+def draw_difference(axes, run, values, norm, colours, at):
+    """Of two results on one mesh, on the bodies as meshed; a circle where it is largest, which may be
+    inside."""
+    bodies = list(run.bodies.values())
+    points = np.concatenate([body.points for body in bodies])
+    corners = np.stack(np.meshgrid(*np.array([points.min(0), points.max(0)]).T), -1).reshape(-1, 3)
+    turned = camera(*LOOK)
+    low, high = (corners @ turned[:2].T).min(0), (corners @ turned[:2].T).max(0)
+    margin = 0.12 * (high - low).max()
+    window = low[0] - margin, high[0] + margin, low[1] - margin, high[1] + margin
+    draw_bodies(axes, run, LOOK, 0.0, window, 5.0, values, norm, colours)
+    axes.plot(*(at @ turned[:2].T), marker="o", ms=14, mfc="none", mec="#d00000", mew=1.6, zorder=9)
+    axes.set_axis_off()
+
+
 def interfaces_of(view):
     return [k for k in range(len(view.result.interfaces)) if (view.run.contact.interface == k).any()]
 
 
-def norm_of(values, signed):
+def norm_of(values, signed, smallest=0.0):
     """Norm and colours of nodal values."""
     values = np.concatenate(values)
     low, high = min(values.min(), 0.0), max(values.max(), 0.0)
-    if signed and low < -ROUNDING * high:
+    if both := signed and low < -ROUNDING * high:
         low, high = -max(-low, high), max(-low, high)
-    if not high - low > 0:
-        high = low + 1.0
-    return Normalize(low, high), plt.get_cmap(PRESSURES if not signed else
-                                              SIGNED_COLOURS if low < 0 else COLOURS)
+    if not high - low > smallest:  # rounding is drawn as nothing
+        low, high = (-1.0, 1.0) if both else (0.0, 1.0)
+    return Normalize(low, high), plt.get_cmap(PRESSURES if not signed else SIGNED_COLOURS if both else COLOURS)
 
 
 class Map:
@@ -231,6 +247,7 @@ class Map:
         self.surface = surface_of(self.body)
         self.chosen = np.flatnonzero(np.isin(self.surface.nodes, self.vertex).all(1))
         self.look()
+        self.marked = len(rows) <= MARKED and not self.folded
 
     def look(self):
         """Rows to the right, upwards and towards the eye: the first two along axes where they can be."""
@@ -265,7 +282,7 @@ class Map:
                 corners, edges, nodes = corners[:, ::-1], edges[:, ::-1], nodes[:, ::-1]
             seen = [Seen(corners, painted(by_node[nodes], norm, colours), edges, shaded=self.folded)]
             show(axes, Buffer(seen, window, PIXELS * width), window)
-        if len(at) <= MARKED and not self.folded:
+        if self.marked:
             for closed, fill in ((True, INK), (False, "white")):
                 axes.plot(*at[self.closed == closed, :2].T, ls="", marker="o", ms=2.6, mfc=fill, mec=INK,
                           mew=0.5, zorder=5, clip_on=False)
@@ -292,8 +309,9 @@ def contact(views):
         return None
     n, width = len(columns), 4.0
     figure, axes = plt.subplots(2, n, figsize=(1.4 + width * n, 7.2), squeeze=False, layout="constrained")
+    small = ROUNDING * extent(bodies_of(views))
     drawn = [norm_of([each.pressure for _, each in columns], signed=False),
-             norm_of([each.gap for _, each in columns], signed=True)]
+             norm_of([each.gap for _, each in columns], True, small)]
     for (view, each), (above, below) in zip(columns, axes.T):
         each.draw(above, each.pressure, *drawn[0], width)
         each.draw(below, each.gap, *drawn[1], width)
@@ -305,7 +323,7 @@ def contact(views):
     time = pictures.time_words(views[0].result, views[0].step)
     figure.suptitle(f"{views[0].result.title}, {time}" if len(views) == 1 else time, x=0.02, ha="left",
                     fontsize=10.5)
-    if any(len(each.vertex) <= MARKED and not each.folded for _, each in columns):
+    if any(each.marked for _, each in columns):
         figure.text(0.02, 0.0, "dots: nodes of the nonmortar side, filled where there is contact", fontsize=8,
                     va="bottom")
         figure.get_layout_engine().set(rect=(0, 0.03, 1, 0.97))
