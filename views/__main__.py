@@ -72,12 +72,10 @@ def plot(given):
     if len(given.results) > len(curves.OF_RUNS):
         raise Wrong(f"{len(given.results)} results, expected {len(curves.OF_RUNS)} at most")
     results = [runs.Result(folder) for folder in given.results]
-    in_space = {result.space for result in results}
-    if len(in_space) == 2:
-        raise Wrong(f"{' '.join(given.results)}: results in the plane and in space, expected one kind")
-    if given.window and True in in_space:
+    space = in_space(results, given)
+    if given.window and space:
         raise Wrong("--window: for results in the plane only, expected --view AZIMUTH,ELEVATION")
-    if given.view and False in in_space:
+    if given.view and not space:
         raise Wrong("--view: for results in space only")
     if given.view and not (abs(given.view[0]) <= 360 and abs(given.view[1]) <= 90):
         raise Wrong("--view: expected AZIMUTH,ELEVATION in degrees, -360 to 360 and -90 to 90")
@@ -128,16 +126,31 @@ def plot(given):
         print(shown(path))
 
 
+def in_space(results, given):
+    kinds = {result.space for result in results}
+    if len(kinds) == 2:
+        raise Wrong(f"{' '.join(given.results)}: results in the plane and in space, expected one kind")
+    return True in kinds
+
+
 def report(given):
     require("numpy", "meshio")
     import files
-    import report as reports
     import runs
 
     out = given.out or files.beside(given.results, ".html")
     if out.suffix != ".html":
         raise Wrong(f"--out {out}: expected a file NAME.html")
-    page = reports.page([runs.Result(folder) for folder in given.results])
+    found = [runs.Result(folder) for folder in given.results]
+    if in_space(found, given):
+        require("matplotlib")
+        import curves
+        import space_report as reports
+        if len(found) > len(curves.OF_RUNS):
+            raise Wrong(f"{len(found)} results, expected {len(curves.OF_RUNS)} at most")
+    else:
+        import report as reports
+    page = reports.page(found)
     files.put({out: page.encode()})
     print(f"{shown(out)}: {len(page.encode()) / 1e6:.2f} MB")
 

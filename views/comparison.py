@@ -179,7 +179,7 @@ def draw(place, run, path):
         values = {name: each[run.bodies[name].simplices] if place.what == "displacement" else each
                   for name, each in place.values.items()}
         if in_space:
-            pictures.space().draw_difference(axes[0], run, values, norm, colours, place.at)
+            pictures.space.draw_difference(axes[0], run, values, norm, colours, place.at)
         else:
             draw_in_plane(axes, run, values, norm, colours, place)
         figure.suptitle(f"difference of the {place.what}", x=0.02, ha="left", fontsize=10.5)

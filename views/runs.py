@@ -203,6 +203,10 @@ class Result:
     def element(self):
         return "tetrahedron" if self.space else "triangle"
 
+    @property
+    def elements(self):
+        return "tetrahedra" if self.space else "triangles"
+
     def place(self, run, name, element):
         where = run.bodies[name].points[run.bodies[name].simplices[element]].mean(0)
         return f"{name}, {self.element} {element} at ({', '.join(f'{x:.4g}' for x in where)})"
