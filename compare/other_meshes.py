@@ -51,13 +51,15 @@ def compare_elsewhere(first, second, within):
     faults = [f"body {name}: not in the scene" for name in second.bodies if name not in first.bodies]
     if not names:
         return Verdict([], faults or ["no body in common"])
-    if faults := faults + [f"body {name}: in space in one of them, in the plane in the other" for name in names
-                           if (first.bodies[name].tetrahedra is None)
-                           != (second.bodies[name].tetrahedra is None)]:
+    space = {name: first.bodies[name].tetrahedra is not None for name in names}
+    faults += [f"body {name}: in space in one of them, in the plane in the other" for name in names
+               if space[name] != (second.bodies[name].tetrahedra is not None)]
+    if faults:
         return Verdict([], faults)
     differences = []
     sampled = {name: Sampled(name, first.bodies[name], second.bodies[name]) for name in names}
-    faults += [f"body {name}: {100 * each.outside:.2g} % of its {'area' if first.bodies[name].tetrahedra is None else 'volume'} lies outside of the other mesh"
+    faults += [f"body {name}: {100 * each.outside:.2g} % of its {'volume' if space[name] else 'area'} lies "
+               "outside of the other mesh"
                for name, each in sampled.items() if each.outside > OUTSIDE]
     for what in ("displacement", "stress"):
         pairs = {name: (at_middles(first.bodies[name], what), getattr(each, what))
@@ -99,8 +101,8 @@ def areas_of(corners):
 
 
 def located(body, points, name):
-    """The triangle or tetrahedron of each point, the nearest one where it is outside; and whether it is inside,
-    or outside by no more than NEAR of that element."""
+    """The triangle or tetrahedron of each point, the nearest one where it is outside; and whether it is
+    inside, or outside by no more than NEAR of that element."""
     from matplotlib.tri import Triangulation
 
     if body.tetrahedra is not None:
@@ -204,12 +206,12 @@ def read_vtu_of(path):
 
 
 def components(path, stress, space):
-    """In the plane s11, s22, s12 of three components, mortier's four, VTK's six (xx, yy, zz, xy, yz, xz) or all
-    nine; in space VTK's six."""
+    """In the plane s11, s22, s12 of three components, mortier's four, VTK's six (xx, yy, zz, xy, yz, xz) or
+    all nine; in space VTK's six."""
     stress = stress.reshape(len(stress), -1)
-    known = {6: tuple(range(6)), 9: (0, 4, 8, 1, 5, 2)} if space else {3: (0, 1, 2), 4: (0, 1, 2), 6: (0, 1, 3),
-                                                                       9: (0, 4, 1)}
-    columns = known.get(stress.shape[1])
+    known = {3: (0, 1, 2), 4: (0, 1, 2), 6: (0, 1, 3), 9: (0, 4, 1)}
+    in_space = {6: tuple(range(6)), 9: (0, 4, 8, 1, 5, 2)}
+    columns = (in_space if space else known).get(stress.shape[1])
     if columns is None:
         raise results.ResultError(f"{path}: stress of {stress.shape[1]} components, expected "
                                   f"{'6 or 9' if space else '3, 4, 6 or 9'}")

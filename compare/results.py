@@ -36,7 +36,8 @@ FINAL = ("time", "von_mises_min", "von_mises_max", "interpenetration", "contact_
 @dataclass
 class Body:
     displacement: np.ndarray  # vertices x 2, or x 3 in space [m]
-    # triangles x 3: s11, s22, s12 [Pa]; x 4 in plane strain, s33; tetrahedra x 6: s11, s22, s33, s12, s23, s13
+    # triangles x 3: s11, s22, s12 [Pa]; x 4 in plane strain, s33; tetrahedra x 6: s11, s22, s33, s12, s23,
+    # s13
     stress: np.ndarray
     # vertices x 2 or 3, as meshed [m]; behind them the middles of quadratic elements; None where the code
     # does not write it

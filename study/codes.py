@@ -127,7 +127,7 @@ def add_points(run_, document):
 
 
 def outcome_of(run_, cost, steps, iterations):
-    triangles = sum(len(body.triangles) for body in run_.bodies.values())
+    triangles = sum(len(body.simplices) for body in run_.bodies.values())
     dofs = sum(2 * len(body.points) for body in run_.bodies.values())
     return Outcome(run_, cost, triangles, dofs, steps, iterations)
 

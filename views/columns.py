@@ -11,8 +11,8 @@ WORDS = {
     "viscoplastic_fraction": "share of triangles that yield", "time_step": "length of the step"}
 OF_THE_SOLVER = {"step", "time", "time_step", "estimate", "rejections", "guarded", "rung", "iterations",
                  "factorisations", "active", "joined", "left", "contact_resultant_x", "contact_resultant_y",
-                 "contact_resultant_z", "force_balance", "material_residual", "gap_on_active", "sign", "complementarity",
-                 "open_penetration", "rounding", "ambiguous"}
+                 "contact_resultant_z", "force_balance", "material_residual", "gap_on_active", "sign",
+                 "complementarity", "open_penetration", "rounding", "ambiguous"}
 
 
 def bare(column):

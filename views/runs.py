@@ -172,7 +172,8 @@ class Result:
                                                                                           -1)[:, c]))
         made += [Field("viscoplastic", "yielding", "", False, False,
                        lambda body: body.cells["viscoplastic"].astype(float)),
-                 Field("error", f"estimated error of the stress, share of the {self.element}", "", False, False,
+                 Field("error", f"estimated error of the stress, share of the {self.element}", "", False,
+                       False,
                        lambda body: body.cells["error"]),
                  Field("region", "region", "", False, False, lambda body: body.cells["region"].astype(float))]
         return {field.name: field for field in made}

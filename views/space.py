@@ -170,7 +170,7 @@ def fields(views, field_name, scale, window, norm, colours, panels, raw, look):
                         layout="constrained")
     grid = figure.add_gridspec(1 + rows, len(views), height_ratios=heights)
     whole, below = [], []
-    pressures = norm_of([each.pressure for of_view in maps for each in of_view], signed=False) if rows else None
+    pressures = norm_of([each.pressure for of in maps for each in of], signed=False) if rows else None
     for i, (each, value) in enumerate(zip(views, values)):
         axes = figure.add_subplot(grid[0, i])
         whole.append(axes)
@@ -228,7 +228,8 @@ def norm_of(values, signed, smallest=0.0):
         low, high = -max(-low, high), max(-low, high)
     if not high - low > smallest:  # rounding is drawn as nothing
         low, high = (-1.0, 1.0) if both else (0.0, 1.0)
-    return Normalize(low, high), plt.get_cmap(PRESSURES if not signed else SIGNED_COLOURS if both else COLOURS)
+    name = SIGNED_COLOURS if both else COLOURS if signed else PRESSURES
+    return Normalize(low, high), plt.get_cmap(name)
 
 
 class Map:

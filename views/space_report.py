@@ -71,6 +71,7 @@ def of_run(result):
 def overview(results):
     """Contact and histories of all runs, side by side."""
     views = [pictures.view(result) for result in results]
-    for title, figure in (("Contact at the end", curves.contact(views)), ("Histories", curves.history(views))):
+    for title, draw in (("Contact at the end", curves.contact), ("Histories", curves.history)):
+        figure = draw(views)
         if figure is not None:
             yield f"<h2>{title}</h2>" + image(figure, title)

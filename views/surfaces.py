@@ -20,8 +20,8 @@ INK, MESH = np.array([0.13, 0.13, 0.13]), np.array([0.2, 0.2, 0.23])
 
 
 def camera(azimuth, elevation):
-    """Rows: to the right, upwards, towards the eye. Angles in degrees, of the eye about z from x on, and above
-    the plane of x and y."""
+    """Rows: to the right, upwards, towards the eye. Angles in degrees, of the eye about z from x on, and
+    above the plane of x and y."""
     a, e = np.radians([azimuth, elevation])
     eye = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
     right = np.array([-np.sin(a), np.cos(a), 0.0])
@@ -59,8 +59,8 @@ class Surface:
         return ((count != 2) | (cosine < SHARP))[number].reshape(-1, 3)
 
     def triangles(self, placed, chosen=slice(None)):
-        """Of the sides: corners n x 3 x 3, the side that each is of, the barycentric coordinates of its corners
-        there, and of its sides 0: within an element, 1: between elements, 2: an edge of the surface."""
+        """Of the sides: corners n x 3 x 3, the side that each is of, the barycentric coordinates of its
+        corners there, and of its sides 0: within an element, 1: between elements, 2: an edge of the surface."""
         numbers = np.arange(len(self.nodes))[chosen]
         corners, edges = placed[self.nodes[numbers]], 1 + self.sharp[numbers].astype(int)
         if self.middles is None:
@@ -177,7 +177,8 @@ class Buffer:
 
     def rim(self, first):
         """Pixels of a body beside those of another one, or of none, behind it."""
-        body = np.where(self.found < 0, -1, np.searchsorted(first, self.found, "right")).reshape(self.tall, -1)
+        body = np.where(self.found < 0, -1, np.searchsorted(first, self.found, "right"))
+        body = body.reshape(self.tall, -1)
         depth = self.depth.reshape(body.shape)
         found = np.zeros(body.shape, bool)
         for axis in (0, 1):

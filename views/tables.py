@@ -5,7 +5,8 @@ from numbers import Real
 from columns import WORDS
 from ending import shown
 
-PLANES = {"space": "bodies in space", "stress": "plane stress", "strain": "plane strain", "axisymmetric": "body of revolution"}
+PLANES = {"space": "bodies in space", "stress": "plane stress", "strain": "plane strain",
+          "axisymmetric": "body of revolution"}
 SCHEMES = {"backward-euler": "backward Euler", "crank-nicolson": "Crank-Nicolson",
            "sdirk2": "SDIRK2, two stages a step"}
 VERIFIED = {"force_balance": "forces that are not balanced", "material_residual": "residual of the laws",
@@ -128,7 +129,8 @@ def grids(result):
                                       "error in time", "time taken"]]}
     for each in listed(summary, "bodies"):
         made["Bodies"].append([each.get("name"), each.get("material"),
-                               number(each.get(result.elements), 9), number(each.get("nodes"), 9), number(each.get("dofs"), 9)])
+                               number(each.get(result.elements), 9), number(each.get("nodes"), 9),
+                               number(each.get("dofs"), 9)])
     for each in listed(summary, "interfaces"):
         nodes = [number(each.get(f"{side}_nodes"), 9) for side in ("nonmortar", "mortar")]
         made[lines].append([each.get("nonmortar"), each.get("mortar"),

@@ -38,7 +38,8 @@ class SpaceViews(InSharedFolder):
         for name, text, settings in (("cubes", CUBES, SOFT), ("alone", ALONE, ["degree=2"]),
                                      ("finer", CUBES, [*SOFT, "body.lower.mesh.cells=4"])):
             (cls.folder / f"{name}.toml").write_text(text)
-            done = mortier("run", f"{name}.toml", "--quiet", "--out", name, "--set", *settings, cwd=cls.folder)
+            done = mortier("run", f"{name}.toml", "--quiet", "--out", name, "--set", *settings,
+                           cwd=cls.folder)
             assert done.returncode == 0, done.stderr
         cls.enterClassContext(mock.patch.object(space, "PIXELS", 25))  # coarse images are fast
 
@@ -114,7 +115,8 @@ class SpaceViews(InSharedFolder):
 
     def test_pictures_of_contact_and_of_a_body_alone(self):
         self.assertEqual(len(self.see("plot", "cubes").split()), 6)
-        made = self.see("plot", "alone", "--view=20,-30", "--field", "s13", "--scale", "2", "--only", "fields")
+        made = self.see("plot", "alone", "--view=20,-30", "--field", "s13", "--scale", "2", "--only",
+                        "fields")
         self.assertEqual(made.split(), ["alone.plots/fields.png", "alone.plots/fields.svg"])
         self.see("plot", "cubes", "finer", "--raw", "--field", "uz", "--out", "both.png")
         self.see("plot", "cubes", "--animate", "--out", "moving.gif")
@@ -201,8 +203,8 @@ class SpaceViews(InSharedFolder):
         self.assertEqual(inside.tolist(), [True] * 200 + [False])
         weights = barycentric(body.points[body.tetrahedra[found[:200]]], points)
         self.assertGreater(weights.min(), -1e-9)
-        np.testing.assert_allclose(np.einsum("ij,ijk->ik", weights, body.points[body.tetrahedra[found[:200]]]),
-                                   points, atol=1e-12)
+        corners = body.points[body.tetrahedra[found[:200]]]
+        np.testing.assert_allclose(np.einsum("ij,ijk->ik", weights, corners), points, atol=1e-12)
 
     def test_results_are_read_by_the_python_module(self):
         from python_support import PACKAGE
