@@ -84,8 +84,8 @@ def run_mortier(case, scene, settings, folder, timeout):
                        timeout, environment={"OPENBLAS_NUM_THREADS": threads})
     run_ = results.read_mortier(out)
     summary = run_.summary
-    return Outcome(run_, cost, summary["triangles"], summary["dofs"], summary["steps"],
-                   summary["newton_iterations"])
+    return Outcome(run_, cost, summary.get("tetrahedra", summary.get("triangles")), summary["dofs"],
+                   summary["steps"], summary["newton_iterations"])
 
 
 def run_freefem(case, scene, settings, folder, timeout):

@@ -227,7 +227,8 @@ def norm_of(values, signed, smallest=0.0):
     if both := signed and low < -ROUNDING * high:
         low, high = -max(-low, high), max(-low, high)
     if not high - low > smallest:  # rounding is drawn as nothing
-        low, high = (-1.0, 1.0) if both else (0.0, 1.0)
+        high = smallest or 1.0
+        low = -high if both else 0.0
     name = SIGNED_COLOURS if both else COLOURS if signed else PRESSURES
     return Normalize(low, high), plt.get_cmap(name)
 
@@ -285,8 +286,10 @@ class Map:
             show(axes, Buffer(seen, window, PIXELS * width), window)
         if self.marked:
             for closed, fill in ((True, INK), (False, "white")):
-                axes.plot(*at[self.closed == closed, :2].T, ls="", marker="o", ms=2.6, mfc=fill, mec=INK,
-                          mew=0.5, zorder=5, clip_on=False)
+                chosen = at[self.closed == closed, :2]
+                if len(chosen):  # a line without points would have a place in the layout
+                    axes.plot(*chosen.T, ls="", marker="o", ms=2.6, mfc=fill, mec=INK, mew=0.5, zorder=5,
+                              clip_on=False)
         axes.set_aspect("equal")
         axes.set_xlim(window[:2])
         axes.set_ylim(window[2:])
@@ -309,7 +312,7 @@ def contact(views):
     if not columns:
         return None
     n, width = len(columns), 4.0
-    figure, axes = plt.subplots(2, n, figsize=(1.4 + width * n, 7.2), squeeze=False, layout="constrained")
+    figure, axes = plt.subplots(2, n, figsize=(1.8 + width * n, 7.6), squeeze=False, layout="constrained")
     small = ROUNDING * extent(bodies_of(views))
     drawn = [norm_of([each.pressure for _, each in columns], signed=False),
              norm_of([each.gap for _, each in columns], True, small)]
