@@ -91,8 +91,10 @@ class SpaceViews(InSharedFolder):
         red, green = [1.0, 0, 0], [0, 1.0, 0]
         for each in ([seen(1, red), seen(0, green)], [seen(0, green), seen(1, red)],
                      [seen(2, green, turned=True), seen(1, red)]):
-            image = Buffer(each, (0, 1, 0, 1), 20).image()
-            np.testing.assert_allclose(image[10, 10], [1, 0, 0, 1])
+            for at_once in (1, 3_000_000):  # one after the other, and together
+                with mock.patch("surfaces.AT_ONCE", at_once):
+                    image = Buffer(each, (0, 1, 0, 1), 20).image()
+                np.testing.assert_allclose(image[10, 10], [1, 0, 0, 1])
         image = Buffer([seen(0, red)], (-1, 1, 0, 1), 20).image()
         self.assertEqual((image[5, 3, 3], image[5, 15, 3]), (0, 1))
 
@@ -185,6 +187,9 @@ class SpaceViews(InSharedFolder):
             self.assertIn("--within", self.see("compare", "cubes.toml", *settings, "--against=finer", code=2))
             told = self.see("compare", "cubes.toml", *settings, "--against=finer", "--within=1e-6")
             self.assertIn("contact resultant z", told)
+            swapped = ["--set=contact.swap=true", "--set=quantity.pressure.largest_pressure.body=lower",
+                       "--set=quantity.pressure.largest_pressure.label=top"]
+            self.see("compare", "cubes.toml", *settings, *swapped, "--against=finer", "--within=1e-6")
             with mock.patch("sys.stdout"):
                 code, told, _ = view(self.folder, "compare", "cubes.toml", *settings,
                                      "--set=quantity.top.component=x", "--set=body.upper.material.young=50",
