@@ -87,7 +87,7 @@ def compare(first, second, within=None):
         a, b = first.bodies[name], second.bodies[name]
         if a.displacement.shape != b.displacement.shape or a.stress.shape != b.stress.shape:
             faults.append(f"body {name}: {len(a.displacement)} and {len(b.displacement)} vertices, "
-                          f"{len(a.stress)} and {len(b.stress)} triangles")
+                          f"{len(a.stress)} and {len(b.stress)} elements")
     if not np.array_equal(first.contact.vertex, second.contact.vertex):
         faults.append("contact nodes: other vertices")
     if (first.contact.friction is None) != (second.contact.friction is None):
@@ -122,8 +122,10 @@ def compare(first, second, within=None):
     # nodes that carry no force: rounding says which of them are closed
     left_out = {"active_nodes"} if force > 0 and not pressed else set()
     scalars = {key: value for key, value in first.scalars.items() if key not in left_out}
+    extent = np.ptp(second.contact.position)
+    in_space = second.contact.position.shape[1] == 3
     differences += scalar_differences(scalars, second.scalars, length, stress, force,
-                                      np.ptp(second.contact.position))
+                                      extent**2 if in_space else extent)
     if within is not None:
         differences = allowing(differences, within)
     return Verdict(differences, [])
@@ -156,7 +158,8 @@ def quantity_differences(first, second, within=None):
     pairs = [run.summary.get("quantities", {}) for run in (first, second)]
     known = [name for name in pairs[0] if name in pairs[1]]
     units = first.summary.get("units", {"force": "N", "length": "m"})
-    per_depth = f"{units['force']}/{units['length']}"
+    in_space = first.summary.get("plane") == "space"
+    of_reaction = units["force"] if in_space else f"{units['force']}/{units['length']}"
     found = []
     for name in known:
         a, b = (each[name]["value"] for each in pairs)
@@ -164,7 +167,7 @@ def quantity_differences(first, second, within=None):
                    if each[other]["unit"] == pairs[0][name]["unit"]
                    for value in (each[other]["value"], *(each[other][end]["value"] for end in
                                                          ("smallest", "largest") if end in each[other])))
-        if pairs[0][name]["unit"] == per_depth:  # a reaction may be zero to the rounding of what presses
+        if pairs[0][name]["unit"] == of_reaction:  # a reaction may be zero to the rounding of what presses
             size = max(size, *(abs(run.scalars["contact_force"]) for run in (first, second)))
         found.append(Difference(name, relative(a, b, size), FORCE if within is None else within, a, b))
     return found

@@ -35,19 +35,31 @@ FINAL = ("time", "von_mises_min", "von_mises_max", "interpenetration", "contact_
 
 @dataclass
 class Body:
-    displacement: np.ndarray  # vertices x 2 [m]
-    stress: np.ndarray  # triangles x 3: s11, s22, s12 [Pa]; x 4 in plane strain, s33
-    # vertices x 2, as meshed [m]; behind them the middles of quadratic triangles; None where the code does
-    # not write it
+    displacement: np.ndarray  # vertices x 2, or x 3 in space [m]
+    # triangles x 3: s11, s22, s12 [Pa]; x 4 in plane strain, s33; tetrahedra x 6: s11, s22, s33, s12, s23,
+    # s13
+    stress: np.ndarray
+    # vertices x 2 or 3, as meshed [m]; behind them the middles of quadratic elements; None where the code
+    # does not write it
     points: np.ndarray = None
     triangles: np.ndarray = None  # triangles x 3, numbers of the corners
-    elements: np.ndarray = None  # triangles x 6, middles behind corners; None where triangles are linear
-    stress_at_points: np.ndarray = None  # triangles x 3 points x components [Pa]; of quadratic ones only
+    elements: np.ndarray = None  # x 6, or 10 in space, middles behind corners; None where they are linear
+    stress_at_points: np.ndarray = None  # x 3 points, or 4, x components [Pa]; of quadratic elements only
     cells: dict = field(default_factory=dict)  # name -> all values by triangle that the code writes
     rigid: bool = False  # a tool: no stress of it is written, and zeros stand for it here
+    tetrahedra: np.ndarray = None  # of a body in space, which has no triangles: x 4, numbers of the corners
+
+    @property
+    def simplices(self):
+        """Triangles, or the tetrahedra of a body in space."""
+        return self.triangles if self.tetrahedra is None else self.tetrahedra
 
     @property
     def von_mises(self):
+        if self.stress.shape[1] == 6:
+            s11, s22, s33, s12, s23, s13 = self.stress.T
+            return np.sqrt(((s11 - s22)**2 + (s22 - s33)**2 + (s33 - s11)**2) / 2
+                           + 3 * (s12**2 + s23**2 + s13**2))
         s11, s22, s12, *beyond = self.stress.T
         s33 = beyond[0] if beyond else 0.0
         return np.sqrt(s11**2 + s22**2 - s11 * s22 + s33 * (s33 - s11 - s22) + 3 * s12**2)
@@ -55,9 +67,9 @@ class Body:
 
 @dataclass
 class Contact:
-    """Nodes in the order of the contact line."""
+    """Nodes in the order of the contact line; in space in that of the vertices."""
     vertex: np.ndarray  # of the nonmortar mesh, from 0
-    position: np.ndarray  # nodes x 2, as meshed [m]
+    position: np.ndarray  # nodes x 2 or 3, as meshed [m]
     gap: np.ndarray  # positive: apart [m]
     force: np.ndarray  # nodal [N/m]
     pressure: np.ndarray = None  # [Pa]; None where the code does not write it
@@ -103,8 +115,8 @@ def mortier_run(folder, summary, tables, step):
     for body in bodies.values():
         body.stress = body.stress[:, :components] if body.rigid else body.stress
     for description in summary["bodies"]:
-        require_shape(folder, description["name"], bodies[description["name"]], description.get("nodes"),
-                      description.get("triangles"))
+        require_shape(folder, description["name"], bodies[description["name"]], description,
+                      summary.get("plane") == "space")
     for name, body in bodies.items():
         require_mesh(folder, name, body)
     return finished(Run("mortier", folder, bodies, tables.get(step, contact_of([])), summary))
@@ -142,7 +154,8 @@ def contact_tables(folder):
 def contact_of(rows):
     def column(name):
         return np.array([float(row[name]) for row in rows])
-    return Contact(column("vertex").astype(int), np.column_stack([column("x"), column("y")]), column("gap"),
+    axes = "xyz" if rows and "z" in rows[0] else "xy"
+    return Contact(column("vertex").astype(int), np.column_stack([column(x) for x in axes]), column("gap"),
                    column("force"), column("pressure"), column("interface").astype(int),
                    *(column(name) if rows and name in rows[0] else None
                      for name in ("friction", "shear", "slipping")))
@@ -209,7 +222,9 @@ def finished(run):
         for key in FINAL:
             run.scalars[key] = float(final[key])
         for key in ("displacement_min", "displacement_max"):
-            run.scalars[f"{key}_x"], run.scalars[f"{key}_y"] = map(float, final[key])
+            components = next(iter(run.bodies.values())).displacement.shape[1]
+            for axis, value in zip("xyz"[:components], final[key], strict=True):
+                run.scalars[f"{key}_{axis}"] = float(value)
         run.scalars["steps"] = float(run.summary["steps"])
     except (KeyError, TypeError, ValueError) as error:
         raise ResultError(f"{run.folder / 'summary.json'}: {error!r}") from error
@@ -308,7 +323,7 @@ def read_table(path, *columns):
 
 
 silenced = threading.Lock()  # the standard output is one for all threads
-
+CELLS = ("triangle", "triangle6", "tetra", "tetra10")
 
 
 def read_vtu(path):
@@ -320,7 +335,8 @@ def read_vtu(path):
         with silenced, contextlib.redirect_stdout(io.StringIO()), \
                 contextlib.redirect_stderr(io.StringIO()):
             mesh = meshio.read(path)
-        elements = mesh.cells_dict.get("triangle", mesh.cells_dict.get("triangle6"))
+        elements = next(mesh.cells_dict[kind] for kind in CELLS if kind in mesh.cells_dict)
+        corners = 3 if elements.shape[1] in (3, 6) else 4
         cells = {name: values[0] for name, values in mesh.cell_data.items()}
         if rigid := "stress" not in cells:
             count, scalars = len(elements), ("von_mises", "viscoplastic", "error")
@@ -328,31 +344,38 @@ def read_vtu(path):
                       **{name: np.zeros(count) for name in scalars}}
             if elements.shape[1] == 6:
                 cells["stress_at_points"] = np.zeros((count, 12))
-        body = Body(mesh.point_data["displacement"][:, :2], cells["stress"], mesh.points[:, :2],
-                    elements[:, :3], cells=cells, rigid=rigid)
-        if elements.shape[1] == 6 and "stress_at_points" in cells:
+        axes = corners - 1
+        body = Body(mesh.point_data["displacement"][:, :axes], cells["stress"], mesh.points[:, :axes],
+                    **{"triangles" if axes == 2 else "tetrahedra": elements[:, :corners]},
+                    cells=cells, rigid=rigid)
+        if elements.shape[1] > corners and "stress_at_points" in cells:
             body.elements = elements
-            body.stress_at_points = cells["stress_at_points"].reshape(len(elements), 3, -1)
+            body.stress_at_points = cells["stress_at_points"].reshape(len(elements), corners, -1)
         return body
     except (Exception, SystemExit) as error:  # meshio ends the process on some faults
         raise ResultError(f"{path}: cannot be read: {error!r}") from error
 
 
-def require_shape(folder, name, body, nodes, triangles):
-    if body.displacement.shape != (nodes, 2) or \
-            body.stress.shape not in ((triangles, 3), (triangles, 4)):
+def require_shape(folder, name, body, described, space):
+    kind, axes, components = ("tetrahedra", 3, (6,)) if space else ("triangles", 2, (3, 4))
+    nodes, count = described.get("nodes"), described.get(kind)
+    if body.displacement.shape != (nodes, axes) or \
+            body.stress.shape not in [(count, each) for each in components]:
+        found = "triangles" if body.tetrahedra is None else "tetrahedra"
         raise ResultError(f"{folder}: body {name}: {len(body.displacement)} vertices and {len(body.stress)} "
-                          f"triangles, expected {nodes} and {triangles}")
+                          f"{found}, expected {nodes} and {count}" + (f" {kind}" if found != kind else ""))
 
 
 def require_mesh(folder, name, body):
     require_finite(folder, f"points of {name}", body.points)
-    if body.triangles.min() < 0 or body.triangles.max() >= len(body.points):
-        raise ResultError(f"{folder}: body {name}: a triangle of vertices that there are not")
+    corners = body.simplices
+    kind = "triangle" if body.tetrahedra is None else "tetrahedron"
+    if corners.min() < 0 or corners.max() >= len(body.points):
+        raise ResultError(f"{folder}: body {name}: a {kind} of vertices that there are not")
     for each, values in body.cells.items():
-        if len(values) != len(body.triangles):
-            raise ResultError(f"{folder}: body {name}: {each} of {len(values)} triangles, expected "
-                              f"{len(body.triangles)}")
+        if len(values) != len(corners):
+            raise ResultError(f"{folder}: body {name}: {each} of {len(values)} elements, expected "
+                              f"{len(corners)}")
         require_finite(folder, f"{each} of {name}", values)
 
 

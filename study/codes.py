@@ -84,8 +84,8 @@ def run_mortier(case, scene, settings, folder, timeout):
                        timeout, environment={"OPENBLAS_NUM_THREADS": threads})
     run_ = results.read_mortier(out)
     summary = run_.summary
-    return Outcome(run_, cost, summary["triangles"], summary["dofs"], summary["steps"],
-                   summary["newton_iterations"])
+    return Outcome(run_, cost, summary.get("tetrahedra", summary.get("triangles")), summary["dofs"],
+                   summary["steps"], summary["newton_iterations"])
 
 
 def run_freefem(case, scene, settings, folder, timeout):
@@ -127,7 +127,7 @@ def add_points(run_, document):
 
 
 def outcome_of(run_, cost, steps, iterations):
-    triangles = sum(len(body.triangles) for body in run_.bodies.values())
+    triangles = sum(len(body.simplices) for body in run_.bodies.values())
     dofs = sum(2 * len(body.points) for body in run_.bodies.values())
     return Outcome(run_, cost, triangles, dofs, steps, iterations)
 

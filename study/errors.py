@@ -8,7 +8,8 @@ from study_file import is_number, is_text
 FIELDS = {"energy": ("s11", "s22", "s12"), "displacement": ("ux", "uy"), "pressure": ("p",)}
 BEYOND = {"energy": ("s33",)}  # may be given as well
 SCALARS = ("von_mises_min", "von_mises_max", "interpenetration", "contact_force", "active_nodes",
-           "displacement_min_x", "displacement_min_y", "displacement_max_x", "displacement_max_y")
+           "displacement_min_x", "displacement_min_y", "displacement_min_z",
+           "displacement_max_x", "displacement_max_y", "displacement_max_z")
 
 
 @dataclass

@@ -42,6 +42,7 @@ def arguments(words):
     plot.add_argument("--field", default="von_mises")
     plot.add_argument("--scale", type=numbers(1))
     plot.add_argument("--window", type=numbers(4))
+    plot.add_argument("--view", type=numbers(2))
     plot.add_argument("--only", choices=PICTURES)
     plot.add_argument("--animate", action="store_true")
     plot.add_argument("--raw", action="store_true")
@@ -71,6 +72,13 @@ def plot(given):
     if len(given.results) > len(curves.OF_RUNS):
         raise Wrong(f"{len(given.results)} results, expected {len(curves.OF_RUNS)} at most")
     results = [runs.Result(folder) for folder in given.results]
+    space = in_space(results, given)
+    if given.window and space:
+        raise Wrong("--window: for results in the plane only, expected --view AZIMUTH,ELEVATION")
+    if given.view and not space:
+        raise Wrong("--view: for results in space only")
+    if given.view and not (abs(given.view[0]) <= 360 and abs(given.view[1]) <= 90):
+        raise Wrong("--view: expected AZIMUTH,ELEVATION in degrees, -360 to 360 and -90 to 90")
     views = [pictures.view(result, given.step) for result in results]
     known = set.intersection(*[set(each.result.fields(each.run)) for each in views])
     if given.field != "none" and given.field not in known:
@@ -94,12 +102,12 @@ def plot(given):
     with pictures.plt.rc_context(pictures.STYLE):
         if given.animate:
             made[folder if single else folder / "animation.gif"] = images.animation(
-                results, given.field, scale, given.window, given.raw)
+                results, given.field, scale, given.window, given.raw, given.view)
         wanted = [] if given.animate and (single or not given.only) else [given.only] if given.only else \
             ["fields"] if single else PICTURES
         for name in wanted:
             figure = {"fields": lambda: pictures.fields(views, given.field, scale, given.window,
-                                                        raw=given.raw),
+                                                        raw=given.raw, look=given.view),
                       "contact": lambda: curves.contact(views),
                       "history": lambda: curves.history(views)}[name]()
             if figure is None:
@@ -118,16 +126,31 @@ def plot(given):
         print(shown(path))
 
 
+def in_space(results, given):
+    kinds = {result.space for result in results}
+    if len(kinds) == 2:
+        raise Wrong(f"{' '.join(given.results)}: results in the plane and in space, expected one kind")
+    return True in kinds
+
+
 def report(given):
     require("numpy", "meshio")
     import files
-    import report as reports
     import runs
 
     out = given.out or files.beside(given.results, ".html")
     if out.suffix != ".html":
         raise Wrong(f"--out {out}: expected a file NAME.html")
-    page = reports.page([runs.Result(folder) for folder in given.results])
+    found = [runs.Result(folder) for folder in given.results]
+    if in_space(found, given):
+        require("matplotlib")
+        import curves
+        import space_report as reports
+        if len(found) > len(curves.OF_RUNS):
+            raise Wrong(f"{len(found)} results, expected {len(curves.OF_RUNS)} at most")
+    else:
+        import report as reports
+    page = reports.page(found)
     files.put({out: page.encode()})
     print(f"{shown(out)}: {len(page.encode()) / 1e6:.2f} MB")
 

@@ -11,8 +11,8 @@ WORDS = {
     "viscoplastic_fraction": "share of triangles that yield", "time_step": "length of the step"}
 OF_THE_SOLVER = {"step", "time", "time_step", "estimate", "rejections", "guarded", "rung", "iterations",
                  "factorisations", "active", "joined", "left", "contact_resultant_x", "contact_resultant_y",
-                 "force_balance", "material_residual", "gap_on_active", "sign", "complementarity",
-                 "open_penetration", "rounding", "ambiguous"}
+                 "contact_resultant_z", "force_balance", "material_residual", "gap_on_active", "sign",
+                 "complementarity", "open_penetration", "rounding", "ambiguous"}
 
 
 def bare(column):
@@ -53,9 +53,9 @@ def drawn(histories, size, also=()):
         of_unit[unit_of(name)] = max(of_unit.get(unit_of(name), 0), largest[name])
     moved = max((largest[name] for name in names if bare(name) == "displacement_max"), default=0)
 
-    def kind(name):  # an area has no other column of its unit
-        return max(moved, np.finfo(float).tiny) * size if bare(name) == "penetration" \
-            else of_unit[unit_of(name)]
+    def kind(name):  # an area or a volume has no other column of its unit
+        return max(moved, np.finfo(float).tiny) * size**(2 if unit_of(name).endswith("^3") else 1) \
+            if bare(name) == "penetration" else of_unit[unit_of(name)]
 
     order = {name: i for i, name in enumerate(WORDS)}
     kept = [name for name in names if largest[name] > (0 if bare(name) in also else ROUNDING * kind(name))]

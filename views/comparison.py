@@ -133,12 +133,13 @@ class Place:
     body: str
     index: int  # of the vertex or triangle
     size: float  # of the difference, relative to the largest value
-    at: np.ndarray  # x, y
+    at: np.ndarray  # x, y; z in space
     values: dict  # body -> the difference by vertex or triangle
 
     def __str__(self):
-        where = f"{'vertex' if self.what == 'displacement' else 'triangle'} {self.index}"
-        return (f"{self.what} of {self.body}, {where} at ({self.at[0]:.6g}, {self.at[1]:.6g}): "
+        element = "tetrahedron" if len(self.at) == 3 else "triangle"
+        where = f"{'vertex' if self.what == 'displacement' else element} {self.index}"
+        return (f"{self.what} of {self.body}, {where} at ({', '.join(f'{x:.6g}' for x in self.at)}): "
                 f"{self.size:.3g} of the largest {self.what}")
 
 
@@ -156,7 +157,7 @@ def largest(ours, other):
         name = max(sizes, key=lambda each: sizes[each].max())
         index = int(sizes[name].argmax())
         body = ours.bodies[name]
-        at = body.points[index] if what == "displacement" else body.points[body.triangles[index]].mean(0)
+        at = body.points[index] if what == "displacement" else body.points[body.simplices[index]].mean(0)
         places.append(Place(what, name, index, float(sizes[name][index]), at, sizes))
     found = max(places, key=lambda place: place.size)
     return found if found.size > 0 else None
@@ -170,23 +171,35 @@ def draw(place, run, path):
     from matplotlib.colors import Normalize
 
     with pictures.plt.rc_context(pictures.STYLE):
-        figure, axes = pictures.plt.subplots(1, 2, figsize=(9.4, 4.4), layout="constrained")
-        norm, colours = Normalize(0, place.size), "viridis"
-        values = {name: each[run.bodies[name].triangles] if place.what == "displacement" else each
+        in_space = len(place.at) == 3
+        figure, axes = pictures.plt.subplots(1, 1 if in_space else 2, squeeze=False, layout="constrained",
+                                             figsize=(6.4 if in_space else 9.4, 4.4))
+        axes, norm = axes[0], Normalize(0, place.size)
+        colours = pictures.matplotlib.colormaps["viridis"]
+        values = {name: each[run.bodies[name].simplices] if place.what == "displacement" else each
                   for name, each in place.values.items()}
-        points = np.concatenate([body.points for body in run.bodies.values()])
-        low, high = points.min(0), points.max(0)
-        side = 0.16 * (high - low).max()
-        corner = np.clip(place.at - side / 2, low, np.maximum(high - side, low))
-        for each, (left, right) in zip(axes, ((low, high), (corner, corner + side))):
-            pictures.draw_bodies(each, run, 0.0, values, norm, colours)
-            each.plot(*place.at, marker="o", ms=14, mfc="none", mec="#d00000", mew=1.6, clip_on=False)
-            margin = 0.03 * (right - left).max()
-            each.set_aspect("equal")
-            each.set_xlim(left[0] - margin, right[0] + margin)
-            each.set_ylim(left[1] - margin, right[1] + margin)
-        axes[1].set_title(f"where it is largest: {place.body}", loc="left")
+        if in_space:
+            pictures.space.draw_difference(axes[0], run, values, norm, colours, place.at)
+        else:
+            draw_in_plane(axes, run, values, norm, colours, place)
         figure.suptitle(f"difference of the {place.what}", x=0.02, ha="left", fontsize=10.5)
-        figure.colorbar(ScalarMappable(norm, colours), ax=axes, label="of the largest value")
+        figure.colorbar(ScalarMappable(norm, colours), ax=list(axes), label="of the largest value")
         files.put({path: images.picture(figure, path.suffix[1:])})
         pictures.plt.close(figure)
+
+
+def draw_in_plane(axes, run, values, norm, colours, place):
+    import pictures
+
+    points = np.concatenate([body.points for body in run.bodies.values()])
+    low, high = points.min(0), points.max(0)
+    side = 0.16 * (high - low).max()
+    corner = np.clip(place.at - side / 2, low, np.maximum(high - side, low))
+    for each, (left, right) in zip(axes, ((low, high), (corner, corner + side))):
+        pictures.draw_bodies(each, run, 0.0, values, norm, colours)
+        each.plot(*place.at, marker="o", ms=14, mfc="none", mec="#d00000", mew=1.6, clip_on=False)
+        margin = 0.03 * (right - left).max()
+        each.set_aspect("equal")
+        each.set_xlim(left[0] - margin, right[0] + margin)
+        each.set_ylim(left[1] - margin, right[1] + margin)
+    axes[1].set_title(f"where it is largest: {place.body}", loc="left")

@@ -9,12 +9,17 @@ import numpy as np
 FACING = -0.5  # the cosine of 120 degrees between the normals of sides that face each other
 
 
+def boundary_sides(sides):
+    """Numbers of the sides that belong to one element only, each given by its nodes."""
+    _, first, count = np.unique(np.sort(sides, axis=1), axis=0, return_index=True, return_counts=True)
+    return first[count == 1]
+
+
 def boundary_edges(triangles, owners=False):
     """Edges of one triangle only, the body to their left; with owners also the triangle of each, and which of
     its sides it is."""
     edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    _, first, count = np.unique(np.sort(edges, axis=1), axis=0, return_index=True, return_counts=True)
-    of_one = first[count == 1]
+    of_one = boundary_sides(edges)
     if owners:
         return edges[of_one], of_one % len(triangles), of_one // len(triangles)
     return edges[of_one]

@@ -3,7 +3,7 @@ import numpy as np
 
 import columns
 from columns import ROUNDING, labelled
-from pictures import INK, plt, time_words
+from pictures import INK, plt, space, time_words
 from runs import extent
 
 # colour, marker, width
@@ -15,6 +15,8 @@ def contact(views, exact=None):
     """Pressure, with friction the shear stress too, and gap along the line of every interface, all views in
     one. exact:
     a pressure to draw beside them."""
+    if views[0].result.space:
+        return space.contact(views)
     lines = [each.result.lines(each.run) for each in views]
     n = max(map(len, lines))
     if n == 0:

@@ -10,7 +10,7 @@ import pictures
 from runs import natural_scale
 
 
-def animation(results, field_name, scale, window, raw):
+def animation(results, field_name, scale, window, raw, look=None):
     """A GIF of the kept steps, all with the colours, scale and window that hold for the whole run."""
     steps = [[step for step, _ in result.kept] for result in results]
     count = max(map(len, steps))
@@ -27,14 +27,14 @@ def animation(results, field_name, scale, window, raw):
             values += [(each.run.bodies, pictures.shown_values(each, field, raw)) for each in views]
     scale = scale if scale is not None else natural_scale(pictures.bodies_of(views))
     for i in range(count):
-        windows.append(pictures.whole_window(views_at(i), scale))
+        windows.append(pictures.whole_window(views_at(i), scale, look))
     low, high = np.min(windows, 0), np.max(windows, 0)
     window = window or (low[0], high[1], low[2], high[3])
     norm, colours = pictures.colours_of(field, values)[:2] if field else (None, None)
     frames = []
     for i in range(count):
         figure = pictures.fields(views_at(i), field_name, scale, window, norm, colours, strips=False,
-                                 raw=raw)
+                                 raw=raw, look=look)
         frames.append(picture(figure, "png", dpi=90, bbox_inches=None))  # all of one size
         pictures.plt.close(figure)
     return gif(frames)

@@ -43,7 +43,7 @@ def write(path, run, settings, within):
     quantities = run.summary.get("quantities", {})
     kept = {"by": BY, "version": run.summary.get("versions", {}).get("mortier", ""),
             "scene": Path(run.summary["scene"]).name, "settings": settings, "within": within,
-            "triangles": run.summary["triangles"],
+            **{kind: run.summary[kind] for kind in ("triangles", "tetrahedra") if kind in run.summary},
             "quantities": {name: {"value": rounded(each["value"], size_of(each, quantities)),
                                   "unit": each["unit"]} for name, each in quantities.items()},
             "final": {name: rounded(value, sizes.get(name, peaks["displacement"]))

@@ -62,7 +62,7 @@ def shown_values(view, field, raw):
     found = {}
     for name, body in view.run.bodies.items():
         if field.by_vertex:
-            found[name] = values[name][body.triangles]
+            found[name] = values[name][body.simplices]
         elif raw or not field.recoverable:
             found[name] = values[name]
         elif field.name == "von_mises":
@@ -174,8 +174,10 @@ def draw_whole(axes, view, scale, window, field, values, norm, colours):
     axes.set_ylabel(labelled(view.result.axes[1], unit))
 
 
-def whole_window(views, scale):
+def whole_window(views, scale, look=None):
     """What holds all bodies, deformed and as meshed, with a margin."""
+    if views[0].result.space:
+        return space.window_of(views, scale, look)
     points = np.concatenate([p for body in bodies_of(views)
                              for p in (body.points, body.points + scale * body.displacement)])
     low, high = points.min(0), points.max(0)
@@ -266,9 +268,12 @@ def hatch_penetration(axes, line):
 
 
 def fields(views, field_name="von_mises", scale=None, window=None, norm=None, colours=None, strips=True,
-           raw=False):
+           raw=False, look=None):
     """One column a view: the deformed bodies, under them their lines of contact magnified. norm, colours: in
-    place of those that the values suggest. raw: stresses of the triangles, not recovered at the vertices."""
+    place of those that the values suggest. raw: stresses of the triangles, not recovered at the vertices.
+    look: azimuth and elevation of the eye, in space."""
+    if views[0].result.space:
+        return space.fields(views, field_name, scale, window, norm, colours, strips, raw, look)
     field, values, cut = None, [None] * len(views), False
     if field_name != "none":
         field = views[0].result.fields(views[0].run)[field_name]
@@ -328,3 +333,6 @@ def mark_failure(axes, view, scale, name, triangle):
     corners = body.triangles[triangle]
     axes.plot(*(body.points[corners] + scale * body.displacement[corners]).mean(0), marker="o", ms=16,
               mfc="none", mec="#d00000", mew=1.8, zorder=9, clip_on=False)
+
+
+import space  # noqa: E402: it uses this module

@@ -7,18 +7,25 @@ from runs import areas
 
 def averaged(body, values):
     """By vertex and region, of values by triangle: their mean over the triangles at the vertex, weighted by
-    area; as one value for each corner of the triangles, n x 3."""
-    regions = np.unique(body.cells.get("region", np.zeros(len(body.triangles))), return_inverse=True)[1]
-    places = body.triangles + len(body.points) * regions[:, None]
-    area = np.repeat(areas(body), 3)
+    area (in space: tetrahedra, volume); as one value for each corner of the triangles, n x 3."""
+    regions = np.unique(body.cells.get("region", np.zeros(len(body.simplices))), return_inverse=True)[1]
+    places = body.simplices + len(body.points) * regions[:, None]
+    corners = places.shape[1]
+    area = np.repeat(areas(body), corners)
     count = places.max() + 1
     weight = np.bincount(places.ravel(), area, count)
-    summed = np.bincount(places.ravel(), area * np.repeat(values, 3), count)
+    summed = np.bincount(places.ravel(), area * np.repeat(values, corners), count)
     return (summed / np.where(weight > 0, weight, 1))[places]
 
 
-def von_mises(s11, s22, s12, s33=0.0):
-    return np.sqrt(np.maximum(s11**2 + s22**2 - s11 * s22 + s33 * (s33 - s11 - s22) + 3 * s12**2, 0))
+def von_mises(*components):
+    """In the order of the files."""
+    if len(components) == 6:
+        s11, s22, s33, s12, s23, s13 = components
+    else:
+        s11, s22, s12, s33, s23, s13 = (*components, *[0.0] * (6 - len(components)))
+    shear = s12**2 + s23**2 + s13**2
+    return np.sqrt(np.maximum(s11**2 + s22**2 - s11 * s22 + s33 * (s33 - s11 - s22) + 3 * shear, 0))
 
 
 AT = np.array([[4, 1, 1], [1, 4, 1], [1, 1, 4]]) / 6  # points of the stress in a quadratic triangle

@@ -31,7 +31,7 @@ class Field:
         return self.name not in ("viscoplastic", "region")
 
 
-STRESSES, STRAINS = ("s11", "s22", "s12", "s33"), ("e11", "e22", "e12", "e33")
+COMPONENTS, IN_SPACE = ("11", "22", "12", "33"), ("11", "22", "33", "12", "23", "13")
 AROUND_AXIS = (" (radial)", " (axial)", " (shear)", " (hoop)")  # what these are of bodies of revolution
 
 
@@ -63,13 +63,17 @@ class Result:
         return self.summary.get("plane") == "axisymmetric"
 
     @property
+    def space(self):
+        return self.summary.get("plane") == "space"
+
+    @property
     def axes(self):
-        return ("r", "z") if self.revolved else ("x", "y")
+        return ("x", "y", "z") if self.space else ("r", "z") if self.revolved else ("x", "y")
 
     @property
     def meanings(self):
         """Of the components of stress and strain, behind their names."""
-        return AROUND_AXIS if self.revolved else ("",) * 4
+        return AROUND_AXIS if self.revolved else ("",) * 6
 
     @property
     def failed(self):
@@ -136,8 +140,10 @@ class Result:
         return self.steps_read[step]
 
     def lines(self, run, scale=1.0):
-        """The ContactLine of every interface that has two nodes or more."""
+        """The ContactLine of every interface that has two nodes or more; none in space."""
         found = []
+        if self.space:
+            return found
         for k, interface in enumerate(self.interfaces):
             rows = np.flatnonzero(run.contact.interface == k)
             if len(rows) > 1:
@@ -151,22 +157,23 @@ class Result:
         made = [Field("von_mises", "von Mises stress", stress, False, False,
                       lambda body: body.cells["von_mises"])]
         components = min(body.stress.shape[1] for body in run.bodies.values())
-        for c in range(components):
-            made.append(Field(STRESSES[c], f"stress {STRESSES[c]}{self.meanings[c]}", stress, False, True,
+        names = IN_SPACE if self.space else COMPONENTS[:components]
+        for c, name in enumerate(names):
+            made.append(Field(f"s{name}", f"stress s{name}{self.meanings[c]}", stress, False, True,
                               lambda body, c=c: body.stress[:, c]))
-        made += [Field("u", "displacement", length, True, False, lambda body: np.hypot(*body.displacement.T)),
-                 Field("ux", f"displacement {self.axes[0]}", length, True, True,
-                       lambda body: body.displacement[:, 0]),
-                 Field("uy", f"displacement {self.axes[1]}", length, True, True,
-                       lambda body: body.displacement[:, 1])]
-        for c in range(components):
-            made.append(Field(STRAINS[c], f"viscoplastic strain {STRAINS[c]}{self.meanings[c]}", "", False,
-                              True,
-                              lambda body, c=c: body.cells["viscoplastic_strain"].reshape(len(body.triangles),
+        made.append(Field("u", "displacement", length, True, False,
+                          lambda body: np.linalg.norm(body.displacement, axis=1)))
+        for c, axis in enumerate(self.axes):
+            made.append(Field(f"u{'xyz'[c]}", f"displacement {axis}", length, True, True,
+                              lambda body, c=c: body.displacement[:, c]))
+        for c, name in enumerate(names):
+            made.append(Field(f"e{name}", f"viscoplastic strain e{name}{self.meanings[c]}", "", False, True,
+                              lambda body, c=c: body.cells["viscoplastic_strain"].reshape(len(body.simplices),
                                                                                           -1)[:, c]))
         made += [Field("viscoplastic", "yielding", "", False, False,
                        lambda body: body.cells["viscoplastic"].astype(float)),
-                 Field("error", "estimated error of the stress, share of the triangle", "", False, False,
+                 Field("error", f"estimated error of the stress, share of the {self.element}", "", False,
+                       False,
                        lambda body: body.cells["error"]),
                  Field("region", "region", "", False, False, lambda body: body.cells["region"].astype(float))]
         return {field.name: field for field in made}
@@ -177,13 +184,13 @@ class Result:
         yield where anything flows; None before there is any."""
         told = self.summary.get("stuck")
         if isinstance(told, dict):
-            name, triangle = told.get("body"), told.get("triangle")
+            name, triangle = told.get("body"), told.get(self.element)
             known = isinstance(name, str) and name in run.bodies and type(triangle) is int
-            if known and 0 <= triangle < len(run.bodies[name].triangles):
+            if known and 0 <= triangle < len(run.bodies[name].simplices):
                 return name, triangle, f"furthest off its law, {self.place(run, name, triangle)}"
         found = []
         for name, body in run.bodies.items():
-            flows = body.cells.get("viscoplastic", np.zeros(len(body.triangles)))
+            flows = body.cells.get("viscoplastic", np.zeros(len(body.simplices)))
             stress = body.von_mises
             triangle = int(np.lexsort((stress, flows))[-1])
             found.append((flows[triangle], stress[triangle], name, triangle))
@@ -193,10 +200,17 @@ class Result:
         return name, triangle, (f"largest stress{' beyond yield' if flows else ''}, "
                                 f"{self.place(run, name, triangle)}")
 
-    @staticmethod
-    def place(run, name, triangle):
-        where = run.bodies[name].points[run.bodies[name].triangles[triangle]].mean(0)
-        return f"{name}, triangle {triangle} at ({where[0]:.4g}, {where[1]:.4g})"
+    @property
+    def element(self):
+        return "tetrahedron" if self.space else "triangle"
+
+    @property
+    def elements(self):
+        return "tetrahedra" if self.space else "triangles"
+
+    def place(self, run, name, element):
+        where = run.bodies[name].points[run.bodies[name].simplices[element]].mean(0)
+        return f"{name}, {self.element} {element} at ({', '.join(f'{x:.4g}' for x in where)})"
 
     def values(self, run, field):
         """Body name -> values; ResultError where a body has none."""
@@ -207,15 +221,17 @@ class Result:
                 f"{self.folder}: no field {field.name} in the .vtu files: {error!r}") from error
         for name, values in found.items():
             body = run.bodies[name]
-            if values.shape != (len(body.points if field.by_vertex else body.triangles),):
+            if values.shape != (len(body.points if field.by_vertex else body.simplices),):
                 raise results.ResultError(f"{self.folder}: body {name}: {field.name} has the wrong shape "
                                           f"{values.shape}")
         return found
 
 
 def areas(body):
-    """Of the triangles as meshed."""
-    corners = body.points[body.triangles]
+    """Of the triangles as meshed; the volumes of tetrahedra."""
+    corners = body.points[body.simplices]
+    if body.tetrahedra is not None:
+        return np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])) / 6
     (x1, y1), (x2, y2) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
     return np.abs(x1 * y2 - x2 * y1) / 2
 
@@ -226,10 +242,11 @@ def top_of(field, bodies, values):
     sizes, weights = [], []
     for name, body in bodies.items():
         area, each = areas(body), values[name]
+        of_corners = np.repeat(area, body.simplices.shape[1]) / body.simplices.shape[1]
         if each.ndim == 2:
-            area = np.repeat(area / 3, 3)
+            area = of_corners
         elif field.by_vertex:
-            area = np.bincount(body.triangles.ravel(), np.repeat(area / 3, 3), len(each))
+            area = np.bincount(body.simplices.ravel(), of_corners, len(each))
         sizes.append(np.abs(each.ravel()) if field.signed else each.ravel())
         weights.append(area)
     sizes, weights = np.concatenate(sizes), np.concatenate(weights)

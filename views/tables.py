@@ -5,7 +5,8 @@ from numbers import Real
 from columns import WORDS
 from ending import shown
 
-PLANES = {"stress": "plane stress", "strain": "plane strain", "axisymmetric": "body of revolution"}
+PLANES = {"space": "bodies in space", "stress": "plane stress", "strain": "plane strain",
+          "axisymmetric": "body of revolution"}
 SCHEMES = {"backward-euler": "backward Euler", "crank-nicolson": "Crank-Nicolson",
            "sdirk2": "SDIRK2, two stages a step"}
 VERIFIED = {"force_balance": "forces that are not balanced", "material_residual": "residual of the laws",
@@ -63,7 +64,7 @@ def pairs(result):
 
     def displacement(axis):
         ends = [final.get(key) for key in ("displacement_min", "displacement_max")]
-        if not all(isinstance(end, list) and len(end) == 2 for end in ends):
+        if not all(isinstance(end, list) and len(end) == len(result.axes) for end in ends):
             return None
         found = [number(end[axis], 6) for end in ends]
         return None if None in found else f"{found[0]} to {number(ends[1][axis], 6, length)}"
@@ -72,14 +73,13 @@ def pairs(result):
            ("contact", summary.get("contact")),
            ("time scheme", SCHEMES.get(str(summary.get("scheme")))),
            ("steps", number(summary.get("steps"))),
-           ("triangles", number(summary.get("triangles"), 9)),
+           (result.elements, number(summary.get(result.elements), 9)),
            ("unknowns", number(summary.get("dofs"), 9)),
            ("Newton iterations", number(summary.get("newton_iterations"), 9)),
            ("steps repeated for their error", number(summary.get("rejected_attempts")))]
     end = [("time", number(final.get("time"), 6, time)),
            ("von Mises stress", low_high("von_mises", stress)),
-           (f"displacement {result.axes[0]}", displacement(0)),
-           (f"displacement {result.axes[1]}", displacement(1)),
+           *((f"displacement {axis}", displacement(i)) for i, axis in enumerate(result.axes)),
            ("contact force", number(final.get("contact_force"), 6, force)),
            ("nodes in contact", number(final.get("active_nodes"))),
            ("overlap of the bodies", number(final.get("interpenetration"), 3, area)),
@@ -121,17 +121,19 @@ def estimated(accuracy, length, time):
 def grids(result):
     """Title -> rows, the first of which are heads."""
     summary, length = result.summary, result.length_unit
-    made = {"Bodies": [["body", "material", "triangles", "nodes", "unknowns"]],
-            "Contact lines": [["nonmortar side", "mortar side", "nodes", "discretisation",
+    lines = "Contact surfaces" if result.space else "Contact lines"
+    made = {"Bodies": [["body", "material", result.elements, "nodes", "unknowns"]],
+            lines: [["nonmortar side", "mortar side", "nodes", "discretisation",
                                "largest sliding"]],
             "Rounds of refinement": [["round", "triangles", "unknowns", "steps", "error of meshes",
                                       "error in time", "time taken"]]}
     for each in listed(summary, "bodies"):
-        made["Bodies"].append([each.get("name"), each.get("material"), number(each.get("triangles"), 9),
-                               number(each.get("nodes"), 9), number(each.get("dofs"), 9)])
+        made["Bodies"].append([each.get("name"), each.get("material"),
+                               number(each.get(result.elements), 9), number(each.get("nodes"), 9),
+                               number(each.get("dofs"), 9)])
     for each in listed(summary, "interfaces"):
         nodes = [number(each.get(f"{side}_nodes"), 9) for side in ("nonmortar", "mortar")]
-        made["Contact lines"].append([each.get("nonmortar"), each.get("mortar"),
+        made[lines].append([each.get("nonmortar"), each.get("mortar"),
                                       " and ".join(map(str, nodes)), each.get("variant"),
                                       number(part(each, "sliding").get("slip"), 3, length)])
     for i, each in enumerate(listed(summary, "rounds")):

@@ -127,18 +127,18 @@ def sides_of(triangles: Any) -> Iterator[list[int]]:
 
 
 def to_meshio(step: _core.Step) -> dict[str, meshio.Mesh]:
-    """Body -> mesh, with displacements by point and all else by triangle."""
+    """Body -> mesh, with displacements by point and all else by triangle or tetrahedron."""
     import meshio
 
     meshes = {}
     for name, points in step.points.items():
-        triangles = step.triangles[name]
+        elements = (step.tetrahedra if points.shape[1] == 3 else step.triangles)[name]
         cells = {"stress": step.stress[name], "von_mises": step.von_mises[name],
                  "viscoplastic_strain": step.viscoplastic_strain[name],
                  "viscoplastic": step.viscoplastic[name], "region": step.regions[name],
                  "error": step.error[name]}
-        meshes[name] = meshio.Mesh(points, [("triangle" if triangles.shape[1] == 3 else "triangle6",
-                                             triangles)],
+        kind = {3: "triangle", 6: "triangle6", 4: "tetra", 10: "tetra10"}[elements.shape[1]]
+        meshes[name] = meshio.Mesh(points, [(kind, elements)],
                                    point_data={"displacement": step.displacement[name]},
                                    cell_data={key: [values] for key, values in cells.items()})
     return meshes

@@ -85,10 +85,13 @@ def seen(run: Run, step: _core.Step) -> tuple[Any, Any]:
                  "viscoplastic_strain": step.viscoplastic_strain[name],
                  "viscoplastic": step.viscoplastic[name], "region": step.regions[name],
                  "error": step.error[name]}
+        axes = step.points[name].shape[1]
+        kind = "tetrahedra" if axes == 3 else "triangles"
+        elements = getattr(step, kind)[name]
         bodies[name] = results.Body(step.displacement[name], step.stress[name], step.points[name],
-                                    step.triangles[name][:, :3], cells=cells)
-        if step.triangles[name].shape[1] == 6:
-            bodies[name].elements = step.triangles[name]
+                                    cells=cells, **{kind: elements[:, :axes + 1]})
+        if elements.shape[1] > axes + 1:
+            bodies[name].elements = elements
             bodies[name].stress_at_points = step.stress_at_points[name]
     sides = step.contact
     contact = results.contact_of([])

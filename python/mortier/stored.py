@@ -5,7 +5,7 @@ import copyreg
 import json
 import os
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,7 @@ from mortier import _core
 from mortier.errors import InputError, ResultMissing
 from mortier.run import Run, bare
 
-FIELDS = ("points", "triangles", "regions", "displacement", "stress", "stress_at_points", "von_mises",
+FIELDS = ("points", "regions", "displacement", "stress", "stress_at_points", "von_mises",
           "viscoplastic_strain", "viscoplastic", "error")
 NODAL = ("vertex", "gap", "force", "pressure", "friction", "shear", "slip", "slipping")
 
@@ -45,7 +45,6 @@ class StoredStep:
     time: float
     values: dict[str, Any]
     points: dict[str, Any]
-    triangles: dict[str, Any]
     regions: dict[str, Any]
     displacement: dict[str, Any]
     stress: dict[str, Any]
@@ -55,6 +54,8 @@ class StoredStep:
     viscoplastic: dict[str, Any]
     error: dict[str, Any]
     contact: list[StoredContact]
+    triangles: dict[str, Any] = field(default_factory=dict)  # none in space
+    tetrahedra: dict[str, Any] = field(default_factory=dict)  # none in the plane
 
 
 @dataclass
@@ -80,8 +81,14 @@ def contact_of(side: Any) -> StoredContact:
 
 def step_of(step: Any) -> StoredStep:
     fields: Any = {name: copied(getattr(step, name)) for name in FIELDS}
+    kind = "tetrahedra" if in_space(step) else "triangles"
     return StoredStep(step.number, step.time, dict(step.values), **fields,
-                      contact=[contact_of(side) for side in step.contact])
+                      contact=[contact_of(side) for side in step.contact],
+                      **{kind: copied(getattr(step, kind))})
+
+
+def in_space(step: Any) -> bool:
+    return any(points.shape[1] == 3 for points in step.points.values())
 
 
 def solution_of(solution: Any) -> StoredSolution:
@@ -143,6 +150,8 @@ def step_at(results: Any, folder: Path, summary: dict[str, Any], history: dict[s
     bodies = {body["name"]: results.read_vtu(folder / f"{body['name']}_{number:06d}.vtu")
               for body in results.body_list(folder, summary)}
 
+    space = any(body.tetrahedra is not None for body in bodies.values())
+
     def cells(name: str) -> dict[str, Any]:
         return {body: each.cells[name] for body, each in bodies.items()}
 
@@ -154,12 +163,15 @@ def step_at(results: Any, folder: Path, summary: dict[str, Any], history: dict[s
         rows = nodes.get(index, [])
         columns = {name: np.array([float(each.get(name, 0)) for each in rows],
                                   np.int32 if name in ("vertex", "slipping") else float) for name in NODAL}
-        position = np.array([[float(each["x"]), float(each["y"])] for each in rows]).reshape(-1, 2)
+        axes = "xyz" if space else "xy"
+        position = np.array([[float(each[x]) for x in axes] for each in rows]).reshape(-1, len(axes))
         sides.append(StoredContact(interface["nonmortar"], interface["mortar"], position, **columns))
     return StoredStep(
         number, time, {} if row is None else {bare(name): column[row] for name, column in history.items()},
         {name: each.points for name, each in bodies.items()},
-        {name: each.triangles if each.elements is None else each.elements for name, each in bodies.items()},
         cells("region"), {name: each.displacement for name, each in bodies.items()}, cells("stress"),
         at_points,
-        cells("von_mises"), cells("viscoplastic_strain"), cells("viscoplastic"), cells("error"), sides)
+        cells("von_mises"), cells("viscoplastic_strain"), cells("viscoplastic"), cells("error"), sides,
+        **{"tetrahedra" if space else "triangles":
+           {name: each.simplices if each.elements is None else each.elements
+            for name, each in bodies.items()}})
