@@ -181,7 +181,7 @@ cheap = "adapted"
         self.assertEqual([wall == 123 for wall in walls], [True, False, False, False])
         # A wider sweep keeps them too; another exact solution does not.
         self.assertIn("6 runs, 4 of them done before", self.run_study(SPACE))
-        self.assertIn("6 runs, 0 of them done before", self.run_study(SPACE.replace("-10*t", "-11*t")))
+        self.assertIn("4 runs, 0 of them done before", self.run_study(text.replace("-10*t", "-11*t")))
 
     def test_a_run_that_fails_is_a_row_with_its_reason(self):
         text = SPACE.replace("level = [0, 1, 2]", "level = 0\nbody.upper.material.young = [-1, 3e11]")
