@@ -35,12 +35,13 @@ FINAL = ("time", "von_mises_min", "von_mises_max", "interpenetration", "contact_
 
 @dataclass
 class Body:
-    displacement: np.ndarray  # vertices x 2 [m]
-    stress: np.ndarray  # triangles x 3: s11, s22, s12 [Pa]; x 4 in plane strain, s33
-    # vertices x 2, as meshed [m]; behind them the middles of quadratic triangles; None where the code does
-    # not write it
+    displacement: np.ndarray  # vertices x 2, in space x 3 [m]
+    # triangles x 3: s11, s22, s12 [Pa]; x 4 in plane strain, s33; tetrahedra x 6: 11 22 33 12 23 13
+    stress: np.ndarray
+    # vertices x 2 or 3, as meshed [m]; behind them the middles of quadratic triangles; None where the code
+    # does not write it
     points: np.ndarray = None
-    triangles: np.ndarray = None  # triangles x 3, numbers of the corners
+    triangles: np.ndarray = None  # triangles x 3, in space tetrahedra x 4, numbers of the corners
     elements: np.ndarray = None  # triangles x 6, middles behind corners; None where triangles are linear
     stress_at_points: np.ndarray = None  # triangles x 3 points x components [Pa]; of quadratic ones only
     cells: dict = field(default_factory=dict)  # name -> all values by triangle that the code writes
@@ -48,6 +49,10 @@ class Body:
 
     @property
     def von_mises(self):
+        if self.stress.shape[1] == 6:
+            s11, s22, s33, *shears = self.stress.T
+            return np.sqrt(((s11 - s22)**2 + (s22 - s33)**2 + (s33 - s11)**2) / 2
+                           + 3 * sum(each**2 for each in shears))
         s11, s22, s12, *beyond = self.stress.T
         s33 = beyond[0] if beyond else 0.0
         return np.sqrt(s11**2 + s22**2 - s11 * s22 + s33 * (s33 - s11 - s22) + 3 * s12**2)
@@ -57,7 +62,7 @@ class Body:
 class Contact:
     """Nodes in the order of the contact line."""
     vertex: np.ndarray  # of the nonmortar mesh, from 0
-    position: np.ndarray  # nodes x 2, as meshed [m]
+    position: np.ndarray  # nodes x 2 or 3, as meshed [m]
     gap: np.ndarray  # positive: apart [m]
     force: np.ndarray  # nodal [N/m]
     pressure: np.ndarray = None  # [Pa]; None where the code does not write it
@@ -104,7 +109,7 @@ def mortier_run(folder, summary, tables, step):
         body.stress = body.stress[:, :components] if body.rigid else body.stress
     for description in summary["bodies"]:
         require_shape(folder, description["name"], bodies[description["name"]], description.get("nodes"),
-                      description.get("triangles"))
+                      description.get("triangles", description.get("tetrahedra")))
     for name, body in bodies.items():
         require_mesh(folder, name, body)
     return finished(Run("mortier", folder, bodies, tables.get(step, contact_of([])), summary))
@@ -142,8 +147,9 @@ def contact_tables(folder):
 def contact_of(rows):
     def column(name):
         return np.array([float(row[name]) for row in rows])
-    return Contact(column("vertex").astype(int), np.column_stack([column("x"), column("y")]), column("gap"),
-                   column("force"), column("pressure"), column("interface").astype(int),
+    axes = "xyz" if rows and "z" in rows[0] else "xy"
+    return Contact(column("vertex").astype(int), np.column_stack([column(axis) for axis in axes]),
+                   column("gap"), column("force"), column("pressure"), column("interface").astype(int),
                    *(column(name) if rows and name in rows[0] else None
                      for name in ("friction", "shear", "slipping")))
 
@@ -168,16 +174,19 @@ def read_freefem(folder):
     """A run of the FreeFEM method."""
     folder = Path(folder)
     summary = read_summary(folder)
-    bodies = {b["name"]: Body(read_table(folder / f"{b['name']}.displacement.txt", 2),
-                              read_table(folder / f"{b['name']}.stress.txt", 3, 4))
+    dimension = 3 if summary.get("dimension") == 3 else 2
+    components = (6,) if dimension == 3 else (3, 4)
+    bodies = {b["name"]: Body(read_table(folder / f"{b['name']}.displacement.txt", dimension),
+                              read_table(folder / f"{b['name']}.stress.txt", *components))
               for b in body_list(folder, summary)}
     for name, body in bodies.items():
         if (path := folder / f"{name}.stress_at_points.txt").exists():
             table = read_table(path, 9, 12)
             body.stress_at_points = table.reshape(len(table), 3, -1)
-    table = read_table(folder / "contact.txt", 5, 6)
-    contact = Contact(table[:, 0].astype(int), table[:, 1:3], table[:, 3], table[:, 4],
-                      friction=table[:, 5] if table.shape[1] > 5 else None)
+    table = read_table(folder / "contact.txt", *((6,) if dimension == 3 else (5, 6)))
+    vertex, position, gap, force, *friction = np.split(table, [1, *range(1 + dimension, table.shape[1])], 1)
+    contact = Contact(vertex[:, 0].astype(int), position, gap[:, 0], force[:, 0],
+                      friction=friction[0][:, 0] if friction else None)
     return finished(Run("FreeFEM", folder, bodies, contact, summary))
 
 
@@ -209,7 +218,9 @@ def finished(run):
         for key in FINAL:
             run.scalars[key] = float(final[key])
         for key in ("displacement_min", "displacement_max"):
-            run.scalars[f"{key}_x"], run.scalars[f"{key}_y"] = map(float, final[key])
+            axes = "xyz" if len(final[key]) == 3 else "xy"
+            run.scalars |= {f"{key}_{axis}": float(value)
+                            for axis, value in zip(axes, final[key], strict=True)}
         run.scalars["steps"] = float(run.summary["steps"])
     except (KeyError, TypeError, ValueError) as error:
         raise ResultError(f"{run.folder / 'summary.json'}: {error!r}") from error
@@ -320,7 +331,8 @@ def read_vtu(path):
         with silenced, contextlib.redirect_stdout(io.StringIO()), \
                 contextlib.redirect_stderr(io.StringIO()):
             mesh = meshio.read(path)
-        elements = mesh.cells_dict.get("triangle", mesh.cells_dict.get("triangle6"))
+        dimension = 3 if "tetra" in mesh.cells_dict or "tetra10" in mesh.cells_dict else 2
+        elements = next(iter(mesh.cells_dict.values()))
         cells = {name: values[0] for name, values in mesh.cell_data.items()}
         if rigid := "stress" not in cells:
             count, scalars = len(elements), ("von_mises", "viscoplastic", "error")
@@ -328,8 +340,8 @@ def read_vtu(path):
                       **{name: np.zeros(count) for name in scalars}}
             if elements.shape[1] == 6:
                 cells["stress_at_points"] = np.zeros((count, 12))
-        body = Body(mesh.point_data["displacement"][:, :2], cells["stress"], mesh.points[:, :2],
-                    elements[:, :3], cells=cells, rigid=rigid)
+        body = Body(mesh.point_data["displacement"][:, :dimension], cells["stress"],
+                    mesh.points[:, :dimension], elements[:, :dimension + 1], cells=cells, rigid=rigid)
         if elements.shape[1] == 6 and "stress_at_points" in cells:
             body.elements = elements
             body.stress_at_points = cells["stress_at_points"].reshape(len(elements), 3, -1)
@@ -339,8 +351,9 @@ def read_vtu(path):
 
 
 def require_shape(folder, name, body, nodes, triangles):
-    if body.displacement.shape != (nodes, 2) or \
-            body.stress.shape not in ((triangles, 3), (triangles, 4)):
+    dimension = body.points.shape[1]
+    if body.displacement.shape != (nodes, dimension) or \
+            body.stress.shape not in [(triangles, count) for count in ((6,) if dimension == 3 else (3, 4))]:
         raise ResultError(f"{folder}: body {name}: {len(body.displacement)} vertices and {len(body.stress)} "
                           f"triangles, expected {nodes} and {triangles}")
 
