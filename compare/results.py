@@ -181,16 +181,19 @@ def read_freefem(folder):
     """A run of the FreeFEM method."""
     folder = Path(folder)
     summary = read_summary(folder)
-    bodies = {b["name"]: Body(read_table(folder / f"{b['name']}.displacement.txt", 2),
-                              read_table(folder / f"{b['name']}.stress.txt", 3, 4))
+    dimension = 3 if summary.get("dimension") == 3 else 2
+    components = (6,) if dimension == 3 else (3, 4)
+    bodies = {b["name"]: Body(read_table(folder / f"{b['name']}.displacement.txt", dimension),
+                              read_table(folder / f"{b['name']}.stress.txt", *components))
               for b in body_list(folder, summary)}
     for name, body in bodies.items():
         if (path := folder / f"{name}.stress_at_points.txt").exists():
             table = read_table(path, 9, 12)
             body.stress_at_points = table.reshape(len(table), 3, -1)
-    table = read_table(folder / "contact.txt", 5, 6)
-    contact = Contact(table[:, 0].astype(int), table[:, 1:3], table[:, 3], table[:, 4],
-                      friction=table[:, 5] if table.shape[1] > 5 else None)
+    table = read_table(folder / "contact.txt", *((6,) if dimension == 3 else (5, 6)))
+    vertex, position, gap, force, *friction = np.split(table, [1, *range(1 + dimension, table.shape[1])], 1)
+    contact = Contact(vertex[:, 0].astype(int), position, gap[:, 0], force[:, 0],
+                      friction=friction[0][:, 0] if friction else None)
     return finished(Run("FreeFEM", folder, bodies, contact, summary))
 
 

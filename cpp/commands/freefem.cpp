@@ -214,7 +214,7 @@ std::string script(const SceneDescription& scene, const Model& model,
   out << freefemComment(scene.title.empty() ? scene.path : scene.title)
       << freefemComment("Written by mortier freefem " + scene.path +
                         "; run from the folder in which that was called.")
-      << "\nstring plane = \"" << word(scene.plane) << "\";\n"
+      << (scene.inSpace() ? "" : "\nstring plane = \"" + std::string(word(scene.plane)) + "\";\n")
       << unitNames(scene.units) << (scene.degree == 2 ? "macro quadratic yes //  P2 displacements\n" : "")
       << "\n// Bodies\n"
       << "macro eachBody(what)";
@@ -226,11 +226,15 @@ std::string script(const SceneDescription& scene, const Model& model,
     out << "macro rigidTools yes //  the bodies after the first so many\nint strainingBodies = " << strains
         << ";\n";
   for (int b = 0; b < bodies; ++b) writeBody(out, scene.bodies[b], meshFiles[b], b + 1, scene.units);
-  out << freefemMaterials(scene) << freefemPatches(model)
-      << "\n// Boundary conditions and loads, functions of x, y and t\n";
+  if (!scene.inSpace()) out << freefemMaterials(scene) << freefemPatches(model);
+  out << "\n// Boundary conditions and loads, functions of x, y" << (scene.inSpace() ? ", z" : "")
+      << " and t\n";
   for (int b = 0; b < bodies; ++b)
-    writeConditions(out, scene.bodies[b], b + 1, scene, boundaryLabels(model.bodies[b].mesh()));
-  out << specialSupports(scene)
+    if (scene.inSpace())
+      out << freefemSpaceConditions(scene.bodies[b], b + 1);
+    else
+      writeConditions(out, scene.bodies[b], b + 1, scene, boundaryLabels(model.bodies[b].mesh()));
+  out << (scene.inSpace() ? "" : specialSupports(scene))
       << "\n// Contact: nonmortar body and label, mortar body and label; time\nint[int, int] contact = ";
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const auto& [nonmortar, mortar, coupling] = model.interfaces[k].pair();
@@ -238,16 +242,21 @@ std::string script(const SceneDescription& scene, const Model& model,
         << ", " << mortar.label << ']';
   }
   out << "];\n"
-      << friction(scene) << sliding(scene) << distances(scene, model) << variants(scene)
-      << "real endTime = " << shortest(scene.time.end) << ";  // [" << scene.units.time << "]\n"
+      << friction(scene) << sliding(scene) << (scene.inSpace() ? "" : distances(scene, model))
+      << variants(scene) << "real endTime = " << shortest(scene.time.end) << ";  // [" << scene.units.time
+      << "]\n"
       << stepEnds(times)
       << "int steps = " << (times.empty() ? scene.time.steps : static_cast<int>(times.size()))
       << ";  // backward Euler, " << (times.empty() ? "equal steps" : "steps of their own lengths") << "\n\n";
   const bool own = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const BodyDescription& body) {
     return body.material.as<OwnLaw>() != nullptr;
   });
-  for (const std::string part : {"bodies", "strain", "supports", "lines", "coupling", "friction", "system",
-                                 "own_law", "law", "contact", "picture", "loop"}) {
+  const std::vector<std::string> parts =
+      scene.inSpace()
+          ? std::vector<std::string>{"space", "space_surfaces", "space_contact", "space_steps"}
+          : std::vector<std::string>{"bodies", "strain",  "supports", "lines",   "coupling", "friction",
+                                     "system", "own_law", "law",      "contact", "picture",  "loop"};
+  for (const std::string& part : parts) {
     if (part == "own_law" && !own) continue;
     out << "include " << freefemString(method + '/' + part + ".idp", scene.path + ": the FreeFEM method")
         << '\n';
@@ -336,7 +345,10 @@ int writeFreefem(const FreefemOptions& command) {
       throw InputError(body.meshWhere + ": body " + body.name + ": mesh " + body.mesh.path +
                        ", expected a file for the script, beside which the mesh is written for FreeFEM");
     meshFiles.back() = (fs::path(command.file).replace_extension() += "-" + body.name + ".mesh").string();
-    writeMedit(model.bodies[b].mesh(), meshFiles.back());
+    if (scene.inSpace())
+      writeMedit(model.bodies[b].space()->mesh(), meshFiles.back());
+    else
+      writeMedit(model.bodies[b].mesh(), meshFiles.back());
   }
 
   // 3. The script.

@@ -16,6 +16,11 @@ std::string freefemObstacle(const SceneDescription& scene, const Model& model, b
 /// \throws InputError for the first thing in the scene that the FreeFEM method does not know
 void requireFreefemKnows(const SceneDescription& scene, const Model& model, bool stepsGiven);
 
+/// \throws InputError for the first thing that the method does not know in a scene in space
+void requireFreefemKnowsSpace(const SceneDescription& scene, const Model& model);
+/// Supports and loads of a body in space.
+std::string freefemSpaceConditions(const BodyDescription& body, int number);
+
 /// One macro for all bodies or interfaces, with its text; empty where the text is.
 std::string freefemMacro(const std::string& name, const std::string& text, const std::string& comment);
 /// What materials have beside isotropic elasticity and Perzyna's law: macros and numbers of every body

@@ -73,7 +73,7 @@ class Choices {
 }  // namespace
 
 std::string freefemExpression(const Expression& expression) {
-  return freefemFormula(expression.text, expression.where, {{"x", "x"}, {"y", "y"}, {"t", "t"}});
+  return freefemFormula(expression.text, expression.where, {{"x", "x"}, {"y", "y"}, {"z", "z"}, {"t", "t"}});
 }
 
 std::vector<std::string> namesIn(const std::string& text) {

@@ -118,8 +118,8 @@ void requireSmooth(const SceneDescription& scene, const Model& model) {
 }  // namespace
 
 void requireFreefemKnows(const SceneDescription& scene, const Model& model, bool stepsGiven) {
-  if (scene.inSpace()) refuse(scene.path + ": dimension = 3", "a scene in the plane");
   requireKnown(scene, stepsGiven);
+  if (scene.inSpace()) return requireFreefemKnowsSpace(scene, model);
   requireSmooth(scene, model);
   requireStraightSides(scene, model);
 }

@@ -1,0 +1,95 @@
+"""Scenes in space in both codes: compression of two cubes, and a block above the middle of another."""
+import tempfile
+import unittest
+from pathlib import Path
+
+import support  # noqa: F401  (finds compare/)
+from both import compare_runs
+
+CUBES = "scenes/cubes.toml"
+ELASTIC = "body.material={young=100, poisson=0.3}"
+PERZYNA = "body.material={young=3e4, poisson=0.3, viscosity=10, yield_stress=1}"
+
+# Apart at first, overhanging at two sides, tilted by its load; its edges end inside triangles.
+BLOCK = """\
+dimension = 3
+[[body]]
+name = "block"
+mesh = { shape = "cuboid", lower = [0.3, 0, 0.02], upper = [1.1, 0.7, 0.9], cells = [3, 3, 2] }
+material = { young = 100, poisson = 0.3 }
+force = { z = "-z*t" }
+boundary = [ { label = "front", uy = 0 }, { label = "top", ux = 0, uz = "-0.1*t*(1 + x)" },
+             { label = "back", pressure = "2*t" } ]
+[[body]]
+name = "floor"
+mesh = { shape = "cuboid", lower = [0, 0, -1], upper = [1, 1, 0], cells = [4, 3, 3] }
+material = { young = 50, poisson = 0.2 }
+boundary = [ { label = "bottom", ux = 0, uy = 0, uz = 0 }, { label = "front", uy = 0 } ]
+[contact]
+nonmortar = { body = "block", label = "bottom" }
+mortar = { body = "floor", label = "top" }
+[time]
+end = 1
+steps = 4
+"""
+# A cube in the corner of a floor and a wall that is held, either side of which merges rows.
+CORNER = """\
+dimension = 3
+[[body]]
+name = "cube"
+mesh = { shape = "cuboid", lower = [0, 0, 0], upper = [1, 1, 1], cells = 2 }
+material = { young = 100, poisson = 0.3, viscosity = 10, yield_stress = 1 }
+boundary = [ { label = "front", uy = 0 }, { label = "top", tz = "-3*t" }, { label = "right", tx = "-t" } ]
+[[body]]
+name = "floor"
+mesh = { shape = "cuboid", lower = [0, 0, -1], upper = [1, 1, 0], cells = 3 }
+material = { young = 50, poisson = 0.2 }
+boundary = [ { label = "bottom", ux = 0, uy = 0, uz = 0 } ]
+[[body]]
+name = "wall"
+mesh = { shape = "cuboid", lower = [-1, 0, 0], upper = [0, 1, 1], cells = 3 }
+material = { young = 70, poisson = 0.2 }
+boundary = [ { label = "left", ux = 0, uy = 0, uz = 0 }, { label = "bottom", uz = 0 } ]
+[[contact]]
+nonmortar = { body = "cube", label = "bottom" }
+mortar = { body = "floor", label = "top" }
+[[contact]]
+nonmortar = { body = "wall", label = "right" }
+mortar = { body = "cube", label = "left" }
+[time]
+end = 1
+steps = 4
+"""
+WITHIN = 1e-9
+
+
+class SpaceOracle(unittest.TestCase):
+    def agree(self, scene, *settings):
+        with self.subTest(scene=scene, settings=settings), tempfile.TemporaryDirectory() as folder:
+            path = scene
+            if "\n" in scene:
+                path = str(Path(folder) / "scene.toml")
+                Path(path).write_text(scene)
+            row = compare_runs(Path(folder), settings, path, WITHIN)
+            self.assertTrue(row["agree"], row["verdict"])
+            print({key: f"{row[key]:.1e}" for key in ("displacement", "stress", "force", "gap")}, settings)
+
+    def test_compression(self):
+        for variant in ("weighted", "mortar", "interpolation"):
+            for material in (ELASTIC, PERZYNA):
+                for swap in ("false", "true"):
+                    self.agree(CUBES, f"contact.variant={variant}", f"contact.swap={swap}", material,
+                               "time.steps=4")
+
+    def test_a_block_that_closes_a_gap(self):
+        for variant in ("weighted", "mortar", "interpolation"):
+            for swap in ("false", "true"):
+                self.agree(BLOCK, f"contact.variant={variant}", f"contact.swap={swap}")
+
+    def test_two_contacts(self):
+        for variant in ("weighted", "mortar", "interpolation"):
+            self.agree(CORNER, f"contact.variant={variant}")
+
+
+if __name__ == "__main__":
+    unittest.main()
