@@ -89,13 +89,15 @@ SCENES = {
     "eccentric-punch": (), "receding": (), "turned": (), "cut-ring": (), "hertz": (), "ring": (),
     "sphere": (), "cone": (), "thick-cylinder": (), "open-close": ("time.scheme=backward-euler",),
     "ironing": ("body.block.mesh.cells=[22, 6]", "time.steps=2", "time.end=0.4"), "wedge": ("time.steps=4",),
+    "cubes": ("body.material.young=3e4", "time.steps=4"),
 }
 # Where FreeFEM's rule of degree 9 is further off the integrals of the tractions than the tolerances.
 QUADRATURE = {"edge": 1e-8}
 # Those that it does not, and why (the beginning of what mortier freefem says behind the scene's name).
 UNKNOWN_TO_FREEFEM = {"cook": "no contact interface",
                       "roller": "a tool that a force or a moment moves",
-                      "press-fit": "contact: a line with corners"}
+                      "press-fit": "contact: a line with corners",
+                      "ball": "degree = 2"}
 HELD = ("body.top.boundary.4.uy=-1e-4*t", "body.middle.boundary.4.uy=-1e-4*t*(1+y)",
         "body.bottom.boundary.4.uy=0")
 FREE_BUT_FOR_POINTS = (

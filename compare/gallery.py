@@ -228,6 +228,19 @@ GALLERY = [
 ]
 
 
+def ball_peak(run):
+    """Of a quarter of the force, over Hertz's (6 F E*^2/(pi^3 R^2))^(1/3)."""
+    force, modulus = -4 * quantity(run, "press"), 1 / (2 * (1 - 0.3**2))
+    return quantity(run, "peak") / np.cbrt(6 * force * modulus**2 / np.pi**3)
+
+
+GALLERY += [
+    Entry("cubes", [Number("displacement of the top by backward Euler", lambda run: quantity(run, "top"),
+                           -0.285, 1e-9, "rounding of strains at E = 3e11 yield stresses")], 1),
+    Entry("ball", [Number("peak pressure over Hertz's", ball_peak, 1, 1e-2, "the mesh: 10 elements")], 1),
+]
+
+
 def run_entry(entry, folder):
     return run_mortier(Path(folder) / entry.scene, [], f"scenes/{entry.scene}.toml")
 
