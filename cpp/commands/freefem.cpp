@@ -35,7 +35,7 @@ std::string methodFolder(const std::string& scene) {
   return fs::proximate(*folder).generic_string();
 }
 
-/// FreeFEM reads whole Medit files of two dimensions.
+/// FreeFEM reads whole Medit files.
 bool isReadByFreefem(const MeshSource& mesh) {
   return !mesh.shape && !mesh.cuboid && !isGmshFile(mesh.path) && mesh.regions.empty();
 }

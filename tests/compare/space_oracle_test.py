@@ -10,7 +10,7 @@ CUBES = "scenes/cubes.toml"
 ELASTIC = "body.material={young=100, poisson=0.3}"
 PERZYNA = "body.material={young=3e4, poisson=0.3, viscosity=10, yield_stress=1}"
 
-# Apart at first, overhanging at two sides, tilted by its load; its edges end inside triangles.
+# Apart at first, and at one end at last; it overhangs at one side, and edges of it end inside triangles.
 BLOCK = """\
 dimension = 3
 [[body]]
@@ -18,7 +18,7 @@ name = "block"
 mesh = { shape = "cuboid", lower = [0.3, 0, 0.02], upper = [1.1, 0.7, 0.9], cells = [3, 3, 2] }
 material = { young = 100, poisson = 0.3 }
 force = { z = "-z*t" }
-boundary = [ { label = "front", uy = 0 }, { label = "top", ux = 0, uz = "-0.1*t*(1 + x)" },
+boundary = [ { label = "front", uy = 0 }, { label = "top", ux = 0, uz = "0.1*t*(x - 0.8)" },
              { label = "back", pressure = "2*t" } ]
 [[body]]
 name = "floor"
