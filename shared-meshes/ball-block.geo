@@ -1,5 +1,5 @@
-// A quarter of a block of sides 2 L and height L below the point (0, 0, 0); size f there, growing with h times
-// the distance.
+// A quarter of a block of sides 2 L and height L below the point (0, 0, 0); size f there, growing with h
+// times the distance.
 SetFactory("OpenCASCADE");
 DefineConstant[ h = 0.2, f = 0.01, L = 2 ];
 Box(1) = {0, 0, -L, L, L, L};

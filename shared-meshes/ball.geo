@@ -1,5 +1,5 @@
-// A quarter of the lower half of a ball of radius R on the point (0, 0, 0); size f there, growing with h times
-// the distance.
+// A quarter of the lower half of a ball of radius R on the point (0, 0, 0); size f there, growing with h
+// times the distance.
 SetFactory("OpenCASCADE");
 R = 1;
 DefineConstant[ h = 0.2, f = 0.01 ];

@@ -60,7 +60,8 @@ class Surface:
 
     def triangles(self, placed, chosen=slice(None)):
         """Of the sides: corners n x 3 x 3, the side that each is of, the barycentric coordinates of its
-        corners there, and of its sides 0: within an element, 1: between elements, 2: an edge of the surface."""
+        corners there, and of its sides 0: within an element, 1: between elements, 2: an edge of the
+        surface."""
         numbers = np.arange(len(self.nodes))[chosen]
         corners, edges = placed[self.nodes[numbers]], 1 + self.sharp[numbers].astype(int)
         if self.middles is None:

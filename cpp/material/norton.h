@@ -22,8 +22,8 @@ void requireValid(const NortonCreep& creep);
 
 LawDescription describe(const Elasticity& elasticity, const NortonCreep& creep);
 
-/// On n directions in which E and the von Mises stress are diagonal, all but the first alike: 3, or the 5 of a
-/// deviator in space.
+/// On n directions in which E and the von Mises stress are diagonal, all but the first alike: 3, or the 5 of
+/// a deviator in space.
 template <size_t n = 3>
 class NortonLaw {
  public:

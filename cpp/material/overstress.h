@@ -36,8 +36,8 @@ LawDescription describe(const Elasticity& elasticity, const Overstress& law);
 std::shared_ptr<const Material> overstressMaterial(const Elasticity& elasticity, const Overstress& law,
                                                    Plane plane);
 
-/// On n directions, all but the first alike: 3, or the 5 of a deviator in space. What is named `rho` is nothing
-/// without isotropic hardening.
+/// On n directions, all but the first alike: 3, or the 5 of a deviator in space. What is named `rho` is
+/// nothing without isotropic hardening.
 template <size_t n = 3>
 class OverstressFlow {
  public:

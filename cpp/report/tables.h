@@ -3,9 +3,9 @@
 //                are possible and the work of each interface that has it; the quantities of the scene. Units
 //                stand in the header.
 //   contact.csv  per kept step and nonmortar node: its place as meshed (in space with z), gap [m],
-//                positive where the bodies are apart, nodal force p [N/m], pressure Phi^-1 p [Pa], whether it is
-//                active (p > 0). Where any interface has friction also the fields along the line. Vertices
-//                and interfaces count from 0.
+//                positive where the bodies are apart, nodal force p [N/m], pressure Phi^-1 p [Pa], whether
+//                it is active (p > 0). Where any interface has friction also the fields along the line.
+//                Vertices and interfaces count from 0.
 #pragma once
 
 #include <string>

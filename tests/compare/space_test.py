@@ -176,8 +176,8 @@ steps = 10
                 ("time.tolerance=0.01", "time: tolerance, expected none"),
                 ("body.upper.temperature=1", "temperature, expected none"),
                 ('body.upper.boundary.left.ut=0', "ut = 0, expected none with dimension = 3"),
-                ('body.upper.material={young=1, poisson=0.3, law="viscoplastic", yield_stress=1, viscosity=1, '
-                 'isotropic_hardening=1}', "isotropic_hardening, expected none"),
+                ('body.upper.material={young=1, poisson=0.3, law="viscoplastic", yield_stress=1, '
+                 'viscosity=1, isotropic_hardening=1}', "isotropic_hardening, expected none"),
                 ("dimension=4", "dimension = 4, expected 2 or 3"),
                 ("body.upper.boundary.top.tz=w", "expected an expression in x, y, z, t"),
                 ("quantity.corner.displacement.point=[1, 1]", "expected three numbers, [x, y, z]"),
