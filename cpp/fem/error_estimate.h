@@ -14,8 +14,7 @@
 namespace mortier {
 
 struct ErrorEstimate {
-  Vector
-      error;  ///< per element, integral of e : E^-1 e [J/m], e the estimated error of the stress
+  Vector error;       ///< per element, integral of e : E^-1 e [J/m], e the estimated error of the stress
   double energy = 0;  ///< integral of s : E^-1 s of the recovered stress [J/m]
   /// In the energy norm; 0 without stress [-].
   [[nodiscard]] double relative() const;
