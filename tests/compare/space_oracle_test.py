@@ -32,7 +32,7 @@ mortar = { body = "floor", label = "top" }
 end = 1
 steps = 4
 """
-# A cube in the corner of a floor and a wall that is held, either side of which merges rows.
+# A cube in the corner of a floor and a wall: two contacts on one body.
 CORNER = """\
 dimension = 3
 [[body]]
