@@ -237,7 +237,8 @@ def ball_peak(run):
 GALLERY += [
     Entry("cubes", [Number("displacement of the top by backward Euler", lambda run: quantity(run, "top"),
                            -0.285, 1e-9, "rounding of strains at E = 3e11 yield stresses")], 1),
-    Entry("ball", [Number("peak pressure over Hertz's", ball_peak, 1, 1e-2, "the mesh: 10 elements")], 1, balance=1e-11),
+    Entry("ball", [Number("peak pressure over Hertz's", ball_peak, 1, 1e-2, "the mesh: 10 elements")], 1,
+          balance=1e-11),
 ]
 
 
