@@ -29,12 +29,15 @@ void requireFreefemKnowsSpace(const SceneDescription& scene, const Model& model)
     throw InputError(what + ", expected " + expected + " (all that the FreeFEM method knows in space)");
   };
   if (scene.degree != 1) refuse(scene.path + ": degree = 2", "1");
-  for (const BodyDescription& body : scene.bodies)
+  for (const BodyDescription& body : scene.bodies) {
+    if (body.material.flows() && body.material.as<Viscoplasticity>() == nullptr)
+      refuse(body.where + ": body " + body.name + ": material: law", "\"elastic\" or \"perzyna\"");
     for (const ConditionDescription& c : body.conditions) {
       if (c.pointInSpace) refuse(c.where + ": body " + body.name + ": a support at a point", "labels");
       if (c.kind == Kind::displacement && c.component == spaceNormal)
         refuse(c.where + ": body " + body.name + ": un", "ux, uy or uz");
     }
+  }
   for (size_t k = 0; k < scene.contacts.size(); ++k) {
     if (scene.contacts[k].initial == InitialGap::close)
       refuse(scene.contacts[k].where + ": contact: initial = \"close\"", "distances as meshed");

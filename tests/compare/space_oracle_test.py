@@ -3,7 +3,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-import support  # noqa: F401  (finds compare/)
+import support
 from both import compare_runs
 
 CUBES = "scenes/cubes.toml"
@@ -84,6 +84,19 @@ class SpaceOracle(unittest.TestCase):
         for variant in ("weighted", "mortar", "interpolation"):
             for swap in ("false", "true"):
                 self.agree(BLOCK, f"contact.variant={variant}", f"contact.swap={swap}")
+
+    def test_what_freefem_does_not_know_is_refused(self):
+        for setting, message in (
+                ("degree=2", "degree = 2"),
+                ('body.material={young=100, poisson=0.3, law="maxwell", relaxation_time=1}', "material: law"),
+                ("contact.initial=close", 'initial = "close"'),
+                ("body.lower.boundary=[{label=1, un=0}, {label=4, ux=0}, {label=5, uy=0}]", ": un"),
+                ("body.lower.point=[{at=[1, 1, -1], ux=0}]", "a support at a point"),
+                ("time.scheme=sdirk2", "scheme = sdirk2")):
+            with self.subTest(setting):
+                done = support.mortier("freefem", CUBES, "--set", setting, cwd=support.ROOT)
+                self.assertEqual(done.returncode, 2)
+                self.assertIn(message, done.stderr)
 
     def test_two_contacts(self):
         for variant in ("weighted", "mortar", "interpolation"):
