@@ -113,7 +113,8 @@ int tryLaws(const LawOptions& command) {
     for (const MaterialDescription* description : materialsOf(body)) {
       MaterialDescription inItsAxes = *description;
       if (inItsAxes.anisotropy) inItsAxes.anisotropy->angle.reset();
-      const auto material = buildMaterial(inItsAxes, scene.plane, {});
+      const Plane plane = scene.inSpace() ? Plane::strain : scene.plane;  // without shears across the plane
+      const auto material = buildMaterial(inItsAxes, plane, {});
       const auto* own = description->as<OwnLaw>();
       const double strain = command.strain > 0 ? command.strain : stress / description->elasticity.young;
       std::string name = "body " + body.name;
@@ -121,8 +122,8 @@ int tryLaws(const LawOptions& command) {
         if (region.material && &*region.material == description)
           name += " region " + std::to_string(region.label);
       std::printf("%s: %s, plane %s, stresses up to %s %s\n", printable(name).c_str(),
-                  material->laws().front().text().c_str(), word(scene.plane).c_str(),
-                  digits(stress, 3).c_str(), scene.units.stress.c_str());
+                  material->laws().front().text().c_str(), word(plane).c_str(), digits(stress, 3).c_str(),
+                  scene.units.stress.c_str());
       if (!description->flows())
         std::puts("  elastic");
       else

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "base/counted.h"
 #include "base/error.h"
@@ -84,6 +85,17 @@ std::string sizeOf(const TriangleMesh& mesh) {
   return counted(mesh.vertices.size(), "vertex") + ", " + counted(mesh.triangles.size(), "triangle");
 }
 
+/// \tparam corners  of a triangle 3, of a tetrahedron 4
+template <int corners>
+std::string countedElements(size_t n) {
+  if (corners == 3) return counted(n, "triangle");
+  return std::to_string(n) + (n == 1 ? " tetrahedron" : " tetrahedra");
+}
+
+std::string sizeOf(const TetrahedronMesh& mesh) {
+  return counted(mesh.vertices.size(), "vertex") + ", " + countedElements<4>(mesh.tetrahedra.size());
+}
+
 /// ", name" of a label that has one.
 std::string named(const std::map<std::string, int>& names, int label) {
   for (const auto& [name, number] : names)
@@ -144,18 +156,69 @@ int makeMesh(const MeshOptions& command) {
   return exitDone;
 }
 
+/// Calls use(mesh) with the triangles of a file or, where it has tetrahedra, with these. \throws InputError
+template <class Use>
+int withMesh(const MeshSource& source, const Use& use) {
+  std::optional<TetrahedronMesh> space;
+  try {
+    return use(readMesh(source));
+  } catch (const InputError&) {
+    try {
+      space = readSpaceMesh(source);
+    } catch (const InputError&) {
+    }
+    if (!space) throw;
+  }
+  return use(*space);
+}
+
 int convertMesh(const MeshSource& source, const std::string& file) {
-  const TriangleMesh mesh = readMesh(source);
-  writeMedit(mesh, file);
-  std::printf("%s: %s\n", file.c_str(), sizeOf(mesh).c_str());
+  return withMesh(source, [&](const auto& mesh) {
+    writeMedit(mesh, file);
+    std::printf("%s: %s\n", file.c_str(), sizeOf(mesh).c_str());
+    return exitDone;
+  });
+}
+
+template <int corners>
+void printRegions(const std::vector<int>& regions, const std::map<std::string, int>& names) {
+  std::map<int, int> counts;
+  for (const int region : regions) ++counts[region];
+  for (const auto& [region, count] : counts)
+    std::printf("region %-4d %s%s\n", region, countedElements<corners>(count).c_str(),
+                named(names, region).c_str());
+}
+
+int describeMesh(const std::string& file, const TetrahedronMesh& mesh) {
+  SpacePoint lower = mesh.vertices.front();
+  SpacePoint upper = lower;
+  for (const SpacePoint& p : mesh.vertices) {
+    lower = lower.cwiseMin(p);
+    upper = upper.cwiseMax(p);
+  }
+  double volume = 0;
+  for (const auto& [a, b, c, d] : mesh.tetrahedra) {
+    const auto side = [&, from = a](int to) { return SpacePoint(mesh.vertices[to] - mesh.vertices[from]); };
+    volume += side(b).cross(side(c)).dot(side(d)) / 6;
+  }
+  std::printf("%s\nvertices   %zu\ntetrahedra %zu\nvolume     %.9g\n", file.c_str(), mesh.vertices.size(),
+              mesh.tetrahedra.size(), volume);
+  std::printf("extents    x %.9g .. %.9g, y %.9g .. %.9g, z %.9g .. %.9g\n", lower.x(), upper.x(), lower.y(),
+              upper.y(), lower.z(), upper.z());
+  for (const int label : boundaryLabels(mesh)) {
+    double area = 0;
+    const auto triangles = trianglesOn(mesh, label);
+    for (const auto& [a, b, c] : triangles)
+      area += (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).norm() / 2;
+    std::printf("label %-5d %s, area %.9g%s\n", label, counted(triangles.size(), "triangle").c_str(), area,
+                named(mesh.labelNames, label).c_str());
+  }
+  printRegions<4>(mesh.regions, mesh.regionNames);
   return exitDone;
 }
 
-int meshInfo(const std::string& file) {
-  // 1. Read; the reader validates.
-  const TriangleMesh mesh = readMesh({file});
-
-  // 2. Extents and area.
+int describeMesh(const std::string& file, const TriangleMesh& mesh) {
+  // 1. Extents and area.
   Point lower = mesh.vertices.front();
   Point upper = lower;
   for (const Point& p : mesh.vertices) {
@@ -173,7 +236,7 @@ int meshInfo(const std::string& file) {
     }
   }
 
-  // 3. Labels.
+  // 2. Labels.
   std::map<int, std::pair<int, double>> boundary;
   for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e) {
     const auto [a, b] = mesh.boundaryEdges[e];
@@ -181,12 +244,8 @@ int meshInfo(const std::string& file) {
     ++edges;
     length += (mesh.vertices[b] - mesh.vertices[a]).norm();
   }
-  std::map<int, int> regions;
-  for (const int region : mesh.regions) {
-    ++regions[region];
-  }
 
-  // 4. Print.
+  // 3. Print.
   std::printf(
       "%s\nvertices   %zu\ntriangles  %zu\narea       %.9g\nextents    x %.9g .. %.9g, y %.9g .. %.9g\n",
       file.c_str(), mesh.vertices.size(), mesh.triangles.size(), area, lower[0], upper[0], lower[1],
@@ -196,11 +255,12 @@ int meshInfo(const std::string& file) {
     std::printf("label %-5d %s, length %.9g%s\n", label, counted(what.first, "edge").c_str(), what.second,
                 named(mesh.labelNames, label).c_str());
   }
-  for (const auto& [region, count] : regions) {
-    std::printf("region %-4d %s%s\n", region, counted(count, "triangle").c_str(),
-                named(mesh.regionNames, region).c_str());
-  }
+  printRegions<3>(mesh.regions, mesh.regionNames);
   return exitDone;
+}
+
+int meshInfo(const std::string& file) {
+  return withMesh({file}, [&](const auto& mesh) { return describeMesh(file, mesh); });
 }
 
 /// A family's subcommand with what all of them have.

@@ -8,7 +8,7 @@ import unittest
 import meshio
 import numpy as np
 
-from support import PROGRAM, InFolder, mortier
+from support import PROGRAM, ROOT, InFolder, mortier
 from results import read_csv
 
 # The note's compression test of two cubes; the stress is (0, 0, -10 t) and flows from t = 0.1 on.
@@ -227,6 +227,17 @@ steps = 1
     def test_a_value_that_is_not_finite_is_named_with_its_place(self):
         said = self.mortier("run", "scene.toml", "--set", "body.upper.boundary.top.tz=1/(z-1)", code=2).stderr
         self.assertRegex(said, r"expected a finite number, is .* at x = .*, y = .*, z = 1, t = 0")
+
+    def test_meshes_are_described_and_converted(self):
+        mesh = ROOT / "shared-meshes" / "upper-cube-3.mesh"
+        said = self.mortier("mesh", "info", mesh).stdout
+        self.assertRegex(said, r"vertices +64\ntetrahedra 162\nvolume +1\n")
+        self.assertRegex(said, r"label 3 +18 triangles, area 1, top\n")
+        self.assertRegex(said, r"region \d+ +162 tetrahedra")
+        self.mortier("mesh", "convert", mesh, "copy.mesh")
+        copy = self.mortier("mesh", "info", "copy.mesh").stdout
+        self.assertEqual(copy.split("\n")[1:], said.split("\n")[1:])
+        self.assertIn("expected", self.mortier("mesh", "info", "scene.toml", code=2).stderr)
 
     def test_check_says_what_a_run_models(self):
         said = self.mortier("check", "scene.toml").stdout
