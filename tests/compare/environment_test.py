@@ -10,7 +10,7 @@ import unittest
 
 from mutations import explore, require_whole
 from scenes import (BODY_KEYS, CONTACT_KEYS, ELASTIC_KEYS, FRICTION_KEYS, GEOMETRY_KEYS, LAW_KEYS, ONE_BODY,
-                    SHAPE_KEYS, TOOL_KEYS, TWO_BLOCKS, lower_heat)
+                    SHAPE_KEYS, SPACE_KEYS, TOOL_KEYS, TWO_BLOCKS, lower_heat)
 from support import PROGRAM, OfTwoBlocks, mortier, told, warned
 
 LONG = ("--set", "time.steps=1000000")
@@ -46,7 +46,7 @@ class Environment(OfTwoBlocks):
     def test_scenes_are_sound_before_they_are_changed(self):
         self.write(lower_heat(18), "lower.heat")
         for scene in (TWO_BLOCKS, CONTACT_KEYS, BODY_KEYS, ELASTIC_KEYS, FRICTION_KEYS, LAW_KEYS, ONE_BODY,
-                      SHAPE_KEYS, TOOL_KEYS):
+                      SHAPE_KEYS, TOOL_KEYS, SPACE_KEYS):
             self.write(scene)
             self.mortier("run", "scene.toml", "--quiet", "--out", "out")
             require_whole(self.folder / "out")
@@ -57,7 +57,7 @@ class Environment(OfTwoBlocks):
         self.assertGreater(len(keys), 40)
         written = set(re.findall(r"\w+(?= = )|(?<=\[)\w+|(?<=\.)\w+(?=\])",
                                  CONTACT_KEYS + BODY_KEYS + ELASTIC_KEYS + FRICTION_KEYS + GEOMETRY_KEYS +
-                                 SHAPE_KEYS + ONE_BODY + LAW_KEYS + TOOL_KEYS))
+                                 SHAPE_KEYS + ONE_BODY + LAW_KEYS + TOOL_KEYS + SPACE_KEYS))
         self.assertEqual(keys - written, set())
 
     def test_mutated_scenes_and_meshes(self):

@@ -25,7 +25,7 @@ import meshio
 import numpy as np
 
 from mutators import OF_MESHES, OF_SCENES
-from scenes import BODY_KEYS, CONTACT_KEYS, ONE_BODY, TWO_BLOCKS
+from scenes import BODY_KEYS, CONTACT_KEYS, ONE_BODY, SPACE_KEYS, TWO_BLOCKS
 
 
 class Fault(Exception):
@@ -58,7 +58,7 @@ class Cases:
     def make(self, number, folder):
         """Writes case `number` into the folder. Returns the name of the file that is not sound."""
         rng = random.Random(number)
-        files = {"scene.toml": rng.choice([TWO_BLOCKS, CONTACT_KEYS, BODY_KEYS, ONE_BODY]).encode()}
+        files = {"scene.toml": rng.choice([TWO_BLOCKS, CONTACT_KEYS, BODY_KEYS, ONE_BODY, SPACE_KEYS]).encode()}
         kind = rng.choice(["rectangle", "crisscross"])
         for name, cells, lower, upper in (("upper.mesh", "2", "0,0", "1,1"),
                                           ("lower.mesh", "3,2", "0,-1", "1,0")):
