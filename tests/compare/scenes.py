@@ -411,12 +411,12 @@ dimension = 3
 name = "upper"
 mesh = { shape = "cuboid", lower = [0.1, 0, 0], upper = [0.9, 1, 1], cells = [2, 1, 2] }
 material = { young = 100, poisson = 0.3, viscosity = 1, yield_stress = 1 }
-boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "top", tz = "-2*t*(1 + z*x)" } ]
+boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = 3, tz = "-2*t*(1 + z*x)" } ]
 force = { z = "-0.1*y" }
 [[body]]
 name = "lower"
 mesh = { shape = "cuboid", lower = [0, 0, -1], upper = [1, 1, 0], cells = 2 }
-material = { young = 100, poisson = 0.3, law = "norton", reference_stress = 5, reference_rate = 0.1, exponent = 3 }
+material = { young = 100, poisson = 0.3, law = "maxwell", relaxation_time = 0.5 }
 boundary = [ { label = "bottom", uz = 0 }, { label = 4, un = 0 }, { label = 6, pressure = "0.1*t" } ]
 [[body.point]]
 at = [0, 0, -1]
