@@ -58,7 +58,8 @@ class Cases:
     def make(self, number, folder):
         """Writes case `number` into the folder. Returns the name of the file that is not sound."""
         rng = random.Random(number)
-        files = {"scene.toml": rng.choice([TWO_BLOCKS, CONTACT_KEYS, BODY_KEYS, ONE_BODY, SPACE_KEYS]).encode()}
+        scenes = [TWO_BLOCKS, CONTACT_KEYS, BODY_KEYS, ONE_BODY, SPACE_KEYS]
+        files = {"scene.toml": rng.choice(scenes).encode()}
         kind = rng.choice(["rectangle", "crisscross"])
         for name, cells, lower, upper in (("upper.mesh", "2", "0,0", "1,1"),
                                           ("lower.mesh", "3,2", "0,-1", "1,0")):
