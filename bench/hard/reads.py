@@ -34,15 +34,19 @@ def half_width(run):
     return 2 * math.sqrt(force @ x**2 / force.sum())
 
 
+def from_axis(run):
+    """Distances of the contact nodes from the axis x = 0, in space x = y = 0."""
+    return np.linalg.norm(run.contact.position[:, :-1], axis=1)
+
+
 def radius_of_contact(run):
     """The radius of contact by the forces about an axis: of Hertz's pressure."""
-    return math.sqrt(2.5 * (run.contact.force @ run.contact.position[:, 0]**2) / total(run))
+    return math.sqrt(2.5 * (run.contact.force @ from_axis(run)**2) / total(run))
 
 
 def peak(run):
     """The pressure in the middle."""
-    x, p = pressures(run)
-    return float(p[np.argmin(np.abs(x))])
+    return float(pressures(run)[1][np.argmin(from_axis(run))])
 
 
 def off_hertz(modulus, radius, symmetric=False, up_to=0.55):
@@ -109,7 +113,8 @@ def inner_motion(run):
 def order(error):
     """The fitted order of an error in the size of the cells."""
     def read(*runs):
-        sizes = [sum(len(body.triangles) for body in run.bodies.values())**-0.5 for run in runs]
+        sizes = [sum(len(body.simplices) for body in run.bodies.values())
+                 **(-1 / run.contact.position.shape[1]) for run in runs]
         return float(np.polyfit(np.log(sizes), np.log([error(run) for run in runs]), 1)[0])
     return read
 
@@ -128,6 +133,20 @@ def curved_motion(run):
         exact = np.stack([-1.48 * x + 1.2 * (x * y**2 + 0.1 * x**3),
                           0.08 * y - 1.2 * (x**2 * y + 0.1 * y**3)], 1)
         squares.append(((body.displacement - exact)**2).sum(1))
+    return float(np.sqrt(np.mean(np.concatenate(squares))))
+
+
+def shell_pressure(run):
+    """Root mean square deviation of the nodal pressures from 1/9, over that."""
+    return float(np.sqrt(np.mean((9 * run.contact.pressure - 1)**2)))
+
+
+def shell_motion(run):
+    """The same of the displacements of the vertices from those of Lame's hollow ball."""
+    squares = []
+    for body in run.bodies.values():
+        radius = np.linalg.norm(body.points, axis=1, keepdims=True)
+        squares.append(((body.displacement - (0.4 + 5.2 / radius**3) / 63 * body.points)**2).sum(1))
     return float(np.sqrt(np.mean(np.concatenate(squares))))
 
 

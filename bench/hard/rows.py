@@ -5,7 +5,7 @@ from pathlib import Path
 from known import Row, located
 from reads import (curved_motion, curved_pressure, dragged, growth, half_width, inner_motion, iterations,
                    number, off_cone, off_hertz, off_punch, off_ring, off_stress, off_tube, order, peak,
-                   quantity, radius_of_contact, total, unloading)
+                   quantity, radius_of_contact, shell_motion, shell_pressure, total, unloading)
 
 
 def disc(ratio, stiffness, degree=1, side="disc", variant="", up_to=0.85, **more):
@@ -143,6 +143,13 @@ def hertz_rows():
               radius_of_contact, 0.6302, within=0.02, published=True)
     yield Row(*case, "pressure in the middle", "hemispheres.toml", (), peak, 1.4164e5, within=0.02,
               published=True)
+    yield Row("Two spheres in space, SSNV104", "about the axis (above); Code_Aster astest/ssnv104a.comm",
+              "pressure in the middle", "two-balls.toml", (), peak, 2903, 3176.3, 0.01, published=True)
+    case = ("Kratos' hemispheres in space", "half space")
+    yield Row(*case, "contact radius", "hemispheres-space.toml", (), radius_of_contact, 0.6302, within=0.02,
+              published=True)
+    yield Row(*case, "pressure in the middle", "hemispheres-space.toml", (), peak, 1.4164e5, within=0.01,
+              published=True)
 
 
 def order_rows():
@@ -156,6 +163,18 @@ def order_rows():
             yield Row(*case, f"order of the {what}, degree {degree}", "curved.toml", settings, order(error),
                       None, least, 0.05, at_least=True,
                       test="within" if degree == 1 and what == "pressure" else "", published=True)
+
+
+def shell_rows():
+    case = ("Spherical shells in space, fitted orders", "Lame; Code_Aster V6.03.150, V6.04.219: theirs")
+    for degree, sizes, motion, pressure in ((1, (0.07, 0.055, 0.042), 2.0, 0.5),
+                                            (2, (0.25, 0.15, 0.09), 2.5, 1.0)):
+        settings = tuple((f"degree={degree}", f"body.inner.mesh.parameters.h={h}",
+                          f"body.outer.mesh.parameters.h={1.25 * h}") for h in sizes)
+        for what, error, least in (("displacement", shell_motion, motion),
+                                   ("pressure", shell_pressure, pressure)):
+            yield Row(*case, f"order of the {what}, degree {degree}", "shells.toml", settings, order(error),
+                      None, least, 0.05, at_least=True, published=True)
 
 
 def patch_rows():
@@ -214,4 +233,4 @@ def other_rows():
 
 ROWS = located(Path(__file__).parent, [
     *disc_rows(), *prandtl_rows(), *circular_rows(), *ring_rows(), *end_rows(), *plank_rows(), *punch_rows(),
-    *hertz_rows(), *order_rows(), *patch_rows(), *volume_rows(), *other_rows()])
+    *hertz_rows(), *order_rows(), *shell_rows(), *patch_rows(), *volume_rows(), *other_rows()])

@@ -24,7 +24,6 @@
 #include "base/types.h"
 #include "contact/coupling.h"
 #include "contact/penetration.h"
-#include "contact/surface.h"
 #include "mesh/boundary_line.h"
 #include "mesh/tetrahedron_mesh.h"
 
@@ -89,8 +88,9 @@ struct SpaceContactMesh {
 
 struct SpaceInterfaceOptions {
   InitialGap initial = InitialGap::asMeshed;
-  SpaceHeld nonmortarHeld = {};
-  SpaceHeld mortarHeld = {};
+  using Held = std::function<bool(int node, const SpacePoint& direction)>;
+  Held nonmortarHeld = {};
+  Held mortarHeld = {};
 };
 
 /// A mortar body whose nodes are not moved by its displacements u, but by a function of them.

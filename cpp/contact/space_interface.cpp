@@ -1,10 +1,11 @@
 // A contact interface between two surfaces: rows as in coupling.h, integrals over the common refinement of
 // their triangles.
 //
-// A nonmortar triangle sees the mortar surface along its own normal; where the mortar surface is plane and
-// the nonmortar one is not, along the normal of the plane, on which alone the distance depends. Each point
-// of a rule adds a pair of opposite forces along the line through x1 and x2: rows balance in force and
-// moment.
+// A nonmortar triangle sees the mortar surface along n ~ R1 n1 - R2 n2, n1, n2 the outward normals and R1, R2
+// the radii of curvature of both surfaces, as in the plane (facing_line.h): a plane triangle along its own
+// normal, a curved one that faces a plane along the normal of the plane, on which alone the distance depends.
+// Each point of a rule adds a pair of opposite forces along the line through x1 and x2: rows balance in force
+// and moment.
 //
 // Row functions are the hat functions of the nonmortar vertices, whatever the degree: quadratic functions
 // have no mean on a triangle (int chi_vertex = 0), so that forces at vertices say nothing of the pressure. A
@@ -52,6 +53,7 @@ using PartVertex = std::pair<int, int>;  // vertex, part
 
 struct VertexFacts {
   SpacePoint place, normal;
+  double curvature = 0;
   std::set<PartVertex> neighbours;
   bool sees = false;
   std::vector<std::pair<int, double>> rows;  ///< to which its hat function goes, with which part
@@ -68,6 +70,7 @@ VertexTable verticesOf(const ContactSurface& surface) {
       VertexFacts& vertex = vertices[{surface.triangles[t][k], part}];
       vertex.place = surface.places[t][k];
       vertex.normal = surface.vertexNormals[t][k];
+      vertex.curvature = surface.curvatures[t][k];
       for (const int other : {(k + 1) % 3, (k + 2) % 3})
         vertex.neighbours.insert({surface.triangles[t][other], part});
     }
@@ -122,16 +125,24 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   result.pair_ = pair;
 
   const bool planeRules = mortar.planar && !nonmortar.planar;
+  const double reach = std::min(nonmortar.extent, mortar.extent);
+  const TriangleTree tree(mortar);
   std::vector<SpacePoint> directions = nonmortar.normals;
   if (planeRules) std::fill(directions.begin(), directions.end(), SpacePoint(-mortar.normals.front()));
-  // A triangle that does not look at the plane sees nothing.
-  const double reach = std::min(nonmortar.extent, mortar.extent);
+  for (size_t t = 0; t < directions.size() && !planeRules; ++t) {
+    const auto& [a, b, c] = nonmortar.places[t];
+    const Eigen::Vector3d middle = Eigen::Vector3d::Constant(1.0 / 3);
+    const auto triangle = static_cast<int>(t);
+    if (const double curvature = nonmortar.curvatureAt(triangle, middle); curvature > 0)
+      directions[t] = tree.contactDirection((a + b + c) / 3, nonmortar.normals[t], curvature, reach, false);
+  }
   std::vector<FacingTriangles> facing;
   VertexTable vertices = verticesOf(nonmortar);
   const auto keyOf = [&](int triangle, int k) {
     return PartVertex{nonmortar.triangles[triangle][k], nonmortar.parts[triangle]};
   };
   forEachFacing(nonmortar, mortar, directions, reach, [&](const FacingTriangles& each) {
+    // A triangle that does not look at the plane sees nothing.
     if (directions[each.nonmortar].dot(nonmortar.normals[each.nonmortar]) < 1e-3) return;
     facing.push_back(each);
     constexpr double rounding = 1e-9;
@@ -141,23 +152,23 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   });
 
   // Rows.
-  const auto directionOf = [&](const VertexFacts& vertex) {
-    return planeRules ? SpacePoint(-mortar.normals.front()) : vertex.normal;
+  const auto contactNormal = [&](const VertexFacts& vertex) {
+    return planeRules ? SpacePoint(-mortar.normals.front())
+                      : tree.contactDirection(vertex.place, vertex.normal, vertex.curvature, reach, true);
   };
   const bool mayMerge = nonmortar.degree == 1 && options.nonmortarHeld;
   const auto held = [&](const PartVertex& key, const VertexFacts& vertex) {
-    return mayMerge && options.nonmortarHeld(key.first, directionOf(vertex));
+    return mayMerge && options.nonmortarHeld(key.first, contactNormal(vertex));
   };
   const bool allHeld = std::all_of(vertices.begin(), vertices.end(), [&](const auto& each) {
     return !each.second.sees || held(each.first, each.second);
   });
-  const TriangleTree tree(mortar);
   std::vector<RaySight> sights;
   std::vector<double> distances;
   std::vector<SpacePoint> places;
   for (auto& [key, vertex] : vertices) {
     if (!vertex.sees) continue;
-    const SpacePoint n = directionOf(vertex);
+    const SpacePoint n = contactNormal(vertex);
     const RaySight sight = tree.along(vertex.place, n, reach);
     if (pair.coupling == CouplingKind::interpolation && sight.triangle < 0) continue;
     if (!allHeld && held(key, vertex)) {

@@ -106,6 +106,7 @@ ContactSurface::ContactSurface(const TetrahedronMesh& mesh, const SpaceNodes& no
       if (normals[of[0]].dot(normals[of[k]]) > smoothCosine) sets.join(of[0], of[k]);
   for (size_t t = 0; t < triangles.size(); ++t) parts.push_back(sets.of(static_cast<int>(t)));
   findNormals(mesh, label, held);
+  findCurvatures();
   for (size_t t = 0; t < triangles.size(); ++t) {
     std::array<SpacePoint, 3>& curves = sideCurves_.emplace_back();
     for (int k = 0; k < 3; ++k)
@@ -142,6 +143,36 @@ void ContactSurface::findNormals(const TetrahedronMesh& mesh, int label, const S
   }
 }
 
+/// |n_i - n_j|/|x_i - x_j| of the edges at a vertex.
+void ContactSurface::findCurvatures() {
+  std::map<std::array<int, 2>, std::pair<double, int>> sums;  // by vertices and parts
+  for (size_t t = 0; t < triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      for (const int other : {(k + 1) % 3, (k + 2) % 3}) {
+        const double turn = (vertexNormals[t][k] - vertexNormals[t][other]).norm();
+        auto& [sum, count] = sums[{triangles[t][k], parts[t]}];
+        sum += turn < sameNormal ? 0 : turn / (places[t][k] - places[t][other]).norm();
+        ++count;
+      }
+  for (size_t t = 0; t < triangles.size(); ++t) {
+    std::array<double, 3>& own = curvatures.emplace_back();
+    for (int k = 0; k < 3; ++k) {
+      const auto& [sum, count] = sums.at({triangles[t][k], parts[t]});
+      own[k] = sum / count;
+    }
+  }
+}
+
+SpacePoint ContactSurface::normalAt(int triangle, const Eigen::Vector3d& l) const {
+  const auto& [a, b, c] = vertexNormals[triangle];
+  return (l[0] * a + l[1] * b + l[2] * c).normalized();
+}
+
+double ContactSurface::curvatureAt(int triangle, const Eigen::Vector3d& l) const {
+  const auto& [a, b, c] = curvatures[triangle];
+  return l[0] * a + l[1] * b + l[2] * c;
+}
+
 TriangleTree::TriangleTree(const ContactSurface& surface) : surface_(surface), order_(surface.places.size()) {
   for (const auto& [a, b, c] : surface.places) {
     Eigen::AlignedBox3d& box = boxes_.emplace_back(a);
@@ -174,16 +205,23 @@ int TriangleTree::build(int first, int count) {
   return index;
 }
 
-void TriangleTree::find(const Eigen::AlignedBox3d& box, std::vector<int>& found) const {
+void TriangleTree::findAlong(const SpacePoint& from, const SpacePoint& direction, double radius, double reach,
+                             std::vector<int>& found) const {
+  const auto isNear = [&](const Eigen::AlignedBox3d& box) {
+    const SpacePoint middle = box.center() - from;
+    const double size = box.diagonal().norm() / 2;
+    const double along = middle.dot(direction);
+    return std::abs(along) <= reach + size && (middle - along * direction).norm() <= radius + size;
+  };
   found.clear();
   std::vector<int> open(1, 0);
   while (!open.empty()) {
     const int index = open.back();
     open.pop_back();
     const Node& node = nodes_[index];
-    if (!node.box.intersects(box)) continue;
+    if (!isNear(node.box)) continue;
     for (int i = node.first; i < node.first + node.count; ++i)
-      if (boxes_[order_[i]].intersects(box)) found.push_back(order_[i]);
+      if (isNear(boxes_[order_[i]])) found.push_back(order_[i]);
     if (node.count > 0) continue;
     open.push_back(node.next);
     open.push_back(index + 1);
@@ -192,12 +230,8 @@ void TriangleTree::find(const Eigen::AlignedBox3d& box, std::vector<int>& found)
 }
 
 RaySight TriangleTree::along(const SpacePoint& from, const SpacePoint& direction, double reach) const {
-  Eigen::AlignedBox3d box(SpacePoint(from - reach * direction));
-  box.extend(SpacePoint(from + reach * direction));
-  const double margin = rounding * surface_.extent;
-  box.extend(SpacePoint(box.min().array() - margin)).extend(SpacePoint(box.max().array() + margin));
   std::vector<int> candidates;
-  find(box, candidates);
+  findAlong(from, direction, rounding * surface_.extent, reach, candidates);
   RaySight nearest;
   for (const int t : candidates) {
     if (surface_.normals[t].dot(direction) > grazing) continue;
@@ -212,6 +246,22 @@ RaySight TriangleTree::along(const SpacePoint& from, const SpacePoint& direction
   return nearest;
 }
 
+SpacePoint TriangleTree::contactDirection(const SpacePoint& place, const SpacePoint& n1, double curvature1,
+                                          double reach, bool curved) const {
+  constexpr int repetitions = 4;  // each makes what is seen more exact by the turn along the distance
+  SpacePoint n = n1;
+  for (int i = 0; i < repetitions && curvature1 > 0; ++i) {
+    const RaySight sight = along(place, n, reach);
+    if (sight.triangle < 0) break;
+    const SpacePoint n2 =
+        curved ? surface_.normalAt(sight.triangle, sight.mu) : surface_.normals[sight.triangle];
+    if (!(n1.dot(n2) < 0)) return n1;
+    const double part = curvature1 / (curvature1 + surface_.curvatureAt(sight.triangle, sight.mu));
+    n = ((1 - part) * n1 - part * n2).normalized();
+  }
+  return n;
+}
+
 void forEachFacing(const ContactSurface& nonmortar, const ContactSurface& mortar,
                    const std::vector<SpacePoint>& directions, double reach,
                    const std::function<void(const FacingTriangles&)>& visit) {
@@ -220,10 +270,10 @@ void forEachFacing(const ContactSurface& nonmortar, const ContactSurface& mortar
   for (size_t t = 0; t < nonmortar.triangles.size(); ++t) {
     const auto& x = nonmortar.places[t];
     const SpacePoint& d = directions[t];
-    Eigen::AlignedBox3d box;
-    for (const SpacePoint& place : x)
-      box.extend(SpacePoint(place - reach * d)).extend(SpacePoint(place + reach * d));
-    tree.find(box, candidates);
+    const SpacePoint middle = (x[0] + x[1] + x[2]) / 3;
+    double radius = 0;
+    for (const SpacePoint& place : x) radius = std::max(radius, (place - middle).norm());
+    tree.findAlong(middle, d, radius, reach + radius, candidates);
     Eigen::Matrix3d own;
     own << x[1] - x[0], x[2] - x[0], d;
     const Eigen::Matrix3d toOwn = own.inverse();

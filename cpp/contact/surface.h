@@ -28,11 +28,15 @@ struct ContactSurface {
   /// Graphics Tools 4(2), 1999) are exact on spheres. Where the motion across an adjacent side of the body is
   /// prescribed the surface is continued as its mirror image.
   std::vector<std::array<SpacePoint, 3>> vertexNormals;
-  double area = 0;      ///< [m^2]
-  double extent = 0;    ///< largest of the bounding box [m]
-  bool planar = false;  ///< whether all normals are one
+  std::vector<std::array<double, 3>> curvatures;  ///< there, the mean of all directions, without sign [1/m]
+  double area = 0;                                ///< [m^2]
+  double extent = 0;                              ///< largest of the bounding box [m]
+  bool planar = false;                            ///< whether all normals are one
 
   [[nodiscard]] int perTriangle() const { return degree == 1 ? 3 : 6; }
+  /// Of the curved surface at a point of a triangle, by its barycentric coordinates.
+  [[nodiscard]] SpacePoint normalAt(int triangle, const Eigen::Vector3d& l) const;
+  [[nodiscard]] double curvatureAt(int triangle, const Eigen::Vector3d& l) const;
   /// How far the curved surface is from a triangle at a point of it, by its barycentric coordinates [m]: with
   /// d from one end of a side to the other and n the normals there, Nagata's patch (Comput. Aided Geom.
   /// Design 22, 2005) has the quadratic sides x0 + (d - c) t + c t^2, with the least c for which n0 (d - c) =
@@ -44,6 +48,7 @@ struct ContactSurface {
 
  private:
   void findNormals(const TetrahedronMesh& mesh, int label, const SpaceHeld& held);
+  void findCurvatures();
   std::vector<std::array<SpacePoint, 3>> sideCurves_;
 };
 
@@ -80,9 +85,15 @@ struct RaySight {
 class TriangleTree {
  public:
   explicit TriangleTree(const ContactSurface& surface);
-  /// Triangles whose boxes overlap a box, ascending.
-  void find(const Eigen::AlignedBox3d& box, std::vector<int>& found) const;
+  /// Triangles whose boxes' spheres reach within a radius of the line through a point, up to `reach` from
+  /// that, ascending.
+  void findAlong(const SpacePoint& from, const SpacePoint& direction, double radius, double reach,
+                 std::vector<int>& found) const;
   [[nodiscard]] RaySight along(const SpacePoint& from, const SpacePoint& direction, double reach) const;
+  /// The direction n ~ R1 n1 - R2 n2 from a point of the other surface with normal n1 and curvature 1/R1.
+  /// \param curved  n1 and n2 are those of the curved surfaces, not of triangles
+  [[nodiscard]] SpacePoint contactDirection(const SpacePoint& place, const SpacePoint& n1, double curvature1,
+                                            double reach, bool curved) const;
 
  private:
   struct Node {

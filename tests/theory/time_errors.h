@@ -267,6 +267,7 @@ inline Case randomCase(unsigned seed) {
 struct Outcome {
   RunReport run;
   double stress = 0, displacement = 0;  ///< largest error of any step over the tolerance
+  double friction = 0;                  ///< of the energy that friction dissipates
   double at = 0;                        ///< time of the larger one
   /// Largest size of the run.
   ErrorNorms scale;
@@ -306,6 +307,7 @@ inline Outcome outcomeOf(const Case& of, int fine, const TimePlan& plan) {
       off.push_back({at.bodies[b].displacement - exact.bodies[b].displacement,
                      at.bodies[b].stress - exact.bodies[b].stress});
     errors.push_back(measure.sizeOf(off));
+    errors.back().friction = std::abs(at.frictionWork - exact.frictionWork);
   }
   for (size_t i = 0; i < errors.size(); ++i) {
     const double s = errors[i].stress / result.scale.stress / of.tolerance;
@@ -313,6 +315,8 @@ inline Outcome outcomeOf(const Case& of, int fine, const TimePlan& plan) {
     if (std::max(s, u) > std::max(result.stress, result.displacement)) result.at = states[i].time;
     result.stress = std::max(result.stress, s);
     result.displacement = std::max(result.displacement, u);
+    if (of.rough)
+      result.friction = std::max(result.friction, errors[i].friction / result.scale.friction / of.tolerance);
   }
   return result;
 }

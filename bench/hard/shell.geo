@@ -1,0 +1,25 @@
+// An eighth of a spherical shell about (0, 0, 0), elements of size h.
+SetFactory("OpenCASCADE");
+DefineConstant[ inner = 0.5, outer = 1, h = 0.2 ];
+Sphere(1) = {0, 0, 0, outer};
+Sphere(2) = {0, 0, 0, inner};
+Box(3) = {0, 0, 0, outer, outer, outer};
+BooleanIntersection(4) = { Volume{1}; Delete; }{ Volume{3}; Delete; };
+BooleanDifference(5) = { Volume{4}; Delete; }{ Volume{2}; Delete; };
+e = 1e-4;
+x() = Surface In BoundingBox{-e, -e, -e, e, outer + e, outer + e};
+y() = Surface In BoundingBox{-e, -e, -e, outer + e, e, outer + e};
+z() = Surface In BoundingBox{-e, -e, -e, outer + e, outer + e, e};
+inside() = Surface In BoundingBox{-e, -e, -e, inner + e, inner + e, inner + e};
+outside() = Surface In BoundingBox{-e, -e, -e, outer + e, outer + e, outer + e};
+outside() -= {x(), y(), z(), inside()};
+Physical Volume("shell", 1) = {5};
+Physical Surface("inside", 1) = inside();
+Physical Surface("outside", 2) = outside();
+Physical Surface("x", 3) = x();
+Physical Surface("y", 4) = y();
+Physical Surface("z", 5) = z();
+Mesh.MeshSizeExtendFromBoundary = 0;
+Mesh.MeshSizeFromPoints = 0;
+Mesh.MeshSizeMin = h;
+Mesh.MeshSizeMax = h;
