@@ -165,6 +165,19 @@ class FiniteSliding(InFolder):
                    .replace("upper = [1.5, 0.5]", "upper = [1.5, 1]"))
         done = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=1)
         self.assertRegex(done.stderr, "; bodies have turned by [0-9.e+]+ degrees, taken as small")
+        self.assertIn("contact does not hold body block there: a repetition moves it by a rotation about (",
+                      done.stderr)
+
+    # Seeds whose load passes the last condition that is closed: near the end of the other body (160), or
+    # within an element of the edge of the upper one.
+    def test_a_block_that_tips_about_its_last_condition_is_named(self):
+        for seed in (160, 334):
+            with self.subTest(seed):
+                self.write(random_slides.scene(seed))
+                done = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=1)
+                self.assertIn("contact does not settle", done.stderr)
+                self.assertIn("does not hold body upper there: a repetition moves it by a rotation about (",
+                              done.stderr)
 
     def test_accuracy_on_demand(self):
         pushed = (PUSHED.replace("DEGREE", "2").replace("ROUGH", "0.2")
