@@ -124,13 +124,14 @@ def main():
     parser.add_argument("--jobs", type=int, default=1, help="runs at a time")
     parser.add_argument("--mortier", default=str(ROOT / "build" / "mortier"))
     arguments = parser.parse_args()
+    program = str(Path(arguments.mortier).resolve())
     ends = Counter()
     faults = []
     medians = []
     seeds = range(arguments.first, arguments.first + arguments.count)
     with ThreadPoolExecutor(arguments.jobs) as pool:
         for seed, (code, solves, wrong, told) in zip(
-                seeds, pool.map(lambda seed: examined(arguments.mortier, seed), seeds)):
+                seeds, pool.map(lambda seed: examined(program, seed), seeds)):
             ends[code] += 1
             if wrong:
                 faults.append(seed)
