@@ -95,8 +95,9 @@ SCENES = {
 QUADRATURE = {"edge": 1e-8}
 # Those that it does not, and why (the beginning of what mortier freefem says behind the scene's name).
 UNKNOWN_TO_FREEFEM = {"cook": "no contact interface",
-                      "roller": "a tool that a force or a moment moves",
+                      "roller": 'a tool that turns beside sliding = "finite"',
                       "press-fit": "contact: a line with corners",
+                      "hook": "contact: a line with corners",
                       "ball": "degree = 2"}
 HELD = ("body.top.boundary.4.uy=-1e-4*t", "body.middle.boundary.4.uy=-1e-4*t*(1+y)",
         "body.bottom.boundary.4.uy=0")
@@ -190,6 +191,9 @@ DISCS_RUBBED = (RING, "contact.friction=0.2", "contact.1.friction=0", "contact.1
 # Half of the section of a cone as a wedge of its own.
 TURNED_TOOL = ('plane="strain"', "body.ground.boundary=[{label=1, ux=0, uy=0}, {label=4, ux=0}]",
                'tool.cone.rotation="-0.02*t"', "tool.cone.at=[0.2, 0.1]", "time.steps=4")
+# The same, pushed down, along and about its reference point.
+PUSHED_TOOL = (*TURNED_TOOL[:2], "tool.cone.at=[0.2, 0.1]", "tool.cone.uy=", "tool.cone.fy=-40*t",
+               "tool.cone.moment=3*t", "body.ground.mesh.cells=[20, 20]", "time.steps=2")
 # Blocks that flow, pressed, pushed along and pulled back.
 FLOWING = (SOFT, "contact.friction=0.3", "time.end=3", "time.steps=12",
            "body.upper.mesh=shared-meshes/block-upper-3.mesh",
@@ -292,6 +296,11 @@ def scene_cases():
         SceneCase("cone", "mortar", "a wedge that turns, plane strain", TURNED_TOOL),
         SceneCase("cone", "weighted", "a wedge that turns and rubs, plane strain",
                   (*TURNED_TOOL, "contact.friction=0.3", 'tool.cone.ux="0.02*t"')),
+        SceneCase("cone", "mortar", "a cone that a force moves, quadratic",
+                  ("degree=2", "tool.cone.uy=", "tool.cone.fy=-60*t", "body.ground.mesh.cells=[20, 20]")),
+        SceneCase("cone", "weighted", "a wedge that a force and a moment move, plane strain", PUSHED_TOOL),
+        SceneCase("cone", "mortar", "a wedge that a force and a moment press and a motion drags, friction",
+                  (*PUSHED_TOOL, "contact.friction=0.3", "tool.cone.ux=0.01*t")),
         SceneCase("sloped", "mortar", "a cone that flows, around an axis",
                   (SOFT, 'plane="axisymmetric"', "time.steps=4", "body.upper.boundary.2.tx=-5*t",
                    "body.lower.boundary.2.tx=-5*t", "contact.sliding=allow")),

@@ -41,6 +41,8 @@ class Entry:
     numbers: list
     scale: float  # of the displacements in the picture
     window: tuple = None  # x and y range of the picture; None: everything
+    step: int = None  # of the picture; None: the last one
+    course: Callable = None  # a second picture: labels of its axes, and points of both
     balance: float = 1e-12  # force balance, relative
 
 
@@ -154,6 +156,33 @@ def press_fit_pressure(run):
     return np.interp(-1, x[order], p[order]) / (1000 * 0.005 / (5 / 3 + 0.3))
 
 
+def hook_at(run, way):
+    """Pushing and lifting force where the hook has gone this way."""
+    history = results.read_history(run.folder)
+    step = np.argmin(np.abs(2.3 * history["time[s]"] - way))
+    return history["push[N/mm]"][step], history["lift[N/mm]"][step]
+
+
+def hook_push(run):
+    """Over the lifting force, halfway up the nose, and over what friction of 0.2 on a slope of 30 degrees
+    makes of it."""
+    push, lift = hook_at(run, 0.5)
+    return push / lift / np.tan(np.pi / 6 + np.arctan(0.2))
+
+
+def hook_lift(run):
+    """On top of the nose, at the edge of the lip behind, over that of a beam bent by 0.4 that friction bends
+    the other way: its arm is half of the height and the depth of the lip."""
+    length = 10 + 0.7 / np.tan(np.radians(80)) + 0.1 * np.tan(np.radians(40))
+    stiffness = 3 * 2000 / (1 - 0.3**2) * 0.6**3 / 12 / length**3
+    return hook_at(run, 1.4)[1] / (0.4 * stiffness / (1 - 1.5 * 0.2 * (0.3 + 0.7) / length))
+
+
+def hook_course(run):
+    history = results.read_history(run.folder)
+    return "way of the hook [mm]", "push [N/mm]", 2.3 * history["time[s]"], history["push[N/mm]"]
+
+
 def creep_rate(run):
     """Radial velocity on the inner circle in the second half of the run."""
     liner = run.bodies["liner"]
@@ -206,6 +235,9 @@ GALLERY = [
                            "all nodes slip")], 1, balance=1e-9),
     Entry("press-fit", [Number("pressure in the middle over Lame's", press_fit_pressure, 1, 2e-2,
                                "friction along the ring, and its ends")], 1, balance=1e-9),
+    Entry("hook", [Number("push over lift, over (mu + tan a)/(1 - mu tan a)", hook_push, 1, 1e-3, "statics"),
+                   Number("lifting force over that of a beam", hook_lift, 1, 1e-2, "clamp, lip, shear")],
+          1, ((-0.5, 14.5), (-1.6, 1.6)), balance=1e-9, step=23, course=hook_course),
     Entry("receding", [Number("half-width of contact", lambda run: end_of_contact(run, 1), 1.324165, 1e-2,
                               "the mesh: an element at the end of contact is 0.08"),
                        Number("p(0)/P", receding_pressure, 0.713081, 1e-2,
@@ -248,12 +280,23 @@ def run_entry(entry, folder):
 
 def draw(entry, folder, out):
     """Deformed bodies, coloured by von Mises stress."""
-    view = pictures.view(runs.Result(folder))
+    view = pictures.view(runs.Result(folder), entry.step)
     window = entry.window and (*entry.window[0], *entry.window[1])
     with pictures.plt.rc_context(pictures.STYLE):
         figure = pictures.fields([view], scale=entry.scale, window=window, strips=False)
         out.mkdir(parents=True, exist_ok=True)
         (out / f"{entry.scene}.png").write_bytes(images.small(images.picture(figure, "png", dpi=90)))
+
+
+def draw_course(entry, run, out):
+    along, up, x, y = entry.course(run)
+    with pictures.plt.rc_context(pictures.STYLE):
+        figure, axes = pictures.plt.subplots(figsize=(6, 2.6), layout="constrained")
+        axes.axhline(0, color="0.7", linewidth=0.8)
+        axes.plot(np.append(0, x), np.append(0, y))
+        axes.set_xlabel(along)
+        axes.set_ylabel(up)
+        (out / f"{entry.scene}-course.png").write_bytes(images.small(images.picture(figure, "png", dpi=90)))
 
 
 def error(number, run):
@@ -281,6 +324,8 @@ def main():
                 print(f"gallery: {fault}", file=sys.stderr)
                 return 1
             draw(entry, run.folder, arguments.out)
+            if entry.course:
+                draw_course(entry, run, arguments.out)
             for number in entry.numbers:
                 miss = not error(number, run) <= number.tolerance
                 missed += miss

@@ -75,7 +75,7 @@ void writeConditions(std::ostream& out, const BodyDescription& body, int number,
   const int degree = scene.degree;
   std::ostringstream supports;
   std::ostringstream loads;
-  if (body.isTool()) supports << freefemRigidMotion(body, labels);
+  if (body.isTool()) supports << freefemRigidMotion(body, labels, scene.plane == Plane::axisymmetric);
   for (const ConditionDescription& c : body.conditions) {
     const std::string value = freefemExpression(c.value);
     if (c.point) continue;
@@ -112,11 +112,13 @@ void writeConditions(std::ostream& out, const BodyDescription& body, int number,
       << orZero(loads, "0.*v2") << "//\n";
 }
 
-/// Macros for all bodies: rollers, and points that are held.
+/// Macros for all bodies: rollers, points that are held, and tools that forces move.
 std::string specialSupports(const SceneDescription& scene) {
+  std::string tools;
   std::string rollers;
   std::string points;
-  for (size_t b = 0; b < scene.bodies.size(); ++b)
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    if (isPushed(scene.bodies[b])) tools += freefemPushedTool(scene.bodies[b], static_cast<int>(b) + 1);
     for (const ConditionDescription& c : scene.bodies[b].conditions) {
       const std::string body = "(" + std::to_string(b + 1) + ", ";
       const std::string value = ", " + freefemExpression(c.value) + ") ";
@@ -127,7 +129,9 @@ std::string specialSupports(const SceneDescription& scene) {
         points += "heldPoint" + body + shortest(c.point->x()) + ", " + shortest(c.point->y()) + ", " +
                   std::to_string(c.component + 1) + value;
     }
-  return freefemMacro("rollers", rollers, "body, label, direction, displacement") +
+  }
+  return freefemMacro("freeTools", tools, "body, x, y, (1: a force, value) along x, y, about them") +
+         freefemMacro("rollers", rollers, "body, label, direction, displacement") +
          freefemMacro("heldPoints", points, "body, x, y, component, displacement");
 }
 

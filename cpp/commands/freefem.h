@@ -46,7 +46,13 @@ std::vector<std::string> namesIn(const std::string& text);
 std::string freefemString(const std::string& text, const std::string& where);
 /// `// text` and the end of the line, whatever the text holds.
 std::string freefemComment(const std::string& text);
-/// A body whose boundary (its labels) moves as a rigid one is free of stress, and moves so inside.
-std::string freefemRigidMotion(const BodyDescription& tool, const std::vector<int>& labels);
+/// A body whose boundary (its labels) moves as a rigid one is free of stress, and moves so inside. Of a tool
+/// that forces move what is held beside freefemPushedTool().
+std::string freefemRigidMotion(const BodyDescription& tool, const std::vector<int>& labels,
+                               bool axisymmetric);
+/// Whether a force or a moment moves a tool.
+bool isPushed(const BodyDescription& body);
+/// The call that adds its equations.
+std::string freefemPushedTool(const BodyDescription& tool, int number);
 
 }  // namespace mortier

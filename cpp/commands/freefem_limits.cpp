@@ -34,11 +34,9 @@ void requireKnown(const SceneDescription& scene, bool stepsGiven) {
   }
   for (const BodyDescription& body : scene.bodies) {
     for (const ConditionDescription& c : body.conditions)
-      if (body.isTool() && c.kind == ConditionDescription::Kind::traction)
-        refuse(c.where + ": tool " + body.name + ": a tool that a force or a moment moves",
-               "prescribed displacements");
-      else if (body.isTool() && c.component == 2 && !(c.value.constant && c.value.value(0, 0, 0) == 0) &&
-               follows(scene, body))
+      if (body.isTool() && c.component == 2 && follows(scene, body) &&
+          (c.kind == ConditionDescription::Kind::traction ||
+           !(c.value.constant && c.value.value(0, 0, 0) == 0)))
         refuse(c.where + ": tool " + body.name + ": a tool that turns beside sliding = \"finite\"",
                "no rotation");
     const bool stressed = std::any_of(body.initialStress.begin(), body.initialStress.end(),

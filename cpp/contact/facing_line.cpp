@@ -324,9 +324,11 @@ Sight see(const SmoothPart& part, const FacingLine& mortar, const Segment& segme
     seen = partSeen(mortar, j, x, n1);
     for (int k = 0; k < 50; ++k) {
       const double xi = std::clamp(seen, 0.0, 1.0);
-      const Point n2 = between(across.normals, xi);
-      sight.normal = directionOf(n1, curvature1, n2.normalized(), between(across.curvatures, xi),
-                                 between(across.smooth, xi));
+      const Point n2 = between(across.normals, xi).normalized();
+      // At the end of a stretch rounding may turn the part away: its normal lies along the other line there.
+      sight.normal = n1.dot(n2) < 0 ? directionOf(n1, curvature1, n2, between(across.curvatures, xi),
+                                                  between(across.smooth, xi))
+                                    : Point(-n2);
       const double before = seen;
       seen = partSeen(mortar, j, x, sight.normal);
       if (std::abs(seen - before) <= sameSight) break;

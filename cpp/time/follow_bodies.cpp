@@ -8,7 +8,10 @@
 #include <algorithm>
 #include <limits>
 #include <sstream>
+#include <utility>
 
+#include "base/dense_templates.h"
+#include "fem/rigid_modes.h"
 #include "time/measure.h"
 #include "time/step_taker.h"
 
@@ -55,6 +58,23 @@ double roundingOfPlaces(const Model& model, const std::vector<Vector>& u) {
   return roundings * largest;
 }
 
+/// Of a body that contact alone holds, and that moves between two repetitions as a rigid one, that motion in
+/// words: its load has passed what the conditions of contact can carry. Empty where there is none.
+std::string whatTips(const Model& model, const std::vector<Vector>& from, const std::vector<Vector>& to) {
+  constexpr double strained = 0.1;  // the part of a change that is none of a rigid body
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    const Matrix modes = rigidModes(body);
+    const Vector change = to[b] - from[b];
+    if (modes.cols() == 0 || change.isZero(0)) continue;
+    const Vector motion = modes * modes.colPivHouseholderQr().solve(change);
+    if ((change - motion).norm() <= strained * change.norm())
+      return "; contact does not hold body " + body.name() + " there: a repetition moves it by a " +
+             describeRigidMotion(body, motion);
+  }
+  return {};
+}
+
 }  // namespace
 
 /// Rows at the end of the increments. \returns the gaps of the state as these rows see them
@@ -80,14 +100,16 @@ StepOutcome StepTaker::repeatOnMovedBodies(StepData& data, Iterate& iterate, Eff
   StepOutcome total;
   data.gap = followTo(iterate, false);
   double off = 0;
+  std::vector<Vector> before;
+  std::vector<Vector> now = displacements(state_, iterate);
   for (int repetition = 1; repetition <= most; ++repetition) {
     StepOutcome next = solveStep(system_, state_, data, iterate, effort);
     const Vector compliance = system_.compliances();
     total.follow(std::move(next));
     if (!total.converged()) break;
     data.gap = followTo(iterate, repetition >= freely);
-    off = misfit(model_, data.gap, iterate, compliance,
-                 roundingOfPlaces(model_, displacements(state_, iterate)));
+    before = std::exchange(now, displacements(state_, iterate));
+    off = misfit(model_, data.gap, iterate, compliance, roundingOfPlaces(model_, now));
     if (!(off <= settled)) continue;
     const Certificate here =
         system_.certify(system_.step(state_, data), iterate, total.certificate.materialResidual);
@@ -99,7 +121,7 @@ StepOutcome StepTaker::repeatOnMovedBodies(StepData& data, Iterate& iterate, Eff
   std::ostringstream text;
   text << "contact does not settle where the bodies are in " << most
        << " repetitions: the last one is off by " << off << " of the largest contact force";
-  if (system_.contactHolds()) text << "; a body that contact alone holds may tip or slide away there";
+  if (system_.contactHolds()) text << whatTips(model_, before, now);
   total.fail(Reason::unconverged, text.str());
   return total;
 }

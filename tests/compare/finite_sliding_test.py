@@ -1,11 +1,12 @@
 """Contact that follows the bodies (sliding = "finite"), end to end."""
 import csv
 import json
+import math
 import statistics
 import unittest
 
 import random_slides
-from support import InFolder, warned
+from support import ROOT, InFolder, warned
 
 IRONING = """\
 plane = "strain"
@@ -165,6 +166,34 @@ class FiniteSliding(InFolder):
                    .replace("upper = [1.5, 0.5]", "upper = [1.5, 1]"))
         done = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=1)
         self.assertRegex(done.stderr, "; bodies have turned by [0-9.e+]+ degrees, taken as small")
+        self.assertIn("contact does not hold body block there: a repetition moves it by a rotation about (",
+                      done.stderr)
+
+    # Seeds whose load passes the last condition that is closed: near the end of the other body (160), or
+    # within an element of the edge of the upper one.
+    def test_a_block_that_tips_about_its_last_condition_is_named(self):
+        for seed in (160, 334):
+            with self.subTest(seed):
+                self.write(random_slides.scene(seed))
+                done = self.mortier("run", "scene.toml", "--quiet", "--out", "out", code=1)
+                self.assertIn("contact does not settle", done.stderr)
+                self.assertIn("does not hold body upper there: a repetition moves it by a rotation about (",
+                              done.stderr)
+
+    def test_a_hook_snaps(self):
+        """The forces on each face of the nose, a polygon, have its direction and that of friction."""
+        self.mortier("run", str(ROOT / "scenes" / "hook.toml"), "--quiet", "--out", "out")
+        rows = self.history()
+        way = [2.3 * value for value in self.column(rows, "time")]
+        push, lift = self.column(rows, "push"), self.column(rows, "lift")
+        for degrees, first, last in ((30, 0.25, 0.7), (0, 1.25, 1.55), (-60, 1.78, 1.92)):
+            on_face = [i for i, at in enumerate(way) if first < at < last]
+            for i in on_face:
+                self.assertAlmostEqual(math.atan2(push[i], lift[i]), math.radians(degrees) + math.atan(0.2),
+                                       delta=1e-4)
+            self.assertGreaterEqual(len(on_face), 2)
+        self.assertEqual([force for at, force in zip(way, lift) if at > 2.05], [0] * 5)
+        self.assertLess(max(self.column(rows, "penetration")), 1e-3)
 
     def test_accuracy_on_demand(self):
         pushed = (PUSHED.replace("DEGREE", "2").replace("ROUGH", "0.2")

@@ -32,6 +32,7 @@ class Gallery(InFolder):
                  "thick-cylinder": "plane=stress", "sphere": "body.block.material.young=60000",
                  "ironing": "contact.sliding=allow", "roller": "contact.sliding=allow",
                  "wedge": "contact.friction=0.1", "press-fit": "body.ring.material.young=1100",
+                 "hook": "contact.friction=0",
                  "cubes": "body.material.viscosity=11", "ball": "body.block.material.young=1.2",
                  "cone": "tool.cone.points=[[0, 0], [10, 1.1], [0, 1.1]]"}
         self.assertEqual(set(wrong), {entry.scene for entry in GALLERY})

@@ -137,6 +137,8 @@ FAULTS = [
     ("normals of the softer body", "lines", "k1 = softer ? 1. : 0.; k2 = softer ? 0. : 1.;",
      "k1 = softer ? 0. : 1.; k2 = softer ? 1. : 0.;", "sloped",
      "the upper one stiffer, follows", "displacement"),
+    ("force of a tool without its arm", "supports", "push2*(ax - xv(a))*value2", "0*value2", "cone",
+     "a force and a moment move", ""),
     ("third body as the second", "bodies", "eP[b] = young[b]", "eP[b] = young[min(b, 1)]", "stack",
      "as it stands", "displacement"),
 ]

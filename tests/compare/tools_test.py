@@ -313,11 +313,15 @@ class Tools(support.InFolder):
         self.assertEqual(len(run.bodies["tool"].points), 720)
         self.assertGreater(len(run.bodies["ground"].points), 200)
 
-    def test_forces_in_freefem_are_refused(self):
-        self.write(pressed('fy = "-1*t"'))
-        self.assertIn("a tool that a force or a moment moves", self.mortier("check", "scene.toml").stdout)
-        self.reject("scene.toml:14: tool plate: a tool that a force or a moment moves", "freefem",
-                    "scene.toml", "script.edp")
+    def test_forces_in_freefem(self):
+        """They are written, and refused where they turn a tool that contact follows."""
+        text = pressed('fy = "-1*t"\nmoment = "-0.3*t"')
+        self.write(text)
+        self.mortier("freefem", "scene.toml", "script.edp")
+        self.assertIn("freeTool(2, 0.25, 1, 0, 0., 1, -1.*t, 1, -0.3*t);", self.read("script.edp"))
+        self.write(text.replace(CONTACT, CONTACT + 'sliding = "finite"\n'))
+        self.reject("scene.toml:15: tool plate: a tool that turns beside sliding", "freefem", "scene.toml",
+                    "script.edp")
 
     def test_faults(self):
         good = pressed('uy = "-0.01*t"')

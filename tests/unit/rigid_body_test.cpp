@@ -1,6 +1,8 @@
 // Bodies that do not strain.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "fem/body.h"
 #include "fem/rigid_modes.h"
 #include "material/elasticity.h"
@@ -12,9 +14,9 @@ Datum datum(Function function) {
   return {std::move(function)};
 }
 
-/// A square about (1, 1), that turns about a corner of itself.
-Body square(RigidMotion motion) {
-  motion.at = {0, 0};
+/// A square about (1, 1), that turns about a point, a corner of itself if none is given.
+Body square(RigidMotion motion, const Point& at = {0, 0}) {
+  motion.at = at;
   Conditions conditions;
   conditions.rigid = std::move(motion);
   return {"tool", outlineMesh({{{0, 0}, {2, 0}, {2, 2}, {0, 2}}, {1, 2, 3, 4}}), elasticMaterial({1, 0.3}),
@@ -74,6 +76,101 @@ TEST(RigidBody, forcesDoTheirWork) {
   const Vector push = load + Vector::Unit(body.dofs(), 0);
   EXPECT_NEAR((body.heldForce(push) - Eigen::Vector3d(1, 0, 0)).norm(), 0, 1e-14);
   EXPECT_NEAR((body.gather(push) - body.gather(load)).norm(), 0, 1e-14);
+}
+
+const Point pivot(-0.7, 3.1);
+
+/// The square, free to turn by finite angles.
+Body turningSquare() {
+  return square({{}, {}, {}, true}, pivot);
+}
+
+/// The displacement (dofs) that stands for a motion.
+Vector standsFor(const Body& body, const Eigen::Vector3d& motion) {
+  Vector u(body.dofs());
+  for (int node = 0; node < body.nodes(); ++node) {
+    const Point arm = body.mesh().vertices[node] - pivot;
+    u.segment<2>(2 * node) = motion.head<2>() + motion[2] * Point(-arm.y(), arm.x());
+  }
+  return u;
+}
+
+constexpr double fullTurn = 2 * M_PI;
+constexpr double rounding = 1e-14;  // of places of order one, and angles of up to some turns
+
+TEST(RigidBody, fullTurnsReturn) {
+  const Body body = turningSquare();
+  ASSERT_TRUE(body.turns());
+  for (const int turns : {1, -1, 3})
+    EXPECT_NEAR(body.moved(standsFor(body, {0, 0, turns * fullTurn})).lpNorm<Eigen::Infinity>(), 0,
+                3 * rounding);
+  const Eigen::Vector3d motion(0.4, -2, 0.9);
+  const Vector once = body.moved(standsFor(body, motion));
+  const Vector later = body.moved(standsFor(body, motion + Eigen::Vector3d(0, 0, fullTurn)));
+  EXPECT_NEAR((later - once).lpNorm<Eigen::Infinity>(), 0, 3 * rounding);
+}
+
+TEST(RigidBody, turnedBodiesKeepTheirShape) {
+  const Body body = turningSquare();
+  const std::vector<Point>& x = body.mesh().vertices;
+  for (const double angle : {0.3, M_PI / 2, -2.5, 5.0}) {
+    const Point by(1.5, -0.25);
+    const Vector u = body.moved(standsFor(body, {by.x(), by.y(), angle}));
+    for (int a = 0; a < body.nodes(); ++a) {
+      const Point arm = x[a] - pivot;
+      const Point there = x[a] + u.segment<2>(2 * a) - pivot - by;
+      EXPECT_NEAR(there.norm(), arm.norm(), rounding);  // about the moved reference point
+      EXPECT_NEAR(cross(arm, there), std::sin(angle) * arm.squaredNorm(), 20 * rounding);
+      EXPECT_NEAR(arm.dot(there), std::cos(angle) * arm.squaredNorm(), 20 * rounding);
+      for (int b = 0; b < a; ++b)
+        EXPECT_NEAR((x[b] + u.segment<2>(2 * b) - x[a] - u.segment<2>(2 * a)).norm(), (x[b] - x[a]).norm(),
+                    rounding);
+    }
+  }
+}
+
+TEST(RigidBody, changeOfMovedIsItsDerivative) {
+  const Body body = turningSquare();
+  std::vector<int> all(body.nodes());
+  for (int node = 0; node < body.nodes(); ++node) all[node] = node;
+  const Eigen::Vector3d motion(0.2, 0.5, 1.1);
+  constexpr double h = 1e-5;  // central differences: h^2 / 6 of arms of length 4
+  const Vector u = standsFor(body, motion);
+  for (int c = 0; c < 3; ++c) {
+    const Eigen::Vector3d unit = Eigen::Vector3d::Unit(c);
+    const Vector difference =
+        (body.moved(standsFor(body, motion + h * unit)) - body.moved(standsFor(body, motion - h * unit))) /
+        (2 * h);
+    const Vector change = body.changeOfMoved(u, all) * standsFor(body, unit);
+    EXPECT_NEAR((change - difference).lpNorm<Eigen::Infinity>(), 0, 1e-9);
+    const Vector ofTwo = body.changeOfMoved(u, {1, 2}) * standsFor(body, unit);
+    EXPECT_NEAR((ofTwo - change).segment<4>(2).norm(), 0, 10 * rounding);
+    EXPECT_EQ(ofTwo.segment<2>(0).norm(), 0);
+  }
+}
+
+TEST(RigidBody, forcesOnTurnedBodiesHaveMomentsAboutTheMovedPoint) {
+  const Body body = square({{}, {zero, zero, zero}, {}, true}, pivot);  // heldForce() is that of held motions
+  const Eigen::Vector3d motion(0.2, 0.5, 1.1);
+  const Vector u = standsFor(body, motion);
+  const Vector by = body.moved(u);
+  Vector nodal = Vector::Zero(body.dofs());
+  nodal.segment<4>(2) << 1, -2, 0.5, 3;
+  Point force(0, 0);
+  double moment = 0;
+  for (int node = 0; node < body.nodes(); ++node) {
+    const Point there = body.mesh().vertices[node] + by.segment<2>(2 * node);
+    force += nodal.segment<2>(2 * node);
+    moment += cross(there - pivot - motion.head<2>(), nodal.segment<2>(2 * node));
+  }
+  const Eigen::Vector3d work = body.heldForce(body.changeOfMoved(u, {1, 2}).transpose() * nodal);
+  EXPECT_NEAR((work - Eigen::Vector3d(force.x(), force.y(), moment)).norm(), 0, 20 * rounding);
+}
+
+TEST(RigidBody, whatDoesNotTurnMovesByItsDisplacement) {
+  const Body body = square({{}, {}, {}}, pivot);
+  const Vector u = standsFor(body, {0.1, 0.2, 0.3});
+  EXPECT_EQ((body.moved(u) - u).norm(), 0);
 }
 
 }  // namespace mortier::rigid_body_test

@@ -215,6 +215,45 @@ def sliding_rows():
               "Fischer, Wriggers 2006; Yang, Laursen, Meng 2005: tends to the coefficient",
               "drag over press at three times, friction 0.3", "ironing.toml", (), ratio, None,
               (0.3, 0.3, 0.3), 0.03, each=True, test="within")
+    yield Row("Press fit, up to where the channel narrows", "Fischer, Wriggers 2006, Kratos; exact: a strip",
+              "force that pushes the block", "press-fit.toml", (), quantity("push"), push_of_a_strip(),
+              within=0.01, test="within")
+    yield Row("Double arch, 0.5 mm of 70", "Drouet 2015, Code_Aster V6.03.165, Kratos; exact: a curved beam",
+              "force over the flattening of the half ring", "double-arch.toml", (),
+              lambda run: -quantity("press")(run) / (20.5 + quantity("crown")(run)), stiffness_of_half_ring(),
+              within=0.03, test="within")
+
+
+def push_of_a_strip(young=1e9, poisson=0.47, friction=0.1, length=0.45, height=0.2, overlap=1e-3):
+    """What moves the strip of press-fit.toml in its channel. Pushed from behind, it presses the channel more
+    there: with the stress s along it and n = nu/(1 - nu), p = p0 - n s and height s' = -friction p give
+    p = p0 exp(n friction x/height), x from the front on. p0 closes the overlap in the strip and in the
+    channel, a layer of the height 0.25 that cannot expand."""
+    oedometric = 21e9 * 0.7 / (1.3 * 0.4)
+    n = poisson / (1 - poisson)
+    front = overlap / (height * (1 - poisson**2) / young + 0.25 / oedometric)
+    return height * front / n * math.expm1(n * friction * length / height)
+
+
+def stiffness_of_half_ring(inner=1e5, outer=1e3, poisson=0.3, radii=(90, 95, 100)):
+    """Of the right half of double-arch.toml: the force at its lowest point over the displacement there.
+    Winkler: with the extension a and the turn b by angle of the section, fibres strain by (a + b (r - c))/r;
+    thrust and moment in the plane of symmetry do no work (Castigliano), the shear force sees the area of both
+    layers."""
+    centre = radii[1]
+    section = np.zeros((2, 2))
+    for young, low, high in zip((inner, outer), radii, radii[1:]):
+        r = low + (high - low) * (np.arange(400) + 0.5) / 400
+        fibre = np.stack([np.ones_like(r), r - centre])
+        section += young / (1 - poisson**2) * (fibre / r) @ fibre.T * (high - low) / 400
+    shear = 5 / 6 * (inner + outer) / (2 * (1 + poisson)) * (radii[1] - radii[0])
+    angles = math.pi / 2 * (np.arange(2000) + 0.5) / 2000
+    compliance = np.zeros((3, 3))  # of thrust, moment, force
+    for sine, cosine in zip(np.sin(angles), np.cos(angles)):
+        forces = np.array([[-cosine, 0, -sine], [centre * (cosine - 1), 1, centre * sine]])
+        across = np.array([sine, 0, -cosine])
+        compliance += forces.T @ np.linalg.solve(section, forces) + np.outer(across, across) * centre / shear
+    return 2000 / (math.pi / 2) * np.linalg.inv(compliance)[2, 2]
 
 
 ROWS = located(Path(__file__).parent, [

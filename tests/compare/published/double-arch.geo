@@ -1,0 +1,27 @@
+// The right half of a half ring of two layers; size f where it is pressed, growing along it.
+f = 0.7;
+h = 3;
+DefineConstant[ r1 = 90, r2 = 95, r3 = 100 ];
+Point(10) = {0, 0, 0};
+Point(1) = {0, -r1, 0, f};
+Point(2) = {0, -r2, 0, f};
+Point(3) = {0, -r3, 0, f};
+Point(4) = {r3, 0, 0, h};
+Point(5) = {r2, 0, 0, h};
+Point(6) = {r1, 0, 0, h};
+Line(1) = {2, 1};
+Line(2) = {3, 2};
+Circle(3) = {3, 10, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Circle(6) = {6, 10, 1};
+Circle(7) = {2, 10, 5};
+Curve Loop(1) = {7, 5, 6, -1};
+Curve Loop(2) = {3, 4, -7, -2};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+Physical Surface("inner", 1) = {1};
+Physical Surface("outer", 2) = {2};
+Physical Curve("middle", 4) = {1, 2};
+Physical Curve("outside", 1) = {3};
+Physical Curve("foot", 3) = {4, 5};
