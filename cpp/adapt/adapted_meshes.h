@@ -8,8 +8,8 @@
 // is a field by which elements are cut until they are small enough. Two things are done beside that:
 //   - the elements that make half of the error (Doerfler 1996) are cut in any case;
 //   - where the error of the elements of a vertex has fallen from one round to the next like h^(2s + d - 2),
-//     h^d their size, with s < 1.1, the stress is unbounded there, at a point of the plane or along an edge in
-//     space: they are cut repeatedly, until they are to be a hundredth of the aim.
+//     h^d their size, with s < 1.1, the stress is unbounded there, at a point of the plane or along an edge
+//     in space: they are cut repeatedly, until they are to be a hundredth of the aim.
 #pragma once
 
 #include <string>
@@ -102,8 +102,8 @@ struct KnownCurves {
 
 KnownCurves curvesBehind(const TriangleMesh& mesh);
 
-/// The same in space, as contact sees it (contact/surface.h); what has no label is a side of its own. Surfaces
-/// inside, where two regions meet, keep their triangles.
+/// The same in space, as contact sees it (contact/surface.h); what has no label is a side of its own.
+/// Surfaces inside, where two regions meet, keep their triangles.
 CurvedFaces curvesBehind(TetrahedronMesh mesh, const SpaceHeld& held);
 
 // Ends and corners of a contact line make stresses of the body that it faces unbounded or kinked. Where the

@@ -134,7 +134,8 @@ const std::vector<FaultKind>& faultKinds() {
       // Materials.
       {"poisson-limit", warning,
        "Poisson's ratio is next to 0.5 in plane strain, around an axis or on linear tetrahedra",
-       "pressures are wrong and linear elements lock: leave out volume = \"pointwise\" and accuracy.bound, in "
+       "pressures are wrong and linear elements lock: leave out volume = \"pointwise\" and accuracy.bound, "
+       "in "
        "space take degree = 2, or take poisson <= 0.49"},
       {"flow-locks", warning,
        "flow in plane strain or around an axis on linear triangles that lock, or on linear tetrahedra",

@@ -154,7 +154,7 @@ void build(ResolvedScene resolved, LintReport& report) {
   }
 }
 
-/// Meshes, places, volumes and the model: the checks of data, of contact and of deformations are of the plane.
+/// Meshes, places, volumes and the model: checks of data, of contact and of deformations are of the plane.
 void lintInSpace(LintReport& report) {
   ResolvedScene resolved;
   try {

@@ -42,7 +42,8 @@ std::vector<std::string> stiffAndFlowing(const SceneDescription& scene, const Mo
     const int two = interface.pair().mortar.body;
     for (const auto& [stiff, soft] : {std::pair(one, two), std::pair(two, one)}) {
       const auto materials = materialsOf(scene.bodies[stiff]);
-      if (mayFlow(scene.bodies[stiff]) && stiffest(materials) > much * stiffest(materialsOf(scene.bodies[soft])))
+      if (mayFlow(scene.bodies[stiff]) &&
+          stiffest(materials) > much * stiffest(materialsOf(scene.bodies[soft])))
         found.insert(stiff);
     }
   }

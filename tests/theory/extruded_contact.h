@@ -17,16 +17,48 @@ inline SpaceDatum growing(double value) {
   return [value](const SpacePoint&, double t) { return value * t; };
 }
 
-/// Of the plane of x and z, in plane strain along y.
+/// Adds the energy of the error of a stress in space, squared, and that of the exact one.
+inline void addSpaceEnergies(const Body& body, const Matrix& stress,
+                             const std::function<SpaceStress(const SpacePoint&)>& exact, double& error,
+                             double& norm) {
+  const std::vector<SpaceRulePoint> rule = tetrahedronRule();
+  const TetrahedronMesh& mesh = body.space()->mesh();
+  const int points = body.pointsOfTriangle();
+  for (size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    const auto first = static_cast<Eigen::Index>(points * t);
+    const double volume = body.weights()[first] * points;
+    for (const auto& [at, weight] : rule) {
+      const std::array<double, 4> b{1 - at.sum(), at.x(), at.y(), at.z()};
+      SpacePoint x = SpacePoint::Zero();
+      for (int k = 0; k < 4; ++k) x += b[k] * mesh.vertices[mesh.tetrahedra[t][k]];
+      Matrix both(6, 2);
+      both.col(0) = exact(x);
+      both.col(1) = -both.col(0);
+      for (int q = 0; q < points; ++q) {
+        constexpr double far = QuadraticTetrahedron::far;
+        const double shape = points == 1 ? 1 : (b[q] - far) / (QuadraticTetrahedron::near - far);
+        both.col(1) += shape * stress.col(first + q);
+      }
+      Matrix strain;
+      body.material().elasticStrain(both, strain);
+      norm += 6 * weight * volume * both.col(0).dot(strain.col(0));
+      error += 6 * weight * volume * both.col(1).dot(strain.col(1));
+    }
+  }
+}
+
+/// (s11, s22, s12) of the plane of x and z, in plane strain along y.
+inline SpaceStress extruded(const Eigen::Vector3d& s, double poisson) {
+  return fromSpaceCartesian(SpaceStress{s[0], poisson * (s[0] + s[1]), s[1], 0, s[2], 0});
+}
+
 struct Extruded {
   Elasticity elasticity;
   bool mirrored = false;
   [[nodiscard]] HalfOpenContact plane() const { return {elasticity, mirrored, Plane::strain}; }
 
   [[nodiscard]] SpaceStress stress(const SpacePoint& x) const {
-    const Eigen::Vector3d s = plane().stress(x.x(), x.z());
-    const double along = elasticity.poisson * (s[0] + s[1]);
-    return fromSpaceCartesian(SpaceStress{s[0], along, s[1], 0, s[2], 0});
+    return extruded(plane().stress(x.x(), x.z()), elasticity.poisson);
   }
 
   [[nodiscard]] TetrahedronMesh mesh(int cells) const {
@@ -57,34 +89,6 @@ struct Extruded {
                              {left, spaceX, traction(0, -1)},
                              {left, spaceZ, traction(2, -1)}}},
             degree};
-  }
-
-  /// Energies of the error of a stress, and of the exact one.
-  void addEnergies(const Body& body, const Matrix& stress, double& error, double& norm) const {
-    const std::vector<SpaceRulePoint> rule = tetrahedronRule();
-    const TetrahedronMesh& mesh = body.space()->mesh();
-    const int points = body.pointsOfTriangle();
-    for (size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-      const auto first = static_cast<Eigen::Index>(points * t);
-      const double volume = body.weights()[first] * points;
-      for (const auto& [at, weight] : rule) {
-        const std::array<double, 4> b{1 - at.sum(), at.x(), at.y(), at.z()};
-        SpacePoint x = SpacePoint::Zero();
-        for (int k = 0; k < 4; ++k) x += b[k] * mesh.vertices[mesh.tetrahedra[t][k]];
-        Matrix both(6, 2);
-        both.col(0) = this->stress(x);
-        both.col(1) = -both.col(0);
-        for (int q = 0; q < points; ++q) {
-          constexpr double far = QuadraticTetrahedron::far;
-          const double shape = points == 1 ? 1 : (b[q] - far) / (QuadraticTetrahedron::near - far);
-          both.col(1) += shape * stress.col(first + q);
-        }
-        Matrix strain;
-        body.material().elasticStrain(both, strain);
-        norm += 6 * weight * volume * both.col(0).dot(strain.col(0));
-        error += 6 * weight * volume * both.col(1).dot(strain.col(1));
-      }
-    }
   }
 };
 

@@ -103,7 +103,8 @@ TEST(RefineSpace, randomRoundsKeepAllThatCountsAndBoundTheShape) {
       mesh = next.mesh;
       expectSound(mesh);
     }
-    std::cout << mesh.tetrahedra.size() << " tetrahedra, shape " << shape << " to " << worstShape(mesh) << "\n";
+    std::cout << mesh.tetrahedra.size() << " tetrahedra, shape " << shape << " to " << worstShape(mesh)
+              << "\n";
     EXPECT_GT(mesh.tetrahedra.size(), 5 * first.tetrahedra.size());
     EXPECT_GE(worstShape(mesh), shape / 4);
     EXPECT_NEAR(mortier::volumeOf(mesh), 3, 1e-12);
