@@ -31,11 +31,11 @@ void improveRims(const TetrahedronMesh& mesh, CurvedFaces& curved) {
   }
   std::map<std::array<int, 2>, SpacePoint> sums;
   for (const auto& [edge, triangles] : count)
-    for (const auto& [v, inside] : {std::pair(edge[0], edge[1]), std::pair(edge[1], edge[0])}) {
+    for (const auto& [v, inner] : {std::pair(edge[0], edge[1]), std::pair(edge[1], edge[0])}) {
       const std::array<int, 2> rim{v, edge[2]};
-      if (rims.count(rim) == 0 || mirrored.count(rim) > 0 || rims.count({inside, edge[2]}) > 0) continue;
-      const SpacePoint& normal = curved.normals.at({inside, edge[2]});
-      const SpacePoint along = (mesh.vertices[inside] - mesh.vertices[v]).normalized();
+      if (rims.count(rim) == 0 || mirrored.count(rim) > 0 || rims.count({inner, edge[2]}) > 0) continue;
+      const SpacePoint& normal = curved.normals.at({inner, edge[2]});
+      const SpacePoint along = (mesh.vertices[inner] - mesh.vertices[v]).normalized();
       sums.try_emplace(rim, SpacePoint::Zero()).first->second += normal - 2 * normal.dot(along) * along;
     }
   for (const auto& [rim, sum] : sums) curved.normals[rim] = sum.normalized();

@@ -60,8 +60,7 @@ void checkVolume(const LintInput& input, size_t b, const PlacedMaterial& materia
                                                    : "triangles about an axis lock or have wrong pressures"));
 }
 
-void checkElasticity(const LintInput& input, size_t b, const PlacedMaterial& material, double nominal,
-                     Faults& faults) {
+void checkElasticity(const LintInput& input, const PlacedMaterial& material, double nominal, Faults& faults) {
   constexpr double large = 0.05;
   const Elasticity& e = material.description.elasticity;
   const std::string& subject = material.subject;
@@ -237,7 +236,7 @@ void lintMaterials(const LintInput& input, Faults& faults) {
     }
     for (const PlacedMaterial& material : placedMaterials(input, b)) {
       checkVolume(input, b, material, faults);
-      checkElasticity(input, b, material, onBody, faults);
+      checkElasticity(input, material, onBody, faults);
       if (const auto* creep = material.description.as<NortonCreep>())
         checkCreep(input, material, *creep, largest, faults);
       if (const auto* viscoelasticity = material.description.as<Viscoelasticity>()) {
