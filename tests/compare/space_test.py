@@ -281,7 +281,7 @@ dimension = 3
 name = "upper"
 mesh = { shape = "cuboid", upper = [1, 1, 1], cells = 2 }
 material = { young = 1, poisson = 0.3 }
-boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "top", tz = "-t*(1+x)" } ]
+boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "top", tz = "-t*(1+x)/100" } ]
 [[body]]
 name = "lower"
 mesh = { shape = "cuboid", lower = [0, 0, -1], upper = [1.5, 1, 0], cells = [3, 2, 2] }
@@ -321,13 +321,14 @@ class Accuracy(InFolder):
         self.assertEqual(rounds[-1]["tetrahedra"], summary["tetrahedra"])
         self.assertEqual(rounds[-1]["unknowns"], summary["free_dofs"])
         self.assertIn("round tetrahedra  unknowns", done.stdout)
-        self.assertAlmostEqual(summary["quantities"]["floor"]["value"], 1.5, delta=1e-9)
+        self.assertAlmostEqual(summary["quantities"]["floor"]["value"], 0.015, delta=1e-11)
         # The meshes of the result: what is in its fields, with labels and their areas.
         for name, area in (("upper", 1), ("lower", 1.5)):
             said = self.mortier("mesh", "info", f"out/{name}.mesh").stdout
             self.assertRegex(said, rf"label 3 +\d+ triangles, area {area}, top")
             self.assertIn(f"volume     {area}", said)
-        self.mortier("run", "scene.toml", "--out", "again", "--quiet", "--set",
+        # The nonmortar side is chosen on the first meshes.
+        self.mortier("run", "scene.toml", "--out", "again", "--quiet", "--set", "contact.swap=true", "--set",
                      'body.upper.mesh="out/upper.mesh"', "--set", 'body.lower.mesh="out/lower.mesh"')
         again = json.loads(self.read("again/summary.json"))
         self.assertEqual(again["dofs"], summary["dofs"])
@@ -341,8 +342,8 @@ class Accuracy(InFolder):
         self.assertGreater(len(summary["rounds"]), 1)
 
     def test_flowing_bodies_keep_their_steps(self):
-        _, summary = self.run_to(0.3, "--set", "body.upper.material={young=1, poisson=0.3, viscosity=1, "
-                                 "yield_stress=1}", "--set", "time.steps=5", "--set", "degree=2")
+        _, summary = self.run_to(0.3, "--set", "body.upper.material={young=1, poisson=0.3, viscosity=0.01, "
+                                 "yield_stress=0.01}", "--set", "time.steps=5", "--set", "degree=2")
         self.assertTrue(summary["accuracy"]["reached"])
         self.assertEqual(summary["steps"], 5)
         self.assertTrue(any("equal steps" in each for each in summary["accuracy"]["not_reliable"]))
