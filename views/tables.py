@@ -125,7 +125,7 @@ def grids(result):
     made = {"Bodies": [["body", "material", result.elements, "nodes", "unknowns"]],
             lines: [["nonmortar side", "mortar side", "nodes", "discretisation",
                                "largest sliding"]],
-            "Rounds of refinement": [["round", "triangles", "unknowns", "steps", "error of meshes",
+            "Rounds of refinement": [["round", result.elements, "unknowns", "steps", "error of meshes",
                                       "error in time", "time taken"]]}
     for each in listed(summary, "bodies"):
         made["Bodies"].append([each.get("name"), each.get("material"),
@@ -138,7 +138,7 @@ def grids(result):
                                       number(part(each, "sliding").get("slip"), 3, length)])
     for i, each in enumerate(listed(summary, "rounds")):
         made["Rounds of refinement"].append(
-            [str(i + 1), number(each.get("triangles"), 9), number(each.get("unknowns"), 9),
+            [str(i + 1), number(each.get(result.elements), 9), number(each.get("unknowns"), 9),
              number(each.get("steps")), percent(each.get("mesh")), percent(each.get("time")),
              number(each.get("seconds"), 3, "s")])
     return {title: [[shown("" if cell is None else cell, 300) for cell in row] for row in rows]

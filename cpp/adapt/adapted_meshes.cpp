@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/interrupt.h"
+#include "mesh/element_nodes.h"
 
 namespace mortier {
 namespace {
@@ -13,16 +14,38 @@ namespace {
 constexpr double unknownRate = std::numeric_limits<double>::infinity();
 /// The largest reduction of a size in one round.
 constexpr double leastReduction = 1.0 / 8;
-/// Stresses are unbounded where errors fall like this power of the area, or more slowly; a slower one is not
-/// believed.
+/// Stresses are unbounded where s is less than this; a slower rate is not believed.
 constexpr double bounded = 1.1;
 constexpr double slowest = 0.2;
 
+const std::vector<std::array<int, 3>>& elementsOf(const TriangleMesh& mesh) {
+  return mesh.triangles;
+}
+const std::vector<std::array<int, 4>>& elementsOf(const TetrahedronMesh& mesh) {
+  return mesh.tetrahedra;
+}
+double sizeOf(const TriangleMesh& mesh, size_t t) {
+  return doubleArea(mesh, static_cast<int>(t)) / 2;
+}
+double sizeOf(const TetrahedronMesh& mesh, size_t t) {
+  return volume(mesh, mesh.tetrahedra[t]);
+}
+int nodesOf(const TriangleMesh& mesh, int degree) {
+  return elementNodes(mesh, degree).count();
+}
+int nodesOf(const TetrahedronMesh& mesh, int degree) {
+  return spaceNodes(mesh, degree).count();
+}
+
+/// r_T is the error to minus this power.
+double powerOfErrors(int degree, int dimension) {
+  return 2.0 / (2 * degree + dimension);
+}
+
 /// c by halving: the sum grows with it.
-double scaleOfSizes(const std::vector<Vector>& errors, double aim, int degree) {
+double scaleOfSizes(const std::vector<Vector>& errors, double aim, int degree, double power) {
   double low = std::numeric_limits<double>::infinity();
   double high = 0;
-  const double power = 1.0 / (degree + 1);
   for (const Vector& error : errors)
     for (const double square : error) {
       if (!(square > 0)) continue;
@@ -44,7 +67,7 @@ double scaleOfSizes(const std::vector<Vector>& errors, double aim, int degree) {
   return low;
 }
 
-/// The fewest triangles that make half of the sum, all bodies together; of those that are equal to six digits
+/// The fewest elements that make half of the sum, all bodies together; of those that are equal to six digits
 /// the first, so that units and rotations change nothing.
 std::vector<std::vector<char>> halfOfTheError(const std::vector<Vector>& errors) {
   constexpr double share = 0.5 - 1e-9;
@@ -72,18 +95,35 @@ std::vector<std::vector<char>> halfOfTheError(const std::vector<Vector>& errors)
 
 }  // namespace
 
-AdaptedMeshes::AdaptedMeshes(const std::vector<TriangleMesh>& meshes, int degree) : degree_(degree) {
+AdaptedMeshes::AdaptedMeshes(const std::vector<TriangleMesh>& meshes, int degree)
+    : degree_(degree), dimension_(2) {
   for (const TriangleMesh& mesh : meshes) {
     KnownCurves curves = curvesBehind(mesh);
-    bodies_.push_back({mesh, std::move(curves.edges), std::move(curves.polygons), {}, {}, {}});
-    chooseBases(bodies_.back().mesh);
+    InPlane body{mesh, std::move(curves.edges)};
+    chooseBases(body.mesh);
+    bodies_.emplace_back(std::move(body));
+    polygons_.push_back(std::move(curves.polygons));
   }
 }
 
-std::vector<int> AdaptedMeshes::cut(Adapted& body, const std::vector<char>& marked,
+AdaptedMeshes::AdaptedMeshes(const std::vector<TetrahedronMesh>& meshes, std::vector<CurvedFaces> curves,
+                             int degree)
+    : degree_(degree), dimension_(3), polygons_(meshes.size()) {
+  for (size_t b = 0; b < meshes.size(); ++b) bodies_.emplace_back(InSpace{meshes[b], std::move(curves[b])});
+}
+
+int AdaptedMeshes::unknowns() const {
+  int nodes = 0;
+  for (const auto& body : bodies_)
+    nodes += std::visit([&](const auto& of) { return nodesOf(of.mesh, degree_); }, body);
+  return dimension_ * nodes;
+}
+
+template <class Body>
+std::vector<int> AdaptedMeshes::cut(Body& body, const std::vector<char>& marked,
                                     std::vector<double>* byVertex) {
   stopIfInterrupted();
-  RefinedMesh refined = bisect(body.mesh, body.curves, marked);
+  auto refined = bisect(body.mesh, body.curves, marked);
   body.mesh = std::move(refined.mesh);
   body.curves = std::move(refined.curves);
   offCurve_ += refined.offCurve;
@@ -93,12 +133,13 @@ std::vector<int> AdaptedMeshes::cut(Adapted& body, const std::vector<char>& mark
 }
 
 void AdaptedMeshes::refineAll() {
-  for (Adapted& body : bodies_) cut(body, std::vector<char>(body.mesh.triangles.size(), 1));
+  for (auto& body : bodies_)
+    std::visit([&](auto& of) { cut(of, std::vector<char>(elementsOf(of.mesh).size(), 1)); }, body);
 }
 
 void AdaptedMeshes::faceCorners(size_t body, int label, size_t otherBody, int otherLabel) {
-  Adapted& one = bodies_[body];
-  Adapted& other = bodies_[otherBody];
+  auto& one = std::get<InPlane>(bodies_[body]);
+  auto& other = std::get<InPlane>(bodies_[otherBody]);
   const std::vector<Point> corners = cornersOf(one.mesh, label);
   cutFacing(one.mesh, one.curves, label, cornersOf(other.mesh, otherLabel));
   cutFacing(other.mesh, other.curves, otherLabel, corners);
@@ -106,8 +147,8 @@ void AdaptedMeshes::faceCorners(size_t body, int label, size_t otherBody, int ot
 
 void AdaptedMeshes::faceSizes(size_t body, int label, size_t otherBody, int otherLabel) {
   while (true) {
-    Adapted& one = bodies_[body];
-    const std::vector<char> longer = longerThanFacing(one.mesh, label, bodies_[otherBody].mesh, otherLabel);
+    auto& one = std::get<InPlane>(bodies_[body]);
+    const std::vector<char> longer = longerThanFacing(one.mesh, label, mesh(otherBody), otherLabel);
     if (std::find(longer.begin(), longer.end(), 1) == longer.end()) return;
     cut(one, longer);
   }
@@ -117,20 +158,27 @@ void AdaptedMeshes::learn(const std::vector<Vector>& errors) {
   constexpr double rounding = 1e-20;  // of the squares of errors: a body without stress has no rates
   double total = 0;
   for (const Vector& error : errors) total += error.sum();
-  for (size_t b = 0; b < bodies_.size(); ++b) learnRates(bodies_[b], errors[b], rounding * total);
+  for (size_t b = 0; b < bodies_.size(); ++b)
+    std::visit([&](auto& body) { learnRates(body, errors[b], rounding * total); }, bodies_[b]);
 }
 
 double AdaptedMeshes::unresolved() const {
   double sum = 0;
-  for (const Adapted& body : bodies_)
-    for (size_t v = 0; v < body.rate.size(); ++v)
-      if (body.rate[v] < bounded) sum += body.error[v] / (std::pow(4, std::max(body.rate[v], slowest)) - 1);
+  for (const auto& each : bodies_)
+    std::visit(
+        [&](const auto& body) {
+          for (size_t v = 0; v < body.rate.size(); ++v)
+            if (body.rate[v] < bounded)
+              sum += body.error[v] / (std::pow(4, std::max(body.rate[v], slowest)) - 1);
+        },
+        each);
   return sum;
 }
 
 void AdaptedMeshes::refine(const std::vector<Vector>& errors, double aim) {
   constexpr double negligible = 0.01;
-  const double c = scaleOfSizes(errors, aim, degree_);
+  const double power = powerOfErrors(degree_, dimension_);
+  const double c = scaleOfSizes(errors, aim, degree_, power);
   const std::vector<std::vector<char>> marked = halfOfTheError(errors);
   learn(errors);
   for (size_t b = 0; b < bodies_.size(); ++b) {
@@ -138,87 +186,103 @@ void AdaptedMeshes::refine(const std::vector<Vector>& errors, double aim) {
     Vector reduction = Vector::Ones(errors[b].size());
     for (Eigen::Index t = 0; t < reduction.size(); ++t)
       if (errors[b][t] > 0)
-        reduction[t] = std::clamp(c * std::pow(errors[b][t], -0.5 / (degree_ + 1)), leastReduction, 1.0);
-    cutToSize(bodies_[b], reduction, marked[b]);
-    cutAtSingularities(bodies_[b], negligible * aim * aim);
+        reduction[t] = std::clamp(c * std::pow(errors[b][t], -power / 2), leastReduction, 1.0);
+    std::visit(
+        [&](auto& body) {
+          cutToSize(body, reduction, marked[b]);
+          cutAtSingularities(body, negligible * aim * aim);
+        },
+        bodies_[b]);
   }
 }
 
-void AdaptedMeshes::learnRates(Adapted& body, const Vector& error, double rounding) const {
-  constexpr double changed = 0.7;
+template <class Body>
+void AdaptedMeshes::learnRates(Body& body, const Vector& error, double rounding) const {
+  const double changed = dimension_ == 2 ? 0.7 : 0.3;  // in space the errors around a vertex scatter more
   const size_t vertices = body.mesh.vertices.size();
   std::vector<double> sum(vertices, 0);
-  std::vector<double> area(vertices, 0);
-  for (size_t t = 0; t < body.mesh.triangles.size(); ++t)
-    for (const int v : body.mesh.triangles[t]) {
+  std::vector<double> size(vertices, 0);
+  for (size_t t = 0; t < elementsOf(body.mesh).size(); ++t)
+    for (const int v : elementsOf(body.mesh)[t]) {
       sum[v] += error[static_cast<Eigen::Index>(t)];
-      area[v] += doubleArea(body.mesh, static_cast<int>(t)) / 2;
+      size[v] += sizeOf(body.mesh, t);
     }
   for (double& each : sum)
     if (each < rounding) each = 0;
   for (size_t v = 0; v < body.error.size(); ++v)
-    if (area[v] < changed * body.area[v] && sum[v] > 0 && body.error[v] > 0)
-      body.rate[v] = std::log(sum[v] / body.error[v]) / std::log(area[v] / body.area[v]);
+    if (size[v] < changed * body.size[v] && sum[v] > 0 && body.error[v] > 0) {
+      const double power = std::log(sum[v] / body.error[v]) / std::log(size[v] / body.size[v]);
+      body.rate[v] = (dimension_ * power - (dimension_ - 2)) / 2;
+    }
   body.rate.resize(vertices, unknownRate);
   body.error = std::move(sum);
-  body.area = std::move(area);
+  body.size = std::move(size);
 }
 
-void AdaptedMeshes::cutToSize(Adapted& body, const Vector& reduction, std::vector<char> marked) {
+template <class Body>
+void AdaptedMeshes::cutToSize(Body& body, const Vector& reduction, std::vector<char> marked) {
   const size_t vertices = body.mesh.vertices.size();
-  std::vector<double> logArea(vertices, 0);
+  std::vector<double> logSize(vertices, 0);
   std::vector<int> around(vertices, 0);
-  const auto logOf = [&](size_t t) { return std::log(doubleArea(body.mesh, static_cast<int>(t)) / 2); };
-  for (size_t t = 0; t < body.mesh.triangles.size(); ++t)
-    for (const int v : body.mesh.triangles[t]) {
-      logArea[v] += logOf(t) + 2 * std::log(reduction[static_cast<Eigen::Index>(t)]);
+  const auto logOf = [&](size_t t) { return std::log(sizeOf(body.mesh, t)); };
+  const auto wanted = [&](size_t t) {
+    return logOf(t) + dimension_ * std::log(reduction[static_cast<Eigen::Index>(t)]);
+  };
+  for (size_t t = 0; t < elementsOf(body.mesh).size(); ++t)
+    for (const int v : elementsOf(body.mesh)[t]) {
+      logSize[v] += wanted(t);
       ++around[v];
     }
-  for (size_t v = 0; v < vertices; ++v) logArea[v] /= around[v];
-  // The mean at a vertex hides a single triangle with a large error: those that make half of it have a limit
+  for (size_t v = 0; v < vertices; ++v) logSize[v] /= around[v];
+  // The mean at a vertex hides a single element with a large error: those that make half of it have a limit
   // each.
   std::vector<double> limit(marked.size(), std::numeric_limits<double>::infinity());
   for (size_t t = 0; t < marked.size(); ++t)
-    if (marked[t] != 0) limit[t] = logOf(t) + 2 * std::log(reduction[static_cast<Eigen::Index>(t)]);
-  // A triangle is half as large when it is cut: from there on, cutting it is nearer to what it should be.
+    if (marked[t] != 0) limit[t] = wanted(t);
+  // An element is half as large when it is cut: from there on, cutting it is nearer to what it should be.
   const double slack = std::log(2.0) / 2 + 1e-9;
   for (bool first = true;; first = false) {
-    marked.resize(body.mesh.triangles.size(), 0);
+    marked.resize(elementsOf(body.mesh).size(), 0);
     bool any = false;
     for (size_t t = 0; t < marked.size(); ++t) {
-      const auto& [a, b, c] = body.mesh.triangles[t];
-      const bool large = logOf(t) > std::min((logArea[a] + logArea[b] + logArea[c]) / 3, limit[t]) + slack;
+      double mean = 0;
+      for (const int v : elementsOf(body.mesh)[t]) mean += logSize[v];
+      mean /= dimension_ + 1;
+      const bool large = logOf(t) > std::min(mean, limit[t]) + slack;
       marked[t] = large || (first && marked[t] != 0) ? 1 : 0;
       any = any || marked[t] != 0;
     }
     if (!any) return;
     std::vector<double> limits;
-    for (const int parent : cut(body, marked, &logArea)) limits.push_back(limit[parent]);
+    for (const int parent : cut(body, marked, &logSize)) limits.push_back(limit[parent]);
     limit = std::move(limits);
     marked.clear();
   }
 }
 
-void AdaptedMeshes::cutAtSingularities(Adapted& body, double allowed) {
+template <class Body>
+void AdaptedMeshes::cutAtSingularities(Body& body, double allowed) {
   constexpr int most = 10;
   for (size_t v = 0; v < body.rate.size(); ++v) {
     if (!(body.rate[v] < bounded)) continue;
-    stopIfInterrupted();
     const double rate = std::max(body.rate[v], slowest);
+    const double power = (2 * rate + (dimension_ - 2)) / dimension_;  // of the size
     const auto atVertex = [&](std::vector<char>& marked) {
-      double area = 0;
-      marked.assign(body.mesh.triangles.size(), 0);
+      double size = 0;
+      marked.assign(elementsOf(body.mesh).size(), 0);
       for (size_t t = 0; t < marked.size(); ++t)
-        for (const int other : body.mesh.triangles[t])
+        for (const int other : elementsOf(body.mesh)[t])
           if (other == static_cast<int>(v)) {
             marked[t] = 1;
-            area += doubleArea(body.mesh, static_cast<int>(t)) / 2;
+            size += sizeOf(body.mesh, t);
           }
-      return area;
+      return size;
     };
+    if (body.error[v] <= allowed) continue;  // sizes only fall
+    stopIfInterrupted();
     std::vector<char> marked;
-    const double error = body.error[v] * std::pow(atVertex(marked) / body.area[v], rate);
-    const double wanted = error > allowed ? std::ceil(std::log2(error / allowed) / rate) : 0;
+    const double error = body.error[v] * std::pow(atVertex(marked) / body.size[v], power);
+    const double wanted = error > allowed ? std::ceil(std::log2(error / allowed) / power) : 0;
     for (int i = 0; i < std::min<double>(most, wanted); ++i) {
       cut(body, marked);
       atVertex(marked);

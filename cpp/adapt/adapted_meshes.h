@@ -1,69 +1,92 @@
-// Meshes that are refined together, each triangle to the size at which the estimate of the whole meets an
-// aim: with the errors eta_T of the triangles (in the energy norm), p the degree and A_T the areas,
+// Meshes that are refined together, each element to the size at which the estimate of the whole meets an
+// aim: with the errors eta_T of the elements (in the energy norm), p the degree, d the dimension and A_T the
+// areas or volumes,
 //
-//   r_T = c eta_T^(-1/(p+1)),  1/8 <= r_T <= 1,     sum of eta_T^2 r_T^(2p) = aim^2,
+//   r_T = c eta_T^(-2/(2p+d)),  1/8 <= r_T <= 1,     sum of eta_T^2 r_T^(2p) = aim^2,
 //
-// A_T r_T^2 is the area that a triangle should have; the mean of its logarithm over the triangles of a vertex
-// is a field by which triangles are cut until they are small enough. Two things are done beside that:
-//   - the triangles that make half of the error (Doerfler 1996) are cut in any case;
-//   - where the error of the triangles of a vertex has fallen from one round to the next like area^s with
-//     s < 1.1, the stress is unbounded there: they are cut repeatedly,
-//     until they are to be a hundredth of the aim.
+// A_T r_T^d is the size that an element should have; the mean of its logarithm over the elements of a vertex
+// is a field by which elements are cut until they are small enough. Two things are done beside that:
+//   - the elements that make half of the error (Doerfler 1996) are cut in any case;
+//   - where the error of the elements of a vertex has fallen from one round to the next like h^(2s + d - 2),
+//     h^d their size, with s < 1.1, the stress is unbounded there, at a point of the plane or along an edge
+//     in space: they are cut repeatedly, until they are to be a hundredth of the aim.
 #pragma once
 
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "base/types.h"
+#include "contact/surface.h"
 #include "mesh/refine.h"
+#include "mesh/refine_space.h"
 
 namespace mortier {
 
 class AdaptedMeshes {
  public:
   AdaptedMeshes(const std::vector<TriangleMesh>& meshes, int degree);
+  /// \param curves  of each
+  AdaptedMeshes(const std::vector<TetrahedronMesh>& meshes, std::vector<CurvedFaces> curves, int degree);
 
-  [[nodiscard]] const TriangleMesh& mesh(size_t body) const { return bodies_[body].mesh; }
+  [[nodiscard]] const TriangleMesh& mesh(size_t body) const { return plane(body).mesh; }
+  [[nodiscard]] const TetrahedronMesh& spaceMesh(size_t body) const {
+    return std::get<InSpace>(bodies_[body]).mesh;
+  }
+  [[nodiscard]] bool inSpace() const { return dimension_ == 3; }
+  /// Components of displacements of all bodies together.
+  [[nodiscard]] int unknowns() const;
   /// Boundaries whose curves are not known, and vertices that could not be put onto theirs:
   /// what the estimate cannot see.
-  [[nodiscard]] const std::vector<std::string>& polygons(size_t body) const { return bodies_[body].polygons; }
+  [[nodiscard]] const std::vector<std::string>& polygons(size_t body) const { return polygons_[body]; }
   [[nodiscard]] int offCurve() const { return offCurve_; }
 
-  /// How the errors eta_T^2 [J/m] by bodies and triangles have fallen since the last call, at each vertex.
+  /// How the errors eta_T^2 [J/m] by bodies and elements have fallen since the last call, at each vertex.
   void learn(const std::vector<Vector>& errors);
-  /// The error of unbounded stresses that estimates leave out, as far as rates are known. At a vertex where
-  /// the error goes like area^s, a mesh of half the size reduces it by 1 - 4^-s, which is what the recovered
-  /// stress shows: the whole is 1/(1 - 4^-s) times as large [J/m].
+  /// The error of unbounded stresses that estimates leave out, as far as rates are known. At a point of the
+  /// plane where it goes like area^s, a mesh of half the size reduces it by 1 - 4^-s, which is what the
+  /// recovered stress shows: the whole is 1/(1 - 4^-s) times as large [J/m]. So it is along an edge in space,
+  /// on which such a mesh has twice the vertices.
   [[nodiscard]] double unresolved() const;
-  /// \param errors  eta_T^2 [J/m] by bodies and triangles  \param aim  what the root of their sum shall
+  /// \param errors  eta_T^2 [J/m] by bodies and elements  \param aim  what the root of their sum shall
   /// become
   void refine(const std::vector<Vector>& errors, double aim);
-  /// Cuts every triangle in two.
+  /// Cuts every element in two.
   void refineAll();
+  // In the plane:
   /// Gives each of two lines that face each other a vertex where the other one has a corner.
   void faceCorners(size_t body, int label, size_t otherBody, int otherLabel);
   /// Cuts the triangles of the first line until none of its edges is longer than twice those that it faces.
   void faceSizes(size_t body, int label, size_t otherBody, int otherLabel);
 
  private:
+  template <class Mesh, class Curves>
   struct Adapted {
-    TriangleMesh mesh;
-    CurvedEdges curves;
-    std::vector<std::string> polygons;
-    // By vertices, of the triangles around them:
-    std::vector<double> error;  ///< eta^2 in the last round [J/m]
-    std::vector<double> area;   ///< [m^2]
-    std::vector<double> rate;   ///< s; infinite where it is not known
+    Mesh mesh;
+    Curves curves;
+    // By vertices, of the elements around them:
+    std::vector<double> error = {};  ///< eta^2 in the last round [J/m]
+    std::vector<double> size = {};   ///< [m^2], [m^3]
+    std::vector<double> rate = {};   ///< s; infinite where it is not known
   };
-  void learnRates(Adapted& body, const Vector& error, double rounding) const;
-  /// \returns the triangle of which each new one is a part
-  std::vector<int> cut(Adapted& body, const std::vector<char>& marked,
-                       std::vector<double>* byVertex = nullptr);
-  void cutToSize(Adapted& body, const Vector& reduction, std::vector<char> marked);
-  void cutAtSingularities(Adapted& body, double allowed);
+  using InPlane = Adapted<TriangleMesh, CurvedEdges>;
+  using InSpace = Adapted<TetrahedronMesh, CurvedFaces>;
+
+  [[nodiscard]] const InPlane& plane(size_t body) const { return std::get<InPlane>(bodies_[body]); }
+  template <class Body>
+  void learnRates(Body& body, const Vector& error, double rounding) const;
+  /// \returns the element of which each new one is a part
+  template <class Body>
+  std::vector<int> cut(Body& body, const std::vector<char>& marked, std::vector<double>* byVertex = nullptr);
+  template <class Body>
+  void cutToSize(Body& body, const Vector& reduction, std::vector<char> marked);
+  template <class Body>
+  void cutAtSingularities(Body& body, double allowed);
 
   int degree_;
-  std::vector<Adapted> bodies_;
+  int dimension_;
+  std::vector<std::variant<InPlane, InSpace>> bodies_;
+  std::vector<std::vector<std::string>> polygons_;  ///< by bodies
   int offCurve_ = 0;
 };
 
@@ -78,6 +101,10 @@ struct KnownCurves {
 };
 
 KnownCurves curvesBehind(const TriangleMesh& mesh);
+
+/// The same in space, as contact sees it (contact/surface.h); what has no label is a side of its own.
+/// Surfaces inside, where two regions meet, keep their triangles.
+CurvedFaces curvesBehind(TetrahedronMesh mesh, const SpaceHeld& held);
 
 // Ends and corners of a contact line make stresses of the body that it faces unbounded or kinked. Where the
 // other mesh has no vertex there, the estimate shows half of it on any mesh: one is added.

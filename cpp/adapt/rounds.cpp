@@ -7,7 +7,7 @@
 #include "base/counted.h"
 #include "base/digits.h"
 #include "base/interrupt.h"
-#include "mesh/element_nodes.h"
+#include "material/space.h"
 #include "plan/steps.h"
 
 namespace mortier {
@@ -25,10 +25,25 @@ double leastOf(double asked) {
   return leastShare * (1 - 2 * (std::clamp(asked, small, large) - small));
 }
 
-int nodesOf(const AdaptedMeshes& meshes, size_t bodies, int degree) {
-  int nodes = 0;
-  for (size_t b = 0; b < bodies; ++b) nodes += elementNodes(meshes.mesh(b), degree).count();
-  return nodes;
+/// The supports of a body in space, as contact asks for them.
+Body heldBody(const BodyDescription& description, TetrahedronMesh mesh) {
+  SpaceConditions conditions;
+  for (const ConditionDescription& c : description.conditions)
+    if (c.kind == ConditionDescription::Kind::displacement)
+      conditions.displacements.push_back({c.label, c.component, {}, c.pointInSpace});
+  return {description.name, std::move(mesh), spaceElasticMaterial({1, 0}), std::move(conditions), 1};
+}
+
+AdaptedMeshes firstMeshes(const ResolvedScene& scene) {
+  const int degree = scene.description.degree;
+  if (scene.spaceMeshes.empty()) return {scene.meshes, degree};
+  std::vector<CurvedFaces> curves;
+  for (size_t b = 0; b < scene.spaceMeshes.size(); ++b) {
+    const Body body = heldBody(scene.description.bodies[b], scene.spaceMeshes[b]);
+    curves.push_back(curvesBehind(scene.spaceMeshes[b],
+                                  [&](int node, const SpacePoint& n) { return holds(body, node, n); }));
+  }
+  return {scene.spaceMeshes, std::move(curves), degree};
 }
 
 }  // namespace
@@ -37,7 +52,7 @@ void ErrorHistory::add(const StepReport& report) {
   if (report.step == 0) {
     largest_.clear();
     for (const Body& body : model_.bodies)
-      largest_.emplace_back(Vector::Zero(static_cast<Eigen::Index>(body.mesh().triangles.size())));
+      largest_.emplace_back(Vector::Zero(static_cast<Eigen::Index>(body.elements())));
     largestSum_ = energy_ = displacement_ = 0;
     if (report.vonMises == 0) return;  // nothing acts yet
   }
@@ -69,8 +84,8 @@ std::vector<Vector> ErrorHistory::errors() const {
 }
 
 Rounds::Rounds(ResolvedScene scene)
-    : description_(std::move(scene.description)),
-      meshes_(scene.meshes, description_.degree),
+    : description_(scene.description),
+      meshes_(firstMeshes(scene)),
       least_(leastOf(description_.accuracy.energy)) {
   constexpr double firstTolerance = 0.1;
   if (timeShare() > 0) timeTolerance_ = std::max(timeShare(), firstTolerance);
@@ -82,7 +97,11 @@ double Rounds::timeShare() const {
 
 ResolvedScene Rounds::scene() const {
   ResolvedScene scene{description_, {}};
-  for (size_t b = 0; b < description_.bodies.size(); ++b) scene.meshes.push_back(meshes_.mesh(b));
+  for (size_t b = 0; b < description_.bodies.size(); ++b)
+    if (meshes_.inSpace())
+      scene.spaceMeshes.push_back(meshes_.spaceMesh(b));
+    else
+      scene.meshes.push_back(meshes_.mesh(b));
   if (timeTolerance_ > 0) scene.description.time.tolerance = timeTolerance_;
   return scene;
 }
@@ -170,8 +189,7 @@ bool Rounds::refine(const RoundResult& result, double aim, double cost, double s
   constexpr double power = 1.2;  // seconds grow like this power of the unknowns
   constexpr double gain = 0.9;
   const AccuracyGoal& goal = description_.accuracy;
-  const size_t bodies = description_.bodies.size();
-  const int before = nodesOf(meshes_, bodies, description_.degree);
+  const int before = meshes_.unknowns();
   const AdaptedMeshes kept = meshes_;
   constexpr const char* tooLong = "a further round would take more than max_seconds";
   try {
@@ -182,7 +200,7 @@ bool Rounds::refine(const RoundResult& result, double aim, double cost, double s
         meshes_.refine(result.errors, aim * std::sqrt(result.energy));
       else
         meshes_.refineAll();
-      if (done_ == 1)
+      if (done_ == 1 && !meshes_.inSpace())
         for (const ContactDescription& contact : description_.contacts)
           meshes_.faceCorners(bodyIndex(description_, contact.nonmortar.body), contact.nonmortar.label,
                               bodyIndex(description_, contact.mortar.body), contact.mortar.label);
@@ -191,9 +209,9 @@ bool Rounds::refine(const RoundResult& result, double aim, double cost, double s
         for (const ContactDescription& contact : description_.contacts)
           meshes_.faceSizes(bodyIndex(description_, contact.nonmortar.body), contact.nonmortar.label,
                             bodyIndex(description_, contact.mortar.body), contact.mortar.label);
-      const int nodes = nodesOf(meshes_, bodies, description_.degree);
-      const double expected = cost * std::pow(double(nodes) / before, power);
-      const bool small = 2.0 * nodes <= goal.maxUnknowns;
+      const int unknowns = meshes_.unknowns();
+      const double expected = cost * std::pow(double(unknowns) / before, power);
+      const bool small = unknowns <= goal.maxUnknowns;
       if (small && seconds + expected <= goal.maxSeconds) {
         aim_ = aim;
         return true;
@@ -220,8 +238,10 @@ std::vector<std::string> Rounds::doubts() const {
       doubts.push_back("body " + description_.bodies[b].name + ": " + line +
                        " is a polygon of whose curve nothing is known, which refinement does not change");
   if (meshes_.offCurve() > 0)
-    doubts.push_back("not on the curve of their boundary, where triangles would turn over: " +
+    doubts.push_back("not on the curve of their boundary, where elements would turn over: " +
                      counted(meshes_.offCurve(), "vertex"));
+  if (meshes_.inSpace() && std::any_of(description_.bodies.begin(), description_.bodies.end(), mayFlow))
+    doubts.emplace_back("bodies may flow in equal steps, whose error is not estimated in space");
   return doubts;
 }
 

@@ -145,7 +145,7 @@ void Run::open() {
   log_.print("memory     " + aboutMemory(need.all) + ofFriction + (rounds_ ? ", first meshes\n" : "\n"));
   if (firstRankOnly_) log_.print("ranks      the first one alone: " + first.whyNotShared + "\n");
   log_.print(logHeader(first.facts, *first.model));
-  log_.print(rounds_ ? logRoundsHeader() : logStepsHeader(first.facts.units));
+  log_.print(rounds_ ? logRoundsHeader(*first.model) : logStepsHeader(first.facts.units));
 }
 
 void Run::solve(Observe observe) {
@@ -197,7 +197,9 @@ void Run::putInPlace() {
     manifest.files[name] = (OutputFile(temporary_ + "/" + name) << text).close();
   };
   if (rounds_)
-    for (const Body& body : attempt_->model->bodies) write(body.name() + ".mesh", meditText(body.mesh()));
+    for (const Body& body : attempt_->model->bodies)
+      write(body.name() + ".mesh",
+            body.space() != nullptr ? meditText(body.space()->mesh()) : meditText(body.mesh()));
   write("summary.json", summary_);
   placed_ = folder_->commit(manifest);
 }

@@ -83,7 +83,7 @@ Rounds::Verdict Run::solveRound(const std::shared_ptr<Attempt>& attempt, std::ve
                    end - begin,
                    evaluate(round.facts.quantities, *round.model, round.solved.state)};
   for (const Body& body : round.model->bodies) {
-    facts.triangles += body.mesh().triangles.size();
+    facts.elements += body.elements();
     facts.unknowns += body.freeDofs();
   }
   round.facts.best = done.size();

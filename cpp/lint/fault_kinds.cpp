@@ -132,12 +132,15 @@ const std::vector<FaultKind>& faultKinds() {
        "a nonmortar node is held along the normal of contact, with interpolation",
        "take variant = \"mortar\", or let the held body be the mortar side (contact.swap)"},
       // Materials.
-      {"poisson-limit", warning, "Poisson's ratio is next to 0.5 in plane strain or around an axis",
-       "pressures are wrong and linear triangles lock: leave out volume = \"pointwise\" and accuracy.bound, "
-       "or take poisson <= 0.49"},
-      {"flow-locks", warning, "flow in plane strain or around an axis on linear triangles that lock",
+      {"poisson-limit", warning,
+       "Poisson's ratio is next to 0.5 in plane strain, around an axis or on linear tetrahedra",
+       "pressures are wrong and linear elements lock: leave out volume = \"pointwise\" and accuracy.bound, "
+       "in "
+       "space take degree = 2, or take poisson <= 0.49"},
+      {"flow-locks", warning,
+       "flow in plane strain or around an axis on linear triangles that lock, or on linear tetrahedra",
        "leave out volume = \"pointwise\" and accuracy.bound; in plane strain cells cut by both diagonals do "
-       "not lock"},
+       "not lock; in space take degree = 2"},
       {"poisson-negative", warning, "Poisson's ratio is negative", "check its sign"},
       {"projection-unused", warning, "an elastic body has a projection",
        "add viscosity and yield_stress, or take the key out"},

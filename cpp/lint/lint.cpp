@@ -154,7 +154,7 @@ void build(ResolvedScene resolved, LintReport& report) {
   }
 }
 
-/// Meshes, places and the model: the checks of data, of contact and of deformations are of the plane.
+/// Meshes, places, volumes and the model: checks of data, of contact and of deformations are of the plane.
 void lintInSpace(LintReport& report) {
   ResolvedScene resolved;
   try {
@@ -163,6 +163,7 @@ void lintInSpace(LintReport& report) {
     return addError(error, "mesh-file", report.faults);
   }
   report.scene = resolved.description;
+  lintVolumes(*report.scene, report.faults);
   build(std::move(resolved), report);
 }
 
@@ -215,7 +216,10 @@ LintReport lint(const std::string& path, const std::vector<std::string>& setting
 Faults lintResolved(const ResolvedScene& resolved) {
   const SceneDescription scene = asSolved(resolved.description);
   Faults faults(scene.allowed);
-  if (scene.inSpace()) return faults;
+  if (scene.inSpace()) {
+    lintVolumes(scene, faults);
+    return faults;
+  }
   std::vector<const TriangleMesh*> meshes;
   for (const TriangleMesh& mesh : resolved.meshes) meshes.push_back(&mesh);
   runChecks(inputOf(scene, std::move(meshes)), faults);

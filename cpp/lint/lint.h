@@ -64,6 +64,8 @@ void lintApproach(const LintInput& input, const ContactDescription& contact, Con
                   Faults& faults);
 void lintBodies(const LintInput& input, Faults& faults);
 void lintMaterials(const LintInput& input, Faults& faults);
+/// Of these, those of bodies in space.
+void lintVolumes(const SceneDescription& scene, Faults& faults);
 void lintLoads(const LintInput& input, Faults& faults);
 void lintTime(const LintInput& input, Faults& faults);
 /// Data in space, against what the meshes make of them.

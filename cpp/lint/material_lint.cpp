@@ -38,29 +38,33 @@ double relaxingModulus(const Elasticity& elasticity, Plane plane) {
   return plane != Plane::stress ? elasticity.moduli()[1] : elasticity.moduli().maxCoeff();
 }
 
-void checkFlowLocks(const LintInput& input, size_t b, const PlacedMaterial& material, Faults& faults) {
+/// Bodies that keep their volume on elements that lock.
+void checkVolume(const LintInput& input, size_t b, const PlacedMaterial& material, Faults& faults) {
   const SceneDescription& scene = input.scene;
-  if (input.meshes[b] == nullptr || scene.bodies[b].volume == Volume::averaged ||
-      !flowLocks(scene, material.description, *input.meshes[b]))
-    return;
-  faults.add("flow-locks", material.where("law"),
-             material.subject + "flow keeps the volume: linear triangles " +
-                 (scene.plane == Plane::strain ? "lock, but as quarters of cells with both diagonals"
-                                               : "about an axis lock or have wrong pressures"));
+  const bool space = scene.inSpace();
+  if (scene.bodies[b].volume == Volume::averaged) return;
+  if (nearlyIncompressible(scene, material.description))
+    faults.add("poisson-limit", material.where("poisson"),
+               material.subject + "poisson = " + shortest(material.description.elasticity.poisson) +
+                   (space                          ? " on linear tetrahedra"
+                    : scene.plane == Plane::strain ? " in plane strain"
+                                                   : " in axisymmetric bodies") +
+                   " is nearly incompressible");
+  if ((space || input.meshes[b] != nullptr) &&
+      flowLocks(scene, material.description, space ? nullptr : input.meshes[b]))
+    faults.add("flow-locks", material.where("law"),
+               material.subject + "flow keeps the volume: linear " +
+                   (space                          ? "tetrahedra lock"
+                    : scene.plane == Plane::strain ? "triangles lock, but as quarters of cells with both "
+                                                     "diagonals"
+                                                   : "triangles about an axis lock or have wrong pressures"));
 }
 
-void checkElasticity(const LintInput& input, size_t b, const PlacedMaterial& material, double nominal,
-                     Faults& faults) {
+void checkElasticity(const LintInput& input, const PlacedMaterial& material, double nominal, Faults& faults) {
   constexpr double large = 0.05;
   const Elasticity& e = material.description.elasticity;
   const std::string& subject = material.subject;
   const std::string& unit = input.scene.units.stress;
-  if (nearlyIncompressible(material.description, input.scene.plane) &&
-      input.scene.bodies[b].volume != Volume::averaged)
-    faults.add("poisson-limit", material.where("poisson"),
-               subject + "poisson = " + shortest(e.poisson) + " in " +
-                   (input.scene.plane == Plane::strain ? "plane strain" : "axisymmetric bodies") +
-                   " is nearly incompressible");
   if (e.poisson < 0)
     faults.add("poisson-negative", material.where("poisson"),
                subject + "poisson = " + shortest(e.poisson) + " is negative");
@@ -208,6 +212,12 @@ double yieldTime(const std::vector<SampledDatum>& data, const TimePlan& plan, do
 
 }  // namespace
 
+void lintVolumes(const SceneDescription& scene, Faults& faults) {
+  const LintInput input{{scene, {}}, {}};
+  for (size_t b = 0; b < scene.bodies.size(); ++b)
+    for (const PlacedMaterial& material : placedMaterials(input, b)) checkVolume(input, b, material, faults);
+}
+
 void lintMaterials(const LintInput& input, Faults& faults) {
   const std::vector<SampledDatum> data = sampledData(input);
   const TimePlan& time = input.scene.time;
@@ -225,8 +235,8 @@ void lintMaterials(const LintInput& input, Faults& faults) {
       onBody = std::max(onBody, datum.largestIn(time) * datum.stressOfUnit(input.scene));
     }
     for (const PlacedMaterial& material : placedMaterials(input, b)) {
-      checkElasticity(input, b, material, onBody, faults);
-      checkFlowLocks(input, b, material, faults);
+      checkVolume(input, b, material, faults);
+      checkElasticity(input, material, onBody, faults);
       if (const auto* creep = material.description.as<NortonCreep>())
         checkCreep(input, material, *creep, largest, faults);
       if (const auto* viscoelasticity = material.description.as<Viscoelasticity>()) {

@@ -232,14 +232,7 @@ void chooseBases(TriangleMesh& mesh) {
 }
 
 std::array<int, 3> onItsLongestSide(const TriangleMesh& mesh, std::array<int, 3> triangle) {
-  const auto side = [&](int k) {
-    // From the same end, so that both triangles of an edge get the same bits; lengths that differ by rounding
-    // are equal, so that units and rotations change nothing.
-    constexpr double digits = 0x1p30;
-    const auto [low, high] = std::minmax(triangle[k], triangle[(k + 1) % 3]);
-    const double length = std::log2((mesh.vertices[high] - mesh.vertices[low]).squaredNorm());
-    return std::tuple(std::round(digits * length), high, low);
-  };
+  const auto side = [&](int k) { return rankOfSide(mesh.vertices, triangle[k], triangle[(k + 1) % 3]); };
   const int longest = side(0) < side(1) ? (side(1) < side(2) ? 2 : 1) : (side(0) < side(2) ? 2 : 0);
   std::rotate(triangle.begin(), triangle.begin() + longest, triangle.end());
   return triangle;

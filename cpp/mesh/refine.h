@@ -4,8 +4,11 @@
 // vertex. However often that is done, the triangles of one first triangle have four shapes at most.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+#include <tuple>
 #include <vector>
 
 #include "mesh/triangle_mesh.h"
@@ -17,13 +20,26 @@ namespace mortier {
 /// (TriangleMesh::edgeCurves).
 using CurvedEdges = std::map<std::array<int, 2>, double>;
 
-struct RefinedMesh {
-  TriangleMesh mesh;         ///< the vertices of the mesh before, and new ones behind them
-  CurvedEdges curves;        ///< of its edges
-  std::vector<int> parents;  ///< of each triangle, that of the mesh before of which it is a part
+/// Of triangles or tetrahedra.
+template <class Mesh, class Curves>
+struct BisectedMesh {
+  Mesh mesh;                 ///< the vertices of the mesh before, and new ones behind them
+  Curves curves;             ///< of its edges
+  std::vector<int> parents;  ///< of each element, that of the mesh before of which it is a part
   std::vector<std::array<int, 2>> cutEdges;  ///< by new vertices: the edge in whose middle they are
-  int offCurve = 0;  ///< new vertices that stayed on the chord: on the curve, a triangle would turn over
+  int offCurve = 0;  ///< new vertices that are off their curve: on it, an element would turn over
 };
+using RefinedMesh = BisectedMesh<TriangleMesh, CurvedEdges>;
+
+/// What orders the sides of elements by their lengths, from the same end, so that all elements of a side get
+/// the same bits; lengths that differ by rounding are equal, so that units and rotations change nothing.
+template <class Place>
+std::tuple<double, int, int> rankOfSide(const std::vector<Place>& vertices, int a, int b) {
+  constexpr double digits = 0x1p30;
+  const auto [low, high] = std::minmax(a, b);
+  const double length = std::log2((vertices[high] - vertices[low]).squaredNorm());
+  return {std::round(digits * length), high, low};
+}
 
 /// The triangle turned so that its longest side is the base; of equal ones that with the larger vertex
 /// numbers, so that two triangles choose alike.

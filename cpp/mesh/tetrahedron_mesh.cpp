@@ -4,6 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include <Eigen/Geometry>
+
 #include "base/error.h"
 
 namespace mortier {
@@ -41,10 +43,10 @@ void orientTetrahedra(TetrahedronMesh& mesh) {
     const auto place = [&](int k) -> const SpacePoint& { return mesh.vertices[tetrahedron[k]]; };
     double longest = 0;
     for (const auto& [a, b] : sidesOfTetrahedron) longest = std::max(longest, (place(b) - place(a)).norm());
-    const double volume = (place(1) - place(0)).cross(place(2) - place(0)).dot(place(3) - place(0)) / 6;
-    if (!(std::abs(volume) > flat * longest * longest * longest))
+    const double signedVolume = volume(mesh, tetrahedron);
+    if (!(std::abs(signedVolume) > flat * longest * longest * longest))
       throw InputError(mesh.name + ": tetrahedron " + std::to_string(t + 1) + " is flat, expected a volume");
-    if (volume < 0) std::swap(tetrahedron[2], tetrahedron[3]);
+    if (signedVolume < 0) std::swap(tetrahedron[2], tetrahedron[3]);
   }
 }
 
@@ -77,6 +79,18 @@ std::vector<SortedTriangle> boundaryOf(const TetrahedronMesh& mesh) {
 }
 
 }  // namespace
+
+std::vector<std::array<int, 3>> outerTriangles(const TetrahedronMesh& mesh) {
+  std::vector<std::array<int, 3>> triangles;
+  for (const SortedTriangle& each : boundaryOf(mesh)) triangles.push_back(each.outward);
+  return triangles;
+}
+
+double volume(const TetrahedronMesh& mesh, const std::array<int, 4>& tetrahedron) {
+  const auto& [a, b, c, d] = tetrahedron;
+  const SpacePoint& x = mesh.vertices[a];
+  return (mesh.vertices[b] - x).cross(mesh.vertices[c] - x).dot(mesh.vertices[d] - x) / 6;
+}
 
 void requireVertices(const TetrahedronMesh& mesh) {
   requireVertices(mesh, mesh.tetrahedra, "tetrahedron");

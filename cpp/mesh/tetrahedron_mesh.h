@@ -41,6 +41,11 @@ class TriangleCount {
   std::vector<std::array<int, 3>> sorted_;  ///< of all tetrahedra, as often as they have it
 };
 
+/// The triangles that belong to one tetrahedron, labelled or not, counterclockwise seen from outside.
+std::vector<std::array<int, 3>> outerTriangles(const TetrahedronMesh& mesh);
+/// Of a tetrahedron, negative where it is turned over [m^3].
+double volume(const TetrahedronMesh& mesh, const std::array<int, 4>& tetrahedron);
+
 /// Largest extent of the bounding box [m].
 double extent(const TetrahedronMesh& mesh);
 

@@ -7,6 +7,7 @@
 
 #include "base/digits.h"
 #include "plan/loads.h"
+#include "plan/steps.h"
 #include "scene/document.h"
 #include "time/quantity.h"
 
@@ -41,9 +42,8 @@ std::vector<std::string> stiffAndFlowing(const SceneDescription& scene, const Mo
     const int two = interface.pair().mortar.body;
     for (const auto& [stiff, soft] : {std::pair(one, two), std::pair(two, one)}) {
       const auto materials = materialsOf(scene.bodies[stiff]);
-      const bool mayFlow = std::any_of(materials.begin(), materials.end(),
-                                       [](const MaterialDescription* material) { return material->flows(); });
-      if (mayFlow && stiffest(materials) > much * stiffest(materialsOf(scene.bodies[soft])))
+      if (mayFlow(scene.bodies[stiff]) &&
+          stiffest(materials) > much * stiffest(materialsOf(scene.bodies[soft])))
         found.insert(stiff);
     }
   }

@@ -37,9 +37,8 @@ class Planner {
                                            : "accuracy.quantity = " + scene_.accuracy.quantity);
     else if (!scene_.quantities.empty() && !scene_.accuracy.bound)
       add("accuracy", false, "errors of the quantities",
-          scene_.inSpace() ? "they are not estimated on one mesh"
-                           : "they are not estimated on one mesh; --accuracy, or accuracy.energy, refines it "
-                             "and shows how the values change");
+          "they are not estimated on one mesh; --accuracy, or accuracy.energy, refines it and shows how the "
+          "values change");
     const bool space = scene_.inSpace();
     if (scene_.degree == 2)
       add("scene", true, "quadratic displacements",

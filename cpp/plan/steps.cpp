@@ -11,13 +11,15 @@ bool hasFriction(const SceneDescription& scene) {
                      [](const ContactDescription& contact) { return contact.friction.any(); });
 }
 
+bool mayFlow(const BodyDescription& body) {
+  const auto materials = materialsOf(body);
+  return std::any_of(materials.begin(), materials.end(),
+                     [](const MaterialDescription* each) { return each->flows(); });
+}
+
 bool stepsMatter(const SceneDescription& scene) {
-  if (hasFriction(scene)) return true;
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const BodyDescription& body) {
-    const auto materials = materialsOf(body);
-    return std::any_of(materials.begin(), materials.end(),
-                       [](const MaterialDescription* each) { return each->flows(); });
-  });
+  if (scene.inSpace()) return false;
+  return hasFriction(scene) || std::any_of(scene.bodies.begin(), scene.bodies.end(), mayFlow);
 }
 
 double stepTolerance(const SceneDescription& scene) {

@@ -99,13 +99,14 @@ std::string logStepsHeader(const Units& units) {
                    ("force[" + units.forcePerDepth() + "]").c_str());
 }
 
-std::string logRoundsHeader() {
-  return " round  triangles  unknowns  steps  mesh error  time error  seconds\n";
+std::string logRoundsHeader(const Model& model) {
+  return formatted(" round %10s  unknowns  steps  mesh error  time error  seconds\n",
+                   model.bodies.front().space() != nullptr ? "tetrahedra" : "triangles");
 }
 
 std::string logRound(const std::vector<RoundFacts>& rounds) {
   const RoundFacts& last = rounds.back();
-  return formatted("%6zu  %9zu  %8d  %5d  %8.3g %%  %8.2g %%  %7.3g\n", rounds.size(), last.triangles,
+  return formatted("%6zu  %9zu  %8d  %5d  %8.3g %%  %8.2g %%  %7.3g\n", rounds.size(), last.elements,
                    last.unknowns, last.steps, 100 * last.mesh, 100 * last.time, last.seconds);
 }
 
@@ -330,7 +331,7 @@ std::string logQuantities(const RunFacts& facts, const Model& model, const State
       text += " (no bound: " + enclosure.obstacle + ")";
   }
   if (!text.empty()) text += "\n";
-  if (!known && model.bodies.front().dimension() == 2)
+  if (!known)
     text +=
         "           their errors are not estimated on one mesh: --accuracy 0.02 refines it and shows "
         "how they change\n";

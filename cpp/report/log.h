@@ -11,7 +11,7 @@ namespace mortier {
 std::string logHeader(const RunFacts& facts, const Model& model);
 /// The head of the table of steps, or of rounds.
 std::string logStepsHeader(const Units& units);
-std::string logRoundsHeader();
+std::string logRoundsHeader(const Model& model);
 /// The last of the rounds.
 std::string logRound(const std::vector<RoundFacts>& rounds);
 /// One step.

@@ -28,7 +28,7 @@ inline std::string lawsOf(const Body& body) {
 
 /// Of the rounds on ever better meshes by which an accuracy is reached.
 struct RoundFacts {
-  size_t triangles = 0;
+  size_t elements = 0;
   int unknowns = 0;
   int steps = 0;
   double mesh = 0;  ///< estimated errors, relative

@@ -87,10 +87,10 @@ Json interfaces(const RunFacts& facts, const Model& model, const State& state) {
   return list;
 }
 
-Json rounds(const RunFacts& facts) {
+Json rounds(const RunFacts& facts, const char* elements) {
   Json list = Json::array();
   for (const RoundFacts& round : facts.rounds)
-    list.push_back({{"triangles", round.triangles},
+    list.push_back({{elements, round.elements},
                     {"unknowns", round.unknowns},
                     {"steps", round.steps},
                     {"mesh", finiteOrNull(round.mesh)},
@@ -291,7 +291,8 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
   json["projection"] = facts.projection;
   json["scheme"] = facts.scheme;
   const bool space = model.bodies.front().space() != nullptr;
-  for (const char* count : {space ? "tetrahedra" : "triangles", "nodes", "dofs", "free_dofs"})
+  const char* elements = space ? "tetrahedra" : "triangles";
+  for (const char* count : {elements, "nodes", "dofs", "free_dofs"})
     json[count] = std::accumulate(bodyList.begin(), bodyList.end(), size_t{0},
                                   [&](size_t sum, const Json& body) { return sum + size_t(body[count]); });
   json["bodies"] = bodyList;
@@ -355,7 +356,7 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
     errors["mesh"] = finiteOrNull(facts.rounds.empty() ? accuracy.largest : facts.rounds[facts.best].mesh);
     if (!facts.rounds.empty()) errors["round"] = facts.best + 1;
     errors["time"] = report.timeError;
-    json["rounds"] = rounds(facts);
+    json["rounds"] = rounds(facts, elements);
   }
   json["peak_memory_mib"] = peakMemory();
   if (const Ranks& ranks = Ranks::all(); ranks.shared())

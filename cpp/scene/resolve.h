@@ -50,12 +50,13 @@ SpacePoint vertexPoint(const TetrahedronMesh& mesh, const SpacePoint& point, con
 
 // Which volumetric strain the material of a body sees where the scene leaves it open (`volumes`).
 
-/// Whether a material is elastically next to incompressible where the thickness cannot make up for it.
-bool nearlyIncompressible(const MaterialDescription& material, Plane plane);
+/// Whether a material is elastically next to incompressible where the thickness cannot make up for it; in
+/// space on linear tetrahedra.
+bool nearlyIncompressible(const SceneDescription& scene, const MaterialDescription& material);
 
-/// Whether flow, which keeps the volume, locks on the triangles of a mesh: linear ones, but in plane strain
-/// as quarters of cells with both diagonals.
-bool flowLocks(const SceneDescription& scene, const MaterialDescription& material, const TriangleMesh& mesh);
+/// Whether flow, which keeps the volume, locks on the elements of a mesh: linear ones, but in plane strain as
+/// quarters of cells with both diagonals. \param mesh  null in space
+bool flowLocks(const SceneDescription& scene, const MaterialDescription& material, const TriangleMesh* mesh);
 
 /// Averages the volumetric strain of bodies with such a material, and says why in `volumeChoice`; beside
 /// accuracy.bound none. A second call changes nothing. Bodies without mesh (nullptr) stay as they are.

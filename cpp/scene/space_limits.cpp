@@ -69,7 +69,10 @@ void requireOfDimension(const TableReader& table, const Keys& ofSpace, const Key
 
 void requireKnownInSpace(const TableReader& root, const SceneDescription& scene) {
   root.rejectIfGiven({"plane"}, "none with dimension = 3");
-  root.rejectIfGiven({"accuracy", "tool"}, std::string("none") + inThePlane);
+  root.rejectIfGiven({"tool"}, std::string("none") + inThePlane);
+  if (const Node* accuracy = root.find("accuracy"))
+    TableReader(*accuracy, "accuracy", "accuracy")
+        .rejectIfGiven({"quantity", "bound"}, std::string("none") + inThePlane);
   const Node* solver = root.find("solver");
   if (solver != nullptr && scene.solver.method != Method::newton)
     refuse(solver->where, "solver: method = \"penalty-duality\"");

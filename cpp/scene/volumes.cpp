@@ -21,9 +21,9 @@ bool bothDiagonals(const TriangleMesh& mesh) {
 /// Why the volumetric strain of a body is to be averaged; empty where it need not be.
 std::string volumeNeed(const SceneDescription& scene, const BodyDescription& body, const TriangleMesh& mesh) {
   const auto needOf = [&](const MaterialDescription& material) -> std::string {
-    if (nearlyIncompressible(material, scene.plane))
+    if (nearlyIncompressible(scene, material))
       return "poisson = " + shortest(material.elasticity.poisson) + " keeps the volume";
-    return flowLocks(scene, material, mesh) ? "flow keeps the volume, on linear triangles" : "";
+    return flowLocks(scene, material, &mesh) ? "flow keeps the volume, on linear triangles" : "";
   };
   std::string need = needOf(body.material);
   for (const RegionDescription& region : body.regions)
@@ -33,14 +33,17 @@ std::string volumeNeed(const SceneDescription& scene, const BodyDescription& bod
 
 }  // namespace
 
-bool nearlyIncompressible(const MaterialDescription& material, Plane plane) {
+bool nearlyIncompressible(const SceneDescription& scene, const MaterialDescription& material) {
   constexpr double nearly = 0.49;
-  return plane != Plane::stress && material.elasticity.poisson > nearly;
+  return (scene.inSpace() ? scene.degree == 1 : scene.plane != Plane::stress) &&
+         material.elasticity.poisson > nearly;
 }
 
-bool flowLocks(const SceneDescription& scene, const MaterialDescription& material, const TriangleMesh& mesh) {
-  return scene.plane != Plane::stress && scene.degree == 1 && material.flows() &&
-         material.as<OwnLaw>() == nullptr && !(scene.plane == Plane::strain && bothDiagonals(mesh));
+bool flowLocks(const SceneDescription& scene, const MaterialDescription& material, const TriangleMesh* mesh) {
+  if (scene.degree != 1 || !material.flows()) return false;
+  if (scene.inSpace()) return true;
+  return scene.plane != Plane::stress && material.as<OwnLaw>() == nullptr &&
+         !(scene.plane == Plane::strain && bothDiagonals(*mesh));
 }
 
 void decideVolumes(SceneDescription& scene, const std::vector<const TriangleMesh*>& meshes) {

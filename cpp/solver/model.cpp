@@ -7,9 +7,7 @@
 #include "base/error.h"
 
 namespace mortier {
-namespace {
 
-/// Whether the supports of a body leave no more than rounding of a direction at a node.
 bool holds(const Body& body, int node, const SpacePoint& direction) {
   constexpr double rounding = 1e-9;
   if (body.rigid())
@@ -18,8 +16,6 @@ bool holds(const Body& body, int node, const SpacePoint& direction) {
     if (equation >= 0 && std::abs(value) > rounding) return false;
   return true;
 }
-
-}  // namespace
 
 bool anyFriction(const Model& model) {
   return std::any_of(model.interfaces.begin(), model.interfaces.end(),

@@ -67,6 +67,9 @@ void follow(const Model& model, const std::vector<Vector>& u, bool keepRows = fa
 /// Whether the distance of any interface changes in time.
 bool anyDistanceMoves(const Model& model);
 
+/// Whether the supports of a body leave no more than rounding of a direction at a node.
+bool holds(const Body& body, int node, const SpacePoint& direction);
+
 /// Adds an interface between bodies of the model; which nodes their supports hold is taken from them.
 /// \throws InputError
 void addInterface(Model& model, const ContactPair& pair, InterfaceOptions options = {});

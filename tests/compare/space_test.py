@@ -168,7 +168,8 @@ steps = 10
     def test_what_is_of_the_plane_is_refused(self):
         for setting, message in (
                 ("plane=strain", "plane = \"strain\", expected none with dimension = 3"),
-                ("accuracy.energy=0.1", "expected none with dimension = 3: known in the plane only"),
+                ("accuracy={energy=0.1, bound=true}", "bound = true, expected none with dimension = 3"),
+                ('accuracy={quantity="floor", tolerance=0.1}', 'quantity = "floor", expected'),
                 ("contact.friction=0.3", "friction, expected none"),
                 ("contact.sliding=finite", "sliding = \"finite\", expected none"),
                 ("contact.gap=0.1", "gap, expected none"),
@@ -244,6 +245,19 @@ steps = 1
         self.assertIn("bodies in space", said)
         self.assertIn("0 errors", said)
 
+    def test_linear_tetrahedra_that_lock_are_named(self):
+        for settings, fault in ((["body.lower.material={young=1, poisson=0.4999}"], "poisson-limit"),
+                                ([], "flow-locks")):
+            with self.subTest(fault):
+                every = [word for each in settings for word in ("--set", each)]
+                checked = self.mortier("check", "scene.toml", *every).stdout
+                self.assertIn(fault, checked)
+                self.assertRegex(checked, "linear tetrahedra (lock|is nearly incompressible)")
+                done = self.mortier("run", "scene.toml", "--out", "out", "--quiet", *every)
+                self.assertIn(fault, done.stderr)
+                checked = self.mortier("check", "scene.toml", "--set", "degree=2", *every).stdout
+                self.assertNotIn(fault, checked)
+
     def test_a_run_is_resumed_to_the_last_bit(self):
         settings = ["--set", "body.material={young=100, poisson=0.3, viscosity=1, yield_stress=1}",
                     "time.steps=400"]
@@ -258,6 +272,88 @@ steps = 1
         self.mortier("run", "--restart", "out", "--quiet")
         self.assertEqual(self.read("out/history.csv"), self.read("whole/history.csv"))
         self.assertEqual(self.read("out/contact.csv"), self.read("whole/contact.csv"))
+
+
+# A column under a load that varies, on a wider block.
+ADAPTED = """\
+dimension = 3
+[[body]]
+name = "upper"
+mesh = { shape = "cuboid", upper = [1, 1, 1], cells = 2 }
+material = { young = 1, poisson = 0.3 }
+boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "top", tz = "-t*(1+x)/100" } ]
+[[body]]
+name = "lower"
+mesh = { shape = "cuboid", lower = [0, 0, -1], upper = [1.5, 1, 0], cells = [3, 2, 2] }
+material = { young = 3, poisson = 0.3 }
+boundary = [ { label = "left", ux = 0 }, { label = "front", uy = 0 }, { label = "bottom", uz = 0 } ]
+[contact]
+sides = [{ body = "upper", label = "bottom" }, { body = "lower", label = "top" }]
+[[quantity]]
+name = "floor"
+reaction = { body = "lower", label = "bottom" }
+component = "z"
+[time]
+end = 1
+steps = 1
+"""
+
+
+class Accuracy(InFolder):
+    def setUp(self):
+        super().setUp()
+        self.write(ADAPTED)
+
+    def run_to(self, accuracy, *arguments, code=0):
+        done = self.mortier("run", "scene.toml", "--out", "out", "--accuracy", str(accuracy), *arguments,
+                            code=code)
+        return done, json.loads(self.read("out/summary.json"))
+
+    def test_is_reached_and_told(self):
+        done, summary = self.run_to(0.2)
+        accuracy, rounds = summary["accuracy"], summary["rounds"]
+        self.assertTrue(accuracy["reached"])
+        self.assertEqual(accuracy["asked"], 0.2)
+        self.assertEqual(accuracy["time"], 0)
+        self.assertLessEqual(accuracy["mesh"], 0.2)
+        self.assertEqual(accuracy["mesh"], rounds[-1]["mesh"])
+        self.assertGreater(rounds[-1]["tetrahedra"], 2*rounds[0]["tetrahedra"])
+        self.assertEqual(rounds[-1]["tetrahedra"], summary["tetrahedra"])
+        self.assertEqual(rounds[-1]["unknowns"], summary["free_dofs"])
+        self.assertIn("round tetrahedra  unknowns", done.stdout)
+        self.assertAlmostEqual(summary["quantities"]["floor"]["value"], 0.015, delta=1e-11)
+        # The meshes of the result: what is in its fields, with labels and their areas.
+        for name, area in (("upper", 1), ("lower", 1.5)):
+            said = self.mortier("mesh", "info", f"out/{name}.mesh").stdout
+            self.assertRegex(said, rf"label 3 +\d+ triangles, area {area}, top")
+            self.assertIn(f"volume     {area}", said)
+        # The nonmortar side is chosen on the first meshes.
+        self.mortier("run", "scene.toml", "--out", "again", "--quiet", "--set", "contact.swap=true", "--set",
+                     'body.upper.mesh="out/upper.mesh"', "--set", 'body.lower.mesh="out/lower.mesh"')
+        again = json.loads(self.read("again/summary.json"))
+        self.assertEqual(again["dofs"], summary["dofs"])
+        self.assertAlmostEqual(again["accuracy"]["energy_error"]/accuracy["energy_error"], 1, delta=1e-6)
+
+    def test_is_given_up_at_the_most_unknowns(self):
+        done, summary = self.run_to(0.01, "--max-unknowns", "3000", code=1)
+        self.assertIn("accuracy 0.01 not reached: a further round would have more unknowns", done.stderr)
+        self.assertFalse(summary["accuracy"]["reached"])
+        self.assertLessEqual(summary["dofs"], 3000)
+        self.assertGreater(len(summary["rounds"]), 1)
+
+    def test_flowing_bodies_keep_their_steps(self):
+        _, summary = self.run_to(0.3, "--set", "body.upper.material={young=1, poisson=0.3, viscosity=0.01, "
+                                 "yield_stress=0.01}", "--set", "time.steps=5", "--set", "degree=2")
+        self.assertTrue(summary["accuracy"]["reached"])
+        self.assertEqual(summary["steps"], 5)
+        self.assertTrue(any("equal steps" in each for each in summary["accuracy"]["not_reliable"]))
+
+    def test_checks_and_views_know_the_rounds(self):
+        self.run_to(0.3)
+        said = self.mortier("check", "scene.toml", "--accuracy", "0.3").stdout
+        self.assertIn("rounds on meshes that are refined", said)
+        self.mortier("report", "out", "--out", "report.html")
+        self.assertIn("Rounds of refinement", self.read("report.html"))
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@
 #include "adapt/rounds.h"
 #include "fem/element.h"
 #include "mesh/regions.h"
-#include "theory/half_open_contact.h"
+#include "theory/extruded_contact.h"
 
 namespace mortier::scenes {
 
@@ -21,6 +21,12 @@ struct KnownProblem {
   std::function<Model(std::vector<TriangleMesh>)> model;
   std::vector<std::function<Eigen::Vector3d(const Point&)>> stress;  ///< (s11, s22, s12), exact, by bodies
   std::vector<Elasticity> elasticity;
+  // The same in space.
+  std::vector<TetrahedronMesh> spaceMeshes = {};
+  std::function<Model(std::vector<TetrahedronMesh>)> spaceModel = {};
+  std::vector<std::function<SpaceStress(const SpacePoint&)>> spaceStress = {};
+
+  [[nodiscard]] bool inSpace() const { return !spaceMeshes.empty(); }
 };
 
 /// Adds the energy of the error, squared, and that of the exact stress: by pieces of each triangle that are
@@ -77,14 +83,18 @@ struct Adapted {
 /// Goes on until `accuracy` is reached or given up.
 inline Adapted adapt(const KnownProblem& problem, double accuracy) {
   ResolvedScene scene;
-  for (size_t b = 0; b < problem.meshes.size(); ++b) scene.description.bodies.emplace_back();
+  for (size_t b = 0; b < problem.meshes.size() + problem.spaceMeshes.size(); ++b)
+    scene.description.bodies.emplace_back();
+  scene.description.dimension = problem.inSpace() ? 3 : 2;
+  scene.spaceMeshes = problem.spaceMeshes;
   scene.description.degree = problem.degree;
   scene.description.accuracy.energy = accuracy;
   scene.meshes = problem.meshes;
   Rounds rounds(std::move(scene));
   Adapted result;
   while (result.verdict == Rounds::Verdict::goOn) {
-    const Model model = problem.model(rounds.scene().meshes);
+    const Model model = problem.inSpace() ? problem.spaceModel(rounds.scene().spaceMeshes)
+                                          : problem.model(rounds.scene().meshes);
     CurrentSpaceError current(model);
     ErrorHistory errors(model, current);
     State state = initialState(model);
@@ -97,8 +107,11 @@ inline Adapted adapt(const KnownProblem& problem, double accuracy) {
     double error = 0;
     double norm = 0;
     for (size_t b = 0; b < model.bodies.size(); ++b) {
-      addEnergies(model.bodies[b], state.bodies[b].stress, problem.stress[b], problem.elasticity[b], error,
-                  norm);
+      if (problem.inSpace())
+        addSpaceEnergies(model.bodies[b], state.bodies[b].stress, problem.spaceStress[b], error, norm);
+      else
+        addEnergies(model.bodies[b], state.bodies[b].stress, problem.stress[b], problem.elasticity[b], error,
+                    norm);
       round.unknowns += model.bodies[b].freeDofs();
     }
     result.verdict = rounds.judge({errors.errors(), errors.energy(), 0, 0}, 0);
@@ -123,6 +136,23 @@ inline KnownProblem halfOpen(std::pair<int, int> cells, double contrast, int non
   problem.stress = {[=](const Point& x) { return upper.stress(x.x(), x.y()); },
                     [=](const Point& x) { return lower.stress(x.x(), x.y()); }};
   problem.elasticity = {{1, 0.3}, {contrast, 0.2}};
+  return problem;
+}
+
+/// The same contact, extruded.
+inline KnownProblem halfOpenInSpace(int cells, int degree) {
+  const std::array<Extruded, 2> sides{Extruded{{1, 0.3}, false}, Extruded{{1, 0.3}, true}};
+  KnownProblem problem;
+  problem.degree = degree;
+  problem.spaceMeshes = {sides[0].mesh(cells), sides[1].mesh(cells * 3 / 2)};
+  for (const Extruded& side : sides)
+    problem.spaceStress.emplace_back([side](const SpacePoint& x) { return side.stress(x); });
+  problem.spaceModel = [sides, degree](std::vector<TetrahedronMesh> meshes) {
+    Model model;
+    for (size_t b = 0; b < 2; ++b) model.bodies.push_back(sides[b].body(std::move(meshes[b]), degree));
+    addInterface(model, {{1, top}, {0, bottom}, CouplingKind::weighted});
+    return model;
+  };
   return problem;
 }
 
@@ -208,6 +238,39 @@ inline KnownProblem lShape(int cells, int degree) {
   };
   problem.stress = {[](const Point& x) { return LShape().stress(x); }};
   problem.elasticity = {LShape::elasticity};
+  return problem;
+}
+
+/// The same L, extruded: in plane strain with the same moduli.
+inline KnownProblem lShapeInSpace(int cells, int degree) {
+  constexpr double poisson = 0.3 / 1.3;
+  constexpr Elasticity elasticity{(1 + poisson) / 1.3, poisson};
+  TetrahedronMesh mesh = cuboidMesh({{-1, 0, -1}, {1, 0.5, 1}, {2 * cells, (cells + 1) / 2, 2 * cells}});
+  for (size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    SpacePoint centre = SpacePoint::Zero();
+    for (const int v : mesh.tetrahedra[t]) centre += mesh.vertices[v] / 4;
+    mesh.regions[t] = centre.x() < 0 && centre.z() < 0 ? 2 : 1;
+  }
+  keepRegions(mesh, {"1"});
+  KnownProblem problem;
+  problem.degree = degree;
+  problem.spaceMeshes = {std::move(mesh)};
+  problem.spaceModel = [=](std::vector<TetrahedronMesh> meshes) {
+    SpaceConditions conditions;
+    for (const int side : {bottom, right, top, left})
+      for (const int c : {0, 1})
+        conditions.displacements.push_back({side, 2 * c, [c](const SpacePoint& x, double t) {
+                                              return t * LShape().displacement({x.x(), x.z()})[c];
+                                            }});
+    for (const int side : {5, 6}) conditions.displacements.push_back({side, spaceY, steady(0)});
+    Model model;
+    model.bodies.emplace_back("L", std::move(meshes[0]), spaceElasticMaterial(elasticity), conditions,
+                              degree);
+    return model;
+  };
+  problem.spaceStress = {[=](const SpacePoint& x) {
+    return extruded(LShape().stress({x.x(), x.z()}), poisson);
+  }};
   return problem;
 }
 

@@ -5,91 +5,18 @@
 #include <cmath>
 #include <iostream>
 
-#include "fem/tetrahedron.h"
 #include "material/space.h"
-#include "mesh/space_shapes.h"
-#include "theory/half_open_contact.h"
+#include "theory/extruded_contact.h"
 #include "time/space_error.h"
 
 namespace mortier::space_contact_test {
 
 enum : int { bottom = 1, right, top, left, front, back };
 
-using scenes::HalfOpenContact;
-
-SpaceDatum steady(double value) {
-  return [value](const SpacePoint&, double) { return value; };
-}
-SpaceDatum growing(double value) {
-  return [value](const SpacePoint&, double t) { return value * t; };
-}
-
-/// Of the plane of x and z, in plane strain along y.
-struct Extruded {
-  Elasticity elasticity;
-  bool mirrored = false;
-  [[nodiscard]] HalfOpenContact plane() const { return {elasticity, mirrored, Plane::strain}; }
-
-  [[nodiscard]] SpaceStress stress(const SpacePoint& x) const {
-    const Eigen::Vector3d s = plane().stress(x.x(), x.z());
-    const double along = elasticity.poisson * (s[0] + s[1]);
-    return fromSpaceCartesian(SpaceStress{s[0], along, s[1], 0, s[2], 0});
-  }
-
-  [[nodiscard]] Body body(int cells, int degree) const {
-    const double lower = mirrored ? -1 : 0;
-    const int across = (cells + 1) / 2;
-    const double depth = 0.25;
-    TetrahedronMesh mesh =
-        cuboidMesh({{-0.9, 0, lower}, {1.1, depth, lower + 1}, {cells, std::max(1, cells / 8), across}});
-    const HalfOpenContact exact = plane();
-    const auto displacement = [exact](int component) {
-      return [=](const SpacePoint& x, double t) { return t * exact.displacement(x.x(), x.z())[component]; };
-    };
-    const auto traction = [exact](int component, double sign) {
-      return [=](const SpacePoint& x, double t) { return sign * t * exact.stress(x.x(), x.z())[component]; };
-    };
-    const int held = mirrored ? bottom : top;
-    return {mirrored ? "lower" : "upper", std::move(mesh), spaceElasticMaterial(elasticity),
-            SpaceConditions{{{held, spaceX, displacement(0)},
-                             {held, spaceZ, displacement(1)},
-                             {front, spaceY, steady(0)},
-                             {back, spaceY, steady(0)}},
-                            {{right, spaceX, traction(0, 1)},
-                             {right, spaceZ, traction(2, 1)},
-                             {left, spaceX, traction(0, -1)},
-                             {left, spaceZ, traction(2, -1)}}},
-            degree};
-  }
-
-  /// Energies of the error of a stress, and of the exact one.
-  void addEnergies(const Body& body, const Matrix& stress, double& error, double& norm) const {
-    const std::vector<SpaceRulePoint> rule = tetrahedronRule();
-    const TetrahedronMesh& mesh = body.space()->mesh();
-    const int points = body.pointsOfTriangle();
-    for (size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-      const auto first = static_cast<Eigen::Index>(points * t);
-      const double volume = body.weights()[first] * points;
-      for (const auto& [at, weight] : rule) {
-        const std::array<double, 4> b{1 - at.sum(), at.x(), at.y(), at.z()};
-        SpacePoint x = SpacePoint::Zero();
-        for (int k = 0; k < 4; ++k) x += b[k] * mesh.vertices[mesh.tetrahedra[t][k]];
-        Matrix both(6, 2);
-        both.col(0) = this->stress(x);
-        both.col(1) = -both.col(0);
-        for (int q = 0; q < points; ++q) {
-          constexpr double far = QuadraticTetrahedron::far;
-          const double shape = points == 1 ? 1 : (b[q] - far) / (QuadraticTetrahedron::near - far);
-          both.col(1) += shape * stress.col(first + q);
-        }
-        Matrix strain;
-        body.material().elasticStrain(both, strain);
-        norm += 6 * weight * volume * both.col(0).dot(strain.col(0));
-        error += 6 * weight * volume * both.col(1).dot(strain.col(1));
-      }
-    }
-  }
-};
+using scenes::addSpaceEnergies;
+using scenes::Extruded;
+using scenes::growing;
+using scenes::steady;
 
 struct KnownEnd {
   double error = 0, force = 0;
@@ -100,15 +27,18 @@ struct KnownEnd {
 KnownEnd solveKnownEnd(int cells, int degree, CouplingKind coupling) {
   const std::array<Extruded, 2> sides{Extruded{{1, 0.3}, false}, Extruded{{1, 0.3}, true}};
   Model model;
-  model.bodies.push_back(sides[0].body(cells, degree));
-  model.bodies.push_back(sides[1].body(cells * 3 / 2, degree));
+  model.bodies.push_back(sides[0].body(sides[0].mesh(cells), degree));
+  model.bodies.push_back(sides[1].body(sides[1].mesh(cells * 3 / 2), degree));
   addInterface(model, {{1, top}, {0, bottom}, coupling});
   const auto [state, report] = scenes::run(model, 1, 1);
   EXPECT_EQ(report.status, Status::converged) << report.reason;
   EXPECT_LE(report.worst.forceBalance, 1e-11);
   double error = 0;
   double norm = 0;
-  for (const int b : {0, 1}) sides[b].addEnergies(model.bodies[b], state.bodies[b].stress, error, norm);
+  for (const int b : {0, 1}) {
+    const auto exact = [&](const SpacePoint& x) { return sides[b].stress(x); };
+    addSpaceEnergies(model.bodies[b], state.bodies[b].stress, exact, error, norm);
+  }
   double estimated = 0;
   for (const ErrorEstimate& estimate : SpaceErrorEstimator(model)(state)) estimated += estimate.error.sum();
   return {std::sqrt(error / norm), state.contactForce[0].sum(),

@@ -6,6 +6,7 @@
 #include "adapt/adapted_meshes.h"
 #include "mesh/boundary_line.h"
 #include "mesh/shape.h"
+#include "mesh/space_shapes.h"
 
 namespace mortier::adapt_test {
 
@@ -81,6 +82,18 @@ TEST(AdaptedMeshes, equalErrorsMakeEqualSizesThatMeetTheAim) {
     AdaptedMeshes meshes({first}, degree);
     meshes.refine(equalErrors(meshes, 1), 0.5);
     EXPECT_EQ(meshes.mesh(0).triangles.size(), pieces * first.triangles.size());
+  }
+}
+
+// eta_T ~ h^(p+3/2): half the error is an eighth of the volume at degree 1, 0.35 of it at degree 2.
+TEST(AdaptedMeshes, equalErrorsMakeEqualSizesInSpace) {
+  for (const auto& [degree, pieces] : {std::pair(1, 8U), std::pair(2, 2U)}) {
+    const TetrahedronMesh first = cuboidMesh({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}});
+    AdaptedMeshes meshes({first}, {CurvedFaces()}, degree);
+    const auto count = static_cast<Eigen::Index>(first.tetrahedra.size());
+    meshes.refine({Vector::Constant(count, 1.0 / static_cast<double>(count))}, 0.5);
+    EXPECT_EQ(meshes.spaceMesh(0).tetrahedra.size(), pieces * first.tetrahedra.size());
+    EXPECT_EQ(meshes.unknowns(), 3 * spaceNodes(meshes.spaceMesh(0), degree).count());
   }
 }
 

@@ -10,6 +10,7 @@
 #include "mesh/medit.h"
 #include "mesh/read.h"
 #include "mesh/regions.h"
+#include "unit/space_meshes.h"
 
 namespace mortier::space_mesh_test {
 
@@ -40,15 +41,6 @@ TetrahedronMesh twoRegions() {
   }
   mesh.regionNames = {{"first", 1}, {"second", 2}};
   return mesh;
-}
-
-double volumeOf(const TetrahedronMesh& mesh) {
-  double volume = 0;
-  for (const auto& [a, b, c, d] : mesh.tetrahedra) {
-    const auto& x = mesh.vertices;
-    volume += (x[b] - x[a]).cross(x[c] - x[a]).dot(x[d] - x[a]) / 6;
-  }
-  return volume;
 }
 
 TEST_F(SpaceMesh, isReadAsWritten) {
@@ -149,17 +141,6 @@ Physical Surface("floor", 3) = Surface In BoundingBox{-1, -1, -0.1, 2, 2, 0.1};
   EXPECT_NEAR(volumeOf(lower), 3, 1e-12);
   EXPECT_EQ(boundaryLabels(lower), (std::vector<int>{3, 5}));
   EXPECT_EQ(lower.labelNames.at("between"), 5);
-}
-
-/// The part x, y >= 0 of a ball of radius 1: a box whose cubes about the middle become spheres.
-TetrahedronMesh quarterBall(int cells) {
-  TetrahedronMesh mesh = cuboidMesh({{0, 0, -1}, {1, 1, 1}, {cells, cells, 2 * cells}});
-  for (SpacePoint& x : mesh.vertices)
-    if (x.norm() > 0) x *= x.cwiseAbs().maxCoeff() / x.norm();
-  for (int& label : mesh.boundaryLabels)
-    if (label != 4 && label != 5) label = 1;
-  validate(mesh);
-  return mesh;
 }
 
 // What the triangles of a sphere are off it is known from their vertices: the rest is of fourth order.

@@ -1,0 +1,256 @@
+#include "mesh/refine_space.h"
+
+#include <numeric>
+#include <set>
+
+#include <Eigen/Geometry>
+
+namespace mortier {
+namespace {
+
+using Edge = std::array<int, 2>;
+
+/// Simplices of n vertices that are cut in place, and where they are.
+template <size_t n>
+class CutSimplices {
+ public:
+  using Simplex = std::array<int, n>;
+
+  CutSimplices(const std::vector<Simplex>& simplices, size_t vertices) : all_(simplices), at_(vertices) {
+    for (size_t i = 0; i < all_.size(); ++i)
+      for (const int v : all_[i]) at_[v].push_back(static_cast<int>(i));
+    parents_.resize(all_.size());
+    std::iota(parents_.begin(), parents_.end(), 0);
+  }
+
+  [[nodiscard]] size_t count() const { return all_.size(); }
+  [[nodiscard]] const std::vector<Simplex>& all() const { return all_; }
+  [[nodiscard]] const Simplex& operator[](int i) const { return all_[i]; }
+  [[nodiscard]] int parent(int i) const { return parents_[i]; }
+
+  /// Those with an edge, ascending.
+  [[nodiscard]] std::vector<int> around(const Edge& edge) const {
+    std::vector<int> found;
+    if (std::max(edge[0], edge[1]) >= static_cast<int>(at_.size())) return found;
+    const bool first = at_[edge[0]].size() < at_[edge[1]].size();
+    for (const int i : at_[edge[first ? 0 : 1]])
+      if (std::find(all_[i].begin(), all_[i].end(), edge[first ? 1 : 0]) != all_[i].end()) found.push_back(i);
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+  /// Cuts one at vertex m of its edge: the half at its first end stays, the other one is put last.
+  void cut(int i, const Edge& edge, int m) {
+    at_.resize(std::max(at_.size(), static_cast<size_t>(m) + 1));
+    const auto last = static_cast<int>(all_.size());
+    Simplex second = all_[i];
+    std::replace(all_[i].begin(), all_[i].end(), edge[1], m);
+    std::replace(second.begin(), second.end(), edge[0], m);
+    std::vector<int>& left = at_[edge[1]];
+    left.erase(std::find(left.begin(), left.end(), i));
+    at_[m].push_back(i);
+    for (const int v : second) at_[v].push_back(last);
+    all_.push_back(second);
+    parents_.push_back(parents_[i]);
+  }
+
+  /// The same in the order of their parents.
+  [[nodiscard]] std::vector<int> byParents() const {
+    std::vector<int> order(all_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return parents_[i] < parents_[j]; });
+    return order;
+  }
+
+ private:
+  std::vector<Simplex> all_;
+  std::vector<int> parents_;
+  std::vector<std::vector<int>> at_;  ///< by vertices
+};
+
+/// Surfaces that meet at a larger angle than this sine have an edge there.
+constexpr double sharpSine = 0.34;
+
+/// The part of a vector that is perpendicular to a unit vector, of length one.
+SpacePoint perpendicular(const SpacePoint& vector, const SpacePoint& unit) {
+  return (vector - vector.dot(unit) * unit).normalized();
+}
+
+class SpaceBisection {
+ public:
+  SpaceBisection(const TetrahedronMesh& mesh, const CurvedFaces& curves)
+      : old_(mesh),
+        tetrahedra_(mesh.tetrahedra, mesh.vertices.size()),
+        labelled_(mesh.boundaryTriangles, mesh.vertices.size()),
+        curved_(curves.triangles, mesh.vertices.size()) {
+    result_.mesh = mesh;
+    result_.curves.normals = curves.normals;
+    oldParts_ = curves.parts;
+    for (size_t t = 0; t < tetrahedra_.count(); ++t) longest_.push_back(longestOf(static_cast<int>(t)));
+    isCut_.assign(tetrahedra_.count(), 0);
+  }
+
+  RefinedTetrahedra run(const std::vector<char>& marked) {
+    std::vector<int> pending;
+    for (size_t t = 0; t < marked.size(); ++t)
+      if (marked[t] != 0) pending.push_back(static_cast<int>(t));
+    while (!pending.empty()) {
+      for (const Edge& edge : ripe(pending)) cut(edge);
+      const auto done = [&](int t) { return isCut_[t] != 0; };
+      pending.erase(std::remove_if(pending.begin(), pending.end(), done), pending.end());
+    }
+    collect();
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] Edge longestOf(int t) const {
+    std::tuple<double, int, int> longest{-INFINITY, 0, 0};
+    for (const auto& [a, b] : sidesOfTetrahedron)
+      longest = std::max(longest, rankOfSide(result_.mesh.vertices, tetrahedra_[t][a], tetrahedra_[t][b]));
+    return {std::get<2>(longest), std::get<1>(longest)};
+  }
+
+  /// The edges on the way to the longest ones of tetrahedra that can be cut at once, ascending.
+  [[nodiscard]] std::vector<Edge> ripe(const std::vector<int>& pending) const {
+    std::set<Edge> seen;
+    std::vector<Edge> open;
+    std::vector<Edge> found;
+    const auto visit = [&](const Edge& edge) {
+      if (seen.insert(edge).second) open.push_back(edge);
+    };
+    for (const int t : pending) visit(longest_[t]);
+    while (!open.empty()) {
+      const Edge edge = open.back();
+      open.pop_back();
+      bool longestOfAll = true;
+      for (const int t : tetrahedra_.around(edge)) {
+        if (longest_[t] == edge) continue;
+        longestOfAll = false;
+        visit(longest_[t]);
+      }
+      if (longestOfAll) found.push_back(edge);
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+  void cut(const Edge& edge) {
+    const std::vector<int> around = tetrahedra_.around(edge);
+    const auto m = static_cast<int>(result_.mesh.vertices.size());
+    result_.cutEdges.push_back(edge);
+    result_.mesh.vertices.push_back((place(edge[0]) + place(edge[1])) / 2);
+    const std::vector<int> surface = curved_.around(edge);
+    putOntoCurve(m, edge, surface, around);
+    for (const int i : surface) curved_.cut(i, edge, m);
+    for (const int i : labelled_.around(edge)) labelled_.cut(i, edge, m);
+    for (const int t : around) {
+      isCut_[t] = 1;
+      tetrahedra_.cut(t, edge, m);
+      longest_[t] = longestOf(t);
+      longest_.push_back(longestOf(static_cast<int>(tetrahedra_.count()) - 1));
+      isCut_.push_back(1);
+    }
+  }
+
+  [[nodiscard]] const SpacePoint& place(int v) const { return result_.mesh.vertices[v]; }
+
+  void putOntoCurve(int m, const Edge& edge, const std::vector<int>& surface,
+                    const std::vector<int>& around) {
+    std::set<int> parts;
+    for (const int i : surface) parts.insert(oldParts_[curved_.parent(i)]);
+    if (parts.empty()) return;
+    const SpacePoint d = place(edge[1]) - place(edge[0]);
+    const SpacePoint sagitta = sagittaOver(edge, d, {parts.begin(), parts.end()});
+    for (const int part : parts)
+      result_.curves.normals[{m, part}] =
+          perpendicular(normal(edge[0], part) + normal(edge[1], part), d.normalized());
+    if (sagitta.isZero(0)) return;
+    const SpacePoint middle = place(m);
+    for (const double share : {1.0, 0.5, 0.25, 0.0}) {
+      result_.mesh.vertices[m] = middle + share * sagitta;
+      if (share == 0 || !spoils(m, edge, around)) break;
+      if (share == 1) ++result_.offCurve;
+    }
+  }
+
+  [[nodiscard]] bool spoils(int m, const Edge& edge, const std::vector<int>& around) const {
+    constexpr double least = 0.25;  // of the volume that a half has on the straight edge
+    return std::any_of(around.begin(), around.end(), [&](int t) {
+      const double half = volume(result_.mesh, tetrahedra_[t]) / 2;
+      return std::any_of(edge.begin(), edge.end(), [&](int v) {
+        std::array<int, 4> piece = tetrahedra_[t];
+        std::replace(piece.begin(), piece.end(), v, m);
+        return !(volume(result_.mesh, piece) > least * half);
+      });
+    });
+  }
+
+  [[nodiscard]] const SpacePoint& normal(int v, int part) const {
+    return result_.curves.normals.at({v, part});
+  }
+
+  [[nodiscard]] SpacePoint sagittaOver(const Edge& edge, const SpacePoint& d,
+                                       const std::vector<int>& parts) const {
+    std::array<SpacePoint, 2> tangents;
+    for (int end = 0; end < 2; ++end) {
+      SpacePoint own = normal(edge[end], parts[0]);
+      if (parts.size() > 1) {
+        const SpacePoint along = own.cross(normal(edge[end], parts[1]));
+        if (along.norm() > sharpSine) {
+          tangents[end] = (along.dot(d) > 0 ? 1 : -1) * along.normalized();
+          continue;
+        }
+        own = (own + normal(edge[end], parts[1])).normalized();
+      }
+      tangents[end] = perpendicular(d, own);
+    }
+    return sagittaOf(d, tangents[0], tangents[1]);
+  }
+
+  void collect() {
+    TetrahedronMesh& mesh = result_.mesh;
+    mesh.tetrahedra.clear();
+    mesh.regions.clear();
+    for (const int t : tetrahedra_.byParents()) {
+      mesh.tetrahedra.push_back(tetrahedra_[t]);
+      mesh.regions.push_back(old_.regions[tetrahedra_.parent(t)]);
+      result_.parents.push_back(tetrahedra_.parent(t));
+    }
+    mesh.boundaryTriangles = labelled_.all();
+    mesh.boundaryLabels.clear();
+    for (size_t i = 0; i < labelled_.count(); ++i)
+      mesh.boundaryLabels.push_back(old_.boundaryLabels[labelled_.parent(static_cast<int>(i))]);
+    result_.curves.triangles = curved_.all();
+    for (size_t i = 0; i < curved_.count(); ++i)
+      result_.curves.parts.push_back(oldParts_[curved_.parent(static_cast<int>(i))]);
+  }
+
+  const TetrahedronMesh& old_;
+  CutSimplices<4> tetrahedra_;
+  CutSimplices<3> labelled_, curved_;  ///< triangles of the boundary
+  std::vector<int> oldParts_;
+  std::vector<Edge> longest_;  ///< of tetrahedra, smaller vertex first
+  std::vector<char> isCut_;    ///< tetrahedra of the mesh before, and all new ones
+  RefinedTetrahedra result_;
+};
+
+}  // namespace
+
+RefinedTetrahedra bisect(const TetrahedronMesh& mesh, const CurvedFaces& curves,
+                         const std::vector<char>& marked) {
+  return SpaceBisection(mesh, curves).run(marked);
+}
+
+SpacePoint sagittaOf(const SpacePoint& d, const SpacePoint& from, const SpacePoint& to) {
+  constexpr double straight = 1e-9;
+  constexpr double least = 0.5;  // of the cosines: further turned tangents are none of this edge
+  const double length = d.norm();
+  const double first = from.dot(d) / length;
+  const double last = to.dot(d) / length;
+  const SpacePoint turn = from - to;
+  if (turn.norm() < straight || std::min(first, last) < least) return SpacePoint::Zero();
+  return length / (4 + 2 * (first + last)) * turn;
+}
+
+}  // namespace mortier
