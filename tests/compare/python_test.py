@@ -23,6 +23,9 @@ CASES = {
     "viscoplastic": ("open-close.toml", {"time.tolerance": 1e-3}),
     "plane-strain": ("thick-cylinder.toml", {"time.steps": 4, "output.every": 2}),
     "accuracy": ("punch.toml", {"accuracy.energy": 0.2, "output.every": 1}),
+    "accuracy-in-space": ("cubes.toml", {"accuracy.energy": 0.2, "time.steps": 2,
+                                         "body.material.yield_stress": 100,
+                                         "body.lower.boundary.bottom.ux": 0}),
     "bound": ("exact-contact.toml", {"accuracy.bound": True}),
     "flow-and-bound": ("compression.toml", {"accuracy.bound": True, "time.steps": 4,
                                             "body.material.projection": "frobenius"}),
@@ -96,15 +99,16 @@ component = "y"
         self.assertEqual({step.number for step in run.steps}, kept)
         for step in run.steps:
             for k, side in enumerate(step.contact):
+                axes = [axis for axis in "xyz" if axis in contact[step.number, k][0]]
                 told = {key: np.array([float(row[key]) for row in contact[step.number, k]])
-                        for key in ("vertex", "x", "y", "gap", "force", "pressure", "time")}
+                        for key in ("vertex", *axes, "gap", "force", "pressure", "time")}
                 for key in ("vertex", "gap", "force", "pressure"):
                     np.testing.assert_array_equal(getattr(side, key), told[key])
                 for key in ("friction", "shear", "slip", "slipping"):
                     rows = contact[step.number, k]
                     written = [float(row[key]) for row in rows] if name == "friction" else [0.0] * len(rows)
                     np.testing.assert_array_equal(getattr(side, key), written)
-                np.testing.assert_array_equal(side.position, np.column_stack([told["x"], told["y"]]))
+                np.testing.assert_array_equal(side.position, np.column_stack([told[axis] for axis in axes]))
                 self.assertEqual(step.time, told["time"][0])
             for body, mesh in run.to_meshio(step).items():
                 self.compare_fields(mesh, folder / f"{body}_{step.number:06d}.vtu")
@@ -112,11 +116,12 @@ component = "y"
     def compare_fields(self, mesh, path):
         import meshio
         told = meshio.read(path)
-        np.testing.assert_array_equal(mesh.points, told.points[:, :2])
+        dimension = mesh.points.shape[1]
+        np.testing.assert_array_equal(mesh.points, told.points[:, :dimension])
         np.testing.assert_array_equal(mesh.cells[0].data, told.cells[0].data)
         self.assertEqual(mesh.cells[0].type, told.cells[0].type)
         np.testing.assert_array_equal(mesh.point_data["displacement"],
-                                      told.point_data["displacement"][:, :2])
+                                      told.point_data["displacement"][:, :dimension])
         for name, values in mesh.cell_data.items():
             np.testing.assert_array_equal(values[0], told.cell_data[name][0], name)
 
