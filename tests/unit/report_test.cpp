@@ -208,7 +208,7 @@ TEST(Log, rowsStandUnderTheirHeader) {
   EXPECT_NE(header.find("mortar, 2 nonmortar (upper) x 2 mortar (lower) nodes, overlap 1.000"),
             std::string::npos);
   EXPECT_EQ(logRound({{100, 200, 3, 0.5, 0.1, 7}, {1000, 2000, 30, 0.05, 0.01, 7}}).size(),
-            logRoundsHeader().size());
+            logRoundsHeader(blocks.model).size());
 }
 
 }  // namespace mortier::report_test
