@@ -135,7 +135,8 @@ def distance(coarse, fine, materials):
     square = 0.0
     for name, body in fine.bodies.items():
         x = body.points[body.triangles]
-        areas = np.abs(np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])) / 2
+        (x1, y1), (x2, y2) = (x[:, 1] - x[:, 0]).T, (x[:, 2] - x[:, 0]).T
+        areas = np.abs(x1 * y2 - x2 * y1) / 2
         own = coarse.bodies[name].stress[triangles_at(coarse.bodies[name], x.mean(1))]
         square += (areas * energy(body.stress - own, *materials[name])).sum()
     return square**0.5
