@@ -48,8 +48,8 @@ struct Fan {
 double largestEigenvalue(const Eigen::Matrix3d& compliance) {
   // s : E^-1 s over s : s, s : s = s11^2 + s22^2 + 2 s12^2
   const Eigen::Vector3d root(1, 1, std::numbers::sqrt2 / 2);
-  const Eigen::Matrix3d scaled = root.asDiagonal() * compliance * root.asDiagonal();
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[2];
+  const Matrix scaled = root.asDiagonal() * compliance * root.asDiagonal();
+  return Eigen::SelfAdjointEigenSolver<Matrix>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[2];
 }
 
 /// Of |grad v| over |eps v| for displacements without mean rotation (Korn), squared: 2/beta^2 with

@@ -83,7 +83,7 @@ Eigen::Matrix<double, 6, 6> quadraticMass() {
 }  // namespace
 
 CompositeReference::CompositeReference() : mass(massMatrix()) {
-  Eigen::Matrix<double, 30, 27> conditions = Eigen::Matrix<double, 30, 27>::Zero();
+  Matrix conditions = Matrix::Zero(30, 27);
   const auto put = [&](int row, int part, int vertex, const Eigen::Matrix<double, 2, 3>& matrix) {
     for (int c = 0; c < 3; ++c)
       for (int i = 0; i < 2; ++i) conditions(row + i, column(part, vertex, c)) += matrix(i, c);
@@ -109,10 +109,9 @@ CompositeReference::CompositeReference() : mass(massMatrix()) {
     const std::array<Point, 3> x = cornersOf(e);
     for (int k = 0; k < 3; ++k) put(row, e, k, -tractionMatrix(acrossFrom(x[(k + 1) % 3], x[(k + 2) % 3])));
   }
-  Eigen::Matrix<double, 30, 12> given = Eigen::Matrix<double, 30, 12>::Zero();
+  Matrix given = Matrix::Zero(30, 12);
   given.topRows<12>().setIdentity();
-  const Eigen::Matrix<double, 27, 12> all =
-      Eigen::MatrixXd(conditions).colPivHouseholderQr().solve(Eigen::MatrixXd(given));
+  const Matrix all = conditions.colPivHouseholderQr().solve(given);
   stresses = all;
   Vector turning = Vector::Zero(18);  // twice the area of a part is 1/3
   for (int e = 0; e < 3; ++e) turning.segment<2>(12 + 2 * e) = -turningForce(e) / 3;

@@ -93,7 +93,7 @@ std::optional<GluedBodies::Solution> GluedBodies::solve(const Given& given) cons
            !((A * x - right).cwiseAbs().maxCoeff() <= accurate * right.cwiseAbs().maxCoeff());
   };
   if (all > 0 && fails()) {  // conditions may depend on each other
-    x = A.fullPivLu().solve(right);
+    x = A.completeOrthogonalDecomposition().solve(right);
     if (fails()) return std::nullopt;
   }
   Solution solution{{}, Vector::Zero(static_cast<Eigen::Index>(facing_.size()))};

@@ -1,9 +1,9 @@
 #include "bound/side_tractions.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <numeric>
 
+#include "base/dense_templates.h"
 #include "bound/composite_reference.h"
 #include "material/stress.h"
 

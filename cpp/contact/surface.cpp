@@ -238,7 +238,7 @@ RaySight TriangleTree::along(const SpacePoint& from, const SpacePoint& direction
     const auto& [a, b, c] = surface_.places[t];
     Eigen::Matrix3d equations;
     equations << b - a, c - a, -direction;
-    const Eigen::Vector3d x = equations.partialPivLu().solve(from - a);
+    const Eigen::Vector3d x = equations.inverse() * (from - a);
     const Eigen::Vector3d mu(1 - x[0] - x[1], x[0], x[1]);
     if (mu.minCoeff() < -rounding || std::abs(x[2]) > reach) continue;
     if (nearest.triangle < 0 || std::abs(x[2]) < std::abs(nearest.delta)) nearest = {t, mu, x[2]};

@@ -1,11 +1,11 @@
 #include "fem/data_misfit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
 
+#include "base/dense_templates.h"
 #include "mesh/edge_element.h"
 
 namespace mortier {
@@ -34,7 +34,7 @@ Eigen::VectorXd projectionOf(const Resolved<Place>& resolved, int degree) {
     normal += weight * terms * terms.transpose();
     right += weight * value * terms;
   }
-  return normal.ldlt().solve(right);
+  return normal.completeOrthogonalDecomposition().solve(right);
 }
 
 template <class Place>

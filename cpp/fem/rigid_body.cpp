@@ -18,8 +18,8 @@ void Body::findMotions() {
   // Columns of about the same size, or the normal equations lose digits.
   const Eigen::Vector3d scale(1, 1, extent_);
   const Matrix scaled = motions_ * scale.cwiseInverse().asDiagonal();
-  toMotion_ = scale.cwiseInverse().asDiagonal() *
-              Matrix((scaled.transpose() * scaled).partialPivLu().solve(scaled.transpose()));
+  const Eigen::Matrix3d normal = scaled.transpose() * scaled;
+  toMotion_ = scale.cwiseInverse().asDiagonal() * Matrix(normal.inverse() * scaled.transpose());
   for (int c = 0; c < 3; ++c) {
     if (motion.held[c]) continue;
     freeMotions_.conservativeResize(dofs(), ++freeDofs_);

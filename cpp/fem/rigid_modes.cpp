@@ -116,7 +116,7 @@ Eigen::Vector3d motionOf(const Body& body, const RigidComponents& components, in
     normal += motions.transpose() * motions;
     right += motions.transpose() * motion.segment<2>(2 * v);
   }
-  return normal.ldlt().solve(right);
+  return normal.inverse() * right;
 }
 
 }  // namespace

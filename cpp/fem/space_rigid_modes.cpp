@@ -111,7 +111,7 @@ std::string describeSpaceMotion(const Body& body, const Vector& motion) {
     normal += motions.transpose() * motions;
     right += motions.transpose() * motion.segment<3>(3 * static_cast<Eigen::Index>(node));
   }
-  const Vector fitted = Matrix(normal).ldlt().solve(Vector(right)).normalized();
+  const Vector fitted = Matrix(normal).partialPivLu().solve(Vector(right)).normalized();
   const auto shown = [](const SpacePoint& x) {
     std::ostringstream text;
     text.precision(4);

@@ -29,7 +29,7 @@ class OfAnyElasticity {
 
   /// \param law  with the isotropic elasticity of modulus `largest`, the largest eigenvalue of E
   OfAnyElasticity(Law law, const Matrix& E, double largest) : law_(std::move(law)) {
-    const Eigen::SelfAdjointEigenSolver<Square> eigen{Square(E)};
+    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(E);
     const Eigen::Array<double, n, 1> inverse = eigen.eigenvalues().array().inverse();
     const Eigen::Array<double, n, 1> beyond = (inverse - 1 / largest).max(0);
     inverse_ = eigen.eigenvectors() * inverse.matrix().asDiagonal() * eigen.eigenvectors().transpose();

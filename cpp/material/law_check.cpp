@@ -110,7 +110,8 @@ class Trial {
       all.conservativeResize(n_, count);
       all.rightCols(n_) = rootE_ * slopes.rightCols(n_) * rootC_;
     }
-    const double steep = all.jacobiSvd().singularValues()[0];
+    const double steep =
+        std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix>(Matrix(all * all.transpose())).eigenvalues()[n_ - 1]);
     if (!std::isfinite(steep)) return false;
     if (!(steep <= result_.lipschitz)) {
       result_.lipschitz = steep;

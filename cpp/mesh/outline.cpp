@@ -1,11 +1,11 @@
 #include "mesh/outline.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "base/dense_templates.h"
 #include "base/error.h"
 
 namespace mortier {

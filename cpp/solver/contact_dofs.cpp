@@ -125,7 +125,7 @@ void ContactDofs::findMotions(const Model& model, int body) {
     R.col(i) = (of.rigid() ? Vector(motions.col(i)) : of.gather(motions.col(i)))(equations);
   basis_.setIdentity(motions.cols(), motions.cols());
   if (motions.cols() == 0) return;
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(R.transpose() * R);
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(Matrix(R.transpose() * R));
   const double largest = std::max(1.0, eigen.eigenvalues().maxCoeff());
   if (eigen.eigenvalues()[0] <= motionTolerance * largest)
     throw UnheldBodyError("body " + of.name() + ": nothing holds its " +
