@@ -154,7 +154,7 @@ class Commands(InSharedFolder):
 
     def check_mortier(self, words):
         # long, or after a run that was stopped: tests of their own
-        if words[0] == "study" or "--restart" in words:
+        if words[0] == "study" or "--restart" in words or "--animate" in words:
             self.check_options(words)
         else:
             run([PROGRAM, *words], self.folder)
