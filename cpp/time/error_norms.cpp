@@ -66,7 +66,7 @@ double ErrorMeasure::meanSquare(const Vector& displacement, size_t body) const {
 }
 
 ErrorNorms ErrorMeasure::sizeOf(const State& state) const {
-  constexpr double little = 1e-6;
+  constexpr double littleWork = 5e-4;      // of the energy norm squared: a thousandth of the elastic energy
   constexpr double roundedMotion = 1e-10;  // over the extent, the strain that is nothing beside it
   double stress = 0;
   double displacement = 0;
@@ -85,7 +85,7 @@ ErrorNorms ErrorMeasure::sizeOf(const State& state) const {
   if (strain > 0)
     stress = std::max(stress, stress / strain * displacement * std::pow(roundedMotion / extent_, 2));
   return {std::sqrt(stress), std::max(std::sqrt(displacement), extent_ * std::sqrt(strain)),
-          rough_ ? std::max(state.frictionWork, little * stress) : 0};
+          rough_ ? std::max(state.frictionWork, littleWork * stress) : 0};
 }
 
 ErrorNorms ErrorMeasure::sizeOf(const std::vector<Response>& error) const {
