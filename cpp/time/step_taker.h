@@ -53,8 +53,10 @@ class StepTaker {
   /// of the slip of the nodes that stick there.
   std::vector<Response> response(const std::vector<Matrix>& strain, const std::vector<Vector>& slip = {});
   std::vector<Response> responseTo(const std::vector<Vector>& slip);
-  /// Slip and dissipation by friction of the last attempt.
+  /// Slip, dissipation by friction and flow of the last attempt.
   [[nodiscard]] SlipAndWork slip() const;
+  /// What friction dissipates where contact opens in it, its force falling evenly along the slip [J/m].
+  [[nodiscard]] double workOfOpening() const;
   /// The slip that such a response has, per interface.
   [[nodiscard]] std::vector<Vector> slipOf(const std::vector<Response>& response) const;
   [[nodiscard]] bool follows() const { return anyFollows(model_); }

@@ -109,6 +109,7 @@ TEST(TimeErrors, randomRunsAreAsAccurateAsTheySay) {
   int runs = 0;
   std::vector<unsigned> seeds(24);
   std::iota(seeds.begin(), seeds.end(), 0U);
+  seeds.push_back(137);  // when contact closes depends on what flowed while it stuck, slipped and opened
   seeds.push_back(454);  // contact closes and opens at the peak of a distance
   for (const unsigned seed : seeds) {
     const Case of = randomCase(seed);

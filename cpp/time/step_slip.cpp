@@ -1,0 +1,46 @@
+// What slips in a step, and what friction dissipates.
+#include <cmath>
+#include <numeric>
+
+#include "time/error_norms.h"
+#include "time/step_taker.h"
+
+namespace mortier {
+
+std::vector<Response> StepTaker::responseTo(const std::vector<Vector>& slip) {
+  std::vector<Matrix> none;
+  for (const Body& body : model_.bodies)
+    none.push_back(Matrix::Zero(body.material().components(), body.points()));
+  return response(none, slip);
+}
+
+SlipAndWork StepTaker::slip() const {
+  const std::vector<double> work = frictionWork(model_, solutions_.back());
+  std::vector<Matrix> flow = ratesOf(solutions_.back(), 1);
+  if (!shift_.empty()) addTo(flow, 1, shift_);
+  return {slips(model_, solutions_.back()), std::accumulate(work.begin(), work.end(), 0.0), std::move(flow)};
+}
+
+double StepTaker::workOfOpening() const {
+  const Iterate& end = solutions_.back();
+  const std::vector<Vector> slip = slips(model_, end);
+  double work = 0;
+  for (size_t k = 0; k < slip.size(); ++k)
+    for (Eigen::Index i = 0; i < slip[k].size(); ++i)
+      if (end.contactForce[k][i] <= 0) work += std::abs(state_.frictionForce[k][i] * slip[k][i]) / 2;
+  return work;
+}
+
+std::vector<Vector> StepTaker::slipOf(const std::vector<Response>& response) const {
+  std::vector<Vector> result;
+  for (const ContactInterface& interface : model_.interfaces) {
+    const ContactPair& pair = interface.pair();
+    result.emplace_back();
+    if (interface.hasFriction())
+      result.back() =
+          interface.slip(response[pair.nonmortar.body].displacement, response[pair.mortar.body].displacement);
+  }
+  return result;
+}
+
+}  // namespace mortier
