@@ -68,6 +68,7 @@ class Controller {
     Judgement judgement = {};
     SlipAndWork missed = {};  ///< by one step over the pair that it begins; the second is still to be added
     bool beginsPair = false;
+    bool contactChanges = false;
   };
   [[nodiscard]] Judgement judge(StepTaker& taker, double t0, double t1) const;
   /// \param onsets  how often the step may still be shortened to end on the first onset of flow

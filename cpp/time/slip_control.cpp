@@ -16,8 +16,8 @@ double Controller::sizeOf(StepTaker& taker, const SlipAndWork& missed) const {
 }
 
 /// Adds a step of a pair to what one of twice the length misses of it: of the flow what its stages do not
-/// show, as where contact changes between them. What they do show that one misses 2^(p+1) times. What friction
-/// dissipates as contact opens neither has: it ends without force.
+/// show. What they do show that one misses 2^(p+1) times. Neither has what friction dissipates as contact
+/// opens: they end without force.
 void Controller::addOfPair(const StepTaker& taker, const Judgement& of, SlipAndWork& missed) {
   addTo(missed, 1, taker.slip());
   missed.work += taker.workOfOpening();
@@ -44,7 +44,10 @@ Controller::Attempt Controller::attemptOfPair(StepTaker& taker, double t0, doubl
   step.outcome = attempt(taker, t0, step.t1, effort, onsets, step.judgement);
   step.outcome.iterations += once.iterations;
   step.outcome.factorisations += once.factorisations;
-  if (step.beginsPair && step.outcome.converged()) addOfPair(taker, step.judgement, step.missed);
+  if (step.beginsPair && step.outcome.converged()) {
+    addOfPair(taker, step.judgement, step.missed);
+    step.contactChanges = taker.contactChanges();
+  }
   return step;
 }
 
@@ -58,6 +61,8 @@ bool Controller::completePair(StepTaker& taker, const Attempt& first, double end
   if (good) {
     SlipAndWork missed = first.missed;
     addOfPair(taker, second.judgement, missed);
+    // Stages show the flow unless contact changes between them.
+    if (!first.contactChanges && !taker.contactChanges()) missed.strain.clear();
     const double size = sizeOf(taker, missed);
     const double fits = safety * std::pow(size / own.local, -0.5);  // a pair misses k^2
     factor = std::min({factor, second.judgement.factor, std::clamp(fits, leastFactor, largest)});

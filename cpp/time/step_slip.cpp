@@ -21,6 +21,15 @@ SlipAndWork StepTaker::slip() const {
   return {slips(model_, solutions_.back()), std::accumulate(work.begin(), work.end(), 0.0), std::move(flow)};
 }
 
+bool StepTaker::contactChanges() const {
+  const Iterate& end = solutions_.back();
+  for (size_t k = 0; k < state_.contactForce.size(); ++k)
+    if (((state_.contactForce[k].array() > 0) != (end.contactForce[k].array() > 0)).any() ||
+        state_.slipping[k] != end.slipping[k])
+      return true;
+  return false;
+}
+
 double StepTaker::workOfOpening() const {
   const Iterate& end = solutions_.back();
   const std::vector<Vector> slip = slips(model_, end);

@@ -46,6 +46,8 @@ class StepTaker {
   StepError carried(const std::vector<Matrix>& strain);
   /// Whether a contact that was open is closed at the end of the last attempt.
   [[nodiscard]] bool closes() const;
+  /// Whether any contact opens, closes, sticks or slips there that did not in the state.
+  [[nodiscard]] bool contactChanges() const;
   /// The error of the state from which the last attempt begins, as far as its stresses relax within the
   /// attempt: its flow is not that with which the attempt begins.
   std::vector<Response> lagAtStart();
