@@ -151,8 +151,7 @@ void Controller::add(StepTaker& taker, StepError local, double size, SlipAndWork
   const std::vector<Matrix> flowed = std::exchange(missed.strain, {});
   addTo(own.slip, 1, missed);
   addTo(own.strain, 1, flowed);
-  if (!own.slip.slip.empty())
-    addTo(response, flowed.empty() ? taker.responseTo(own.slip.slip) : taker.response(flowed, own.slip.slip));
+  if (!own.slip.slip.empty()) addTo(response, taker.response(flowed, own.slip.slip));
   if (rough_) own.slip.slip = taker.slipOf(response);  // what slips does not keep an error of its own
   ErrorNorms error = measure_.sizeOf(response);
   error.friction = std::abs(own.slip.work);

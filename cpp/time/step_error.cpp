@@ -192,7 +192,11 @@ StepError StepTaker::carried(const std::vector<Matrix>& strain) {
 std::vector<Response> StepTaker::response(const std::vector<Matrix>& strain,
                                           const std::vector<Vector>& slip) {
   std::vector<Matrix> felt;
-  for (size_t b = 0; b < strain.size(); ++b) felt.push_back(feltStrain(b, strain[b]));
+  for (size_t b = 0; b < model_.bodies.size(); ++b) {
+    const Body& body = model_.bodies[b];
+    felt.push_back(strain.empty() ? Matrix::Zero(body.material().components(), body.points())
+                                  : feltStrain(b, strain[b]));
+  }
   return system_.respond(felt, solutions_.back(), slip);
 }
 

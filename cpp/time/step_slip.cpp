@@ -7,13 +7,6 @@
 
 namespace mortier {
 
-std::vector<Response> StepTaker::responseTo(const std::vector<Vector>& slip) {
-  std::vector<Matrix> none;
-  for (const Body& body : model_.bodies)
-    none.push_back(Matrix::Zero(body.material().components(), body.points()));
-  return response(none, slip);
-}
-
 SlipAndWork StepTaker::slip() const {
   const std::vector<double> work = frictionWork(model_, solutions_.back());
   std::vector<Matrix> flow = ratesOf(solutions_.back(), 1);

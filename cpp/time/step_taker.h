@@ -52,9 +52,8 @@ class StepTaker {
   /// attempt: its flow is not that with which the attempt begins.
   std::vector<Response> lagAtStart();
   /// What displacement and stress make of an error of the viscoplastic strain at the end of the attempt, and
-  /// of the slip of the nodes that stick there.
+  /// of the slip of the nodes that stick there; of no strain where that is empty.
   std::vector<Response> response(const std::vector<Matrix>& strain, const std::vector<Vector>& slip = {});
-  std::vector<Response> responseTo(const std::vector<Vector>& slip);
   /// Slip, dissipation by friction and flow of the last attempt.
   [[nodiscard]] SlipAndWork slip() const;
   /// What friction dissipates where contact opens in it, its force falling evenly along the slip [J/m].
