@@ -69,6 +69,7 @@ class Controller {
     SlipAndWork missed = {};  ///< by one step over the pair that it begins; the second is still to be added
     bool beginsPair = false;
     bool contactChanges = false;
+    double workOfChange = 0;  ///< StepTaker::workOfChange() [J/m]
   };
   [[nodiscard]] Judgement judge(StepTaker& taker, double t0, double t1) const;
   /// \param onsets  how often the step may still be shortened to end on the first onset of flow

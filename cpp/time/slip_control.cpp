@@ -16,11 +16,9 @@ double Controller::sizeOf(StepTaker& taker, const SlipAndWork& missed) const {
 }
 
 /// Adds a step of a pair to what one of twice the length misses of it: of the flow what its stages do not
-/// show. What they do show that one misses 2^(p+1) times. Neither has what friction dissipates as contact
-/// opens: they end without force.
+/// show. What they do show that one misses 2^(p+1) times.
 void Controller::addOfPair(const StepTaker& taker, const Judgement& of, SlipAndWork& missed) {
   addTo(missed, 1, taker.slip());
-  missed.work += taker.workOfOpening();
   addTo(missed.strain, 1 - std::exp2(taker.errorOrder() - 1), of.local.strain);
 }
 
@@ -47,6 +45,7 @@ Controller::Attempt Controller::attemptOfPair(StepTaker& taker, double t0, doubl
   if (step.beginsPair && step.outcome.converged()) {
     addOfPair(taker, step.judgement, step.missed);
     step.contactChanges = taker.contactChanges();
+    step.workOfChange = taker.workOfChange();
   }
   return step;
 }
@@ -61,6 +60,9 @@ bool Controller::completePair(StepTaker& taker, const Attempt& first, double end
   if (good) {
     SlipAndWork missed = first.missed;
     addOfPair(taker, second.judgement, missed);
+    // Where forces change fast neither the steps nor the long one may see them.
+    const double work = first.workOfChange + taker.workOfChange();
+    if (std::abs(work) > std::abs(missed.work)) missed.work = work;
     // Stages show the flow unless contact changes between them.
     if (!first.contactChanges && !taker.contactChanges()) missed.strain.clear();
     const double size = sizeOf(taker, missed);

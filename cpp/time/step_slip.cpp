@@ -23,13 +23,15 @@ bool StepTaker::contactChanges() const {
   return false;
 }
 
-double StepTaker::workOfOpening() const {
+double StepTaker::workOfChange() const {
   const Iterate& end = solutions_.back();
   const std::vector<Vector> slip = slips(model_, end);
   double work = 0;
   for (size_t k = 0; k < slip.size(); ++k)
     for (Eigen::Index i = 0; i < slip[k].size(); ++i)
-      if (end.contactForce[k][i] <= 0) work += std::abs(state_.frictionForce[k][i] * slip[k][i]) / 2;
+      if (end.contactForce[k][i] <= 0 || end.slipping[k][i] != 0)
+        work += (std::abs(state_.frictionForce[k][i]) - std::abs(end.frictionForce[k][i])) *
+                std::abs(slip[k][i]) / 2;
   return work;
 }
 

@@ -56,8 +56,9 @@ class StepTaker {
   std::vector<Response> response(const std::vector<Matrix>& strain, const std::vector<Vector>& slip = {});
   /// Slip, dissipation by friction and flow of the last attempt.
   [[nodiscard]] SlipAndWork slip() const;
-  /// What friction dissipates where contact opens in it, its force falling evenly along the slip [J/m].
-  [[nodiscard]] double workOfOpening() const;
+  /// By how much more friction dissipates if its forces change evenly along the slip: in the attempt they are
+  /// those of its end, none where contact opens [J/m].
+  [[nodiscard]] double workOfChange() const;
   /// The slip that such a response has, per interface.
   [[nodiscard]] std::vector<Vector> slipOf(const std::vector<Response>& response) const;
   [[nodiscard]] bool follows() const { return anyFollows(model_); }
