@@ -1,5 +1,6 @@
 // Steps chosen by their error in which contact closes (controller.h).
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "time/controller.h"
@@ -32,7 +33,7 @@ bool Controller::repeatInHalves(StepTaker& taker, StepTaker::Kept start, const S
     factor = std::clamp(safety * own.local / off, leastFactor, safety);
     return false;
   }
-  own.worst = larger(own.worst, {own.error.stress + off * own.scale.stress, 0, 0});
+  own.worst = larger(own.worst, {own.error.stress + off * own.scale.stress, 0, std::abs(own.slip.work)});
   return true;
 }
 
@@ -63,7 +64,11 @@ double Controller::halve(StepTaker& taker, const StepTaker::Kept& start, const S
     off.push_back({state.bodies[b].displacement - reached.bodies[b].displacement,
                    state.bodies[b].stress - reached.bodies[b].stress});
   memory_.controller = std::move(end.second.controller);
-  return relative(measure_.sizeOf(off), memory_.controller.scale);
+  ErrorNorms norms = measure_.sizeOf(off);
+  const double work = state.frictionWork - reached.frictionWork;
+  norms.friction = std::abs(work);
+  memory_.controller.slip.work += work;  // of order one: the half steps are wrong by as much
+  return relative(norms, memory_.controller.scale);
 }
 
 }  // namespace mortier
