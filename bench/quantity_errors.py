@@ -37,7 +37,7 @@ def quantity(name, key, of, more="", component=None):
 
 
 def energies(*bodies):
-    return "".join(quantity(f"energy {name}", "stored_energy", name)
+    return "".join(quantity(f"energy_{name}", "stored_energy", name)
                    for name in bodies)
 
 

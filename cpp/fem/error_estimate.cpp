@@ -287,8 +287,8 @@ Matrix ErrorEstimator::recoveredIn(size_t triangle, const Matrix& stress, Thread
   return withElement(body_.degree(), [&](auto element) {
     using Element = decltype(element);
     const int* known = &recoveredAt_[Element::nodes * triangle];
-    return Matrix(recoveredStress<Element>(stress, threads)(
-        Eigen::all, std::vector<int>(known, known + Element::nodes)));
+    return Matrix(recoveredStress<Element>(stress, threads)(Eigen::all,
+                                                            std::vector<int>(known, known + Element::nodes)));
   });
 }
 

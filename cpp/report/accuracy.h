@@ -27,10 +27,10 @@ struct Accuracy {
   double largest = 0;      ///< of any step at which it was estimated, over the largest stress of the run
   double largestTime = 0;  ///< [s]
   double time = 0;         ///< of the last state [s]
-  std::optional<EnergyBound> bound = {};  ///< of the last state, where it is asked for
-  std::optional<FlowBound> flow = {};     ///< of the steps up to it, where bodies flow
-  std::optional<TotalBound> total = {};   ///< of steps and meshes together, where bodies flow
-  std::optional<EnergyBound> step = {};   ///< of the meshes in the last step, where bodies flow
+  std::optional<EnergyBound> bound = {};       ///< of the last state, where it is asked for
+  std::optional<FlowBound> flow = {};          ///< of the steps up to it, where bodies flow
+  std::optional<TotalBound> total = {};        ///< of steps and meshes together, where bodies flow
+  std::optional<EnergyBound> step = {};        ///< of the meshes in the last step, where bodies flow
   std::vector<QuantityError> quantities = {};  ///< of the meshes; empty where the run is not complete
 };
 

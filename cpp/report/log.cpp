@@ -337,7 +337,9 @@ std::string logQuantities(const RunFacts& facts, const Model& model, const Solve
   }
   if (!text.empty()) text += "\n";
   if (estimated)
-    text += "           +-: estimated error because of the meshes, about half to twice the true one in most cases\n";
+    text +=
+        "           +-: estimated error because of the meshes, about half to twice the true one in most "
+        "cases\n";
   return text;
 }
 
@@ -380,8 +382,7 @@ std::string logEnd(const RunFacts& facts, const Model& model, const Solved& solv
   return logStatus(report, place) + logVerification(report.worst) + logSpecial(report.special) +
          logAccuracy(facts, model, solved.accuracy) + logTimeError(facts, report) +
          logPeaks(report.peaks, solved.last, facts.units, !model.interfaces.empty()) +
-         logQuantities(facts, model, solved) +
-         logRanges(facts, report.quantities);
+         logQuantities(facts, model, solved) + logRanges(facts, report.quantities);
 }
 
 }  // namespace mortier

@@ -13,8 +13,8 @@
 namespace mortier {
 namespace {
 
-constexpr double leastOrderOfCorner = 0.1;  // corners of a polygon that stands for a curve have less
-constexpr double nextTo = 1.5;              // edges
+constexpr double leastOrderOfCorner = 0.15;  // corners of a polygon that stands for a curve have less
+constexpr double nextTo = 1.5;               // edges
 
 /// The least root of a function in (0, 1).
 double leastRoot(const std::function<double(double)>& f) {
@@ -124,6 +124,25 @@ std::vector<std::pair<int, BoundaryCorner>> cornersNear(const Body& body, const 
   return corners;
 }
 
+/// Whether the stress grows towards a vertex: its mean square within two edges over that within four.
+bool growsTowards(const Body& body, const Matrix& stress, int vertex) {
+  constexpr double grows = 1.1;
+  const TriangleMesh& mesh = body.mesh();
+  double edge = 0;
+  for (const auto& [a, b] : mesh.boundaryEdges)
+    if (a == vertex || b == vertex) edge = std::max(edge, (mesh.vertices[a] - mesh.vertices[b]).norm());
+  std::array<double, 2> square{};
+  std::array<double, 2> area{};
+  for (int i = 0; i < body.points(); ++i)
+    for (int k = 0; k < 2; ++k) {
+      const double far = (body.placeOfPoint(i).head<2>() - mesh.vertices[vertex]).norm();
+      if (!(far < 2 * (k + 1) * edge)) continue;
+      square[k] += body.weights()[i] * stress.col(i).squaredNorm();
+      area[k] += body.weights()[i];
+    }
+  return area[0] > 0 && square[0] / area[0] > grows * square[1] / area[1];
+}
+
 }  // namespace
 
 double orderOfCorner(double angle, SideSupport first, SideSupport second, double kappa) {
@@ -144,12 +163,11 @@ double orderOfCorner(double angle, SideSupport first, SideSupport second, double
   return 1 - l >= leastOrderOfCorner ? 1 - l : 0;
 }
 
-double cornerOrder(const Model& model, int b, const Point& place) {
-  const Body& body = model.bodies[b];
+double cornerOrder(const Body& body, const Matrix& stress, const Point& place) {
   if (body.rigid() || body.space() != nullptr) return 0;
   double order = 0;
   for (const auto& [vertex, corner] : cornersNear(body, place))
-    if (corner.sides.size() == 2)
+    if (corner.sides.size() == 2 && growsTowards(body, stress, vertex))
       order = std::max(order, orderOfCorner(corner.angle, corner.sides[0], corner.sides[1], kappaOf(body)));
   return order;
 }

@@ -22,8 +22,9 @@ enum class SideSupport { free, sliding, held };
 /// 1 - l; 0 where stresses are bounded.
 double orderOfCorner(double angle, SideSupport first, SideSupport second, double kappa);
 
-/// The same of the corner or the end of a support of a body next to a place; 0 where there is none.
-double cornerOrder(const Model& model, int body, const Point& place);
+/// The same of the corner or the end of a support of a body next to a place, if the stress grows towards it;
+/// 0 where there is none.
+double cornerOrder(const Body& body, const Matrix& stress, const Point& place);
 
 /// Whether contact that presses ends next to a place at a corner of one body, while the other one goes on: its
 /// pressure may be unbounded.

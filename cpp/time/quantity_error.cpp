@@ -19,7 +19,7 @@ using Kind = Quantity::Kind;
 /// What a linear quantity asks of z: motions that it has, on top of those of the response (dofs); forces.
 struct Goal {
   std::vector<Vector> motion, force;
-  bool moves = false;     ///< whether there are motions
+  bool moves = false;          ///< whether there are motions
   bool betweenBodies = false;  ///< whether contact does not follow them
 };
 
@@ -37,8 +37,7 @@ class Adjoint {
       iterate.bodies[b].increment.high = state_.bodies[b].displacement;
     StepOutcome outcome;
     StepSystem& system = taker.system();
-    linearised_.emplace(
-        system.linearise(system.step(initial_, data), iterate, state_.time - begin, false));
+    linearised_.emplace(system.linearise(system.step(initial_, data), iterate, state_.time - begin, false));
     if (system.sparse() && system.contactHolds())
       obstacle_ = "contact alone holds bodies, along a long line";
     else if (factors_ = linearised_->factorise(outcome); !factors_)
@@ -144,8 +143,8 @@ Goal goalOf(const Quantity& quantity, const Model& model, const Adjoint& adjoint
         force[body.dimension() * node + axisOf(quantity)] += weight;
       if (quantity.whole)
         for (Eigen::Index dof = 0; dof < force.size(); ++dof)
-          force[dof] = body.motionOf(Vector::Unit(force.size(), dof))[
-              quantity.component == Quantity::Component::rotation ? 2 : axisOf(quantity)];
+          force[dof] = body.motionOf(Vector::Unit(
+              force.size(), dof))[quantity.component == Quantity::Component::rotation ? 2 : axisOf(quantity)];
       return goal;
     default:  // the energy
       force = adjoint.forceOfEnergy(quantity.body);
@@ -174,14 +173,17 @@ double errorOfPressure(const PlaceOfLargest& largest, const Model& model, const 
   const Point& n = interface.normals()[largest.row];
   double size = 0;
   if (rowDegree(interface.pair().coupling, body.degree()) == 1)
-    size = std::abs(largest.value - state.contactForce[largest.interface][largest.row] /
-                                        interface.lengths()[largest.row]);
+    size = std::abs(largest.value -
+                    state.contactForce[largest.interface][largest.row] / interface.lengths()[largest.row]);
   if (body.rigid()) return size;
   const size_t triangle = trianglesAt(body, node).front();
   const int* nodes = body.elementNodes().of(triangle);
   const Eigen::Index place = std::find(nodes, nodes + body.elementNodes().perTriangle(), node) - nodes;
   const Eigen::Vector3d s = toCartesian(error.recoveredIn(b, triangle).col(place).head<3>());
   const double across = n.x() * n.x() * s[0] + n.y() * n.y() * s[1] + 2 * n.x() * n.y() * s[2];
+  if (getenv("QE_DEBUG"))
+    fprintf(stderr, "DEBUG pressure %g spread off %g recovered off %g at %g %g\n", largest.value, size,
+            std::abs(largest.value + across), largest.place.x(), largest.place.y());
   return std::max(size, std::abs(largest.value + across));
 }
 
@@ -190,8 +192,7 @@ double errorOfMises(const PlaceOfLargest& largest, const Quantity& quantity, con
                     CurrentSpaceError& error) {
   const Body& body = model.bodies[quantity.body];
   const auto b = static_cast<size_t>(quantity.body);
-  const Matrix recovered =
-      error.recoveredIn(b, static_cast<size_t>(largest.row / body.pointsOfTriangle()));
+  const Matrix recovered = error.recoveredIn(b, static_cast<size_t>(largest.row / body.pointsOfTriangle()));
   double most = 0;
   for (const auto& column : recovered.colwise())
     most = std::max(most, vonMises(column.head(body.material().tensorComponents())));
@@ -210,10 +211,11 @@ QuantityError errorOfLargest(const Quantity& quantity, const Model& model, const
     const Point place = largest->place.head<2>();
     const bool pressure = quantity.kind == Kind::largestPressure;
     const int b = pressure ? model.interfaces[largest->interface].pair().nonmortar.body : quantity.body;
-    const bool flows = !pressure && model.bodies[b].material().flows(state.bodies[b].stress,
-                                                                     static_cast<int>(largest->row));
+    const bool flows =
+        !pressure && model.bodies[b].material().flows(state.bodies[b].stress, static_cast<int>(largest->row));
     of.order = unboundedOrder(model, state, place);
-    if (of.order == 0 && !pressure && !flows) of.order = cornerOrder(model, b, place);
+    if (of.order == 0 && !pressure && !flows)
+      of.order = cornerOrder(model.bodies[b], state.bodies[b].stress, place);
     if (of.order > 0)
       of.obstacle = "stresses are unbounded there";
     else if (contactEndsAt(model, state, place))
@@ -269,9 +271,11 @@ QuantityError errorOfLinear(const Quantity& quantity, const Model& model, const 
     sum += part.sum();
     absolute += part.cwiseAbs().sum();
   }
+  // U(u) = U(u_h) + a(u, u - u_h) - |u - u_h|^2/2, and z has the recovered stress of u.
+  if (quantity.kind == Kind::storedEnergy) sum -= (*error.estimates())[quantity.body].error.sum() / 2;
   of.size = std::abs(sum);
-  if (quantity.kind == Kind::storedEnergy) of.size += (*error.estimates())[quantity.body].error.sum() / 2;
-  if (getenv("QE_DEBUG")) fprintf(stderr, "DEBUG %s error %.6g absolute %.6g\n", quantity.name.c_str(), sum, absolute);
+  if (getenv("QE_DEBUG"))
+    fprintf(stderr, "DEBUG %s error %.6g absolute %.6g\n", quantity.name.c_str(), sum, absolute);
   return of;
 }
 

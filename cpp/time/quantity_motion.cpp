@@ -75,7 +75,9 @@ Vector rigidMotion(const Body& body, const Quantity& quantity, const UnitMotion&
 }  // namespace
 
 int axisOf(const Quantity& quantity) {
-  return quantity.component == Quantity::Component::x ? 0 : quantity.component == Quantity::Component::z ? 2 : 1;
+  return quantity.component == Quantity::Component::x   ? 0
+         : quantity.component == Quantity::Component::z ? 2
+                                                        : 1;
 }
 
 int firstSupport(const Body& body, int label, const std::optional<Point>& point,
@@ -100,15 +102,15 @@ Vector motionOf(const Quantity& quantity, const Model& model) {
   Vector motion = Vector::Zero(body.dofs());
   if (quantity.kind == Quantity::Kind::contactForce) {
     const int dimension = body.dimension();
-    for (const int node :
-         body.boundaryNodes(quantity.whole ? std::nullopt : std::optional(quantity.label)))
+    for (const int node : body.boundaryNodes(quantity.whole ? std::nullopt : std::optional(quantity.label)))
       motion.segment(static_cast<Eigen::Index>(dimension) * node, dimension) =
           -unit.at(body.placeOfNode(node)).head(dimension);
     return motion;
   }
   if (body.rigid()) return rigidMotion(body, quantity, unit);
   const int first = firstSupport(body, quantity.label, quantity.point, quantity.pointInSpace);
-  const auto own = [&](int label, const std::optional<Point>& point, const std::optional<SpacePoint>& inSpace) {
+  const auto own = [&](int label, const std::optional<Point>& point,
+                       const std::optional<SpacePoint>& inSpace) {
     return firstSupport(body, label, point, inSpace) == first;
   };
   if (body.space() != nullptr)

@@ -21,6 +21,7 @@ struct PlaceOfLargest {
   Eigen::Index row = 0;       ///< of C; of a stress its point
 };
 /// None of other quantities, and where nothing is above 0.
-std::optional<PlaceOfLargest> placeOfLargest(const Quantity& quantity, const Model& model, const State& state);
+std::optional<PlaceOfLargest> placeOfLargest(const Quantity& quantity, const Model& model,
+                                             const State& state);
 
 }  // namespace mortier
