@@ -19,7 +19,7 @@ import codes  # noqa: E402
 STEP = "[time]\nend = 1\nsteps = 1\n"
 STEEL = "material = { young = 1, poisson = 0.3 }\n"
 FLOWS = "material = { young = 1e3, poisson = 0.3, viscosity = 10, yield_stress = 1 }\n"
-ALLOW = '[check]\nallow = ["large-strain", "large-displacement", "large-rotation", "sliver", "sliding"]\n'
+ALLOW = '[check]\nallow = ["large-strain", "large-displacement", "large-rotation", "sliver"]\n'
 
 
 def rectangle(lower, upper, cells, more=""):

@@ -162,29 +162,19 @@ std::vector<size_t> trianglesAt(const Body& body, int node) {
   return triangles;
 }
 
-/// How far the recovered stress at a node is from the pressure there; with linear row functions how far the
-/// force of the row over its length is, if that is more.
-double errorOfPressure(const PlaceOfLargest& largest, const Model& model, const State& state,
-                       CurrentSpaceError& error) {
+/// How far the recovered stress at a node is from the pressure there.
+double errorOfPressure(const PlaceOfLargest& largest, const Model& model, CurrentSpaceError& error) {
   const ContactInterface& interface = model.interfaces[largest.interface];
   const auto b = static_cast<size_t>(interface.pair().nonmortar.body);
   const Body& body = model.bodies[b];
   const int node = interface.nonmortarNodes()[largest.row];
   const Point& n = interface.normals()[largest.row];
-  double size = 0;
-  if (rowDegree(interface.pair().coupling, body.degree()) == 1)
-    size = std::abs(largest.value -
-                    state.contactForce[largest.interface][largest.row] / interface.lengths()[largest.row]);
-  if (body.rigid()) return size;
   const size_t triangle = trianglesAt(body, node).front();
   const int* nodes = body.elementNodes().of(triangle);
   const Eigen::Index place = std::find(nodes, nodes + body.elementNodes().perTriangle(), node) - nodes;
   const Eigen::Vector3d s = toCartesian(error.recoveredIn(b, triangle).col(place).head<3>());
   const double across = n.x() * n.x() * s[0] + n.y() * n.y() * s[1] + 2 * n.x() * n.y() * s[2];
-  if (getenv("QE_DEBUG"))
-    fprintf(stderr, "DEBUG pressure %g spread off %g recovered off %g at %g %g\n", largest.value, size,
-            std::abs(largest.value + across), largest.place.x(), largest.place.y());
-  return std::max(size, std::abs(largest.value + across));
+  return std::abs(largest.value + across);
 }
 
 /// How far the largest recovered von Mises stress at the nodes of the triangle is from it.
@@ -220,9 +210,11 @@ QuantityError errorOfLargest(const Quantity& quantity, const Model& model, const
       of.obstacle = "stresses are unbounded there";
     else if (contactEndsAt(model, state, place))
       of.obstacle = "stresses may be unbounded there, where contact ends at a corner";
+    else if (model.bodies[b].rigid())
+      of.obstacle = "the side is rigid";
     else
-      of.size = pressure ? errorOfPressure(*largest, model, state, error)
-                         : errorOfMises(*largest, quantity, model, error);
+      of.size =
+          pressure ? errorOfPressure(*largest, model, error) : errorOfMises(*largest, quantity, model, error);
   }
   return of;
 }
@@ -266,16 +258,10 @@ QuantityError errorOfLinear(const Quantity& quantity, const Model& model, const 
   of.obstacle = adjoint.obstacle();
   if (!of.obstacle.empty()) return of;
   double sum = 0;
-  double absolute = 0;
-  for (const Vector& part : error.products(adjoint(goalOf(quantity, model, adjoint)))) {
-    sum += part.sum();
-    absolute += part.cwiseAbs().sum();
-  }
+  for (const Vector& part : error.products(adjoint(goalOf(quantity, model, adjoint)))) sum += part.sum();
   // U(u) = U(u_h) + a(u, u - u_h) - |u - u_h|^2/2, and z has the recovered stress of u.
   if (quantity.kind == Kind::storedEnergy) sum -= (*error.estimates())[quantity.body].error.sum() / 2;
   of.size = std::abs(sum);
-  if (getenv("QE_DEBUG"))
-    fprintf(stderr, "DEBUG %s error %.6g absolute %.6g\n", quantity.name.c_str(), sum, absolute);
   return of;
 }
 
