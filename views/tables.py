@@ -169,4 +169,6 @@ def error_of(each):
         return "no limit: it grows with every refinement"
     if number(each.get("change_in_last_round")) is not None:
         return f"changed by {number(each['change_in_last_round'], 3)} in the last round of refinement"
-    return "not known: one mesh only"
+    if number(each.get("estimated_error")) is not None:
+        return f"\u00b1 {number(each['estimated_error'], 3)}, estimated"
+    return shown(f"no estimate: {each['no_estimate']}" if "no_estimate" in each else "not known", 300)

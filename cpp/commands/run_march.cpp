@@ -149,8 +149,13 @@ void Run::march(const std::shared_ptr<Attempt>& attempt, const Observer& alsoObs
     if (!begun || rounds_ || (inParts && !Ranks::all().answer())) return;
     save(files ? files->sync() : empty, keptState, keptMemory);
   };
+  std::vector<QuantityError>& errors = solved.accuracy.quantities;
+  const AtEnd atEnd = [&](StepTaker& taker) {
+    if (!inParts)  // rounds show how quantities change
+      errors = quantityErrors(now.facts.quantities, model, rounds_ ? nullptr : &taker, memory.begin, error);
+  };
   try {
-    report = mortier::march(solvedModel, state, memory, scene.time, scene.solver, observe);
+    report = mortier::march(solvedModel, state, memory, scene.time, scene.solver, observe, atEnd);
   } catch (const OutputError& fault) {
     rows_.finish();
     if (temporary_.empty() || !hasCheckpoint(temporary_)) throw;
@@ -180,7 +185,7 @@ void Run::march(const std::shared_ptr<Attempt>& attempt, const Observer& alsoObs
   if (!writes) return;
   if (inParts) error.moveTo(state);  // elsewhere it is at the last step
   if (files) solved.files = files->close(state, last.step);
-  solved.accuracy = accuracies.atEnd(report.peaks);
+  solved.accuracy = accuracies.atEnd(report.peaks, std::move(errors));
   if (flow) {
     solved.accuracy.flow = flowBoundOf(*flow, state);
     solved.accuracy.total = totalBoundOf(*total, state, *solved.accuracy.flow);

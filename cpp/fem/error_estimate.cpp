@@ -283,6 +283,15 @@ Matrix ErrorEstimator::recoveredStress(const Matrix& stress, Threads& threads) c
   }
 }
 
+Matrix ErrorEstimator::recoveredIn(size_t triangle, const Matrix& stress, Threads& threads) const {
+  return withElement(body_.degree(), [&](auto element) {
+    using Element = decltype(element);
+    const int* known = &recoveredAt_[Element::nodes * triangle];
+    return Matrix(recoveredStress<Element>(stress, threads)(Eigen::all,
+                                                            std::vector<int>(known, known + Element::nodes)));
+  });
+}
+
 template <class Element>
 ErrorEstimate ErrorEstimator::estimate(const Matrix& stress, Threads& threads) const {
   constexpr int n = Element::points;

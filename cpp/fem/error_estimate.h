@@ -30,6 +30,9 @@ class ErrorEstimator {
   explicit ErrorEstimator(const Body& body, Threads& threads = Threads::none());
   /// \param stress  components x points [Pa].
   [[nodiscard]] ErrorEstimate operator()(const Matrix& stress, Threads& threads = Threads::none()) const;
+  /// The recovered stress at the nodes of a triangle: components x nodes [Pa]. In the plane.
+  [[nodiscard]] Matrix recoveredIn(size_t triangle, const Matrix& stress,
+                                   Threads& threads = Threads::none()) const;
 
  private:
   template <class Element>

@@ -35,10 +35,6 @@ class Planner {
           "memory are those of the first ones",
           scene_.accuracy.quantity.empty() ? "accuracy.energy = " + shortest(scene_.accuracy.energy)
                                            : "accuracy.quantity = " + scene_.accuracy.quantity);
-    else if (!scene_.quantities.empty() && !scene_.accuracy.bound)
-      add("accuracy", false, "errors of the quantities",
-          "they are not estimated on one mesh; --accuracy, or accuracy.energy, refines it and shows how the "
-          "values change");
     const bool space = scene_.inSpace();
     if (scene_.degree == 2)
       add("scene", true, "quadratic displacements",

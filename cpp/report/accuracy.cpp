@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "base/ranks.h"
 
 namespace mortier {
 namespace {
@@ -27,7 +30,7 @@ void AccuracyRecord::add(const StepReport& report, bool kept) {
   memory_.time = report.time;
 }
 
-Accuracy AccuracyRecord::atEnd(const Peaks& peaks) {
+Accuracy AccuracyRecord::atEnd(const Peaks& peaks, std::vector<QuantityError> quantities) {
   const double largestEnergy = 2 * peaks.energy.value;
   Accuracy result;
   double error = 0;
@@ -60,6 +63,9 @@ Accuracy AccuracyRecord::atEnd(const Peaks& peaks) {
     most = memory_.error;
     result.largestTime = memory_.time;
   }
+  result.quantities = std::move(quantities);
+  if (result.all == 0)
+    for (QuantityError& each : result.quantities) each.size = 0;
   result.largest = largestEnergy > 0 && most > allRounding ? std::sqrt(most / largestEnergy) : 0;
   return result;
 }
@@ -78,6 +84,17 @@ std::optional<RoundChange> changeInRounds(const RunFacts& facts, size_t quantity
                    last > hardlyLess * before;
   }
   return change;
+}
+
+QuantityError errorOf(const RunFacts& facts, const Accuracy& accuracy, size_t quantity) {
+  if (accuracy.quantities.empty())
+    return {0, Ranks::all().shared() ? "bodies are shared by processes" : "the run is not complete", 0};
+  QuantityError error = accuracy.quantities[quantity];
+  if (facts.rounds.empty() || error.order > 0) return error;
+  const std::optional<RoundChange> change = changeInRounds(facts, quantity);
+  if (!change) return {0, "there is one round only", 0};
+  if (change->grows) return {0, "it grows with every round: stresses are unbounded there", 0};
+  return {change->size, "", 0};
 }
 
 }  // namespace mortier

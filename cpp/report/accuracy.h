@@ -12,6 +12,7 @@
 #include "report/manifest.h"
 #include "report/run_facts.h"
 #include "time/march.h"
+#include "time/quantity_error.h"
 #include "time/space_error.h"
 
 namespace mortier {
@@ -26,10 +27,11 @@ struct Accuracy {
   double largest = 0;      ///< of any step at which it was estimated, over the largest stress of the run
   double largestTime = 0;  ///< [s]
   double time = 0;         ///< of the last state [s]
-  std::optional<EnergyBound> bound = {};  ///< of the last state, where it is asked for
-  std::optional<FlowBound> flow = {};     ///< of the steps up to it, where bodies flow
-  std::optional<TotalBound> total = {};   ///< of steps and meshes together, where bodies flow
-  std::optional<EnergyBound> step = {};   ///< of the meshes in the last step, where bodies flow
+  std::optional<EnergyBound> bound = {};       ///< of the last state, where it is asked for
+  std::optional<FlowBound> flow = {};          ///< of the steps up to it, where bodies flow
+  std::optional<TotalBound> total = {};        ///< of steps and meshes together, where bodies flow
+  std::optional<EnergyBound> step = {};        ///< of the meshes in the last step, where bodies flow
+  std::vector<QuantityError> quantities = {};  ///< of the meshes; empty where the run is not complete
 };
 
 /// What a run came to.
@@ -52,6 +54,9 @@ struct RoundChange {
 /// None where the result is that of the first round, or there are none.
 std::optional<RoundChange> changeInRounds(const RunFacts& facts, size_t quantity);
 
+/// Of a quantity, because of the meshes: what refinement last changed where there are rounds.
+QuantityError errorOf(const RunFacts& facts, const Accuracy& accuracy, size_t quantity);
+
 /// The estimates of a run so far.
 struct AccuracyMemory {
   double energy = 0;  ///< elastic energy when it was estimated last [J/m]
@@ -72,7 +77,8 @@ class AccuracyRecord {
   /// Whether add() needs the state.
   [[nodiscard]] bool asks(const StepReport& report, bool kept) const;
   void add(const StepReport& report, bool kept);
-  Accuracy atEnd(const Peaks& peaks);
+  /// \param quantities  their errors, which are 0 where that of the stress is nothing but rounding
+  Accuracy atEnd(const Peaks& peaks, std::vector<QuantityError> quantities = {});
 
  private:
   const Model& model_;

@@ -9,7 +9,6 @@
 #include "report/clock.h"
 #include "report/place_text.h"
 #include "report/summary.h"
-#include "time/unbounded_order.h"
 
 namespace mortier {
 
@@ -297,44 +296,50 @@ std::string logPeaks(const Peaks& peaks, const StepReport& last, const Units& un
   return text;
 }
 
-std::string logQuantities(const RunFacts& facts, const Model& model, const State& state,
-                          const std::optional<EnergyBound>& bound) {
-  const std::vector<Quantity>& quantities = facts.quantities;
-  const std::vector<double> values = evaluate(quantities, model, state);
+/// What is known of the error of a quantity.
+std::string errorText(const RunFacts& facts, const Accuracy& accuracy, size_t i, double value) {
+  const QuantityError error = errorOf(facts, accuracy, i);
+  const std::optional<RoundChange> change = changeInRounds(facts, i);
   std::string text;
-  bool known = true;  // something of every error
+  if (error.order > 0)
+    text += formatted(" (no limit: stresses are unbounded there, about like r^-%.1f)", error.order);
+  else if (change && change->grows)
+    text += formatted(" (grows with every round, the last time by %.2g %%: stresses are unbounded there)",
+                      100 * change->size / value);
+  else if (change && value != 0)
+    text += formatted(" (changed by %.2g %% in the last round)", 100 * change->size / std::abs(value));
+  const std::optional<EnergyBound>& bound = accuracy.bound;
+  const Enclosure* enclosure = bound && !bound->quantities.empty() ? &bound->quantities[i] : nullptr;
+  if (enclosure != nullptr && enclosure->obstacle.empty())
+    return text + formatted(" +- %.2g (guaranteed)", enclosure->error(value));
+  if (enclosure != nullptr && enclosure->estimate)
+    return text + formatted(" +- %.2g (an estimate)", *enclosure->estimate);
+  if (text.empty() && error.obstacle.empty()) text += formatted(" +- %.2g", error.size);
+  if (text.empty()) text += " (no estimate: " + error.obstacle + ")";
+  if (enclosure != nullptr && bound->obstacle.empty()) text += " (no bound: " + enclosure->obstacle + ")";
+  return text;
+}
+
+std::string logQuantities(const RunFacts& facts, const Model& model, const Solved& solved) {
+  const std::vector<Quantity>& quantities = facts.quantities;
+  const std::vector<double> values = evaluate(quantities, model, solved.state);
+  std::string text;
+  bool estimated = false;
   for (size_t i = 0; i < quantities.size(); ++i) {
     text += (i == 0 ? "quantities " : ", ") + quantities[i].name + formatted(" %.7g ", values[i]) +
             quantities[i].unit(facts.units);
     const int dimension = model.bodies[quantities[i].body].dimension();
-    const std::optional<SpacePoint> place = placeOf(quantities[i], model, state);
-    if (place) text += " at " + placeText(*place, dimension);
-    const double order = place && dimension == 2 ? unboundedOrder(model, state, place->head<2>()) : 0;
-    const std::optional<RoundChange> change = changeInRounds(facts, i);
-    if (order > 0)
-      text += formatted(" (no limit: stresses are unbounded there, about like r^-%.1f)", order);
-    else if (change && change->grows)
-      text += formatted(" (grows with every round, the last time by %.2g %%: stresses are unbounded there)",
-                        100 * change->size / values[i]);
-    else if (change && values[i] != 0)
-      text += formatted(" (changed by %.2g %% in the last round)", 100 * change->size / std::abs(values[i]));
-    const bool asked = bound && !bound->quantities.empty();
-    const bool bounded = asked && (bound->quantities[i].obstacle.empty() || bound->quantities[i].estimate);
-    known = known && (change || bounded);
-    if (!asked) continue;
-    const Enclosure& enclosure = bound->quantities[i];
-    if (enclosure.obstacle.empty())
-      text += formatted(" +- %.2g (guaranteed)", enclosure.error(values[i]));
-    else if (enclosure.estimate)
-      text += formatted(" +- %.2g (an estimate)", *enclosure.estimate);
-    else if (bound->obstacle.empty())
-      text += " (no bound: " + enclosure.obstacle + ")";
+    if (const std::optional<SpacePoint> place = placeOf(quantities[i], model, solved.state))
+      text += " at " + placeText(*place, dimension);
+    const std::string error = errorText(facts, solved.accuracy, i, values[i]);
+    estimated = estimated || (error.find("+-") != std::string::npos && error.find('(') == std::string::npos);
+    text += error;
   }
   if (!text.empty()) text += "\n";
-  if (!known)
+  if (estimated)
     text +=
-        "           their errors are not estimated on one mesh: --accuracy 0.02 refines it and shows "
-        "how they change\n";
+        "           +-: estimated error because of the meshes, about half to twice the true one in most "
+        "cases\n";
   return text;
 }
 
@@ -377,8 +382,7 @@ std::string logEnd(const RunFacts& facts, const Model& model, const Solved& solv
   return logStatus(report, place) + logVerification(report.worst) + logSpecial(report.special) +
          logAccuracy(facts, model, solved.accuracy) + logTimeError(facts, report) +
          logPeaks(report.peaks, solved.last, facts.units, !model.interfaces.empty()) +
-         logQuantities(facts, model, solved.state, solved.accuracy.bound) +
-         logRanges(facts, report.quantities);
+         logQuantities(facts, model, solved) + logRanges(facts, report.quantities);
 }
 
 }  // namespace mortier

@@ -12,7 +12,6 @@
 #include "report/clock.h"
 #include "report/fields.h"
 #include "time/measure.h"
-#include "time/unbounded_order.h"
 
 namespace mortier {
 
@@ -333,11 +332,12 @@ std::string summaryText(const std::string& path, const RunFacts& facts, const Mo
   for (size_t i = 0; i < values.size(); ++i) {
     Json& quantity = json["quantities"][facts.quantities[i].name];
     quantity = {{"value", values[i]}, {"unit", facts.quantities[i].unit(facts.units)}};
-    if (const auto place = placeOf(facts.quantities[i], model, state)) {
+    const QuantityError error = errorOf(facts, accuracy, i);
+    quantity["estimated_error"] = error.obstacle.empty() ? Json(error.size) : Json(nullptr);
+    if (!error.obstacle.empty()) quantity["no_estimate"] = error.obstacle;
+    if (const auto place = placeOf(facts.quantities[i], model, state))
       quantity["at"] = jsonOf(*place, space ? 3 : 2);
-      if (const double order = space ? 0 : unboundedOrder(model, state, place->head<2>()); order > 0)
-        quantity["unbounded_order"] = order;
-    }
+    if (error.order > 0) quantity["unbounded_order"] = error.order;
     if (i < report.quantities.size()) quantity.update(jsonOf(report.quantities[i]));
     const std::optional<RoundChange> change = changeInRounds(facts, i);
     quantity["change_in_last_round"] = change ? Json(change->size) : Json(nullptr);

@@ -48,13 +48,14 @@ std::vector<Vector> StepSystem::spread(const Vector& x, const Vector& rigid) con
   return nodal;
 }
 
-ContactSolution StepSystem::holdClosedSparse(const std::vector<Vector>& force, const Iterate& on) const {
+ContactSolution StepSystem::holdClosedSparse(const std::vector<Vector>& force, const Vector& slack,
+                                             const Iterate& on) const {
   sparse_->setSprings(contact_.proximal);
   const Vector none = Vector::Zero(contact_.G.cols());
   const Vector zero = Vector::Zero(rows());
   SparseContact::Solution held{Vector::Zero(sparse_->firstEquation().back()), none, {}};
   if (sparse_->factorise(joinedSets(on).closed))
-    held = sparse_->solve(gathered(force), zero, zero, none, true);
+    held = sparse_->solve(gathered(force), zero, slack, none, true);
   ContactSolution solution;
   solution.motion = spread(held.motion, held.rigid);
   return solution;

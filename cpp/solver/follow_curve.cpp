@@ -122,7 +122,7 @@ class Curve {
       system_.model().bodies[b].material().viscoplasticRate(stress, rate, &whole);
       flow.push_back(std::numbers::ln10 * weightAt(place) * rate);
     }
-    Direction result{tangent.respond(flow, place.iterate), 1};
+    Direction result{tangent.respond({flow}, place.iterate), 1};
     const double length = std::copysign(std::sqrt(dot(result, result)), dot(along, result));
     result.decades /= length;
     for (auto& [displacement, stress] : result.response) {

@@ -40,7 +40,16 @@ namespace mortier {
 /// Force balance asked of a converged step; far above rounding, far below what any result shows.
 constexpr double balanceTolerance = 1e-11;
 
-/// How a body responds to an error of its strain.
+/// What bodies of a linear problem respond to.
+struct Disturbance {
+  std::vector<Matrix> strain;       ///< per body, added in every triangle (components x points)
+  std::vector<Vector> slip = {};    ///< per interface, by which the nodes that stick slip [m]; empty for none
+  std::vector<Vector> force = {};   ///< per body (dofs) [N/m]; empty for none
+  std::vector<Vector> across = {};  ///< per interface, C d of closed conditions [m]; empty for none
+  bool adjoint = false;             ///< whether contact with friction is that of the transposed problem
+};
+
+/// How a body responds to them.
 struct Response {
   Vector displacement;  ///< by dofs [m]
   Matrix stress;        ///< components x points [Pa]
@@ -139,8 +148,9 @@ class StepSystem {
   /// By the equations of all bodies.
   [[nodiscard]] Vector gathered(const std::vector<Vector>& nodal) const;
   [[nodiscard]] std::vector<Vector> spread(const Vector& x, const Vector& rigid) const;
-  /// The motion under these forces with the contacts that are closed in `on` kept closed.
-  [[nodiscard]] ContactSolution holdClosedSparse(const std::vector<Vector>& force, const Iterate& on) const;
+  /// The motion under these forces with the contacts that are closed in `on` moved by `slack`.
+  [[nodiscard]] ContactSolution holdClosedSparse(const std::vector<Vector>& force, const Vector& slack,
+                                                 const Iterate& on) const;
   [[nodiscard]] std::string describeRigid(const Vector& z) const;
   /// Rows along the line that resist no motion: they slip, or nothing presses; and how one slips.
   [[nodiscard]] std::vector<int> freeAlong(const Iterate& solution) const;
@@ -206,12 +216,10 @@ class StepSystem::Factorised {
   [[nodiscard]] Condensed condense(const Step& step, const Iterate& iterate) const;
   [[nodiscard]] const ContactProblem& contact() const { return system_->contact_; }
   /// With the contacts that are closed in `on` kept closed and the others open:
-  ///   s = H^-1 (B d - error),   sum |T| B' s + C_A' p = 0,   C_A d = 0;
-  /// with friction t of sticking nodes is free, and that of slipping nodes +-mu p.
-  /// \param error  per body, a strain added in every triangle (components x points).
-  /// \param slip  per interface, by which the nodes that stick have slipped besides [m]; empty for none.
-  [[nodiscard]] std::vector<Response> respond(const std::vector<Matrix>& error, const Iterate& on,
-                                              const std::vector<Vector>& slip = {}) const;
+  ///   s = H^-1 (B d - strain),   sum |T| B' s + C_A' p = force,   C_A d = across;
+  /// with friction t of sticking nodes is free, and that of slipping nodes +-mu p,
+  /// or, of the adjoint problem, that of slipping nodes is 0, and C_A d +- mu T d = 0 there.
+  [[nodiscard]] std::vector<Response> respond(const Disturbance& to, const Iterate& on) const;
 
  private:
   StepSystem* system_;

@@ -270,7 +270,7 @@ RunReport march(const Model& model, State& state, const TimePlan& plan, const So
 }
 
 RunReport march(const Model& model, State& state, MarchMemory& memory, const TimePlan& plan,
-                const SolverOptions& options, const Observer& observer) {
+                const SolverOptions& options, const Observer& observer, const AtEnd& atEnd) {
   const bool controlled = plan.controlled();
   const bool begun = memory.run.steps > 0 || memory.controller.trial > 0;
   const bool countsWork = std::any_of(plan.quantities.begin(), plan.quantities.end(), needsWork);
@@ -298,9 +298,10 @@ RunReport march(const Model& model, State& state, MarchMemory& memory, const Tim
   Controller controller(model, plan, memory);
   while (true) {
     go(model, state, memory, plan, *taker, controller, observer);
-    if (!controlled || memory.run.status != Status::converged) return memory.run;
-    if (!controller.beginAgain(state)) {
-      memory.run.shortfall = controller.shortfall();
+    const bool again = controlled && memory.run.status == Status::converged && controller.beginAgain(state);
+    if (!again) {
+      if (controlled && memory.run.status == Status::converged) memory.run.shortfall = controller.shortfall();
+      if (atEnd && memory.run.status == Status::converged) atEnd(*taker);
       return memory.run;
     }
     followState();

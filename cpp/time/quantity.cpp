@@ -1,106 +1,15 @@
 #include "time/quantity.h"
 
-#include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <map>
-#include <utility>
 
 #include "material/back_stress.h"
 #include "material/stress.h"
 #include "time/nodal_forces.h"
+#include "time/quantity_motion.h"
 
 namespace mortier {
 namespace {
-
-/// Forces at nodes, summed to a resultant and a moment.
-struct Wrench {
-  SpacePoint force = SpacePoint::Zero();
-  double moment = 0;  ///< about the axis across the plane
-
-  void add(const SpacePoint& at, const SpacePoint& by) {
-    force += by;
-    moment += at.x() * by.y() - at.y() * by.x();
-  }
-};
-
-/// A vector at a node (dofs); z = 0 in the plane.
-SpacePoint at(const Vector& nodal, int node, int dimension) {
-  SpacePoint vector = SpacePoint::Zero();
-  vector.head(dimension) = nodal.segment(static_cast<Eigen::Index>(dimension) * node, dimension);
-  return vector;
-}
-
-void addSpaceReactions(const Body& body, const Vector& forces, std::map<int, Wrench>& result) {
-  for (const SpaceSupport& support : body.space()->supports()) {
-    // By the prescribed directions, which need not be orthogonal: D' r = f on their span.
-    const Eigen::Index n = support.count;
-    const Matrix span = support.frame.topRows(n);
-    const Matrix inSpan = support.directions.topRows(n) * span.transpose();  // lower triangular
-    const Vector along =
-        inSpan.transpose().triangularView<Eigen::Upper>().solve(Vector(span * at(forces, support.node, 3)));
-    for (int i = 0; i < support.count; ++i) {
-      const SpaceCondition& held = body.space()->conditions().displacements[support.conditions[i]];
-      result[firstSupport(body, held.label, {}, held.point)].add(
-          body.placeOfNode(support.node), along[i] * SpacePoint(support.directions.row(i)));
-    }
-  }
-}
-
-/// What the supports of each label and each point exert on the body, by the first of their conditions.
-std::map<int, Wrench> reactions(const Model& model, const State& state, int b) {
-  const Body& body = model.bodies[b];
-  Vector forces = body.internalForce(state.bodies[b].stress) - body.load(state.time);
-  model.sumAtNodes(b, forces);
-  forces += contactForces(model, state.contactForce, state.frictionForce, b);
-  std::map<int, Wrench> result;
-  if (body.space() != nullptr) addSpaceReactions(body, forces, result);
-  const auto inPlane = [](const Point& p) { return SpacePoint(p.x(), p.y(), 0); };
-  if (body.rigid()) {
-    const Eigen::Vector3d held = body.heldForce(forces);
-    Wrench& all = result[-1];
-    all.add(inPlane(body.conditions().rigid->at), inPlane(held.head<2>()));
-    all.moment += held[2];
-  }
-  for (const NodeSupport& support : body.supports().nodes()) {
-    const Point force = forces.segment<2>(2 * support.node);
-    std::array<double, 2> along{support.directions[0].dot(force), 0};
-    if (support.count == 2) {
-      Eigen::Matrix2d directions;
-      directions << support.directions[0], support.directions[1];
-      Eigen::Map<Point>(along.data()) = directions.inverse() * force;
-    }
-    for (int i = 0; i < support.count; ++i) {
-      const PrescribedDisplacement& held = body.conditions().displacements[support.conditions[i]];
-      if (held.onAxis) continue;
-      result[firstSupport(body, held.label, held.point)].add(body.placeOfNode(support.node),
-                                                             inPlane(along[i] * support.directions[i]));
-    }
-  }
-  return result;
-}
-
-Wrench contactOn(const Model& model, const State& state, int body, std::optional<int> label) {
-  const Vector forces = contactForces(model, state.contactForce, state.frictionForce, body, label);
-  const Body& of = model.bodies[body];
-  Wrench result;
-  for (const int node : of.boundaryNodes(label))
-    result.add(of.placeOfNode(node), -at(forces, node, of.dimension()));
-  return result;
-}
-
-/// x, y or z as a number.
-int axisOf(const Quantity& quantity) {
-  using Component = Quantity::Component;
-  return quantity.component == Component::x ? 0 : quantity.component == Component::z ? 2 : 1;
-}
-
-double componentOf(const Wrench& wrench, const Quantity& quantity) {
-  using Component = Quantity::Component;
-  if (quantity.component == Component::moment)
-    return wrench.moment - quantity.about.x() * wrench.force.y() + quantity.about.y() * wrench.force.x();
-  return wrench.force[axisOf(quantity)];
-}
 
 /// Of elasticity and of what hardens.
 double storedEnergy(const Body& body, const BodyState& state) {
@@ -115,38 +24,28 @@ double storedEnergy(const Body& body, const BodyState& state) {
   return energy;
 }
 
-/// The largest value of a field, and where it is.
-struct Largest {
-  double value = 0;
-  std::optional<SpacePoint> place = {};
-  size_t interface = 0;  ///< of a pressure, and the row of C
-  Eigen::Index row = 0;
-  void raise(double other, const SpacePoint& at, size_t ofInterface = 0, Eigen::Index ofRow = 0) {
-    if (other > value) *this = {other, at, ofInterface, ofRow};
-  }
-};
-
-Largest largestPressure(const Model& model, const State& state, const Quantity& quantity) {
-  Largest largest;
+PlaceOfLargest largestPressure(const Model& model, const State& state, const Quantity& quantity) {
+  PlaceOfLargest largest;
   for (size_t k = 0; k < model.interfaces.size(); ++k) {
     const ContactInterface& interface = model.interfaces[k];
     if (!isSide(interface, quantity.body, quantity.label)) continue;
     const Body& body = model.bodies[interface.pair().nonmortar.body];
     const Vector pressure = interface.contactPressure(state.contactForce[k]);
     for (Eigen::Index i = 0; i < pressure.size(); ++i)
-      largest.raise(pressure[i], body.placeOfNode(interface.nonmortarNodes()[i]), k, i);
+      if (pressure[i] > largest.value)
+        largest = {pressure[i], body.placeOfNode(interface.nonmortarNodes()[i]), k, i};
   }
   return largest;
 }
 
-Largest largestMises(const Model& model, const State& state, const Quantity& quantity) {
-  Largest largest;
+PlaceOfLargest largestMises(const Model& model, const State& state, const Quantity& quantity) {
+  PlaceOfLargest largest;
   const Body& body = model.bodies[quantity.body];
   const Matrix& stress = state.bodies[quantity.body].stress;
   const int tensor = body.material().tensorComponents();
   for (Eigen::Index i = 0; i < stress.cols(); ++i)
     if (const double value = vonMises(stress.col(i).head(tensor)); value > largest.value)
-      largest.raise(value, body.placeOfPoint(static_cast<int>(i)));
+      largest = {value, body.placeOfPoint(static_cast<int>(i)), 0, i};
   return largest;
 }
 
@@ -215,33 +114,19 @@ bool needsWork(const Quantity& quantity) {
          quantity.kind == Kind::externalWork || quantity.kind == Kind::thermalWork;
 }
 
-int firstSupport(const Body& body, int label, const std::optional<Point>& point,
-                 const std::optional<SpacePoint>& pointInSpace) {
-  if (body.space() != nullptr) {
-    const std::vector<SpaceCondition>& held = body.space()->conditions().displacements;
-    const auto found = std::find_if(held.begin(), held.end(), [&](const SpaceCondition& each) {
-      return each.point == pointInSpace && (pointInSpace || each.label == label);
-    });
-    return found == held.end() ? -1 : static_cast<int>(found - held.begin());
-  }
-  const std::vector<PrescribedDisplacement>& held = body.conditions().displacements;
-  const auto found = std::find_if(held.begin(), held.end(), [&](const PrescribedDisplacement& each) {
-    return point ? each.point == point : each.actsOn(label);
-  });
-  return found == held.end() ? -1 : static_cast<int>(found - held.begin());
-}
-
 std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Model& model,
                              const State& state) {
   using Kind = Quantity::Kind;
-  std::map<int, std::map<int, Wrench>> reactionsOf;
+  std::map<int, Vector> supporting;  // r by bodies
   const auto reaction = [&](const Quantity& quantity) {
-    if (reactionsOf.count(quantity.body) == 0)
-      reactionsOf[quantity.body] = reactions(model, state, quantity.body);
-    const int support = quantity.whole ? -1
-                                       : firstSupport(model.bodies[quantity.body], quantity.label,
-                                                      quantity.point, quantity.pointInSpace);
-    return componentOf(reactionsOf[quantity.body][support], quantity);
+    const auto [of, isNew] = supporting.try_emplace(quantity.body);
+    if (isNew) {
+      const Body& body = model.bodies[quantity.body];
+      of->second = body.internalForce(state.bodies[quantity.body].stress) - body.load(state.time);
+      model.sumAtNodes(quantity.body, of->second);
+      of->second += contactForces(model, state.contactForce, state.frictionForce, quantity.body);
+    }
+    return motionOf(quantity, model).dot(of->second);
   };
   const auto displacement = [&](const Quantity& quantity) {  // of the nodes of this rank
     const int component = axisOf(quantity);
@@ -262,9 +147,9 @@ std::vector<double> evaluate(const std::vector<Quantity>& quantities, const Mode
       case Kind::displacement:
         return model.sum(displacement(quantity));
       case Kind::contactForce:
-        return componentOf(contactOn(model, state, quantity.body,
-                                     quantity.whole ? std::nullopt : std::optional(quantity.label)),
-                           quantity);
+        return motionOf(quantity, model)
+            .dot(contactForces(model, state.contactForce, state.frictionForce, quantity.body,
+                               quantity.whole ? std::nullopt : std::optional(quantity.label)));
       case Kind::storedEnergy:
         return model.sum(storedEnergy(model.bodies[quantity.body], body));
       case Kind::dissipatedEnergy:
@@ -308,15 +193,22 @@ Quantity ofParts(const Quantity& quantity, const Model& model) {
   return own;
 }
 
+std::optional<PlaceOfLargest> placeOfLargest(const Quantity& quantity, const Model& model,
+                                             const State& state) {
+  std::optional<PlaceOfLargest> largest;
+  if (quantity.kind == Quantity::Kind::largestPressure) largest = largestPressure(model, state, quantity);
+  if (quantity.kind == Quantity::Kind::largestMises) largest = largestMises(model, state, quantity);
+  return largest && largest->value > 0 ? largest : std::nullopt;
+}
+
 std::optional<SpacePoint> placeOf(const Quantity& quantity, const Model& model, const State& state) {
-  if (quantity.kind == Quantity::Kind::largestPressure) return largestPressure(model, state, quantity).place;
-  if (quantity.kind == Quantity::Kind::largestMises) return largestMises(model, state, quantity).place;
-  return std::nullopt;
+  const std::optional<PlaceOfLargest> largest = placeOfLargest(quantity, model, state);
+  return largest ? std::optional(largest->place) : std::nullopt;
 }
 
 double largestPressureError(const Quantity& quantity, const Model& model, const State& state) {
-  const Largest largest = largestPressure(model, state, quantity);
-  if (!largest.place) return 0;
+  const PlaceOfLargest largest = largestPressure(model, state, quantity);
+  if (!(largest.value > 0)) return 0;
   const ContactInterface& interface = model.interfaces[largest.interface];
   const Eigen::Index row = largest.row;
   const int b = interface.pair().nonmortar.body;

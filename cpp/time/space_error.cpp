@@ -120,6 +120,41 @@ std::vector<ErrorEstimate> SpaceErrorEstimator::operator()(const State& state, T
   return estimates;
 }
 
+/// The square of a state that is moved by a small part of the field: what it differs by is twice the product.
+std::vector<Vector> SpaceErrorEstimator::products(const State& state, const std::vector<ErrorEstimate>& own,
+                                                  const std::vector<Response>& other,
+                                                  Threads& threads) const {
+  constexpr double little = 1e-6;  // its square is left out
+  double energy = 0;
+  double energyOfOther = 0;
+  for (size_t b = 0; b < other.size(); ++b) {
+    Matrix strain;
+    model_.bodies[b].material().elasticStrain(other[b].stress, strain);
+    for (int i = 0; i < model_.bodies[b].points(); ++i)
+      energyOfOther += model_.bodies[b].weights()[i] * other[b].stress.col(i).dot(strain.col(i));
+    energy += own[b].energy;
+  }
+  std::vector<Vector> result;
+  if (!(energy > 0) || !(energyOfOther > 0)) {
+    for (const ErrorEstimate& each : own) result.emplace_back(Vector::Zero(each.error.size()));
+    return result;
+  }
+  const double part = little * std::sqrt(energy / energyOfOther);
+  State moved = state;
+  for (size_t b = 0; b < other.size(); ++b) {
+    BodyState& body = moved.bodies[b];
+    body.displacement += part * other[b].displacement;
+    body.stress += part * other[b].stress;
+    // What has flowed is as soft as it was.
+    for (Eigen::Index i = 0; i < body.viscoplasticStrain.cols(); ++i)
+      if (const double stress = state.bodies[b].stress.col(i).norm(); stress > 0)
+        body.viscoplasticStrain.col(i) *= body.stress.col(i).norm() / stress;
+  }
+  const std::vector<ErrorEstimate> with = (*this)(moved, threads);
+  for (size_t b = 0; b < own.size(); ++b) result.emplace_back((with[b].error - own[b].error) / (2 * part));
+  return result;
+}
+
 void CurrentSpaceError::moveTo(const State& state) {
   state_ = &state;
   estimates_.reset();
@@ -136,6 +171,17 @@ CurrentSpaceError::Estimates CurrentSpaceError::estimates() {
 double CurrentSpaceError::roundingOf(size_t body, double displacement) {
   Threads threads(threadsFor(model_, threads_));
   return estimator(threads).roundingOf(body, displacement, threads);
+}
+
+std::vector<Vector> CurrentSpaceError::products(const std::vector<Response>& other) {
+  const Estimates own = estimates();
+  Threads threads(threadsFor(model_, threads_));
+  return estimator(threads).products(*state_, *own, other, threads);
+}
+
+Matrix CurrentSpaceError::recoveredIn(size_t body, size_t triangle) {
+  Threads threads(threadsFor(model_, threads_));
+  return estimator(threads).ofBody(body).recoveredIn(triangle, state_->bodies[body].stress, threads);
 }
 
 const SpaceErrorEstimator& CurrentSpaceError::estimator(Threads& threads) {

@@ -25,6 +25,7 @@
 #include "fem/error_estimate.h"
 #include "solver/model.h"
 #include "solver/state.h"
+#include "solver/step_system.h"
 
 namespace mortier {
 
@@ -38,6 +39,11 @@ class SpaceErrorEstimator {
   /// The energy norm, squared, of the stresses of a body that the rounding of displacements makes: strains of
   /// `displacement` [m] times epsilon over the size of a triangle [J/m].
   [[nodiscard]] double roundingOf(size_t body, double displacement, Threads& threads) const;
+  /// The products, in place of squares, of the errors of a state and those of another field, by bodies and
+  /// elements. \param own  the estimates of the state. \param other  of which displacements leave gaps
+  [[nodiscard]] std::vector<Vector> products(const State& state, const std::vector<ErrorEstimate>& own,
+                                             const std::vector<Response>& other, Threads& threads) const;
+  [[nodiscard]] const ErrorEstimator& ofBody(size_t body) const { return bodies_[body]; }
 
  private:
   /// Where the elements of a line are, and how soft.
@@ -107,6 +113,10 @@ class CurrentSpaceError {
   [[nodiscard]] Estimates estimates();
   /// The energy norm, squared, of what rounding makes of the stresses of a body (SpaceErrorEstimator).
   [[nodiscard]] double roundingOf(size_t body, double displacement);
+  /// SpaceErrorEstimator::products
+  [[nodiscard]] std::vector<Vector> products(const std::vector<Response>& other);
+  /// ErrorEstimator::recoveredIn of a body.
+  [[nodiscard]] Matrix recoveredIn(size_t body, size_t triangle);
 
  private:
   [[nodiscard]] const SpaceErrorEstimator& estimator(Threads& threads);

@@ -100,6 +100,8 @@ class StepTaker {
   /// Makes the result of the last attempt the state.
   void commit();
   [[nodiscard]] Threads& threads() { return system_.threads(); }
+  [[nodiscard]] StepSystem& system() { return system_; }
+  [[nodiscard]] const State& state() const { return state_; }
   /// Active sets of the last step.
   [[nodiscard]] const ActiveSets& active() const { return active_; }
 

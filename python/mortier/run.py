@@ -29,6 +29,20 @@ def finished(solution: _core.Solution) -> Run:
     return run
 
 
+class Quantity(float):
+    """A number that a scene asks for, at the end of a run."""
+
+    error: float | None  # estimated, because of the meshes
+    no_estimate: str  # why there is none
+    unit: str
+
+    def __new__(cls, value: float, error: float | None = None, no_estimate: str = "",
+                unit: str = "") -> Quantity:
+        quantity = super().__new__(cls, value)
+        quantity.error, quantity.no_estimate, quantity.unit = error, no_estimate, unit
+        return quantity
+
+
 class Run:
     """The result of a run. Arrays are read only; they stay valid when nothing else of the run is left.
 
@@ -64,10 +78,11 @@ class Run:
         return {bare(name): name[len(bare(name)) + 1:-1] for name in self._solution.history}
 
     @cached_property
-    def quantities(self) -> dict[str, float]:
-        """Quantity of the scene -> its value at the end; its unit, range, place and error stand in
-        summary["quantities"], its values by steps in the history."""
-        return {name: each["value"] for name, each in self.summary.get("quantities", {}).items()}
+    def quantities(self) -> dict[str, Quantity]:
+        """Quantity of the scene -> its value at the end, with its estimated `error`; its range and place
+        stand in summary["quantities"], its values by steps in the history."""
+        return {name: Quantity(each["value"], each.get("estimated_error"), each.get("no_estimate", ""), each["unit"])
+                for name, each in self.summary.get("quantities", {}).items()}
 
     @property
     def last(self) -> _core.Step:

@@ -137,20 +137,20 @@ class Found(OfTwoBlocks):
         self.assertNotIn("unbounded_order", force)
         self.assertLess(force["change_in_last_round"], 0.01 * abs(force["value"]))
 
-    def test_on_one_mesh_no_error_of_quantities_is_known_and_it_is_said(self):
-        why = "they are not estimated on one mesh; --accuracy, or accuracy.energy, refines it and " \
-              "shows how the values change"
+    def test_on_one_mesh_errors_of_quantities_are_estimated(self):
         self.write(PUNCH)
-        self.assertEqual(self.left_out()["accuracy"], why)
-        self.assertNotIn("accuracy", self.left_out("--set", "accuracy.energy=0.1"))
+        self.assertNotIn("accuracy", self.left_out())
         told = self.mortier("run", "scene.toml", "--out", "out").stdout
-        self.assertIn("\n           their errors are not estimated on one mesh: --accuracy 0.02", told)
+        self.assertRegex(told, r"force \S+ N/m \+- \S+")
+        self.assertIn("\n           +-: estimated error because of the meshes", told)
         quantities = json.loads(self.read("out/summary.json"))["quantities"]
         self.assertEqual([each["change_in_last_round"] for each in quantities.values()], [None, None])
+        self.assertGreater(quantities["force"]["estimated_error"], 0)
+        self.assertIsNone(quantities["highest"]["estimated_error"])
+        self.assertIn("contact ends at a corner", quantities["highest"]["no_estimate"])
         self.assertNotIn("unbounded_order", quantities["highest"])  # too coarse to tell
         told = self.mortier("run", "scene.toml", "--out", "out", "--set", "accuracy.bound=true").stdout
         self.assertIn("(guaranteed)", told)
-        self.assertNotIn("not estimated on one mesh", told)
 
     def test_orders_of_unbounded_stresses_on_one_mesh(self):
         """Under a stiff punch 1/2 at its corners; none in the middle of a wheel (Hertz), as in a scene whose

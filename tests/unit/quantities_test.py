@@ -57,8 +57,8 @@ class Quantities(OfTwoBlocks):
         final = json.loads(self.read("out/summary.json"))["quantities"]
         self.assertEqual(final["held"]["value"], float(rows[-1]["held[N/m]"]))
         self.assertEqual(final["turns"]["unit"], "N")
-        self.assertRegex(run.stdout, r"\nquantities held 10 N/m, pressed -10 N/m, turns .* N, sinks -\S+ m, "
-                                     r"top -\S+ m\n")
+        self.assertRegex(run.stdout, r"\nquantities held 10 N/m \+- 0, pressed -10 N/m \+- 0, turns .* N \+- 0, "
+                                     r"sinks -\S+ m \+- 0, top -\S+ m \+- 0\n")
         self.assertIn("0 errors", self.mortier("check", "scene.toml").stdout)
 
     def test_energies_and_largest_values(self):
@@ -89,8 +89,12 @@ class Quantities(OfTwoBlocks):
                 self.assertEqual(quantity["largest"]["value"], max(column))
                 self.assertEqual(quantity["smallest"]["value"], min(column))
             self.assertEqual(final["press"]["largest"]["time"], 1)
-            self.assertRegex(run.stdout, r"\nquantities .* stress \S+ Pa at \(\S+, \S+\)\n"
-                                         r" +their errors are not estimated on one mesh: [^\n]*\n"
+            self.assertEqual([final[name]["estimated_error"] for name in ("lower-stored", "press", "touch",
+                                                                         "stress")], [0, 0, 0, 0])
+            self.assertIn("summed over the steps", final["upper-heat"]["no_estimate"])
+            self.assertRegex(run.stdout, r"\nquantities .*upper-heat \S+ J/m \(no estimate: [^\n]*"
+                                         r" stress \S+ Pa at \(\S+, \S+\) \+- 0\n"
+                                         r" +\+-: estimated error because of the meshes[^\n]*\n"
                                          r"range      .*press 0 \(t = 0 s\) to 10 \(t = 1 s\)")
 
     def test_mean_pressures(self):
@@ -104,7 +108,7 @@ class Quantities(OfTwoBlocks):
         for i, row in enumerate(rows):
             for name in ("all", "part", "soft"):
                 self.assertAlmostEqual(float(row[name + "[Pa]"]), 10 * (i + 1) / 4, delta=1e-11)
-        self.assertRegex(run.stdout, r"\nquantities all 10 Pa, part 10 Pa, soft 10 Pa\n")
+        self.assertRegex(run.stdout, r"\nquantities all 10 Pa \+- 0, part 10 Pa \+- 0, soft 10 Pa \+- 0\n")
         for of, message in (
                 (", from = [0.2, 0]", "to"), (", margin = 0.1", "expected it only beside from and to"),
                 (part + ", margin = -1", "margin = -1, expected"),

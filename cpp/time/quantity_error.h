@@ -1,0 +1,36 @@
+// How far a quantity of the last state is off because of the meshes, estimated on these meshes alone.
+//
+// A reaction, a contact force, a displacement and a mean pressure are linear in the solution, and the first
+// change of an energy is. With z the response of the linear problem (the bodies with the tangent of the run
+// taken as one step, contact closed, sticking and slipping as it is, transposed) to what the quantity asks
+// for, and e(s), e(t) the estimated errors of the stress s and of t = E eps(z) (time/space_error.h),
+//
+//   J(u) - J(u_h) = a(u - u_h, z - z_h),    about    sum over triangles of (e(s), E^-1 e(t)),
+//
+// with the products of gaps of u and z on the contact line, and of data that the meshes do not resolve, as in
+// the estimate of the energy. Of largest values it is the difference of the recovered stress, of the length
+// of contact half an element at each end.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "time/quantity.h"
+#include "time/space_error.h"
+#include "time/step_taker.h"
+
+namespace mortier {
+
+struct QuantityError {
+  double size = 0;       ///< absolute
+  std::string obstacle;  ///< why there is no estimate; empty where there is
+  double order = 0;      ///< of a largest value: a, where stresses are unbounded there like r^-a
+};
+
+/// \param taker  at the end of the run; null where linear quantities are not asked for
+/// \param begin  of the run [s]
+/// \param error  of the meshes, at the last state
+std::vector<QuantityError> quantityErrors(const std::vector<Quantity>& quantities, const Model& model,
+                                          StepTaker* taker, double begin, CurrentSpaceError& error);
+
+}  // namespace mortier

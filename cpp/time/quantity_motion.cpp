@@ -1,0 +1,123 @@
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "time/quantity_motion.h"
+
+namespace mortier {
+namespace {
+
+/// The component, as a unit motion: along an axis, or by a unit angle about a point.
+class UnitMotion {
+ public:
+  explicit UnitMotion(const Quantity& quantity) : quantity_(quantity) {}
+  [[nodiscard]] SpacePoint at(const SpacePoint& x) const {
+    const Point& about = quantity_.about;
+    if (quantity_.component == Quantity::Component::moment) return {about.y() - x.y(), x.x() - about.x(), 0};
+    return SpacePoint::Unit(axisOf(quantity_));
+  }
+
+ private:
+  const Quantity& quantity_;
+};
+
+/// Writes into `motion` what makes its work with r that of the share of r along the conditions that `own`
+/// names.
+template <class Own>
+void addSupports(const Body& body, const UnitMotion& unit, const Own& own, Vector& motion) {
+  for (const NodeSupport& support : body.supports().nodes()) {
+    // r = sum of shares along the directions: rows of the inverse pick them.
+    Eigen::Matrix2d directions = Eigen::Matrix2d::Identity();
+    for (int i = 0; i < support.count; ++i) directions.col(i) = support.directions[i];
+    const Eigen::Matrix2d shares =
+        support.count == 2 ? Eigen::Matrix2d(directions.inverse()) : Eigen::Matrix2d(directions.transpose());
+    const Point e = unit.at(body.placeOfNode(support.node)).head<2>();
+    for (int i = 0; i < support.count; ++i) {
+      const PrescribedDisplacement& held = body.conditions().displacements[support.conditions[i]];
+      if (held.onAxis || !own(held.label, held.point, std::optional<SpacePoint>())) continue;
+      motion.segment<2>(2 * support.node) += support.directions[i].dot(e) * shares.row(i).transpose();
+    }
+  }
+}
+
+template <class Own>
+void addSpaceSupports(const Body& body, const UnitMotion& unit, const Own& own, Vector& motion) {
+  for (const SpaceSupport& support : body.space()->supports()) {
+    // By the prescribed directions, which need not be orthogonal: D' shares = r on their span.
+    const Eigen::Index n = support.count;
+    const Matrix span = support.frame.topRows(n);
+    const Matrix inSpan = support.directions.topRows(n) * span.transpose();  // lower triangular
+    Vector along = support.directions.topRows(n) * unit.at(body.placeOfNode(support.node));
+    for (int i = 0; i < support.count; ++i) {
+      const SpaceCondition& held = body.space()->conditions().displacements[support.conditions[i]];
+      if (!own(held.label, std::optional<Point>(), held.point)) along[i] = 0;
+    }
+    motion.segment<3>(3 * support.node) +=
+        span.transpose() * inSpan.triangularView<Eigen::Lower>().solve(along);
+  }
+}
+
+/// Of a body that does not strain: the part along the motions that are held.
+Vector rigidMotion(const Body& body, const Quantity& quantity, const UnitMotion& unit) {
+  const RigidMotion& rigid = *body.conditions().rigid;
+  const SpacePoint there = unit.at({rigid.at.x(), rigid.at.y(), 0});
+  const bool turns = quantity.component == Quantity::Component::moment;
+  const double x = rigid.held[0] ? there.x() : 0;
+  const double y = rigid.held[1] ? there.y() : 0;
+  const double angle = rigid.held[2] && turns ? 1 : 0;
+  Vector motion(body.dofs());
+  for (int node = 0; node < body.nodes(); ++node) {
+    const Point arm = body.placeOfNode(node).head<2>() - rigid.at;
+    motion.segment<2>(2 * node) << x - angle * arm.y(), y + angle * arm.x();
+  }
+  return motion;
+}
+
+}  // namespace
+
+int axisOf(const Quantity& quantity) {
+  return quantity.component == Quantity::Component::x   ? 0
+         : quantity.component == Quantity::Component::z ? 2
+                                                        : 1;
+}
+
+int firstSupport(const Body& body, int label, const std::optional<Point>& point,
+                 const std::optional<SpacePoint>& pointInSpace) {
+  if (body.space() != nullptr) {
+    const std::vector<SpaceCondition>& held = body.space()->conditions().displacements;
+    const auto found = std::find_if(held.begin(), held.end(), [&](const SpaceCondition& each) {
+      return each.point == pointInSpace && (pointInSpace || each.label == label);
+    });
+    return found == held.end() ? -1 : static_cast<int>(found - held.begin());
+  }
+  const std::vector<PrescribedDisplacement>& held = body.conditions().displacements;
+  const auto found = std::find_if(held.begin(), held.end(), [&](const PrescribedDisplacement& each) {
+    return point ? each.point == point : each.actsOn(label);
+  });
+  return found == held.end() ? -1 : static_cast<int>(found - held.begin());
+}
+
+Vector motionOf(const Quantity& quantity, const Model& model) {
+  const Body& body = model.bodies[quantity.body];
+  const UnitMotion unit(quantity);
+  Vector motion = Vector::Zero(body.dofs());
+  if (quantity.kind == Quantity::Kind::contactForce) {
+    const int dimension = body.dimension();
+    for (const int node : body.boundaryNodes(quantity.whole ? std::nullopt : std::optional(quantity.label)))
+      motion.segment(static_cast<Eigen::Index>(dimension) * node, dimension) =
+          -unit.at(body.placeOfNode(node)).head(dimension);
+    return motion;
+  }
+  if (body.rigid()) return rigidMotion(body, quantity, unit);
+  const int first = firstSupport(body, quantity.label, quantity.point, quantity.pointInSpace);
+  const auto own = [&](int label, const std::optional<Point>& point,
+                       const std::optional<SpacePoint>& inSpace) {
+    return firstSupport(body, label, point, inSpace) == first;
+  };
+  if (body.space() != nullptr)
+    addSpaceSupports(body, unit, own, motion);
+  else
+    addSupports(body, unit, own, motion);
+  return motion;
+}
+
+}  // namespace mortier
