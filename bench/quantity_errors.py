@@ -201,7 +201,8 @@ def indented(f):
 
 
 SCENES = {each.__name__: each for each in (
-    patch, lame, cantilever, known_end, hertz, sphere, tool, pushed_tool, punch, rough, creeping_tube, flowing_beam, creeping_beam, indented)}
+    patch, lame, cantilever, known_end, hertz, sphere, tool, pushed_tool, punch, rough,
+    creeping_tube, flowing_beam, creeping_beam, indented)}
 
 
 def run(text, folder, name):
