@@ -1,12 +1,11 @@
 #!/usr/bin/python3
-"""Estimated over true errors of quantities on one mesh, and what the estimates cost. The true value is that on
+"""Estimated over true errors of quantities on one mesh; true is the difference from the value on
 meshes of 4 times the cells. The table of docs/measurements.md.
 
-    bench/quantity_errors.py [--factor 1] [--random 20] [--only PART]
+    bench/quantity_errors.py [--factor 1] [--degree 1] [--only PART]
 """
 import argparse
 import json
-import random
 import subprocess
 import sys
 import tempfile
@@ -44,6 +43,10 @@ def energies(*bodies):
 def contact(nonmortar, label, mortar, other, more=""):
     return (f'[[contact]]\nnonmortar = {{ body = "{nonmortar}", label = {label} }}\n'
             f'mortar = {{ body = "{mortar}", label = {other} }}\n{more}')
+
+
+def half_disc(cells):
+    return f'mesh = {{ shape = "halfdisc", radius = 10, core = 2, lowest = [0, 0], cells = {cells} }}\n'
 
 
 def cantilever(f):
@@ -97,20 +100,21 @@ def known_end(f):
 
 
 def hertz(f):
-    return (body("disc", f'mesh = {{ shape = "halfdisc", radius = 10, core = 2, lowest = [0, 0], cells = {8 * f} }}\n',
+    return (body("disc", half_disc(8 * f),
                  STEEL, '{ label = 2, ux = 0, uy = "-0.1*t" }')
             + body("block", rectangle([-12, -12], [12, 0], [16 * f, 8 * f], ', cut = "both", focus = [0, 0], '
                                       'grading = [8, 8]'),
                    STEEL, "{ label = 1, ux = 0, uy = 0 }")
             + contact("disc", 1, "block", 3) + pressed("disc", "block", 2)
             + quantity("sinks", "displacement", "block", ", point = [0, 0]", "y")
-            + quantity("mean", "mean_pressure", "disc", ", label = 1, from = [-0.5, 0], to = [0.5, 0]") + STEP)
+            + quantity("mean", "mean_pressure", "disc", ", label = 1, from = [-0.5, 0], to = [0.5, 0]")
+            + STEP)
 
 
 def sphere(f):
     return ('plane = "axisymmetric"\n'
-            + body("ball", f'mesh = {{ shape = "quarterdisc", radius = 10, core = 2, cells = {6 * f} }}\n', STEEL,
-                   '{ label = 2, uy = "-0.1*t" }')
+            + body("ball", f'mesh = {{ shape = "quarterdisc", radius = 10, core = 2, cells = {6 * f} }}\n',
+                   STEEL, '{ label = 2, uy = "-0.1*t" }')
             + body("block", rectangle([0, -12], [12, 0], [8 * f, 8 * f], ', cut = "both", focus = [0, 0], '
                                       'grading = [8, 8]'), STEEL, "{ label = 1, uy = 0 }")
             + contact("ball", 1, "block", 3) + pressed("ball", "block", 2) + STEP)
@@ -133,8 +137,10 @@ def pushed_tool(f):
 
 
 def punch(f):
-    return (body("punch", rectangle([-1, 0], [1, 1], [6 * f, 3 * f]), STEEL, '{ label = 3, ux = 0, uy = "-0.01*t" }')
-            + body("ground", rectangle([-4, -4], [4, 0], [16 * f, 8 * f]), STEEL, "{ label = 1, ux = 0, uy = 0 }")
+    return (body("punch", rectangle([-1, 0], [1, 1], [6 * f, 3 * f]), STEEL,
+                 '{ label = 3, ux = 0, uy = "-0.01*t" }')
+            + body("ground", rectangle([-4, -4], [4, 0], [16 * f, 8 * f]), STEEL,
+                   "{ label = 1, ux = 0, uy = 0 }")
             + contact("punch", 1, "ground", 3) + pressed("punch", "ground", 3)
             + quantity("sinks", "displacement", "ground", ", point = [0, 0]", "y") + STEP)
 
@@ -142,7 +148,8 @@ def punch(f):
 def rough(f):
     return (body("upper", rectangle([0, 1], [1, 2], [4 * f, 4 * f]), STEEL,
                  '{ label = 3, ux = "0.01*t", uy = "-0.02" }')
-            + body("lower", rectangle([-0.5, 0], [1.5, 1], [7 * f, 4 * f]), STEEL, "{ label = 1, ux = 0, uy = 0 }")
+            + body("lower", rectangle([-0.5, 0], [1.5, 1], [7 * f, 4 * f]), STEEL,
+                   "{ label = 1, ux = 0, uy = 0 }")
             + contact("upper", 1, "lower", 3, "friction = 0.3\n") + pressed("upper", "lower", 3)
             + quantity("shear", "reaction", "upper", ", label = 3", "x")
             + quantity("rub", "friction_work", "upper", ", label = 1")
@@ -153,8 +160,8 @@ def creeping_tube(f):
     ring = 'mesh = {{ shape = "annulus", inner = {}, outer = {}, span = "quarter", cells = [{}, {}] }}\n'
     flows = "material = { young = 1e5, poisson = 0.3, viscosity = 10, yield_stress = 1 }\n"
     return ('plane = "strain"\n'
-            + body("liner", ring.format(1, 1.5, 6 * f, 3 * f), flows, "{ label = 3, uy = 0 }", "{ label = 4, ux = 0 }",
-                   '{ label = 1, pressure = "1.2*min(t, 1)" }')
+            + body("liner", ring.format(1, 1.5, 6 * f, 3 * f), flows, "{ label = 3, uy = 0 }",
+                   "{ label = 4, ux = 0 }", '{ label = 1, pressure = "1.2*min(t, 1)" }')
             + body("jacket", ring.format(1.5, 2, 8 * f, 3 * f), flows, "{ label = 3, uy = 0 }",
                    "{ label = 4, ux = 0 }")
             + contact("liner", 2, "jacket", 1, 'initial = "close"\n')
@@ -176,12 +183,13 @@ def flowing_beam(f):
 
 
 def creeping_beam(f):
-    return flowing_beam(f).replace('uy = "-0.02*t"', 'ty = "-0.1"').replace("viscosity = 10, yield_stress = 1",
+    return flowing_beam(f).replace('uy = "-0.02*t"', 'ty = "-0.1"').replace(
+        "viscosity = 10, yield_stress = 1",
         'law = "norton", reference_stress = 1, reference_rate = 1e-2, exponent = 4')
 
 
 def indented(f):
-    return (body("disc", f'mesh = {{ shape = "halfdisc", radius = 10, core = 2, lowest = [0, 0], cells = {8 * f} }}\n',
+    return (body("disc", half_disc(8 * f),
                  "material = { young = 1e3, poisson = 0.3 }\n", '{ label = 2, ux = 0, uy = "-0.1*t" }')
             + body("block", rectangle([-12, -12], [12, 0], [16 * f, 8 * f], ', cut = "both", focus = [0, 0], '
                                       'grading = [8, 8]'),
@@ -192,8 +200,9 @@ def indented(f):
             + "[time]\nend = 1\nsteps = 10\n")
 
 
-SCENES = {each.__name__: each for each in (patch, lame, cantilever, known_end, hertz, sphere, tool, pushed_tool, punch,
-                                           rough, creeping_tube, flowing_beam, creeping_beam, indented)}
+SCENES = {each.__name__: each for each in (
+    patch, lame, cantilever, known_end, hertz, sphere, tool, pushed_tool, punch, rough,
+    creeping_tube, flowing_beam, creeping_beam, indented)}
 
 
 def run(text, folder, name):
@@ -229,9 +238,12 @@ def main():
                     value, exact = each["value"], fine[quantity_name]["value"]
                     true = abs(value - exact)
                     found = each.get("estimated_error")
-                    ratio = "" if found is None else f"{found / true:8.3g}" if true > 1e-9 * abs(exact) else "exact"
-                    print(f"{scene:14} {degree} {quantity_name:14} {value:12.5g} {exact:12.5g} true {true / max(abs(exact), 1e-300):8.2g} "
-                          f"estimate/true {ratio:8} {each.get('no_estimate', '')}", flush=True)
+                    ratio = ""
+                    if found is not None:
+                        ratio = f"{found / true:8.3g}" if true > 1e-9 * abs(exact) else "exact"
+                    print(f"{scene:14} {degree} {quantity_name:14} {value:12.5g} {exact:12.5g} true "
+                          f"{true / max(abs(exact), 1e-300):8.2g} estimate/true {ratio:8} "
+                          f"{each.get('no_estimate', '')}", flush=True)
 
 
 if __name__ == "__main__":

@@ -133,9 +133,10 @@ bool growsTowards(const Body& body, const Matrix& stress, int vertex) {
     if (a == vertex || b == vertex) edge = std::max(edge, (mesh.vertices[a] - mesh.vertices[b]).norm());
   std::array<double, 2> square{};
   std::array<double, 2> area{};
+  const std::vector<Point> places = body.places();
   for (int i = 0; i < body.points(); ++i)
     for (int k = 0; k < 2; ++k) {
-      const double far = (body.placeOfPoint(i).head<2>() - mesh.vertices[vertex]).norm();
+      const double far = (places[i] - mesh.vertices[vertex]).norm();
       if (!(far < 2 * (k + 1) * edge)) continue;
       square[k] += body.weights()[i] * stress.col(i).squaredNorm();
       area[k] += body.weights()[i];
@@ -166,9 +167,11 @@ double orderOfCorner(double angle, SideSupport first, SideSupport second, double
 double cornerOrder(const Body& body, const Matrix& stress, const Point& place) {
   if (body.rigid() || body.space() != nullptr) return 0;
   double order = 0;
-  for (const auto& [vertex, corner] : cornersNear(body, place))
-    if (corner.sides.size() == 2 && growsTowards(body, stress, vertex))
-      order = std::max(order, orderOfCorner(corner.angle, corner.sides[0], corner.sides[1], kappaOf(body)));
+  for (const auto& [vertex, corner] : cornersNear(body, place)) {
+    if (corner.sides.size() != 2) continue;
+    const double own = orderOfCorner(corner.angle, corner.sides[0], corner.sides[1], kappaOf(body));
+    if (own > order && growsTowards(body, stress, vertex)) order = own;
+  }
   return order;
 }
 

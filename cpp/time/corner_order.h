@@ -26,8 +26,8 @@ double orderOfCorner(double angle, SideSupport first, SideSupport second, double
 /// 0 where there is none.
 double cornerOrder(const Body& body, const Matrix& stress, const Point& place);
 
-/// Whether contact that presses ends next to a place at a corner of one body, while the other one goes on: its
-/// pressure may be unbounded.
+/// Whether contact that presses ends next to a place at a corner of one body, while the other one goes on:
+/// its pressure may be unbounded.
 bool contactEndsAt(const Model& model, const State& state, const Point& place);
 
 }  // namespace mortier

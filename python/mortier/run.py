@@ -81,7 +81,8 @@ class Run:
     def quantities(self) -> dict[str, Quantity]:
         """Quantity of the scene -> its value at the end, with its estimated `error`; its range and place
         stand in summary["quantities"], its values by steps in the history."""
-        return {name: Quantity(each["value"], each.get("estimated_error"), each.get("no_estimate", ""), each["unit"])
+        return {name: Quantity(each["value"], each.get("estimated_error"), each.get("no_estimate", ""),
+                               each["unit"])
                 for name, each in self.summary.get("quantities", {}).items()}
 
     @property

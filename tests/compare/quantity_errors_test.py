@@ -1,5 +1,4 @@
 """Errors of quantities as they are estimated on one mesh, against those on meshes of four times the cells."""
-import json
 import sys
 import unittest
 from pathlib import Path
@@ -33,14 +32,15 @@ class QuantityErrors(InFolder):
                     self.assertLess(estimated / true, 2.6)
 
     def test_what_equilibrium_alone_decides_has_none(self):
-        for make, name in ((scenes.cantilever, "held"), (scenes.lame, "held"), (scenes.pushed_tool, "contact")):
+        for make, name in ((scenes.cantilever, "held"), (scenes.lame, "held"),
+                           (scenes.pushed_tool, "contact")):
             estimated, _, each = self.of(make)[name]
             self.assertLess(estimated, 1e-10 * abs(each["value"]))
 
     def test_a_patch_has_none(self):
         self.assertEqual({name: error for name, (error, _, _) in self.of(scenes.patch).items()},
-                         dict.fromkeys(("press", "contact", "pressure", "length", "energy_upper", "energy_lower",
-                                        "mises"), 0))
+                         dict.fromkeys(("press", "contact", "pressure", "length", "energy_upper",
+                                        "energy_lower", "mises"), 0))
 
     def test_where_stresses_are_unbounded_there_is_an_order(self):
         estimated, _, each = self.of(scenes.cantilever)["mises"]  # at the clamped end: sin^2 = ..., l = 0.758
@@ -56,7 +56,6 @@ class QuantityErrors(InFolder):
         estimated, _, each = self.of(scenes.creeping_tube)["heat"]
         self.assertIsNone(estimated)
         self.assertIn("summed over the steps", each["no_estimate"])
-        self.assertIn("no estimate: it is summed", json.dumps(each).replace('no_estimate": "', "no estimate: "))
 
 
 if __name__ == "__main__":

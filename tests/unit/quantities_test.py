@@ -57,8 +57,8 @@ class Quantities(OfTwoBlocks):
         final = json.loads(self.read("out/summary.json"))["quantities"]
         self.assertEqual(final["held"]["value"], float(rows[-1]["held[N/m]"]))
         self.assertEqual(final["turns"]["unit"], "N")
-        self.assertRegex(run.stdout, r"\nquantities held 10 N/m \+- 0, pressed -10 N/m \+- 0, turns .* N \+- 0, "
-                                     r"sinks -\S+ m \+- 0, top -\S+ m \+- 0\n")
+        self.assertRegex(run.stdout, r"\nquantities held 10 N/m \+- 0, pressed -10 N/m \+- 0, "
+                                     r"turns .* N \+- 0, sinks -\S+ m \+- 0, top -\S+ m \+- 0\n")
         self.assertIn("0 errors", self.mortier("check", "scene.toml").stdout)
 
     def test_energies_and_largest_values(self):
