@@ -137,8 +137,12 @@ std::vector<int> Body::boundaryNodes(std::optional<int> label) const {
 
 SpacePoint Body::placeOfPoint(int point) const {
   if (space_) return space_->placeOf(point);
-  const Point place = places()[point];
-  return {place.x(), place.y(), 0};
+  return withElement(degree(), [&](auto element) -> SpacePoint {
+    using Element = decltype(element);
+    const auto data = Element::tabulate(placesOf<Element>(nodes_, point / Element::points));
+    const Point& place = data.places[point % Element::points];
+    return {place.x(), place.y(), 0};
+  });
 }
 
 const TangentAssembly& Body::assembly() const {

@@ -336,10 +336,7 @@ std::string logQuantities(const RunFacts& facts, const Model& model, const Solve
     text += error;
   }
   if (!text.empty()) text += "\n";
-  if (estimated)
-    text +=
-        "           +-: estimated error because of the meshes, about half to twice the true one in most "
-        "cases\n";
+  if (estimated) text += "           +-: estimated error because of the meshes, no bound\n";
   return text;
 }
 
