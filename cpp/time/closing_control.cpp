@@ -1,6 +1,5 @@
 // Steps chosen by their error in which contact closes (controller.h).
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "time/controller.h"
@@ -33,7 +32,7 @@ bool Controller::repeatInHalves(StepTaker& taker, StepTaker::Kept start, const S
     factor = std::clamp(safety * own.local / off, leastFactor, safety);
     return false;
   }
-  own.worst = larger(own.worst, {own.error.stress + off * own.scale.stress, 0, std::abs(own.slip.work)});
+  own.worst = larger(own.worst, {own.error.stress + off * own.scale.stress, 0, 0});
   return true;
 }
 
@@ -64,11 +63,7 @@ double Controller::halve(StepTaker& taker, const StepTaker::Kept& start, const S
     off.push_back({state.bodies[b].displacement - reached.bodies[b].displacement,
                    state.bodies[b].stress - reached.bodies[b].stress});
   memory_.controller = std::move(end.second.controller);
-  ErrorNorms norms = measure_.sizeOf(off);
-  const double work = state.frictionWork - reached.frictionWork;
-  norms.friction = std::abs(work);
-  memory_.controller.slip.work += work;  // of order one: the half steps are wrong by as much
-  return relative(norms, memory_.controller.scale);
+  return relative(measure_.sizeOf(off), memory_.controller.scale);
 }
 
 }  // namespace mortier

@@ -137,7 +137,7 @@ bool Controller::beginAgain(State& state) {
 /// Adds the error of the step to what has been carried to its end. Flow does not amplify errors: where the
 /// linearised step does, points that flow and points that do not lie side by side, and the error is taken on
 /// as it was. A contact that closes does amplify them: errors of displacements become errors of stresses.
-void Controller::add(StepTaker& taker, StepError local, double size, SlipAndWork missed) {
+void Controller::add(StepTaker& taker, StepError local, double size, const SlipAndWork& missed) {
   ControllerMemory& own = memory_.controller;
   const std::vector<Matrix> before = std::exchange(own.strain, std::move(local.strain));
   std::vector<Response>& response = local.response;
@@ -147,11 +147,9 @@ void Controller::add(StepTaker& taker, StepError local, double size, SlipAndWork
     addTo(response, carried.response);
   }
   for (size_t b = 0; b < before.size(); ++b) own.strain[b] += carried.strain[b];
-  if (!missed.slip.empty()) size += sizeOf(taker, missed);
-  const std::vector<Matrix> flowed = std::exchange(missed.strain, {});
   addTo(own.slip, 1, missed);
-  addTo(own.strain, 1, flowed);
-  if (!own.slip.slip.empty()) addTo(response, taker.response(flowed, own.slip.slip));
+  if (!missed.slip.empty()) size += sizeOf(taker, missed);
+  if (!own.slip.slip.empty()) addTo(response, taker.responseTo(own.slip.slip));
   if (rough_) own.slip.slip = taker.slipOf(response);  // what slips does not keep an error of its own
   ErrorNorms error = measure_.sizeOf(response);
   error.friction = std::abs(own.slip.work);

@@ -19,20 +19,12 @@ double relative(const ErrorNorms& error, const ErrorNorms& scale) {
   return std::isfinite(s) && std::isfinite(u) && std::isfinite(f) ? std::max({s, u, f}) : 1;
 }
 
-void addTo(std::vector<Matrix>& sum, double factor, const std::vector<Matrix>& part) {
-  for (size_t b = 0; b < part.size(); ++b) {
-    if (sum.size() == b) sum.emplace_back(Matrix::Zero(part[b].rows(), part[b].cols()));
-    sum[b] += factor * part[b];
-  }
-}
-
 void addTo(SlipAndWork& sum, double factor, const SlipAndWork& part) {
   for (size_t k = 0; k < part.slip.size(); ++k) {
     if (sum.slip.size() == k) sum.slip.emplace_back(Vector::Zero(part.slip[k].size()));
     sum.slip[k] += factor * part.slip[k];
   }
   sum.work += factor * part.work;
-  addTo(sum.strain, factor, part.strain);
 }
 
 void addTo(std::vector<Response>& sum, const std::vector<Response>& part) {
@@ -74,7 +66,7 @@ double ErrorMeasure::meanSquare(const Vector& displacement, size_t body) const {
 }
 
 ErrorNorms ErrorMeasure::sizeOf(const State& state) const {
-  constexpr double littleWork = 5e-4;      // of the energy norm squared: a thousandth of the elastic energy
+  constexpr double little = 1e-6;
   constexpr double roundedMotion = 1e-10;  // over the extent, the strain that is nothing beside it
   double stress = 0;
   double displacement = 0;
@@ -93,7 +85,7 @@ ErrorNorms ErrorMeasure::sizeOf(const State& state) const {
   if (strain > 0)
     stress = std::max(stress, stress / strain * displacement * std::pow(roundedMotion / extent_, 2));
   return {std::sqrt(stress), std::max(std::sqrt(displacement), extent_ * std::sqrt(strain)),
-          rough_ ? std::max(state.frictionWork, littleWork * stress) : 0};
+          rough_ ? std::max(state.frictionWork, little * stress) : 0};
 }
 
 ErrorNorms ErrorMeasure::sizeOf(const std::vector<Response>& error) const {

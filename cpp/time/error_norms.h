@@ -17,7 +17,6 @@ ErrorNorms larger(const ErrorNorms& a, const ErrorNorms& b);
 double relative(const ErrorNorms& error, const ErrorNorms& scale);
 
 /// sum += factor part
-void addTo(std::vector<Matrix>& sum, double factor, const std::vector<Matrix>& part);
 void addTo(SlipAndWork& sum, double factor, const SlipAndWork& part);
 
 void addTo(std::vector<Response>& sum, const std::vector<Response>& part);
@@ -28,7 +27,7 @@ class ErrorMeasure {
 
   /// Of a state. Where everything is held no displacement is a scale: what the elastic strain makes of the
   /// extent is. Where bodies only move the stress is none: that of a tiny part of their motion is. Where next
-  /// to nothing slips the dissipation is none: a thousandth of the elastic energy is.
+  /// to nothing slips the dissipation is none: a small part of the energy is.
   [[nodiscard]] ErrorNorms sizeOf(const State& state) const;
   [[nodiscard]] ErrorNorms sizeOf(const std::vector<Response>& error) const;
 

@@ -10,16 +10,9 @@ namespace mortier {
 /// What nodes that stick have missed of their slip they keep; of those that slip the friction is known, and
 /// where they are follows from the others (solver/respond.cpp).
 double Controller::sizeOf(StepTaker& taker, const SlipAndWork& missed) const {
-  ErrorNorms norms = measure_.sizeOf(taker.response(missed.strain, missed.slip));
+  ErrorNorms norms = measure_.sizeOf(taker.responseTo(missed.slip));
   norms.friction = std::abs(missed.work);
   return relative(norms, memory_.controller.scale);
-}
-
-/// Adds a step of a pair to what one of twice the length misses of it: of the flow what its stages do not
-/// show. What they do show that one misses 2^(p+1) times.
-void Controller::addOfPair(const StepTaker& taker, const Judgement& of, SlipAndWork& missed) {
-  addTo(missed, 1, taker.slip());
-  addTo(missed.strain, 1 - std::exp2(taker.errorOrder() - 1), of.local.strain);
 }
 
 Controller::Attempt Controller::attemptOfPair(StepTaker& taker, double t0, double end, Effort effort,
@@ -42,11 +35,7 @@ Controller::Attempt Controller::attemptOfPair(StepTaker& taker, double t0, doubl
   step.outcome = attempt(taker, t0, step.t1, effort, onsets, step.judgement);
   step.outcome.iterations += once.iterations;
   step.outcome.factorisations += once.factorisations;
-  if (step.beginsPair && step.outcome.converged()) {
-    addOfPair(taker, step.judgement, step.missed);
-    step.contactChanges = taker.contactChanges();
-    step.workOfChange = taker.workOfChange();
-  }
+  if (step.beginsPair && step.outcome.converged()) addTo(step.missed, 1, taker.slip());
   return step;
 }
 
@@ -59,12 +48,7 @@ bool Controller::completePair(StepTaker& taker, const Attempt& first, double end
   bool good = second.outcome.converged() && second.judgement.good;
   if (good) {
     SlipAndWork missed = first.missed;
-    addOfPair(taker, second.judgement, missed);
-    // Where forces change fast neither the steps nor the long one may see them.
-    const double work = first.workOfChange + taker.workOfChange();
-    if (std::abs(work) > std::abs(missed.work)) missed.work = work;
-    // Stages show the flow unless contact changes between them.
-    if (!first.contactChanges && !taker.contactChanges()) missed.strain.clear();
+    addTo(missed, 1, taker.slip());
     const double size = sizeOf(taker, missed);
     const double fits = safety * std::pow(size / own.local, -0.5);  // a pair misses k^2
     factor = std::min({factor, second.judgement.factor, std::clamp(fits, leastFactor, largest)});

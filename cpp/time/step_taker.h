@@ -46,19 +46,15 @@ class StepTaker {
   StepError carried(const std::vector<Matrix>& strain);
   /// Whether a contact that was open is closed at the end of the last attempt.
   [[nodiscard]] bool closes() const;
-  /// Whether any contact opens, closes, sticks or slips there that did not in the state.
-  [[nodiscard]] bool contactChanges() const;
   /// The error of the state from which the last attempt begins, as far as its stresses relax within the
   /// attempt: its flow is not that with which the attempt begins.
   std::vector<Response> lagAtStart();
   /// What displacement and stress make of an error of the viscoplastic strain at the end of the attempt, and
-  /// of the slip of the nodes that stick there; of no strain where that is empty.
+  /// of the slip of the nodes that stick there.
   std::vector<Response> response(const std::vector<Matrix>& strain, const std::vector<Vector>& slip = {});
-  /// Slip, dissipation by friction and flow of the last attempt.
+  std::vector<Response> responseTo(const std::vector<Vector>& slip);
+  /// Slip and dissipation by friction of the last attempt.
   [[nodiscard]] SlipAndWork slip() const;
-  /// By how much more friction dissipates if its forces change evenly along the slip: in the attempt they are
-  /// those of its end, none where contact opens [J/m].
-  [[nodiscard]] double workOfChange() const;
   /// The slip that such a response has, per interface.
   [[nodiscard]] std::vector<Vector> slipOf(const std::vector<Response>& response) const;
   [[nodiscard]] bool follows() const { return anyFollows(model_); }

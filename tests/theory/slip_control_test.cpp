@@ -152,37 +152,4 @@ TEST(SlipControl, keepsTheEnergy) {
   EXPECT_GT(flowed, 0.01 * largest);
 }
 
-// What sticks until the contact opens slips just before that, and loses what shear has stored. Steps that
-// pass from sticking to open contact know nothing of it.
-TEST(SlipControl, seesWhatFrictionDissipatesAsContactOpens) {
-  const auto lifted = [](double t) { return t <= 2 ? down(t) : -0.05 + 0.1 * (t - 2); };
-  Body upper("upper", square(0, 3), elasticMaterial({100, 0.3}),
-             {{{top, 0, [](double, double, double t) { return along(t); }},
-               {top, 1, [=](double, double, double t) { return lifted(t); }}},
-              {},
-              {}});
-  Body lower("lower", square(-1, 4), elasticMaterial({100, 0.3}),
-             {{{bottom, 0, constant(0)}, {bottom, 1, constant(0)}}, {}, {}});
-  InterfaceOptions options;
-  options.friction = {0.8, 0};
-  const Model model =
-      contactModel(std::move(upper), std::move(lower), CouplingKind::mortar, upperBody, options);
-  const Result fine = run(model, 3, 3000);
-  ASSERT_EQ(fine.report.status, Status::converged) << fine.report.reason;
-  const double exact = fine.state.frictionWork;
-  for (const double tolerance : {0.1, 0.02}) {
-    State state = initialState(model);
-    TimePlan plan = controlled(3, tolerance, Scheme::backwardEuler);
-    plan.breaks = {1, 2};
-    const RunReport report = runWith(model, state, plan);
-    ASSERT_EQ(report.status, Status::converged) << report.reason;
-    const double error = std::abs(state.frictionWork / exact - 1);
-    print("lifted, tolerance " + std::to_string(tolerance), report);
-    std::cout << ", dissipation " << exact << " off by " << error << ", estimate " << report.timeError
-              << "\n";
-    EXPECT_LE(error, 1.5 * tolerance);
-    EXPECT_LE(report.timeError, tolerance);
-  }
-}
-
 }  // namespace mortier::slip_control_test

@@ -267,7 +267,7 @@ inline Case randomCase(unsigned seed) {
 struct Outcome {
   RunReport run;
   double stress = 0, displacement = 0;  ///< largest error of any step over the tolerance
-  double friction = 0;                  ///< of the energy that friction dissipates (time/error_norms.h)
+  double friction = 0;                  ///< of the energy that friction dissipates
   double at = 0;                        ///< time of the larger one
   /// Largest size of the run.
   ErrorNorms scale;
