@@ -122,7 +122,7 @@ class SceneUnits(OfTwoBlocks):
                        "mises[MPa]", "time[s]"):
             self.assertIn(column, history[0])
         self.assertIn("  penetration[mm^2]  max p[MPa]  viscoplastic  force[N/mm]\n", log)
-        self.assertRegex(log, r"\nquantities held 10 N/mm, .* mises \S+ MPa at \(\S+, \S+\)\n")
+        self.assertRegex(log, r"\nquantities held 10 N/mm \+- 0, .* mises \S+ MPa at \(\S+, \S+\) \+- 0\n")
         for wrong in (r"\bPa\b", r"N/m\b", r"\d m\b"):
             self.assertNotRegex(log, wrong)
         summary = json.loads(self.read("out/summary.json"))
