@@ -1,9 +1,9 @@
 // Bodies that do not strain.
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "base/dense_templates.h"
 #include "fem/body.h"
 
 namespace mortier {
@@ -18,9 +18,8 @@ void Body::findMotions() {
   // Columns of about the same size, or the normal equations lose digits.
   const Eigen::Vector3d scale(1, 1, extent_);
   const Matrix scaled = motions_ * scale.cwiseInverse().asDiagonal();
-  const Matrix normal = scaled.transpose() * scaled;
-  toMotion_ =
-      scale.cwiseInverse().asDiagonal() * Matrix(normal.partialPivLu().solve(Matrix(scaled.transpose())));
+  toMotion_ = scale.cwiseInverse().asDiagonal() *
+              Matrix((scaled.transpose() * scaled).partialPivLu().solve(scaled.transpose()));
   for (int c = 0; c < 3; ++c) {
     if (motion.held[c]) continue;
     freeMotions_.conservativeResize(dofs(), ++freeDofs_);
