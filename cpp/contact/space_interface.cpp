@@ -236,7 +236,8 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
       const double area = cross(e1, e2) / 2 * twiceArea;
       if (!(area > 0)) continue;
       for (const auto& [a, b, weight] : radonRule)
-        atPoint(p0 + a * e1 + b * e2, [&](const auto& phi, const auto& psi, const auto& chi, double delta) {
+        atPoint(p0 + a * e1 + b * e2, [&, weight = weight](const auto& phi, const auto& psi, const auto& chi,
+                                                           double delta) {
           for (const auto& [row, value] : chi) {
             const double w = weight * area * value;
             result.lengths_[row] += w;

@@ -142,7 +142,7 @@ ErrorEstimate estimateInSpace(const Body& body, const Matrix& stress) {
   Matrix strain;
   // A point of the rule in each element at a time, at the place of a stress point: laws know these alone.
   for (const auto& [at, weight] : rule) {
-    withSpaceElement(degree, [&](auto element) {
+    withSpaceElement(degree, [&, at = at](auto element) {
       const auto N = decltype(element)::shapes(at);
       const Eigen::Map<const Vector> shapes(N.data(), static_cast<Eigen::Index>(N.size()));
       for (Eigen::Index e = 0; e < elements; ++e) {
@@ -154,7 +154,7 @@ ErrorEstimate estimateInSpace(const Body& body, const Matrix& stress) {
               (each == 1 ? 1 : (at[q] - far) / (QuadraticTetrahedron::near - far)) * stress.col(each * e + q);
       }
     });
-    const auto energyOf = [&](const Matrix& field, Eigen::Index e) {
+    const auto energyOf = [&, weight = weight](const Matrix& field, Eigen::Index e) {
       return weight * static_cast<double>(each) * body.weights()[each * e] *
              field.col(each * e).dot(strain.col(each * e));
     };

@@ -17,7 +17,7 @@ constexpr std::array<Side, 6> sides{{{2, 0, 1}, {0, 1, 2}, {2, 1, 3}, {0, 0, 4},
 }  // namespace
 
 TetrahedronMesh cuboidMesh(const Cuboid& cuboid) {
-  const auto& [nx, ny, nz] = cuboid.cells;
+  const int nx = cuboid.cells[0], ny = cuboid.cells[1], nz = cuboid.cells[2];
   if (!((cuboid.upper - cuboid.lower).minCoeff() > 0) || nx < 1 || ny < 1 || nz < 1)
     throw InputError("a box without volume or cells");
   TetrahedronMesh mesh;

@@ -18,7 +18,7 @@
 namespace mortier {
 
 /// Estimated errors of the stress, relative, in the energy norm [-]. They are those of the meshes; what the
-/// steps in time add is not in them. Errors that are nothing but rounding are 0.
+/// steps in time add is not in them. Errors at the level of rounding are 0.
 struct Accuracy {
   double all = 0;              ///< of the last state, over its own stress
   std::vector<double> bodies;  ///< the same of each body
@@ -77,7 +77,7 @@ class AccuracyRecord {
   /// Whether add() needs the state.
   [[nodiscard]] bool asks(const StepReport& report, bool kept) const;
   void add(const StepReport& report, bool kept);
-  /// \param quantities  their errors, which are 0 where that of the stress is nothing but rounding
+  /// \param quantities  their errors; 0 where the error of the stress is at the level of rounding
   Accuracy atEnd(const Peaks& peaks, std::vector<QuantityError> quantities = {});
 
  private:

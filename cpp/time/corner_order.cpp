@@ -192,7 +192,7 @@ bool contactEndsAt(const Model& model, const State& state, const Point& place) {
       for (const auto& [end, next] : {std::pair(size_t{0}, size_t{1}), std::pair(last, last - 1)}) {
         const double edge = (own.points[end] - own.points[next]).norm();
         if (!((own.points[end] - place).norm() < nextTo * edge)) continue;
-        const auto far = [&](const Point& x) { return (x - own.points[end]).norm() > edge / 2; };
+        const auto far = [&, end = end](const Point& x) { return (x - own.points[end]).norm() > edge / 2; };
         if (other.closed || (far(other.points.front()) && far(other.points.back()))) return true;
       }
     }
