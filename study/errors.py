@@ -37,11 +37,12 @@ def expression(table, key, value, names):
         raise table.fault(key, value, expected) from error
 
 
-def read_errors(top, bodies, names):
+def read_errors(top, bodies, names, in_space):
     errors = []
     for table in top.tables("error", required=True):
-        quantities = (*FIELDS, *SCALARS)
-        quantity = table.take("quantity", "one of " + ", ".join(quantities), lambda v: v in quantities)
+        quantities = SCALARS if in_space else (*FIELDS, *SCALARS)
+        quantity = table.take("quantity", "one of " + ", ".join(quantities) + " in space" * in_space,
+                              lambda v: v in quantities)
         name = table.take("name", "a text", is_text, quantity)
         table.words = f"error {name}"
         if name in [each.name for each in errors]:

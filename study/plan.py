@@ -96,12 +96,12 @@ def read(path):
     top.finish(KEYS)
     title = top.take("title", "a text of one line", is_shown, shown(path.stem))
     scene = path.parent / top.take("scene", "the file of a scene", is_text)
-    bodies = bodies_of(scene, lines)
+    bodies, in_space = bodies_of(scene, lines)
     meshes, levels = read_meshes(top.table("mesh"), bodies, path.parent)
     timeout = top.take("timeout", "seconds > 0, 1e9 at most", lambda v: is_number(v) and 0 < v <= 1e9, None)
     repeat = top.take("repeat", "an integer >= 1", is_count(1), 1)
     let = read_let(top.table("let"))
-    errors = read_errors(top, bodies, [name for name, _ in let])
+    errors = read_errors(top, bodies, [name for name, _ in let], in_space)
     reference = top.table("reference")
     if reference is not None:
         reference = read_axes(reference, levels, single=True)
@@ -132,7 +132,7 @@ def bodies_of(scene, lines):
         document = tomllib.loads(scene.read_text(encoding="utf-8"))
         if not all(is_text(body["name"]) and isinstance(mesh_file(body), str) for body in document["body"]):
             raise ValueError
-        return [body["name"] for body in document["body"]]
+        return [body["name"] for body in document["body"]], document.get("dimension") == 3
     except OSError as error:
         raise StudyError(f"{lines.place('scene')}: scene = \"{scene}\", expected the file of a scene "
                          f"({error.strerror})") from error

@@ -24,13 +24,6 @@ struct LawOptions : SceneOptions {
   int samples = 100;
 };
 
-/// The stress that the data of the scene ask for [Pa].
-double stressOfData(const SceneDescription& scene, const Model& model) {
-  MeshedScene meshed{scene, {}};
-  for (const Body& body : model.bodies) meshed.meshes.push_back(&body.mesh());
-  return nominalStress(scene, sampledData(meshed));
-}
-
 std::string atStress(const Vector& stress, const std::string& unit) {
   if (stress.size() == 0) return "";
   const Eigen::Vector3d s = toCartesian(stress.head<3>());
@@ -105,7 +98,8 @@ int tryLaws(const LawOptions& command) {
   ResolvedScene resolved = resolveScene(readScene(command.scene, command.settings));
   const Model model = buildModel(resolved);
   const SceneDescription& scene = resolved.description;
-  const double stress = command.stress > 0 ? command.stress : stressOfData(scene, model);
+  const double stress =
+      command.stress > 0 ? command.stress : nominalStress(scene, sampledData(meshedScene(scene, model)));
   if (!(stress > 0))
     throw InputError(command.scene + ": no datum of the scene asks for a stress, expected --stress");
   Verdicts verdicts;

@@ -171,11 +171,9 @@ void Run::addVerdict() {
   RunFacts& facts = attempt_->facts;
   Solved& solved = attempt_->solved;
   const bool complete = solved.report.status == Status::converged;
-  if (solved.report.stuck && !attempt_->scene().inSpace()) {
-    MeshedScene meshed{attempt_->scene(), {}};
-    for (const Body& body : attempt_->model->bodies) meshed.meshes.push_back(&body.mesh());
-    facts.driving = drivingDatum(meshed, solved.state.time, solved.report.stuck->time);
-  }
+  if (solved.report.stuck)
+    facts.driving = drivingDatum(meshedScene(attempt_->scene(), *attempt_->model), solved.state.time,
+                                 solved.report.stuck->time);
   if (!attempt_->scene().inSpace()) {
     facts.doubts = estimateDoubts(attempt_->scene(), *attempt_->model);
     for (const std::string& doubt : pointForceDoubts(*attempt_->model, solved.state))

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <limits>
+#include <optional>
 
 namespace mortier {
 
@@ -14,9 +16,24 @@ std::vector<const MaterialDescription*> materialsOf(const BodyDescription& body)
   return materials;
 }
 
+MeshedScene meshedScene(const SceneDescription& scene, const Model& model) {
+  MeshedScene result{scene, {}};
+  for (const Body& body : model.bodies) {
+    if (body.space() != nullptr)
+      result.spaceMeshes.push_back(&body.space()->mesh());
+    else
+      result.meshes.push_back(&body.mesh());
+  }
+  return result;
+}
+
+double SampledDatum::at(const SpacePoint& point, double t) const {
+  return value->inSpace ? value->inSpace(point, t) : value->value(point.x(), point.y(), t);
+}
+
 double SampledDatum::largest(double t) const {
   double result = 0;
-  for (const Point& p : points) result = std::max(result, std::abs(value->value(p.x(), p.y(), t)));
+  for (const SpacePoint& point : points) result = std::max(result, std::abs(at(point, t)));
   return result;
 }
 
@@ -37,24 +54,65 @@ double SampledDatum::stressOfUnit(const SceneDescription& scene) const {
 
 double SampledDatum::change(double s, double t) const {
   double result = 0;
-  for (const Point& p : points)
-    result = std::max(result, std::abs(value->value(p.x(), p.y(), t) - value->value(p.x(), p.y(), s)));
+  for (const SpacePoint& point : points) result = std::max(result, std::abs(at(point, t) - at(point, s)));
   return result;
 }
 
-std::vector<SampledDatum> sampledData(const MeshedScene& input) {
+namespace {
+
+SpacePoint asPoint(const Point& point) {
+  return {point.x(), point.y(), 0};
+}
+SpacePoint asPoint(const SpacePoint& point) {
+  return point;
+}
+
+/// Some of the places of a mesh.
+struct Places {
+  std::vector<SpacePoint> all;
+  double size = 0;
+  std::vector<std::pair<int, std::vector<SpacePoint>>> sides = {};  ///< label and vertices of each side
+
+  template <class Mesh, class Sides>
+  Places(const Mesh& mesh, const Sides& boundary) : size(extent(mesh)) {
+    for (const auto& vertex : mesh.vertices) all.push_back(asPoint(vertex));
+    for (size_t e = 0; e < boundary.size(); ++e) {
+      auto& vertices = sides.emplace_back(mesh.boundaryLabels[e], std::vector<SpacePoint>{}).second;
+      for (const int v : boundary[e]) vertices.push_back(all[v]);
+    }
+  }
+
+  [[nodiscard]] std::vector<SpacePoint> on(const std::function<bool(int)>& label) const {
+    std::vector<SpacePoint> points;
+    for (const auto& [each, vertices] : sides)
+      if (label(each)) points.insert(points.end(), vertices.begin(), vertices.end());
+    return points;
+  }
+};
+
+std::optional<Places> placesOf(const MeshedScene& input, size_t body) {
+  if (body < input.spaceMeshes.size())
+    return Places(*input.spaceMeshes[body], input.spaceMeshes[body]->boundaryTriangles);
+  if (input.meshes[body] == nullptr) return std::nullopt;
+  return Places(*input.meshes[body], input.meshes[body]->boundaryEdges);
+}
+
+std::vector<SpacePoint> thinned(const std::vector<SpacePoint>& points) {
   constexpr size_t enough = 60;
-  const auto thinned = [](std::vector<Point> points) {
-    const size_t stride = 1 + points.size() / enough;
-    std::vector<Point> some;
-    for (size_t i = 0; i < points.size(); i += stride) some.push_back(points[i]);
-    return some;
-  };
+  const size_t stride = 1 + points.size() / enough;
+  std::vector<SpacePoint> some;
+  for (size_t i = 0; i < points.size(); i += stride) some.push_back(points[i]);
+  return some;
+}
+
+}  // namespace
+
+std::vector<SampledDatum> sampledData(const MeshedScene& input) {
   std::vector<SampledDatum> data;
-  for (size_t b = 0; b < input.meshes.size(); ++b) {
-    if (input.meshes[b] == nullptr) continue;
-    const TriangleMesh& mesh = *input.meshes[b];
-    const double size = extent(mesh);
+  for (size_t b = 0; b < input.scene.bodies.size(); ++b) {
+    const std::optional<Places> places = placesOf(input, b);
+    if (!places) continue;
+    const double size = places->size;
     for (const ConditionDescription& c : input.scene.bodies[b].conditions) {
       if (const BodyDescription& tool = input.scene.bodies[b]; tool.isTool()) {
         // A force is as of a pressure over its size, a rotation moves its ends by its size.
@@ -62,39 +120,35 @@ std::vector<SampledDatum> sampledData(const MeshedScene& input) {
         data.push_back({moves ? SampledDatum::Kind::displacement : SampledDatum::Kind::force,
                         b,
                         &c.value,
-                        {*c.point},
+                        {asPoint(*c.point)},
                         moves ? (c.component > alongY ? 1 : size) : 1 / size});
         continue;
       }
-      std::vector<Point> points;
-      for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
-        if (c.actsOn(mesh.boundaryLabels[e]))
-          for (const int v : mesh.boundaryEdges[e]) points.push_back(mesh.vertices[v]);
-      if (c.point) points.push_back(*c.point);
+      std::vector<SpacePoint> points = places->on([&](int label) { return c.actsOn(label); });
+      if (c.point) points.push_back(asPoint(*c.point));
+      if (c.pointInSpace) points.push_back(*c.pointInSpace);
       const bool held = c.kind == ConditionDescription::Kind::displacement;
       data.push_back({held ? SampledDatum::Kind::displacement : SampledDatum::Kind::traction, b, &c.value,
-                      thinned(std::move(points)), size});
+                      thinned(points), size});
     }
     for (const std::optional<Expression>& force : input.scene.bodies[b].force)
-      if (force) data.push_back({SampledDatum::Kind::force, b, &*force, thinned(mesh.vertices), size});
+      if (force) data.push_back({SampledDatum::Kind::force, b, &*force, thinned(places->all), size});
     if (const auto& temperature = input.scene.bodies[b].temperature) {
       double expansion = 0;
       for (const MaterialDescription* material : materialsOf(input.scene.bodies[b]))
         for (const double each : material->expansion) expansion = std::max(expansion, std::abs(each));
-      data.push_back({SampledDatum::Kind::temperature, b, &temperature->value, thinned(mesh.vertices),
+      data.push_back({SampledDatum::Kind::temperature, b, &temperature->value, thinned(places->all),
                       1 / std::max(expansion, std::numeric_limits<double>::min())});
     }
   }
   for (const ContactDescription& contact : input.scene.contacts) {
     const int b = bodyIndex(input.scene, contact.nonmortar.body);
-    if (!contact.gap || !contact.gap->inTime || input.meshes[b] == nullptr) continue;
-    const TriangleMesh& mesh = *input.meshes[b];
-    std::vector<Point> points;
-    for (size_t e = 0; e < mesh.boundaryEdges.size(); ++e)
-      if (mesh.boundaryLabels[e] == contact.nonmortar.label)
-        for (const int v : mesh.boundaryEdges[e]) points.push_back(mesh.vertices[v]);
+    if (!contact.gap || !contact.gap->inTime) continue;
+    const std::optional<Places> places = placesOf(input, b);
+    if (!places) continue;
+    const auto nonmortar = [&](int label) { return label == contact.nonmortar.label; };
     data.push_back({SampledDatum::Kind::distance, static_cast<size_t>(b), &*contact.gap,
-                    thinned(std::move(points)), extent(mesh)});
+                    thinned(places->on(nonmortar)), places->size});
   }
   return data;
 }

@@ -6,6 +6,7 @@
 
 #include "mesh/triangle_mesh.h"
 #include "scene/scene.h"
+#include "solver/model.h"
 
 namespace mortier {
 
@@ -13,7 +14,10 @@ namespace mortier {
 struct MeshedScene {
   const SceneDescription& scene;
   std::vector<const TriangleMesh*> meshes;
+  std::vector<const TetrahedronMesh*> spaceMeshes = {};  ///< in space, in place of `meshes`
 };
+
+MeshedScene meshedScene(const SceneDescription& scene, const Model& model);
 
 /// The material of a body and those of its regions.
 std::vector<const MaterialDescription*> materialsOf(const BodyDescription& body);
@@ -24,9 +28,10 @@ struct SampledDatum {
   Kind kind = Kind::traction;
   size_t body = 0;
   const Expression* value = nullptr;
-  std::vector<Point> points;
+  std::vector<SpacePoint> points;
   double size = 0;  ///< extent of the body [m]; of a temperature 1 over the largest expansion [K]
 
+  [[nodiscard]] double at(const SpacePoint& point, double t) const;
   /// Largest |value| over the points at a time.
   [[nodiscard]] double largest(double t) const;
   /// The same over the run: at its ends where the value is linear in time, else at the trial times.

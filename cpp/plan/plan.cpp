@@ -18,9 +18,7 @@ class Planner {
  public:
   Planner(const SceneDescription& scene, const Model& model) : scene_(scene), model_(model) {
     if (scene.inSpace()) return;
-    MeshedScene meshed{scene, {}};
-    for (const Body& body : model.bodies) meshed.meshes.push_back(&body.mesh());
-    data_ = sampledData(meshed);
+    data_ = sampledData(meshedScene(scene, model));
     largest_ = nominalStress(scene, data_);
   }
 

@@ -1,6 +1,6 @@
 """Random scenes of what users draw: shapes, geometries for Gmsh, STEP, regions, names of labels, closed
 lines, corners, curves of any kind, bodies that start apart, displacements at t = 0, several contacts and
-laws, accuracies, bounds and quantities. Walked by user_walk.py."""
+laws, accuracies, bounds and quantities, in the plane and in space. Walked by user_walk.py."""
 import random
 from pathlib import Path
 
@@ -9,7 +9,9 @@ from random_scenes import decades
 from tutorial import files as tutorial_files
 
 SCHEMES = ("backward-euler",) * 6 + ("sdirk2", "sdirk2 by error", "backward-euler by error", "crank-nicolson")
+SPACE_LAWS = ("elastic", "perzyna", "norton", "maxwell", "standard-solid", "viscoplastic")
 PLATE = Path(__file__).resolve().parents[1] / "unit" / "plate.step"
+BALL = Path(__file__).resolve().parents[2] / "shared-meshes" / "ball.geo"
 
 CORNER = """\
 // A block in the corner of an angle; one side of each is a line that turns.
@@ -253,3 +255,87 @@ class UserScene(WideScene):
         self.text += ["[time]", f"end = {self.end!r}", f'scheme = "{self.scheme.split()[0]}"']
         self.text.append("tolerance = 0.05" if "error" in self.scheme else
                          f"steps = {self.rng.choice([1, 3, 5])}")
+
+
+class UserSpaceScene(UserScene):
+    """The same in space: stacks of cuboids, some apart, a ball on a block, one body."""
+
+    KINDS = ("geometry", "degree", "scheme", "law", "starts apart", "at t = 0", "accuracy")
+
+    def __init__(self, seed):
+        self.rng = rng = random.Random(104729 * seed + 11)
+        self.geometry = rng.choice(("stack", "stack", "ball", "alone"))
+        self.plane, self.degree = "space", rng.choice([1, 2])
+        self.scheme = rng.choice([each for each in SCHEMES if "error" not in each])
+        self.load, self.end = decades(rng, 0, 3), rng.choice([1, 1, 10, 0.5])
+        self.young = self.load * decades(rng, 2, 4)
+        self.law, self.one_law = rng.choice(["elastic", *SPACE_LAWS]), True
+        self.ramp = f"(t/{self.end!r})" if self.end != 1 else "t"
+        self.rough, self.warm, self.elastic, self.turned, self.length = False, False, False, False, 1.0
+        self.apart = rng.random() < 0.3 and self.geometry == "stack"
+        self.at_start = rng.random() < 0.25
+        self.accuracy = rng.choice(["", "", "energy"]) if self.geometry != "ball" else ""
+        self.meshes, self.files, self.laws, self.names = {}, {}, set(), []
+        self.text = [f'title = "a user\'s scene in space {seed}"', "dimension = 3", f"degree = {self.degree}",
+                     *rng.choice([[], ['units = "mm, N, MPa"']])]
+        getattr(self, self.geometry)()
+        if rng.random() < 0.6:
+            self.measured()
+        self.asked()
+        self.make_time()
+        self.text += ["[output]", f"every = {rng.choice([0, 1])}"]
+        self.classes = {"geometry": self.geometry, "degree": str(self.degree), "scheme": self.scheme,
+                        "law": "+".join(sorted(self.laws)), "starts apart": str(self.apart),
+                        "at t = 0": str(self.at_start), "accuracy": self.accuracy or "none"}
+
+    def driven(self, label, apart=0.0, held=""):
+        return super().driven(label, apart, held).replace("uy = ", "uz = ").replace("ty = ", "tz = ")
+
+    def stack(self, files=False):
+        rng, low = self.rng, 0.0
+        gap = 0.3 * self.load / self.young if self.apart else 0.0
+        names = ["base", "middle", "top"][:rng.choice([2, 2, 3])]
+        for i, name in enumerate(names):
+            width = 1.0 if i == 0 or rng.random() < 0.5 else rng.uniform(0.5, 1.2)
+            high = low + rng.choice([0.5, 1.0])
+            mesh = f'{{ shape = "cuboid", cells = {[rng.randint(2, 4) for _ in range(3)]}, ' \
+                   f"lower = [0, 0, {low!r}], upper = [{width!r}, 1, {high!r}] }}"
+            held = ['label = "left", ux = 0', 'label = "front", uy = 0']
+            if i == 0:
+                held = ['label = "bottom", ux = 0, uy = 0, uz = 0']
+            if i == len(names) - 1:
+                held.append(self.driven('"top"', gap))
+            self.body(name, mesh, *held, young=1 if i == 0 else decades(rng, -1, 1))
+            low = high + (gap if i == len(names) - 2 else 0)
+        for lower, upper in zip(names, names[1:]):
+            self.pair((upper, '"bottom"'), (lower, '"top"'))
+
+    def ball(self):
+        self.files["ball.geo"] = BALL.read_text()
+        size = self.rng.choice([0.05, 0.1])
+        self.body("ball", f'{{ file = "ball.geo", parameters = {{ f = {size}, h = 0.3 }} }}',
+                  'label = "left", ux = 0', 'label = "front", uy = 0', f'label = "top", uz = {self.moved(0.02)}')
+        self.body("block", f'{{ shape = "cuboid", cells = 4, lower = [0, 0, -1], upper = [1, 1, 0] }}',
+                  'label = "bottom", ux = 0, uy = 0, uz = 0', 'label = "left", ux = 0', 'label = "front", uy = 0')
+        self.pair(("ball", '"arc"'), ("block", '"top"'))
+
+    def alone(self):
+        self.body("beam", '{ shape = "cuboid", cells = [6, 2, 2], lower = [0, 0, 0], upper = [3, 1, 1] }',
+                  'label = "bottom", ux = 0, uy = 0, uz = 0', self.driven('"top"'))
+
+    def material(self, young):
+        text = super().material(young)
+        while any(each not in SPACE_LAWS for each in self.laws):
+            self.laws = {each for each in self.laws if each in SPACE_LAWS}
+            text = super().material(young)
+        return text
+
+    def measured(self):
+        kinds = [f'{kind} = {{ body = "{self.names[-1]}" }}' for kind in
+                 ("stored_energy", "work", "largest_mises", "dissipated_energy")]
+        if self.geometry != "alone":
+            side = f'{{ body = "{self.seen[0]}", label = {self.seen[1]} }}'
+            kinds += [f"largest_pressure = {side}", f'contact_force = {side}\ncomponent = "z"',
+                      f'displacement = {side}\ncomponent = "z"']
+        for number, line in enumerate(self.rng.sample(kinds, 2)):
+            self.text += ["[[quantity]]", f'name = "q{number}"', line]

@@ -6,7 +6,7 @@ Each has to be done, or refused: then in the words that `mortier check` gave bef
 a finding: another exit code, a traceback, a difference, a script that FreeFEM cannot run, a refusal that
 comes late.
 
-Usage: user_walk.py [--count 60] [--seed 0] [--jobs 1] [--keep FOLDER] [--mortier build/mortier]
+Usage: user_walk.py [--count 60] [--seed 0] [--space] [--jobs 1] [--keep FOLDER] [--mortier build/mortier]
 Scene N is the same on every machine.
 """
 import argparse
@@ -22,7 +22,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from user_scenes import UserScene
+from user_scenes import UserScene, UserSpaceScene
 
 ROOT = Path(os.environ.get("MORTIER_ROOT", Path(__file__).resolve().parents[2]))
 FREEFEM = os.environ.get("FREEFEM", "FreeFem++-nw")
@@ -62,7 +62,8 @@ class Walk:
         self.program, self.folder, self.scene, self.patience = program, folder, scene, patience
         self.ways, self.findings, self.seconds = {}, [], {}
         (folder / "scene.toml").write_text("\n".join(scene.text) + "\n")
-        (folder / "study.toml").write_text(STUDY)
+        (folder / "study.toml").write_text(
+            STUDY.replace("displacement", "von_mises_max") if scene.plane == "space" else STUDY)
         for name, text in scene.files.items():
             (folder / name).write_text(text)
         for mesh, words in scene.meshes.items():
@@ -214,19 +215,21 @@ class Walk:
                 self.fail("restart", "other numbers")
 
 
-def walk(program, seed, keep=None, patience=120):
+def walk(program, seed, keep=None, patience=120, scenes=UserScene):
     with tempfile.TemporaryDirectory(prefix=f"walk-{seed}-") as temporary:
         folder = Path(keep or temporary) / str(seed)
         folder.mkdir(parents=True, exist_ok=True)
-        each = Walk(program, folder.resolve(), UserScene(seed), patience)
+        each = Walk(program, folder.resolve(), scenes(seed), patience)
         each.go()
         return seed, each
 
 
-def explore(program, seeds, jobs=1, keep=None, watch=lambda seed, each: None, patience=120):
+def explore(program, seeds, jobs=1, keep=None, watch=lambda seed, each: None, patience=120,
+            scenes=UserScene):
     program, walks = str(Path(program).resolve()), []
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for seed, each in pool.map(lambda number: walk(program, number, keep, patience), seeds):
+        for seed, each in pool.map(lambda number: walk(program, number, keep, patience, scenes),
+                                   seeds):
             watch(seed, each)
             walks.append((seed, each))
     return walks
@@ -238,6 +241,7 @@ def main():
     parser.add_argument("--mortier", default=os.environ.get("MORTIER", "build/mortier"))
     parser.add_argument("--count", type=int, default=60)
     parser.add_argument("--seed", type=int, default=0, help="number of the first scene")
+    parser.add_argument("--space", action="store_true", help="scenes in space")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--keep", help="folder of the scenes and results")
     parser.add_argument("--patience", type=float, default=120, help="seconds of a command")
@@ -248,8 +252,8 @@ def main():
             print(f"{seed:5} {each.scene.geometry:7} {finding}", flush=True)
 
     seeds = range(options.seed, options.seed + options.count)
-    walks = explore(options.mortier, seeds, options.jobs, options.keep, watch,
-                    options.patience)
+    walks = explore(options.mortier, seeds, options.jobs, options.keep, watch, options.patience,
+                    UserSpaceScene if options.space else UserScene)
     count = collections.Counter((way, how) for _, each in walks for way, how in each.ways.items())
     print(f"{'':10}{'done':>9}{'refused':>9}{'failed':>9}")
     for way in dict.fromkeys(way for way, _ in count):

@@ -44,9 +44,7 @@ boundary = [ { label = 4, ux = 0 }, { label = 1, uy = "0.01*t" } ]
 };
 
 std::vector<SampledDatum> dataOf(const SceneDescription& scene, const Model& model) {
-  MeshedScene meshed{scene, {}};
-  for (const Body& body : model.bodies) meshed.meshes.push_back(&body.mesh());
-  return sampledData(meshed);
+  return sampledData(meshedScene(scene, model));
 }
 
 TEST_F(PlanFiles, loadsAreSizedByTractionAndByStrain) {
