@@ -1,9 +1,12 @@
 // Two boxes in space with quadratic displacements, one pressed on the other: unknowns, rows, and the time of
-// each part.
+// each part. And two flat plates that touch: the time of their coupling.
 //   build/bench/space [CELLS ...]     cells along an edge of the upper box; the lower one has 13/12 as many
+//   build/bench/space --coupling CELLS ...
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <ctime>
 #include <vector>
 
 #include "material/space.h"
@@ -46,9 +49,32 @@ void measure(int cells) {
   std::fflush(stdout);
 }
 
+/// Processor time, which other processes lengthen less.
+double processorTime() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+void measureCoupling(int cells) {
+  Model model;
+  const auto plate = [&](const char* name, double lower, int along) {
+    model.bodies.emplace_back(name, cuboidMesh({{0, 0, lower}, {1, 1, lower + 0.1}, {along, along, 1}}),
+                              spaceElasticMaterial({1000, 0.3}), SpaceConditions{}, 2);
+  };
+  plate("upper", 0, cells);
+  plate("lower", -0.1, cells * 13 / 12);
+  const double start = processorTime();
+  addInterface(model, {{0, 1}, {1, 3}, CouplingKind::weighted});
+  std::printf("%3d %6d rows   coupling %6.2f\n", cells, model.interfaces[0].rows(), processorTime() - start);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::strcmp(argv[1], "--coupling") == 0) {
+    std::printf("cells, rows of contact; processor time [s]\n");
+    for (int i = 2; i < argc; ++i) measureCoupling(std::atoi(argv[i]));
+    return 0;
+  }
   std::printf("cells, unknowns of both bodies, rows of contact; wall time [s]\n");
   if (argc < 2)
     for (const int cells : {6, 9, 12}) measure(cells);

@@ -241,12 +241,12 @@ Coupling couple(CouplingKind kind, const SmoothPart& part, const FacingLine& mor
     if (!drawnStraight(part, mortar)) result.distance = lifted(result.distance, distances, integrals.least);
   } else {
     const Vector w = result.mass * Vector::Ones(n);
-    const auto lumped = w.asDiagonal();
-    result.C1 = lumped.inverse() * matrix(part, integrals.D);
-    result.C2 = lumped.inverse() * matrix(mortar, integrals.M);
-    result.distance = lumped.inverse() * integrals.distance;
-    result.N = lumped.inverse() * result.N;
-    result.mass = Sparse(lumped);
+    const Vector inverse = w.cwiseInverse();  // products copy an expression for each column
+    result.C1 = inverse.asDiagonal() * matrix(part, integrals.D);
+    result.C2 = inverse.asDiagonal() * matrix(mortar, integrals.M);
+    result.distance = inverse.cwiseProduct(integrals.distance);
+    result.N = inverse.asDiagonal() * result.N;
+    result.mass = Sparse(w.asDiagonal());
   }
   return result;
 }

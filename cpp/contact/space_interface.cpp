@@ -16,13 +16,12 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
-#include <sstream>
 
 #include "base/error.h"
 #include "contact/interface.h"
 #include "contact/surface.h"
+#include "contact/vertex_functions.h"
 
 namespace mortier {
 namespace {
@@ -46,65 +45,6 @@ std::array<double, 6> traceShapes(int degree, const Eigen::Vector3d& b) {
   if (degree == 1) return {b[0], b[1], b[2], 0, 0, 0};
   return {b[0] * (2 * b[0] - 1), b[1] * (2 * b[1] - 1), b[2] * (2 * b[2] - 1),
           4 * b[0] * b[1],       4 * b[1] * b[2],       4 * b[2] * b[0]};
-}
-
-/// A vertex of the nonmortar surface, as one of its smooth parts sees it.
-using PartVertex = std::pair<int, int>;  // vertex, part
-
-struct VertexFacts {
-  SpacePoint place, normal;
-  double curvature = 0;
-  std::set<PartVertex> neighbours;
-  bool sees = false;
-  std::vector<std::pair<int, double>> rows;  ///< to which its hat function goes, with which part
-};
-
-using VertexTable = std::map<PartVertex, VertexFacts>;
-
-/// Neighbours are those along edges.
-VertexTable verticesOf(const ContactSurface& surface) {
-  VertexTable vertices;
-  for (size_t t = 0; t < surface.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const int part = surface.parts[t];
-      VertexFacts& vertex = vertices[{surface.triangles[t][k], part}];
-      vertex.place = surface.places[t][k];
-      vertex.normal = surface.vertexNormals[t][k];
-      vertex.curvature = surface.curvatures[t][k];
-      for (const int other : {(k + 1) % 3, (k + 2) % 3})
-        vertex.neighbours.insert({surface.triangles[t][other], part});
-    }
-  return vertices;
-}
-
-/// Gives the hat functions without a row to neighbours that have one.
-void shareFunctions(VertexTable& vertices) {
-  std::vector<PartVertex> open;
-  for (const auto& [key, vertex] : vertices)
-    if (vertex.rows.empty()) open.push_back(key);
-  while (!open.empty()) {
-    std::vector<std::pair<PartVertex, std::vector<std::pair<int, double>>>> found;
-    std::vector<PartVertex> still;
-    for (const PartVertex& key : open) {
-      std::map<int, double> parts;
-      int givers = 0;
-      for (const PartVertex& neighbour : vertices[key].neighbours) {
-        const auto& rows = vertices[neighbour].rows;
-        givers += rows.empty() ? 0 : 1;
-        for (const auto& [row, part] : rows) parts[row] += part;
-      }
-      if (givers == 0) {
-        still.push_back(key);
-        continue;
-      }
-      std::vector<std::pair<int, double>> rows;
-      for (const auto& [row, part] : parts) rows.emplace_back(row, part / givers);
-      found.emplace_back(key, std::move(rows));
-    }
-    if (found.empty()) return;  // parts of the surface that see nothing
-    for (auto& [key, rows] : found) vertices[key].rows = std::move(rows);
-    open = std::move(still);
-  }
 }
 
 }  // namespace
@@ -212,57 +152,82 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
     const auto& x = nonmortar.places[each.nonmortar];
     const SpacePoint& n = directions[each.nonmortar];
     const double twiceArea = (x[1] - x[0]).cross(x[2] - x[0]).norm();
+    std::vector<int> own;  // rows that see this triangle
     std::array<const VertexFacts*, 3> corners;
-    for (int k = 0; k < 3; ++k) corners[k] = &vertices[keyOf(each.nonmortar, k)];
-    if (std::all_of(corners.begin(), corners.end(), [](const auto* c) { return c->rows.empty(); })) continue;
+    for (int k = 0; k < 3; ++k) {
+      corners[k] = &vertices[keyOf(each.nonmortar, k)];
+      for (const auto& [row, part] : corners[k]->rows) own.push_back(row);
+    }
+    if (own.empty()) continue;
+    std::sort(own.begin(), own.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+    const auto count = static_cast<Eigen::Index>(own.size());
+    Matrix parts = Matrix::Zero(count, 3);  // of the corners' hat functions
+    for (int k = 0; k < 3; ++k)
+      for (const auto& [row, part] : corners[k]->rows)
+        parts(std::lower_bound(own.begin(), own.end(), row) - own.begin(), k) += part;
     const auto& nodes1 = nonmortar.triangles[each.nonmortar];
     const auto& nodes2 = mortar.triangles[each.mortar];
-    // Calls at(values of the traces and of the row functions) at a point of the refinement.
+    // Calls at(values of the traces, barycentric coordinates, distance) at a point of the refinement.
     const auto atPoint = [&](const Point& l, auto&& at) {
       const Eigen::Vector3d b(1 - l.x() - l.y(), l.x(), l.y());
       const Eigen::Vector3d mu = each.at(l);
-      std::map<int, double> chi;
-      for (int k = 0; k < 3; ++k)
-        for (const auto& [row, part] : corners[k]->rows) chi[row] += part * b[k];
       // Of the curved surfaces, that of the triangles but for what these are off.
       const double apart =
           mu.dot(each.delta) + n.dot(mortar.offset(each.mortar, mu) - nonmortar.offset(each.nonmortar, b));
-      at(traceShapes(nonmortar.degree, b), traceShapes(mortar.degree, mu), chi, apart);
+      at(traceShapes(nonmortar.degree, b), traceShapes(mortar.degree, mu), b, apart);
     };
-    for (size_t i = 2; i < each.polygon.size(); ++i) {
+    // Integrals of the corners' hat functions times those of the corners, the traces, the distance and one.
+    Eigen::Matrix3d hats = Eigen::Matrix3d::Zero();
+    Eigen::Matrix<double, 3, 6> traces1 = Eigen::Matrix<double, 3, 6>::Zero();
+    Eigen::Matrix<double, 3, 6> traces2 = traces1;
+    Eigen::Vector3d apart = Eigen::Vector3d::Zero();
+    Eigen::Vector3d covered = Eigen::Vector3d::Zero();
+    double nearest = infinity;
+    for (size_t last = 2; last < each.polygon.size(); ++last) {
       const Point& p0 = each.polygon[0];
-      const Point e1 = each.polygon[i - 1] - p0;
-      const Point e2 = each.polygon[i] - p0;
+      const Point e1 = each.polygon[last - 1] - p0;
+      const Point e2 = each.polygon[last] - p0;
       const double area = cross(e1, e2) / 2 * twiceArea;
       if (!(area > 0)) continue;
       for (const auto& [a, b, weight] : radonRule)
-        atPoint(p0 + a * e1 + b * e2, [&, weight = weight](const auto& phi, const auto& psi, const auto& chi,
-                                                           double delta) {
-          for (const auto& [row, value] : chi) {
-            const double w = weight * area * value;
-            result.lengths_[row] += w;
-            distance[row] += w * delta;
-            least[row] = std::min(least[row], delta);
-            for (const auto& [other, otherValue] : chi) {
-              mass.emplace_back(row, other, w * otherValue);
-              // Of the difference from the motions of the rows' own vertices.
-              if (projects)
-                add(D, row, result.nonmortarNodes_[other], -w * otherValue, result.spaceNormals_[other]);
-            }
-            for (int k = 0; k < nonmortar.perTriangle(); ++k) add(D, row, nodes1[k], w * phi[k], n);
-            for (int k = 0; k < mortar.perTriangle(); ++k) add(M, row, nodes2[k], -w * psi[k], n);
-          }
-        });
+        atPoint(p0 + a * e1 + b * e2,
+                [&, weight = weight](const auto& phi, const auto& psi, const auto& chi, double delta) {
+                  const Eigen::Vector3d w = weight * area * chi;
+                  hats += w * chi.transpose();
+                  traces1 += w * Eigen::Map<const Eigen::Matrix<double, 1, 6>>(phi.data());
+                  traces2 += w * Eigen::Map<const Eigen::Matrix<double, 1, 6>>(psi.data());
+                  apart += delta * w;
+                  covered += w;
+                  nearest = std::min(nearest, delta);
+                });
       const auto point = static_cast<int>(areas.size());
       atPoint(p0 + (e1 + e2) / 3, [&](const auto& phi, const auto& psi, const auto& chi, double delta) {
         for (int k = 0; k < nonmortar.perTriangle(); ++k) trace1.emplace_back(point, nodes1[k], phi[k]);
         for (int k = 0; k < mortar.perTriangle(); ++k) trace2.emplace_back(point, nodes2[k], psi[k]);
-        for (const auto& [row, value] : chi) functions.emplace_back(point, row, value);
+        for (Eigen::Index i = 0; i < count; ++i) functions.emplace_back(point, own[i], parts.row(i).dot(chi));
         gaps.push_back(delta);
       });
       areas.push_back(area);
       sizes.push_back(std::sqrt(twiceArea));
       result.points_.normals.push_back(n);
+    }
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const int row = own[i];
+      result.lengths_[row] += parts.row(i).dot(covered);
+      distance[row] += parts.row(i).dot(apart);
+      least[row] = std::min(least[row], nearest);
+      const Eigen::RowVector3d products = parts.row(i) * hats;
+      for (Eigen::Index j = 0; j < count && pair.coupling != CouplingKind::weighted; ++j) {
+        const double entry = products.dot(parts.row(j));
+        mass.emplace_back(row, own[j], entry);
+        // Of the difference from the motions of the rows' own vertices.
+        if (projects) add(D, row, result.nonmortarNodes_[own[j]], -entry, result.spaceNormals_[own[j]]);
+      }
+      for (int k = 0; k < nonmortar.perTriangle(); ++k)
+        add(D, row, nodes1[k], parts.row(i).dot(traces1.col(k)), n);
+      for (int k = 0; k < mortar.perTriangle(); ++k)
+        add(M, row, nodes2[k], -parts.row(i).dot(traces2.col(k)), n);
     }
   }
   const auto faced = static_cast<Eigen::Index>(areas.size());
@@ -274,15 +239,14 @@ ContactInterface ContactInterface::inSpace(const ContactPair& pair, const SpaceC
   result.points_.sizes = Eigen::Map<const Vector>(sizes.data(), faced);
   result.overlap_ = result.points_.areas.sum() / std::min(nonmortar.area, mortar.area);
 
-  result.mass_ = assembled(rows, rows, mass);
   if (pair.coupling == CouplingKind::weighted) {
-    const Eigen::SparseMatrix<double> lumped(result.lengths_.asDiagonal());
-    const auto inverse = result.lengths_.asDiagonal().inverse();
-    result.mass_ = lumped;
-    result.C1_ = inverse * assembled(rows, columns1, D);
-    result.C2_ = inverse * assembled(rows, columns2, M);
-    result.distance_ = inverse * distance;
+    const Vector inverse = result.lengths_.cwiseInverse();  // products copy an expression for each column
+    result.mass_ = Eigen::SparseMatrix<double>(result.lengths_.asDiagonal());
+    result.C1_ = inverse.asDiagonal() * assembled(rows, columns1, D);
+    result.C2_ = inverse.asDiagonal() * assembled(rows, columns2, M);
+    result.distance_ = inverse.cwiseProduct(distance);
   } else {
+    result.mass_ = assembled(rows, rows, mass);
     Triplets own, seen;
     for (Eigen::Index row = 0; row < rows; ++row) {
       const SpacePoint& n = result.spaceNormals_[row];

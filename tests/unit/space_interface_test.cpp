@@ -1,0 +1,37 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ctime>
+
+#include "contact/interface.h"
+#include "mesh/space_shapes.h"
+
+namespace mortier::space_interface_test {
+
+/// The least processor time of a few couplings of two plates with so many layers of cells [s].
+double timeOf(int layers) {
+  constexpr int cells = 80;
+  const auto plate = [&](double lower, int along) {
+    return cuboidMesh({{0, 0, lower}, {1, 1, lower + 0.1}, {along, along, layers}});
+  };
+  const TetrahedronMesh upper = plate(0, cells);
+  const TetrahedronMesh lower = plate(-0.1, cells + 1);
+  const SpaceNodes upperNodes = spaceNodes(upper, 2);
+  const SpaceNodes lowerNodes = spaceNodes(lower, 2);
+  double least = 1e9;
+  for (int i = 0; i < 2; ++i) {
+    const std::clock_t start = std::clock();
+    const ContactInterface interface = ContactInterface::inSpace(
+        {{0, 1}, {1, 3}, CouplingKind::weighted}, {upper, upperNodes}, {lower, lowerNodes}, {});
+    EXPECT_EQ((cells + 1) * (cells + 1), interface.rows());
+    least = std::min(least, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+  }
+  return least;
+}
+
+TEST(SpaceInterface, doesNotCostWhatIsBelowTheSurface) {
+  // Where each dof costs as much as there are rows it is more than four times.
+  EXPECT_LE(timeOf(8), 2.5 * timeOf(1));
+}
+
+}  // namespace mortier::space_interface_test
